@@ -169,6 +169,22 @@ fn correlations() -> Vec<Closed> {
             heat(0.11 * (0.5 * skin * skin * pr + ra(0.04)).powf(0.35), 0.04)
         }),
         ("gap.Q", "steady", heat(0.409 * ta.powf(0.241), 2.0 * 0.002)),
+        ("draught.Q", "steady", {
+            let natural = (0.825 + 0.387 * ra(0.3).powf(1.0 / 6.0) / weight(0.492)).powi(2);
+            let forced = 0.664 * re(2.0, 0.5).sqrt() * third;
+            6.0 * ((natural * k / 0.3).powi(3) + (forced * k / 0.5).powi(3)).powf(1.0 / 3.0)
+        }),
+        ("gearbox.Q", "steady", {
+            6.0 * 18.0 * 0.3_f64.powf(-0.1) * (60.0_f64 / 293.15).powf(0.3)
+        }),
+        ("blown_gearbox.Q", "steady", {
+            let gr = ra(0.5) / pr;
+            6.0 * 0.0086 * (re(2.0, 0.5).powi(2) + gr / 2.5).sqrt().powf(0.64) / 0.5
+        }),
+        ("sink.Q", "steady", {
+            let ml = (2.0 * 10.0 / (167.0 * 1.5e-3_f64)).sqrt() * 0.03;
+            10.0 * (0.01 + 0.2 * ml.tanh() / ml) * 60.0
+        }),
     ]
 }
 

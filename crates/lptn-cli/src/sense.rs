@@ -20,12 +20,17 @@ pub(crate) fn of_run(netlist: &Netlist, solution: &Solution) -> Vec<Diagnostic> 
     told(netlist, beyond.as_ref(), ranges::warnings(netlist, solution.out_of_range(), true))
 }
 
-fn told(netlist: &Netlist, beyond: Option<&Beyond>, outside: Vec<Diagnostic>) -> Vec<Diagnostic> {
+/// What is beyond sense, then laws outside their ranges.
+pub(crate) fn told(
+    netlist: &Netlist,
+    beyond: Option<&Beyond>,
+    outside: Vec<Diagnostic>,
+) -> Vec<Diagnostic> {
     beyond.map(|beyond| warning(netlist, beyond)).into_iter().chain(outside).collect()
 }
 
 /// A warning that names the node, and the path and the source that probably did it.
-pub(crate) fn warning(netlist: &Netlist, beyond: &Beyond) -> Diagnostic {
+fn warning(netlist: &Netlist, beyond: &Beyond) -> Diagnostic {
     let network = &netlist.network;
     let name = |item: Item| network.name_of(item).into_owned();
     let when = beyond.time.map_or_else(String::new, |time| format!(" at {}", duration(time, 4)));

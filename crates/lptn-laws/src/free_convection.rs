@@ -12,7 +12,7 @@ use crate::fluid::{
 };
 
 /// Standard acceleration of gravity in m/s^2, exact by definition (CGPM 1901).
-const GRAVITY: f64 = 9.806_65;
+pub(crate) const GRAVITY: f64 = 9.806_65;
 
 /// Differences of temperature in K that are as good as none: see [`rayleigh`].
 const STILL: f64 = 1e-3;
@@ -31,11 +31,15 @@ const STILL: f64 = 1e-3;
 ///
 /// Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 9.25.
 pub fn rayleigh<S: Scalar>(fluid: Fluid<S>, expansion: S, difference: S, length: S) -> S {
-    let still = S::from_f64(STILL * STILL);
-    let difference = (difference * difference + still).sqrt();
+    let difference = magnitude(difference);
     let Fluid { conductivity, density, specific_heat, viscosity } = fluid;
     let drive = S::from_f64(GRAVITY) * expansion * difference * length.powi(3);
     drive * density * density * specific_heat / (viscosity * conductivity)
+}
+
+/// The magnitude of a difference of temperatures in K, as [`rayleigh`] takes it.
+pub(crate) fn magnitude<S: Scalar>(difference: S) -> S {
+    (difference * difference + S::from_f64(STILL * STILL)).sqrt()
 }
 
 /// The function of Pr by which Churchill and Chu weigh Ra: (1 + (c/Pr)^(9/16))^(-16/9).
@@ -122,7 +126,7 @@ const BODY: LawDeclaration = LawDeclaration {
 };
 
 /// Rayleigh numbers in a range.
-const fn rayleigh_within(meaning: &'static str, from: f64, to: f64) -> Group {
+pub(crate) const fn rayleigh_within(meaning: &'static str, from: f64, to: f64) -> Group {
     Group { name: "Ra", meaning, from, to }
 }
 

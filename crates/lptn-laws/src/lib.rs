@@ -34,6 +34,8 @@ mod conduction;
 mod contact;
 mod convection;
 mod declare;
+mod exchanger;
+mod fins;
 mod fluid;
 mod forced_convection;
 mod free_convection;
@@ -43,6 +45,7 @@ mod phase;
 mod radiation;
 mod resistor;
 mod rotation;
+mod wall;
 
 pub use advection::{advection_from, advection_to, stream_from, stream_to};
 pub use conduction::{cylinder, rod, slab, sphere};
@@ -51,6 +54,8 @@ pub use declare::{
     Carries, Confidence, Extent, FieldDeclaration, Form, Group, Hints, KindDeclaration, Law,
     LawDeclaration, Range, Substance, SurfaceKind,
 };
+pub use exchanger::{effectiveness_counterflow, effectiveness_crossflow, effectiveness_parallel};
+pub use fins::{fin_efficiency, finned};
 pub use fluid::Fluid;
 pub use forced_convection::{
     nusselt_cross_flow, nusselt_cross_flow_hilpert, nusselt_duct, nusselt_flat_plate,
@@ -67,3 +72,4 @@ pub use radiation::{
     radiation_exchange_area,
 };
 pub use rotation::{nusselt_annulus, nusselt_shaft};
+pub use wall::{combined, gearbox_wall, gearbox_wall_blown};

@@ -62,6 +62,8 @@ declare! {
     free_convection: { VerticalPlate, HorizontalCylinder, UpperSide, LowerSide };
     forced_convection: { CrossFlow, CrossFlowHilpert, FlatPlate, Duct };
     rotation: { Shaft, Annulus };
+    fins: { StraightFins };
+    wall: { WallInWind, GearboxWall, GearboxWallBlown };
     contact: Contact {};
     radiation: Radiation { ExchangeArea, GreySurfaces, ParallelPlates };
     advection: Advection { CapacityRate, MassFlow, VolumeFlow };

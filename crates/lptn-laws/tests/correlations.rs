@@ -3,9 +3,10 @@
 //! rest and where a flow turns.
 
 use lptn_laws::{
-    Fluid, Formula, nusselt_annulus, nusselt_cross_flow, nusselt_cross_flow_hilpert, nusselt_duct,
-    nusselt_flat_plate, nusselt_horizontal_cylinder, nusselt_plate_driven, nusselt_plate_layered,
-    nusselt_shaft, nusselt_vertical_plate, rayleigh,
+    Fluid, Formula, combined, gearbox_wall, gearbox_wall_blown, nusselt_annulus,
+    nusselt_cross_flow, nusselt_cross_flow_hilpert, nusselt_duct, nusselt_flat_plate,
+    nusselt_horizontal_cylinder, nusselt_plate_driven, nusselt_plate_layered, nusselt_shaft,
+    nusselt_vertical_plate, rayleigh,
 };
 use lptn_units::Dual;
 
@@ -134,6 +135,27 @@ fn a_shaft_at_rest_is_nearly_a_cylinder() {
     for ra in [1e5, 1e6, 1e7] {
         near(nusselt_shaft(0.0, 0.0, ra, 0.7), nusselt_horizontal_cylinder(ra, 0.7), 0.35);
     }
+}
+
+/// Of two films the larger counts, and twice the same is larger by 2^(1/3).
+#[test]
+fn a_wind_helps_and_does_not_replace() {
+    near(combined(5.0, 5.0), 5.0 * 2f64.cbrt(), 1e-14);
+    near(combined(50.0, 5.0), 50.0, 4e-4);
+    let wall = |speed: f64| {
+        let values = [&AIR[..], &[speed, 0.5, 0.1, 0.2]].concat();
+        Formula::WallInWind.value(&values, [330.0, 300.0])
+    };
+    near(wall(0.0), conductance(Formula::VerticalPlate, 30.0), 1e-13);
+    assert!(wall(0.5) > wall(0.0) && wall(-0.5) == wall(0.5));
+}
+
+/// The rules for gearboxes know the colder end by themselves, and go over from still air to a flow.
+#[test]
+fn a_gearbox_is_cooled_the_same_whichever_end_is_named_first() {
+    assert_eq!(gearbox_wall(0.3, 353.15, 293.15), gearbox_wall(0.3, 293.15, 353.15));
+    near(gearbox_wall(1.0, 400.0, 200.0), 18.0, 1e-10);
+    near(gearbox_wall_blown(3e4, 2.5 * 16e8, 0.5), 0.0086 * 5e4_f64.powf(0.64) / 0.5, 1e-14);
 }
 
 const AIR: [f64; 5] = [0.0262, 1.184, 1006.0, 18.4e-6, 0.003_36];

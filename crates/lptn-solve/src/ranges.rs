@@ -104,7 +104,7 @@ impl Track {
         let ((t0, y0), (t1, y1)) = (before?, after?);
         let end = if low { self.group.from } else { self.group.to };
         let share = (end - y0) / (y1 - y0);
-        (0.0..=1.0).contains(&share).then(|| t0 + (t1 - t0) * share)
+        (0.0..=1.0).contains(&share).then_some(t0 + (t1 - t0) * share)
     }
 }
 

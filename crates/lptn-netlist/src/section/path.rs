@@ -174,12 +174,12 @@ impl<'a> Elaboration<'a> {
         path: &'static PathSection,
         selector: &str,
     ) -> Option<Path> {
-        let mut values = path.values.iter();
-        let material = |value: &&PathValue| value.field.property == Some(Substance::Material);
-        if let Some(value) = values.find(material) {
-            self.problems.extend(check_forms(fields, &[&["material"], &[value.field.key]]));
-        }
         let law = self.selected(fields, path, selector)?;
+        let mut declared = law.declaration().fields.iter();
+        let material = declared.find(|field| field.property == Some(Substance::Material));
+        if let Some(field) = material {
+            self.problems.extend(check_forms(fields, &[&["material"], &[field.key]]));
+        }
         let fluid = self.film_fluid(fields, law);
         let own = path.values.iter().filter(|value| law.field(value.field.key).is_some());
         let read = self.read(fields, own, fluid);

@@ -4,8 +4,9 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
 use lptn_network::{InputError, LimitSeverity, Network};
 use lptn_solve::{
-    Beyond, NodeSummary, Others, OutputTimes, Proceed, Progress, RecordedNodes, RunStatus,
-    Solution, SteadyError, SteadyState, Summary, Transient, TransientError, Unsolved, first_there,
+    Beyond, NodeSummary, Others, OutOfRange, OutputTimes, Proceed, Progress, RecordedNodes,
+    RunStatus, Solution, SteadyError, SteadyState, Summary, Transient, TransientError, Unsolved,
+    first_there,
 };
 use lptn_units::Class;
 
@@ -43,6 +44,8 @@ pub struct Candidate {
     pub mass: Option<f64>,
     /// A temperature that nothing real has.
     pub beyond: Option<Beyond>,
+    /// Where laws were outside the ranges in which they are known.
+    pub out_of_range: Vec<OutOfRange>,
     /// Its steady state, where there are others or they cannot be excluded.
     pub several: Option<SteadyState>,
 }
@@ -145,6 +148,7 @@ impl Candidate {
             capacity: capacity(network),
             mass: mass(network),
             beyond: Beyond::of_steady(network, &steady),
+            out_of_range: OutOfRange::of_steady(network, &steady).unwrap_or_default(),
             several: Some(steady).filter(is_doubtful),
         })
     }
@@ -180,6 +184,7 @@ impl Candidate {
             capacity: capacity(network),
             mass: mass(network),
             beyond: Beyond::of_run(&solution),
+            out_of_range: solution.out_of_range().to_vec(),
             several: steady.filter(is_doubtful),
         })
     }
