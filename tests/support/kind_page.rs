@@ -75,7 +75,7 @@ fn row(kind: Kind, declared: &LawDeclaration) -> String {
 }
 
 /// What a page says of keys and laws.
-pub fn tables(kind: Kind) -> String {
+pub(crate) fn tables(kind: Kind) -> String {
     let mut lines = vec![
         "| Key | Meaning | Unit | Range | Default |".to_owned(),
         "|---|---|---|---|---|".to_owned(),
