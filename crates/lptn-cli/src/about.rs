@@ -64,8 +64,10 @@ pub(crate) fn hashes(netlist: &Netlist) -> Vec<FileHash> {
 
 /// Whether the network is linear.
 fn linearity(input: &Input) -> Claim {
-    let linear = input.assemble().is_ok_and(|system| system.is_linear());
-    Claim::open(match (linear, input.netlist.network.has_events()) {
+    let network = &input.netlist.network;
+    let constant = network.node_ids().all(|id| network.enthalpy(id).is_none());
+    let linear = constant && input.assemble().is_ok_and(|system| system.is_proportional());
+    Claim::open(match (linear, network.has_events()) {
         (true, false) => "linear: temperatures rise in proportion to heat",
         (true, true) => "linear between switches",
         (false, _) => "not linear: what holds at one load need not hold at another",

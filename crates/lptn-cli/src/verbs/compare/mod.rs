@@ -42,9 +42,11 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
     comparison.report(console);
     console.show(&comparison, args.printed.format)?;
     let answer = page::answer(&comparison);
-    if comparison.rows.len() > 1 && args.printed.format == Format::Table {
-        let names: Vec<String> =
-            files.iter().map(|file| quoted(&file.display().to_string())).collect();
+    if comparison.rows.iter().filter_map(CompareRow::candidate).count() > 1
+        && args.printed.format == Format::Table
+    {
+        let read = comparison.rows.iter().filter(|row| row.candidate().is_some());
+        let names: Vec<String> = read.map(|row| quoted(&row.file)).collect();
         console.next(&format!("lptn plot {}", names.join(" ")));
     }
     match comparison.exit() {

@@ -223,7 +223,9 @@ impl Outcome<'_> {
                 console
                     .next(&format!("lptn plot {}", quoted(&folder.path().display().to_string())));
             }
-            next::after_run(self.job.input, self.steady.is_ok())
+            let limits = self.limits();
+            let hot = limits.iter().find_map(|limit| limit.broken_node(self.solution.network()));
+            next::after_run(self.job.input, self.steady.is_ok(), hot)
                 .iter()
                 .for_each(|command| console.next(command));
         }
