@@ -3,9 +3,13 @@
 //! derivatives are compared with differences and what is written with what is read.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+#[path = "support/kind_page.rs"]
+mod kind_page;
+
 use std::path::{Path, PathBuf};
 
-use lptn::laws::{Confidence, FieldDeclaration, Formula, Kind, Range};
+use kind_page::tables;
+use lptn::laws::{FieldDeclaration, Formula, Kind, Range};
 use lptn::netlist::Netlist;
 use lptn::network::{ConductorFlow, Item, Network};
 use lptn::units::{parse_quantity, suggest};
@@ -44,7 +48,8 @@ fn netlist((kind, law): (Kind, Formula), value: impl Fn(&FieldDeclaration) -> St
     let (declared, section) = (law.declaration(), kind.declaration());
     let ends = if kind.is_source() { "into = \"a\"" } else { "from = \"a\", to = \"b\"" };
     let mut fields = vec![ends.to_owned()];
-    fields.extend(section.selector.map(|key| format!("{key} = \"{}\"", declared.name)));
+    let selector = section.selector.filter(|_| declared.named);
+    fields.extend(selector.map(|key| format!("{key} = \"{}\"", declared.name)));
     fields.extend(declared.carries.is_of_fluid().then(|| "fluid = \"oil\"".to_owned()));
     for same in declared.fields.chunk_by(|a, b| a.key == b.key) {
         let values: Vec<String> = same.iter().map(&value).collect();
@@ -308,96 +313,6 @@ fn every_key_is_suggested_and_has_an_example() {
 fn page(kind: Kind) -> PathBuf {
     let name = format!("{}.md", kind.declaration().section);
     Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/elements").join(name)
-}
-
-fn unit(field: &FieldDeclaration) -> String {
-    match field.ty {
-        ty if ty.absolute => "degC, K".to_owned(),
-        ty if ty.is_scalar() => String::new(),
-        ty => ty.dimension.si_unit(),
-    }
-}
-
-fn range(range: Range) -> &'static str {
-    match range {
-        Range::Finite => "of either sign",
-        Range::Positive => "above 0",
-        Range::NotNegative => "at least 0",
-        Range::Fraction => "above 0, at most 1",
-        Range::Temperature => "absolute",
-    }
-}
-
-/// What a page says of keys and laws.
-fn tables(kind: Kind) -> String {
-    let mut lines = vec![
-        "| Key | Meaning | Unit | Range | Default |".to_owned(),
-        "|---|---|---|---|---|".to_owned(),
-    ];
-    let ends = if kind.is_stream() { "" } else { ", or faces of a grid" };
-    lines.push(match kind.is_source() {
-        true => "| `into` | a node, a grid, a face, or `{ a = 0.6, b = 0.4 }` | | | |".to_owned(),
-        false => format!("| `from`, `to` | two nodes or boundaries{ends} | | | |"),
-    });
-    if kind.laws().any(|law| law.declaration().carries.is_of_fluid()) {
-        let of = "a [fluid](material.md) of the file or of the library: `air`, `water`, \
-            `gear_oil_vg220`, ..";
-        lines.push(format!("| `fluid` | {of} | | | |"));
-    }
-    if let Some(selector) = kind.declaration().selector {
-        let words: Vec<String> =
-            kind.laws().map(|law| format!("`{}`", law.declaration().name)).collect();
-        lines.push(format!("| `{selector}` | the law: {} | | | |", words.join(", ")));
-    }
-    let mut known: Vec<&str> = Vec::new();
-    for field in kind.laws().flat_map(|law| law.declaration().fields) {
-        if known.contains(&field.meaning) {
-            continue;
-        }
-        known.push(field.meaning);
-        let key = if field.property {
-            format!("`{}` or `material`", field.key)
-        } else if field.of_lubricant {
-            format!("`{}` or `lubricant`", field.key)
-        } else {
-            format!("`{}`", field.key)
-        };
-        let default = field.default.map_or(String::new(), |value| format!(" {value}"));
-        lines.push(format!(
-            "| {key} | {} | {} | {} |{default} |",
-            field.meaning,
-            unit(field),
-            range(field.range)
-        ));
-    }
-    lines.push(String::new());
-    lines.push("| Given by | Law | Holds | Source |".to_owned());
-    lines.push("|---|---|---|---|".to_owned());
-    for law in kind.laws() {
-        let declared = law.declaration();
-        let mut keys: Vec<&str> = declared.fields.iter().map(|field| field.key).collect();
-        let pair = keys.windows(2).any(|two| two[0] == two[1]);
-        keys.dedup();
-        let keys: Vec<String> = keys.iter().map(|key| format!("`{key}`")).collect();
-        let of = if declared.carries.is_of_fluid() { "`fluid`, " } else { "" };
-        let pair = if pair { " (a list of two)" } else { "" };
-        let word = kind
-            .declaration()
-            .selector
-            .map_or(String::new(), |key| format!("`{key} = \"{}\"`: ", declared.name));
-        let mark = match declared.confidence {
-            Confidence::High => "",
-            Confidence::Medium => " Unverified constants.",
-        };
-        lines.push(format!(
-            "| {word}{of}{}{pair} | {} | {}{mark} | {} |",
-            keys.join(", "),
-            declared.equation,
-            declared.validity,
-            declared.source
-        ));
-    }
-    lines.join("\n") + "\n"
 }
 
 /// `LPTN_BLESS=1` writes the tables anew, and the page of a new kind.

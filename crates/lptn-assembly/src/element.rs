@@ -47,16 +47,21 @@ pub enum JacobianForm {
 }
 
 impl Element {
+    /// Whether it is a stream of a constant capacity rate.
+    pub(crate) fn is_constant_stream(&self) -> bool {
+        matches!(self.kind, Kind::Stream(_))
+    }
+
     /// The elements of a network that are neither constant conductances nor radiation of a constant
     /// area, in the order of conductors, then sources.
     pub(crate) fn all_of(network: &Network) -> Vec<Self> {
         let vertex = |end: End| u32::try_from(network.vertex(end)).expect("ids are 32 bits wide");
         let conductors =
             network.conductors().iter().zip(network.conductor_ids()).filter_map(|(c, id)| {
-                let ends = vec![vertex(c.from), vertex(c.to)];
+                let ends = || vec![vertex(c.from), vertex(c.to)];
                 let (kind, variables) = match network.flow(id) {
                     ConductorFlow::Conductance(_) | ConductorFlow::Radiation(_) => return None,
-                    ConductorFlow::Stream(mcp) => (Kind::Stream(mcp), ends.clone()),
+                    ConductorFlow::Stream(mcp) => (Kind::Stream(mcp), ends()),
                     ConductorFlow::Variable => {
                         (Kind::Conductor(id), network.conductor_variables(id).to_vec())
                     }
@@ -65,7 +70,7 @@ impl Element {
                 Some(Self {
                     kind,
                     conductor,
-                    receivers: ends,
+                    receivers: ends(),
                     shares: vec![],
                     variables,
                     slots: vec![],

@@ -101,4 +101,19 @@ impl ThermalSystem {
         let place = self.elements.partition_point(|e| e.conductor.is_some_and(|c| c < id));
         self.elements[place].received(&self.network, work)
     }
+
+    /// What the groups of a conductor's law are, as [`Network::groups`]; temperatures and inputs as
+    /// in [`ThermalSystem::received`].
+    ///
+    /// # Errors
+    /// [`InputError`] if a value fails.
+    ///
+    /// [`Network::groups`]: lptn_network::Network::groups
+    pub fn groups(
+        &self,
+        work: &mut Workspace,
+        id: ConductorId,
+    ) -> Result<Vec<Option<f64>>, InputError> {
+        self.network.groups(id, &mut work.scope, &work.temperature)
+    }
 }

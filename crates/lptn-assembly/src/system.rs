@@ -131,6 +131,12 @@ impl ThermalSystem {
         self.elements.is_empty() && self.radiation.is_empty()
     }
 
+    /// Whether its temperatures rise in proportion to the heat: constant streams may be among its
+    /// paths, which only make it lack symmetry.
+    pub fn is_proportional(&self) -> bool {
+        self.radiation.is_empty() && self.elements.iter().all(Element::is_constant_stream)
+    }
+
     /// Whether the Jacobian has a symmetric form that Newton's method may use.
     pub fn is_symmetric(&self) -> bool {
         self.symmetric
@@ -326,11 +332,14 @@ impl ThermalSystem {
 /// The constant conductances by vertex.
 fn constant_links(network: &Network) -> Vec<Link> {
     let vertex = |end| u32::try_from(network.vertex(end)).expect("ids are 32 bits wide");
-    let link = |(c, id): (&lptn_network::Conductor, _)| match network.flow(id) {
-        ConductorFlow::Conductance(g) => Some(Link { a: vertex(c.from), b: vertex(c.to), g }),
-        ConductorFlow::Radiation(_) | ConductorFlow::Stream(_) | ConductorFlow::Variable => None,
-    };
-    network.conductors().iter().zip(network.conductor_ids()).filter_map(link).collect()
+    // nearly all of a large network are among them
+    let mut links = Vec::with_capacity(network.conductors().len());
+    for (c, id) in network.conductors().iter().zip(network.conductor_ids()) {
+        if let ConductorFlow::Conductance(g) = network.flow(id) {
+            links.push(Link { a: vertex(c.from), b: vertex(c.to), g });
+        }
+    }
+    links
 }
 
 /// Links between unknowns, from an unknown to a boundary, between boundaries. `kept` is sorted by

@@ -4,14 +4,14 @@ use lptn_graph::{Grouping, View, diagram};
 use lptn_netlist::Netlist;
 use lptn_network::{Field, Item, Network, ParameterId};
 use lptn_report::{Claim, Piece, Report, Section, Text, TextTable, plain, significant};
-use lptn_solve::{Lumping, Snapshot};
+use lptn_solve::{Lumping, OutOfRange, Snapshot};
 use lptn_study::{FileHash, Sundials};
 use lptn_units::Unit;
 use serde_json::Value;
 
-use crate::files;
 use crate::input::{Input, quoted};
 use crate::words::{count, difference, spaced, unverified};
+use crate::{files, ranges};
 
 /// How an answer changes with a parameter.
 pub(crate) struct Sensitivities {
@@ -61,8 +61,10 @@ pub(crate) fn hashes(netlist: &Netlist) -> Vec<FileHash> {
 
 /// Whether the network is linear.
 fn linearity(input: &Input) -> Claim {
-    let linear = input.assemble().is_ok_and(|system| system.is_linear());
-    Claim::open(match (linear, input.netlist.network.has_events()) {
+    let network = &input.netlist.network;
+    let constant = network.node_ids().all(|id| network.enthalpy(id).is_none());
+    let linear = constant && input.assemble().is_ok_and(|system| system.is_proportional());
+    Claim::open(match (linear, network.has_events()) {
         (true, false) => "linear: temperatures rise in proportion to heat",
         (true, true) => "linear between switches",
         (false, _) => "not linear: what holds at one load need not hold at another",
@@ -70,9 +72,8 @@ fn linearity(input: &Input) -> Claim {
 }
 
 /// Whether every law stayed where it is known: elsewhere there is no result.
-pub(crate) fn laws(network: &Network) -> Vec<Claim> {
-    let kept = "no fluid or capacity left its range, nor a table without `outside`";
-    let mut claims = vec![Claim::checked(true, kept)];
+pub(crate) fn laws(network: &Network, outside: &[OutOfRange]) -> Vec<Claim> {
+    let mut claims = vec![ranges::claim(network, outside)];
     claims.extend(unverified(network).map(Claim::open));
     claims
 }

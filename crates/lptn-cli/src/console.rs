@@ -3,6 +3,7 @@
 use std::io::{self, BufWriter, ErrorKind, IsTerminal as _, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use lptn_netlist::{Diagnostic, Files};
 use lptn_plot::Figure;
@@ -44,6 +45,8 @@ pub(crate) struct Console {
     refusal: Option<Refusal>,
     /// Whether something was printed.
     printed: AtomicBool,
+    /// Commands to type next.
+    next: Mutex<Vec<String>>,
 }
 
 impl Console {
@@ -69,6 +72,7 @@ impl Console {
             reporting: report.map(Reporting::into),
             refusal: Refusal::wanted(),
             printed: AtomicBool::new(false),
+            next: Mutex::default(),
         }
     }
 
@@ -176,10 +180,17 @@ impl Console {
     }
 
     /// A command to type next, for those who look on; left out in scripts and logs unless verbose.
+    /// It is the last that is said.
     pub(crate) fn next(&self, command: &str) {
         if self.watched || self.verbose {
-            self.note(&format!("next   {command}"));
+            self.next.lock().unwrap_or_else(PoisonError::into_inner).push(command.to_owned());
         }
+    }
+
+    /// Says what to type next.
+    pub(crate) fn say_next(&self) {
+        let commands = self.next.lock().unwrap_or_else(PoisonError::into_inner);
+        commands.iter().for_each(|command| self.note(&format!("next   {command}")));
     }
 
     /// Where the first of some problems is explained, for those who look on.

@@ -37,6 +37,14 @@ impl Judged {
         Self { limit, margin, worst_at: Some(worst_at), broken_at }
     }
 
+    /// The node whose temperature breaks its limit.
+    pub(crate) fn broken_node<'a>(&self, network: &'a Network) -> Option<&'a str> {
+        let limit = &network.limits()[self.limit.index()];
+        let node = limit.text.strip_suffix(".T")?;
+        let known = network.nodes().iter().any(|own| own.name == node);
+        (self.broken_at.is_some() && known).then_some(node)
+    }
+
     pub(crate) fn of_steady(limit: LimitId, margin: f64) -> Self {
         Self { limit, margin, worst_at: None, broken_at: None }
     }

@@ -25,6 +25,7 @@ mod lumping;
 mod options;
 mod panic_net;
 mod progress;
+mod ranges;
 mod refusal;
 mod reporting;
 mod scale;
@@ -59,8 +60,10 @@ fn main() -> ExitCode {
     let known = outcome.is_ok();
     let mut exit = outcome.unwrap_or_else(refused);
     let verb = args.verb.as_ref().map_or("", Verb::name);
-    if let Err(failure) = console.write_report(verb, known) {
-        exit = refused(failure);
+    match console.write_report(verb, known) {
+        Err(failure) => exit = refused(failure),
+        Ok(()) if known => console.say_next(),
+        Ok(()) => {}
     }
     console.answer_failure(exit);
     ExitCode::from(exit as u8)

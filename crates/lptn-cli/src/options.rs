@@ -7,6 +7,7 @@ use clap::{Args as Arguments, ValueEnum};
 use lptn_report::{Format, TimeUnit};
 
 use crate::drawing::Drawing;
+use crate::reporting::page_name;
 
 /// The help of every command: examples, then what it does, then its options.
 pub(crate) const TEMPLATE: &str = "\
@@ -34,6 +35,7 @@ pub(crate) struct Global {
     pub(crate) plot: Option<Drawing>,
     /// Write the result as one HTML page, among the results or to =FILE
     #[arg(long, global = true, value_name = "FILE", num_args = 0..=1, require_equals = true)]
+    #[arg(value_parser = page_name)]
     pub(crate) report: Option<Option<PathBuf>>,
 }
 

@@ -8,8 +8,11 @@ use lptn_report::{Piece, Report, Section};
 
 use crate::diagnostics::render;
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, reason};
 use crate::files;
+
+/// What to do where a report cannot be written.
+const ELSEWHERE: &str = "name another place: --report=FILE.html";
 
 /// A report that was asked for, as far as it is known.
 #[derive(Debug, Default)]
@@ -78,16 +81,41 @@ impl Reporting {
             let out = || Path::new("out").join(&report.name);
             known.folder.clone().unwrap_or_else(out).join(name)
         };
-        let file = self.file.clone().unwrap_or_else(usual);
+        let file = match self.file.clone() {
+            Some(file) => file,
+            None => beside_results(usual())?,
+        };
         write(&file, &report)?;
         Ok(Some(file.display().to_string()))
     }
 }
 
+/// The same place, whose folder is made where it is missing: a verb may write nothing else.
+fn beside_results(file: PathBuf) -> Result<PathBuf, Failure> {
+    let folder = file.parent().unwrap_or(Path::new("."));
+    let cannot = |error: std::io::Error| {
+        let message = format!("cannot write {}: {}", file.display(), reason(&error));
+        let problem = Diagnostic::error("output::cannot_write", message);
+        Failure::new(Exit::Failed, problem.help(ELSEWHERE))
+    };
+    std::fs::create_dir_all(folder).map_err(cannot)?;
+    Ok(file)
+}
+
+/// Reads the name of a report. Whatever else stands at a place would be lost.
+pub(crate) fn page_name(text: &str) -> Result<PathBuf, String> {
+    let file = PathBuf::from(text);
+    let ending = file.extension().map(|ending| ending.to_ascii_lowercase());
+    if ending.is_some_and(|ending| ending == "html" || ending == "htm") {
+        return Ok(file);
+    }
+    let stem = file.with_extension("html");
+    Err(format!("a report is an HTML page: write {}", stem.display()))
+}
+
 fn write(file: &Path, report: &Report) -> Result<(), Failure> {
-    let help = "name another place: --report=FILE";
     let page = lptn_html::write(report);
-    files::replace(file, page.as_bytes()).map_err(|failure| failure.with_help(help))
+    files::replace(file, page.as_bytes()).map_err(|failure| failure.with_help(ELSEWHERE))
 }
 
 /// A verb that answers with something else than a result.

@@ -1,20 +1,36 @@
-//! Results that nothing real has, in words.
+//! Results that nothing real has, and laws where they are not known, in words.
 
 use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Item, ZERO_CELSIUS};
 use lptn_report::{duration, significant};
-use lptn_solve::{Beyond, SteadyState};
+use lptn_solve::{Beyond, Solution, SteadyState};
+
+use crate::ranges;
 
 /// What makes no sense of a steady state.
 pub(crate) fn of_steady(netlist: &Netlist, steady: &SteadyState) -> Vec<Diagnostic> {
-    Beyond::of_steady(&netlist.network, steady)
-        .iter()
-        .map(|beyond| warning(netlist, beyond))
-        .collect()
+    let beyond = Beyond::of_steady(&netlist.network, steady);
+    let outside = ranges::of_steady(&netlist.network, steady);
+    told(netlist, beyond.as_ref(), ranges::warnings(netlist, &outside, false))
+}
+
+/// What makes no sense of a run.
+pub(crate) fn of_run(netlist: &Netlist, solution: &Solution) -> Vec<Diagnostic> {
+    let beyond = Beyond::of_run(solution);
+    told(netlist, beyond.as_ref(), ranges::warnings(netlist, solution.out_of_range(), true))
+}
+
+/// What is beyond sense, then laws outside their ranges.
+pub(crate) fn told(
+    netlist: &Netlist,
+    beyond: Option<&Beyond>,
+    outside: Vec<Diagnostic>,
+) -> Vec<Diagnostic> {
+    beyond.map(|beyond| warning(netlist, beyond)).into_iter().chain(outside).collect()
 }
 
 /// A warning that names the node, and the path and the source that probably did it.
-pub(crate) fn warning(netlist: &Netlist, beyond: &Beyond) -> Diagnostic {
+fn warning(netlist: &Netlist, beyond: &Beyond) -> Diagnostic {
     let network = &netlist.network;
     let name = |item: Item| network.name_of(item).into_owned();
     let when = beyond.time.map_or_else(String::new, |time| format!(" at {}", duration(time, 4)));

@@ -266,3 +266,34 @@ fn the_mass_is_shown_where_every_material_is_known() {
     assert!(number(&all[1], "mass [kg]").is_nan());
     folder.run(&["compare", "."]).exits(1).prints("m [kg]");
 }
+
+/// 100 W into a block that a stream of 4 W/K and a path of 1 W/K cool to 20 degC: it stands at
+/// 40 degC, and 80 W leave with the stream.
+#[test]
+fn regression_what_streams_carry_away_is_a_share_of_the_heat() {
+    let open = "format = 1\n[node]\nblock = { T0 = '20 degC', C = '100 J/K' }\n[boundary]\n\
+                air = { T = '20 degC' }\ntap = { T = '20 degC' }\n[resistor]\n\
+                skin = { from = 'block', to = 'air', G = '1 W/K' }\n[advection]\n\
+                feed = { from = 'tap', to = 'block', mcp = '4 W/K' }\n[source]\n\
+                loss = { into = 'block', P = '100 W' }\n";
+    let run = format!("{open}[run]\nstop = '1 h'\n");
+    let closed =
+        open.replace("[source]", "back = { from = 'block', to = 'tap', mcp = '4 W/K' }\n[source]");
+    let folder = Folder::empty();
+    for (name, text) in [("a", open), ("b", &run), ("c", &closed)] {
+        folder.write(&format!("{name}.toml"), text);
+    }
+    let ran = folder.run(&["compare", "a.toml", "b.toml", "c.toml", "--format", "csv"]).exits(0);
+    let found = rows(&ran.out);
+    for (file, shares) in
+        [("a.toml", [0.2, 0.0, 0.8]), ("b.toml", [0.2, 0.0, 0.8]), ("c.toml", [0.2, 0.8, f64::NAN])]
+    {
+        let row = found.iter().find(|row| row[0].1 == file).unwrap();
+        for (name, share) in ["air", "tap", "streams"].into_iter().zip(shares) {
+            let found = row.iter().find(|(header, _)| *header == format!("{name}.share [-]"));
+            let found = found.and_then(|(_, cell)| cell.parse().ok()).unwrap_or(f64::NAN);
+            assert!((found - share).abs() < 1e-6 || (found.is_nan() && share.is_nan()));
+        }
+    }
+    assert!(folder.run(&["compare", "a.toml"]).exits(0).out.contains("streams"));
+}

@@ -117,7 +117,7 @@ fn parameters_stand_with_what_they_do() {
     let rise = 1.0 - (-3.0_f64).exp();
     let of_conductance = -0.1 * (rise - 3.0 * (-3.0_f64).exp());
     let row = |name: &str| {
-        let from = page.find(&format!("<tr><td>{name}</td>")).unwrap();
+        let from = page.find(&format!("<tr><td class=\"short\">{name}</td>")).unwrap();
         page[from..from + page[from..].find("</tr>").unwrap()].to_owned()
     };
     for (name, expected) in [("P", 0.1 * rise), ("G", of_conductance), ("T_air", rise)] {
@@ -214,4 +214,54 @@ fn a_settled_cycle_has_no_derivatives_of_another_run() {
     assert_eq!(ran.code, Some(0), "{}", ran.err);
     let page = folder.read("page.html");
     assert!(page.contains("<h2>Parameters</h2>") && !page.contains("+1 % changes it"));
+}
+
+#[test]
+fn regression_a_report_is_never_written_over_a_netlist() {
+    let folder = lump();
+    for words in [
+        &["run", "lump.toml", "--no-files", "--report=lump.toml"][..],
+        &["report", "out/lump", "-o", "lump.toml"],
+    ] {
+        let ran = folder.run(words);
+        assert_eq!(ran.code, Some(2), "{}", ran.err);
+        assert!(ran.err.contains("write lump.html"), "{}", ran.err);
+    }
+    assert_eq!(folder.read("lump.toml"), LUMP);
+}
+
+#[test]
+fn regression_a_report_makes_the_folder_it_goes_into() {
+    for words in [
+        &["steady", "lump.toml", "--report"][..],
+        &["modes", "lump.toml", "--report"],
+        &["run", "lump.toml", "--no-files", "--report"],
+        &["reduce", "lump.toml", "--port", "lump", "--report"],
+    ] {
+        let folder = lump();
+        let ran = folder.run(words);
+        assert_eq!(ran.code, Some(0), "{words:?}: {}", ran.err);
+        let name = if words[0] == "run" { "report" } else { words[0] };
+        assert!(folder.read(&format!("out/lump/{name}.html")).starts_with("<!doctype html>"));
+    }
+}
+
+/// Rises under a constant stream are in proportion to the heat; those of a body that glows or whose
+/// capacity changes are not.
+#[test]
+fn regression_a_constant_stream_is_linear() {
+    let stream = "[advection]\nfeed = { from = 'air', to = 'lump', mcp = '10 W/K' }\n[source]";
+    let glow = "[radiation]\nglow = { from = 'lump', to = 'air', area = '1 m^2', emissivity = 1 }\n\
+                [source]";
+    let capacity = "C = '1000 [J/K] + 1 [J/K^2] * (T - 25 [degC])'";
+    for (old, new, linear) in
+        [("[source]", stream, true), ("[source]", glow, false), ("C = '1000 J/K'", capacity, false)]
+    {
+        let folder = Folder::with("lump.toml", &LUMP.replace(old, new));
+        let ran = folder.run(&["steady", "lump.toml", "--report=page.html"]);
+        assert_eq!(ran.code, Some(0), "{}", ran.err);
+        let page = folder.read("page.html");
+        let said = page.contains("linear: temperatures rise in proportion to heat");
+        assert_eq!((said, page.contains("not linear:")), (linear, !linear), "{new}");
+    }
 }

@@ -47,6 +47,16 @@ function named(panel, curve, i) {
   return dotted(curve) && same.some(other => !dotted(other)) ? name + " (dots)" : name;
 }
 
+// whether there is more than this curve, so that a legend can leave it out
+const others = (panel, curve) => panel.curves.some(other => other != curve && other.name);
+
+// what a curve looks like, told by its sign in the legend
+const signs = {
+  width: 2,
+  dash: (u, k) => u.series[k].dash ? "dashed" : "solid",
+  fill: (u, k) => u.series[k].class == "line" ? "transparent" : u.series[k].stroke(u, k),
+};
+
 function series(panel) {
   const across = panel.x;
   const x = {
@@ -55,6 +65,7 @@ function series(panel) {
   };
   return [x, ...panel.curves.map((curve, i) => ({
     label: named(panel, curve, i),
+    class: !curve.name && others(panel, curve) ? "unnamed" : dotted(curve) ? "dots" : "line",
     stroke: () => colour(curve.ink),
     width: 1.8,
     pxAlign: 0,
@@ -215,6 +226,7 @@ function plot(panel, places, host, key, [width, first, last]) {
       x: { time: false, distr: panel.x.scale == "log" ? 3 : 1, range: across(panel) },
       y: { distr: panel.y.scale == "log" ? 3 : 1, auto: false, range: panel.y.range },
     },
+    legend: { markers: signs },
     cursor: { sync: { key }, drag: { x: true, y: false }, points: { size: 6 } },
     hooks: {
       drawAxes: [u => spreads(u, panel, places)],

@@ -3,6 +3,9 @@
 use lptn_plot::svg::escaped;
 use lptn_report::{Align, Block, Column, Standing, Text, TextTable};
 
+/// Cells of so many bytes stay in one line.
+const SHORT: usize = 16;
+
 /// Writes a text, a paragraph for each of its lines.
 pub(crate) fn write(out: &mut String, text: &Text) {
     for section in text.sections() {
@@ -52,6 +55,7 @@ fn table(out: &mut String, table: &TextTable) {
     let class = |column: &Column| match column.align {
         Align::Right => " class=\"number\"",
         Align::Left if column.cells.iter().all(|cell| is_spark(cell)) => " class=\"spark\"",
+        Align::Left if column.cells.iter().all(|cell| cell.len() <= SHORT) => " class=\"short\"",
         Align::Left => "",
     };
     *out += "<div class=\"table\"><table>\n";

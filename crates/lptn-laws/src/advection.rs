@@ -55,6 +55,7 @@ impl Law for CapacityRate {
         sentence: "A stream of a known capacity rate, mass flow times specific heat.",
         equation: "Q_to = mcp (T_from - T_to)",
         kinds: &[Kind::Advection],
+        named: false,
         fields: &[flow("mcp", Dimension::CONDUCTANCE, "capacity rate of the stream", "\"50 W/K\"")],
         carries: Carries::CapacityRate,
         reads_ends: false,
@@ -67,6 +68,7 @@ impl Law for CapacityRate {
             equation 1.11e",
         idle: &[("flow_T", "belongs to a volume flow of a fluid")],
         confidence: Confidence::High,
+        groups: &[],
     };
 
     fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {

@@ -11,7 +11,7 @@ use lptn_units::{Dimension, Scalar, Type};
 use crate::Kind;
 use crate::declare::{
     Carries, Confidence, Extent, FieldDeclaration, Form, Hints, KindDeclaration, Law,
-    LawDeclaration,
+    LawDeclaration, Substance,
 };
 
 /// `[conduction]`, as netlists declare it.
@@ -34,7 +34,7 @@ pub(crate) const Conduction: KindDeclaration = KindDeclaration {
 
 const CONDUCTIVITY: FieldDeclaration = FieldDeclaration {
     hints: Hints::PROPERTY,
-    property: true,
+    property: Some(Substance::Material),
     ..FieldDeclaration::new(
         "k",
         Type::of(Dimension::CONDUCTIVITY),
@@ -62,6 +62,7 @@ const BODY: LawDeclaration = LawDeclaration {
     sentence: "",
     equation: "",
     kinds: &[Kind::Conduction],
+    named: true,
     fields: &[],
     carries: Carries::Conductance,
     reads_ends: false,
@@ -74,6 +75,7 @@ const BODY: LawDeclaration = LawDeclaration {
     source: "",
     idle: &[],
     confidence: Confidence::High,
+    groups: &[],
 };
 
 /// Conductance of a plane layer: G = k A / L, in W/K.

@@ -13,7 +13,7 @@ use crate::declare::{
 pub(crate) const Convection: KindDeclaration = KindDeclaration {
     section: "convection",
     sentence: "A wetted surface.",
-    selector: None,
+    selector: Some("correlation"),
     example: "{ from = \"a\", to = \"air\", h = \"10 W/(m^2 K)\", area = \"0.2 m^2\" }",
     elsewhere: &[
         (
@@ -23,9 +23,22 @@ pub(crate) const Convection: KindDeclaration = KindDeclaration {
         ("A", "the area is `area`"),
         ("alpha", "the film coefficient is `h`"),
         ("htc", "the film coefficient is `h`"),
+        ("L", "the length that a correlation is made with is `length`, `height` or `diameter`"),
+        ("u", "the velocity is `speed`"),
+        ("velocity", "the velocity is `speed`"),
+        ("beta", "the expansion coefficient is `expansion`"),
+        ("nu", "a correlation takes the dynamic `viscosity`, nu times density"),
+        ("mu", "the dynamic viscosity is `viscosity`"),
+        ("Pr", "Pr follows from `viscosity`, `cp` and `k`"),
     ],
-    later: &["correlation"],
+    later: &[],
     surface: Some(SurfaceKind::Wetted),
+};
+
+/// The area of a surface.
+pub(crate) const AREA: FieldDeclaration = FieldDeclaration {
+    hints: Hints::CONDUCTS,
+    ..FieldDeclaration::new("area", Type::of(Dimension::AREA), "area of the surface", "\"0.2 m^2\"")
 };
 
 /// A film or a contact.
@@ -39,6 +52,7 @@ impl Law for Film {
             temperatures.",
         equation: "Q = h A (T_from - T_to)",
         kinds: &[Kind::Convection, Kind::Contact],
+        named: false,
         fields: &[
             FieldDeclaration {
                 hints: Hints::CONDUCTS,
@@ -49,15 +63,7 @@ impl Law for Film {
                     "\"10 W/(m^2 K)\"",
                 )
             },
-            FieldDeclaration {
-                hints: Hints::CONDUCTS,
-                ..FieldDeclaration::new(
-                    "area",
-                    Type::of(Dimension::AREA),
-                    "area of the surface",
-                    "\"0.2 m^2\"",
-                )
-            },
+            AREA,
         ],
         carries: Carries::Conductance,
         reads_ends: false,
@@ -70,6 +76,7 @@ impl Law for Film {
             equations 1.3a, 3.9 and 3.20",
         idle: &[],
         confidence: Confidence::High,
+        groups: &[],
     };
 
     fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {

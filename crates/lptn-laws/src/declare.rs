@@ -20,6 +20,13 @@ pub trait Law {
     /// A formula checks nothing: who calls it refuses what is outside the ranges of the fields.
     /// Inside them, value and derivatives are finite.
     fn value<S: Scalar>(values: &[S], ends: [S; 2]) -> S;
+
+    /// What its [groups](LawDeclaration::groups) are for these values and ends, in their order;
+    /// `None` for one that does not count there.
+    fn groups(values: &[f64], ends: [f64; 2]) -> Vec<Option<f64>> {
+        let _ = (values, ends);
+        Vec::new()
+    }
 }
 
 /// What is known of a law.
@@ -33,6 +40,9 @@ pub struct LawDeclaration {
     pub equation: &'static str,
     /// The kinds of path or source that obey it.
     pub kinds: &'static [Kind],
+    /// Whether its name chooses it, by the [selector](KindDeclaration::selector) of its kinds;
+    /// otherwise its fields do.
+    pub named: bool,
     /// What it takes. Two in a row with one key are given as a list of two.
     pub fields: &'static [FieldDeclaration],
     /// What the value of its formula means.
@@ -51,8 +61,10 @@ pub struct LawDeclaration {
     pub extent: Extent,
     /// Keys of other laws of its kinds that mean nothing beside its own, with the reason.
     pub idle: &'static [(&'static str, &'static str)],
-    /// Where it holds.
+    /// Where it holds, as far as numbers do not say it.
     pub validity: &'static str,
+    /// The numbers that say where it holds; [`Law::groups`] gives their values.
+    pub groups: &'static [Group],
     /// Where it was published.
     pub source: &'static str,
     /// How sure its formula and constants are.
@@ -111,6 +123,26 @@ pub enum Extent {
     Whole,
 }
 
+/// A number without dimension that says where a law holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Group {
+    /// Its symbol: `Ra`.
+    pub name: &'static str,
+    /// What it is called: `Rayleigh number`.
+    pub meaning: &'static str,
+    /// The least value for which the law is known.
+    pub from: f64,
+    /// The largest.
+    pub to: f64,
+}
+
+impl Group {
+    /// Whether a value is inside; one that is not a number is not.
+    pub fn contains(&self, value: f64) -> bool {
+        (self.from..=self.to).contains(&value)
+    }
+}
+
 /// How sure a formula and its constants are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Confidence {
@@ -137,11 +169,31 @@ pub struct FieldDeclaration {
     pub example: &'static str,
     /// What to do about a number outside its range.
     pub hints: Hints,
-    /// Whether it is a property of a body: `material` may be named in its place, and its expression
-    /// may read `T`, the mean temperature of the ends.
-    pub property: bool,
-    /// Whether it is a property of a lubricant: `lubricant` may be named in its place.
-    pub of_lubricant: bool,
+    /// What it is a property of, if it is one: a material, fluid or lubricant may be named in its
+    /// place. Of a path its expression may read `T` then, the mean temperature of the ends.
+    pub property: Option<Substance>,
+}
+
+/// What has properties, by the key that names it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Substance {
+    /// `material`: what a body is made of.
+    Material,
+    /// `fluid`: what a surface is wetted by.
+    Fluid,
+    /// `lubricant`: what a loss is lubricated with.
+    Lubricant,
+}
+
+impl Substance {
+    /// The key that names it.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Material => "material",
+            Self::Fluid => "fluid",
+            Self::Lubricant => "lubricant",
+        }
+    }
 }
 
 impl FieldDeclaration {
@@ -153,17 +205,7 @@ impl FieldDeclaration {
         example: &'static str,
     ) -> Self {
         let (range, hints) = (Range::Positive, Hints::SIGN);
-        Self {
-            key,
-            ty,
-            range,
-            default: None,
-            meaning,
-            example,
-            hints,
-            property: false,
-            of_lubricant: false,
-        }
+        Self { key, ty, range, default: None, meaning, example, hints, property: None }
     }
 
     /// A length or an area of a body.
@@ -253,6 +295,12 @@ impl Hints {
         negative: "the catalogue or the drawing has a number of more than zero",
         ..Self::SIGN
     };
+    /// Of a property of a fluid.
+    pub const FLUID: Self = Self {
+        zero: "a fluid has properties of more than zero",
+        negative: "a fluid has properties of more than zero",
+        ..Self::SIGN
+    };
     /// Of a property of a body.
     pub const PROPERTY: Self = Self {
         zero: "a body has a mass, a volume and properties of more than zero",
@@ -268,7 +316,7 @@ pub struct KindDeclaration {
     pub section: &'static str,
     /// What it is, in one sentence.
     pub sentence: &'static str,
-    /// The key whose word chooses among its laws, where their fields do not.
+    /// The key whose word chooses among its [named](LawDeclaration::named) laws.
     pub selector: Option<&'static str>,
     /// The right side of an element of it, for help.
     pub example: &'static str,
@@ -308,9 +356,9 @@ impl Kind {
         self.laws().any(|law| law.declaration().carries == Carries::Heat)
     }
 
-    /// Whether a lubricant may be named for some of its fields.
-    pub fn takes_lubricant(self) -> bool {
-        self.laws().any(|law| law.declaration().fields.iter().any(|field| field.of_lubricant))
+    /// The laws that only their name chooses, or only their fields.
+    pub fn laws_named(self, named: bool) -> impl Iterator<Item = Formula> {
+        self.laws().filter(move |law| law.declaration().named == named)
     }
 
     /// Its fields, each key once: those that all its laws take come first.

@@ -36,6 +36,11 @@ mod conduction;
 mod contact;
 mod convection;
 mod declare;
+mod exchanger;
+mod fins;
+mod fluid;
+mod forced_convection;
+mod free_convection;
 mod list;
 mod loss;
 mod lump;
@@ -43,10 +48,12 @@ mod mesh;
 mod phase;
 mod radiation;
 mod resistor;
+mod rotation;
 mod seal;
 mod skf;
 mod source;
 mod viscosity_index;
+mod wall;
 
 pub use advection::{advection_from, advection_to, stream_from, stream_to};
 pub use bearing::{bearing_load, bearing_no_load};
@@ -54,8 +61,18 @@ pub use churning::Churned;
 pub use conduction::{cylinder, rod, slab, sphere};
 pub use convection::film;
 pub use declare::{
-    Carries, Confidence, Extent, FieldDeclaration, Form, Hints, KindDeclaration, Law,
-    LawDeclaration, Range, SurfaceKind,
+    Carries, Confidence, Extent, FieldDeclaration, Form, Group, Hints, KindDeclaration, Law,
+    LawDeclaration, Range, Substance, SurfaceKind,
+};
+pub use exchanger::{effectiveness_counterflow, effectiveness_crossflow, effectiveness_parallel};
+pub use fins::{fin_efficiency, finned};
+pub use fluid::Fluid;
+pub use forced_convection::{
+    nusselt_cross_flow, nusselt_cross_flow_hilpert, nusselt_duct, nusselt_flat_plate,
+};
+pub use free_convection::{
+    nusselt_horizontal_cylinder, nusselt_plate_driven, nusselt_plate_layered,
+    nusselt_vertical_plate, rayleigh,
 };
 pub use list::{Formula, Kind};
 pub use lump::{biot, diffusion_time};
@@ -65,6 +82,8 @@ pub use radiation::{
     STEFAN_BOLTZMANN, effective_emissivity_parallel_plates, radiation_conductance,
     radiation_exchange_area,
 };
+pub use rotation::{nusselt_annulus, nusselt_shaft};
 pub use seal::{lip_seal, shaft_seal};
 pub use skf::SkfBearing;
 pub use viscosity_index::viscosity_at_100;
+pub use wall::{combined, gearbox_wall, gearbox_wall_blown};

@@ -44,6 +44,13 @@ macro_rules! declare {
                     $($(Self::$law => <crate::$module::$law as Law>::value(values, ends),)*)*
                 }
             }
+
+            /// What its groups are, as [`Law::groups`].
+            pub fn groups(self, values: &[f64], ends: [f64; 2]) -> Vec<Option<f64>> {
+                match self {
+                    $($(Self::$law => <crate::$module::$law as Law>::groups(values, ends),)*)*
+                }
+            }
         }
     };
 }
@@ -52,6 +59,11 @@ declare! {
     resistor: Resistor { Resistance, Conductance };
     conduction: Conduction { Slab, Cylinder, Sphere, Rod };
     convection: Convection { Film };
+    free_convection: { VerticalPlate, HorizontalCylinder, UpperSide, LowerSide };
+    forced_convection: { CrossFlow, CrossFlowHilpert, FlatPlate, Duct };
+    rotation: { Shaft, Annulus };
+    fins: { StraightFins };
+    wall: { WallInWind, GearboxWall, GearboxWallBlown };
     contact: Contact {};
     radiation: Radiation { ExchangeArea, GreySurfaces, ParallelPlates };
     advection: Advection { CapacityRate, MassFlow, VolumeFlow };

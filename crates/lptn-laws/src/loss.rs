@@ -8,7 +8,9 @@ use std::f64::consts::PI;
 
 use lptn_units::{Dimension, Scalar, Type};
 
-use crate::declare::{Carries, Confidence, Extent, FieldDeclaration, Form, Hints, LawDeclaration};
+use crate::declare::{
+    Carries, Confidence, Extent, FieldDeclaration, Form, Hints, LawDeclaration, Substance,
+};
 
 /// The speed of a shaft.
 pub(crate) const SPEED: FieldDeclaration = FieldDeclaration::new(
@@ -22,7 +24,7 @@ pub(crate) const SPEED: FieldDeclaration = FieldDeclaration::new(
 /// The viscosity of the oil, or of the base oil of a grease.
 pub(crate) const VISCOSITY: FieldDeclaration = FieldDeclaration {
     hints: Hints::GIVEN,
-    of_lubricant: true,
+    property: Some(Substance::Lubricant),
     ..FieldDeclaration::new(
         "nu",
         Type::of(Dimension::KINEMATIC_VISCOSITY),
@@ -46,6 +48,7 @@ pub(crate) const LOSS: LawDeclaration = LawDeclaration {
     sentence: "",
     equation: "",
     kinds: &[],
+    named: true,
     fields: &[],
     carries: Carries::Heat,
     reads_ends: false,
@@ -54,6 +57,7 @@ pub(crate) const LOSS: LawDeclaration = LawDeclaration {
     area: &[],
     extent: Extent::Whole,
     validity: "",
+    groups: &[],
     source: "",
     idle: &[],
     confidence: Confidence::High,

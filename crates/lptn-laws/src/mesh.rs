@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
-use crate::declare::{FieldDeclaration, Hints, KindDeclaration, Law, LawDeclaration};
+use crate::declare::{FieldDeclaration, Hints, KindDeclaration, Law, LawDeclaration, Substance};
 use crate::loss::{LOSS, SPEED, VISCOSITY, length, mm};
 
 /// `[mesh]`, as netlists declare it.
@@ -210,7 +210,7 @@ impl Law for MeshExternal {
             VISCOSITY,
             FieldDeclaration {
                 hints: Hints::GIVEN,
-                of_lubricant: true,
+                property: Some(Substance::Lubricant),
                 ..FieldDeclaration::new(
                     "density",
                     Type::of(Dimension::DENSITY),

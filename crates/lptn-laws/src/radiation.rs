@@ -64,6 +64,7 @@ impl Law for ExchangeArea {
             emissivities in one.",
         equation: "Q = sigma Gr (T_from^4 - T_to^4)",
         kinds: &[Kind::Radiation],
+        named: false,
         fields: &[FieldDeclaration {
             hints: Hints::CONDUCTS,
             ..FieldDeclaration::new("Gr", AREA, "exchange area", "\"0.16 m^2\"")
@@ -79,6 +80,7 @@ impl Law for ExchangeArea {
             equations 1.8 and 1.9",
         idle: &[("view_factor", "has no effect: `Gr` includes it")],
         confidence: Confidence::High,
+        groups: &[],
     };
 
     fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {

@@ -34,6 +34,7 @@ impl Law for Resistance {
         sentence: "The heat is the difference of the temperatures over a resistance.",
         equation: "Q = (T_from - T_to) / R",
         kinds: &[Kind::Resistor, Kind::Convection],
+        named: false,
         fields: &[FieldDeclaration {
             hints: Hints::RESISTS,
             ..FieldDeclaration::new(
@@ -54,6 +55,7 @@ impl Law for Resistance {
             equation 3.6",
         idle: &[],
         confidence: Confidence::High,
+        groups: &[],
     };
 
     fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {

@@ -33,6 +33,7 @@ impl Law for Given {
         sentence: "Heat that is known, as a number or an expression.",
         equation: "Q = P, in shares that sum to 1",
         kinds: &[Kind::Source],
+        named: false,
         fields: &[FieldDeclaration {
             range: Range::Finite,
             ..FieldDeclaration::new(
@@ -49,6 +50,7 @@ impl Law for Given {
         area: &[],
         extent: Extent::Divided("P"),
         validity: "By definition.",
+        groups: &[],
         source: "Definition of a heat flow",
         idle: &[],
         confidence: Confidence::High,

@@ -83,7 +83,7 @@ impl SectionDeclaration {
 }
 
 /// A key of a section.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct KeyDeclaration {
     /// Its name.
     pub name: &'static str,

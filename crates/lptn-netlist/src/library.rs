@@ -6,13 +6,16 @@
 use std::sync::LazyLock;
 
 use lptn_data::Files;
-use lptn_units::{Dimension, Type, parse_quantity};
+use lptn_units::{Dimension, Interpolation, Outside, Table1, Type, parse_quantity};
 
 use crate::format::NetlistFormat;
-use crate::raw::{RawEntry, RawKind, RawTable};
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::syntax;
 
 const TEXT: &str = include_str!("library.toml");
+
+/// What films take of its fluids, over temperature.
+const FILMS: &str = include_str!("films.toml");
 
 /// One substance of the library. Values in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +34,9 @@ pub struct LibrarySubstance {
     pub temperature: Option<f64>,
     /// Where the numbers come from, and at which state they hold.
     pub source: String,
+    /// What films take of a fluid, by key: tables over temperature in K, in SI units, where there
+    /// are any.
+    pub film: Vec<(String, Table1)>,
 }
 
 struct Library {
@@ -40,16 +46,22 @@ struct Library {
 }
 
 static LIBRARY: LazyLock<Library> = LazyLock::new(|| {
-    let mut files = Files::new();
-    let file = files.add("library.toml", TEXT);
-    let (raw, _) = syntax::read(&files, file, &NetlistFormat { sections: Vec::new(), later: &[] });
-    let section = |name: &str| match raw.top.get(name).map(|entry| &entry.value.kind) {
-        Some(RawKind::Table(table)) => table.entries.iter().filter_map(record).collect(),
-        _ => Vec::new(),
-    };
+    let (raw, films) = (read("library.toml", TEXT), read("films.toml", FILMS));
+    let records = |name: &str| raw.elements(name).iter().filter_map(record).collect::<Vec<_>>();
+    let mut fluids = records("fluid");
+    for fluid in &mut fluids {
+        let own = films.elements("fluid").iter().find(|entry| entry.key == fluid.name);
+        fluid.film = own.map_or_else(Vec::new, film);
+    }
     let lubricants = raw.elements("lubricant").to_vec();
-    Library { materials: section("material"), fluids: section("fluid"), lubricants }
+    Library { materials: records("material"), fluids, lubricants }
 });
+
+fn read(name: &str, text: &str) -> RawNetlist {
+    let mut files = Files::new();
+    let file = files.add(name, text);
+    syntax::read(&files, file, &NetlistFormat { sections: Vec::new(), later: &[] }).0
+}
 
 /// The solids, in the order of the library: steels, irons, light metals, copper alloys, plastics.
 pub fn materials() -> &'static [LibrarySubstance] {
@@ -82,7 +94,29 @@ fn record(entry: &RawEntry) -> Option<LibrarySubstance> {
         k: value("k", Type::of(Dimension::CONDUCTIVITY)),
         temperature: value("T", Type::ABSOLUTE_TEMPERATURE),
         source: text(table, "source")?.to_owned(),
+        film: Vec::new(),
     })
+}
+
+/// The properties of a fluid over temperature in K, in SI units.
+fn film(fluid: &RawEntry) -> Vec<(String, Table1)> {
+    let RawKind::Table(properties) = &fluid.value.kind else { return Vec::new() };
+    let property = |entry: &RawEntry| {
+        let RawKind::Table(points) = &entry.value.kind else { return None };
+        let (x, y) = (numbers(points, "x")?, numbers(points, "y")?);
+        let table = Table1::new(x, y, Interpolation::Pchip, Outside::Error).ok()?;
+        Some((entry.key.clone(), table))
+    };
+    properties.entries.iter().filter_map(property).collect()
+}
+
+fn numbers(table: &RawTable, key: &str) -> Option<Vec<f64>> {
+    let RawKind::Array(items) = &table.get(key)?.value.kind else { return None };
+    let number = |item: &RawValue| match &item.kind {
+        RawKind::Integer(text) | RawKind::Float(text) => text.parse().ok(),
+        _ => None,
+    };
+    items.iter().map(number).collect()
 }
 
 fn text<'a>(table: &'a RawTable, key: &str) -> Option<&'a str> {

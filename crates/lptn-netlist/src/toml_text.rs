@@ -120,6 +120,12 @@ impl TomlFields {
         self.0.push(format!("{} = {}", key(name), written.as_ref()));
     }
 
+    /// Whether a field is there.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        let start = format!("{} = ", key(name));
+        self.0.iter().any(|field| field.starts_with(&start))
+    }
+
     /// A field that holds a name or word.
     pub(crate) fn word(&mut self, name: &str, word: &str) {
         self.put(name, string(word));

@@ -219,6 +219,15 @@ pub struct LawField {
     position: u8,
 }
 
+impl LawField {
+    /// The field of this key of any law.
+    pub fn any(key: &str) -> Option<Self> {
+        let position = |law: &Formula| Some((*law, law.position(key)?));
+        let (law, position) = Formula::ALL.iter().find_map(position)?;
+        Some(Self { law, position: position as u8 })
+    }
+}
+
 impl std::ops::Deref for LawField {
     type Target = lptn_laws::FieldDeclaration;
 
@@ -264,7 +273,7 @@ impl Field {
 
     /// The field of this key of any law.
     pub fn of_law(key: &str) -> Option<Self> {
-        Formula::ALL.iter().find_map(|law| Some(Self::law(*law, law.position(key)?)))
+        LawField::any(key).map(Self::Law)
     }
 
     /// The key of this field in a netlist.

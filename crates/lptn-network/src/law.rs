@@ -212,8 +212,8 @@ fn impossible(field: &lptn_laws::FieldDeclaration, value: f64) -> Option<InputPr
     }
 }
 
-/// Fields of a small law.
-const FEW: usize = 5;
+/// As many fields as laws have that are not correlations: room for more takes time to clear.
+const FEW_FIELDS: usize = 4;
 
 /// Slots on numbers or dual numbers, with the stack that programs need.
 pub(crate) struct At<'a, S> {
@@ -235,22 +235,25 @@ impl<S: Scalar> At<'_, S> {
 
     /// The value of a law, where the slots stand: what it carries says what that is.
     pub(crate) fn value(&mut self, law: &Law) -> Result<S, (Field, InputProblem)> {
-        // most laws are small, and run in every evaluation of a network
+        let of = |values: &[S], ends| law.formula.value(values, ends);
         match law.values().len() {
-            0..=FEW => self.value_of::<FEW>(law),
-            _ => self.value_of::<{ Formula::MOST_FIELDS }>(law),
+            0..=FEW_FIELDS => self.of_values::<FEW_FIELDS, S>(law, of),
+            _ => self.of_values::<{ Formula::MOST_FIELDS }, S>(law, of),
         }
     }
 
-    /// The value of a law of at most this many fields.
-    #[inline]
-    fn value_of<const MOST: usize>(&mut self, law: &Law) -> Result<S, (Field, InputProblem)> {
+    /// A function of the values of a law, of which there are `MOST` at most, and of its ends.
+    pub(crate) fn of_values<const MOST: usize, R>(
+        &mut self,
+        law: &Law,
+        function: impl FnOnce(&[S], [S; 2]) -> R,
+    ) -> Result<R, (Field, InputProblem)> {
         let mut values = [S::from_f64(0.0); MOST];
-        let values = &mut values[..law.values().len()];
-        for (i, value) in values.iter_mut().enumerate() {
+        let count = law.values().len();
+        for (i, value) in values[..count].iter_mut().enumerate() {
             *value = self.get(law, i)?;
         }
-        Ok(law.formula.value(values, self.ends()))
+        Ok(function(&values[..count], self.ends()))
     }
 
     /// The heat of a law of sources in W, where the slots stand.

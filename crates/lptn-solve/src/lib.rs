@@ -29,6 +29,7 @@ mod parallel;
 mod periodic;
 mod quadrature;
 mod quantity;
+mod ranges;
 mod reading;
 mod readings;
 mod recorder;
@@ -75,6 +76,7 @@ pub use lumping::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
 pub use modes::{Mode, Modes};
 pub use parallel::{available_threads, in_parallel};
 pub use periodic::{CycleMethod, Periodic, PeriodicError};
+pub use ranges::OutOfRange;
 pub use selection::{RecordedNodes, Selection, name_matches};
 pub use sense::Beyond;
 pub use sensitive_run::{

@@ -13,6 +13,7 @@ use crate::heat::Heat;
 use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::{LimitWatch, with_limits};
+use crate::ranges::RangeWatch;
 use crate::reading::Reading;
 use crate::readings::Readings;
 use crate::selection::RecordedNodes;
@@ -57,6 +58,7 @@ pub(crate) struct Recorder<'a> {
     /// For each watched node the points of the present step.
     points: Vec<Vec<(f64, f64)>>,
     limits: LimitWatch<'a>,
+    ranges: RangeWatch<'a>,
     windows: Vec<Tracked>,
     reading: Reading<'a>,
     /// What the integrator carries at one time.
@@ -114,6 +116,7 @@ impl<'a> Recorder<'a> {
             seen: Vec::new(),
             points: vec![Vec::new(); settings.watch.len()],
             limits: LimitWatch::new(system),
+            ranges: RangeWatch::new(system),
             windows: windows.collect(),
             reading: Reading::new(system),
             state: vec![0.0; system.states().len()],
@@ -204,6 +207,7 @@ impl<'a> Recorder<'a> {
             self.seen.iter_mut().for_each(|seen| seen.jump(from, nodes[seen.watch.node.index()]));
         }
         self.limits.enter(&mut self.work, (from, self.inside)).map_err(StopReason::Input)?;
+        self.ranges.enter(&mut self.work, from).map_err(StopReason::Input)?;
         if self.due(from) {
             self.check_heat()?;
             self.push()?;
@@ -365,6 +369,7 @@ impl<'a> Recorder<'a> {
             temperatures: self.temperatures,
             seen: self.seen,
             limits,
+            out_of_range: self.ranges.into_found(),
             windows: windows.collect(),
             balance,
             last,

@@ -16,6 +16,7 @@ use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::LimitSeen;
 use crate::quantity::Quantity;
+use crate::ranges::OutOfRange;
 use crate::reading::Reading;
 use crate::sensitivity_rows::SensitivityRows;
 use crate::snapshot::Snapshot;
@@ -64,6 +65,7 @@ pub struct Solution {
     pub(crate) temperatures: Vec<f64>,
     pub(crate) seen: Vec<Watched>,
     pub(crate) limits: Vec<LimitSeen>,
+    pub(crate) out_of_range: Vec<OutOfRange>,
     pub(crate) windows: Vec<WindowSeen>,
     pub(crate) balance: Option<Balance>,
     pub(crate) last: LastState,
@@ -264,6 +266,11 @@ impl Solution {
     /// A control over the rows: 0 or 1.
     pub fn control(&self, id: ControlId) -> Vec<f64> {
         self.values(Quantity::Control(id))
+    }
+
+    /// Where laws were outside the ranges in which they are known, in the order of the conductors.
+    pub fn out_of_range(&self) -> &[OutOfRange] {
+        &self.out_of_range
     }
 
     /// Means and extremes over the windows that were asked for, as far as the run came.

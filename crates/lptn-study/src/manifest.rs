@@ -41,6 +41,10 @@ pub struct Manifest {
     /// some.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unverified_constants: Option<Vec<String>>,
+    /// Where laws were outside the ranges in which they are known: path, law, group, range, the
+    /// value furthest outside and when, the stretches; only where one was.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub out_of_range: Option<Vec<Value>>,
     /// How the uncertainty of the results was found: method, seed, samples, parameters with their
     /// standard deviations; only where it was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]

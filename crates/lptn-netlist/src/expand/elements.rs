@@ -106,9 +106,10 @@ impl Writer<'_> {
         if let Some(fluid) = law.fluid() {
             fields.word("fluid", &self.name(Item::Fluid(fluid)));
         }
-        let (declared, mut selector) = (law.formula().declaration(), kind.declaration().selector);
+        let declared = law.formula().declaration();
         let parts: Vec<(&lptn_laws::FieldDeclaration, &Value)> =
             declared.fields.iter().zip(law.values()).collect();
+        let mut selector = kind.declaration().selector.filter(|_| declared.named);
         for same in parts.chunk_by(|(a, _), (b, _)| a.key == b.key) {
             // the word that chooses the law stands behind what all of them take
             let shared = kind.laws().all(|law| law.field(same[0].0.key).is_some());
@@ -123,9 +124,10 @@ impl Writer<'_> {
     /// The values of one key.
     fn part(&self, fields: &mut TomlFields, same: &[(&lptn_laws::FieldDeclaration, &Value)]) {
         let (field, first) = same[0];
-        let material = self.material_of(first).filter(|_| field.property);
-        match (material, same) {
-            (Some(material), _) => fields.word("material", &self.name(Item::Material(material))),
+        let substance = field.property.and_then(|of| Some((of.key(), self.substance_of(first)?)));
+        match (substance, same) {
+            (Some((key, _)), _) if fields.has(key) => {}
+            (Some((key, substance)), _) => fields.word(key, &self.name(substance)),
             (None, [_]) => fields.put(field.key, value(first, field.ty)),
             _ => {
                 let values: Vec<String> =

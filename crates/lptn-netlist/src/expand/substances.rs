@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use lptn_network::{Lump, MaterialId, Value};
+use lptn_network::{Field, FluidId, Item, Lump, MaterialId, Value};
 use lptn_units::{Dimension, LookupTable, Type};
 
 use super::Writer;
@@ -50,7 +50,11 @@ impl Writer<'_> {
     pub(super) fn fluids(&mut self) {
         let (network, mut section) = (&self.network, TomlFields::default());
         let streams = network.conductors().iter().filter_map(|conductor| conductor.law.fluid());
-        let used: BTreeSet<_> = streams.collect();
+        let films = self.properties_of_paths().into_iter().filter_map(|item| match item {
+            Item::Fluid(id) => Some(id),
+            _ => None,
+        });
+        let used: BTreeSet<_> = streams.chain(films).collect();
         for (id, fluid) in network.fluid_ids().zip(network.fluids()) {
             let source = fluid.source.as_deref();
             let shipped = library::fluids()
@@ -67,6 +71,10 @@ impl Writer<'_> {
                 );
             }
             fields.put("cp", self.property(&fluid.cp, "cp", Type::of(Dimension::SPECIFIC_HEAT)));
+            for (field, value) in &fluid.film {
+                let Field::Law(declared) = field else { continue };
+                fields.put(field.key(), self.property(value, field.key(), declared.ty));
+            }
             if let Some(source) = source {
                 fields.word("source", source);
             }
@@ -96,21 +104,35 @@ impl Writer<'_> {
         let nodes = network.nodes().iter().map(|node| &node.lump);
         let lumps = nodes.chain(network.capacitors().iter().map(|capacitor| &capacitor.lump));
         let lumps = lumps.flatten().map(|Lump { material, .. }| *material);
-        let properties = network.conductors().iter().flat_map(|conductor| {
-            let fields = conductor.law.formula().declaration().fields.iter();
-            fields.zip(conductor.law.values()).filter(|(field, _)| field.property)
+        let bodies = self.properties_of_paths().into_iter().filter_map(|item| match item {
+            Item::Material(id) => Some(id),
+            _ => None,
         });
-        let bodies = properties.filter_map(|(_, value)| self.material_of(value));
         lumps.chain(bodies).collect()
     }
 
-    /// The material whose conductivity this is; a constant is written as it is.
-    pub(super) fn material_of(&self, conductivity: &Value) -> Option<MaterialId> {
-        let Value::Expression(program) = conductivity else { return None };
+    /// The materials and fluids that paths take properties of.
+    fn properties_of_paths(&self) -> BTreeSet<Item> {
+        let properties = self.network.conductors().iter().flat_map(|conductor| {
+            let fields = conductor.law.formula().declaration().fields.iter();
+            fields.zip(conductor.law.values()).filter(|(field, _)| field.property.is_some())
+        });
+        properties.filter_map(|(_, value)| self.substance_of(value)).collect()
+    }
+
+    /// The material or fluid of which this is a property; a constant is written as it is.
+    pub(super) fn substance_of(&self, property: &Value) -> Option<Item> {
+        let Value::Expression(program) = property else { return None };
         let network = &self.network;
-        network.material_ids().find(|id| match &network.materials()[id.index()].k {
-            Some(Value::Expression(own)) => Arc::ptr_eq(own, program),
-            _ => false,
-        })
+        let same = |own: &Value| matches!(own, Value::Expression(own) if Arc::ptr_eq(own, program));
+        let material =
+            |id: &MaterialId| network.materials()[id.index()].k.as_ref().is_some_and(same);
+        let fluid = |id: &FluidId| {
+            let fluid = &network.fluids()[id.index()];
+            let film = fluid.film.iter().map(|(_, value)| value);
+            film.chain(&fluid.density).chain([&fluid.cp]).any(same)
+        };
+        let material = network.material_ids().find(material).map(Item::Material);
+        material.or_else(|| network.fluid_ids().find(fluid).map(Item::Fluid))
     }
 }

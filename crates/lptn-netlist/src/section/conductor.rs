@@ -5,7 +5,7 @@ use lptn_units::{Dimension, Type};
 
 use crate::fields::Fields;
 use crate::raw::{RawEntry, RawValue};
-use crate::section::path::{PATHS, PathSection};
+use crate::section::path_section::{PATHS, PathSection};
 use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {

@@ -1,9 +1,11 @@
-//! `[fluid]`: what streams are made of.
+//! `[fluid]`: what streams are made of and films wetted by.
+
+use std::sync::Arc;
 
 use lptn_data::Diagnostic;
-use lptn_laws::{Carries, Formula};
-use lptn_network::{Field, FluidId, Input, Item};
-use lptn_units::{Dimension, Quantity, Type, suggest};
+use lptn_laws::{Carries, FieldDeclaration, Formula, Substance};
+use lptn_network::{Field, FluidId, Input, Item, LawField};
+use lptn_units::{Dimension, LookupTable, Quantity, TableSymbol, Type, Unit, suggest};
 
 use crate::fields::Fields;
 use crate::format::{Role, SectionDeclaration, key};
@@ -11,6 +13,7 @@ use crate::library::{self, LibrarySubstance};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawValue};
 use crate::section::keys::{CP, SOURCE_OF};
+use crate::section::table::of_temperature;
 use crate::work::{Elaboration, KnownFluid, stand_in};
 
 pub(crate) const FLUID: SectionDeclaration = SectionDeclaration {
@@ -20,9 +23,22 @@ pub(crate) const FLUID: SectionDeclaration = SectionDeclaration {
     keys: &[
         key("density", "kg/m^3", "density, for volume flows; may depend on `T`", "\"870 kg/m^3\""),
         CP,
+        key(
+            "k",
+            "W/(m K)",
+            "thermal conductivity, for films; may depend on `T`",
+            "\"0.14 W/(m K)\"",
+        ),
+        key("viscosity", "Pa s", "dynamic, for films; may depend on `T`", "\"0.07 Pa s\""),
+        key(
+            "expansion",
+            "1/K",
+            "volumetric, for films of natural convection; may depend on `T`, 1/T for an ideal gas",
+            "\"0.0007 1/K\"",
+        ),
         SOURCE_OF,
     ],
-    later: &["k", "viscosity"],
+    later: &[],
     example: "{ density = \"870 kg/m^3\", cp = \"2000 J/(kg K)\" }",
     elsewhere: &[
         ("c", "the specific heat capacity is `cp`"),
@@ -30,6 +46,12 @@ pub(crate) const FLUID: SectionDeclaration = SectionDeclaration {
         ("flow", "the flow belongs to the [advection] that carries the fluid"),
     ],
 };
+
+/// What films take of a fluid beside density and specific heat.
+const FILM: [&str; 3] = ["k", "viscosity", "expansion"];
+
+/// A fluid with its name, where something names it.
+pub(super) type UsedFluid<'a> = (KnownFluid, &'a str, &'a RawValue);
 
 impl<'a> Elaboration<'a> {
     pub(crate) fn fluids(&mut self) {
@@ -53,12 +75,14 @@ impl<'a> Elaboration<'a> {
         let source = self.word(&fields, "source").map(|(text, _)| text.to_owned());
         let known = density.is_some();
         let id = self.builder.fluid(&entry.key, density, cp, source);
-        self.note(
-            Item::Fluid(id),
-            &entry.key_span,
-            &fields,
-            &[Field::Density, Field::SpecificHeat],
-        );
+        let mut noted = vec![Field::Density, Field::SpecificHeat];
+        for property in FILM.into_iter().filter_map(LawField::any) {
+            let own = self.property(&fields, property.key, Wanted::own(property.ty));
+            let own = own.or_else(|| (!fields.complete).then(|| stand_in(property.ty)));
+            own.into_iter().for_each(|value| self.builder.film_property(id, property, value));
+            noted.push(Field::Law(property));
+        }
+        self.note(Item::Fluid(id), &entry.key_span, &fields, &noted);
         self.known_fluids.insert(entry.key.clone(), KnownFluid { id, density: known });
         Some(())
     }
@@ -68,7 +92,7 @@ impl<'a> Elaboration<'a> {
         &mut self,
         fields: &Fields<'a>,
         law: Formula,
-        (fluid, name, raw): (KnownFluid, &'a str, &'a RawValue),
+        (fluid, name, raw): UsedFluid<'a>,
     ) -> Option<FluidId> {
         let Carries::VolumeFlow(measured) = law.declaration().carries else {
             return Some(fluid.id);
@@ -76,16 +100,50 @@ impl<'a> Elaboration<'a> {
         if fluid.density || !fields.has(measured) {
             return Some(fluid.id);
         }
-        let message =
-            format!("{} needs `density` of fluid `{name}`, which has none", fields.owner.words());
-        let problem = Diagnostic::error("netlist::no_property", message).at(raw.span.clone(), "");
-        self.report(
-            problem.help(format!(
-                "add `{}` to the fluid, or give a mass flow",
-                FLUID.sample("density")
-            )),
-        );
+        self.report(lacks(fields, (name, raw), ("density", "a mass flow")));
         None
+    }
+
+    /// The fluid of a film, where it does not have all its properties from elsewhere.
+    pub(super) fn film_fluid(
+        &mut self,
+        fields: &Fields<'a>,
+        law: Formula,
+    ) -> Option<UsedFluid<'a>> {
+        let properties = law.declaration().fields.iter();
+        let mut missing = properties
+            .filter(|field| field.property == Some(Substance::Fluid))
+            .map(|field| field.key)
+            .filter(|key| !fields.has(key));
+        match (fields.get("fluid"), missing.next()) {
+            (Some(raw), Some(_)) => self.used_fluid(fields, raw),
+            (Some(raw), None) => {
+                self.refuse_keys(fields, &["fluid"], "has no effect: its properties are all given");
+                self.used_fluid(fields, raw)
+            }
+            (None, Some(key)) => {
+                let message = format!("{} has neither `fluid` nor `{key}`", fields.owner.words());
+                let problem = fields.complete.then(|| fields.missing("fluid", message));
+                self.problems.extend(problem);
+                None
+            }
+            (None, None) => None,
+        }
+    }
+
+    /// A property of the fluid of a film.
+    pub(super) fn property_of_fluid(
+        &mut self,
+        fields: &Fields<'a>,
+        field: &FieldDeclaration,
+        (fluid, name, raw): UsedFluid<'a>,
+    ) -> Option<Input> {
+        let found = self.builder.property_of(fluid.id, LawField::any(field.key)?);
+        if found.is_none() {
+            let itself = format!("`{}` of the film itself", fields.sample(field.key));
+            self.report(lacks(fields, (name, raw), (field.key, &itself)));
+        }
+        found
     }
 
     /// A fluid of the file, else of the library.
@@ -121,6 +179,25 @@ impl<'a> Elaboration<'a> {
         let density = record.density.map(|density| input(density, Dimension::DENSITY));
         let cp = input(cp, Dimension::SPECIFIC_HEAT);
         let id = self.builder.fluid(&record.name, density, cp, Some(record.source.clone()));
+        let constant = record.k.filter(|_| record.film.is_empty());
+        if let (Some(k), Some(property)) = (constant, LawField::any("k")) {
+            self.builder.film_property(id, property, input(k, Dimension::CONDUCTIVITY));
+        }
+        for (key, film) in &record.film {
+            let Some(property) = LawField::any(key) else { continue };
+            let symbol = TableSymbol {
+                table: Arc::new(LookupTable::One(film.clone())),
+                arguments: vec![Type::ABSOLUTE_TEMPERATURE],
+                ty: property.ty,
+                units: [Unit::parse("K"), Unit::parse(&property.ty.usual_unit())]
+                    .into_iter()
+                    .flatten()
+                    .collect(),
+            };
+            if let Some(value) = of_temperature(key, symbol, property.ty) {
+                self.builder.film_property(id, property, value);
+            }
+        }
         KnownFluid { id, density: record.density.is_some() }
     }
 
@@ -143,4 +220,17 @@ impl<'a> Elaboration<'a> {
             FLUID.example
         ))
     }
+}
+
+/// That a fluid has no such property; what could be given in its place.
+fn lacks(
+    fields: &Fields<'_>,
+    (name, raw): (&str, &RawValue),
+    (key, instead): (&str, &str),
+) -> Diagnostic {
+    let message =
+        format!("{} needs `{key}` of fluid `{name}`, which has none", fields.owner.words());
+    Diagnostic::error("netlist::no_property", message)
+        .at(raw.span.clone(), "")
+        .help(format!("add `{}` to the fluid, or give {instead}", FLUID.sample(key)))
 }

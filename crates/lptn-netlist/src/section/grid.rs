@@ -12,7 +12,7 @@ use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::section::default::Initial;
 use crate::section::keys::{CP, DENSITY, MATERIAL_OF};
 use crate::section::node::START;
-use crate::section::path::PATHS;
+use crate::section::path_section::PATHS;
 use crate::work::{Elaboration, stand_in};
 
 /// A block that is cut into cells.

@@ -39,6 +39,12 @@ pub(super) const AT: KeyDeclaration = key(
     "with `lubricant`: whose temperature it has; the first that is heated unless said",
     "\"name of a node\"",
 );
+pub(super) const FLUID_OF: KeyDeclaration = key(
+    "fluid",
+    "name of a fluid",
+    "one of the file or of the library (`lptn materials`), in place of the properties that it gives",
+    "\"air\"",
+);
 pub(super) const MASS: KeyDeclaration =
     key("mass", "kg", "with `material`, or `volume`: the capacity is `mass cp`", "\"1.2 kg\"");
 pub(super) const VOLUME: KeyDeclaration = key(

@@ -15,7 +15,7 @@ use super::limit::LIMIT;
 use super::lubricant::LUBRICANT;
 use super::material::MATERIAL;
 use super::node::NODE;
-use super::path::PATHS;
+use super::path_section::PATHS;
 use super::signal::SIGNAL;
 use super::table::TABLE;
 use crate::fit::FitStudy;

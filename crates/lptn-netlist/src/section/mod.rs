@@ -17,6 +17,7 @@ mod material;
 mod node;
 mod path;
 mod path_law;
+mod path_section;
 mod property;
 mod signal;
 mod source;

@@ -1,175 +1,43 @@
 //! The law of a path or source with its values, read as its kind declares it.
 
-use std::sync::LazyLock;
-
 use lptn_data::{Diagnostic, list};
-use lptn_laws::{FieldDeclaration, Formula, Kind};
-use lptn_network::{Context, FluidId, Input, Path};
+use lptn_laws::{FieldDeclaration, Formula, Kind, Substance};
+use lptn_network::{FluidId, Input, Path};
 use lptn_units::{Quantity, Type};
 
 use crate::fields::Fields;
-use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
 use crate::place::{Place, Wanted};
 use crate::raw::RawKind;
+use crate::section::fluid::UsedFluid;
 use crate::section::forms::{begun, check_forms};
-use crate::section::keys::{AT, LUBRICANT_OF, MATERIAL_OF};
-use crate::section::path_law::{Read, most, of_values, types, without, written, wrong_count};
+use crate::section::keys::{AT, LUBRICANT_OF};
+use crate::section::path_law::{
+    Read, of_values, types, with_article, without, written, wrong_count,
+};
+use crate::section::path_section::{PathSection, PathValue};
 use crate::work::{Elaboration, stand_in};
-
-/// A kind of path with what follows from its declaration, found once and not for every path.
-pub(crate) struct PathSection {
-    pub(crate) section: SectionDeclaration,
-    pub(crate) kind: Kind,
-    groups: Vec<Group>,
-    /// Its values, each key once.
-    values: Vec<PathValue>,
-}
-
-impl PathSection {
-    /// The keys of its values.
-    pub(super) fn values(&self) -> impl Iterator<Item = &'static str> {
-        self.values.iter().map(|value| value.field.key)
-    }
-}
-
-/// A value of a path.
-pub(crate) struct PathValue {
-    pub(crate) field: &'static FieldDeclaration,
-    /// How many of them a list may have.
-    most: usize,
-    /// The types of which it may be, where its unit chooses the law.
-    types: Vec<(Type, Formula)>,
-    /// What expressions in it may name: the ends of a path, or the node of a source.
-    context: Context,
-}
-
-/// The sections of paths and of sources, in the order in which their columns stand.
-pub(crate) static PATHS: LazyLock<Vec<PathSection>> =
-    LazyLock::new(|| Kind::ALL.iter().map(|kind| path_section(*kind)).collect());
-
-fn path_section(kind: Kind) -> PathSection {
-    let declared = kind.declaration();
-    let section = SectionDeclaration {
-        name: declared.section,
-        sentence: declared.sentence,
-        role: Role::Element,
-        keys: keys(kind).leak(),
-        later: declared.later,
-        example: declared.example,
-        elsewhere: declared.elsewhere,
-    };
-    let value = |field: &'static FieldDeclaration| PathValue {
-        field,
-        most: most(kind, field.key),
-        types: types(kind, field.key),
-        context: if kind.is_source() { Context::Source } else { Context::Link },
-    };
-    let values = kind.fields().into_iter().map(value).collect();
-    PathSection { section, kind, groups: groups(kind), values }
-}
-
-/// The ends or the nodes that are heated, then its fields, with `material` before a property, `fluid` before a flow, and the key
-/// that chooses a law behind what all laws take.
-fn keys(kind: Kind) -> Vec<KeyDeclaration> {
-    let mut keys = if kind.is_source() { vec![INTO] } else { ENDS.into() };
-    let first = kind.laws().next().map_or("", |law| law.declaration().name);
-    let mut selector = kind
-        .declaration()
-        .selector
-        .map(|name| key(name, "word", "the law", format!("\"{first}\"").leak()));
-    for field in kind.fields() {
-        let laws = || kind.laws().filter(|law| law.field(field.key).is_some());
-        keys.extend(selector.take_if(|_| !laws().eq(kind.laws())));
-        let of_fluid = laws().any(|law| law.declaration().carries.is_of_fluid());
-        if of_fluid && keys.iter().all(|key| key.name != "fluid") {
-            keys.push(key("fluid", "name of a fluid", "what streams", "\"water\""));
-        }
-        keys.extend(field.property.then_some(MATERIAL_OF));
-        if field.of_lubricant && keys.iter().all(|key| key.name != LUBRICANT_OF.name) {
-            keys.extend([LUBRICANT_OF, AT]);
-        }
-        let unit = if field.ty.is_scalar() { "number".to_owned() } else { field.ty.usual_unit() };
-        keys.push(key(field.key, unit.leak(), field.meaning, field.example));
-    }
-    keys.extend(selector);
-    keys
-}
-
-const END: &str = "name of a node or boundary";
-
-const ENDS: [KeyDeclaration; 2] = [
-    key(
-        "from",
-        END,
-        "where heat comes from while it is positive",
-        "\"name of a node or boundary\"",
-    ),
-    key("to", END, "where it goes", "\"name of another node or boundary\""),
-];
-
-const INTO: KeyDeclaration = key(
-    "into",
-    "name, or table of shares",
-    "the node, grid or face that is heated",
-    "\"name of a node\"",
-);
-
-/// Laws that begin with the same field, and the keys that all of them need.
-struct Group {
-    laws: Vec<Formula>,
-    keys: Vec<&'static str>,
-}
-
-fn required(law: Formula) -> Vec<&'static str> {
-    let declared = law.declaration();
-    let fluid = declared.carries.is_of_fluid().then_some("fluid");
-    let fields =
-        declared.fields.iter().filter(|field| field.default.is_none()).map(|field| field.key);
-    let mut keys: Vec<&str> = fluid.into_iter().chain(fields).collect();
-    keys.dedup();
-    keys
-}
-
-fn groups(kind: Kind) -> Vec<Group> {
-    let mut groups: Vec<Group> = Vec::new();
-    for law in kind.laws() {
-        let (first, keys) = (law.declaration().fields[0].key, required(law));
-        match groups.iter_mut().find(|group| group.laws[0].declaration().fields[0].key == first) {
-            Some(group) => {
-                group.laws.push(law);
-                group.keys.retain(|key| keys.contains(key));
-            }
-            None => groups.push(Group { laws: vec![law], keys }),
-        }
-    }
-    groups
-}
 
 impl<'a> Elaboration<'a> {
     /// The law of a path with its values.
     pub(crate) fn path(&mut self, fields: &Fields<'a>, path: &'static PathSection) -> Option<Path> {
-        let (groups, values) = (&path.groups, path.values.iter());
+        let groups = &path.groups;
         let forms: Vec<&[&str]> = groups.iter().map(|group| group.keys.as_slice()).collect();
-        let group = match path.kind.declaration().selector {
-            Some(selector) => {
-                self.check_property(fields, path);
-                let law = self.selected(fields, path, selector);
-                let own = values
-                    .filter(|value| law.is_some_and(|law| law.field(value.field.key).is_some()));
-                let read = self.read(fields, own);
-                return self.complete(fields, law?, read, None);
+        if let Some(selector) = path.kind.declaration().selector {
+            if groups.is_empty() || fields.has(selector) {
+                return self.named(fields, path, selector);
             }
-            None => begun(&forms, |key| fields.has(key)).first().map(|&first| &groups[first]),
-        };
+            self.refuse_named(fields, path, selector);
+        }
+        let group = begun(&forms, |key| fields.has(key)).first().map(|&first| &groups[first]);
         match forms.as_slice() {
             [keys] if path.kind.is_source() => keys.iter().for_each(|key| {
                 self.require(fields, key);
             }),
             forms => self.problems.extend(check_forms(fields, forms)),
         }
-        let fluid = fields.get("fluid").filter(|_| fields.known("fluid"));
+        let fluid = fields.get("fluid").filter(|_| path.kind.is_stream());
         let fluid = fluid.map(|raw| self.used_fluid(fields, raw));
-        let read = self.read(fields, values);
+        let read = self.read(fields, path.values.iter().filter(|value| value.plain), None);
         let one = begun(&forms, |key| fields.get(key).is_some()).len() == 1;
         let law = of_values(&group?.laws, &read)?;
         let idle = law.declaration().idle.iter().filter(|_| one);
@@ -183,11 +51,30 @@ impl<'a> Elaboration<'a> {
         self.complete(fields, law, read, fluid)
     }
 
-    /// A property is given, or the material that has it.
-    fn check_property(&mut self, fields: &Fields<'a>, path: &PathSection) {
-        if let Some(value) = path.values.iter().find(|value| value.field.property) {
-            self.problems.extend(check_forms(fields, &[&["material"], &[value.field.key]]));
+    /// The law that a word chooses, with its values.
+    fn named(
+        &mut self,
+        fields: &Fields<'a>,
+        path: &'static PathSection,
+        selector: &str,
+    ) -> Option<Path> {
+        let law = self.selected(fields, path, selector)?;
+        let mut declared = law.declaration().fields.iter();
+        let material = declared.find(|field| field.property == Some(Substance::Material));
+        if let Some(field) = material {
+            self.problems.extend(check_forms(fields, &[&["material"], &[field.key]]));
         }
+        let fluid = self.film_fluid(fields, law);
+        let own = path.values.iter().filter(|value| law.field(value.field.key).is_some());
+        let read = self.read(fields, own, fluid);
+        self.complete(fields, law, read, None)
+    }
+
+    /// That keys mean nothing where no word chooses a law that takes them.
+    fn refuse_named(&mut self, fields: &Fields<'a>, path: &PathSection, selector: &str) {
+        let named = path.values.iter().filter(|value| !value.plain).map(|value| value.field.key);
+        let keys: Vec<&str> = ["fluid"].into_iter().chain(named).collect();
+        self.refuse_keys(fields, &keys, &format!("means nothing without `{selector}`"));
     }
 
     /// The law that a word chooses; fields of others mean nothing beside it.
@@ -202,40 +89,39 @@ impl<'a> Elaboration<'a> {
         let given = self.require(fields, selector).is_some();
         let law = self.choice(fields, selector, &words).filter(|_| given)?;
         let name = law.declaration().name;
-        let own: Vec<&str> = law
-            .declaration()
-            .fields
-            .iter()
-            .filter(|field| !field.property)
-            .map(|field| field.key)
-            .collect();
         let what = match path.kind.is_source() {
             true => format!("`{selector} = \"{name}\"`"),
-            false => format!("a {name}"),
+            false => with_article(name),
         };
+        let own = law.declaration().fields.iter().filter(|field| match field.property {
+            Some(Substance::Lubricant) | None => true,
+            Some(Substance::Material | Substance::Fluid) => false,
+        });
+        let takes: Vec<&str> = own.clone().map(|field| field.key).collect();
         let others: Vec<&str> = path.values().filter(|key| law.field(key).is_none()).collect();
         self.refuse_keys(
             fields,
             &others,
-            &format!("means nothing for {what}, which takes {}", list(&own)),
+            &format!("means nothing for {what}, which takes {}", list(&takes)),
         );
-        self.check_oil(fields, law, &what);
-        let is_given = |field: &FieldDeclaration| {
-            fields.has(field.key)
-                || field.default.is_some()
-                || field.property
-                || field.of_lubricant && fields.has(LUBRICANT_OF.name)
-        };
-        let missing = law.declaration().fields.iter().find(|field| !is_given(field));
-        if let Some(field) = missing.filter(|_| fields.complete) {
+        self.check_oil(fields, (path.kind, law), &what);
+        let mut needed = own.filter(|field| {
+            let oil = field.property.is_some() && fields.has(LUBRICANT_OF.name);
+            !(oil || fields.has(field.key) || field.default.is_some())
+        });
+        if let Some(field) = needed.next().filter(|_| fields.complete) {
             self.report(law_without(fields, field, (&what, path.kind.is_source())));
         }
         Some(law)
     }
 
     /// A lubricant that says nothing, and a place of none.
-    fn check_oil(&mut self, fields: &Fields<'a>, law: Formula, what: &str) {
-        let open = |field: &FieldDeclaration| field.of_lubricant && !fields.has(field.key);
+    fn check_oil(&mut self, fields: &Fields<'a>, (kind, law): (Kind, Formula), what: &str) {
+        if !kind.is_source() {
+            return;
+        }
+        let of_oil = |field: &FieldDeclaration| field.property == Some(Substance::Lubricant);
+        let open = |field: &FieldDeclaration| of_oil(field) && !fields.has(field.key);
         if !law.declaration().fields.iter().any(open) {
             let why = format!("gives nothing that {what} takes");
             self.refuse_keys(fields, &[LUBRICANT_OF.name], &why);
@@ -251,20 +137,27 @@ impl<'a> Elaboration<'a> {
         &mut self,
         fields: &Fields<'a>,
         wanted: impl Iterator<Item = &'static PathValue>,
+        fluid: Option<UsedFluid<'a>>,
     ) -> Vec<Read> {
-        wanted.map(|value| (value.field, self.values(fields, value))).collect()
+        wanted.map(|value| (value.field, self.values(fields, value, fluid))).collect()
     }
 
-    fn values(&mut self, fields: &Fields<'a>, value: &PathValue) -> Vec<Input> {
-        let PathValue { field, most, types, context } = value;
+    fn values(
+        &mut self,
+        fields: &Fields<'a>,
+        value: &PathValue,
+        fluid: Option<UsedFluid<'a>>,
+    ) -> Vec<Input> {
+        let PathValue { field, most, types, context, .. } = value;
         let wanted = |ty: Option<Type>| Wanted::of_law(ty, *context);
         let raw = fields.get(field.key).filter(|_| fields.known(field.key));
-        if let (None, true) = (raw, field.property) {
-            return vec![self.property_of_material(fields).unwrap_or_else(|| stand_in(field.ty))];
-        }
-        if raw.is_none() && field.of_lubricant && fields.has("lubricant") {
-            let property = self.property_of_oil(fields, (field.key, field.ty));
-            return vec![property.unwrap_or_else(|| stand_in(field.ty))];
+        if let (None, Some(of)) = (raw, field.property) {
+            let found = match of {
+                Substance::Material => self.property_of_material(fields),
+                Substance::Fluid => fluid.and_then(|of| self.property_of_fluid(fields, field, of)),
+                Substance::Lubricant => self.property_of_oil(fields, (field.key, field.ty)),
+            };
+            return vec![found.unwrap_or_else(|| stand_in(field.ty))];
         }
         let Some(raw) = raw else {
             let area = fields.area.clone().filter(|_| field.key == "area");
@@ -382,7 +275,7 @@ fn law_without(
         false => format!("{owner} is {what} without `{key}`"),
     };
     let problem = fields.missing(key, message);
-    if !field.of_lubricant {
+    if field.property != Some(Substance::Lubricant) {
         return problem;
     }
     let [value, oil] = [key, LUBRICANT_OF.name].map(|key| fields.sample(key));

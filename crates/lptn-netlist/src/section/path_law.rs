@@ -31,6 +31,12 @@ pub(super) fn types(kind: Kind, key: &str) -> Vec<(Type, Formula)> {
     types
 }
 
+/// `a slab`, `an upper_side`
+pub(super) fn with_article(name: &str) -> String {
+    let article = if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" };
+    format!("{article} {name}")
+}
+
 /// The law of a group that takes as many values of these types.
 pub(super) fn of_values(laws: &[Formula], read: &[Read]) -> Option<Formula> {
     let fits = |law: &&Formula| {

@@ -8,7 +8,7 @@ use crate::fields::Fields;
 use crate::grid_part::GridPart;
 use crate::place::Place;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
-use crate::section::path::{PATHS, PathSection};
+use crate::section::path_section::{PATHS, PathSection};
 use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {

@@ -179,12 +179,15 @@ impl<'a> Elaboration<'a> {
             self.refuse("network::not_positive", message, &entry.value.span, help);
             return None;
         }
-        // an error at run time names the table by its key
-        let scope = OfTemperature { name: key, table: symbol };
-        let program =
-            Expression::parse(&format!("{key}(T)")).ok()?.compile(&scope, Some(ty)).ok()?;
-        Some(program.into())
+        of_temperature(key, symbol, ty)
     }
+}
+
+/// A property that is a table over its own temperature; an error at run time names it by its key.
+pub(super) fn of_temperature(key: &str, table: TableSymbol, ty: Type) -> Option<Input> {
+    let scope = OfTemperature { name: key, table };
+    let program = Expression::parse(&format!("{key}(T)")).ok()?.compile(&scope, Some(ty)).ok()?;
+    Some(program.into())
 }
 
 /// The scope of a property that is a table over its own temperature.

@@ -6,7 +6,7 @@ use lptn_units::{Dimension, Type};
 
 use crate::builder::NetworkBuilder;
 use crate::error::BuildErrorKind;
-use crate::id::{Field, FluidId, Item, MaterialId, NodeId};
+use crate::id::{Field, FluidId, Item, LawField, MaterialId, NodeId};
 use crate::parts::substance::{Fluid, Material, Melting};
 use crate::value::{Input, Lump, Size, Value};
 
@@ -113,9 +113,25 @@ impl NetworkBuilder {
         let density = density
             .map(|input| self.typed(at(Field::Density), input, Type::of(Dimension::DENSITY)));
         let cp = self.typed(at(Field::SpecificHeat), cp.into(), Type::of(Dimension::SPECIFIC_HEAT));
-        self.parts.fluids.push(Fluid { name: name.to_owned(), density, cp, source });
+        let film = Vec::new();
+        self.parts.fluids.push(Fluid { name: name.to_owned(), density, cp, film, source });
         self.check_name(name, Item::Fluid(id));
         id
+    }
+
+    /// Gives a fluid a property that films of it take, a field of their laws; it may depend on `T`.
+    pub fn film_property(&mut self, fluid: FluidId, property: LawField, value: Input) {
+        let name = self.parts.fluids[fluid.index()].name.clone();
+        let field = Field::Law(property);
+        let value = self.typed((&name, Item::Fluid(fluid), field), value, property.ty);
+        self.parts.fluids[fluid.index()].film.push((field, value));
+    }
+
+    /// The property of a fluid for a [`Path`](crate::Path) whose law takes it; it may depend on the
+    /// temperature, which is then the mean of the ends. `None` where it is not known.
+    pub fn property_of(&self, fluid: FluidId, property: LawField) -> Option<Input> {
+        let value = self.parts.fluids[fluid.index()].film_property(property.key)?.clone();
+        Some(Input { value, ty: property.ty, deviation: None, lump: None })
     }
 }
 

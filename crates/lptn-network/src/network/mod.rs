@@ -4,6 +4,7 @@ pub(crate) mod body;
 pub(crate) mod control;
 pub(crate) mod flow;
 pub(crate) mod grid;
+mod group;
 pub(crate) mod lists;
 pub(crate) mod mass;
 pub(crate) mod result;

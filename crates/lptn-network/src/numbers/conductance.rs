@@ -17,18 +17,18 @@ impl Work<'_> {
         let mut flows: Vec<ConductorFlow> = Vec::with_capacity(conductors.len());
         for (i, conductor) in conductors.iter().enumerate() {
             let item = Item::Conductor(ConductorId::from_len(i));
-            // in a grid thousands are alike
-            let same = self.parts.is_like_the_last_conductor(i);
-            flows.push(if same { flows[i - 1] } else { self.flow(item, conductor) });
+            flows.push(match conductor.law.number() {
+                Some(conductance) => ConductorFlow::Conductance(conductance),
+                // in a grid thousands are alike
+                None if self.parts.is_like_the_last_conductor(i) => flows[i - 1],
+                None => self.flow(item, conductor),
+            });
         }
         flows
     }
 
     fn flow(&mut self, item: Item, conductor: &Conductor) -> ConductorFlow {
         let law = &conductor.law;
-        if let Some(conductance) = law.number() {
-            return ConductorFlow::Conductance(conductance);
-        }
         let errors_before = self.errors.len();
         let declared = law.formula().declaration();
         for ((field, value), declared) in law.parts().zip(declared.fields) {

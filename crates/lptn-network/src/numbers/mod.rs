@@ -205,7 +205,7 @@ impl Work<'_> {
             let reads = self.parts.reads(value);
             let allowed = match item {
                 Item::Conductor(_) => {
-                    matches!(field, Field::Law(law) if law.property) || !reads.own
+                    matches!(field, Field::Law(law) if law.property.is_some()) || !reads.own
                 }
                 Item::Control(_) => !reads.link && !reads.own,
                 Item::Source(id) => !reads.link && self.names_its_node((id, field), reads.own),

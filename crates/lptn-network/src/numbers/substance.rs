@@ -40,9 +40,9 @@ impl<'a> Work<'a> {
         for (i, fluid) in self.parts.fluids.iter().enumerate() {
             let item = Item::Fluid(FluidId::from_len(i));
             let density = fluid.density.as_ref().map(|value| (Field::Density, value));
-            for (field, value) in density.into_iter().chain([(Field::SpecificHeat, &fluid.cp)]) {
-                self.property(item, field, value);
-            }
+            let film = fluid.film.iter().map(|(field, value)| (*field, value));
+            let all = density.into_iter().chain([(Field::SpecificHeat, &fluid.cp)]).chain(film);
+            all.for_each(|(field, value)| self.property(item, field, value));
         }
     }
 

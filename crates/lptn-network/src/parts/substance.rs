@@ -1,5 +1,6 @@
 //! Materials and fluids.
 
+use crate::id::Field;
 use crate::value::Value;
 
 /// A solid with its properties, each where it is known.
@@ -40,6 +41,22 @@ pub struct Fluid {
     pub density: Option<Value>,
     /// Specific heat capacity in J/(kg K).
     pub cp: Value,
+    /// What films take beside or, of a fluid of the library, in place of these two, as fields of
+    /// their laws; each where it is known.
+    pub film: Vec<(Field, Value)>,
     /// Where the numbers come from.
     pub source: Option<String>,
+}
+
+impl Fluid {
+    /// The property of this key that a film takes, if it is known.
+    pub fn film_property(&self, key: &str) -> Option<&Value> {
+        let own = match key {
+            "density" => self.density.as_ref(),
+            "cp" => Some(&self.cp),
+            _ => None,
+        };
+        let of_films = self.film.iter().find(|(field, _)| field.key() == key);
+        of_films.map(|(_, value)| value).or(own)
+    }
 }

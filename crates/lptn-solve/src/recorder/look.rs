@@ -13,7 +13,7 @@ const BISECTIONS: usize = 53;
 impl Recorder<'_> {
     /// Whether something is to be looked at between the rows.
     fn looks(&self) -> bool {
-        !(self.seen.is_empty() && self.limits.is_empty())
+        !(self.seen.is_empty() && self.limits.is_empty() && self.ranges.is_empty())
     }
 
     /// Looks at watched nodes and limits and into the windows between two times, anew where results
@@ -30,6 +30,7 @@ impl Recorder<'_> {
                     self.place_at(piece.0, state_at)?;
                     let at = (piece.0, self.inside);
                     self.limits.enter(&mut self.work, at).map_err(StopReason::Input)?;
+                    self.ranges.enter(&mut self.work, piece.0).map_err(StopReason::Input)?;
                 }
                 self.look(piece, state_at)?;
             }
@@ -83,6 +84,7 @@ impl Recorder<'_> {
             }
             let at = (time, self.inside);
             self.limits.sample(&mut self.work, at).map_err(StopReason::Input)?;
+            self.ranges.sample(&mut self.work, time).map_err(StopReason::Input)?;
         }
         for i in 0..self.seen.len() {
             self.seen[i].look(&self.points[i]);

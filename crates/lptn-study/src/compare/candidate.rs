@@ -4,8 +4,9 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
 use lptn_network::{InputError, LimitSeverity, Network};
 use lptn_solve::{
-    Beyond, NodeSummary, Others, OutputTimes, Proceed, Progress, RecordedNodes, RunStatus,
-    Solution, SteadyError, SteadyState, Summary, Transient, TransientError, Unsolved, first_there,
+    Beyond, NodeSummary, Others, OutOfRange, OutputTimes, Proceed, Progress, RecordedNodes,
+    RunStatus, Solution, SteadyError, SteadyState, Summary, Transient, TransientError, Unsolved,
+    first_there,
 };
 use lptn_units::Class;
 
@@ -34,8 +35,9 @@ pub struct Candidate {
     pub time_to_95: Option<f64>,
     /// Every limit, in the order of the network.
     pub limits: Vec<LimitResult>,
-    /// For each boundary by name the heat it takes at the end as a share of the heat that all
-    /// boundaries take; 0 for one that gives heat. `None` where no boundary takes any.
+    /// For each boundary by name the heat it takes at the end as a share of all heat that leaves;
+    /// 0 for one that gives heat. `None` where no heat leaves. Last, as `streams`, what streams
+    /// carry away that no other stream brings.
     pub shares: Vec<(String, Option<f64>)>,
     /// Sum of all heat capacities in J/K.
     pub capacity: f64,
@@ -43,6 +45,8 @@ pub struct Candidate {
     pub mass: Option<f64>,
     /// A temperature that nothing real has.
     pub beyond: Option<Beyond>,
+    /// Where laws were outside the ranges in which they are known.
+    pub out_of_range: Vec<OutOfRange>,
     /// Its steady state, where there are others or they cannot be excluded.
     pub several: Option<SteadyState>,
 }
@@ -141,10 +145,11 @@ impl Candidate {
             steady: temperature.filter(|_| constant),
             time_to_95: None,
             limits: limits::in_steady_state(network, &margins),
-            shares: shares(network, &steady.boundary_heat),
+            shares: shares(network, &steady.boundary_heat, &steady.stream_heat),
             capacity: capacity(network),
             mass: mass(network),
             beyond: Beyond::of_steady(network, &steady),
+            out_of_range: OutOfRange::of_steady(network, &steady).unwrap_or_default(),
             several: Some(steady).filter(is_doubtful),
         })
     }
@@ -169,17 +174,19 @@ impl Candidate {
         }
         let nodes = Summary::new(&solution, steady.as_ref()).nodes;
         let node = hottest(nodes.iter().map(|node| (node, node.peak.0))).map(|(node, _)| node);
-        let heat = heat_at_the_end(system, &solution, run).map_err(CompareError::Input)?;
+        let (heat, streams) =
+            heat_at_the_end(system, &solution, run).map_err(CompareError::Input)?;
         Ok(Self {
             hottest: node.map(|node| network.nodes()[node.node.index()].name.clone()),
             peak: node.map(|node| peak(node, run)),
             steady: node.and_then(|node| node.steady),
             time_to_95: node.and_then(|node| node.time_to_95),
             limits: limits::over_time(network, solution.limits()),
-            shares: shares(network, &heat),
+            shares: shares(network, &heat, &streams),
             capacity: capacity(network),
             mass: mass(network),
             beyond: Beyond::of_run(&solution),
+            out_of_range: solution.out_of_range().to_vec(),
             several: steady.filter(is_doubtful),
         })
     }
@@ -225,6 +232,9 @@ fn capacity(network: &Network) -> f64 {
     network.node_ids().map(|id| network.capacity(id)).sum()
 }
 
+/// The name of what streams carry away, among those of boundaries.
+const STREAMS: &str = "streams";
+
 /// A part whose material is not known makes the whole unknown: a sum without it would look like a
 /// light design.
 fn mass(network: &Network) -> Option<f64> {
@@ -233,12 +243,13 @@ fn mass(network: &Network) -> Option<f64> {
     if masses.is_empty() { None } else { masses.into_iter().sum() }
 }
 
-/// Heat that each boundary gives at the stop, from the last temperatures of the watched nodes.
+/// Heat that each boundary gives and each stream brings at the stop, from the last temperatures of
+/// the watched nodes.
 fn heat_at_the_end(
     system: &ThermalSystem,
     solution: &Solution,
     run: &RunSettings,
-) -> Result<Vec<f64>, InputError> {
+) -> Result<(Vec<f64>, Vec<f64>), InputError> {
     let last: Vec<f64> = solution.watched().iter().map(lptn_solve::Watched::last).collect();
     let mut work = system.workspace();
     system.read_inputs(&mut work, run.stop, run.stop)?;
@@ -247,17 +258,21 @@ fn heat_at_the_end(
     system.unknown_temperatures(&last, &mut unknowns);
     let mut heat = vec![0.0; system.network().boundaries().len()];
     system.boundary_heat(&mut work, &unknowns, &mut heat)?;
-    Ok(heat)
+    let mut streams = vec![0.0; system.streams().len()];
+    system.stream_heat(&mut work, &mut streams)?;
+    Ok((heat, streams))
 }
 
-fn shares(network: &Network, given: &[f64]) -> Vec<(String, Option<f64>)> {
+/// What each boundary takes of the heat that leaves, and what streams carry away together: one
+/// hands on what another brings, so a closed circuit carries nothing away.
+fn shares(network: &Network, given: &[f64], streams: &[f64]) -> Vec<(String, Option<f64>)> {
     let taken = |&given: &f64| (-given).max(0.0);
-    let all: f64 = given.iter().map(taken).sum();
-    let share = |given: &f64| (all > 0.0).then(|| taken(given) / all);
-    network
-        .boundaries()
-        .iter()
-        .zip(given)
-        .map(|(b, given)| (b.name.clone(), share(given)))
-        .collect()
+    let (brought, moved) =
+        streams.iter().fold((0.0, 0.0), |(sum, moved), q| (sum + q, moved + q.abs()));
+    let carried = if brought.abs() > 1e-9 * moved { taken(&brought) } else { 0.0 };
+    let all: f64 = given.iter().map(taken).sum::<f64>() + carried;
+    let share = |taken: f64| (all > 0.0).then(|| taken / all);
+    let names = network.boundaries().iter().map(|boundary| boundary.name.clone());
+    let open = (carried > 0.0).then(|| (STREAMS.to_owned(), share(carried)));
+    names.zip(given.iter().map(|given| share(taken(given)))).chain(open).collect()
 }

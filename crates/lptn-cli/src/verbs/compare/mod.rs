@@ -25,7 +25,7 @@ use crate::input::{self, Input, quoted};
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressOfAll;
-use crate::sense;
+use crate::{ranges, sense};
 
 pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Failure> {
     let files = listed(&args.files)?;
@@ -42,9 +42,11 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
     comparison.report(console);
     console.show(&comparison, args.printed.format)?;
     let answer = page::answer(&comparison);
-    if comparison.rows.len() > 1 && args.printed.format == Format::Table {
-        let names: Vec<String> =
-            files.iter().map(|file| quoted(&file.display().to_string())).collect();
+    if comparison.rows.iter().filter_map(CompareRow::candidate).count() > 1
+        && args.printed.format == Format::Table
+    {
+        let read = comparison.rows.iter().filter(|row| row.candidate().is_some());
+        let names: Vec<String> = read.map(|row| quoted(&row.file)).collect();
         console.next(&format!("lptn plot {}", names.join(" ")));
     }
     match comparison.exit() {
@@ -230,8 +232,12 @@ impl Comparison {
         match input {
             Ok(input) => {
                 title = input.netlist.network.title().map_or(String::new(), plain);
-                let beyond = outcome.as_ref().ok().and_then(|found| found.beyond.as_ref());
-                let beyond = beyond.map(|beyond| sense::warning(&input.netlist, beyond));
+                let found = outcome.as_ref().ok();
+                let beyond = found.map_or_else(Vec::new, |found| {
+                    let run = input.netlist.run.is_some();
+                    let outside = ranges::warnings(&input.netlist, &found.out_of_range, run);
+                    sense::told(&input.netlist, found.beyond.as_ref(), outside)
+                });
                 let several = outcome.as_ref().ok().and_then(|found| found.several.as_ref());
                 let several =
                     several.and_then(|steady| others(&input.netlist.network, steady, &self.unit));

@@ -22,7 +22,7 @@ pub(crate) struct ReduceArgs {
     pub(crate) source: Source,
     /// The node that the network is seen from
     #[arg(long, value_name = "NODE")]
-    pub(crate) port: String,
+    pub(crate) port: Option<String>,
     /// Exit with 1 if the error over the run is larger than 0.5K, or 2%
     #[arg(long, value_name = "ERROR")]
     pub(crate) max_error: Option<String>,

@@ -19,7 +19,7 @@ const ERRORS: f64 = 0.6;
 impl View<'_> {
     /// The rise for 1 W at the port over time, and by how much each pair misses it.
     pub(super) fn figure(&self, dynamics: &Dynamics) -> Figure {
-        let (step, port) = (&dynamics.step, &self.args.port);
+        let (step, port) = (&dynamics.step, self.port);
         let slowest = step.slowest().tau;
         let ratio = (TO / FROM).powf(f64::from(POINTS).recip());
         let times = (0..=POINTS).map(|i| FROM * slowest * ratio.powi(i));

@@ -27,6 +27,7 @@ use crate::{files, written};
 
 pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
+    let name = args.port.as_deref().ok_or_else(|| no_port(&input))?;
     let unit = input::temperature_unit(args.scale.temperature_unit.as_deref(), &input.netlist)?;
     let limit = args.max_error.as_deref().map(Limit::parse).transpose()?;
     let window = args.window.as_deref().map(window).transpose()?;
@@ -35,8 +36,8 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
         return Err(no_run(&input, if limit.is_some() { "--max-error" } else { "--bias" }));
     }
     let system = input.assemble()?;
-    let explain = |error: ReduceError| failed(&input, args, &error);
-    let port = port(&input.netlist.network, &args.port).map_err(explain)?;
+    let explain = |error: ReduceError| failed(&input, name, &error);
+    let port = port(&input.netlist.network, name).map_err(explain)?;
     let run = run.as_ref().map(|run| lptn_solve::Transient::of(&input.netlist.network, run));
     let reduction =
         Reduction::new(&system, port, &options(&system, run.as_ref(), (window, limit.is_some())));
@@ -47,8 +48,17 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
     };
     let definition = args.definition;
     console.warn(&input.netlist.files, &input.netlist.warnings);
-    let view =
-        View { input: &input, args, system: &system, reduction, bias, unit, limit, definition };
+    let view = View {
+        input: &input,
+        args,
+        port: name,
+        system: &system,
+        reduction,
+        bias,
+        unit,
+        limit,
+        definition,
+    };
     view.show(console)?;
     Ok(view.conclude(console))
 }
@@ -57,6 +67,8 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
 pub(crate) struct View<'a> {
     pub(crate) input: &'a Input,
     pub(crate) args: &'a ReduceArgs,
+    /// The node that the network is seen from.
+    pub(crate) port: &'a str,
     pub(crate) system: &'a ThermalSystem,
     pub(crate) reduction: Reduction,
     pub(crate) bias: Option<Result<Bias, FitError>>,
@@ -91,7 +103,7 @@ impl View<'_> {
         } else if let (ReduceFormat::Of(Format::Table), Some(file), false) =
             (self.args.format, self.input.typed(), self.system.network().has_events())
         {
-            let port = quoted(&self.args.port);
+            let port = quoted(self.port);
             console.next(&format!("lptn reduce {file} --port {port} --write {port}.toml"));
         }
         Ok(())
@@ -104,8 +116,8 @@ impl View<'_> {
         let start = run.map_or(0.0, |run| run.start);
         let pair = self.pair();
         let network = self.reduction.network(self.system, start, pair);
-        let network = network.map_err(|error| failed(self.input, self.args, &error))?;
-        let title = format!("{}, seen from {}", self.input.title(), self.args.port);
+        let network = network.map_err(|error| failed(self.input, self.port, &error))?;
+        let title = format!("{}, seen from {}", self.input.title(), self.port);
         let folder = place.map(|place| place.parent().unwrap_or(Path::new("")));
         let made = Derived { network: &network, title: &title, run, folder };
         let text = self.comment() + &self.input.netlist.derived(&made);
@@ -114,7 +126,7 @@ impl View<'_> {
 
     fn comment(&self) -> String {
         let from = plain(&self.input.text.name);
-        let mut text = format!("# What `{}` of {from} sees, by `lptn reduce`.\n", self.args.port);
+        let mut text = format!("# What `{}` of {from} sees, by `lptn reduce`.\n", self.port);
         if let Some(pair) = self.pair() {
             let error = match pair.run {
                 Some(run) => {
@@ -190,12 +202,34 @@ fn no_run(input: &Input, option: &str) -> Failure {
     Failure::new(Exit::Input, problem)
 }
 
+/// So many nodes are named where none was.
+const MOST_NAMES: usize = 8;
+
+/// That nobody said from which node the network is seen: the first that a source heats is the
+/// likely one.
+fn no_port(input: &Input) -> Failure {
+    let network = &input.netlist.network;
+    let heated = network.sources().first().and_then(|source| source.into.first());
+    let likely = heated.map_or("NODE", |(node, _)| &network.nodes()[node.index()].name);
+    let names: Vec<String> =
+        network.nodes().iter().take(MOST_NAMES).map(|node| node.name.clone()).collect();
+    let more = if network.nodes().len() > MOST_NAMES { ", .." } else { "" };
+    let message = format!("{} is seen from which node?", input.text.name);
+    let file = input.typed().unwrap_or_else(|| "-".into());
+    let help = format!(
+        "write `lptn reduce {file} --port {}`; its nodes are {}{more}",
+        quoted(likely),
+        names.join(", ")
+    );
+    Failure::new(Exit::Input, Diagnostic::error("reduce::no_port", message).help(help))
+}
+
 /// What is wrong, with its place in the file or on the command line.
-fn failed(input: &Input, args: &ReduceArgs, error: &ReduceError) -> Failure {
+fn failed(input: &Input, port: &str, error: &ReduceError) -> Failure {
     let network = &input.netlist.network;
     let place = match error {
         ReduceError::BoundaryPort { .. } => {
-            network.item(&args.port).ok().and_then(|item| input.netlist.source_map.name(item))
+            network.item(port).ok().and_then(|item| input.netlist.source_map.name(item))
         }
         ReduceError::NoGround { names } => names.first().and_then(|name| input.node_place(name)),
         ReduceError::Input(error) => input.place_of(error),

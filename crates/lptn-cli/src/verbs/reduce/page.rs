@@ -52,7 +52,7 @@ impl Page for View<'_> {
         let boundaries = netlist.network.boundaries().iter().map(|b| Cow::from(&b.name));
         let sources = netlist.network.sources().iter().map(|s| s.name());
         self.input.head(json, &[])?;
-        json.member("port", &self.args.port)?;
+        json.member("port", self.port)?;
         json.member("R_eq", &scalar(norton.resistance, "K/W"))?;
         json.member("T_ref", &scale::temperature(inputs.reference, &self.unit))?;
         json.member("Q_N", &scalar(inputs.heat, "W"))?;
@@ -96,7 +96,7 @@ impl View<'_> {
             rows.push(["tau_1".to_owned(), duration(slowest.tau, 5), what]);
         }
         TextTable::of(&rows)
-            .left(format!("seen from {}", self.args.port), |row| &row[0])
+            .left(format!("seen from {}", self.port), |row| &row[0])
             .left("", |row| &row[1])
             .left("q = Q_N - (T - T_ref) / R_eq", |row| &row[2])
             .optional()

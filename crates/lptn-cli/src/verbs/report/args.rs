@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args as Arguments;
 
 use crate::options::TEMPLATE;
+use crate::reporting::page_name;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -19,6 +20,6 @@ pub(crate) struct ReportArgs {
     #[arg(value_name = "FOLDER")]
     pub(crate) folder: PathBuf,
     /// Write this file, not report.html in the folder
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = page_name)]
     pub(crate) output: Option<PathBuf>,
 }

@@ -45,6 +45,7 @@ pub(crate) fn report(args: &ReportArgs, console: &Console) -> Result<Exit, Failu
         Err(why) => {
             let mut report = about::of_command(&[]);
             report.title.clone_from(&figure.title);
+            console.message(&format!("not run again: {why}; the page shows what is in the folder"));
             report.claims.push(Claim::open(format!("as it was written; not run again: {why}")));
             report.sections.insert(0, Section::of("", Piece::Figure(figure)));
             report.sections.extend(about::manifest(manifest));

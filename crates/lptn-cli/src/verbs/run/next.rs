@@ -5,12 +5,15 @@ use lptn_network::{Network, ParameterId, Value};
 use lptn_report::significant;
 use lptn_units::{Dimension, Type};
 
-use crate::input::Input;
+use crate::input::{Input, quoted};
 
-/// What a user of `lptn run` may want to know next: the same with a fifth more heat, or five
-/// degrees warmer; else the steady state.
-pub(crate) fn after_run(input: &Input, has_steady: bool) -> Option<String> {
+/// What a user of `lptn run` may want to know next: what heats the node that gets too hot; else the
+/// same with a fifth more heat, or five degrees warmer; else the steady state.
+pub(crate) fn after_run(input: &Input, has_steady: bool, hot: Option<&str>) -> Option<String> {
     let file = input.typed()?;
+    if let Some(node) = hot.filter(|_| has_steady) {
+        return Some(format!("lptn steady {file} --balance {}", quoted(node)));
+    }
     match what_if(&input.netlist) {
         Some(set) => Some(format!("lptn run {file} --set {set}")),
         None => has_steady.then(|| format!("lptn steady {file}")),

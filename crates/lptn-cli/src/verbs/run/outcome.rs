@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use lptn_netlist::Diagnostic;
 use lptn_network::{Parameter, list_of_names};
 use lptn_report::{Format, WIDTH, duration, labelled, significant, words, write_csv, write_rows};
-use lptn_solve::{Beyond, Lumping, RunStatus, Solution, SteadyState, Table, Unbounded};
+use lptn_solve::{Lumping, RunStatus, Solution, SteadyState, Table, Unbounded};
 use lptn_study::{
     FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, SiValue, StatisticsRecord, Sundials,
 };
@@ -24,7 +24,7 @@ use crate::files::names::{EVENTS, MANIFEST, RANKING, RESULT, STATE, UNCERTAINTY,
 use crate::input::quoted;
 use crate::limits::{self, Judged};
 use crate::words::unverified_names;
-use crate::{files, lumping, scale, select, sense};
+use crate::{files, lumping, ranges, scale, select, sense};
 
 /// What came of it.
 pub(crate) struct Outcome<'a> {
@@ -88,6 +88,7 @@ impl Outcome<'_> {
             limits: limits::members(self.solution.network(), &self.limits(), &scale::kelvin())
                 .unwrap_or_default(),
             unverified_constants: unverified_names(self.solution.network()),
+            out_of_range: self.out_of_range(),
             uncertainty: self.uncertainty().map(|study| {
                 let mut members = uncertain::method(&study.found);
                 let of = (self.solution.network(), &scale::kelvin());
@@ -125,6 +126,11 @@ impl Outcome<'_> {
         self.solution.limits().iter().map(Judged::of_run).collect()
     }
 
+    /// Where laws were not known.
+    pub(crate) fn out_of_range(&self) -> Option<Vec<Value>> {
+        ranges::members(self.solution.network(), self.solution.out_of_range(), true)
+    }
+
     /// The ledger up to the time that was reached.
     pub(crate) fn ledger(&self) -> LedgerRecord {
         LedgerRecord::new(self.solution.network(), self.solution.ledger())
@@ -146,7 +152,7 @@ impl Outcome<'_> {
         let netlist = &self.job.input.netlist;
         let certain = self.uncertainty().map_or_else(Vec::new, |_| elsewhere(netlist));
         let lumps = lumping::warnings(netlist, &self.lumping);
-        let beyond = Beyond::of_run(&self.solution).map(|beyond| sense::warning(netlist, &beyond));
+        let beyond = sense::of_run(netlist, &self.solution);
         gaps(netlist, &self.table).into_iter().chain(beyond).chain(lumps).chain(certain).collect()
     }
 
@@ -219,7 +225,9 @@ impl Outcome<'_> {
                 console
                     .next(&format!("lptn plot {}", quoted(&folder.path().display().to_string())));
             }
-            next::after_run(self.job.input, self.steady.is_ok())
+            let limits = self.limits();
+            let hot = limits.iter().find_map(|limit| limit.broken_node(self.solution.network()));
+            next::after_run(self.job.input, self.steady.is_ok(), hot)
                 .iter()
                 .for_each(|command| console.next(command));
         }

@@ -85,6 +85,7 @@ impl Page for Outcome<'_> {
         let uncertain = |study| uncertainty::files::json(network, study, unit);
         let windowed = !self.job.settings.windows.is_empty();
         json.optional("limits", limits::members(network, &self.limits(), unit))?;
+        json.optional("out_of_range", self.out_of_range())?;
         json.optional("uncertainty", self.uncertainty().map(uncertain))?;
         let windows = || windows::members(self.solution.windows(), unit);
         json.optional("windows", windowed.then(windows))?;

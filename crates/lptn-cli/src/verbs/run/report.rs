@@ -65,7 +65,7 @@ impl Outcome<'_> {
         let mut claims = vec![Claim::checked(ledger.closes(), books), bound];
         claims.extend(weak_ledger(&self.solution).map(Claim::open));
         if self.ended_early().is_none() {
-            claims.extend(about::laws(self.solution.network()));
+            claims.extend(about::laws(self.solution.network(), self.solution.out_of_range()));
         }
         claims.push(about::lumps(&self.lumping));
         claims.extend(self.ended_early().map(|why| Claim::checked(false, why)));

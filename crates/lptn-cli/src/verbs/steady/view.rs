@@ -19,7 +19,7 @@ use crate::doubts::{adiabatic, inputs_vary, others};
 use crate::input::Input;
 use crate::limits::{self, Judged, Judgement};
 use crate::words::{difference, largest, some_of};
-use crate::{balance, families, scale, sense};
+use crate::{balance, families, ranges, scale, sense};
 
 /// Rises in K and heats in W below this are what rounding left over: no unit and no decimals are
 /// chosen to show them.
@@ -235,8 +235,9 @@ impl View<'_> {
             true => significant(imbalance.abs() / moved, 2),
             false => "0".into(),
         };
+        let laws = about::laws(network, &ranges::of_steady(network, self.steady));
         let books = format!("heat in and heat out differ by {books} of the heat turned over");
-        let own = [Claim::checked(true, books)].into_iter().chain(about::laws(network));
+        let own = [Claim::checked(true, books)].into_iter().chain(laws);
         let claims = own.chain(limits::claims(network, self.limits, unit)).collect();
         let states = vec![("Where it settles".to_owned(), self.steady.state.clone())];
         about::about(self.input, Known { claims, states, unit: Some(unit), sensitivities: None })
@@ -298,6 +299,8 @@ impl Page for View<'_> {
         self.input.head(json, &found.collect::<Vec<_>>())?;
         json.member("values", &table.columns().iter().map(value).collect::<Map<_, _>>())?;
         json.optional("limits", limits::members(&netlist.network, self.limits, self.unit))?;
+        let outside = ranges::of_steady(&netlist.network, self.steady);
+        json.optional("out_of_range", ranges::members(&netlist.network, &outside, false))?;
         json.optional("balance", self.balance.map(|of| balance::json(&netlist.network, of)))
     }
 }

@@ -79,8 +79,10 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
         let path = folder.path().join(first);
         console.note(&format!("wrote  {}, {}", path.display(), others.join(", ")));
     }
-    if args.write && exit == Exit::Done {
-        write::write(&answer, &args.file, console)?;
+    match (args.write, exit) {
+        (true, Exit::Done) => write::write(&answer, &args.file, console)?,
+        (true, _) => console.message("nothing is written: not every parameter is determined"),
+        _ => {}
     }
     Ok(exit)
 }

@@ -9,7 +9,7 @@ use lptn_netlist::{Diagnostic, RunSettings};
 use lptn_network::{Item, OutputTimes};
 use lptn_report::{Clock, duration};
 use lptn_solve::{
-    Beyond, CycleMethod, Lumping, Periodic, PeriodicError, Table, Transient, Window, WindowSeen,
+    CycleMethod, Lumping, Periodic, PeriodicError, Table, Transient, Window, WindowSeen,
 };
 use lptn_study::SiValue;
 use lptn_units::{Dimension, Problem as _, Type};
@@ -73,8 +73,7 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
         console.results_in(folder.path());
     }
     console.show(&view, args.shown.format)?;
-    let beyond = Beyond::of_run(&outcome.solution).map(|beyond| sense::warning(netlist, &beyond));
-    console.warn(&netlist.files, &Vec::from_iter(beyond));
+    console.warn(&netlist.files, &sense::of_run(netlist, &outcome.solution));
     if let Some(folder) = &folder {
         let path = folder.path().join(RESULT);
         console.note(&format!("wrote  {}, {WINDOWS}, {MANIFEST}", path.display()));

@@ -82,6 +82,7 @@ impl Page for View<'_> {
         json.member("ledger", &self.outcome.ledger())?;
         let (network, unit) = (solution.network(), &self.outcome.job.unit);
         json.optional("limits", limits::members(network, &self.outcome.limits(), unit))?;
+        json.optional("out_of_range", self.outcome.out_of_range())?;
         json.optional("balance", solution.balance().map(|of| balance::json(network, of)))?;
         json.member("statistics", &StatisticsRecord::new(solution))
     }

@@ -1,0 +1,115 @@
+//! Analytic: laws outside the ranges in which they are known, told with the times that follow by
+//! hand: Re = rho u D / mu rises with the speed.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+
+use common::Folder;
+use serde_json::Value;
+
+/// Re = 2750 t/s: below 0.4 until 0.000 145 s, above 4e5 from 145.45 s on.
+const ROD: &str = r#"
+format = 1
+[boundary]
+room = { T = "20 degC" }
+[node]
+rod = { T0 = "80 degC", C = "100 J/K" }
+[convection.skin]
+from = "rod"
+to = "room"
+correlation = "cylinder_in_cross_flow_hilpert"
+k = "0.0277 W/(m K)"
+density = "1.1 kg/m^3"
+cp = "1007 J/(kg K)"
+viscosity = "20 uPa s"
+speed = "1 [m/s^2] * t"
+diameter = "50 mm"
+area = "0.02 m^2"
+[run]
+stop = "200 s"
+output = { every = "50 s" }
+"#;
+
+#[track_caller]
+fn near(found: &Value, expected: f64, relative: f64) {
+    let found = found.as_f64().unwrap();
+    assert!((found - expected).abs() <= relative * expected, "{found} is not {expected}");
+}
+
+fn warned(json: &Value) -> Option<String> {
+    let warnings = json["warnings"].as_array().unwrap();
+    let found = warnings.iter().find(|w| w["code"] == "run::out_of_range")?;
+    Some(found["message"].as_str().unwrap().to_owned())
+}
+
+#[test]
+fn a_run_tells_from_when_to_when_a_law_is_outside_its_range() {
+    let folder = Folder::with("rod.toml", ROD);
+    let json = folder.run(&["run", "rod.toml", "--format", "json"]).exits(0).json();
+    let outside = json["out_of_range"].as_array().unwrap();
+    assert_eq!(outside.len(), 1, "{outside:?}");
+    let of = &outside[0];
+    assert_eq!([&of["path"], &of["group"]], ["skin", "Re"]);
+    assert_eq!(of["law"], "cylinder_in_cross_flow_hilpert");
+    let stretches = of["stretches"].as_array().unwrap();
+    assert_eq!(stretches.len(), 2);
+    near(&stretches[0][1]["value"], 0.4 / 2750.0, 1e-9);
+    near(&stretches[1][0]["value"], 4e5 / 2750.0, 1e-9);
+    near(&stretches[1][1]["value"], 200.0, 1e-12);
+    let message = warned(&json).unwrap();
+    assert!(message.contains("in 2 stretches from 0 s to 3.333 min, 54.5 s in all"), "{message}");
+    let manifest: Value = serde_json::from_str(&folder.read("out/rod/manifest.json")).unwrap();
+    assert_eq!(manifest["out_of_range"], json["out_of_range"]);
+}
+
+#[test]
+fn a_law_that_stays_in_its_range_is_not_spoken_of() {
+    let steady = ROD.replace("1 [m/s^2] * t", "3 m/s");
+    for verb in ["run", "steady"] {
+        let folder = Folder::with("rod.toml", &steady);
+        let mut arguments = vec![verb, "rod.toml", "--format", "json"];
+        arguments.extend((verb == "run").then_some("--no-files"));
+        let json = folder.run(&arguments).exits(0).json();
+        assert!(json["out_of_range"].is_null() && warned(&json).is_none(), "{json}");
+    }
+}
+
+#[test]
+fn a_steady_state_tells_it_without_times() {
+    let fast = ROD.replace("1 [m/s^2] * t", "200 m/s");
+    let folder = Folder::with("rod.toml", &fast);
+    let json = folder.run(&["steady", "rod.toml", "--format", "json"]).exits(0).json();
+    let of = &json["out_of_range"][0];
+    near(&of["value"], 200.0 * 2750.0, 1e-12);
+    assert!(of["at"].is_null() && of["stretches"].is_null(), "{of}");
+    let message = warned(&json).unwrap();
+    let said = "Re of `skin` is 550000, but `cylinder_in_cross_flow_hilpert` is known for a Reynolds \
+        number from 0.4 to 400000";
+    assert_eq!(message, said);
+}
+
+#[test]
+fn a_report_says_whether_laws_were_known_and_whose_constants_are_not_verified() {
+    let shaft = r#"
+format = 1
+[boundary]
+room = { T = "20 degC" }
+[node]
+a = { T0 = "80 degC", C = "100 J/K" }
+[convection]
+shaft = { from = "a", to = "room", correlation = "rotating_shaft", fluid = "air", rotation = "3000 rpm", diameter = "40 mm", area = "0.1 m^2" }
+[run]
+stop = "10 s"
+"#;
+    let folder = Folder::with("x.toml", shaft);
+    folder.run(&["steady", "x.toml", "--report=page.html"]).exits(0);
+    let page = folder.read("page.html");
+    assert!(page.contains("no law, fluid or capacity left its range"), "{page}");
+    assert!(page.contains("unverified constants: `shaft`"), "{page}");
+    folder.write("y.toml", &shaft.replace("3000 rpm", "300000 rpm"));
+    folder.run(&["steady", "y.toml", "--report=page.html"]).exits(0);
+    assert!(
+        folder.read("page.html").contains("a law left its range, see the messages: Re_w of shaft")
+    );
+}

@@ -1,0 +1,152 @@
+//! The sections of paths and sources, as their kinds declare them.
+
+use std::sync::LazyLock;
+
+use lptn_laws::{FieldDeclaration, Formula, Kind, Substance};
+use lptn_network::Context;
+use lptn_units::Type;
+
+use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
+use crate::section::keys::{AT, FLUID_OF, LUBRICANT_OF, MATERIAL_OF};
+use crate::section::path_law::{most, types};
+
+/// A kind of path or source with what follows from its declaration, found once and not for every path.
+pub(crate) struct PathSection {
+    pub(crate) section: SectionDeclaration,
+    pub(crate) kind: Kind,
+    pub(super) groups: Vec<Group>,
+    /// Its values, each key once.
+    pub(super) values: Vec<PathValue>,
+}
+
+impl PathSection {
+    /// The keys of its values.
+    pub(super) fn values(&self) -> impl Iterator<Item = &'static str> {
+        self.values.iter().map(|value| value.field.key)
+    }
+}
+
+/// A value of a path.
+pub(crate) struct PathValue {
+    pub(crate) field: &'static FieldDeclaration,
+    /// How many of them a list may have.
+    pub(super) most: usize,
+    /// The types of which it may be, where its unit chooses the law.
+    pub(super) types: Vec<(Type, Formula)>,
+    /// What expressions in it may name: the ends of a path, or the node of a source.
+    pub(super) context: Context,
+    /// Whether a law takes it that no name chooses.
+    pub(super) plain: bool,
+}
+
+/// The sections of paths and of sources, in the order in which their columns stand.
+pub(crate) static PATHS: LazyLock<Vec<PathSection>> =
+    LazyLock::new(|| Kind::ALL.iter().map(|kind| path_section(*kind)).collect());
+
+fn path_section(kind: Kind) -> PathSection {
+    let declared = kind.declaration();
+    let section = SectionDeclaration {
+        name: declared.section,
+        sentence: declared.sentence,
+        role: Role::Element,
+        keys: keys(kind).leak(),
+        later: declared.later,
+        example: declared.example,
+        elsewhere: declared.elsewhere,
+    };
+    let value = |field: &'static FieldDeclaration| PathValue {
+        field,
+        most: most(kind, field.key),
+        types: types(kind, field.key),
+        context: if kind.is_source() { Context::Source } else { Context::Link },
+        plain: kind.laws_named(false).any(|law| law.field(field.key).is_some()),
+    };
+    let values = kind.fields().into_iter().map(value).collect();
+    PathSection { section, kind, groups: groups(kind), values }
+}
+
+/// The ends or the nodes that are heated, then its fields, with what they are a property of before
+/// them, `fluid` before a flow, and the key that chooses a law behind what all laws take.
+fn keys(kind: Kind) -> Vec<KeyDeclaration> {
+    let mut keys = if kind.is_source() { vec![INTO] } else { ENDS.into() };
+    let first = kind.laws_named(true).next().map_or("", |law| law.declaration().name);
+    let mut selector = kind
+        .declaration()
+        .selector
+        .map(|name| key(name, "word", "the law", format!("\"{first}\"").leak()));
+    for field in kind.fields() {
+        let laws = || kind.laws().filter(|law| law.field(field.key).is_some());
+        let chosen = |law: Formula| law.declaration().named;
+        keys.extend(selector.take_if(|_| laws().all(chosen) && !laws().eq(kind.laws())));
+        let of_fluid = laws().any(|law| law.declaration().carries.is_of_fluid());
+        let substance = match field.property {
+            _ if of_fluid => &[STREAMS][..],
+            Some(Substance::Material) => &[MATERIAL_OF],
+            Some(Substance::Fluid) => &[FLUID_OF],
+            Some(Substance::Lubricant) => &[LUBRICANT_OF, AT],
+            None => &[],
+        };
+        for new in substance {
+            if keys.iter().all(|known| known.name != new.name) {
+                keys.push(*new);
+            }
+        }
+        let unit = if field.ty.is_scalar() { "number".to_owned() } else { field.ty.usual_unit() };
+        keys.push(key(field.key, unit.leak(), field.meaning, field.example));
+    }
+    keys.extend(selector);
+    keys
+}
+
+/// What flows in a stream.
+const STREAMS: KeyDeclaration = key("fluid", "name of a fluid", "what streams", "\"water\"");
+
+const END: &str = "name of a node or boundary";
+
+const ENDS: [KeyDeclaration; 2] = [
+    key(
+        "from",
+        END,
+        "where heat comes from while it is positive",
+        "\"name of a node or boundary\"",
+    ),
+    key("to", END, "where it goes", "\"name of another node or boundary\""),
+];
+
+const INTO: KeyDeclaration = key(
+    "into",
+    "name, or table of shares",
+    "the node, grid or face that is heated",
+    "\"name of a node\"",
+);
+
+/// Laws that begin with the same field, and the keys that all of them need.
+pub(super) struct Group {
+    pub(super) laws: Vec<Formula>,
+    pub(super) keys: Vec<&'static str>,
+}
+
+fn required(law: Formula) -> Vec<&'static str> {
+    let declared = law.declaration();
+    let fluid = declared.carries.is_of_fluid().then_some("fluid");
+    let fields =
+        declared.fields.iter().filter(|field| field.default.is_none()).map(|field| field.key);
+    let mut keys: Vec<&str> = fluid.into_iter().chain(fields).collect();
+    keys.dedup();
+    keys
+}
+
+fn groups(kind: Kind) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for law in kind.laws_named(false) {
+        let (first, keys) = (law.declaration().fields[0].key, required(law));
+        match groups.iter_mut().find(|group| group.laws[0].declaration().fields[0].key == first) {
+            Some(group) => {
+                group.laws.push(law);
+                group.keys.retain(|key| keys.contains(key));
+            }
+            None => groups.push(Group { laws: vec![law], keys }),
+        }
+    }
+    groups
+}

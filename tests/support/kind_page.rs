@@ -1,0 +1,119 @@
+//! The tables of a page of `docs/elements`, from the declarations of a kind and its laws.
+
+use lptn::laws::{Confidence, FieldDeclaration, Group, Kind, LawDeclaration, Range, Substance};
+
+fn unit(field: &FieldDeclaration) -> String {
+    match field.ty {
+        ty if ty.absolute => "degC, K".to_owned(),
+        ty if ty.is_scalar() => String::new(),
+        ty => ty.dimension.si_unit(),
+    }
+}
+
+fn range(range: Range) -> &'static str {
+    match range {
+        Range::Finite => "of either sign",
+        Range::Positive => "above 0",
+        Range::NotNegative => "at least 0",
+        Range::Fraction => "above 0, at most 1",
+        Range::Temperature => "absolute",
+    }
+}
+
+/// Where a law holds, with the numbers that say it.
+fn holds(law: &LawDeclaration) -> String {
+    let group = |group: &Group| {
+        let number = |value: f64| match value {
+            value if value != 0.0 && !(1e-2..1e4).contains(&value) => format!("{value:e}"),
+            value => value.to_string(),
+        };
+        let name = format!("{} ({})", group.name, group.meaning);
+        match (group.from, group.to) {
+            (0.0, to) => format!("{name} at most {}", number(to)),
+            (from, f64::INFINITY) => format!("{name} at least {}", number(from)),
+            (from, to) => format!("{name} from {} to {}", number(from), number(to)),
+        }
+    };
+    let groups: Vec<String> = law.groups.iter().map(group).collect();
+    if groups.is_empty() {
+        law.validity.into()
+    } else {
+        format!("{} {}.", law.validity, groups.join("; "))
+    }
+}
+
+fn source(law: &LawDeclaration) -> String {
+    let unsure = law.confidence == Confidence::Medium;
+    format!("{}{}", law.source, if unsure { " (**unverified constants**)" } else { "" })
+}
+
+/// What a page says of a law.
+fn row(kind: Kind, declared: &LawDeclaration) -> String {
+    // a fluid gives all its properties
+    let key = |field: &FieldDeclaration| match field.property {
+        Some(Substance::Fluid) => Substance::Fluid.key(),
+        _ => field.key,
+    };
+    let mut keys: Vec<&str> = declared.fields.iter().map(key).collect();
+    let pair = declared.fields.windows(2).any(|two| two[0].key == two[1].key);
+    keys.dedup();
+    let chosen = kind.declaration().selector.filter(|_| {
+        declared.named && (kind.is_source() || kind.laws_named(false).next().is_some())
+    });
+    let chosen = chosen.map(|key| format!("`{key} = \"{}\"`", declared.name));
+    let keys = keys.iter().map(|key| format!("`{key}`"));
+    let keys: Vec<String> = chosen.into_iter().chain(keys).collect();
+    let of = if declared.carries.is_of_fluid() { "`fluid`, " } else { "" };
+    let pair = if pair { " (a list of two)" } else { "" };
+    format!(
+        "| {of}{}{pair} | {} | {} | {} |",
+        keys.join(", "),
+        declared.equation,
+        holds(declared),
+        source(declared)
+    )
+}
+
+/// What a page says of keys and laws.
+pub(crate) fn tables(kind: Kind) -> String {
+    let mut lines = vec![
+        "| Key | Meaning | Unit | Range | Default |".to_owned(),
+        "|---|---|---|---|---|".to_owned(),
+    ];
+    let ends = if kind.is_stream() { "" } else { ", or faces of a grid" };
+    lines.push(match kind.is_source() {
+        true => "| `into` | a node, a grid, a face, or `{ a = 0.6, b = 0.4 }` | | | |".to_owned(),
+        false => format!("| `from`, `to` | two nodes or boundaries{ends} | | | |"),
+    });
+    if kind.laws().any(|law| law.declaration().carries.is_of_fluid()) {
+        let of = "a [fluid](material.md) of the file or of the library: `air`, `water`, \
+            `gear_oil_vg220`, ..";
+        lines.push(format!("| `fluid` | {of} | | | |"));
+    }
+    if let Some(selector) = kind.declaration().selector {
+        let words: Vec<String> =
+            kind.laws_named(true).map(|law| format!("`{}`", law.declaration().name)).collect();
+        lines.push(format!("| `{selector}` | the law: {} | | | |", words.join(", ")));
+    }
+    let mut known: Vec<&str> = Vec::new();
+    for field in kind.laws().flat_map(|law| law.declaration().fields) {
+        if known.contains(&field.meaning) {
+            continue;
+        }
+        known.push(field.meaning);
+        let or = field.property.map_or(String::new(), |of| format!(" or `{}`", of.key()));
+        let key = format!("`{}`{or}", field.key);
+        let default = field.default.map_or(String::new(), |value| format!(" {value}"));
+        lines.push(format!(
+            "| {key} | {} | {} | {} |{default} |",
+            field.meaning,
+            unit(field),
+            range(field.range)
+        ));
+    }
+    lines.push(String::new());
+    lines.push("| Given by | Law | Holds | Source |".to_owned());
+    lines.push("|---|---|---|---|".to_owned());
+    lines.extend(kind.laws().map(|law| row(kind, law.declaration())));
+    lines.join("\n") + "\n"
+}
