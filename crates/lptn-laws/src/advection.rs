@@ -60,7 +60,7 @@ impl Law for CapacityRate {
         carries: Carries::CapacityRate,
         reads_ends: false,
         form: Form::Other,
-        ordered: None,
+        ordered: &[],
         area: &[],
         extent: Extent::Whole,
         validity: "The stream leaves each node at the temperature of that node.",

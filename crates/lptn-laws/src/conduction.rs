@@ -67,7 +67,7 @@ const BODY: LawDeclaration = LawDeclaration {
     carries: Carries::Conductance,
     reads_ends: false,
     form: Form::Other,
-    ordered: None,
+    ordered: &[],
     area: &[],
     // no measure of a ball or of a bar is proportional to its conductance
     extent: Extent::Divided("k"),
@@ -169,7 +169,7 @@ impl Law for Cylinder {
             length("r_out", "outer radius", "\"25 mm\""),
             length("length", "length", "\"0.3 m\""),
         ],
-        ordered: Some(["r_in", "r_out"]),
+        ordered: &[["r_in", "r_out"]],
         extent: Extent::Divided("length"),
         validity: "Heat that flows radially only: ends are insulated or the cylinder is long.",
         source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
@@ -196,7 +196,7 @@ impl Law for Sphere {
             length("r_in", "inner radius", "\"20 mm\""),
             length("r_out", "outer radius", "\"25 mm\""),
         ],
-        ordered: Some(["r_in", "r_out"]),
+        ordered: &[["r_in", "r_out"]],
         validity: "Heat that flows radially.",
         source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
             equation 3.36",

@@ -68,7 +68,7 @@ impl Law for Film {
         carries: Carries::Conductance,
         reads_ends: false,
         form: Form::Product,
-        ordered: None,
+        ordered: &[],
         area: &["area"],
         extent: Extent::Divided("area"),
         validity: "By definition of h, which is that of the whole area.",

@@ -27,6 +27,15 @@ pub trait Law {
         let _ = (values, ends);
         Vec::new()
     }
+
+    /// What it tells of itself besides its heat, by the names that results have: `NAME.pressure`.
+    const RESULTS: &'static [ResultDeclaration] = &[];
+
+    /// Its [results](Law::RESULTS) for these values and ends, in SI units, in their order.
+    fn results(values: &[f64], ends: [f64; 2]) -> Vec<f64> {
+        let _ = (values, ends);
+        Vec::new()
+    }
 }
 
 /// What is known of a law.
@@ -53,8 +62,8 @@ pub struct LawDeclaration {
     /// How its value follows from its fields, as far as it can be told whether heat rises with
     /// temperature.
     pub form: Form,
-    /// Two keys of lengths of which the first has to be shorter.
-    pub ordered: Option<[&'static str; 2]>,
+    /// Pairs of keys of which the first has to be smaller.
+    pub ordered: &'static [[&'static str; 2]],
     /// The keys whose product is the area of its surface; the first is the area itself.
     pub area: &'static [&'static str],
     /// What is divided where the path becomes equal ones side by side.
@@ -141,6 +150,17 @@ impl Group {
     pub fn contains(&self, value: f64) -> bool {
         (self.from..=self.to).contains(&value)
     }
+}
+
+/// What a law tells of itself besides its heat.
+#[derive(Clone, Copy, Debug)]
+pub struct ResultDeclaration {
+    /// The ending of its name: `pressure` of `ring_fit.pressure`.
+    pub key: &'static str,
+    /// Its dimension; a temperature is a difference.
+    pub ty: Type,
+    /// What it is, in a few words.
+    pub meaning: &'static str,
 }
 
 /// How sure a formula and its constants are.

@@ -41,11 +41,13 @@ mod fins;
 mod fluid;
 mod forced_convection;
 mod free_convection;
+mod joint;
 mod list;
 mod loss;
 mod lump;
 mod mesh;
 mod phase;
+mod press_fit;
 mod radiation;
 mod resistor;
 mod rotation;
@@ -62,7 +64,7 @@ pub use conduction::{cylinder, rod, slab, sphere};
 pub use convection::film;
 pub use declare::{
     Carries, Confidence, Extent, FieldDeclaration, Form, Group, Hints, KindDeclaration, Law,
-    LawDeclaration, Range, Substance, SurfaceKind,
+    LawDeclaration, Range, ResultDeclaration, Substance, SurfaceKind,
 };
 pub use exchanger::{effectiveness_counterflow, effectiveness_crossflow, effectiveness_parallel};
 pub use fins::{fin_efficiency, finned};
@@ -74,10 +76,12 @@ pub use free_convection::{
     nusselt_horizontal_cylinder, nusselt_plate_driven, nusselt_plate_layered,
     nusselt_vertical_plate, rayleigh,
 };
+pub use joint::contact_conductance;
 pub use list::{Formula, Kind};
 pub use lump::{biot, diffusion_time};
 pub use mesh::{GearPair, gear_loss_factor, mesh_friction};
 pub use phase::melting_capacity;
+pub use press_fit::Fit;
 pub use radiation::{
     STEFAN_BOLTZMANN, effective_emissivity_parallel_plates, radiation_conductance,
     radiation_exchange_area,

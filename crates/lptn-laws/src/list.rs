@@ -3,7 +3,7 @@
 
 use lptn_units::Scalar;
 
-use crate::declare::{KindDeclaration, Law, LawDeclaration};
+use crate::declare::{KindDeclaration, Law, LawDeclaration, ResultDeclaration};
 
 macro_rules! declare {
     ($($module:ident: $($kind:ident)? { $($law:ident),* };)*) => {
@@ -45,6 +45,18 @@ macro_rules! declare {
                 }
             }
 
+            /// What it tells of itself besides its heat.
+            pub const fn result_declarations(self) -> &'static [ResultDeclaration] {
+                match self { $($(Self::$law => <crate::$module::$law as Law>::RESULTS,)*)* }
+            }
+
+            /// Its results, as [`Law::results`].
+            pub fn results(self, values: &[f64], ends: [f64; 2]) -> Vec<f64> {
+                match self {
+                    $($(Self::$law => <crate::$module::$law as Law>::results(values, ends),)*)*
+                }
+            }
+
             /// What its groups are, as [`Law::groups`].
             pub fn groups(self, values: &[f64], ends: [f64; 2]) -> Vec<Option<f64>> {
                 match self {
@@ -65,6 +77,8 @@ declare! {
     fins: { StraightFins };
     wall: { WallInWind, GearboxWall, GearboxWallBlown };
     contact: Contact {};
+    joint: { Joint };
+    press_fit: PressFit { Interference };
     radiation: Radiation { ExchangeArea, GreySurfaces, ParallelPlates };
     advection: Advection { CapacityRate, MassFlow, VolumeFlow };
     source: Source { Given };

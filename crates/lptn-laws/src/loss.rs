@@ -53,7 +53,7 @@ pub(crate) const LOSS: LawDeclaration = LawDeclaration {
     carries: Carries::Heat,
     reads_ends: false,
     form: Form::Other,
-    ordered: None,
+    ordered: &[],
     area: &[],
     extent: Extent::Whole,
     validity: "",

@@ -246,7 +246,7 @@ impl Law for MeshInternal {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "internal",
         sentence: "A pinion or planet in a ring with internal teeth.",
-        ordered: Some(["z1", "z2"]),
+        ordered: &[["z1", "z2"]],
         confidence: crate::Confidence::Medium,
         ..MeshExternal::DECLARATION
     };

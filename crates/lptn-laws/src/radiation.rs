@@ -72,7 +72,7 @@ impl Law for ExchangeArea {
         carries: Carries::Radiation,
         reads_ends: false,
         form: Form::Product,
-        ordered: None,
+        ordered: &[],
         area: &[],
         extent: Extent::Divided("Gr"),
         validity: "Nothing absorbs between the surfaces.",

@@ -47,7 +47,7 @@ impl Law for Resistance {
         carries: Carries::Conductance,
         reads_ends: false,
         form: Form::Reciprocal,
-        ordered: None,
+        ordered: &[],
         area: &[],
         extent: Extent::Multiplied("R"),
         validity: "By definition.",

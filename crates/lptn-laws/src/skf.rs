@@ -161,7 +161,7 @@ impl Law for BearingSkf {
                 .or(0.0)
             },
         ],
-        ordered: Some(["d", "D"]),
+        ordered: &[["d", "D"]],
         validity: "Constants unless said: series 160 and 161, in a bath of oil, mineral oil (mu_EHL \
             0.04 synthetic), without drag. As printed, the sliding part jumps where an axial load \
             begins. mu_bl is 0.15 in the catalogue of 2016.",

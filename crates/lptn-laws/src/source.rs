@@ -46,7 +46,7 @@ impl Law for Given {
         carries: Carries::Heat,
         reads_ends: false,
         form: Form::Product,
-        ordered: None,
+        ordered: &[],
         area: &[],
         extent: Extent::Divided("P"),
         validity: "By definition.",

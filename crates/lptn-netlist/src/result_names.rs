@@ -68,15 +68,18 @@ impl Names {
     }
 }
 
-/// The endings of the heat flows that an element of this section has.
-fn heats(kind: &str) -> &'static [&'static str] {
+/// The endings of the heat flows that an element of this section has, and of what its laws tell.
+fn heats(kind: &str) -> Vec<&'static str> {
     match kind {
-        "boundary" => &["Q"],
+        "boundary" => vec!["Q"],
         path => match Kind::ALL.iter().find(|kind| kind.declaration().section == path) {
-            Some(kind) if kind.is_stream() => &["Q_from", "Q_to"],
-            Some(kind) if kind.is_source() => &["P"],
-            Some(_) => &["Q"],
-            None => &[],
+            Some(kind) if kind.is_stream() => vec!["Q_from", "Q_to"],
+            Some(kind) if kind.is_source() => vec!["P"],
+            Some(kind) => {
+                let told = kind.laws().flat_map(|law| law.result_declarations());
+                ["Q"].into_iter().chain(told.map(|result| result.key)).collect()
+            }
+            None => vec![],
         },
     }
 }
@@ -88,5 +91,5 @@ fn results_of(kind: &str, name: &str) -> Vec<String> {
         "grid" => &VALUES,
         _ => &[],
     };
-    temperature.iter().chain(heats(kind)).map(|ending| format!("{name}.{ending}")).collect()
+    temperature.iter().chain(&heats(kind)).map(|ending| format!("{name}.{ending}")).collect()
 }

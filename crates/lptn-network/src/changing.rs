@@ -197,7 +197,10 @@ impl<'a> Walk<'a> {
     fn heat(&mut self, heat: HeatOf) {
         let parts = self.parts;
         match heat {
-            HeatOf::Conductor(id) | HeatOf::ReceivedFrom(id) | HeatOf::ReceivedTo(id) => {
+            HeatOf::Conductor(id)
+            | HeatOf::ReceivedFrom(id)
+            | HeatOf::ReceivedTo(id)
+            | HeatOf::Told(id, _) => {
                 self.go(Element::Conductor(id.index()));
             }
             HeatOf::Source(id) => self.go(Element::Source(id.index())),

@@ -69,7 +69,7 @@ impl<'a> NetworkScope<'a> {
     fn heat(self, name: &str) -> Option<Symbol> {
         let heat = self.parts.heat(name).filter(|_| self.context == Context::Result)?;
         let slot = self.parts.layout.heat(heat)?;
-        Some(Symbol { slot, ty: Type::of(Dimension::POWER), in_comparison: None })
+        Some(Symbol { slot, ty: self.parts.heat_type(heat), in_comparison: None })
     }
 
     /// A temperature of a grid that has a place: see [`crate::NetworkBuilder::name_heats`].

@@ -1,9 +1,10 @@
 //! What can be a column of the results.
 
 use lptn_network::{
-    BoundaryId, ControlId, GridValue, HeatOf, Item, Network, NodeId, ReportId, SignalId,
+    BoundaryId, ConductorId, ControlId, GridValue, HeatOf, Item, Network, NodeId, ReportId,
+    SignalId,
 };
-use lptn_units::{Dimension, Type, Unit};
+use lptn_units::{Type, Unit};
 
 /// One quantity of a network that can be a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -23,7 +24,7 @@ impl Quantity {
     /// flows of paths, sources and boundaries, signals, controls, reports.
     pub(crate) fn all(network: &Network) -> impl Iterator<Item = Self> {
         let nodes = network.outer_nodes().map(Self::Node);
-        let paths = network.outer_conductors().flat_map(|id| network.heats_of(id));
+        let paths = network.outer_conductors().flat_map(|id| of_path(network, id));
         let joints = network.shared_face_paths().map(HeatOf::FacePath);
         nodes
             .chain(network.grid_values().map(Self::Grid))
@@ -42,7 +43,7 @@ impl Quantity {
         let nodes = network.node_ids().filter(|id| network.whole(Item::Node(*id)).is_some());
         let paths =
             network.conductor_ids().filter(|id| network.whole(Item::Conductor(*id)).is_some());
-        let paths = paths.flat_map(|id| network.heats_of(id)).map(Self::Heat);
+        let paths = paths.flat_map(|id| of_path(network, id)).map(Self::Heat);
         nodes.map(Self::Node).chain(network.idle_grid_values().map(Self::Grid)).chain(paths)
     }
 
@@ -55,6 +56,11 @@ impl Quantity {
             Self::BoundaryTemperature(id) => (2, id.index(), 0),
             Self::Heat(HeatOf::Conductor(id) | HeatOf::ReceivedFrom(id)) => (3, id.index(), 0),
             Self::Heat(HeatOf::ReceivedTo(id)) => (3, id.index(), 1),
+            Self::Heat(HeatOf::Told(id, key)) => {
+                let mut told = network.told_of(id);
+                let place = told.position(|told| told == HeatOf::Told(id, key)).unwrap_or(0);
+                (3, id.index(), u8::try_from(2 + place).unwrap_or(u8::MAX))
+            }
             Self::Heat(HeatOf::FacePath(id)) => (4, id.index(), 0),
             Self::Heat(HeatOf::Source(id)) => (5, id.index(), 0),
             Self::Heat(HeatOf::Boundary(id)) => (6, id.index(), 0),
@@ -73,7 +79,7 @@ impl Quantity {
             Item::Boundary(id) => {
                 vec![Self::BoundaryTemperature(id), Self::Heat(HeatOf::Boundary(id))]
             }
-            Item::Conductor(id) => network.heats_of(id).into_iter().map(Self::Heat).collect(),
+            Item::Conductor(id) => of_path(network, id).map(Self::Heat).collect(),
             Item::Source(id) => vec![Self::Heat(HeatOf::Source(id))],
             _ => Vec::new(),
         };
@@ -110,7 +116,7 @@ impl Quantity {
             Self::Node(_) | Self::Grid(_) | Self::BoundaryTemperature(_) => {
                 Type::ABSOLUTE_TEMPERATURE
             }
-            Self::Heat(_) => Type::of(Dimension::POWER),
+            Self::Heat(heat) => heat.ty(network),
             Self::Signal(id) => network.signals()[id.index()].ty,
             Self::Control(_) => Type::SCALAR,
             Self::Report(id) => network.reports()[id.index()].ty,
@@ -121,6 +127,11 @@ impl Quantity {
     pub(crate) fn needs_all(self) -> bool {
         matches!(self, Self::Heat(_) | Self::Report(_) | Self::Grid(_))
     }
+}
+
+/// The heat flows of a path, then what its law tells of itself.
+fn of_path(network: &Network, id: ConductorId) -> impl Iterator<Item = HeatOf> {
+    network.heats_of(id).into_iter().chain(network.told_of(id))
 }
 
 /// How a quantity is shown: in a unit of its own, as a signal that is given in one, else by its

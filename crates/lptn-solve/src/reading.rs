@@ -47,7 +47,7 @@ impl<'a> Reading<'a> {
         system.boundary_heat(work, unknowns, boundary_heat)?;
         named.clear();
         for heat in network.named_heats() {
-            named.push(heat_of(system, boundary_heat, work, heat)?);
+            named.push(heat_of(system, (boundary_heat, scope), work, heat)?);
         }
         scope.set_heats(named);
         Ok(())
@@ -67,7 +67,9 @@ impl<'a> Reading<'a> {
             Quantity::BoundaryTemperature(id) => {
                 Ok(self.system.boundary_temperatures(work)[id.index()])
             }
-            Quantity::Heat(heat) => heat_of(self.system, &self.boundary_heat, work, heat),
+            Quantity::Heat(heat) => {
+                heat_of(self.system, (&self.boundary_heat, &mut self.scope), work, heat)
+            }
             Quantity::Signal(id) => Ok(self.scope.signal(id)),
             Quantity::Control(id) => Ok(self.scope.control(id)),
             Quantity::Report(id) => self.system.network().report_value(id, &mut self.scope),
@@ -77,13 +79,14 @@ impl<'a> Reading<'a> {
 
 fn heat_of(
     system: &ThermalSystem,
-    boundary_heat: &[f64],
+    (boundary_heat, scope): (&[f64], &mut Evaluation),
     work: &mut Workspace,
     heat: HeatOf,
 ) -> Result<f64, InputError> {
     match heat {
         HeatOf::Conductor(id) | HeatOf::ReceivedTo(id) => Ok(system.received(work, id)?[1]),
         HeatOf::ReceivedFrom(id) => Ok(system.received(work, id)?[0]),
+        HeatOf::Told(id, key) => system.network().told(id, key, scope),
         HeatOf::Source(id) => {
             let needs = system.network().source_variables(id);
             let known =

@@ -82,15 +82,17 @@ impl Snapshot {
         scope.set_positions(&self.positions);
         scope.set_time(self.time, just_after(self.time));
         scope.set_temperatures(&self.temperatures, &self.boundary_temperatures);
-        let heats: Vec<f64> = network.named_heats().map(|heat| self.heat(network, heat)).collect();
+        let heats: Vec<f64> =
+            network.named_heats().map(|heat| self.heat(network, heat, &mut scope)).collect();
         scope.set_heats(&heats);
         scope
     }
 
-    fn heat(&self, network: &Network, heat: HeatOf) -> f64 {
+    fn heat(&self, network: &Network, heat: HeatOf, scope: &mut Evaluation) -> f64 {
         match heat {
             HeatOf::Conductor(id) | HeatOf::ReceivedTo(id) => self.received[id.index()][1],
             HeatOf::ReceivedFrom(id) => self.received[id.index()][0],
+            HeatOf::Told(id, key) => network.told(id, key, scope).unwrap_or(f64::NAN),
             HeatOf::Source(id) => self.source_heat[id.index()],
             HeatOf::Boundary(id) => self.boundary_heat[id.index()],
             HeatOf::FacePath(id) => {
@@ -111,7 +113,8 @@ impl Snapshot {
             Quantity::Node(id) => Ok(self.temperatures[id.index()]),
             Quantity::Grid(value) => Ok(network.grid_value(value, &self.temperatures)),
             Quantity::BoundaryTemperature(id) => Ok(self.boundary_temperatures[id.index()]),
-            Quantity::Heat(heat) => Ok(self.heat(network, heat)),
+            Quantity::Heat(HeatOf::Told(id, key)) => network.told(id, key, scope),
+            Quantity::Heat(heat) => Ok(self.heat(network, heat, scope)),
             Quantity::Signal(id) => Ok(scope.signal(id)),
             Quantity::Control(id) => Ok(scope.control(id)),
             Quantity::Report(id) => network.report_value(id, scope),

@@ -87,18 +87,19 @@ impl Work<'_> {
         flow * density * fluid.cp.at(&mut self.scope).unwrap_or(f64::NAN)
     }
 
-    /// Two lengths of which one has to be shorter, where both are constant.
+    /// Pairs of values of which one has to be smaller, where both are constant.
     fn check_order(&mut self, item: Item, law: &Law) {
-        let Some(keys) = law.formula().declaration().ordered else { return };
-        let [inner, outer] = keys.map(|key| {
-            let value = law.value(key).filter(|value| self.parts.reads(value).is_constant())?;
-            value.at(&mut self.scope).ok()
-        });
-        let fields = keys.map(Field::of_law);
-        if let ([Some(inner), Some(outer)], [Some(a), Some(b)]) = ([inner, outer], fields)
-            && inner >= outer
-        {
-            self.error(item, BuildErrorKind::Radii { item, fields: [a, b], inner, outer });
+        for keys in law.formula().declaration().ordered {
+            let [inner, outer] = keys.map(|key| {
+                let value = law.value(key).filter(|value| self.parts.reads(value).is_constant())?;
+                value.at(&mut self.scope).ok()
+            });
+            let fields = keys.map(Field::of_law);
+            if let ([Some(inner), Some(outer)], [Some(a), Some(b)]) = ([inner, outer], fields)
+                && inner >= outer
+            {
+                self.error(item, BuildErrorKind::Radii { item, fields: [a, b], inner, outer });
+            }
         }
     }
 }

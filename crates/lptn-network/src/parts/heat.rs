@@ -1,8 +1,8 @@
-//! Heat flows of the results, by name.
+//! Heat flows of the results and what laws tell of themselves, by name.
 
 use crate::id::{BoundaryId, ConductorId, FacePathId, Item, SourceId};
 
-/// A heat flow of the results, in W.
+/// A heat flow of the results in W, or what the law of a path tells of itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum HeatOf {
     /// `NAME.Q` of a path that is not a stream: positive from `from` to `to`.
@@ -17,15 +17,18 @@ pub enum HeatOf {
     Boundary(BoundaryId),
     /// `NAME.Q` of a path that ends at a face of a grid: the sum over its conductors.
     FacePath(FacePathId),
+    /// `NAME.pressure` and the like of a path: a result that its law declares, by its key.
+    Told(ConductorId, &'static str),
 }
 
 impl HeatOf {
     /// What it is the heat of.
     pub fn item(self) -> Item {
         match self {
-            Self::Conductor(id) | Self::ReceivedFrom(id) | Self::ReceivedTo(id) => {
-                Item::Conductor(id)
-            }
+            Self::Conductor(id)
+            | Self::ReceivedFrom(id)
+            | Self::ReceivedTo(id)
+            | Self::Told(id, _) => Item::Conductor(id),
             Self::Source(id) => Item::Source(id),
             Self::Boundary(id) => Item::Boundary(id),
             Self::FacePath(id) => Item::FacePath(id),
@@ -39,6 +42,7 @@ impl HeatOf {
             Self::ReceivedFrom(_) => "Q_from",
             Self::ReceivedTo(_) => "Q_to",
             Self::Source(_) => "P",
+            Self::Told(_, key) => key,
         };
         format!("{name}.{ending}")
     }

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use lptn_units::{Dimension, Type};
+
 use crate::id::{BoundaryId, ConductorId, GridId, Item, SourceId};
 use crate::parts::Parts;
 use crate::parts::grid::{Face, GridFace};
@@ -30,8 +32,28 @@ impl Parts {
             (Item::Source(id), "P") => Some(HeatOf::Source(id)),
             (Item::Boundary(id), "Q") => Some(HeatOf::Boundary(id)),
             (Item::FacePath(id), "Q") => Some(HeatOf::FacePath(id)),
+            (Item::Conductor(id), key) => self.told_by(id).find(|told| told.0 == key).map(|t| t.1),
             _ => None,
         }
+    }
+
+    /// What the law of a path tells of itself, by its keys.
+    fn told_by(&self, id: ConductorId) -> impl Iterator<Item = (&'static str, HeatOf)> {
+        let results = self.conductors[id.index()].law.formula().result_declarations();
+        results.iter().map(move |result| (result.key, HeatOf::Told(id, result.key)))
+    }
+
+    /// What the law of a path tells of itself, in the order of its declaration.
+    pub(crate) fn told_of(&self, id: ConductorId) -> impl Iterator<Item = HeatOf> {
+        self.told_by(id).map(|(_, told)| told)
+    }
+
+    /// What a quantity is: power, but for what laws tell.
+    pub(crate) fn heat_type(&self, heat: HeatOf) -> Type {
+        let HeatOf::Told(id, key) = heat else { return Type::of(Dimension::POWER) };
+        let results = self.conductors[id.index()].law.formula().result_declarations();
+        let told = results.iter().find(|result| result.key == key);
+        told.map_or(Type::SCALAR, |result| result.ty)
     }
 
     pub(crate) fn heats_of(&self, id: ConductorId) -> Vec<HeatOf> {
@@ -43,8 +65,10 @@ impl Parts {
 
     /// The names of all heat flows: paths, sources, boundaries.
     pub(crate) fn heat_names(&self) -> impl Iterator<Item = String> + '_ {
-        let conductors =
-            (0..self.conductors.len()).flat_map(|i| self.heats_of(ConductorId::from_len(i)));
+        let conductors = (0..self.conductors.len()).flat_map(|i| {
+            let id = ConductorId::from_len(i);
+            self.heats_of(id).into_iter().chain(self.told_of(id))
+        });
         let sources = (0..self.sources.len()).map(|i| HeatOf::Source(SourceId::from_len(i)));
         let boundaries =
             (0..self.boundaries.len()).map(|i| HeatOf::Boundary(BoundaryId::from_len(i)));

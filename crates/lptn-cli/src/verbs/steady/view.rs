@@ -123,6 +123,7 @@ impl Row {
                 into.dedup();
                 format!("source into {}", into.join(", "))
             }
+            Of::Heat(HeatOf::Told(_, key)) => key.into(),
             Of::Heat(HeatOf::Boundary(_)) if self.value > 0.0 => "boundary gives".into(),
             Of::Heat(HeatOf::Boundary(_)) => "boundary takes".into(),
         }
