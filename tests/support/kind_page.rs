@@ -115,5 +115,13 @@ pub(crate) fn tables(kind: Kind) -> String {
     lines.push("| Given by | Law | Holds | Source |".to_owned());
     lines.push("|---|---|---|---|".to_owned());
     lines.extend(kind.laws().map(|law| row(kind, law.declaration())));
+    let mut told = kind.laws().flat_map(|law| law.result_declarations()).peekable();
+    if told.peek().is_some() {
+        lines.extend(["", "| Result | Meaning | Unit |", "|---|---|---|"].map(str::to_owned));
+    }
+    lines.extend(told.map(|result| {
+        let unit = result.ty.dimension.si_unit();
+        format!("| `NAME.{}` | {} | {unit} |", result.key, result.meaning)
+    }));
     lines.join("\n") + "\n"
 }

@@ -6,7 +6,7 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{
-    Carries, Confidence, Extent, FieldDeclaration, Form, Hints, KindDeclaration, Law,
+    Carries, Confidence, Extent, FieldDeclaration, Form, Group, Hints, KindDeclaration, Law,
     LawDeclaration, Range, ResultDeclaration, SurfaceKind,
 };
 use crate::joint::{
@@ -182,7 +182,8 @@ impl Law for Interference {
         validity: "`from` is the hub, `to` the shaft. Elastic, as long as each other, at rest: \
             centrifugal forces loosen a fast hub further. Where the fit is lost only `h_gap` \
             conducts.",
-        groups: &[RELATIVE_PRESSURE],
+        // where the fit is lost the pressure passes through 0
+        groups: &[Group { from: 0.0, ..RELATIVE_PRESSURE }],
         source: "R. G. Budynas, J. K. Nisbett, Shigley's Mechanical Engineering Design, press and \
             shrink fits; DIN 7190-1; conductance as of [contact]",
         idle: &[],
