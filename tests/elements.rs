@@ -5,6 +5,7 @@
 //! (` ```toml`) and one table of results, whose rows begin with a quantity in quotes, `steady` or a
 //! time, and a value with its unit.
 
+mod joints;
 mod losses_pages;
 mod support;
 
@@ -26,7 +27,7 @@ fn folder() -> PathBuf {
 }
 
 /// The zero `x` of a falling or rising function between two places.
-fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
+pub(crate) fn root(mut low: f64, mut high: f64, f: impl Fn(f64) -> f64) -> f64 {
     let rising = f(high) > f(low);
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
@@ -189,37 +190,6 @@ fn correlations() -> Vec<Closed> {
     ]
 }
 
-fn contact() -> Vec<Closed> {
-    let g = 5000.0 * 8e-4;
-    vec![
-        ("seat.Q", "5 s", 60.0 * (1.0 - (-5.0 * g / 40.0_f64).exp())),
-        ("chip.T", "5 s", relaxed(30.0, 30.0 + 60.0 / g, 5.0, 40.0 / g)),
-        ("chip.T", "steady", 30.0 + 60.0 / g),
-        ("sink.T", "steady", 30.0 + 60.0 / (touching(167.0, 390.0, 1.5e-6, 2e6) * 8e-4)),
-    ]
-}
-
-/// 1.25 ks m / sigma (p / H)^0.95 with m = 0.15 and H = 1.1 GPa.
-fn touching(k1: f64, k2: f64, sigma: f64, pressure: f64) -> f64 {
-    1.25 * 2.0 / (1.0 / k1 + 1.0 / k2) * 0.15 / sigma * (pressure / 1.1e9).powf(0.95)
-}
-
-fn press_fit() -> Vec<Closed> {
-    let interference = |hub: f64| 78e-6 - 0.1 * (23.6e-6 * (hub - 25.0) - 12e-6 * 15.0);
-    // Lamé with radii of 50 and 65 mm
-    let hub = (65.0_f64.powi(2) + 50.0_f64.powi(2)) / (65.0_f64.powi(2) - 50.0_f64.powi(2));
-    let given = 0.1 * ((hub + 0.33) / 70e9 + (1.0 - 0.3) / 210e9);
-    let heat = |t: f64| {
-        let area = std::f64::consts::PI * 0.1 * 0.03;
-        touching(167.0, 45.0, 1e-6, interference(t).max(0.0) / given) * area * (t - 40.0)
-    };
-    let hub = root(40.0, 45.0, |t| heat(t) - 300.0);
-    vec![
-        ("hub.T", "steady", hub),
-        ("ring_fit.margin", "steady", interference(hub) / (0.1 * 11.6e-6)),
-    ]
-}
-
 fn radiation() -> Vec<Closed> {
     let sigma = 5.670374419e-8;
     // the plate: C dT/dt = sigma e A (end^4 - T^4) from T0 = 293.15 K < end; primitive of 1 /
@@ -342,8 +312,8 @@ fn pages() -> [(&'static str, Vec<Closed>); 18] {
         ("resistor", resistor()),
         ("conduction", conduction()),
         ("convection", convection()),
-        ("contact", contact()),
-        ("press_fit", press_fit()),
+        ("contact", joints::contact()),
+        ("press_fit", joints::press_fit()),
         ("radiation", radiation()),
         ("advection", advection()),
         ("source", source()),
@@ -471,7 +441,7 @@ fn every_page_prints_its_closed_forms() {
         assert_eq!(listed, known, "{name}");
         for (row, (quantity, when, expected)) in rows.iter().zip(closed) {
             let decimals = row.number.split_once('.').map_or(0, |(_, fraction)| fraction.len());
-            assert!(matches!(row.unit.as_str(), "degC" | "W"), "{name}: {}", row.unit);
+            assert!(matches!(row.unit.as_str(), "degC" | "W" | "K"), "{name}: {}", row.unit);
             assert_eq!(
                 row.number,
                 format!("{expected:.decimals$}"),

@@ -124,3 +124,43 @@ fn steady_margins_have_the_sign_of_the_limit() {
     close(margins[0], -3.0, 1e-9);
     close(margins[1], 3.0, 1e-9);
 }
+
+/// A hub of aluminium on a shaft of steel, both at one temperature: 78 um of 100 mm are lost 78e-6 /
+/// (0.1 (23.6e-6 - 12.0e-6)) = 67.24 K above 25 degC, at 92.24 degC. Both warm by 0.1 K/s.
+#[test]
+fn an_interference_fit_is_lost_where_the_hub_has_outgrown_the_shaft() {
+    let text = "format = 1
+[node]
+hub = { T0 = '25 degC', C = '200 J/K' }
+shaft = { T0 = '25 degC', C = '800 J/K' }
+[boundary]
+air = { T = '25 degC' }
+[resistor]
+hardly = { from = 'shaft', to = 'air', R = '1e9 K/W' }
+[source]
+into_hub = { into = 'hub', P = '20 W' }
+into_shaft = { into = 'shaft', P = '80 W' }
+[press_fit.ring]
+from = 'hub'
+to = 'shaft'
+diameter = '100 mm'
+hub_diameter = '130 mm'
+length = '30 mm'
+interference = '78 um'
+T_fit = '25 degC'
+alpha = ['23.6e-6 1/K', '12e-6 1/K']
+E = ['70 GPa', '210 GPa']
+poisson = [0.33, 0.3]
+k = ['167 W/(m K)', '45 W/(m K)']
+slope = 0.15
+roughness = '1 um'
+hardness = '1.1 GPa'
+[limit]
+held = { of = 'ring.margin', above = '0 K' }
+";
+    let run = solved(text, &Transient::until(Time(1200.0)).at(&[]).tolerance(1e-6));
+    let broken: f64 = run.limits()[0].broken_at.unwrap();
+    let warm = 25.0 + 0.1 * broken;
+    assert!((warm - 92.24).abs() < 0.1, "lost at {warm} degC");
+    assert!((broken - 672.41).abs() < 0.05, "lost after {broken} s");
+}

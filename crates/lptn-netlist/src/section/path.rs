@@ -12,7 +12,7 @@ use crate::section::fluid::UsedFluid;
 use crate::section::forms::{begun, check_forms};
 use crate::section::keys::{AT, LUBRICANT_OF};
 use crate::section::path_law::{
-    Read, of_values, types, with_article, without, written, wrong_count,
+    Read, not_a_list, of_values, types, with_article, without, written, wrong_count,
 };
 use crate::section::path_section::{PathSection, PathValue};
 use crate::work::{Elaboration, stand_in};
@@ -148,7 +148,7 @@ impl<'a> Elaboration<'a> {
         value: &PathValue,
         fluid: Option<UsedFluid<'a>>,
     ) -> Vec<Input> {
-        let PathValue { field, most, types, context, .. } = value;
+        let PathValue { field, most, least, types, context, .. } = value;
         let wanted = |ty: Option<Type>| Wanted::of_law(ty, *context);
         let raw = fields.get(field.key).filter(|_| fields.known(field.key));
         if let (None, Some(of)) = (raw, field.property) {
@@ -171,7 +171,12 @@ impl<'a> Elaboration<'a> {
             if values.len() == *most {
                 return values;
             }
-            self.report(wrong_count(fields, (field, *most), raw, values.len()));
+            let told = if *least > 1 { not_a_list } else { wrong_count };
+            self.report(told(fields, (field, *most), raw, values.len()));
+            return Vec::new();
+        }
+        if *least > 1 {
+            self.report(not_a_list(fields, (field, *most), raw, 1));
             return Vec::new();
         }
         match types.as_slice() {

@@ -18,6 +18,13 @@ pub(super) fn most(kind: Kind, key: &str) -> usize {
     kind.laws().map(count).max().unwrap_or(1)
 }
 
+/// The least number of values that a law of a kind takes of a key that it takes.
+pub(super) fn least(kind: Kind, key: &str) -> usize {
+    let count =
+        |law: Formula| law.declaration().fields.iter().filter(|field| field.key == key).count();
+    kind.laws().map(count).filter(|count| *count > 0).min().unwrap_or(1)
+}
+
 /// The types that a key has in the laws of a kind, where it chooses the law by its unit.
 pub(super) fn types(kind: Kind, key: &str) -> Vec<(Type, Formula)> {
     let mut types: Vec<(Type, Formula)> = Vec::new();
@@ -57,6 +64,21 @@ pub(super) fn written(law: Formula) -> String {
     let all: Vec<String> =
         fields.map(|field| format!("`{} = {}`", field.key, field.example)).collect();
     all.join(" with ")
+}
+
+/// A key of which every law of its kind takes a list, with one value or with too many or too few.
+pub(super) fn not_a_list(
+    fields: &Fields<'_>,
+    (field, most): (&FieldDeclaration, usize),
+    raw: &RawValue,
+    count: usize,
+) -> Diagnostic {
+    let values = if count == 1 { "one value".to_owned() } else { format!("{count} values") };
+    let message = format!("{} has {values} where {most} belong", fields.owner.field(field.key));
+    let list = vec![field.example; most].join(", ");
+    let each = if most == 2 { "one for `from`, one for `to`" } else { "one for each" };
+    let help = format!("write a list, {each}: `{} = [{list}]`", field.key);
+    Diagnostic::wrong("netlist::list_of_values", message, &raw.span, help)
 }
 
 pub(super) fn wrong_count(

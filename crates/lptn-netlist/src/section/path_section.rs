@@ -8,7 +8,7 @@ use lptn_units::Type;
 
 use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
 use crate::section::keys::{AT, FLUID_OF, LUBRICANT_OF, MATERIAL_OF};
-use crate::section::path_law::{most, types};
+use crate::section::path_law::{least, most, types};
 
 /// A kind of path or source with what follows from its declaration, found once and not for every path.
 pub(crate) struct PathSection {
@@ -31,6 +31,8 @@ pub(crate) struct PathValue {
     pub(crate) field: &'static FieldDeclaration,
     /// How many of them a list may have.
     pub(super) most: usize,
+    /// How many it has at least; of one no list is needed.
+    pub(super) least: usize,
     /// The types of which it may be, where its unit chooses the law.
     pub(super) types: Vec<(Type, Formula)>,
     /// What expressions in it may name: the ends of a path, or the node of a source.
@@ -57,6 +59,7 @@ fn path_section(kind: Kind) -> PathSection {
     let value = |field: &'static FieldDeclaration| PathValue {
         field,
         most: most(kind, field.key),
+        least: least(kind, field.key),
         types: types(kind, field.key),
         context: if kind.is_source() { Context::Source } else { Context::Link },
         plain: kind.laws_named(false).any(|law| law.field(field.key).is_some()),
