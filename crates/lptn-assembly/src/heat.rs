@@ -1,7 +1,7 @@
 //! The heat that boundaries give, streams carry and conductors pass on, after the temperatures are
 //! known.
 
-use lptn_network::{ConductorId, InputError, Received, Surface};
+use lptn_network::{ConductorId, InputError, Item, Received, Surface};
 
 use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
@@ -102,18 +102,14 @@ impl ThermalSystem {
         self.elements[place].received(&self.network, work)
     }
 
-    /// What the groups of a conductor's law are, as [`Network::groups`]; temperatures and inputs as
+    /// What the groups of a conductor's or source's law are, as [`Network::groups`]; temperatures and inputs as
     /// in [`ThermalSystem::received`].
     ///
     /// # Errors
     /// [`InputError`] if a value fails.
     ///
     /// [`Network::groups`]: lptn_network::Network::groups
-    pub fn groups(
-        &self,
-        work: &mut Workspace,
-        id: ConductorId,
-    ) -> Result<Vec<Option<f64>>, InputError> {
-        self.network.groups(id, &mut work.scope, &work.temperature)
+    pub fn groups(&self, work: &mut Workspace, item: Item) -> Result<Vec<Option<f64>>, InputError> {
+        self.network.groups(item, &mut work.scope, &work.temperature)
     }
 }

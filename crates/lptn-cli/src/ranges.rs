@@ -2,7 +2,7 @@
 
 use lptn_laws::Group;
 use lptn_netlist::{Diagnostic, Netlist};
-use lptn_network::{ConductorId, Item, Network, list_of};
+use lptn_network::{Item, Network, list_of};
 use lptn_report::{Claim, duration, significant};
 use lptn_solve::{OutOfRange, Snapshot};
 use lptn_study::SiValue;
@@ -23,7 +23,7 @@ struct Left<'a> {
 impl Left<'_> {
     /// Whose and which: those of one law are told together.
     fn law(&self, network: &Network) -> (&'static str, &'static str) {
-        (name_of_law(network, self.worst.conductor), self.worst.group.meaning)
+        (name_of_law(network, self.worst.item), self.worst.group.meaning)
     }
 
     fn length(&self) -> f64 {
@@ -31,8 +31,8 @@ impl Left<'_> {
     }
 }
 
-fn name_of_law(network: &Network, id: ConductorId) -> &'static str {
-    network.conductors()[id.index()].law.formula().declaration().name
+fn name_of_law(network: &Network, item: Item) -> &'static str {
+    network.law(item).map_or("", |law| law.formula().declaration().name)
 }
 
 /// How many times outside its range a value is.
@@ -43,7 +43,7 @@ fn times_outside(of: &OutOfRange) -> f64 {
 
 /// Each path and group with its stretches, in the order of the paths.
 fn gathered<'f>(found: &'f [OutOfRange]) -> Vec<Left<'f>> {
-    let same = |a: &OutOfRange, b: &OutOfRange| a.conductor == b.conductor && a.group == b.group;
+    let same = |a: &OutOfRange, b: &OutOfRange| a.item == b.item && a.group == b.group;
     let further = |a: &&OutOfRange, b: &&OutOfRange| times_outside(a).total_cmp(&times_outside(b));
     let one = |stretches: &'f [OutOfRange]| {
         Some(Left { stretches, worst: stretches.iter().max_by(further)? })
@@ -75,29 +75,26 @@ pub(crate) fn warnings(netlist: &Netlist, found: &[OutOfRange], run: bool) -> Ve
 fn warning(netlist: &Netlist, paths: &[Left<'_>], run: bool) -> Diagnostic {
     let network = &netlist.network;
     let (first, others) = (&paths[0], &paths[1..]);
-    let OutOfRange { conductor, group, value, at, .. } = *first.worst;
-    let name =
-        |left: &Left<'_>| network.name_of(Item::Conductor(left.worst.conductor)).into_owned();
+    let OutOfRange { item, group, value, at, .. } = *first.worst;
+    let name = |left: &Left<'_>| network.name_of(left.worst.item).into_owned();
     let (symbol, value) = (group.name, significant(value, DIGITS));
     let mut message = format!("{symbol} of `{}` is {value}", name(first));
     if run {
         message += &format!(" at {}", duration(at, 4));
     }
-    let law = name_of_law(network, conductor);
+    let law = name_of_law(network, item);
     message += &format!(", but `{law}` is known for a {} {}", group.meaning, range(group));
     if run {
         message += &format!("; it is outside {}", when(first.stretches));
     }
     let names: Vec<String> = others.iter().map(name).collect();
     if !names.is_empty() {
-        message += &format!("; so it is in {}", list_of(&names, "paths"));
+        message += &format!("; so it is in {}", list_of(&names, "elements"));
     }
-    Diagnostic::warning("run::out_of_range", message)
-        .at(netlist.source_map.name(Item::Conductor(conductor)), "")
-        .help(
-            "how much heat flows there is not known well: choose another law, or check how much \
-            depends on it",
-        )
+    Diagnostic::warning("run::out_of_range", message).at(netlist.source_map.name(item), "").help(
+        "how much heat flows there is not known well: choose another law, or check how much \
+         depends on it",
+    )
 }
 
 /// `from 0 s to 12 min`, `in 4 stretches from 0 s to 25 min, 12 min in all`.
@@ -122,7 +119,7 @@ pub(crate) fn of_steady(network: &Network, steady: &Snapshot) -> Vec<OutOfRange>
 /// Whether every law stayed where it is known, for a report.
 pub(crate) fn claim(network: &Network, found: &[OutOfRange]) -> Claim {
     let rest = "no fluid or capacity left its range, nor a table without `outside`";
-    if network.ranged_conductors().is_empty() {
+    if network.ranged().is_empty() {
         return Claim::checked(true, rest);
     }
     let left = gathered(found);
@@ -130,7 +127,7 @@ pub(crate) fn claim(network: &Network, found: &[OutOfRange]) -> Claim {
         return Claim::checked(true, rest.replace("no fluid", "no law, fluid"));
     }
     let told = |left: &Left<'_>| {
-        let name = network.name_of(Item::Conductor(left.worst.conductor));
+        let name = network.name_of(left.worst.item);
         format!("{} of {name}", left.worst.group.name)
     };
     let first = told(&left[0]);
@@ -140,15 +137,16 @@ pub(crate) fn claim(network: &Network, found: &[OutOfRange]) -> Claim {
 }
 
 /// For each path and group that was outside
-/// `{ path, law, group, meaning, from, to, value, at, stretches }`, times in s; nothing where none
-/// was. A range without an end has none.
+/// `{ path, law, group, meaning, from, to, value, at, stretches }`, times in s, of a loss `source`
+/// in place of `path`; nothing where none was. A range without an end has none.
 pub(crate) fn members(network: &Network, found: &[OutOfRange], run: bool) -> Option<Vec<Value>> {
     let one = |left: &Left<'_>| {
-        let OutOfRange { conductor, group, value, at, .. } = *left.worst;
+        let OutOfRange { item, group, value, at, .. } = *left.worst;
         let finite = |end: f64| end.is_finite().then_some(end);
+        let of = if matches!(item, Item::Source(_)) { "source" } else { "path" };
         let mut member = json!({
-            "path": network.name_of(Item::Conductor(conductor)),
-            "law": name_of_law(network, conductor),
+            of: network.name_of(item),
+            "law": name_of_law(network, item),
             "group": group.name,
             "meaning": group.meaning,
             "from": group.from,

@@ -113,3 +113,42 @@ stop = "10 s"
         folder.read("page.html").contains("a law left its range, see the messages: Re_w of shaft")
     );
 }
+
+/// The pitch line velocity is 3 m/s² t: below 2 m/s until 0.667 s, above 25 m/s from 8.33 s on.
+#[test]
+fn a_loss_is_watched_like_a_path() {
+    let gears = r#"
+format = 1
+[boundary]
+room = { T = "20 degC" }
+[node]
+wheel = { T0 = "20 degC", C = "1 kJ/K" }
+[resistor]
+foot = { from = "wheel", to = "room", G = "5 W/K" }
+[mesh.teeth]
+into = "wheel"
+model = "external"
+speed = "100 [rad/s^2] * t"
+torque = "50 N m"
+z1 = 20
+z2 = 60
+module = "3 mm"
+width = "30 mm"
+Ra = "0.5 um"
+nu = "60 mm^2/s"
+density = "860 kg/m^3"
+[run]
+stop = "10 s"
+"#;
+    let folder = Folder::with("gears.toml", gears);
+    let json = folder.run(&["run", "gears.toml", "--format", "json"]).exits(0).json();
+    let of = &json["out_of_range"][0];
+    assert_eq!([&of["source"], &of["group"], &of["law"]], ["teeth", "v", "external"]);
+    let stretches = of["stretches"].as_array().unwrap();
+    assert_eq!(stretches.len(), 2, "{of}");
+    near(&stretches[0][1]["value"], 2.0 / 3.0, 1e-9);
+    near(&stretches[1][0]["value"], 25.0 / 3.0, 1e-9);
+    let message = warned(&json).unwrap();
+    let said = "but `external` is known for a pitch line velocity in m/s from 2 to 25";
+    assert!(message.contains(said), "{message}");
+}

@@ -132,12 +132,12 @@ pub enum Extent {
     Whole,
 }
 
-/// A number without dimension that says where a law holds.
+/// A number that says where a law holds, as a rule one without dimension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Group {
     /// Its symbol: `Ra`.
     pub name: &'static str,
-    /// What it is called: `Rayleigh number`.
+    /// What it is called, and its unit if it has one: `Rayleigh number`.
     pub meaning: &'static str,
     /// The least value for which the law is known.
     pub from: f64,

@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
-use crate::declare::{FieldDeclaration, Hints, KindDeclaration, Law, LawDeclaration, Substance};
+use crate::declare::{
+    FieldDeclaration, Group, Hints, KindDeclaration, Law, LawDeclaration, Substance,
+};
 use crate::loss::{LOSS, SPEED, VISCOSITY, length, mm};
 
 /// `[mesh]`, as netlists declare it.
@@ -227,14 +229,19 @@ impl Law for MeshExternal {
                 .or(1.0),
         ],
         validity: "H_V after Ohlendorf; F_bt/b in N/mm, v_sum in m/s, rho in mm, eta in mPa s, Ra in \
-            um. Pitch line velocities of 2 to 25 m/s; mu is at most 0.2, which it reaches near \
-            rest. Profile shifts that sum to 0. PAG: X_L = 0.75 (6 / v_sum)^0.2.",
+            um. mu is at most 0.2, which it reaches near rest. Profile shifts that sum to 0. PAG: \
+            X_L = 0.75 (6 / v_sum)^0.2.",
+        groups: &[Group { name: "v", meaning: "pitch line velocity in m/s", from: 2.0, to: 25.0 }],
         source: "L. Schlenk (TU München 1994); H. Ohlendorf (TU München 1958); ISO/TR 14179-2",
         ..LOSS
     };
 
     fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
         mesh(values, false)
+    }
+
+    fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
+        vec![pitch_line_velocity(values)]
     }
 }
 
@@ -254,6 +261,10 @@ impl Law for MeshInternal {
     fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
         mesh(values, true)
     }
+
+    fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
+        vec![pitch_line_velocity(values)]
+    }
 }
 
 fn mesh<S: Scalar>(values: &[S], internal: bool) -> S {
@@ -267,4 +278,12 @@ fn mesh<S: Scalar>(values: &[S], internal: bool) -> S {
         addenda: [values[12], values[13]],
     };
     pair.power(values[0], values[1], [values[7], values[8], values[9]], values[6])
+}
+
+/// In m/s; at rest and without torque it does not count, for nothing is lost.
+fn pitch_line_velocity(values: &[f64]) -> Option<f64> {
+    let (speed, torque, z1) = (values[0].abs(), values[1].abs(), values[2]);
+    let (module, helix) = (values[4], values[11]);
+    let velocity = 0.5 * speed * z1 * module / helix.cos();
+    (torque > 0.0 && velocity > 0.0).then_some(velocity)
 }

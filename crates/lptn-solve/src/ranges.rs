@@ -2,15 +2,15 @@
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_laws::Group;
-use lptn_network::{ConductorId, InputError, Network};
+use lptn_network::{InputError, Item, Network};
 
 use crate::snapshot::Snapshot;
 
 /// A stretch of time in which a group of a law was outside its range, on one side of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutOfRange {
-    /// Whose law it is.
-    pub conductor: ConductorId,
+    /// The conductor or source whose law it is.
+    pub item: Item,
     /// The group with its range.
     pub group: &'static Group,
     /// Its value that was furthest outside.
@@ -24,8 +24,8 @@ pub struct OutOfRange {
 }
 
 impl OutOfRange {
-    fn begins(conductor: ConductorId, group: &'static Group, (time, value): Point) -> Self {
-        Self { conductor, group, value, at: time, from: time, to: time }
+    fn begins(item: Item, group: &'static Group, (time, value): Point) -> Self {
+        Self { item, group, value, at: time, from: time, to: time }
     }
 
     /// Whether a value is outside, and on the same side.
@@ -50,28 +50,28 @@ impl OutOfRange {
         let mut scope = steady.evaluation(network);
         let vertices = [&steady.temperatures[..], &steady.boundary_temperatures].concat();
         let mut found = Vec::new();
-        for id in network.ranged_conductors() {
-            let values = network.groups(id, &mut scope, &vertices)?;
-            let all = groups_of(network, id).iter().zip(values);
+        for item in network.ranged() {
+            let values = network.groups(item, &mut scope, &vertices)?;
+            let all = groups_of(network, item).iter().zip(values);
             let outside = all.filter_map(|(group, value)| Some((group, value?)));
             let outside = outside.filter(|(group, value)| !group.contains(*value));
-            let one = |(group, value)| Self::begins(id, group, (steady.time, value));
+            let one = |(group, value)| Self::begins(item, group, (steady.time, value));
             found.extend(outside.map(one));
         }
         Ok(found)
     }
 }
 
-fn groups_of(network: &Network, id: ConductorId) -> &'static [Group] {
-    network.conductors()[id.index()].law.formula().declaration().groups
+fn groups_of(network: &Network, item: Item) -> &'static [Group] {
+    network.law(item).map_or(&[], |law| law.formula().declaration().groups)
 }
 
 /// A time in s with the value of a group.
 type Point = (f64, f64);
 
-/// A group of a conductor while a run goes on.
+/// A group of a conductor or source while a run goes on.
 struct Track {
-    conductor: ConductorId,
+    item: Item,
     group: &'static Group,
     /// The last look in this stretch of smooth inputs.
     last: Option<Point>,
@@ -93,7 +93,7 @@ impl Track {
         let edge = |now: &OutOfRange| self.edge(last, self.last, now.value < self.group.from);
         let ended = self.now.map(|now| OutOfRange { to: edge(&now).unwrap_or(now.to), ..now });
         self.now = value.map(|value| {
-            let begun = OutOfRange::begins(self.conductor, self.group, (time, value));
+            let begun = OutOfRange::begins(self.item, self.group, (time, value));
             OutOfRange { from: edge(&begun).unwrap_or(time), ..begun }
         });
         ended
@@ -111,8 +111,8 @@ impl Track {
 /// All groups of a network during a run, looked at where its limits are.
 pub(crate) struct RangeWatch<'a> {
     system: &'a ThermalSystem,
-    conductors: Vec<ConductorId>,
-    /// One for each group of each of these conductors.
+    items: Vec<Item>,
+    /// One for each group of each of these.
     tracks: Vec<Track>,
     /// Stretches that ended, each with the place of its track.
     found: Vec<(usize, OutOfRange)>,
@@ -121,17 +121,17 @@ pub(crate) struct RangeWatch<'a> {
 impl<'a> RangeWatch<'a> {
     pub(crate) fn new(system: &'a ThermalSystem) -> Self {
         let network = system.network();
-        let conductors = network.ranged_conductors();
-        let of = |&conductor: &ConductorId| {
-            let groups = groups_of(network, conductor).iter();
-            groups.map(move |group| Track { conductor, group, last: None, now: None })
+        let items = network.ranged();
+        let of = |&item: &Item| {
+            let groups = groups_of(network, item).iter();
+            groups.map(move |group| Track { item, group, last: None, now: None })
         };
-        let tracks = conductors.iter().flat_map(of).collect();
-        Self { system, conductors, tracks, found: Vec::new() }
+        let tracks = items.iter().flat_map(of).collect();
+        Self { system, items, tracks, found: Vec::new() }
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        self.conductors.is_empty()
+        self.items.is_empty()
     }
 
     /// Begins a stretch of smooth inputs at `time` in s: no line leads there.
@@ -143,8 +143,8 @@ impl<'a> RangeWatch<'a> {
     /// Looks at all groups where the workspace stands, at `time` in s.
     pub(crate) fn sample(&mut self, work: &mut Workspace, time: f64) -> Result<(), InputError> {
         let mut tracks = self.tracks.iter_mut().enumerate();
-        for &id in &self.conductors {
-            let values = self.system.groups(work, id)?;
+        for &item in &self.items {
+            let values = self.system.groups(work, item)?;
             for (value, (place, track)) in values.into_iter().zip(&mut tracks) {
                 self.found.extend(track.look(time, value).map(|ended| (place, ended)));
             }
@@ -152,7 +152,7 @@ impl<'a> RangeWatch<'a> {
         Ok(())
     }
 
-    /// What was outside, in the order of the conductors, their groups and the time.
+    /// What was outside, in the order of paths and sources, their groups and the time.
     pub(crate) fn into_found(mut self) -> Vec<OutOfRange> {
         let now = self.tracks.iter().enumerate();
         self.found.extend(now.filter_map(|(place, track)| Some((place, track.now?))));
@@ -174,7 +174,8 @@ mod tests {
         let mut b = NetworkBuilder::new();
         let (one, other) = (b.massless("a"), b.massless("b"));
         let conductor = b.resistor("r", one, other, Law::conductance(Input::number(1.0)));
-        let mut track = Track { conductor, group: &KNOWN, last: None, now: None };
+        let mut track =
+            Track { item: Item::Conductor(conductor), group: &KNOWN, last: None, now: None };
         let mut found: Vec<OutOfRange> =
             points.iter().filter_map(|(time, value)| track.look(*time, *value)).collect();
         found.extend(track.now);
