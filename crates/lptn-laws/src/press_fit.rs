@@ -65,10 +65,10 @@ impl<S: Scalar> Fit<S> {
 
     /// Pressure in Pa at temperatures of hub and shaft in K, 0 where there is a clearance.
     ///
-    /// Lamé's thick-walled cylinders in plane stress, elastic:
-    /// p = delta / (d ((1/E_h) ((D^2 + d^2)/(D^2 - d^2) + nu_h)
-    /// + (1/E_s) ((d^2 + b^2)/(d^2 - b^2) - nu_s))). Source: R. G. Budynas, J. K. Nisbett,
-    /// Shigley's Mechanical Engineering Design, press and shrink fits; DIN 7190-1.
+    /// Lamé's thick-walled cylinders in plane stress, elastic: p = delta / (d (c_h / E_h + c_s /
+    /// E_s)) with c_h = (D^2 + d^2)/(D^2 - d^2) + nu_h and c_s = (d^2 + b^2)/(d^2 - b^2) - nu_s.
+    /// Source: R. G. Budynas, J. K. Nisbett, Shigley's Mechanical Engineering Design, press and
+    /// shrink fits; DIN 7190-1.
     ///
     /// ```
     /// # use lptn_laws::Fit;
