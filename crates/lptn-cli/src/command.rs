@@ -35,7 +35,7 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
         }
         _ => None,
     };
-    let problem = page_without_sign(error).or_else(|| {
+    let problem = page_without_sign(error).or_else(|| word_too_many(error)).or_else(|| {
         verb.and_then(|verb| {
             file_as_verb(verb).or_else(|| near_verb(verb)).or_else(|| path_as_verb(verb))
         })
@@ -77,6 +77,43 @@ fn page_without_sign(error: &clap::Error) -> Option<Diagnostic> {
     let message = format!("{word} stands alone: the file of a report is joined with =");
     let problem = Diagnostic::error("input::report_file", message);
     is_page.then(|| problem.help(format!("write --report={}", quoted(word))))
+}
+
+/// A word too many: a value without its `=`, a quantity without quotes, a second netlist.
+fn word_too_many(error: &clap::Error) -> Option<Diagnostic> {
+    let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return None };
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    if error.kind() != ErrorKind::UnknownArgument || word.starts_with('-') {
+        return None;
+    }
+    let problem = |message: String, help: String| {
+        Some(Diagnostic::error("input::word_too_many", message).help(help))
+    };
+    let set = words.windows(3).find(|three| three[0] == "--set" && !three[1].contains('='));
+    if let Some([_, name, value]) = set {
+        let message = format!("`--set {name}` has no value");
+        return problem(message, format!("write --set {}", quoted(&format!("{name}={value}"))));
+    }
+    let rest = words.get(1..).unwrap_or_default();
+    match words.first().map(String::as_str)? {
+        "units" => problem(
+            format!("a quantity is one word, and `{word}` is another"),
+            format!("write lptn units \"{}\"", rest.join(" ")),
+        ),
+        verb if is_netlist(word) => {
+            let files: Vec<String> =
+                rest.iter().filter(|word| is_netlist(word)).map(|word| quoted(word)).collect();
+            problem(
+                format!("`lptn {verb}` takes one netlist, and {word} is another"),
+                format!("`lptn compare {}` sets them side by side", files.join(" ")),
+            )
+        }
+        _ => None,
+    }
+}
+
+fn is_netlist(word: &str) -> bool {
+    Path::new(word).extension().is_some_and(|ending| ending == "toml")
 }
 
 /// The name of a file in the place of a verb.

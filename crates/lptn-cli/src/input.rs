@@ -15,6 +15,7 @@ use lptn_units::{Dimension, Problem, Quantity, Type, Unit, UnitError, parse_quan
 use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
+use crate::files::names::RESULT;
 use crate::options::{Source, Times};
 use crate::words::{counts, unverified, unverified_names};
 
@@ -75,6 +76,10 @@ fn similar(file: &Path) -> Option<String> {
 
 /// A netlist of the folder that is given in the place of one.
 fn example(folder: &Path) -> Option<String> {
+    if folder.join(RESULT).is_file() {
+        let folder = quoted(&folder.display().to_string());
+        return Some(format!("it holds results: `lptn plot {folder}` shows them"));
+    }
     let entries = std::fs::read_dir(folder).ok()?;
     let paths = entries.filter_map(|entry| entry.ok().map(|entry| folder.join(entry.file_name())));
     let netlists = paths.filter(|path| path.extension().is_some_and(|ending| ending == "toml"));

@@ -16,6 +16,9 @@ pub(crate) const Resistor: KindDeclaration = KindDeclaration {
     selector: None,
     example: "{ from = \"a\", to = \"b\", R = \"0.3 K/W\" }",
     elsewhere: &[
+        ("Rth", "the resistance is `R`"),
+        ("R_th", "the resistance is `R`"),
+        ("resistance", "the resistance is `R`"),
         ("k", "a conductivity with a shape belongs in [conduction]"),
         ("h", "a film coefficient with an area belongs in [convection]"),
         ("area", "a film coefficient with an area belongs in [convection]"),

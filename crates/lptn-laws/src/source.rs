@@ -16,6 +16,8 @@ pub(crate) const Source: KindDeclaration = KindDeclaration {
     selector: None,
     example: "{ into = \"a\", P = \"100 W\" }",
     elsewhere: &[
+        ("in", "the node that is heated is `into`"),
+        ("Q", "the heat is `P`"),
         ("node", "the node that is heated is `into`"),
         ("to", "the node that is heated is `into`"),
     ],

@@ -50,6 +50,8 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
     ],
     example: "{ stop = \"25 min\" }",
     elsewhere: &[
+        ("end", "the end of a run is `stop`"),
+        ("duration", "the end of a run is `stop`"),
         ("every", "write `output = { every = \"5 s\" }`"),
         ("at", "write `output = { at = [\"5 s\"] }`"),
     ],

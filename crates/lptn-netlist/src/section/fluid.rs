@@ -215,9 +215,9 @@ impl<'a> Elaboration<'a> {
             return problem.help(format!("`{name}` is a material: what flows is a [fluid]"));
         }
         problem.help(format!(
-            "`lptn materials` lists the library; your own belong below [fluid], for example \
-             `{name} = {}`",
-            FLUID.example
+            "`lptn materials` lists the library; your own belong below [fluid], with their own \
+             numbers in the place of `?`: `{name} = {{ density = \"? kg/m^3\", cp = \"? J/(kg \
+             K)\" }}`"
         ))
     }
 }
