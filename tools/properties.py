@@ -59,7 +59,7 @@ FLUIDS = [
     ("water", boiling, [273.16, *steps((274, 314, 2), (314, 574, 5))], 280.0,
      "liquid water that is about to boil; its expansion from 280 K on, which is above its largest "
      "density"),
-    ("glycol_50", brine, steps((245, 295, 2), (295, 370, 5)), 0.0,
+    ("glycol_50", brine, steps((245, 335, 2), (335, 370, 5)), 0.0,
      "ethylene glycol in water, 50 % of the mass, at 101325 Pa"),
 ]
 

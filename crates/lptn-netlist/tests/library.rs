@@ -114,6 +114,27 @@ fn air_is_an_ideal_gas_at_one_atmosphere() {
     near(air.k.unwrap(), 0.025_51, 0.03);
 }
 
+/// The same mixture by the ASHRAE Handbook of Fundamentals, 47.8 % of the volume, as CoolProp 8.0
+/// evaluates it (`INCOMP::AEG[0.478]`), at 25 and 60 degC.
+#[test]
+fn glycol_agrees_with_another_handbook() {
+    let glycol = record("glycol_50");
+    near(glycol.density.unwrap(), 1068.19, 0.01);
+    near(glycol.cp.unwrap(), 3341.55, 2e-3);
+    near(glycol.k.unwrap(), 0.391_443, 3e-3);
+    let handbook = [
+        ("density", 1068.191, 1049.356),
+        ("cp", 3341.552, 3472.832),
+        ("k", 0.391_443, 0.412_528),
+        ("viscosity", 3.143_256e-3, 1.382_156e-3),
+    ];
+    for (key, cold, warm) in handbook {
+        let (_, table) = glycol.film.iter().find(|(known, _)| known == key).unwrap();
+        near(table.value_and_slope(298.15).unwrap().0, cold, 0.01);
+        near(table.value_and_slope(333.15).unwrap().0, warm, 0.01);
+    }
+}
+
 #[test]
 fn gear_oil_agrees_with_the_correlation_for_petroleum_oils_and_with_engine_oil() {
     let oil = record("gear_oil_vg220");
