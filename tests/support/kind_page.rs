@@ -10,13 +10,15 @@ fn unit(field: &FieldDeclaration) -> String {
     }
 }
 
-fn range(range: Range) -> &'static str {
+fn range(range: Range) -> String {
     match range {
-        Range::Finite => "of either sign",
-        Range::Positive => "above 0",
-        Range::NotNegative => "at least 0",
-        Range::Fraction => "above 0, at most 1",
-        Range::Temperature => "absolute",
+        Range::Finite => "of either sign".into(),
+        Range::Positive => "above 0".into(),
+        Range::NotNegative => "at least 0".into(),
+        Range::Fraction => "above 0, at most 1".into(),
+        Range::Temperature => "absolute".into(),
+        Range::Degrees(from, to) => format!("between {from} and {to} degrees"),
+        Range::Count => "whole, at least 1".into(),
     }
 }
 

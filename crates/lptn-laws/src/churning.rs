@@ -172,7 +172,7 @@ impl Law for ChurnedTeeth {
                     "helix angle, of which at least 10 degrees count",
                     "\"15 deg\"",
                 )
-                .signed()
+                .degrees(-60, 60)
                 .or(0.0)
             },
         ],

@@ -1,8 +1,11 @@
 //! How a kind of path and a law are declared: everything that netlists, checks, documents and
 //! analyses know of them follows from here.
 
+use std::sync::LazyLock;
+
 use lptn_units::{Scalar, Type};
 
+pub use crate::range::Range;
 use crate::{Formula, Kind};
 
 /// A law: what it declares, and its formula.
@@ -248,6 +251,16 @@ impl FieldDeclaration {
         Self { default: Some(default), ..self }
     }
 
+    /// The same that is counted: whole, at least 1.
+    pub const fn counted(self) -> Self {
+        Self { range: Range::Count, ..self }
+    }
+
+    /// The same angle, between these degrees.
+    pub const fn degrees(self, from: i16, to: i16) -> Self {
+        Self { range: Range::Degrees(from, to), ..self }
+    }
+
     /// The same that may be 0.
     pub const fn from_zero(self) -> Self {
         Self { range: Range::NotNegative, ..self }
@@ -257,22 +270,6 @@ impl FieldDeclaration {
     pub const fn signed(self) -> Self {
         Self { range: Range::Finite, ..self }
     }
-}
-
-/// Which numbers a field may be. During a run, where it may depend on time and temperatures, 0 is
-/// allowed as well.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Range {
-    /// Any.
-    Finite,
-    /// Above 0.
-    Positive,
-    /// At least 0.
-    NotNegative,
-    /// Above 0, at most 1.
-    Fraction,
-    /// An absolute temperature, at least 0 K.
-    Temperature,
 }
 
 /// What to do about a number that is not above 0.
@@ -363,7 +360,13 @@ pub enum SurfaceKind {
 impl Kind {
     /// The laws that its paths obey, in the order of the list.
     pub fn laws(self) -> impl Iterator<Item = Formula> {
-        Formula::ALL.iter().copied().filter(move |law| law.declaration().kinds.contains(&self))
+        // asked for each key of each section, so found once
+        static LAWS: LazyLock<Vec<Vec<Formula>>> = LazyLock::new(|| {
+            let obeys = |law: &Formula, kind| law.declaration().kinds.contains(kind);
+            let laws = |kind| Formula::ALL.iter().copied().filter(|law| obeys(law, kind)).collect();
+            Kind::ALL.iter().map(laws).collect()
+        });
+        LAWS[self as usize].iter().copied()
     }
 
     /// Whether its paths are streams, whose two ends receive different heats.

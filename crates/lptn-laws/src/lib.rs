@@ -49,6 +49,7 @@ mod mesh;
 mod phase;
 mod press_fit;
 mod radiation;
+mod range;
 mod resistor;
 mod rotation;
 mod seal;

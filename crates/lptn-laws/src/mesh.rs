@@ -204,8 +204,8 @@ impl Law for MeshExternal {
                 "\"50 N m\"",
             )
             .signed(),
-            FieldDeclaration::given("z1", "teeth of the pinion", "20"),
-            FieldDeclaration::given("z2", "teeth of the wheel, or of the ring", "60"),
+            FieldDeclaration::given("z1", "teeth of the pinion", "20").counted(),
+            FieldDeclaration::given("z2", "teeth of the wheel, or of the ring", "60").counted(),
             length("module", "normal module", "\"3 mm\""),
             length("width", "common width of the teeth", "\"30 mm\""),
             length("Ra", "roughness, mean of the two flanks", "\"0.5 um\""),
@@ -221,8 +221,9 @@ impl Law for MeshExternal {
                 )
             },
             FieldDeclaration::given("X_L", "lubricant: mineral 1, PAO and ester 0.8", "1").or(1.0),
-            angle("pressure_angle", "normal pressure angle", "\"20 deg\"", 20.0 * PI / 180.0),
-            angle("helix_angle", "helix angle", "\"15 deg\"", 0.0).signed(),
+            angle("pressure_angle", "normal pressure angle", "\"20 deg\"", 20.0 * PI / 180.0)
+                .degrees(0, 45),
+            angle("helix_angle", "helix angle", "\"15 deg\"", 0.0).degrees(-60, 60),
             FieldDeclaration::given("addendum_1", "of the pinion in modules, with its shift", "1")
                 .or(1.0),
             FieldDeclaration::given("addendum_2", "of the wheel in modules, with its shift", "1")

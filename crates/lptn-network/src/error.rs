@@ -196,6 +196,22 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.field(*item, *field), format_short(*value)
         ),
         help text("it is a part of a whole: write `0.8` for 80 %");
+    /// An angle that no such part has; in rad, its bounds in degrees.
+    Angle { item: Item, field: Field, value: f64, range: [i16; 2] } = "network::angle",
+        at Some((*item, *field)),
+        says format!(
+            "{} must be between {} and {} deg, got {} deg",
+            say.field(*item, *field), range[0], range[1], format_short(value.to_degrees())
+        ),
+        help text("an angle has its unit: `15 deg`");
+    /// What is counted, such as teeth, that is not a whole number of at least 1.
+    NotCounted { item: Item, field: Field, value: f64 } = "network::not_counted",
+        at Some((*item, *field)),
+        says format!(
+            "{} must be a whole number of at least 1, got {}",
+            say.field(*item, *field), format_short(*value)
+        ),
+        help text("teeth are counted");
     /// A value that has to be larger than another, as an outer radius; in SI units.
     Radii { item: Item, fields: [Field; 2], inner: f64, outer: f64 } = "network::radii",
         at Some((*item, fields[1])),

@@ -51,6 +51,8 @@ pub enum InputProblem {
     /// An emissivity or view factor outside 0 to 1.
     NotAFraction(value: f64) = INPUT, format!("is not between 0 and 1: {value}"),
         help "keep it between 0 and 1: `min(max(x, 0), 1)`";
+    /// An angle that no such part has, in degrees.
+    Angle(value: f64) = INPUT, format!("is an angle of {value} deg, which no such part has");
     /// A quantity that cannot be negative, in SI units.
     Negative(value: f64) = INPUT, format!("is negative: {value} (SI units)"),
         help "keep it positive: `max(x, 0)` with its unit";

@@ -200,6 +200,9 @@ fn impossible(field: &lptn_laws::FieldDeclaration, value: f64) -> Option<InputPr
         Range::Fraction => {
             (!(0.0..=1.0).contains(&value)).then_some(InputProblem::NotAFraction(value))
         }
+        range @ Range::Degrees(..) => {
+            (!range.has_angle(value)).then_some(InputProblem::Angle(value.to_degrees()))
+        }
         _ if value >= 0.0 || value.is_nan() => None,
         Range::Temperature => Some(InputProblem::BelowAbsoluteZero(value)),
         Range::Positive if field.ty == CONDUCTANCE => {
@@ -208,7 +211,7 @@ fn impossible(field: &lptn_laws::FieldDeclaration, value: f64) -> Option<InputPr
         Range::Positive if field.ty == RESISTANCE => {
             Some(InputProblem::NegativeConductance(value.recip()))
         }
-        Range::Positive | Range::NotNegative => Some(InputProblem::Negative(value)),
+        Range::Positive | Range::NotNegative | Range::Count => Some(InputProblem::Negative(value)),
     }
 }
 

@@ -288,6 +288,12 @@ impl Work<'_> {
             Range::Fraction if !(value > 0.0 && value <= 1.0) => {
                 BuildErrorKind::NotAFraction { item, field, value }
             }
+            Range::Degrees(from, to) if !range.has_angle(value) => {
+                BuildErrorKind::Angle { item, field, value, range: [from, to] }
+            }
+            Range::Count if value < 1.0 || value.fract() != 0.0 => {
+                BuildErrorKind::NotCounted { item, field, value }
+            }
             Range::Temperature if value < 0.0 => {
                 BuildErrorKind::BelowAbsoluteZero { item, field, value }
             }
