@@ -43,6 +43,7 @@ mod forced_convection;
 mod free_convection;
 mod joint;
 mod list;
+mod lookup;
 mod loss;
 mod lump;
 mod mesh;
