@@ -3,8 +3,8 @@
 
 use lptn_units::{Scalar, Type};
 
+use crate::Kind;
 pub use crate::range::Range;
-use crate::{Formula, Kind};
 
 /// A law: what it declares, and its formula.
 pub trait Law {
