@@ -152,3 +152,51 @@ stop = "10 s"
     let said = "but `external` is known for a pitch line velocity in m/s from 2 to 25";
     assert!(message.contains(said), "{message}");
 }
+
+/// A seal by a formula whose constants were not read, 2.429e-3 N m/mm x 50 mm x 104.72 rad/s =
+/// 12.718 W; every verb that tells a result of it says so.
+const UNSURE: &str = "format = 1
+[param]
+G = '2 W/K'
+[node]
+cover = { C = '200 J/K', T0 = '20 degC' }
+[boundary]
+air = { T = '20 degC' }
+[resistor]
+skin = { from = 'cover', to = 'air', G = 'G' }
+[seal]
+lip = { into = 'cover', speed = '1000 rpm', d = '50 mm', model = 'nbr' }
+[run]
+stop = '10 min'
+[size.skin]
+minimise = 'G'
+vary = { G = { from = '0.1 W/K', to = '10 W/K' } }
+require = ['cover.T <= 30 [degC]']
+[fit.warm]
+data = 'record.csv'
+column = { cover = 'cover.T' }
+sigma = '0.1 K'
+vary = { G = { from = '0.1 W/K', to = '10 W/K' } }
+";
+
+#[test]
+fn every_result_says_which_constants_are_unverified() {
+    let folder = Folder::with("net.toml", UNSURE);
+    let rise = |t: f64| 20.0 + 12.718 / 2.0 * (1.0 - (-t / 100.0).exp());
+    let rows: Vec<String> =
+        (0..=60).map(|i| f64::from(i) * 10.0).map(|t| format!("{t},{}", rise(t))).collect();
+    folder.write("record.csv", &format!("t [s],cover [degC]\n{}\n", rows.join("\n")));
+    for words in [
+        &["run", "net.toml"][..],
+        &["steady", "net.toml"],
+        &["modes", "net.toml"],
+        &["reduce", "net.toml", "--port", "cover"],
+        &["size", "net.toml"],
+        &["fit", "network", "net.toml"],
+        &["compare", "net.toml"],
+    ] {
+        let ran = folder.run(words);
+        let said = format!("{}{}", ran.out, ran.err);
+        assert!(said.contains("unverified constants: `lip`"), "{words:?}: {said}");
+    }
+}

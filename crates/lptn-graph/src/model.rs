@@ -151,7 +151,10 @@ impl Scales {
 
     /// What a place stores or gives back, in words: `stores 12.1 W`.
     pub fn stored(&self, place: &Place) -> Option<String> {
-        let watts = place.stored?;
+        // what is printed as 0 says nothing
+        let least =
+            0.5 * self.heat_unit.0 * 0.1_f64.powi(i32::try_from(self.decimals).unwrap_or(0));
+        let watts = place.stored.filter(|watts| watts.abs() >= least)?;
         let does = if watts < 0.0 { "releases" } else { "stores" };
         Some(format!("{does} {}", self.heat(watts)))
     }

@@ -25,6 +25,7 @@ use crate::input::{self, Input, quoted};
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressOfAll;
+use crate::words::unverified;
 use crate::{ranges, sense};
 
 pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Failure> {
@@ -245,8 +246,12 @@ impl Comparison {
                     message: format!("{file}: {}", warning.message),
                     ..warning
                 });
-                let warnings =
-                    input.netlist.warnings.into_iter().chain(beyond).chain(several).collect();
+                let unsure = unverified(&input.netlist.network).map(|text| {
+                    let message = format!("{file}: {text}");
+                    Diagnostic::warning("network::unverified_constants", message)
+                });
+                let own = input.netlist.warnings.into_iter();
+                let warnings = own.chain(beyond).chain(several).chain(unsure).collect();
                 self.warnings.push((input.netlist.files, warnings));
             }
             Err(not_read) => failure = Some(not_read),

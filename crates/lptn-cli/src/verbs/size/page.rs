@@ -12,7 +12,7 @@ use serde_json::json;
 
 use super::Answer;
 use crate::about::{self, Known};
-use crate::words::spaced;
+use crate::words::{spaced, unverified};
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;
@@ -172,6 +172,7 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
             format!("{} (Norton equivalent)", quantity(name, guess, &answer.unit)),
         ));
     }
+    notes.extend(unverified(&answer.input.netlist.network).map(|unsure| ("note", unsure)));
     notes.push(("proof", format!("{} steady states of the full network", sizing.solved)));
     if let Some(value) = sizing.breaks_again {
         let side = if study.goal == Goal::Minimise { "above" } else { "below" };

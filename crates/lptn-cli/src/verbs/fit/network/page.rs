@@ -17,7 +17,7 @@ use super::Answer;
 use super::words::{combination, state, type_of, verdict};
 use crate::about::{self, Known};
 use crate::diagnostics;
-use crate::words::{count, symbol};
+use crate::words::{count, symbol, unverified};
 
 impl Page for Answer<'_> {
     fn text(&self) -> Text {
@@ -212,6 +212,7 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
         "misfit",
         format!("{} K rms over all {} values", significant(fit.rms, 4), fit.samples()),
     )];
+    notes.extend(unverified(&answer.input.netlist.network).map(|unsure| ("note", unsure)));
     let starts = fit.starts;
     if starts.tried > 1 {
         let mut text = format!("{} of {} searches found this minimum", starts.same, starts.tried);

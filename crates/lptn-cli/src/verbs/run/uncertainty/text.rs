@@ -139,6 +139,8 @@ fn probability(of: Estimate, samples: usize) -> String {
     }
     match of.error {
         Some(error) => format!("{} ± {} %", percent(of.value), significant(100.0 * error, 2)),
+        // nobody knows the far end of a distribution
+        None if of.value > 0.0 && of.value < 1e-5 => "< 0.001 %".into(),
         None if of.value > 0.0 && of.value < 5e-4 => {
             format!("{} %", significant(100.0 * of.value, 2))
         }
