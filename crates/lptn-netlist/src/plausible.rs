@@ -135,8 +135,22 @@ fn implausible(
     })
 }
 
+/// Whether any two conductances are nine decades apart; in most large networks none are.
+fn are_apart(network: &Network) -> bool {
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
+    for id in network.conductor_ids() {
+        if let ConductorFlow::Conductance(conductance) = network.flow(id) {
+            (least, most) = (least.min(conductance), most.max(conductance));
+        }
+    }
+    most >= DECADES * least
+}
+
 /// A warning for constant conductances that meet in a node and are nine decades apart.
 pub(crate) fn neighbours(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
+    if !are_apart(network) {
+        return Vec::new();
+    }
     let mut extremes: Vec<Option<[(f64, ConductorId); 2]>> = vec![None; network.nodes().len()];
     for (id, conductor) in network.conductor_ids().zip(network.conductors()) {
         let ConductorFlow::Conductance(conductance) = network.flow(id) else { continue };

@@ -57,11 +57,10 @@ fn expand(text: &Given, set: &[String], console: &Console) -> Result<Exit, Failu
 
 /// How far the nodes are lumps at the start; `None` where the start cannot be had, which a run
 /// says.
-fn lumped(netlist: &Netlist, system: &ThermalSystem) -> Option<(Network, Lumping)> {
+fn lumped(netlist: &Netlist, system: &ThermalSystem) -> Option<Lumping> {
     let run = netlist.run.as_ref();
     let start = run.map_or(0.0, |run| run.start);
-    let lumping = Lumping::at_start(system, start, run.map(|run| run.stop)).ok()?;
-    Some((netlist.network.clone(), lumping))
+    Lumping::at_start(system, start, run.map(|run| run.stop)).ok()
 }
 
 /// What was found in a netlist.
@@ -70,10 +69,10 @@ struct Finding {
     diagnostics: Vec<Diagnostic>,
     /// What the network consists of, if it is one.
     counts: Option<String>,
-    /// How far its time constants are apart.
-    stiffness: Option<Stiff>,
-    /// The network with how far its nodes are lumps.
-    lumping: Option<(Network, Lumping)>,
+    /// The network, if it is one.
+    network: Option<Network>,
+    /// How far its nodes are lumps.
+    lumping: Option<Lumping>,
     syntax: bool,
     /// Whether it says how long it runs.
     has_run: bool,
@@ -92,7 +91,7 @@ impl Finding {
                     files,
                     diagnostics,
                     counts: None,
-                    stiffness: None,
+                    network: None,
                     lumping: None,
                     syntax,
                     has_run: false,
@@ -101,7 +100,6 @@ impl Finding {
         };
         netlist.set(set)?;
         let counts = Some(counts(&netlist.network));
-        let stiffness = Stiff::of(&netlist.network);
         let (files, mut diagnostics) = (netlist.files.clone(), netlist.warnings.clone());
         let text = Given { bytes: Vec::new(), name: text.name.clone(), stem: text.stem.clone() };
         let input = Input { text, netlist };
@@ -110,13 +108,22 @@ impl Finding {
             Ok(system) => lumping = lumped(&input.netlist, &system),
             Err(failure) => diagnostics.extend(failure.diagnostics),
         }
-        let found =
-            lumping.iter().flat_map(|(_, lumping)| lumping::warnings(&input.netlist, lumping));
+        let found = lumping.iter().flat_map(|lumping| lumping::warnings(&input.netlist, lumping));
         diagnostics.extend(found);
         let has_run = input.netlist.run.is_some();
         let selection = select::of_run(&input.netlist, &[]);
         diagnostics.extend(selection.err().into_iter().flat_map(|failure| failure.diagnostics));
-        Ok(Self { files, diagnostics, counts, stiffness, lumping, syntax: false, has_run })
+        let network = Some(input.netlist.network);
+        Ok(Self { files, diagnostics, counts, network, lumping, syntax: false, has_run })
+    }
+
+    /// How far its time constants are apart; a large network takes a while to tell.
+    fn stiffness(&self) -> Option<Stiff> {
+        Stiff::of(self.network.as_ref()?)
+    }
+
+    fn lumping(&self) -> Option<(&Network, &Lumping)> {
+        self.network.as_ref().zip(self.lumping.as_ref())
     }
 
     fn number(&self, severity: Severity) -> usize {
@@ -155,10 +162,10 @@ impl Page for View<'_> {
         text.section();
         if finding.exit() == Exit::Done {
             let at_length = self.console.detail > Detail::Brief;
-            if let Some(stiff) = finding.stiffness.as_ref().filter(|_| at_length) {
+            if let Some(stiff) = at_length.then(|| finding.stiffness()).flatten() {
                 text.sentence("stiffness: ", &stiff.words());
             }
-            if let Some((network, lumping)) = &finding.lumping {
+            if let Some((network, lumping)) = finding.lumping() {
                 lumping::lines(&mut text, network, (lumping, "lumping:   ", self.console.detail));
             }
         }
@@ -172,13 +179,13 @@ impl Page for View<'_> {
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let finding = self.finding;
-        let lumping = finding.lumping.as_ref();
+        let lumping = finding.lumping();
         json.member("format", &1)?;
         json.member("network", &self.text.stem)?;
         json.member("ok", &(finding.exit() == Exit::Done))?;
         json.member("errors", &finding.list(Severity::Error))?;
         json.member("warnings", &finding.list(Severity::Warning))?;
-        json.member("stiffness", &finding.stiffness.as_ref().map(Stiff::json))?;
+        json.member("stiffness", &finding.stiffness().as_ref().map(Stiff::json))?;
         json.member("lumping", &lumping.map(|(network, lumping)| lumping::json(network, lumping)))
     }
 }
