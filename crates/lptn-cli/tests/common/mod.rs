@@ -17,8 +17,8 @@ pub const GEARBOX: &str = include_str!("../../../../networks/gearbox.toml");
 /// A run that would take minutes.
 pub fn endless() -> String {
     let long = GEARBOX
-        .replace("\"25 min\"", "\"2000 d\"")
-        .replace("{ every = \"5 s\" }", "{ every = \"1 d\" }");
+        .replace("\"25 min\"", "\"500 d\"")
+        .replace("{ every = \"5 s\" }", "{ every = \"6 h\" }");
     long.replace("P = \"P_7000\"", "P = \"P_7000 * (1 + 0.5 * sin(t / 10 [s]))\"")
 }
 
