@@ -362,7 +362,8 @@ fn page(name: &str) -> (String, String, Vec<Row>) {
 
 /// The example in a folder with the CSV files that lie beside the page, as a reader would copy it.
 fn read(name: &str, netlist: &str) -> Netlist {
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("element-{name}"));
+    let own = format!("element-{name}-{:?}", std::thread::current().id()); // tests run at once
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(own);
     std::fs::create_dir_all(&path).expect("a folder");
     for entry in std::fs::read_dir(folder()).expect("the pages") {
         let file = entry.expect("an entry").path();

@@ -40,6 +40,8 @@ pub(crate) fn graph(args: &GraphArgs, console: &Console) -> Result<Exit, Failure
     let plain = !args.shows_state() && !field::is_wanted(args, kind);
     if let (true, Some(file)) = (plain, input.typed()) {
         console.next(&format!("lptn graph {file} --steady"));
+    } else if let (true, Some(file)) = (args.shows_state(), input.typed()) {
+        console.next(&format!("lptn run {file} --report"));
     }
     Ok(Exit::Done)
 }

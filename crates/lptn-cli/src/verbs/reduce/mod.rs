@@ -97,9 +97,11 @@ impl View<'_> {
             self.notes().iter().for_each(|note| console.note(&format!("note: {note}")));
         }
         if let Some(path) = &self.args.write {
-            let path = path.display();
-            console
-                .note(&format!("wrote  {path}: one node that stands for {}", self.input.text.name));
+            let name = &self.input.text.name;
+            console.note(&format!("wrote  {}: one node that stands for {name}", path.display()));
+            if self.input.netlist.run.is_some() {
+                console.next(&format!("lptn run {}", quoted(&path.display().to_string())));
+            }
         } else if let (ReduceFormat::Of(Format::Table), Some(file), false) =
             (self.args.format, self.input.typed(), self.system.network().has_events())
         {

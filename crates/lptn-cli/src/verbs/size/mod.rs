@@ -38,6 +38,7 @@ pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> 
     let exit = console.show(&answer, args.printed.format)?;
     if args.write && exit == Exit::Done {
         write::write(&answer, file, console)?;
+        console.next(&format!("lptn run {}", quoted(&file.display().to_string())));
     } else if exit == Exit::Done && args.printed.format == Format::Table {
         let file = quoted(&file.display().to_string());
         console.next(&format!("lptn size {file} --write"));

@@ -22,7 +22,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Folder;
-use crate::input::{Input, Studies};
+use crate::input::{Input, Studies, quoted};
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressLine;
@@ -80,7 +80,10 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
         console.note(&format!("wrote  {}, {}", path.display(), others.join(", ")));
     }
     match (args.write, exit) {
-        (true, Exit::Done) => write::write(&answer, &args.file, console)?,
+        (true, Exit::Done) => {
+            write::write(&answer, &args.file, console)?;
+            console.next(&format!("lptn run {}", quoted(&args.file.display().to_string())));
+        }
         (true, _) => console.message("nothing is written: not every parameter is determined"),
         _ => {}
     }
