@@ -1,7 +1,8 @@
 //! Checks of a network's structure: nodes that can be solved for, islands that are tied to
 //! something.
 
-use crate::error::{BuildError, BuildErrorKind};
+use crate::build_error::BuildError;
+use crate::error::BuildErrorKind;
 use crate::id::{End, NodeId};
 use crate::parts::Parts;
 

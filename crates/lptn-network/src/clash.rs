@@ -1,7 +1,8 @@
 //! Names that are taken by what stands inside something else: `plate.z1` is a face of the grid
 //! `plate`, `steel.T` the temperature of a node.
 
-use crate::error::{BuildError, BuildErrorKind};
+use crate::build_error::BuildError;
+use crate::error::BuildErrorKind;
 use crate::id::{
     BoundaryId, CapacitorId, ConductorId, FacePathId, GridId, Item, LimitId, NodeId, SourceId,
 };

@@ -1,9 +1,7 @@
 //! What can be wrong with a network, each told once.
 
-use std::fmt;
-
 use lptn_laws::Formula;
-use lptn_units::{EvalError, Problem, Problems, Type, format_short};
+use lptn_units::{EvalError, Type, format_short};
 
 use crate::error_words::{
     Say, area, by, crossed, evaluation, in_unit, inside, keys, not_positive, unused_name, usable,
@@ -11,60 +9,6 @@ use crate::error_words::{
 use crate::id::{ConductorId, ControlId, Field, FluidId, GridId, Item, NodeId, SignalId, SourceId};
 use crate::names::list_of_names;
 use crate::parts::grid::{GridFace, MOST_CELLS};
-
-/// All problems found while a network was built; never empty.
-pub type BuildErrors = Problems<BuildError>;
-
-/// One problem: its kind, and the names that a message needs.
-#[derive(Clone, Debug)]
-pub struct BuildError {
-    /// Which of the problems it is, with its values in SI units.
-    pub kind: BuildErrorKind,
-    /// The name of the item it is about.
-    pub name: String,
-}
-
-impl BuildError {
-    /// The stable code, as diagnostics print it.
-    pub fn code(&self) -> &'static str {
-        self.kind.code()
-    }
-
-    /// Where the problem is, if it is at one item: the item and its field.
-    pub fn place(&self) -> Option<(Item, Field)> {
-        self.kind.place()
-    }
-
-    /// What to do about it, in words that can be pasted where possible.
-    pub fn help(&self) -> Option<String> {
-        self.kind.help(&Say::new(&self.name))
-    }
-}
-
-impl fmt::Display for BuildError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.kind.message(&Say::new(&self.name)))
-    }
-}
-
-impl std::error::Error for BuildError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match &self.kind {
-            BuildErrorKind::Evaluation { error, .. } => Some(error),
-            _ => None,
-        }
-    }
-}
-
-impl Problem for BuildError {
-    fn code(&self) -> &'static str {
-        self.code()
-    }
-
-    fn help(&self) -> Option<String> {
-        self.help()
-    }
-}
 
 /// Help that needs no more than the words.
 #[allow(clippy::unnecessary_wraps, reason = "in the form of all helps")]

@@ -9,6 +9,7 @@
 //! node.
 
 mod breakpoints;
+mod build_error;
 mod builder;
 mod changing;
 mod check;
@@ -39,13 +40,14 @@ mod typed;
 mod value;
 
 pub use breakpoints::same_time;
+pub use build_error::{BuildError, BuildErrors};
 pub use builder::grid::GridBlock;
 pub use builder::substance::{NoMaterial, Properties};
 pub use builder::{NetworkBuilder, Path};
 pub use changing::Changing;
 pub use curves::Curve;
 pub use enthalpy::{Content, Enthalpy};
-pub use error::{BuildError, BuildErrorKind, BuildErrors};
+pub use error::BuildErrorKind;
 pub use error_words::{Naming, Say};
 pub use evaluation::Evaluation;
 pub use id::{

@@ -15,7 +15,8 @@ use std::sync::Arc;
 use lptn_laws::{Carries, Formula, Kind};
 use lptn_units::{Dimension, Expression, Problems, Program, TableSymbol, Type, UnitError};
 
-use crate::error::{BuildError, BuildErrorKind, BuildErrors};
+use crate::build_error::{BuildError, BuildErrors};
+use crate::error::BuildErrorKind;
 use crate::id::{
     BoundaryId, CapacitorId, ConductorId, End, Field, Item, LimitId, NodeId, ParameterId, SourceId,
     TableId,

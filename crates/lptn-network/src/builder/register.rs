@@ -3,7 +3,8 @@
 use lptn_units::RESERVED;
 
 use super::NetworkBuilder;
-use crate::error::{BuildError, BuildErrorKind};
+use crate::build_error::BuildError;
+use crate::error::BuildErrorKind;
 use crate::id::{End, Item};
 use crate::names::is_path;
 use crate::parts::label::is_numbered;

@@ -13,8 +13,9 @@ pub(crate) mod switch;
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use crate::build_error::{BuildError, BuildErrors};
 use crate::check::Islands;
-use crate::error::{BuildError, BuildErrorKind, BuildErrors};
+use crate::error::BuildErrorKind;
 use crate::evaluation::Evaluation;
 use crate::id::{ConductorId, Field, Item, NodeId, ParameterId};
 use crate::input_error::{InputError, InputProblem};

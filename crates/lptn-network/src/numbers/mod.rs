@@ -8,8 +8,9 @@ pub(crate) mod substance;
 
 use std::sync::Arc;
 
+use crate::build_error::BuildError;
 use crate::enthalpy::Enthalpy;
-use crate::error::{BuildError, BuildErrorKind};
+use crate::error::BuildErrorKind;
 use crate::evaluation::Evaluation;
 use crate::id::{CapacitorId, Field, FluidId, Item, NodeId, ParameterId, SourceId};
 use crate::law::ConductorFlow;

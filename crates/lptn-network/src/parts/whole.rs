@@ -1,6 +1,6 @@
 //! Cells, surfaces and the conductors of a path to a face, as parts of a whole.
 
-use crate::error::BuildError;
+use crate::build_error::BuildError;
 use crate::id::{ConductorId, FacePathId, Item, NodeId};
 use crate::parts::Parts;
 use crate::parts::grid::{FacePath, Inner};
