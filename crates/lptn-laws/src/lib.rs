@@ -50,6 +50,7 @@ mod loss;
 mod lump;
 mod mesh;
 mod phase;
+mod plate_fins;
 mod press_fit;
 mod radiation;
 mod range;
@@ -89,6 +90,7 @@ pub use list::{Formula, Kind};
 pub use lump::{biot, diffusion_time};
 pub use mesh::{GearPair, gear_loss_factor, mesh_friction};
 pub use phase::melting_capacity;
+pub use plate_fins::{nusselt_between_plates, nusselt_through_plates};
 pub use press_fit::Fit;
 pub use radiation::{
     STEFAN_BOLTZMANN, effective_emissivity_parallel_plates, radiation_conductance,

@@ -80,6 +80,7 @@ declare! {
     forced_convection: { CrossFlow, CrossFlowHilpert, FlatPlate, Duct };
     rotation: { Shaft, Annulus };
     fins: { StraightFins };
+    plate_fins: { PlateFins, PlateFinsBlown };
     wall: { WallInWind, GearboxWall, GearboxWallBlown };
     contact: Contact {};
     joint: { Joint };
