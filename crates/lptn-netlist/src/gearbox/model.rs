@@ -32,7 +32,8 @@ pub struct Gearbox {
     pub driver: Option<String>,
     /// What loses power in it.
     pub parts: Vec<GearboxPart>,
-    pub(crate) span: Span,
+    /// Where its name stands.
+    pub span: Span,
     pub(crate) teeth: Span,
 }
 
