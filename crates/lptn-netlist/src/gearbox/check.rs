@@ -50,7 +50,7 @@ impl Gearbox {
     fn planetary(&self, [sun, planet, ring]: [f64; 3]) -> Vec<Diagnostic> {
         let mut problems = Vec::new();
         let z = format_short;
-        if sun + 2.0 * planet != ring {
+        if (sun + 2.0 * planet - ring).abs() >= 1.0 {
             let fits = (ring - sun) / 2.0;
             let what = format!(
                 "the wheels do not mesh: a sun of {} and planets of {} teeth need a ring of {}, not \

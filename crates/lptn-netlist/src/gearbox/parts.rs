@@ -86,7 +86,12 @@ impl Writer<'_, '_> {
         if let Some((entry, against)) = against {
             let against = against?;
             if on == against || on == Member::Planet || against == Member::Planet {
-                let message = format!("{} cannot be that", owner.field(AGAINST));
+                let message = format!(
+                    "{} cannot be \"{}\" for what is on \"{}\"",
+                    owner.field(AGAINST),
+                    against.word(),
+                    on.word()
+                );
                 let help = "a planet turns in the carrier, which needs no word; other members turn \
                     in the housing, or in another one of them";
                 let at = &entry.value.span;

@@ -8,7 +8,7 @@ const EXAMPLES: &str = "\
 Examples:
   lptn gear gearbox.toml
   lptn gear gearbox.toml --speed 1000rpm,3000rpm,7000rpm
-  lptn gear gearbox.toml --torque 0Nm,10Nm --temperature 40degC,80degC";
+  lptn gear gearbox.toml --torque '0 N m,10 N m' --temperature 40degC,80degC";
 
 /// Say what gears do: speeds, torques, and what each part loses
 #[derive(Debug, Arguments)]

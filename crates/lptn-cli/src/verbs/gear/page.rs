@@ -189,11 +189,9 @@ impl Page for View<'_> {
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        self.input.head(json, &[])?;
-        json.optional(
-            "out_of_range",
-            ranges::members(&self.input.netlist.network, &self.outside(), false),
-        )?;
+        let (netlist, outside) = (&self.input.netlist, self.outside());
+        self.input.head(json, &ranges::warnings(netlist, &outside, false))?;
+        json.optional("out_of_range", ranges::members(&netlist.network, &outside, false))?;
         json.member("gearbox", &self.task.stages[0].name)?;
         json.member("ratio", &self.ratio())?;
         let points = self.states().map(|(block, speed, state)| self.point(block, speed, state));

@@ -63,7 +63,8 @@ impl View<'_> {
     pub(super) fn over_speed(&self, block: &Block) -> Vec<TextTable> {
         let mut tables = Vec::new();
         for states in block.states.chunks(ACROSS) {
-            tables.push(self.table("loss [W]", states, &self.heats(states)));
+            let rows = self.heats(block, states);
+            tables.push(self.table("loss [W]", states, &rows));
         }
         for states in block.states.chunks(ACROSS) {
             let of = |part: &PartLoss| part.exponent;
@@ -88,7 +89,7 @@ impl View<'_> {
 
     /// Heats of parts, marked where a formula is outside its range, their sum, what comes out of
     /// what goes in, and the warmest node.
-    fn heats(&self, states: &[(f64, GearState)]) -> Vec<Row> {
+    fn heats(&self, block: &Block, states: &[(f64, GearState)]) -> Vec<Row> {
         let mut rows: Vec<Row> = parts(states)
             .map(|(at, name)| {
                 let cell = |state: &GearState| {
@@ -114,9 +115,11 @@ impl View<'_> {
                 efficiency.map_or("-".into(), |efficiency| fixed(100.0 * efficiency, 2))
             });
         }
-        sum(&format!("warmest node [{}]", self.unit.text), &|state| {
-            fixed(self.unit.from_si(warmest(state)), 1)
-        });
+        if block.temperature.is_none() {
+            sum(&format!("warmest node [{}]", self.unit.text), &|state| {
+                fixed(self.unit.from_si(warmest(state)), 1)
+            });
+        }
         rows
     }
 }
