@@ -35,6 +35,7 @@ mod churning;
 mod conduction;
 mod contact;
 mod convection;
+mod cooler;
 mod declare;
 mod exchanger;
 mod fins;
@@ -68,7 +69,10 @@ pub use declare::{
     Carries, Confidence, Extent, FieldDeclaration, Form, Group, Hints, KindDeclaration, Law,
     LawDeclaration, Range, ResultDeclaration, Substance, SurfaceKind,
 };
-pub use exchanger::{effectiveness_counterflow, effectiveness_crossflow, effectiveness_parallel};
+pub use exchanger::{
+    effectiveness_counterflow, effectiveness_crossflow, effectiveness_one_stream,
+    effectiveness_parallel, effectiveness_shell,
+};
 pub use fins::{fin_efficiency, finned};
 pub use fluid::Fluid;
 pub use forced_convection::{

@@ -9,6 +9,7 @@ use crate::input_error::{InputError, InputProblem};
 use crate::law::At;
 use crate::network::Network;
 use crate::network::flow::place;
+use crate::parts::element::Conductor;
 use crate::parts::heat::HeatOf;
 use crate::parts::layout::Holds;
 use crate::parts::result::Bound;
@@ -84,11 +85,14 @@ impl Network {
         key: &str,
         scope: &mut Evaluation,
     ) -> Result<f64, InputError> {
-        let law = &self.conductors()[id.index()].law;
+        let Conductor { law, from, to, .. } = &self.conductors()[id.index()];
         let dependence = self.parts.dependence(id);
+        // what depends on nothing may still tell of its ends
+        let ends = [*from, *to].map(|end| self.parts.vertex(end));
+        let vertices = ends.iter().chain(dependence.vertices.iter().skip(ends.len()));
         let slots: Vec<u32> = scope.layout().temperatures().collect();
         let of = |vertex: &u32| scope.slot(slots[*vertex as usize]);
-        let temperatures: Vec<f64> = dependence.vertices.iter().map(of).collect();
+        let temperatures: Vec<f64> = vertices.map(of).collect();
         let results = {
             let (slots, stack) = scope.plain();
             place(slots, dependence, &|k| temperatures[k]);
