@@ -74,10 +74,13 @@ fn heats(kind: &str) -> Vec<&'static str> {
         "boundary" => vec!["Q"],
         path => match Kind::ALL.iter().find(|kind| kind.declaration().section == path) {
             Some(kind) if kind.is_stream() => vec!["Q_from", "Q_to"],
-            Some(kind) if kind.is_source() => vec!["P"],
             Some(kind) => {
+                let heat = if kind.is_source() { "P" } else { "Q" };
                 let told = kind.laws().flat_map(|law| law.result_declarations());
-                ["Q"].into_iter().chain(told.map(|result| result.key)).collect()
+                let mut endings: Vec<_> =
+                    [heat].into_iter().chain(told.map(|result| result.key)).collect();
+                endings.dedup();
+                endings
             }
             None => vec![],
         },

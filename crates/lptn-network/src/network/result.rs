@@ -1,14 +1,11 @@
 //! Limits and reports, where temperatures and heat flows are known.
 
-use lptn_laws::Formula;
 use lptn_units::{Degree, Type};
 
 use crate::evaluation::Evaluation;
 use crate::id::{ConductorId, End, Field, Item, LimitId, ReportId};
 use crate::input_error::{InputError, InputProblem};
-use crate::law::At;
 use crate::network::Network;
-use crate::network::flow::place;
 use crate::parts::heat::HeatOf;
 use crate::parts::layout::Holds;
 use crate::parts::result::Bound;
@@ -71,44 +68,6 @@ impl Network {
     /// [`Evaluation::set_heats`] takes them.
     pub fn named_heats(&self) -> impl ExactSizeIterator<Item = HeatOf> + '_ {
         self.parts.layout.heats().iter().map(|(heat, _)| *heat)
-    }
-
-    /// What the law of a path tells of itself, by this key, in SI units where `scope` stands, which
-    /// needs temperatures: see [`Evaluation::set_temperatures`].
-    ///
-    /// # Errors
-    /// [`InputError`] if a value of the path fails, or if there is no such number.
-    pub fn told(
-        &self,
-        id: ConductorId,
-        key: &str,
-        scope: &mut Evaluation,
-    ) -> Result<f64, InputError> {
-        let law = &self.conductors()[id.index()].law;
-        let dependence = self.parts.dependence(id);
-        let slots: Vec<u32> = scope.layout().temperatures().collect();
-        let of = |vertex: &u32| scope.slot(slots[*vertex as usize]);
-        let temperatures: Vec<f64> = dependence.vertices.iter().map(of).collect();
-        let results = {
-            let (slots, stack) = scope.plain();
-            place(slots, dependence, &|k| temperatures[k]);
-            let told = |values: &[f64], ends| law.formula().results(values, ends);
-            At { slots, stack }.of_values::<{ Formula::MOST_FIELDS }, _>(law, told)
-        };
-        let results = results.map_err(|failed| self.failed(Item::Conductor(id), failed, scope))?;
-        let declared = law.formula().result_declarations();
-        let position = declared.iter().position(|result| result.key == key);
-        let value = position.map_or(f64::NAN, |position| results[position]);
-        if value.is_finite() {
-            return Ok(value);
-        }
-        let failed = (Field::law(law.formula(), 0), InputProblem::NotFinite(value));
-        Err(self.failed(Item::Conductor(id), failed, scope))
-    }
-
-    /// What the law of a path tells of itself besides its heat.
-    pub fn told_of(&self, id: ConductorId) -> impl Iterator<Item = HeatOf> {
-        self.parts.told_of(id)
     }
 
     /// The heat flows of a path: two for a stream.
