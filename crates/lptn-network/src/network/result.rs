@@ -37,11 +37,24 @@ impl Network {
         value: &Value,
         at: &mut Evaluation,
     ) -> Result<f64, InputError> {
-        match value.at(at) {
-            Ok(x) if x.is_finite() => Ok(x),
-            Ok(x) => Err(self.failed(item, (field, InputProblem::NotFinite(x)), at)),
-            Err(error) => Err(self.failed(item, (field, error.into()), at)),
-        }
+        let problem = match value.at(at) {
+            Ok(x) if x.is_finite() => return Ok(x),
+            Ok(x) => InputProblem::NotFinite(x),
+            Err(error) => error.into(),
+        };
+        let problem = self.missing(value, at).unwrap_or(problem);
+        Err(self.failed(item, (field, problem), at))
+    }
+
+    /// The result of a law that a value reads and that does not exist where `at` stands.
+    fn missing(&self, value: &Value, at: &Evaluation) -> Option<InputProblem> {
+        value.slots().into_iter().find_map(|slot| match self.parts.layout.holds(slot) {
+            Holds::Heat(heat) if at.slot(slot).is_nan() => {
+                let why = self.parts.told(heat)?.missing;
+                Some(InputProblem::NoResult { name: self.parts.heat_name(heat), why })
+            }
+            _ => None,
+        })
     }
 
     /// The names that expressions of results may use: parameters, `t`, and `NAME.T` of every node

@@ -57,9 +57,13 @@ impl Parts {
 
     /// What a quantity is: power, but for what laws tell.
     pub(crate) fn heat_type(&self, heat: HeatOf) -> Type {
-        let HeatOf::Told(item, key) = heat else { return Type::of(Dimension::POWER) };
-        let told = self.declared(item).iter().find(|result| result.key == key);
-        told.map_or(Type::SCALAR, |result| result.ty)
+        self.told(heat).map_or(Type::of(Dimension::POWER), |result| result.ty)
+    }
+
+    /// The declaration of what a law tells.
+    pub(crate) fn told(&self, heat: HeatOf) -> Option<&'static ResultDeclaration> {
+        let HeatOf::Told(item, key) = heat else { return None };
+        self.declared(item).iter().find(|result| result.key == key)
     }
 
     pub(crate) fn heats_of(&self, id: ConductorId) -> Vec<HeatOf> {
