@@ -102,9 +102,13 @@ fn every_law_belongs_to_a_kind_and_is_told_apart() {
         }
     }
     for kind in Kind::ALL {
-        let mut names: Vec<&str> = kind.laws().map(|law| law.declaration().name).collect();
-        names.sort_unstable();
-        assert!(!names.is_empty() && names.windows(2).all(|two| two[0] != two[1]), "{names:?}");
+        let keys = |law: Formula| -> Vec<&str> {
+            law.declaration().fields.iter().map(|field| field.key).collect()
+        };
+        // laws with one word are told apart by their keys
+        let mut all: Vec<_> = kind.laws().map(|law| (law.declaration().name, keys(law))).collect();
+        all.sort_unstable();
+        assert!(!all.is_empty() && all.windows(2).all(|two| two[0] != two[1]), "{all:?}");
     }
 }
 
@@ -276,6 +280,7 @@ fn every_field_refuses_what_is_out_of_its_range() {
             let factor = match field.range {
                 Range::Finite => continue,
                 Range::Positive | Range::NotNegative | Range::Temperature => "-1",
+                Range::NotZero => "0",
                 Range::Fraction => "2",
                 Range::Degrees(..) => "10",
                 Range::Count => "0.37",
@@ -286,6 +291,7 @@ fn every_field_refuses_what_is_out_of_its_range() {
             let rejected = lptn::parse("kinds.toml", &netlist(of, one)).unwrap_err();
             let codes: Vec<&str> = rejected.diagnostics.iter().map(|d| d.code).collect();
             let wanted = match field.range {
+                Range::NotZero => "network::zero",
                 Range::Fraction => "network::not_a_fraction",
                 Range::Degrees(..) => "network::angle",
                 Range::Count => "network::not_counted",

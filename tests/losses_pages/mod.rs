@@ -45,38 +45,121 @@ pub(crate) fn seal() -> Vec<Closed> {
     ]
 }
 
-/// 20 teeth with 60, or in a ring of 60, of 3 mm and 30 mm width, 50 N m at 1500 rpm in 60 mm^2/s
-/// and 860 kg/m^3, Ra 0.5 um.
-fn lost(helix: f64, ring: bool) -> f64 {
-    let (side, alpha, beta) = (if ring { -1.0 } else { 1.0 }, 20f64.to_radians(), helix);
-    let alpha_t = (alpha.tan() / beta.cos()).atan();
-    let beta_b = (beta.tan() * alpha_t.cos()).atan();
-    let d = [20.0, 60.0].map(|z| z * 3.0 / beta.cos());
-    let contact = |d: f64, side: f64| {
-        let (tip, base) = (d + side * 6.0, d * alpha_t.cos());
-        let beyond = 0.5 * (tip * tip - base * base).sqrt() - 0.5 * d * alpha_t.sin();
-        side * beyond / (PI * 3.0 / beta.cos() * alpha_t.cos())
-    };
-    let (e1, e2) = (contact(d[0], 1.0), contact(d[1], side));
-    let factor =
-        PI * (3.0 + side) / (20.0 * 3.0 * beta_b.cos()) * (1.0 - (e1 + e2) + e1 * e1 + e2 * e2);
-    let line_load = 50e3 / (0.5 * d[0]) / alpha_t.cos() / 30.0;
-    let speed = 2.0 * omega(1500.0) * 0.5e-3 * d[0] * alpha_t.sin();
-    let radius = 0.5 * d[0] * alpha_t.sin() * 3.0 / (beta_b.cos() * (3.0 + side));
-    let eta = 60.0 * 860.0 * 1e-3_f64;
-    let friction =
-        0.048 * (line_load / (speed * radius)).powf(0.2) * eta.powf(-0.05) * 0.5_f64.powf(0.25);
-    50.0 * omega(1500.0) * friction * factor
+/// Gears of the page of meshes, in mm, N m, rpm, mPa s and um.
+struct Gears {
+    teeth: [f64; 2],
+    module: f64,
+    width: f64,
+    /// Helix angle in degrees.
+    helix: f64,
+    /// Of the wheel in modules, negative in a ring.
+    addendum: f64,
+    torque: f64,
+    speed: f64,
+    viscosity: f64,
+    roughness: f64,
+}
+
+const PAIR: Gears = Gears {
+    teeth: [20.0, 60.0],
+    module: 3.0,
+    width: 30.0,
+    helix: 15.0,
+    addendum: 1.0,
+    torque: 50.0,
+    speed: 1500.0,
+    viscosity: 51.6,
+    roughness: 0.5,
+};
+
+impl Gears {
+    /// Pitch diameters, and the angles alpha_t and beta_b.
+    fn transverse(&self) -> ([f64; 2], f64, f64) {
+        let (alpha, beta) = (20f64.to_radians(), self.helix.to_radians());
+        let alpha_t = (alpha.tan() / beta.cos()).atan();
+        let beta_b = (beta.tan() * alpha_t.cos()).atan();
+        (self.teeth.map(|z| z * self.module / beta.cos()), alpha_t, beta_b)
+    }
+
+    fn line_load(&self) -> f64 {
+        let (d, alpha_t, _) = self.transverse();
+        self.torque * 1e3 / (0.5 * d[0]) / alpha_t.cos() / self.width
+    }
+
+    fn friction(&self) -> f64 {
+        let (d, alpha_t, beta_b) = self.transverse();
+        let speed = 2.0 * omega(self.speed) * 0.5e-3 * d[0] * alpha_t.sin();
+        let ratio = self.teeth[1] / self.teeth[0];
+        let joined = ratio + self.addendum.signum();
+        let radius = 0.5 * d[0] * alpha_t.sin() * ratio / (beta_b.cos() * joined);
+        0.048
+            * (self.line_load() / (speed * radius)).powf(0.2)
+            * self.viscosity.powf(-0.05)
+            * self.roughness.powf(0.25)
+    }
+
+    fn lost(&self) -> f64 {
+        let (d, alpha_t, beta_b) = self.transverse();
+        let contact = |d: f64, addendum: f64| {
+            let (tip, base) = (d + 2.0 * addendum * self.module, d * alpha_t.cos());
+            let beyond = 0.5 * (tip * tip - base * base).sqrt() - 0.5 * d * alpha_t.sin();
+            let step = PI * self.module / self.helix.to_radians().cos() * alpha_t.cos();
+            addendum.signum() * beyond / step
+        };
+        let (e1, e2) = (contact(d[0], 1.0), contact(d[1], self.addendum));
+        let [z1, z2] = self.teeth;
+        let factor = PI * (z2 + self.addendum.signum() * z1) / (z1 * z2 * beta_b.cos())
+            * (1.0 - (e1 + e2) + e1 * e1 + e2 * e2);
+        self.torque * omega(self.speed) * self.friction() * factor
+    }
+
+    /// Blok's flash temperature in K where spur teeth come into mesh with a third of the load: the
+    /// highest on the path of these.
+    fn flash(&self) -> f64 {
+        let (d, alpha, _) = self.transverse();
+        let side = self.addendum.signum();
+        let [r1, r2] = d.map(|d| 0.5e-3 * d);
+        let tip = r2 + 1e-3 * self.addendum * self.module;
+        let rho2 = (tip * tip - (r2 * alpha.cos()).powi(2)).sqrt();
+        let rho1 = r1 * alpha.sin() - side * (rho2 - r2 * alpha.sin());
+        let load = self.line_load() * 1e3 / 3.0;
+        let radius = rho1 * rho2 / (rho2 + side * rho1);
+        let half = (8.0 * load * radius * (1.0 - 0.09) / (PI * 206e9)).sqrt();
+        let first = omega(self.speed) * rho1;
+        let second = omega(self.speed) * self.teeth[0] / self.teeth[1] * rho2;
+        let difference = (first.sqrt() - second.sqrt()).abs();
+        1.11 * self.friction() * load * difference / (48.7 * 3.8e6 * 2.0 * half).sqrt()
+    }
 }
 
 pub(crate) fn mesh() -> Vec<Closed> {
-    let (pair, stage) = (lost(15f64.to_radians(), false), lost(0.0, true));
+    let stage = Gears { helix: 0.0, addendum: -1.0, ..PAIR }.lost();
+    let fast = Gears {
+        teeth: [25.0, 37.0],
+        module: 4.0,
+        width: 20.0,
+        helix: 0.0,
+        torque: 300.0,
+        speed: 3000.0,
+        viscosity: 20.0,
+        roughness: 0.4,
+        ..PAIR
+    };
+    let planet = Gears { helix: 0.0, addendum: -0.7, ..PAIR };
+    let (pair, mineral) = (PAIR.lost(), 33.0 * 220f64.ln());
+    let [fast_flash, planet_flash] = [fast.flash(), planet.flash()];
+    let gears = 20.0 + fast.lost() / 20.0;
     vec![
         ("pair.P", "steady", pair),
         ("stage.P", "steady", stage),
         ("pinion.T", "steady", 20.0 + 0.6 * pair),
         ("wheel.T", "steady", 20.0 + 0.4 * pair / 2.0),
         ("ring.T", "steady", 20.0 + stage / 4.0),
+        ("fast.flash", "steady", fast_flash),
+        ("fast.contact", "steady", gears + fast_flash),
+        ("fast.scuffing", "steady", 118.0 + mineral),
+        ("fast.margin", "steady", 118.0 + mineral - gears - fast_flash),
+        ("planet.margin", "steady", 150.0 - (20.0 + planet.lost() / 4.0) - planet_flash),
     ]
 }
 

@@ -14,6 +14,7 @@ fn unit(ty: Type) -> String {
 fn range(range: Range) -> String {
     match range {
         Range::Finite => "of either sign".into(),
+        Range::NotZero => "of either sign, not 0".into(),
         Range::Positive => "above 0".into(),
         Range::NotNegative => "at least 0".into(),
         Range::Fraction => "above 0, at most 1".into(),
@@ -92,8 +93,12 @@ pub(crate) fn tables(kind: Kind) -> String {
         lines.push(format!("| `fluid` | {of} | | | |"));
     }
     if let Some(selector) = kind.declaration().selector {
-        let words: Vec<String> =
-            kind.laws_named(true).map(|law| format!("`{}`", law.declaration().name)).collect();
+        let mut words: Vec<String> = Vec::new();
+        for word in kind.laws_named(true).map(|law| format!("`{}`", law.declaration().name)) {
+            if !words.contains(&word) {
+                words.push(word);
+            }
+        }
         lines.push(format!("| `{selector}` | the law: {} | | | |", words.join(", ")));
     }
     let mut known: Vec<&str> = Vec::new();

@@ -25,6 +25,7 @@ fn with_names(command: Command) -> Command {
             "set" => Some(parameters),
             "select" => Some(columns),
             "balance" | "port" => Some(nodes),
+            "gearbox" => Some(gearboxes),
             "name" if materials => Some(substances),
             _ => None,
         };
@@ -60,6 +61,11 @@ fn columns() -> Vec<String> {
 fn nodes() -> Vec<String> {
     let nodes = netlist().map(|netlist| netlist.network.nodes().to_vec());
     nodes.unwrap_or_default().into_iter().map(|node| node.name).collect()
+}
+
+fn gearboxes() -> Vec<String> {
+    let gearboxes = netlist().map(|netlist| netlist.gearboxes().to_vec());
+    gearboxes.unwrap_or_default().into_iter().map(|gearbox| gearbox.name).collect()
 }
 
 fn substances() -> Vec<String> {

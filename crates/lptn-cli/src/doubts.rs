@@ -77,7 +77,7 @@ pub(crate) fn others(network: &Network, steady: &SteadyState, unit: &Unit) -> Op
              start to this one"
                 .into(),
         ),
-        Others::At(temperatures) => {
+        Others::At(temperatures) | Others::Unstable(temperatures) => {
             let apart =
                 |id: &NodeId| (temperatures[id.index()] - steady.temperatures[id.index()]).abs();
             let most = network.node_ids().max_by(|a, b| apart(a).total_cmp(&apart(b)))?;
@@ -86,11 +86,18 @@ pub(crate) fn others(network: &Network, steady: &SteadyState, unit: &Unit) -> Op
             let (here, there) =
                 (at(steady.temperatures[most.index()]), at(temperatures[most.index()]));
             let name = network.name_of(Item::Node(most));
+            let stays = match &steady.others {
+                Others::Unstable(_) => {
+                    ", which the least disturbance leaves: from beyond it the network goes \
+                     elsewhere, or runs away"
+                }
+                _ => "",
+            };
             warn(
                 "steady::several",
                 format!(
                     "several steady states: from its start the network comes to the one with \
-                     `{name}` at {here}; in another it is at {there}"
+                     `{name}` at {here}; in another it is at {there}{stays}"
                 ),
             )
         }

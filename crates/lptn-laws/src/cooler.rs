@@ -99,7 +99,7 @@ fn told(values: &[f64], duty: &Duty<f64>, ends: [f64; 2], outlet: bool) -> Vec<f
 }
 
 const fn result(key: &'static str, ty: Type, meaning: &'static str) -> ResultDeclaration {
-    ResultDeclaration { key, ty, meaning }
+    ResultDeclaration { key, ty, meaning, missing: "" }
 }
 
 const EFFECTIVENESS: ResultDeclaration =

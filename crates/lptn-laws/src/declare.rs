@@ -16,7 +16,8 @@ pub trait Law {
     /// * `values`: one for each of its [fields](LawDeclaration::fields), in their order, in SI
     ///   units
     /// * `ends`: temperatures of `from` and `to` in K, which only laws with
-    ///   [`LawDeclaration::reads_ends`] read
+    ///   [`LawDeclaration::reads_ends`] read; for results those of the hottest and the coldest node
+    ///   that a source heats
     ///
     /// A formula checks nothing: who calls it refuses what is outside the ranges of the fields.
     /// Inside them, value and derivatives are finite.
@@ -46,7 +47,8 @@ pub trait Law {
 /// What is known of a law.
 #[derive(Debug)]
 pub struct LawDeclaration {
-    /// Its name in one word; where a key chooses among the laws of a kind, the word for that.
+    /// Its name in one word; where a key chooses among the laws of a kind, the word for that. Of
+    /// laws with one word the keys that are given choose.
     pub name: &'static str,
     /// What it is, in one sentence.
     pub sentence: &'static str,
@@ -73,7 +75,8 @@ pub struct LawDeclaration {
     pub area: &'static [&'static str],
     /// What is divided where the path becomes equal ones side by side.
     pub extent: Extent,
-    /// Keys of other laws of its kinds that mean nothing beside its own, with the reason.
+    /// Keys of other laws of its kinds that mean nothing beside its own, and results that it does
+    /// not tell, with the reason.
     pub idle: &'static [(&'static str, &'static str)],
     /// Where it holds, as far as numbers do not say it.
     pub validity: &'static str,
@@ -166,6 +169,8 @@ pub struct ResultDeclaration {
     pub ty: Type,
     /// What it is, in a few words.
     pub meaning: &'static str,
+    /// Why there may be no such number, as the end of a sentence; empty where there always is one.
+    pub missing: &'static str,
 }
 
 /// How sure a formula and its constants are.
@@ -194,6 +199,9 @@ pub struct FieldDeclaration {
     pub example: &'static str,
     /// What to do about a number outside its range.
     pub hints: Hints,
+    /// Words that may stand in its place, for the expressions that they mean; `OIL` in them is the
+    /// lubricant.
+    pub words: &'static [(&'static str, &'static str)],
     /// What it is a property of, if it is one: a material, fluid or lubricant may be named in its
     /// place. Of a path its expression may read `T` then, the mean temperature of the ends.
     pub property: Option<Substance>,
@@ -230,7 +238,7 @@ impl FieldDeclaration {
         example: &'static str,
     ) -> Self {
         let (range, hints) = (Range::Positive, Hints::SIGN);
-        Self { key, ty, range, default: None, meaning, example, hints, property: None }
+        Self { key, ty, range, default: None, meaning, example, hints, words: &[], property: None }
     }
 
     /// A length or an area of a body.

@@ -56,6 +56,7 @@ mod radiation;
 mod range;
 mod resistor;
 mod rotation;
+mod scuffing;
 mod seal;
 mod skf;
 mod source;
@@ -97,6 +98,7 @@ pub use radiation::{
     radiation_exchange_area,
 };
 pub use rotation::{nusselt_annulus, nusselt_shaft};
+pub use scuffing::Flanks;
 pub use seal::{lip_seal, shaft_seal};
 pub use skf::SkfBearing;
 pub use viscosity_index::viscosity_at_100;

@@ -96,5 +96,6 @@ declare! {
     skf: { BearingSkf };
     seal: Seal { SealShaft, SealFkm, SealNbr };
     mesh: Mesh { MeshExternal, MeshInternal };
+    scuffing: { MeshExternalScuffing, MeshInternalScuffing };
     churning: Churning { ChurnedCylinder, ChurnedSides, ChurnedTeeth };
 }

@@ -121,6 +121,13 @@ impl<S: Scalar> GearPair<S> {
     ///
     /// Source: [`gear_loss_factor`], [`mesh_friction`].
     pub fn power(&self, speed: S, torque: S, oil: [S; 3], roughness: S) -> S {
+        let at = self.transverse();
+        let factor = gear_loss_factor(self.teeth, self.internal, at.cos_base, self.contact(&at));
+        speed.abs() * torque.abs() * self.friction(speed, torque, oil, roughness) * factor
+    }
+
+    /// Its mean coefficient of friction, for what [`GearPair::power`] takes.
+    pub fn friction(&self, speed: S, torque: S, oil: [S; 3], roughness: S) -> S {
         let [nu, density, lubricant] = oil;
         let [z1, z2] = self.teeth;
         let (speed, torque) = (speed.abs(), torque.abs());
@@ -129,18 +136,15 @@ impl<S: Scalar> GearPair<S> {
         let line_load = torque / (radius * at.cosine) / mm(self.width);
         let sum = S::from_f64(2.0) * speed * radius * at.sine;
         let curved = radius * at.sine * z2 / (at.cos_base * joined(z2, z1, self.internal));
-        let friction = mesh_friction(
+        mesh_friction(
             [line_load, sum, mm(curved)],
             S::from_f64(1e3) * nu * density,
             S::from_f64(1e6) * roughness,
             lubricant,
-        );
-        let contact = self.contact(&at);
-        let factor = gear_loss_factor(self.teeth, self.internal, at.cos_base, contact);
-        speed * torque * friction * factor
+        )
     }
 
-    fn transverse(&self) -> Transverse<S> {
+    pub(crate) fn transverse(&self) -> Transverse<S> {
         let one = S::from_f64(1.0);
         let module = self.module / self.helix.cos();
         let tangent = self.pressure.sin() / self.pressure.cos() / self.helix.cos();
@@ -151,7 +155,7 @@ impl<S: Scalar> GearPair<S> {
     }
 
     /// The tip contact ratios of pinion and wheel.
-    fn contact(&self, at: &Transverse<S>) -> [S; 2] {
+    pub(crate) fn contact(&self, at: &Transverse<S>) -> [S; 2] {
         let (half, one, pitch) = (S::from_f64(0.5), S::from_f64(1.0), S::from_f64(PI));
         let ratio = |teeth: S, addendum: S, sign: f64| {
             let sign = S::from_f64(sign);
@@ -166,12 +170,16 @@ impl<S: Scalar> GearPair<S> {
 }
 
 /// Geometry in the transverse section.
-struct Transverse<S> {
-    module: S,
+pub(crate) struct Transverse<S> {
+    /// Module in m.
+    pub(crate) module: S,
     tangent: S,
-    cosine: S,
-    sine: S,
-    cos_base: S,
+    /// Cosine of the pressure angle.
+    pub(crate) cosine: S,
+    /// Its sine.
+    pub(crate) sine: S,
+    /// Cosine of the helix angle at the base circle.
+    pub(crate) cos_base: S,
 }
 
 /// An angle of either sign.
@@ -183,6 +191,10 @@ const fn angle(
 ) -> FieldDeclaration {
     FieldDeclaration::measure(key, Type::of(Dimension::ANGLE), meaning, example).or(default)
 }
+
+/// Why a mesh without `scuffing` tells nothing of it.
+const BULK: &str = "needs `scuffing` in the mesh: a bulk temperature alone is not safe, for the \
+    flash temperature depends on load, speed and geometry";
 
 /// Two external gears.
 #[derive(Debug)]
@@ -234,6 +246,7 @@ impl Law for MeshExternal {
             X_L = 0.75 (6 / v_sum)^0.2.",
         groups: &[Group { name: "v", meaning: "pitch line velocity in m/s", from: 2.0, to: 25.0 }],
         source: "L. Schlenk (TU München 1994); H. Ohlendorf (TU München 1958); ISO/TR 14179-2",
+        idle: &[("flash", BULK), ("contact", BULK), ("scuffing", BULK), ("margin", BULK)],
         ..LOSS
     };
 
@@ -268,8 +281,9 @@ impl Law for MeshInternal {
     }
 }
 
-fn mesh<S: Scalar>(values: &[S], internal: bool) -> S {
-    let pair = GearPair {
+/// The gears of these values of the fields.
+pub(crate) fn pair_of<S: Scalar>(values: &[S], internal: bool) -> GearPair<S> {
+    GearPair {
         teeth: [values[2], values[3]],
         internal,
         module: values[4],
@@ -277,12 +291,16 @@ fn mesh<S: Scalar>(values: &[S], internal: bool) -> S {
         pressure: values[10],
         helix: values[11],
         addenda: [values[12], values[13]],
-    };
-    pair.power(values[0], values[1], [values[7], values[8], values[9]], values[6])
+    }
+}
+
+fn mesh<S: Scalar>(values: &[S], internal: bool) -> S {
+    let oil = [values[7], values[8], values[9]];
+    pair_of(values, internal).power(values[0], values[1], oil, values[6])
 }
 
 /// In m/s; at rest and without torque it does not count, for nothing is lost.
-fn pitch_line_velocity(values: &[f64]) -> Option<f64> {
+pub(crate) fn pitch_line_velocity(values: &[f64]) -> Option<f64> {
     let (speed, torque, z1) = (values[0].abs(), values[1].abs(), values[2]);
     let (module, helix) = (values[4], values[11]);
     let velocity = 0.5 * speed * z1 * module / helix.cos();

@@ -195,11 +195,13 @@ impl Law for Interference {
             key: "pressure",
             ty: Type::of(Dimension::PRESSURE),
             meaning: "pressure in the joint",
+            missing: "",
         },
         ResultDeclaration {
             key: "margin",
             ty: Type::of(Dimension::TEMPERATURE),
             meaning: "by how much hub and shaft may warm together until the fit is lost",
+            missing: "where both parts expand alike",
         },
     ];
 

@@ -10,6 +10,7 @@ use lptn_network::{
 use lptn_units::{Expression, UnitErrorKind};
 
 use crate::describe::describe;
+use crate::gearbox;
 use crate::netlist::Netlist;
 use crate::template::wrong_path;
 use crate::value_help::celsius_or_kelvin;
@@ -185,7 +186,11 @@ impl Netlist {
         let run = run.map_err(|problems| {
             problems.into_iter().map(|p| name_changed(p, done.iter())).collect::<Vec<_>>()
         })?;
-        Ok((network, run))
+        let gears = gearbox::check(&self.gearboxes, &network);
+        match gears.is_empty() {
+            true => Ok((network, run)),
+            false => Err(gears.into_iter().map(|p| name_changed(p, done.iter())).collect()),
+        }
     }
 
     /// The place in the netlist, and the assignments that the failing value depends on.

@@ -11,6 +11,7 @@ use lptn_units::Unit;
 use crate::adrift;
 use crate::csv_files::CsvFiles;
 use crate::describe::describe;
+use crate::gearbox::Gears;
 use crate::head::MISSING_FORMAT;
 use crate::initial::StateFile;
 use crate::names::{Names, ValueKind};
@@ -45,7 +46,7 @@ const MOST_DESCRIBED: usize = 1000;
 /// The network, or every reason why there is none. Warnings come with either.
 pub(crate) fn elaborate(
     raw: &RawNetlist,
-    structure: &Arc<Structure>,
+    (structure, gears): (&Arc<Structure>, &Gears),
     csv: &CsvFiles,
     state: Option<&StateFile>,
 ) -> (Option<Elaborated>, Found) {
@@ -53,6 +54,7 @@ pub(crate) fn elaborate(
         raw,
         format: section::format(),
         structure,
+        gears,
         csv,
         state,
         builder: NetworkBuilder::new(),
@@ -66,6 +68,7 @@ pub(crate) fn elaborate(
         known_fluids: HashMap::new(),
         used: HashSet::new(),
     };
+    work.names.used.extend(gears.types.keys().cloned());
     work.map.set_top(raw.top.span.clone());
     work.top_level();
     work.tables();

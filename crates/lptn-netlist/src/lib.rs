@@ -39,6 +39,7 @@ mod fields;
 mod fit;
 mod foreign;
 mod format;
+mod gearbox;
 mod grid_names;
 mod grid_part;
 mod habit;
@@ -85,6 +86,7 @@ mod write_back;
 pub use expand::{Derived, WrittenError, prove};
 pub use fit::{FitPlan, FitRecord, FitStudy, Observed, VariedName};
 pub use format::{KeyDeclaration, NetlistFormat, Role, SectionDeclaration};
+pub use gearbox::{Arrangement, Gearbox, GearboxPart, Member};
 pub use include::Loader;
 pub use initial::InitialState;
 pub use lptn_data::{

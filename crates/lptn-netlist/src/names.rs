@@ -58,6 +58,8 @@ pub(crate) struct Names {
     pub(crate) elements: HashMap<String, &'static str>,
     /// Values that are wrong: what uses them is not reported again.
     failed: HashSet<String>,
+    /// Results that other laws of an element's kind tell, with the reason why its own does not.
+    pub(crate) untold: HashMap<String, &'static str>,
     pub(crate) used: HashSet<String>,
     /// Nodes and boundaries whose results expressions read.
     pub(crate) read: HashSet<String>,

@@ -15,6 +15,7 @@ use lptn_units::Unit;
 use crate::csv_files::CsvFiles;
 use crate::elaborate::{Elaborated, elaborate};
 use crate::foreign;
+use crate::gearbox::{self, Gearbox, Gears};
 use crate::head;
 use crate::import;
 use crate::include::{self, Loader, Merged};
@@ -57,6 +58,7 @@ pub struct Netlist {
     pub(crate) inputs: Vec<FileId>,
     /// What templates made of it.
     pub(crate) structure: Arc<Structure>,
+    pub(crate) gearboxes: Vec<Gearbox>,
 }
 
 impl Netlist {
@@ -96,6 +98,11 @@ impl Netlist {
     /// The state that runs start from, where `initial` of `[run]` names one.
     pub fn initial(&self) -> Option<&InitialState> {
         self.initial.as_ref()
+    }
+
+    /// The stages of gears, those that are driven behind those that drive them.
+    pub fn gearboxes(&self) -> &[Gearbox] {
+        &self.gearboxes
     }
 
     /// The parameters as they were set, for [`Network::with`] with further ones.
@@ -190,10 +197,17 @@ fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netl
         return included(files, raw, (Path::new(name), file), loader);
     }
     // what is wrong with templates may follow from the broken line
-    let Expanded { raw, structure, .. } = template::expand(&mut files, raw, section::format());
-    let (_, found) = elaborate(&raw, &structure, &CsvFiles::default(), None);
+    let (Expanded { raw, structure, .. }, gears) = written_out(&mut files, raw);
+    let (_, found) = elaborate(&raw, (&structure, &gears), &CsvFiles::default(), None);
     add_certain(&mut diagnostics, found.problems, (&files, file));
     Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, found.dropped) })
+}
+
+/// Every template and gearbox as elements.
+fn written_out(files: &mut Files, raw: RawNetlist) -> (Expanded, Gears) {
+    let mut expanded = template::expand(files, raw, section::format());
+    let gears = gearbox::expand(&mut expanded.raw, &expanded.structure, &mut expanded.problems);
+    (expanded, gears)
 }
 
 /// The rest of the way for a text that is TOML.
@@ -208,15 +222,14 @@ fn included(
     if incomplete {
         return Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, 0) });
     }
-    let Expanded { raw, structure, problems } =
-        template::expand(&mut files, raw, section::format());
+    let (Expanded { raw, structure, problems }, gears) = written_out(&mut files, raw);
     diagnostics.extend(problems);
     let initial = raw.section(RUN.name).and_then(|run| run.get("initial"));
     let state =
         initial.map(|named| StateFile::read(&mut files, &named.value, loader.as_deref_mut()));
     let long = import::files(&raw).chain(Studies::files(&raw));
     let csv = CsvFiles::read(&mut files, (&raw, section::format()), long, loader);
-    let (done, mut found) = elaborate(&raw, &structure, &csv, state.as_ref());
+    let (done, mut found) = elaborate(&raw, (&structure, &gears), &csv, state.as_ref());
     if include::any_error(&diagnostics) {
         found.problems.retain(|problem| problem.severity == Severity::Error);
     }
@@ -224,19 +237,20 @@ fn included(
     diagnostics.extend(found.problems);
     arrange(&files, &mut diagnostics);
     match done {
-        Some(done) => finish(files, (done, state.map(|file| file.state)), diagnostics),
+        Some(done) => finish(files, (done, gears.list, state.map(|file| file.state)), diagnostics),
         None => Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, found.dropped) }),
     }
 }
 
 fn finish(
     files: Files,
-    (done, initial): (Elaborated, Option<InitialState>),
+    (done, gearboxes, initial): (Elaborated, Vec<Gearbox>, Option<InitialState>),
     mut diagnostics: Vec<Diagnostic>,
 ) -> Result<Netlist, Rejected> {
     let Elaborated { network, run: plan, studies, map, temperature_unit, structure } = done;
     let run = plan.as_ref().map(|plan| plan.settings(&network)).transpose();
     let mut problems = studies.check(&network);
+    problems.extend(gearbox::check(&gearboxes, &network));
     let run = run.unwrap_or_else(|more| {
         problems.extend(more);
         None
@@ -262,6 +276,7 @@ fn finish(
         assigned,
         inputs,
         structure,
+        gearboxes,
     };
     netlist.judge();
     Ok(netlist)

@@ -77,7 +77,7 @@ impl<'a> Elaboration<'a> {
         }
         let place = Place { owner: &owner, key: "", raw: &entry.value };
         let wanted = self.names.structure.type_of(&entry.key).cloned();
-        let ty = wanted.as_ref().map(|(ty, _)| *ty);
+        let ty = self.type_of(&entry.key);
         let text = match place.kelvin_for(ty).map_or_else(|| self.names.text(place, ty), Err) {
             Ok(text) => Some(text),
             Err(problem) => {
@@ -97,11 +97,17 @@ impl<'a> Elaboration<'a> {
         Pending { entry, owner, text, uses }
     }
 
+    /// The type that a value has to have because of the template or gearbox that it belongs to.
+    pub(crate) fn type_of(&self, name: &str) -> Option<Type> {
+        let of_template = self.names.structure.type_of(name).map(|(ty, _)| *ty);
+        of_template.or_else(|| self.gears.types.get(name).copied())
+    }
+
     fn parameter(&mut self, pending: &mut Pending<'_>) {
         let entry = pending.entry;
         let place = Place { owner: &pending.owner, key: "", raw: &entry.value };
         let ty = self.names.structure.type_of(&entry.key).cloned();
-        let wanted = Wanted { ty: ty.as_ref().map(|(ty, _)| *ty), ..Wanted::parameter() };
+        let wanted = Wanted { ty: self.type_of(&entry.key), ..Wanted::parameter() };
         let before = self.problems.len();
         let given = pending.text.take().and_then(|text| self.resolve(place, text, wanted));
         if let Some(problem) = self.problems.get_mut(before) {

@@ -1,7 +1,7 @@
 //! The names of results in expressions: temperatures and heat flows.
 
 use lptn_data::{Diagnostic, Span};
-use lptn_laws::Kind;
+use lptn_laws::{Formula, Kind};
 use lptn_units::suggest;
 
 use crate::grid_names::VALUES;
@@ -13,7 +13,25 @@ impl Names {
     /// `NAME.P` of a source.
     pub(crate) fn is_heat(&self, name: &str) -> bool {
         let Some((base, ending)) = name.rsplit_once('.') else { return false };
-        self.kind_of(base).is_some_and(|kind| heats(kind).contains(&ending))
+        !self.untold.contains_key(name)
+            && self.kind_of(base).is_some_and(|kind| heats(kind).contains(&ending))
+    }
+
+    /// Notes what the law of an element does not tell although others of its kind do; of one that
+    /// is wrong it is not told again.
+    pub(crate) fn learn_results(&mut self, element: &str, kind: Kind, law: Option<Formula>) {
+        let all = kind.laws().flat_map(|law| law.result_declarations());
+        for key in all.map(|result| result.key) {
+            let name = format!("{element}.{key}");
+            let Some(law) = law else {
+                self.fail(&name);
+                continue;
+            };
+            if law.result_declarations().iter().all(|own| own.key != key) {
+                let why = law.declaration().idle.iter().find(|(idle, _)| *idle == key);
+                self.untold.insert(name, why.map_or("", |(_, why)| *why));
+            }
+        }
     }
 
     /// An unknown name where results may be named.
@@ -32,6 +50,9 @@ impl Names {
             _ => format!("{words} uses `{name}`, which is not a parameter"),
         };
         let error = Diagnostic::error("netlist::unknown_name", message).at(at, "unknown name");
+        if let Some(why) = self.untold.get(name).filter(|why| !why.is_empty()) {
+            return error.help(format!("`{}` {why}", name.rsplit('.').next().unwrap_or(name)));
+        }
         match kind.map(|kind| (kind, results_of(kind, base))) {
             Some((kind, has)) if has.is_empty() => {
                 error.help(format!("`{base}` is a {kind}; results are temperatures and heat flows"))
@@ -74,10 +95,13 @@ fn heats(kind: &str) -> Vec<&'static str> {
         "boundary" => vec!["Q"],
         path => match Kind::ALL.iter().find(|kind| kind.declaration().section == path) {
             Some(kind) if kind.is_stream() => vec!["Q_from", "Q_to"],
-            Some(kind) if kind.is_source() => vec!["P"],
             Some(kind) => {
+                let heat = if kind.is_source() { "P" } else { "Q" };
                 let told = kind.laws().flat_map(|law| law.result_declarations());
-                ["Q"].into_iter().chain(told.map(|result| result.key)).collect()
+                let mut endings: Vec<_> =
+                    [heat].into_iter().chain(told.map(|result| result.key)).collect();
+                endings.dedup();
+                endings
             }
             None => vec![],
         },

@@ -10,6 +10,7 @@ use lptn_units::{Quantity, Type};
 
 use crate::csv_files::CsvFiles;
 use crate::format::NetlistFormat;
+use crate::gearbox::Gears;
 use crate::initial::StateFile;
 use crate::names::Names;
 use crate::raw::{RawEntry, RawNetlist};
@@ -24,6 +25,8 @@ pub(crate) struct Elaboration<'a> {
     pub(crate) format: &'static NetlistFormat,
     /// What templates made of it.
     pub(crate) structure: &'a Structure,
+    /// What gearboxes made of it.
+    pub(crate) gears: &'a Gears,
     pub(crate) csv: &'a CsvFiles,
     /// The state that the run starts from.
     pub(crate) state: Option<&'a StateFile>,

@@ -200,10 +200,12 @@ impl<'a> Walk<'a> {
             HeatOf::Conductor(id)
             | HeatOf::ReceivedFrom(id)
             | HeatOf::ReceivedTo(id)
-            | HeatOf::Told(id, _) => {
+            | HeatOf::Told(Item::Conductor(id), _) => {
                 self.go(Element::Conductor(id.index()));
             }
-            HeatOf::Source(id) => self.go(Element::Source(id.index())),
+            HeatOf::Told(Item::Source(id), _) | HeatOf::Source(id) => {
+                self.go(Element::Source(id.index()))
+            }
             HeatOf::Boundary(id) => {
                 let touches = |end: End| end == End::Boundary(id);
                 let own = parts
@@ -213,6 +215,7 @@ impl<'a> Walk<'a> {
                     .filter(|(_, c)| touches(c.from) || touches(c.to));
                 own.for_each(|(i, _)| self.go(Element::Conductor(i)));
             }
+            HeatOf::Told(..) => {}
             HeatOf::FacePath(id) => {
                 let all = parts.face_paths[id.index()].conductors();
                 all.for_each(|id| self.go(Element::Conductor(id.index())));

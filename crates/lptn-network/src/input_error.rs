@@ -26,6 +26,9 @@ lptn_units::errors! {
 pub enum InputProblem {
     /// The expression gave an infinite number or none.
     NotFinite(value: f64) = INPUT, format!("is {value}");
+    /// A result that the law of an element does not have there, and why.
+    NoResult { name: String, why: &'static str } = INPUT,
+        format!("cannot be told: there is no `{name}` {why}");
     /// A temperature below 0 K.
     BelowAbsoluteZero(value: f64) = INPUT, format!("is below absolute zero: {value} K");
     /// The expression could not be evaluated.

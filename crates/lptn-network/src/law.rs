@@ -196,7 +196,7 @@ fn impossible(field: &lptn_laws::FieldDeclaration, value: f64) -> Option<InputPr
     const CONDUCTANCE: Type = Type::of(Dimension::CONDUCTANCE);
     const RESISTANCE: Type = Type::of(Dimension::RESISTANCE);
     match field.range {
-        Range::Finite => None,
+        Range::Finite | Range::NotZero => None,
         Range::Fraction => {
             (!(0.0..=1.0).contains(&value)).then_some(InputProblem::NotAFraction(value))
         }

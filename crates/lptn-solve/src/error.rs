@@ -1,7 +1,7 @@
 //! Why an analysis has no answer.
 
 use lptn_integrate::{FactorError, IntegrateError};
-use lptn_network::{Field, InputError, Item, NodeId, list_of, list_of_names};
+use lptn_network::{Field, InputError, Item, NodeId, ZERO_CELSIUS, list_of, list_of_names};
 use lptn_units::{Class, format_six as six_digits};
 
 use crate::settings_error::SettingsError;
@@ -35,6 +35,21 @@ pub enum SteadyError {
     BelowAbsoluteZero { name: String, temperature: f64 } = "solve::below_absolute_zero",
         cold(name, *temperature),
         help COLD, class Class::Numbers;
+    /// From its start the network becomes hotter for ever: the node, the source whose heat grows
+    /// with its temperature, and the temperature in K from which on that is more than the paths
+    /// carry off. `rests`: the temperature of the node in K in a steady state that it does not come
+    /// to, where one is known.
+    Runaway { node: String, source: String, from: f64, rests: Option<f64> } = "steady::runaway",
+        match rests {
+            None => format!("no steady state: {}", runaway(node, source, *from)),
+            Some(at) => format!(
+                "from its start the network comes to no steady state: {}; there is a steady state \
+                 with `{node}` at {}, where it does not come to",
+                runaway(node, source, *from),
+                scales(*at)
+            ),
+        },
+        help RUNS_AWAY, class Class::Numbers;
     /// Whatever the positions of controls and comparisons, in their steady state something has to
     /// switch: its names, and how many positions were tried.
     Cycles { names: Vec<String>, tried: usize } = "steady::cycles",
@@ -132,6 +147,11 @@ pub enum StopReason {
     NothingSwitches = "run::no_capacity",
         "controls and comparisons of temperatures need a node with a capacity",
         help "give the nodes that are felt a capacity";
+    /// The heat of a source grows with the temperature of a node faster than the paths carry it
+    /// off, from this temperature in K on.
+    Runaway { node: String, source: String, from: f64 } = "run::runaway",
+        runaway(node, source, *from),
+        help RUNS_AWAY;
     /// The integrator gave up; the node with the largest error, where that is known.
     Integrator { error: IntegrateError, node: Option<String> } = "run::integrator",
         match node {
@@ -172,6 +192,7 @@ impl TransientError {
         match reason {
             StopReason::Unsolved(unsolved) => Some(unsolved.node()),
             StopReason::BelowAbsoluteZero { name, .. } => Some(name),
+            StopReason::Runaway { node, .. } => Some(node),
             StopReason::Integrator { node, .. } => node.as_deref(),
             _ => None,
         }
@@ -181,6 +202,22 @@ impl TransientError {
 const COLD: &str = "less heat can be taken out than that: check the signs and sizes of the sources";
 
 const MERGE: &str = "replace the largest conductances by merging the nodes they join";
+
+const RUNS_AWAY: &str = "give it a better path to a cooler place, or less heat at the start; where the \
+    heat is limited in fact, say by what: `min(.., ..)`";
+
+fn runaway(node: &str, source: &str, from: f64) -> String {
+    format!(
+        "`{node}` runs away: above {} the heat of `{source}` grows faster with its temperature than \
+         the paths carry it off",
+        scales(from)
+    )
+}
+
+/// A temperature in degC and in K.
+fn scales(kelvin: f64) -> String {
+    format!("{} degC ({} K)", six_digits(kelvin - ZERO_CELSIUS), six_digits(kelvin))
+}
 
 fn cold(name: &str, temperature: f64) -> String {
     format!("node `{name}` is below absolute zero: {} K", six_digits(temperature))

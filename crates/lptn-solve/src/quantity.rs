@@ -2,7 +2,7 @@
 
 use lptn_network::{
     BoundaryId, ConductorId, ControlId, GridValue, HeatOf, Item, Network, NodeId, ReportId,
-    SignalId,
+    SignalId, SourceId,
 };
 use lptn_units::{Type, Unit};
 
@@ -30,7 +30,7 @@ impl Quantity {
             .chain(network.grid_values().map(Self::Grid))
             .chain(network.boundary_ids().map(Self::BoundaryTemperature))
             .chain(paths.chain(joints).map(Self::Heat))
-            .chain(network.source_ids().map(|id| Self::Heat(HeatOf::Source(id))))
+            .chain(network.source_ids().flat_map(|id| of_source(network, id)).map(Self::Heat))
             .chain(network.boundary_ids().map(|id| Self::Heat(HeatOf::Boundary(id))))
             .chain(network.signal_ids().map(Self::Signal))
             .chain(network.control_ids().map(Self::Control))
@@ -56,10 +56,14 @@ impl Quantity {
             Self::BoundaryTemperature(id) => (2, id.index(), 0),
             Self::Heat(HeatOf::Conductor(id) | HeatOf::ReceivedFrom(id)) => (3, id.index(), 0),
             Self::Heat(HeatOf::ReceivedTo(id)) => (3, id.index(), 1),
-            Self::Heat(HeatOf::Told(id, key)) => {
-                let mut told = network.told_of(id);
-                let place = told.position(|told| told == HeatOf::Told(id, key)).unwrap_or(0);
-                (3, id.index(), u8::try_from(2 + place).unwrap_or(u8::MAX))
+            Self::Heat(told @ HeatOf::Told(item, _)) => {
+                let (kind, index) = match item {
+                    Item::Source(id) => (5, id.index()),
+                    Item::Conductor(id) => (3, id.index()),
+                    _ => (3, usize::MAX),
+                };
+                let place = network.told_of(item).position(|of| of == told).unwrap_or(0);
+                (kind, index, u8::try_from(2 + place).unwrap_or(u8::MAX))
             }
             Self::Heat(HeatOf::FacePath(id)) => (4, id.index(), 0),
             Self::Heat(HeatOf::Source(id)) => (5, id.index(), 0),
@@ -80,7 +84,7 @@ impl Quantity {
                 vec![Self::BoundaryTemperature(id), Self::Heat(HeatOf::Boundary(id))]
             }
             Item::Conductor(id) => of_path(network, id).map(Self::Heat).collect(),
-            Item::Source(id) => vec![Self::Heat(HeatOf::Source(id))],
+            Item::Source(id) => of_source(network, id).map(Self::Heat).collect(),
             _ => Vec::new(),
         };
         all.into_iter().find(|quantity| quantity.name(network) == name)
@@ -131,7 +135,12 @@ impl Quantity {
 
 /// The heat flows of a path, then what its law tells of itself.
 fn of_path(network: &Network, id: ConductorId) -> impl Iterator<Item = HeatOf> {
-    network.heats_of(id).into_iter().chain(network.told_of(id))
+    network.heats_of(id).into_iter().chain(network.told_of(Item::Conductor(id)))
+}
+
+/// The heat of a source, then what its law tells of itself.
+fn of_source(network: &Network, id: SourceId) -> impl Iterator<Item = HeatOf> {
+    [HeatOf::Source(id)].into_iter().chain(network.told_of(Item::Source(id)))
 }
 
 /// How a quantity is shown: in a unit of its own, as a signal that is given in one, else by its

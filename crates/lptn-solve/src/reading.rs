@@ -86,7 +86,7 @@ fn heat_of(
     match heat {
         HeatOf::Conductor(id) | HeatOf::ReceivedTo(id) => Ok(system.received(work, id)?[1]),
         HeatOf::ReceivedFrom(id) => Ok(system.received(work, id)?[0]),
-        HeatOf::Told(id, key) => system.network().told(id, key, scope),
+        HeatOf::Told(item, key) => system.network().told(item, key, scope),
         HeatOf::Source(id) => {
             let needs = system.network().source_variables(id);
             let known =

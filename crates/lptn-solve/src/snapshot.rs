@@ -92,7 +92,7 @@ impl Snapshot {
         match heat {
             HeatOf::Conductor(id) | HeatOf::ReceivedTo(id) => self.received[id.index()][1],
             HeatOf::ReceivedFrom(id) => self.received[id.index()][0],
-            HeatOf::Told(id, key) => network.told(id, key, scope).unwrap_or(f64::NAN),
+            HeatOf::Told(item, key) => network.told(item, key, scope).unwrap_or(f64::NAN),
             HeatOf::Source(id) => self.source_heat[id.index()],
             HeatOf::Boundary(id) => self.boundary_heat[id.index()],
             HeatOf::FacePath(id) => {
@@ -113,7 +113,7 @@ impl Snapshot {
             Quantity::Node(id) => Ok(self.temperatures[id.index()]),
             Quantity::Grid(value) => Ok(network.grid_value(value, &self.temperatures)),
             Quantity::BoundaryTemperature(id) => Ok(self.boundary_temperatures[id.index()]),
-            Quantity::Heat(HeatOf::Told(id, key)) => network.told(id, key, scope),
+            Quantity::Heat(HeatOf::Told(item, key)) => network.told(item, key, scope),
             Quantity::Heat(heat) => Ok(self.heat(network, heat, scope)),
             Quantity::Signal(id) => Ok(scope.signal(id)),
             Quantity::Control(id) => Ok(scope.control(id)),

@@ -10,9 +10,11 @@ use crate::error::SteadyError;
 use crate::events::find_consistent;
 use crate::limit;
 use crate::newton::{Newton, NewtonError, SMALL};
+use crate::runaway::Runaway;
+use crate::several::{Others, same, start};
 use crate::snapshot::Snapshot;
 use crate::times::just_after;
-use crate::transient::rest;
+use crate::transient::{Way, rest};
 use crate::unsolved::Unsolved;
 
 /// The temperatures at which nothing is stored any more.
@@ -32,27 +34,21 @@ pub struct SteadyState {
     pub others: Others,
 }
 
-/// What is known of other steady states than the one that was found.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub enum Others {
-    /// There is none, or none was met: this is where the network comes to from its start.
-    #[default]
-    None,
-    /// There is at least this one, temperatures of the nodes in K; from its start the network does
-    /// not come there.
-    At(Vec<f64>),
-    /// There may be others, and the network could not be followed from its start to this one.
-    NotKnown,
-}
-
 /// How far from where the network was left it may come to rest, in K.
 const MOVED: f64 = 0.01;
 
-/// Two steady states that differ by less, in K, are one.
-const SAME: f64 = 1e-5;
-
 /// How far heat in and heat out of a steady state may differ, relative to the heat turned over.
 const BALANCE: f64 = 1e-9;
+
+/// What a network does from its start on.
+enum Reached {
+    /// It comes to this state.
+    Rests(Box<SteadyState>),
+    /// It becomes hotter for ever.
+    Runs(Runaway),
+    /// That is not known.
+    Lost,
+}
 
 impl std::ops::Deref for SteadyState {
     type Target = Snapshot;
@@ -91,8 +87,8 @@ impl SteadyState {
     /// state is sought in which nothing has to, from the positions at the start on.
     ///
     /// Unless the form of the network tells that there is one steady state at most, the network is
-    /// followed from its start, and the state is the one that it comes to: see
-    /// [`SteadyState::others`].
+    /// followed from its start, and the state is the one that it comes to; others are looked for
+    /// from hotter and colder temperatures: see [`SteadyState::others`].
     ///
     /// # Errors
     /// [`SteadyError`], in particular for nodes without a path to a boundary, and for networks that
@@ -114,32 +110,60 @@ impl SteadyState {
             return found;
         }
         match (found, Self::reached(system, time)) {
-            (Ok(found), None) => Ok(Self { others: Others::NotKnown, ..found }),
-            (Err(error), None) => Err(error),
-            (Ok(found), Some(reached)) if found.is_near(&reached) => Ok(found),
-            (Ok(found), Some(reached)) => {
-                Ok(Self { others: Others::At(found.state.temperatures), ..reached })
+            (found, Reached::Runs(away)) => {
+                let elsewhere = found.map_or_else(
+                    |_| elsewhere(system, time, |work| start(system, work)),
+                    |found| Others::At(found.state.temperatures),
+                );
+                Err(away.error(system, elsewhere.stable()))
             }
-            (Err(_), Some(reached)) => Ok(reached),
+            (Ok(found), Reached::Lost) => Ok(Self { others: Others::NotKnown, ..found }),
+            (Err(error), Reached::Lost) => Err(error),
+            (Ok(found), Reached::Rests(reached)) if !found.is_near(&reached) => {
+                Ok(Self { others: Others::At(found.state.temperatures), ..*reached })
+            }
+            (_, Reached::Rests(reached)) => Ok(reached.searched(system)),
         }
     }
 
     /// The steady state that the network comes to from its start, if it could be followed there.
-    fn reached(system: &ThermalSystem, time: f64) -> Option<Self> {
-        let rest = rest(system, time)?;
-        let steady =
-            Self::from_start(system, time, &rest.positions, Some(&rest.temperatures)).ok()?;
-        let mut unknowns = vec![0.0; rest.temperatures.len()];
-        system.unknown_temperatures(&steady.temperatures, &mut unknowns);
+    fn reached(system: &ThermalSystem, time: f64) -> Reached {
+        let rest = match rest(system, time) {
+            Way::Rests(rest) => rest,
+            Way::Left(last) => {
+                let away = Runaway::of(system, (time, &last.positions), &last.temperatures);
+                return away.map_or(Reached::Lost, Reached::Runs);
+            }
+            Way::Lost => return Reached::Lost,
+        };
+        let found = Self::from_start(system, time, &rest.positions, Some(&rest.temperatures));
+        let Ok(steady) = found else { return Reached::Lost };
+        let unknowns = steady.unknowns(system);
         let moved =
             unknowns.iter().zip(&rest.temperatures).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-        (moved <= MOVED).then_some(steady)
+        if moved <= MOVED { Reached::Rests(Box::new(steady)) } else { Reached::Lost }
+    }
+
+    /// The same, with what a search tells of others: where something switches or energy is kept
+    /// there are others by design.
+    fn searched(self, system: &ThermalSystem) -> Self {
+        if !self.adiabatic.is_empty() {
+            return self;
+        }
+        let others = elsewhere(system, self.time, |_| self.unknowns(system));
+        Self { others, ..self }
+    }
+
+    /// Temperatures of the unknowns in K.
+    fn unknowns(&self, system: &ThermalSystem) -> Vec<f64> {
+        let mut unknowns = vec![0.0; system.unknowns().len()];
+        system.unknown_temperatures(&self.temperatures, &mut unknowns);
+        unknowns
     }
 
     /// Whether it is the same state but for rounding.
     fn is_near(&self, other: &Self) -> bool {
-        let pairs = self.temperatures.iter().zip(&other.temperatures);
-        pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) <= SAME
+        same(&self.temperatures, &other.temperatures)
     }
 
     /// The steady state with these positions, whether or not something has to switch there.
@@ -217,6 +241,22 @@ impl SteadyState {
     }
 }
 
+/// What a search around these unknowns tells, with the inputs at `time` in s; where something
+/// switches there are several steady states by design.
+fn elsewhere(
+    system: &ThermalSystem,
+    time: f64,
+    around: impl FnOnce(&Workspace) -> Vec<f64>,
+) -> Others {
+    let mut work = system.workspace();
+    let inputs = system.read_inputs(&mut work, time, just_after(time));
+    if system.network().has_events() || inputs.is_err() {
+        return Others::None;
+    }
+    let around = around(&work);
+    Others::search(system, &mut work, &around)
+}
+
 /// What the last digit of the temperatures does to the balance in W: a network at one temperature
 /// carries heat of this size and nothing else.
 fn rounding(system: &ThermalSystem, steady: &SteadyState) -> f64 {
@@ -289,21 +329,6 @@ fn stable(
         _ => Err(NewtonError::Unstable { unknown }),
     }
 }
-
-/// Where the search begins: nodes at their start, massless ones in the middle of the boundaries.
-fn start(system: &ThermalSystem, work: &Workspace) -> Vec<f64> {
-    let mut temperatures = system.initial();
-    let boundaries = system.boundary_temperatures(work);
-    let known = boundaries.iter().chain(&temperatures).copied();
-    let (sum, count) = known.fold((0.0, 0.0), |(sum, count), t| (sum + t, count + 1.0));
-    temperatures.resize(system.unknowns().len(), sum / count);
-    // at 0 K radiation does not tell which way to go
-    temperatures.iter_mut().for_each(|t| *t = t.max(COLDEST_START));
-    temperatures
-}
-
-/// No search begins below this temperature in K.
-const COLDEST_START: f64 = 1.0;
 
 /// Temperatures of the states, sought as a rise over one boundary.
 fn states(system: &ThermalSystem, work: &Workspace) -> Result<Vec<f64>, FactorError> {

@@ -25,7 +25,7 @@ use crate::tangent::Tangent;
 use crate::times::{Segment, check_resolution, segments, snap};
 use crate::unsolved::Unsolved;
 
-pub(crate) use rest::rest;
+pub(crate) use rest::{Way, rest};
 
 impl Transient {
     /// Runs to the stop.

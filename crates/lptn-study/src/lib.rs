@@ -12,6 +12,7 @@
 
 mod compare;
 mod digest;
+mod gears;
 mod manifest;
 mod moment;
 mod record;
@@ -22,6 +23,7 @@ pub use compare::{
     Candidate, CompareError, CompareRow, LimitResult, Peak, SortKey, compare_table, order,
 };
 pub use digest::{Hashing, sha256};
+pub use gears::{GearError, GearPoint, GearState, GearTask, MemberState, PartLoss};
 pub use manifest::{Environment, FileHash, Manifest, ParameterRecord, RunEnd, Sundials};
 pub use moment::utc;
 pub use record::{LedgerRecord, SiValue, StatisticsRecord};

@@ -26,6 +26,8 @@ impl<'a> Elaboration<'a> {
         fields.area = self.area_of(&fields, [&from, &to]);
         // a stand-in where the law is wrong, so that the ends still count
         let path = self.path(&fields, of);
+        let formula = path.as_ref().map(|path| path.formula());
+        self.names.learn_results(&entry.key, of.kind, formula);
         let path =
             path.unwrap_or_else(|| Path::resistance(stand_in(Type::of(Dimension::RESISTANCE))));
         let (from, to) = (from?, to?);

@@ -21,6 +21,7 @@ use super::signal::SIGNAL;
 use super::table::TABLE;
 use crate::fit::FitStudy;
 use crate::format::{NetlistFormat, Role, SectionDeclaration};
+use crate::gearbox::GEARBOX;
 use crate::import::IMPORT;
 use crate::parameters::PARAM;
 use crate::raw::{RawNetlist, RawValue};
@@ -36,7 +37,8 @@ static BEFORE: [&SectionDeclaration; 12] = [
     &PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &LUBRICANT, &FAN, &NODE, &GRID,
     &CAPACITOR, &BOUNDARY,
 ];
-static BEHIND: [&SectionDeclaration; 6] = [&CONTROL, &IMPORT, &LIMIT, &TEMPLATE, &USE, &RUN];
+static BEHIND: [&SectionDeclaration; 7] =
+    [&GEARBOX, &CONTROL, &IMPORT, &LIMIT, &TEMPLATE, &USE, &RUN];
 
 /// The studies that there are: where a netlist keeps those of a section, and the type of one.
 macro_rules! studies {

@@ -2,12 +2,12 @@
 
 use lptn_data::{Diagnostic, list};
 use lptn_laws::{FieldDeclaration, Formula, Kind, Substance};
-use lptn_network::{FluidId, Input, Path};
-use lptn_units::{Quantity, Type};
+use lptn_network::{Context, FluidId, Input, Path};
+use lptn_units::{Expression, Quantity, Type, suggest};
 
 use crate::fields::Fields;
 use crate::place::{Place, Wanted};
-use crate::raw::RawKind;
+use crate::raw::{RawKind, RawValue};
 use crate::section::fluid::UsedFluid;
 use crate::section::forms::{begun, check_forms};
 use crate::section::keys::{AT, LUBRICANT_OF};
@@ -84,8 +84,16 @@ impl<'a> Elaboration<'a> {
         path: &PathSection,
         selector: &str,
     ) -> Option<Formula> {
-        let words: Vec<(&str, Formula)> =
+        let mut words: Vec<(&str, Formula)> =
             path.kind.laws().map(|law| (law.declaration().name, law)).collect();
+        // of laws with one word the one that takes what is given
+        let useless = |law: Formula| {
+            path.values().filter(|key| fields.has(key) && law.field(key).is_none()).count()
+        };
+        words.sort_by_key(|(_, law)| useless(*law));
+        let order = |word: &str| path.kind.laws().position(|law| law.declaration().name == word);
+        words.sort_by_key(|(word, _)| order(word));
+        words.dedup_by_key(|(word, _)| *word);
         let given = self.require(fields, selector).is_some();
         let law = self.choice(fields, selector, &words).filter(|_| given)?;
         let name = law.declaration().name;
@@ -121,7 +129,9 @@ impl<'a> Elaboration<'a> {
             return;
         }
         let of_oil = |field: &FieldDeclaration| field.property == Some(Substance::Lubricant);
-        let open = |field: &FieldDeclaration| of_oil(field) && !fields.has(field.key);
+        let open = |field: &FieldDeclaration| {
+            of_oil(field) && !fields.has(field.key) || word_of(fields, field).is_some()
+        };
         if !law.declaration().fields.iter().any(open) {
             let why = format!("gives nothing that {what} takes");
             self.refuse_keys(fields, &[LUBRICANT_OF.name], &why);
@@ -159,6 +169,15 @@ impl<'a> Elaboration<'a> {
                 Substance::Fluid => fluid.and_then(|of| self.property_of_fluid(fields, field, of)),
                 Substance::Lubricant => self.property_of_oil(fields, (field.key, field.ty)),
             };
+            return vec![found.unwrap_or_else(|| stand_in(field.ty))];
+        }
+        if let Some(raw) = raw.filter(|_| !field.words.is_empty())
+            && self.misspelt(fields, field, raw)
+        {
+            return vec![stand_in(field.ty)];
+        }
+        if let Some((word, expression)) = word_of(fields, field) {
+            let found = self.meant_by(fields, field, (word, expression));
             return vec![found.unwrap_or_else(|| stand_in(field.ty))];
         }
         let Some(raw) = raw else {
@@ -228,6 +247,44 @@ impl<'a> Elaboration<'a> {
         self.builder.conductivity(known.id)
     }
 
+    /// Whether a word is nearly one that may stand in the place of a field, which is told.
+    fn misspelt(&mut self, fields: &Fields<'a>, field: &FieldDeclaration, raw: &RawValue) -> bool {
+        let RawKind::String { text, .. } = &raw.kind else { return false };
+        let text = text.as_str();
+        let words = field.words.iter().map(|(word, _)| *word);
+        let near = suggest(text, words.clone()).filter(|_| words.clone().all(|word| word != text));
+        let Some(near) = near.filter(|_| self.names.value_kind(text).is_none()) else {
+            return false;
+        };
+        let message = format!("{} cannot be \"{text}\"", fields.owner.field(field.key));
+        let help = format!("did you mean `{} = \"{near}\"`?", field.key);
+        self.refuse("netlist::unknown_word", message, &raw.span, help);
+        true
+    }
+
+    /// What a word stands for, of the lubricant.
+    fn meant_by(
+        &mut self,
+        fields: &Fields<'a>,
+        field: &FieldDeclaration,
+        (word, expression): (&str, &str),
+    ) -> Option<Input> {
+        let Some(oil) = &fields.oil else {
+            if !fields.has(LUBRICANT_OF.name) {
+                let words = fields.owner.field(field.key);
+                let message = format!("{words} is \"{word}\", but no `lubricant` is named");
+                let [value, oil] = [field.key, LUBRICANT_OF.name].map(|key| fields.sample(key));
+                let help = format!("name the oil: `{oil}`; or give the number: `{value}`");
+                let place = fields.get(field.key).map_or(fields.place, |raw| &raw.span);
+                self.refuse("netlist::no_property", message, place, help);
+            }
+            return None;
+        };
+        let expression = Expression::parse(&expression.replace("OIL", &oil.name)).ok()?;
+        let scope = self.builder.scope(Context::Source);
+        Some(expression.compile(&scope, Some(field.ty)).ok()?.into())
+    }
+
     /// A law with all its values, defaults in place of those that may be left out.
     fn complete(
         &mut self,
@@ -268,6 +325,12 @@ impl<'a> Elaboration<'a> {
         }
         None
     }
+}
+
+/// The word that stands in the place of a field, with the expression that it means.
+fn word_of(fields: &Fields<'_>, field: &FieldDeclaration) -> Option<(&'static str, &'static str)> {
+    let RawKind::String { text, .. } = &fields.get(field.key)?.kind else { return None };
+    field.words.iter().find(|(word, _)| word == text).copied()
 }
 
 /// That a field of the law that a word chooses is missing.

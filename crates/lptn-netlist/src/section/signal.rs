@@ -91,8 +91,8 @@ impl<'a> Elaboration<'a> {
             })
         } else {
             let place = Place { owner: &pending.owner, key: "", raw: &entry.value };
-            let given =
-                pending.text.take().and_then(|text| self.resolve(place, text, Wanted::signal()));
+            let wanted = Wanted { ty: self.type_of(&entry.key), ..Wanted::signal() };
+            let given = pending.text.take().and_then(|text| self.resolve(place, text, wanted));
             given.map(|given| {
                 Item::Signal(self.builder.signal_expression(&entry.key, given.input()))
             })

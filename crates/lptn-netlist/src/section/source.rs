@@ -28,6 +28,8 @@ impl<'a> Elaboration<'a> {
         fields.oil = self.oil(&fields, first);
         // a stand-in where the law is wrong, so that the nodes still count
         let law = self.path(&fields, of);
+        let formula = law.as_ref().map(|law| law.formula());
+        self.names.learn_results(&entry.key, of.kind, formula);
         let law = law.unwrap_or_else(|| Path::heat(stand_in(Type::of(Dimension::POWER))));
         let (into, at) = heated?;
         let item = Item::Source(self.builder.heat(&entry.key, of.kind, &into, law));

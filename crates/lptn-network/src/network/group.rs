@@ -1,12 +1,15 @@
-//! Where laws are known: the groups of conductors and sources.
+//! What the laws of conductors and sources tell of themselves: where they are known, and results
+//! besides their heat.
 
 use crate::evaluation::Evaluation;
+use lptn_laws::Formula;
+
 use crate::id::Item;
 use crate::input_error::InputError;
 use crate::law::{At, Law};
 use crate::network::Network;
 use crate::network::flow::{name, place};
-use lptn_laws::Formula;
+use crate::parts::heat::HeatOf;
 
 impl Network {
     /// The law of a conductor or source; `None` of anything else.
@@ -37,28 +40,63 @@ impl Network {
         scope: &mut Evaluation,
         temperatures: &[f64],
     ) -> Result<Vec<Option<f64>>, InputError> {
-        let Some(law) = self.law(item) else { return Ok(Vec::new()) };
-        let result = {
-            let (slots, stack) = scope.plain();
-            match item {
-                Item::Conductor(id) => {
-                    let (conductor, of) =
-                        (&self.conductors()[id.index()], self.parts.dependence(id));
-                    let ends = [conductor.from, conductor.to].map(|end| self.vertex(end));
-                    // a constant conductor has no dependence, but its ends
-                    let vertex =
-                        |k: usize| of.vertices.get(k).map_or_else(|| ends[k], |&v| v as usize);
-                    place(slots, of, &|k| temperatures[vertex(k)]);
-                }
-                Item::Source(id) => {
-                    let of = &self.parts.source_dependence[id.index()];
-                    name(slots, of, &|k| temperatures[of.vertices[k] as usize]);
-                }
-                _ => {}
+        self.of_law(item, scope, &|vertex| temperatures[vertex], Formula::groups)
+    }
+
+    /// What the law of a conductor or source tells of itself, by this key, in SI units where
+    /// `scope` stands, which needs temperatures: see [`Evaluation::set_temperatures`]. NaN where
+    /// there is no such number.
+    ///
+    /// # Errors
+    /// [`InputError`] if one of its values fails.
+    pub fn told(&self, item: Item, key: &str, scope: &mut Evaluation) -> Result<f64, InputError> {
+        let temperatures: Vec<f64> =
+            scope.layout().temperatures().map(|slot| scope.slot(slot)).collect();
+        let results = self.of_law(item, scope, &|vertex| temperatures[vertex], Formula::results)?;
+        let declared = self.law(item).map_or(&[][..], |law| law.formula().result_declarations());
+        let told = declared.iter().zip(results).find(|(result, _)| result.key == key);
+        Ok(told.map(|(_, value)| value).filter(|value| value.is_finite()).unwrap_or(f64::NAN))
+    }
+
+    /// What the law of a conductor or source tells of itself besides its heat.
+    pub fn told_of(&self, item: Item) -> impl Iterator<Item = HeatOf> {
+        self.parts.told_of(item)
+    }
+
+    /// A function of the values of a law and of its ends, which of a source are the hottest and the
+    /// coldest of the nodes that it heats; nothing for what has no law.
+    fn of_law<R: Default>(
+        &self,
+        item: Item,
+        scope: &mut Evaluation,
+        temperature: &dyn Fn(usize) -> f64,
+        function: fn(Formula, &[f64], [f64; 2]) -> R,
+    ) -> Result<R, InputError> {
+        let Some(law) = self.law(item) else { return Ok(R::default()) };
+        let (slots, stack) = scope.plain();
+        let mut heated = [f64::NAN; 2];
+        match item {
+            Item::Conductor(id) => {
+                let (conductor, of) = (&self.conductors()[id.index()], self.parts.dependence(id));
+                let ends = [conductor.from, conductor.to].map(|end| self.vertex(end));
+                // a constant conductor has no dependence, but its ends
+                let vertex = |k: usize| of.vertices.get(k).map_or_else(|| ends[k], |&v| v as usize);
+                place(slots, of, &|k| temperature(vertex(k)));
             }
-            let groups = |values: &[f64], ends| law.formula().groups(values, ends);
-            At { slots, stack }.of_values::<{ Formula::MOST_FIELDS }, _>(law, groups)
+            Item::Source(id) => {
+                let of = &self.parts.source_dependence[id.index()];
+                name(slots, of, &|k| temperature(of.vertices[k] as usize));
+                let nodes = self.sources()[id.index()].into.iter();
+                let nodes = nodes.map(|(node, _)| temperature(node.index()));
+                heated = nodes.fold(heated, |[hot, cold], t| [t.max(hot), t.min(cold)]);
+            }
+            _ => {}
+        }
+        let of = |values: &[f64], ends| match item {
+            Item::Source(_) => function(law.formula(), values, heated),
+            _ => function(law.formula(), values, ends),
         };
+        let result = At { slots, stack }.of_values::<{ Formula::MOST_FIELDS }, _>(law, of);
         result.map_err(|failed| self.failed(item, failed, scope))
     }
 }

@@ -17,7 +17,7 @@ use crate::build_error::{BuildError, BuildErrors};
 use crate::check::Islands;
 use crate::error::BuildErrorKind;
 use crate::evaluation::Evaluation;
-use crate::id::{ConductorId, Field, Item, NodeId, ParameterId};
+use crate::id::{ConductorId, Field, Item, NodeId, ParameterId, SignalId};
 use crate::input_error::{InputError, InputProblem};
 use crate::law::{ConductorFlow, Law};
 use crate::names::UnknownName;
@@ -117,7 +117,7 @@ impl Network {
     }
 
     /// The slot that expressions read a signal from; comparisons read the next one.
-    pub fn signal_slot(&self, id: crate::SignalId) -> u32 {
+    pub fn signal_slot(&self, id: SignalId) -> u32 {
         self.parts.layout.signal(id)
     }
 
@@ -155,6 +155,23 @@ impl Network {
         }
         let numbers = Numbers::evaluate(&self.parts, parameters.values()).map_err(Problems)?;
         Ok(Self { parts: Arc::clone(&self.parts), numbers: Arc::new(numbers) })
+    }
+
+    /// The same network with signals held at values in SI units, whatever their course is; the
+    /// parameters stay as they are given.
+    ///
+    /// # Errors
+    /// What the new numbers break.
+    pub fn held(&self, signals: &[(SignalId, f64)]) -> Result<Self, BuildErrors> {
+        let mut parts = (*self.parts).clone();
+        let layout = Arc::make_mut(&mut parts.layout);
+        signals.iter().for_each(|(id, value)| layout.hold(*id, *value));
+        let given = self
+            .parameter_ids()
+            .map(|id| self.numbers.given[id.index()].then(|| self.parameter_value(id)));
+        let given: Vec<Option<f64>> = given.collect();
+        let numbers = Numbers::evaluate(&parts, &given).map_err(Problems)?;
+        Ok(Self { parts: Arc::new(parts), numbers: Arc::new(numbers) })
     }
 
     /// A place to evaluate this network's inputs; it stands at time 0.

@@ -1,15 +1,11 @@
 //! Limits and reports, where temperatures and heat flows are known.
 
-use lptn_laws::Formula;
 use lptn_units::{Degree, Type};
 
 use crate::evaluation::Evaluation;
 use crate::id::{ConductorId, End, Field, Item, LimitId, ReportId};
 use crate::input_error::{InputError, InputProblem};
-use crate::law::At;
 use crate::network::Network;
-use crate::network::flow::place;
-use crate::parts::element::Conductor;
 use crate::parts::heat::HeatOf;
 use crate::parts::layout::Holds;
 use crate::parts::result::Bound;
@@ -41,11 +37,24 @@ impl Network {
         value: &Value,
         at: &mut Evaluation,
     ) -> Result<f64, InputError> {
-        match value.at(at) {
-            Ok(x) if x.is_finite() => Ok(x),
-            Ok(x) => Err(self.failed(item, (field, InputProblem::NotFinite(x)), at)),
-            Err(error) => Err(self.failed(item, (field, error.into()), at)),
-        }
+        let problem = match value.at(at) {
+            Ok(x) if x.is_finite() => return Ok(x),
+            Ok(x) => InputProblem::NotFinite(x),
+            Err(error) => error.into(),
+        };
+        let problem = self.missing(value, at).unwrap_or(problem);
+        Err(self.failed(item, (field, problem), at))
+    }
+
+    /// The result of a law that a value reads and that does not exist where `at` stands.
+    fn missing(&self, value: &Value, at: &Evaluation) -> Option<InputProblem> {
+        value.slots().into_iter().find_map(|slot| match self.parts.layout.holds(slot) {
+            Holds::Heat(heat) if at.slot(slot).is_nan() => {
+                let why = self.parts.told(heat)?.missing;
+                Some(InputProblem::NoResult { name: self.parts.heat_name(heat), why })
+            }
+            _ => None,
+        })
     }
 
     /// The names that expressions of results may use: parameters, `t`, and `NAME.T` of every node
@@ -72,47 +81,6 @@ impl Network {
     /// [`Evaluation::set_heats`] takes them.
     pub fn named_heats(&self) -> impl ExactSizeIterator<Item = HeatOf> + '_ {
         self.parts.layout.heats().iter().map(|(heat, _)| *heat)
-    }
-
-    /// What the law of a path tells of itself, by this key, in SI units where `scope` stands, which
-    /// needs temperatures: see [`Evaluation::set_temperatures`].
-    ///
-    /// # Errors
-    /// [`InputError`] if a value of the path fails, or if there is no such number.
-    pub fn told(
-        &self,
-        id: ConductorId,
-        key: &str,
-        scope: &mut Evaluation,
-    ) -> Result<f64, InputError> {
-        let Conductor { law, from, to, .. } = &self.conductors()[id.index()];
-        let dependence = self.parts.dependence(id);
-        // what depends on nothing may still tell of its ends
-        let ends = [*from, *to].map(|end| self.parts.vertex(end));
-        let vertices = ends.iter().chain(dependence.vertices.iter().skip(ends.len()));
-        let slots: Vec<u32> = scope.layout().temperatures().collect();
-        let of = |vertex: &u32| scope.slot(slots[*vertex as usize]);
-        let temperatures: Vec<f64> = vertices.map(of).collect();
-        let results = {
-            let (slots, stack) = scope.plain();
-            place(slots, dependence, &|k| temperatures[k]);
-            let told = |values: &[f64], ends| law.formula().results(values, ends);
-            At { slots, stack }.of_values::<{ Formula::MOST_FIELDS }, _>(law, told)
-        };
-        let results = results.map_err(|failed| self.failed(Item::Conductor(id), failed, scope))?;
-        let declared = law.formula().result_declarations();
-        let position = declared.iter().position(|result| result.key == key);
-        let value = position.map_or(f64::NAN, |position| results[position]);
-        if value.is_finite() {
-            return Ok(value);
-        }
-        let failed = (Field::law(law.formula(), 0), InputProblem::NotFinite(value));
-        Err(self.failed(Item::Conductor(id), failed, scope))
-    }
-
-    /// What the law of a path tells of itself besides its heat.
-    pub fn told_of(&self, id: ConductorId) -> impl Iterator<Item = HeatOf> {
-        self.parts.told_of(id)
     }
 
     /// The heat flows of a path: two for a stream.

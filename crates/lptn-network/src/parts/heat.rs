@@ -2,7 +2,7 @@
 
 use crate::id::{BoundaryId, ConductorId, FacePathId, Item, SourceId};
 
-/// A heat flow of the results in W, or what the law of a path tells of itself.
+/// A heat flow of the results in W, or what the law of a path or source tells of itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum HeatOf {
     /// `NAME.Q` of a path that is not a stream: positive from `from` to `to`.
@@ -17,18 +17,19 @@ pub enum HeatOf {
     Boundary(BoundaryId),
     /// `NAME.Q` of a path that ends at a face of a grid: the sum over its conductors.
     FacePath(FacePathId),
-    /// `NAME.pressure` and the like of a path: a result that its law declares, by its key.
-    Told(ConductorId, &'static str),
+    /// `NAME.pressure` and the like of a path or source: a result that its law declares, by its
+    /// key.
+    Told(Item, &'static str),
 }
 
 impl HeatOf {
     /// What it is the heat of.
     pub fn item(self) -> Item {
         match self {
-            Self::Conductor(id)
-            | Self::ReceivedFrom(id)
-            | Self::ReceivedTo(id)
-            | Self::Told(id, _) => Item::Conductor(id),
+            Self::Conductor(id) | Self::ReceivedFrom(id) | Self::ReceivedTo(id) => {
+                Item::Conductor(id)
+            }
+            Self::Told(item, _) => item,
             Self::Source(id) => Item::Source(id),
             Self::Boundary(id) => Item::Boundary(id),
             Self::FacePath(id) => Item::FacePath(id),

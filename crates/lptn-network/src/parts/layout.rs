@@ -3,8 +3,9 @@
 use crate::id::{BoundaryId, ControlId, End, NodeId, ParameterId, SignalId, SwitchId};
 use crate::parts::grid_value::GridValue;
 use crate::parts::heat::HeatOf;
-use crate::parts::signal::Signal;
+use crate::parts::signal::{Course, Signal};
 use crate::slot;
+use crate::value::Value;
 
 /// What a slot holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -103,6 +104,13 @@ impl Layout {
             .filter(|signal| signal.ty.dimension == unit.ty.dimension);
         if let Some(signal) = signal {
             signal.unit = Some(unit);
+        }
+    }
+
+    /// Gives a signal one value for ever.
+    pub(crate) fn hold(&mut self, id: SignalId, value: f64) {
+        if let Some(signal) = self.signals.get_mut(id.index()) {
+            signal.course = Course::Expression(Value::Constant(value));
         }
     }
 

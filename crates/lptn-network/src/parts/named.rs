@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use lptn_laws::ResultDeclaration;
 use lptn_units::{Dimension, Type};
 
 use crate::id::{BoundaryId, ConductorId, GridId, Item, SourceId};
@@ -32,28 +33,37 @@ impl Parts {
             (Item::Source(id), "P") => Some(HeatOf::Source(id)),
             (Item::Boundary(id), "Q") => Some(HeatOf::Boundary(id)),
             (Item::FacePath(id), "Q") => Some(HeatOf::FacePath(id)),
-            (Item::Conductor(id), key) => self.told_by(id).find(|told| told.0 == key).map(|t| t.1),
-            _ => None,
+            (item, key) => {
+                let told = self.declared(item).iter().find(|result| result.key == key)?;
+                Some(HeatOf::Told(item, told.key))
+            }
         }
     }
 
-    /// What the law of a path tells of itself, by its keys.
-    fn told_by(&self, id: ConductorId) -> impl Iterator<Item = (&'static str, HeatOf)> {
-        let results = self.conductors[id.index()].law.formula().result_declarations();
-        results.iter().map(move |result| (result.key, HeatOf::Told(id, result.key)))
+    /// What the law of a path or source declares besides its heat.
+    fn declared(&self, item: Item) -> &'static [ResultDeclaration] {
+        let law = match item {
+            Item::Conductor(id) => &self.conductors[id.index()].law,
+            Item::Source(id) => &self.sources[id.index()].law,
+            _ => return &[],
+        };
+        law.formula().result_declarations()
     }
 
-    /// What the law of a path tells of itself, in the order of its declaration.
-    pub(crate) fn told_of(&self, id: ConductorId) -> impl Iterator<Item = HeatOf> {
-        self.told_by(id).map(|(_, told)| told)
+    /// What the law of a path or source tells of itself, in the order of its declaration.
+    pub(crate) fn told_of(&self, item: Item) -> impl Iterator<Item = HeatOf> {
+        self.declared(item).iter().map(move |result| HeatOf::Told(item, result.key))
     }
 
     /// What a quantity is: power, but for what laws tell.
     pub(crate) fn heat_type(&self, heat: HeatOf) -> Type {
-        let HeatOf::Told(id, key) = heat else { return Type::of(Dimension::POWER) };
-        let results = self.conductors[id.index()].law.formula().result_declarations();
-        let told = results.iter().find(|result| result.key == key);
-        told.map_or(Type::SCALAR, |result| result.ty)
+        self.told(heat).map_or(Type::of(Dimension::POWER), |result| result.ty)
+    }
+
+    /// The declaration of what a law tells.
+    pub(crate) fn told(&self, heat: HeatOf) -> Option<&'static ResultDeclaration> {
+        let HeatOf::Told(item, key) = heat else { return None };
+        self.declared(item).iter().find(|result| result.key == key)
     }
 
     pub(crate) fn heats_of(&self, id: ConductorId) -> Vec<HeatOf> {
@@ -67,9 +77,12 @@ impl Parts {
     pub(crate) fn heat_names(&self) -> impl Iterator<Item = String> + '_ {
         let conductors = (0..self.conductors.len()).flat_map(|i| {
             let id = ConductorId::from_len(i);
-            self.heats_of(id).into_iter().chain(self.told_of(id))
+            self.heats_of(id).into_iter().chain(self.told_of(Item::Conductor(id)))
         });
-        let sources = (0..self.sources.len()).map(|i| HeatOf::Source(SourceId::from_len(i)));
+        let sources = (0..self.sources.len()).flat_map(|i| {
+            let id = SourceId::from_len(i);
+            [HeatOf::Source(id)].into_iter().chain(self.told_of(Item::Source(id)))
+        });
         let boundaries =
             (0..self.boundaries.len()).map(|i| HeatOf::Boundary(BoundaryId::from_len(i)));
         let joints = self.shared_face_paths().map(HeatOf::FacePath);

@@ -5,6 +5,7 @@ use lptn_integrate::{FactorError, IntegrateError};
 use super::{Break, Run};
 use crate::error::StopReason;
 use crate::newton::NewtonError;
+use crate::runaway::Runaway;
 use crate::unsolved::Unsolved;
 
 /// Steps shorter than this part of the run, each after others that were refused, get nowhere ..
@@ -45,6 +46,15 @@ impl Run<'_> {
         }
     }
 
+    /// That the network became hotter and hotter, if that is why no step succeeds.
+    fn runaway(&mut self) -> Option<StopReason> {
+        let (time, last) = (self.integrator.time(), self.unknowns()?);
+        let system = self.recorder.system();
+        let positions = self.switching.as_ref().map(|switching| switching.positions.clone());
+        let runaway = Runaway::of(system, (time, &positions.unwrap_or_default()), &last)?;
+        Some(runaway.reason(system))
+    }
+
     /// The reason of a failure: what the system knows goes before what the integrator says.
     pub(super) fn failed(&mut self, error: IntegrateError) -> Break {
         if let Some(failure) = self.integrator.system_mut().failure.take() {
@@ -54,6 +64,9 @@ impl Run<'_> {
             error
         {
             return Break::Failed(self.reason(NewtonError::Singular { unknown }));
+        }
+        if let Some(runaway) = self.runaway() {
+            return Break::Failed(runaway);
         }
         let node = error.component().map(|state| self.recorder.state_name(state));
         Break::Failed(StopReason::Integrator { error, node })

@@ -37,7 +37,7 @@ const NEAR: f64 = 1e-3;
 /// Steps between two looks at whether it rests.
 const EVERY: usize = 4;
 
-/// Where a network comes to rest.
+/// Where a network is.
 pub(crate) struct Rest {
     /// Temperatures of all unknowns in K.
     pub(crate) temperatures: Vec<f64>,
@@ -45,19 +45,34 @@ pub(crate) struct Rest {
     pub(crate) positions: Positions,
 }
 
-/// Follows a network from its start with its inputs as they are at `time` in s; `None` where it
-/// does not come to rest, or cannot be followed.
-pub(crate) fn rest(system: &ThermalSystem, time: f64) -> Option<Rest> {
+/// Where following a network ended.
+pub(crate) enum Way {
+    /// It rests.
+    Rests(Rest),
+    /// It moves on and could not be followed further than to there.
+    Left(Rest),
+    /// It cannot be followed, or does not settle.
+    Lost,
+}
+
+/// Follows a network from its start with its inputs as they are at `time` in s.
+pub(crate) fn rest(system: &ThermalSystem, time: f64) -> Way {
+    followed(system, time).unwrap_or(Way::Lost)
+}
+
+fn followed(system: &ThermalSystem, time: f64) -> Option<Way> {
     let mut newton = Newton::new(system, (0..system.unknowns().len()).collect()).ok()?;
     let (segment, mut run) = Run::held(system, time)?;
     run.begin(segment, true).ok()?;
     let mut before = run.unknowns()?;
     for step in 1..=STEPS {
-        run.step(segment).ok()?;
+        let stepped = run.step(segment).is_ok();
         if run.switching.as_ref().is_some_and(|switching| switching.events.len() > SWITCHES) {
             return None;
         }
-        let now = run.unknowns()?;
+        let Some(now) = run.unknowns().filter(|_| stepped) else {
+            return Some(Way::Left(run.at(before)));
+        };
         let moved = now.iter().zip(&before).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
         before = now;
         let over = run.integrator.time() >= segment.to;
@@ -66,11 +81,10 @@ pub(crate) fn rest(system: &ThermalSystem, time: f64) -> Option<Rest> {
             false => step % EVERY == 0 && moved <= SLOW && run.rests(&mut newton, &before)?,
         };
         if rests {
-            let positions = run.switching.map(|switching| switching.positions);
-            return Some(Rest { temperatures: before, positions: positions.unwrap_or_default() });
+            return Some(Way::Rests(run.at(before)));
         }
         if over {
-            return None;
+            return Some(Way::Left(run.at(before)));
         }
     }
     None
@@ -99,8 +113,13 @@ impl<'a> Run<'a> {
         Some((segment, run))
     }
 
+    fn at(self, temperatures: Vec<f64>) -> Rest {
+        let positions = self.switching.map(|switching| switching.positions);
+        Rest { temperatures, positions: positions.unwrap_or_default() }
+    }
+
     /// Temperatures of all unknowns in K.
-    fn unknowns(&mut self) -> Option<Vec<f64>> {
+    pub(super) fn unknowns(&mut self) -> Option<Vec<f64>> {
         let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());
         self.integrator
             .system_mut()

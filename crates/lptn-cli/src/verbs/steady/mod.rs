@@ -90,7 +90,9 @@ pub(super) fn failed(input: &Input, error: &SteadyError) -> Failure {
         SteadyError::Unsolved(unsolved) if unsolved.input().is_none() => {
             input.node_place(unsolved.node())
         }
-        SteadyError::BelowAbsoluteZero { name, .. } => input.node_place(name),
+        SteadyError::BelowAbsoluteZero { name, .. } | SteadyError::Runaway { node: name, .. } => {
+            input.node_place(name)
+        }
         error => error.input().and_then(|error| input.place_of(error)),
     };
     input.failure(error, place)

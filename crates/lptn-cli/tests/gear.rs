@@ -1,0 +1,108 @@
+//! Command line: `lptn gear`. Numbers are those of printed formulas: 7.69e-6 d^2 n W of a shaft seal
+//! (ISO/TR 14179-2), and ratios of teeth.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+mod common;
+
+use common::Folder;
+use serde_json::Value;
+
+const TRAIN: &str = r#"
+format = 1
+[node]
+box = { C = "1 kJ/K", T0 = "20 degC" }
+[boundary]
+air = { T = "20 degC" }
+[resistor]
+skin = { from = "box", to = "air", R = "0.1 K/W" }
+[gearbox.first]
+teeth = { sun = 18, planet = 42, ring = 102 }
+planets = 3
+speed = "3000 rpm"
+into = "box"
+seal = { lip = { on = "sun", model = "shaft", d = "50 mm" } }
+[gearbox.second]
+teeth = { pinion = 20, wheel = 60 }
+driven_by = "first"
+into = "box"
+seal = { lip = { on = "wheel", model = "shaft", d = "50 mm" } }
+"#;
+
+/// W for each rpm.
+const SEAL: f64 = 7.69e-6 * 2500.0;
+
+#[track_caller]
+fn near(found: &Value, expected: f64) {
+    let number = found.as_f64().or_else(|| found["value"].as_f64()).unwrap();
+    assert!((number - expected).abs() <= 1e-9 * expected.abs(), "{number} is not {expected}");
+}
+
+#[test]
+fn a_train_is_told_to_programs() {
+    let folder = Folder::with("train.toml", TRAIN);
+    let json = folder.run(&["gear", "train.toml", "--speed", "1000rpm", "--format", "json"]);
+    let json = json.exits(0).json();
+    near(&json["ratio"], -20.0);
+    let point = &json["points"][0];
+    near(&point["losses"][0]["heat"], SEAL * 1000.0);
+    near(&point["losses"][1]["heat"], SEAL * 1000.0 / 20.0);
+    near(&point["loss"], SEAL * 1050.0);
+    near(&point["drag"], SEAL * 1050.0 / (1000.0 * std::f64::consts::PI / 30.0));
+    near(&point["temperatures"]["box"], 20.0 + 0.1 * SEAL * 1050.0);
+    assert!((point["exponent"].as_f64().unwrap() - 1.0).abs() < 1e-6);
+    assert!((point["exponent_settled"].as_f64().unwrap() - 1.0).abs() < 1e-6);
+    assert_eq!(point["efficiency"], Value::Null);
+}
+
+#[test]
+fn a_spreadsheet_has_a_row_for_each_speed_and_temperature() {
+    let folder = Folder::with("train.toml", TRAIN);
+    let arguments = ["gear", "train.toml", "--temperature", "20degC,80degC", "--format", "csv"];
+    let ran = folder.run(&arguments).exits(0);
+    let lines: Vec<&str> = ran.out.lines().collect();
+    assert_eq!(lines.len(), 11, "{}", ran.out);
+    let columns: Vec<&str> = lines[0].split(',').collect();
+    let at = |name: &str| columns.iter().position(|column| *column == name).unwrap();
+    let last: Vec<&str> = lines[10].split(',').collect();
+    assert_eq!(last[at("warmest node [degC]")], "80");
+    let loss: f64 = last[at("loss [W]")].parse().unwrap();
+    near(&loss.into(), SEAL * 3150.0);
+    assert_eq!(last[at("exponent settled [-]")], "");
+}
+
+#[test]
+fn the_stage_that_is_driven_can_be_looked_at_by_itself() {
+    let folder = Folder::with("train.toml", TRAIN);
+    folder.run(&["gear", "train.toml", "second"]).exits(0).prints("ratio -3").prints("450 rpm");
+}
+
+#[test]
+fn what_cannot_be_told_is_told_why() {
+    let folder = Folder::with("train.toml", TRAIN);
+    folder.write("none.toml", &TRAIN[..TRAIN.find("[gearbox").unwrap()]);
+    folder.write("still.toml", &TRAIN.replace("3000 rpm", "0 rpm"));
+    folder.write("two.toml", &TRAIN.replace("driven_by = \"first\"", "speed = \"100 rpm\""));
+    for (words, code) in [
+        (vec!["none.toml"], "gear::no_gearbox"),
+        (vec!["train.toml", "secnd"], "did you mean `second`?"),
+        (vec!["still.toml"], "gear::at_rest"),
+        (vec!["two.toml"], "gear::which_gearbox"),
+        (vec!["train.toml", "--torque", "3 N m"], "gear::no_torque"),
+        (vec!["train.toml", "--speed", "3Hz"], "--speed"),
+        (vec!["train.toml", "--temperature", "40K,-300degC"], "-300degC"),
+    ] {
+        folder.run(&[&["gear"][..], &words].concat()).exits(2).says(code);
+    }
+}
+
+#[test]
+fn a_picture_and_a_report_show_every_part() {
+    let folder = Folder::with("train.toml", TRAIN);
+    let words = ["gear", "train.toml", "--plot", "x.svg", "--report=x.html"];
+    folder.run(&words).exits(0);
+    for file in ["x.svg", "x.html"] {
+        let text = folder.read(file);
+        assert!(text.contains("first.lip") && text.contains("second.lip"), "{file}");
+    }
+}

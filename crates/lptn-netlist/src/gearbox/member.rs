@@ -1,0 +1,81 @@
+//! The members of a stage of gears, and how their speeds and torques hang together.
+//!
+//! Willis: z_s w_s + z_r w_r - (z_s + z_r) w_c = 0, and the torques that act on the members from
+//! outside, without losses, are as z_s : z_r : -(z_s + z_r), so that they and their power sum to
+//! nothing. A pair of gears is z_1 w_1 + z_2 w_2 = 0 with torques as z_1 : z_2; its housing takes
+//! their sum. So one row of weights says both of both.
+
+/// A part of a stage that turns, or is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Member {
+    /// The wheel in the middle of a planetary stage.
+    Sun,
+    /// What the planets turn on.
+    Carrier,
+    /// The wheel with internal teeth.
+    Ring,
+    /// The wheels between sun and ring; their speed is that against the carrier.
+    Planet,
+    /// The first wheel of a pair.
+    Pinion,
+    /// The second wheel of a pair.
+    Wheel,
+}
+
+impl Member {
+    /// What it is called, in netlists too.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Sun => "sun",
+            Self::Carrier => "carrier",
+            Self::Ring => "ring",
+            Self::Planet => "planet",
+            Self::Pinion => "pinion",
+            Self::Wheel => "wheel",
+        }
+    }
+}
+
+/// Which members a stage has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Arrangement {
+    /// Sun, planets on a carrier, and a ring.
+    Planetary,
+    /// Two wheels on parallel shafts.
+    Pair,
+}
+
+impl Arrangement {
+    /// The members that turn about fixed axes, and so may be driven, held or lead out.
+    pub fn shafts(self) -> &'static [Member] {
+        match self {
+            Self::Planetary => &[Member::Sun, Member::Carrier, Member::Ring],
+            Self::Pair => &[Member::Pinion, Member::Wheel],
+        }
+    }
+
+    /// The members with teeth.
+    pub fn wheels(self) -> &'static [Member] {
+        match self {
+            Self::Planetary => &[Member::Sun, Member::Planet, Member::Ring],
+            Self::Pair => self.shafts(),
+        }
+    }
+
+    /// All members.
+    pub fn members(self) -> &'static [Member] {
+        match self {
+            Self::Planetary => &[Member::Sun, Member::Planet, Member::Carrier, Member::Ring],
+            Self::Pair => self.shafts(),
+        }
+    }
+}
+
+/// The weight of a member in sum(weight speed) = 0, to which its torque is proportional: whether it
+/// is negative, and its text. `z` gives the name of the teeth of a wheel.
+pub(super) fn weight(member: Member, z: impl Fn(Member) -> String) -> (bool, String) {
+    match member {
+        Member::Carrier => (true, format!("({} + {})", z(Member::Sun), z(Member::Ring))),
+        wheel => (false, z(wheel)),
+    }
+}

@@ -1,0 +1,112 @@
+//! `[gearbox.NAME]`: a stage of gears as one block, written out as speeds, torques, meshes,
+//! bearings and seals before anything is read.
+//!
+//! Speeds and torques become parameters, or signals where the input is one, by the names that the
+//! docs list: `stage.sun.speed`, `stage.ring.torque`, `stage.force`. So nothing behind the netlist
+//! knows of gearboxes but what asks for one.
+
+mod check;
+mod declaration;
+mod make;
+mod member;
+mod model;
+mod parts;
+mod stage;
+
+use lptn_data::{Diagnostic, nearest};
+
+pub(crate) use check::check;
+pub(crate) use declaration::GEARBOX;
+pub use member::{Arrangement, Member};
+pub(crate) use model::Gears;
+pub use model::{Gearbox, GearboxPart};
+
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+use crate::template::Structure;
+use make::Made;
+use stage::Stage;
+
+/// Puts elements in the place of every gearbox.
+pub(crate) fn expand(
+    raw: &mut RawNetlist,
+    structure: &Structure,
+    problems: &mut Vec<Diagnostic>,
+) -> Gears {
+    let entries = take(raw);
+    let mut gears = Gears::default();
+    let stages: Vec<Stage<'_>> =
+        entries.iter().filter_map(|entry| Stage::read(entry, structure, problems)).collect();
+    let known: Vec<&str> = entries.iter().map(|entry| entry.key.as_str()).collect();
+    let mut made: Vec<Made> = Vec::new();
+    let mut open: Vec<&Stage<'_>> = stages.iter().collect();
+    // a stage comes behind the one that drives it
+    while !open.is_empty() {
+        let before = open.len();
+        open.retain(|stage| {
+            let driver = stage
+                .driver
+                .as_ref()
+                .map(|(name, _)| made.iter().find(|other| other.gearbox.name == *name));
+            match driver {
+                Some(None) => true,
+                driver => {
+                    let new = Made::of((stage, driver.flatten()), raw, structure, problems);
+                    made.push(new);
+                    false
+                }
+            }
+        });
+        if open.len() == before {
+            break;
+        }
+    }
+    for stage in open {
+        problems.extend(stage.driver.as_ref().and_then(|driver| no_driver(driver, &known)));
+    }
+    for one in made {
+        one.entries.into_iter().for_each(|(section, entry)| push(raw, section, entry));
+        gears.types.extend(one.types);
+        gears.list.push(one.gearbox);
+    }
+    gears
+}
+
+/// That a stage is driven by nothing; nothing is said where the driver itself is wrong.
+fn no_driver((name, at): &(String, &RawValue), known: &[&str]) -> Option<Diagnostic> {
+    if known.contains(&name.as_str()) {
+        let message = format!("no stage drives `{name}` in the end: stages drive each other");
+        let help = "give the first stage `speed` and `torque`";
+        return Some(Diagnostic::wrong("netlist::gear_driver", message, &at.span, help));
+    }
+    let message = format!("there is no gearbox `{name}`");
+    let help = nearest(name, known.iter().copied(), "the gearboxes are");
+    Some(Diagnostic::wrong("netlist::gear_driver", message, &at.span, help))
+}
+
+/// Takes the gearboxes out of a netlist; a section that is not a table is left, to be reported.
+fn take(raw: &mut RawNetlist) -> Vec<RawEntry> {
+    let entries = &mut raw.top.entries;
+    let is_it = |entry: &RawEntry| {
+        entry.key == GEARBOX.name && matches!(entry.value.kind, RawKind::Table(_))
+    };
+    match entries.iter().position(is_it).map(|at| entries.remove(at).value.kind) {
+        Some(RawKind::Table(table)) => table.entries,
+        _ => Vec::new(),
+    }
+}
+
+/// Adds an entry to a section, behind those that are there.
+fn push(raw: &mut RawNetlist, section: &str, entry: RawEntry) {
+    let entries = &mut raw.top.entries;
+    let position = entries.iter().position(|known| known.key == section);
+    let position = position.unwrap_or_else(|| {
+        let span = entry.key_span.clone();
+        let kind = RawKind::Table(RawTable { span: span.clone(), entries: Vec::new() });
+        let value = RawValue { span: span.clone(), kind };
+        entries.push(RawEntry { key: section.to_owned(), key_span: span, value });
+        entries.len() - 1
+    });
+    if let Some(RawKind::Table(table)) = entries.get_mut(position).map(|e| &mut e.value.kind) {
+        table.entries.push(entry);
+    }
+}

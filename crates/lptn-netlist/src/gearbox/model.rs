@@ -1,0 +1,69 @@
+//! What a netlist knows of a stage of gears once it is written out.
+
+use std::collections::HashMap;
+
+use lptn_data::Span;
+use lptn_units::Type;
+
+use super::member::{Arrangement, Member};
+
+/// A stage of gears of a netlist, with the names of what it was written out as.
+#[derive(Clone, Debug)]
+pub struct Gearbox {
+    /// Its full name.
+    pub name: String,
+    /// Which members it has.
+    pub arrangement: Arrangement,
+    /// The member that stands still; a pair of gears has none.
+    pub held: Option<Member>,
+    /// The member whose speed and torque are given.
+    pub input: Member,
+    /// The member that the power leaves by.
+    pub output: Member,
+    /// How many planets there are; 1 of a pair of gears.
+    pub planets: usize,
+    /// Whether the planets stand at equal angles.
+    pub even: bool,
+    /// The ratio that was stated, with its place.
+    pub ratio: Option<(f64, Span)>,
+    /// Whether a torque is given: else its meshes lose nothing and there are none.
+    pub loaded: bool,
+    /// The stage whose output drives it.
+    pub driver: Option<String>,
+    /// What loses power in it.
+    pub parts: Vec<GearboxPart>,
+    /// Where its name stands.
+    pub span: Span,
+    pub(crate) teeth: Span,
+}
+
+impl Gearbox {
+    /// The name of a value of a member: `stage.sun.speed`.
+    pub fn of(&self, member: Member, what: &str) -> String {
+        format!("{}.{}.{what}", self.name, member.word())
+    }
+
+    /// The name of the parameter of its teeth.
+    pub fn teeth_of(&self, member: Member) -> String {
+        format!("{}.z_{}", self.name, member.word())
+    }
+}
+
+/// What loses power in a gearbox: one element, or one for each planet.
+#[derive(Clone, Debug)]
+pub struct GearboxPart {
+    /// Its name without the index of a planet.
+    pub name: String,
+    /// Its section.
+    pub section: &'static str,
+    /// Its elements, which are sources.
+    pub elements: Vec<String>,
+}
+
+/// The gearboxes of a netlist, and the types of the parameters and signals that they were written
+/// out as.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Gears {
+    pub(crate) list: Vec<Gearbox>,
+    pub(crate) types: HashMap<String, Type>,
+}

@@ -1,0 +1,274 @@
+//! Reads the block of a stage: which members it has, which is held, where power comes in.
+
+use lptn_data::{Diagnostic, Severity, Span, list, nearest};
+use lptn_units::{Type, parse_quantity};
+
+use super::declaration::GEARBOX;
+use super::member::{Arrangement, Member};
+use crate::fields::{Fields, Owner};
+use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
+use crate::template::Structure;
+
+/// More planets are a mistake.
+const MOST_PLANETS: usize = 100;
+
+/// A stage as it is written.
+#[derive(Debug)]
+pub(super) struct Stage<'r> {
+    pub(super) entry: &'r RawEntry,
+    pub(super) fields: Fields<'r>,
+    pub(super) arrangement: Arrangement,
+    pub(super) held: Option<Member>,
+    pub(super) input: Member,
+    pub(super) output: Member,
+    /// The teeth of every wheel.
+    pub(super) teeth: Vec<(Member, &'r RawEntry)>,
+    pub(super) planets: usize,
+    pub(super) even: bool,
+    pub(super) ratio: Option<(f64, Span)>,
+    pub(super) into: Heated<'r>,
+    /// The stage that drives it, by its full name.
+    pub(super) driver: Option<(String, &'r RawValue)>,
+}
+
+/// What the parts of a stage heat.
+#[derive(Debug)]
+pub(super) enum Heated<'r> {
+    /// One node, or what else `into` of a source takes.
+    One(&'r RawValue),
+    /// A node for each member.
+    Each(Vec<(Member, &'r RawValue)>),
+}
+
+impl<'r> Stage<'r> {
+    /// Reads a block and reports what is wrong with it.
+    pub(super) fn read(
+        entry: &'r RawEntry,
+        structure: &Structure,
+        problems: &mut Vec<Diagnostic>,
+    ) -> Option<Self> {
+        let before = problems.len();
+        let owner = Owner::element(GEARBOX.name, &entry.key);
+        let fields = Fields::of(&GEARBOX, owner, entry, problems)?;
+        let mut reader = Reader { fields: &fields, problems };
+        let teeth = reader.teeth();
+        let into = reader.heated(teeth.as_ref().map(|(arrangement, _)| *arrangement));
+        let (arrangement, teeth) = teeth?;
+        let held = reader.held(arrangement);
+        let input = reader.input(arrangement, held);
+        let planets = reader.planets(arrangement);
+        let even = reader.even();
+        let ratio = reader.ratio();
+        let driver = reader.driver(structure);
+        let wrong = problems[before..].iter().any(|p| p.severity == Severity::Error);
+        let (held, input) = (held?, input?);
+        let output = arrangement.shafts().iter().find(|m| **m != input && Some(**m) != held);
+        let stage = Self {
+            entry,
+            arrangement,
+            held,
+            input,
+            output: *output?,
+            teeth,
+            planets: planets?,
+            even,
+            ratio,
+            into: into?,
+            driver,
+            fields,
+        };
+        (!wrong).then_some(stage)
+    }
+
+    /// What a member heats, where that is said.
+    pub(super) fn node_of(&self, member: Member) -> Option<&'r RawValue> {
+        match &self.into {
+            Heated::One(raw) => Some(raw),
+            Heated::Each(nodes) => {
+                nodes.iter().find(|(known, _)| *known == member).map(|(_, raw)| *raw)
+            }
+        }
+    }
+}
+
+/// Reads the keys, each with what is wrong about it.
+struct Reader<'f, 'r> {
+    fields: &'f Fields<'r>,
+    problems: &'f mut Vec<Diagnostic>,
+}
+
+impl<'r> Reader<'_, 'r> {
+    fn table(&mut self, key: &str, raw: &'r RawValue) -> Option<&'r RawTable> {
+        match &raw.kind {
+            RawKind::Table(table) => Some(table),
+            _ => {
+                self.problems.push(self.fields.wrong_shape(key, raw, "a table"));
+                None
+            }
+        }
+    }
+
+    /// The teeth of every wheel; which wheels there are says what stage it is.
+    fn teeth(&mut self) -> Option<(Arrangement, Vec<(Member, &'r RawEntry)>)> {
+        let raw = self.fields.require("teeth", self.problems)?;
+        let table = self.table("teeth", raw)?;
+        let is_pair = table.get("pinion").is_some() || table.get("wheel").is_some();
+        let arrangement = if is_pair { Arrangement::Pair } else { Arrangement::Planetary };
+        let wheels = arrangement.wheels();
+        let words: Vec<&str> = wheels.iter().map(|member| member.word()).collect();
+        let mut right = true;
+        for entry in &table.entries {
+            if !words.contains(&entry.key.as_str()) {
+                right = false;
+                let message =
+                    format!("{} has no `{}`", self.fields.owner.field("teeth"), entry.key);
+                let help = match is_pair {
+                    true => "a pair of gears has `pinion` and `wheel`".to_owned(),
+                    false => nearest(&entry.key, words.iter().copied(), "a planetary stage has"),
+                };
+                self.wrong("netlist::unknown_key", message, &entry.key_span, &help);
+            }
+        }
+        let found: Vec<_> =
+            wheels.iter().filter_map(|m| Some((*m, table.get(m.word())?))).collect();
+        let missing = wheels.iter().find(|member| table.get(member.word()).is_none());
+        if let Some(member) = missing.filter(|_| right) {
+            let message =
+                format!("{} has no `{}`", self.fields.owner.field("teeth"), member.word());
+            let help = "write all wheels: `teeth = { sun = 18, planet = 42, ring = 102 }`, or \
+                `teeth = { pinion = 20, wheel = 60 }`";
+            self.wrong("netlist::missing_field", message, &raw.span, help);
+        }
+        (found.len() == wheels.len()).then_some((arrangement, found))
+    }
+
+    /// The member that is held, by its word; `None` if it is wrong.
+    fn held(&mut self, arrangement: Arrangement) -> Option<Option<Member>> {
+        let why = "means nothing for a pair of gears, whose shafts both turn";
+        match (arrangement, self.fields.get("held")) {
+            (Arrangement::Pair, None) => Some(None),
+            (Arrangement::Pair, Some(_)) => {
+                self.useless("held", why);
+                None
+            }
+            (Arrangement::Planetary, None) => Some(Some(Member::Ring)),
+            (Arrangement::Planetary, Some(raw)) => {
+                self.member("held", raw, arrangement.shafts()).map(Some)
+            }
+        }
+    }
+
+    fn input(&mut self, arrangement: Arrangement, held: Option<Option<Member>>) -> Option<Member> {
+        let held = held?;
+        let free: Vec<Member> =
+            arrangement.shafts().iter().copied().filter(|m| Some(*m) != held).collect();
+        match self.fields.get("input") {
+            None => free.first().copied(),
+            Some(raw) => self.member("input", raw, &free),
+        }
+    }
+
+    fn member(&mut self, key: &str, raw: &'r RawValue, of: &[Member]) -> Option<Member> {
+        let text = self.fields.text(key, raw, self.problems)?;
+        let found = of.iter().find(|member| member.word() == text);
+        if found.is_none() {
+            let message = format!("{} cannot be \"{text}\"", self.fields.owner.field(key));
+            let words: Vec<&str> = of.iter().map(|member| member.word()).collect();
+            let help = format!("it is one of {}", list(&words));
+            self.wrong("netlist::unknown_word", message, &raw.span, &help);
+        }
+        found.copied()
+    }
+
+    fn planets(&mut self, arrangement: Arrangement) -> Option<usize> {
+        if arrangement == Arrangement::Pair {
+            let why = "means nothing for a pair of gears";
+            ["planets", "spacing"].into_iter().for_each(|key| self.useless(key, why));
+            return Some(1);
+        }
+        let raw = self.fields.require("planets", self.problems)?;
+        let count = match &raw.kind {
+            RawKind::Integer(text) => text.parse::<usize>().ok(),
+            _ => None,
+        };
+        let count = count.filter(|count| (1..=MOST_PLANETS).contains(count));
+        if count.is_none() {
+            let wanted = format!("a whole number from 1 to {MOST_PLANETS}");
+            self.problems.push(self.fields.wrong_shape("planets", raw, &wanted));
+        }
+        count
+    }
+
+    fn even(&mut self) -> bool {
+        let Some(raw) = self.fields.get("spacing") else { return true };
+        let text = self.fields.text("spacing", raw, self.problems).unwrap_or("even");
+        if !["even", "uneven"].contains(&text) {
+            let message = format!("{} cannot be \"{text}\"", self.fields.owner.field("spacing"));
+            let help = "it is one of `even` and `uneven`";
+            self.wrong("netlist::unknown_word", message, &raw.span, help);
+        }
+        text == "even"
+    }
+
+    fn ratio(&mut self) -> Option<(f64, Span)> {
+        let raw = self.fields.get("ratio")?;
+        let value = match &raw.kind {
+            RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => {
+                parse_quantity(text, Some(Type::SCALAR)).ok()
+            }
+            _ => None,
+        };
+        if value.is_none() {
+            self.problems.push(self.fields.wrong_shape("ratio", raw, "a number"));
+        }
+        Some((value?.value, raw.span.clone()))
+    }
+
+    /// A node for all, or one for each member that is named.
+    fn heated(&mut self, arrangement: Option<Arrangement>) -> Option<Heated<'r>> {
+        let raw = self.fields.require("into", self.problems)?;
+        let RawKind::Table(table) = &raw.kind else { return Some(Heated::One(raw)) };
+        let members = arrangement?.members();
+        let words: Vec<&str> = members.iter().map(|member| member.word()).collect();
+        let mut nodes = Vec::new();
+        for entry in &table.entries {
+            match members.iter().find(|member| member.word() == entry.key) {
+                Some(member) => nodes.push((*member, &entry.value)),
+                None => {
+                    let message =
+                        format!("{} has no `{}`", self.fields.owner.field("into"), entry.key);
+                    let help = nearest(
+                        &entry.key,
+                        words.iter().copied(),
+                        "it names a node for each member: its members are",
+                    );
+                    self.wrong("netlist::unknown_key", message, &entry.key_span, &help);
+                }
+            }
+        }
+        Some(Heated::Each(nodes))
+    }
+
+    fn driver(&mut self, structure: &Structure) -> Option<(String, &'r RawValue)> {
+        let Some(raw) = self.fields.get("driven_by") else {
+            self.fields.require("speed", self.problems);
+            return None;
+        };
+        let text = self.fields.text("driven_by", raw, self.problems)?;
+        for key in ["speed", "torque"] {
+            self.useless(key, "is that of the stage that drives it");
+        }
+        Some((structure.resolve(&raw.span, text), raw))
+    }
+
+    fn useless(&mut self, key: &str, why: &str) {
+        if let Some(span) = self.fields.key(key) {
+            let message = format!("{} {why}", self.fields.owner.field(key));
+            self.wrong("netlist::useless_key", message, span, &format!("remove `{key}`"));
+        }
+    }
+
+    fn wrong(&mut self, code: &'static str, message: String, at: &Span, help: &str) {
+        self.problems.push(Diagnostic::wrong(code, message, at, help));
+    }
+}

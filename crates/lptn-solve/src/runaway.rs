@@ -1,0 +1,200 @@
+//! Heat that grows faster with temperature than the paths carry away: where a network runs away, by
+//! which source, and from which temperature on.
+//!
+//! At some temperatures let `A` be what the paths carry off, in W for 1 K of each unknown, and `B`
+//! by how much the sources heat them more for it, both at least 0 where they feed back. Heat that is
+//! given off once comes back as `B A^-1` times as much, again and again: it grows for ever where the
+//! largest eigenvalue of that, the gain, is above 1.
+
+use lptn_assembly::{ThermalSystem, Workspace};
+use lptn_network::{Evaluation, NodeId, Positions, SourceId};
+
+use crate::error::{SteadyError, StopReason};
+use crate::newton::Newton;
+use crate::several::start;
+use crate::times::just_after;
+
+/// Parts into which the way to where a network was left is halved.
+const HALVINGS: usize = 50;
+
+/// Rounds in which the gain is found; one is enough for a single source.
+const ROUNDS: usize = 50;
+
+/// A gain that changes by less than this, relative, is known.
+const SETTLED: f64 = 1e-12;
+
+/// A node that runs away.
+#[derive(Clone, Debug)]
+pub(crate) struct Runaway {
+    /// The node whose temperature the source follows.
+    pub(crate) node: NodeId,
+    /// The source whose heat comes back most.
+    pub(crate) source: String,
+    /// The temperature of the node in K from which on the heat grows faster than it is carried off,
+    /// on the way from the start.
+    pub(crate) from: f64,
+}
+
+/// How much of the heat that sources give off comes back as more heat.
+struct Gain {
+    value: f64,
+    source: SourceId,
+    unknown: usize,
+}
+
+/// What one source gives off more for 1 K of each unknown, in W/K.
+struct Feedback {
+    source: SourceId,
+    slopes: Vec<(usize, f64)>,
+    shares: Vec<(usize, f64)>,
+}
+
+struct Search<'a> {
+    newton: Newton<'a>,
+    work: Workspace,
+    scope: Evaluation,
+}
+
+impl Runaway {
+    /// Whether a network that went from its start to `last` (all unknowns, in K) is on its way to
+    /// any temperature: heat comes back more than once there, and the node became hotter.
+    pub(crate) fn of(
+        system: &ThermalSystem,
+        (time, positions): (f64, &Positions),
+        last: &[f64],
+    ) -> Option<Self> {
+        let mut search = Search::new(system, time, positions)?;
+        let start = start(system, &search.work);
+        let on_the_way = |part: f64| -> Vec<f64> {
+            start.iter().zip(last).map(|(a, b)| a + part * (b - a)).collect()
+        };
+        // where heat has grown beyond all measure, what the paths carry off is rounded away
+        let mut parts = (0..HALVINGS).map(|k| 0.5_f64.powi(k as i32));
+        let (mut left, end) =
+            parts.find_map(|part| Some((part, search.gain(&on_the_way(part))?)))?;
+        if end.value <= 1.0 || last[end.unknown] <= start[end.unknown] {
+            return None;
+        }
+        let mut kept = 0.0;
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (kept + left);
+            match search.gain(&on_the_way(middle)) {
+                Some(gain) if gain.value < 1.0 => kept = middle,
+                _ => left = middle,
+            }
+        }
+        let from = on_the_way(left);
+        let gain = search.gain(&from).unwrap_or(end);
+        let node = system.unknowns()[gain.unknown];
+        Some(Self {
+            node,
+            source: system.network().sources()[gain.source.index()].name().into_owned(),
+            from: from[gain.unknown],
+        })
+    }
+}
+
+impl Runaway {
+    /// Why there is no steady state; `temperatures` of the nodes in K are one that the network does
+    /// not come to.
+    pub(crate) fn error(self, system: &ThermalSystem, temperatures: Option<&[f64]>) -> SteadyError {
+        SteadyError::Runaway {
+            node: self.name(system),
+            rests: temperatures.map(|temperatures| temperatures[self.node.index()]),
+            source: self.source,
+            from: self.from,
+        }
+    }
+
+    /// Why a run ended.
+    pub(crate) fn reason(self, system: &ThermalSystem) -> StopReason {
+        StopReason::Runaway { node: self.name(system), source: self.source, from: self.from }
+    }
+
+    fn name(&self, system: &ThermalSystem) -> String {
+        system.network().nodes()[self.node.index()].name.clone()
+    }
+}
+
+impl<'a> Search<'a> {
+    fn new(system: &'a ThermalSystem, time: f64, positions: &Positions) -> Option<Self> {
+        let network = system.network();
+        let newton = Newton::new(system, (0..system.unknowns().len()).collect()).ok()?;
+        let (mut work, mut scope) = (system.workspace(), network.evaluation());
+        if network.has_events() {
+            work.set_positions(positions);
+            scope.set_positions(positions);
+        }
+        system.read_inputs(&mut work, time, just_after(time)).ok()?;
+        scope.set_time(time, just_after(time));
+        Some(Self { newton, work, scope })
+    }
+
+    /// The gain at these temperatures of all unknowns in K; `None` where nothing comes back, or
+    /// where the paths alone have no answer.
+    fn gain(&mut self, unknowns: &[f64]) -> Option<Gain> {
+        let feedback = self.feedback(unknowns);
+        self.newton.linearize(&mut self.work, unknowns).ok()?;
+        for of in &feedback {
+            for &(row, share) in &of.shares {
+                for &(column, slope) in &of.slopes {
+                    let slot = self.newton.pattern.slot(row, column)?;
+                    self.newton.values[slot] += share * slope;
+                }
+            }
+        }
+        self.newton.factors.factorize(&self.newton.values).ok()?;
+        let mut heats = vec![1.0; feedback.len()];
+        let mut value = 0.0;
+        for _ in 0..ROUNDS {
+            let mut warmer = vec![0.0; unknowns.len()];
+            for (of, heat) in feedback.iter().zip(&heats) {
+                of.shares.iter().for_each(|&(row, share)| warmer[row] += share * heat);
+            }
+            self.newton.factors.solve_in_place(&mut warmer).ok()?;
+            let back = |of: &Feedback| of.slopes.iter().map(|(i, slope)| slope * warmer[*i]).sum();
+            heats = feedback.iter().map(back).collect();
+            let before = value;
+            value = heats.iter().fold(0.0, |most: f64, heat| most.max(*heat));
+            if !(value > 0.0 && value.is_finite()) {
+                return None;
+            }
+            heats.iter_mut().for_each(|heat| *heat /= value);
+            if (value - before).abs() <= SETTLED * value {
+                break;
+            }
+        }
+        let most = feedback.iter().zip(&heats).max_by(|a, b| a.1.total_cmp(b.1))?.0;
+        let (unknown, _) = *most.slopes.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(Gain { value, source: most.source, unknown })
+    }
+
+    /// The sources that heat more where something is warmer.
+    fn feedback(&mut self, unknowns: &[f64]) -> Vec<Feedback> {
+        let system = self.newton.system;
+        let network = system.network();
+        system.recover(&mut self.work, unknowns);
+        let nodes = system.node_temperatures(&self.work);
+        let temperatures: Vec<f64> =
+            nodes.iter().chain(system.boundary_temperatures(&self.work)).copied().collect();
+        let place = |node: usize| system.unknowns().iter().position(|id| id.index() == node);
+        let mut found = Vec::new();
+        let mut slopes = Vec::new();
+        for source in network.source_ids() {
+            let reads = network.source_variables(source);
+            let known = network.source_slopes(source, &mut self.scope, &temperatures, &mut slopes);
+            if reads.is_empty() || known.is_err() {
+                continue;
+            }
+            let grows = reads.iter().zip(&slopes).filter(|(_, slope)| **slope > 0.0);
+            let slopes: Vec<(usize, f64)> =
+                grows.filter_map(|(&v, &slope)| Some((place(v as usize)?, slope))).collect();
+            let into = network.sources()[source.index()].into.iter();
+            let shares = into.filter_map(|&(node, share)| Some((place(node.index())?, share)));
+            if !slopes.is_empty() {
+                found.push(Feedback { source, slopes, shares: shares.collect() });
+            }
+        }
+        found
+    }
+}

@@ -1,0 +1,84 @@
+//! Other steady states than the one that was found.
+
+use lptn_assembly::{ThermalSystem, Workspace};
+
+use crate::newton::Newton;
+
+/// What is known of other steady states than the one that was found.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Others {
+    /// There is none, or none was met: this is where the network comes to from its start.
+    #[default]
+    None,
+    /// There is at least this one, temperatures of the nodes in K; from its start the network does
+    /// not come there.
+    At(Vec<f64>),
+    /// There is at least this one, temperatures of the nodes in K, at which nothing stays: from
+    /// beyond it the network goes elsewhere.
+    Unstable(Vec<f64>),
+    /// There may be others, and the network could not be followed from its start to this one.
+    NotKnown,
+}
+
+/// Two steady states that differ by less, in K, are one.
+const SAME: f64 = 1e-5;
+
+/// By how much hotter or colder, in K, all nodes are where a search begins.
+const APART: [f64; 4] = [200.0, 50.0, -50.0, -200.0];
+
+/// No search begins below this temperature in K.
+const COLDEST_START: f64 = 1.0;
+
+/// Where the search for a steady state begins, in K: nodes at their start, massless ones in the
+/// middle of the boundaries.
+pub(crate) fn start(system: &ThermalSystem, work: &Workspace) -> Vec<f64> {
+    let mut temperatures = system.initial();
+    let boundaries = system.boundary_temperatures(work);
+    let known = boundaries.iter().chain(&temperatures).copied();
+    let (sum, count) = known.fold((0.0, 0.0), |(sum, count), t| (sum + t, count + 1.0));
+    temperatures.resize(system.unknowns().len(), sum / count);
+    // at 0 K radiation does not tell which way to go
+    temperatures.iter_mut().for_each(|t| *t = t.max(COLDEST_START));
+    temperatures
+}
+
+/// Whether two states are the same but for rounding.
+pub(crate) fn same(a: &[f64], b: &[f64]) -> bool {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) <= SAME
+}
+
+impl Others {
+    /// Looks for another steady state than `found` (all unknowns, in K) with the inputs at which
+    /// `work` stands, from hotter and colder temperatures of all nodes. One that is stable goes
+    /// before one that is not.
+    pub(crate) fn search(system: &ThermalSystem, work: &mut Workspace, found: &[f64]) -> Self {
+        let Ok(mut newton) = Newton::new(system, (0..found.len()).collect()) else {
+            return Self::None;
+        };
+        let mut unstable = Self::None;
+        for apart in APART {
+            let mut other: Vec<f64> =
+                found.iter().map(|t| (t + apart).max(COLDEST_START)).collect();
+            let solved = newton.damped(work, &mut other).is_ok();
+            if !solved || same(&other, found) || other.iter().any(|t| *t < 0.0) {
+                continue;
+            }
+            let Ok(moved) = newton.unstable(work, &other) else { continue };
+            system.recover(work, &other);
+            let temperatures = system.node_temperatures(work).to_vec();
+            match moved {
+                None => return Self::At(temperatures),
+                Some(_) => unstable = Self::Unstable(temperatures),
+            }
+        }
+        unstable
+    }
+
+    /// Temperatures of the nodes in K of another steady state that is stable.
+    pub(crate) fn stable(&self) -> Option<&[f64]> {
+        match self {
+            Self::At(temperatures) => Some(temperatures),
+            _ => None,
+        }
+    }
+}
