@@ -102,4 +102,4 @@ pub use scuffing::Flanks;
 pub use seal::{lip_seal, shaft_seal};
 pub use skf::SkfBearing;
 pub use viscosity_index::viscosity_at_100;
-pub use wall::{combined, gearbox_wall, gearbox_wall_blown};
+pub use wall::{along, combined, gearbox_wall, gearbox_wall_blown};

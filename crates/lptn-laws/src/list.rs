@@ -81,7 +81,7 @@ declare! {
     rotation: { Shaft, Annulus };
     fins: { StraightFins };
     plate_fins: { PlateFins, PlateFinsBlown };
-    wall: { WallInWind, GearboxWall, GearboxWallBlown };
+    wall: { WallInWind, WallInVerticalFlow, GearboxWall, GearboxWallBlown };
     contact: Contact {};
     joint: { Joint };
     press_fit: PressFit { Interference };
