@@ -51,15 +51,19 @@ impl Network {
     /// # Errors
     /// [`InputError`] if a flow has no value.
     pub fn outlets(&self, time: f64) -> Result<Vec<Outlet>, InputError> {
+        let found = self.conductor_ids().zip(self.conductors()).filter_map(|(path, conductor)| {
+            let formula = conductor.law.formula();
+            Some((path, conductor, formula.position(formula.outlet()?)?))
+        });
+        let found: Vec<_> = found.collect();
+        if found.is_empty() {
+            return Ok(Vec::new()); // streams of large networks take time to look at
+        }
         let passing = self.passing_streams(time)?;
         let mut scope = self.evaluation();
         scope.set_time(time, time);
         let mut outlets = Vec::new();
-        for (path, conductor) in self.conductor_ids().zip(self.conductors()) {
-            let formula = conductor.law.formula();
-            let Some(position) = formula.outlet().and_then(|key| formula.position(key)) else {
-                continue;
-            };
+        for (path, conductor, position) in found {
             let rate = {
                 let (slots, stack) = scope.plain();
                 place(slots, self.parts.dependence(path), &|_| REFERENCE);
