@@ -236,7 +236,7 @@ fn material() -> Vec<Closed> {
 }
 
 /// Every page with its closed forms.
-fn pages() -> [(&'static str, Vec<Closed>); 19] {
+fn pages() -> [(&'static str, Vec<Closed>); 20] {
     [
         ("node", node()),
         ("capacitor", capacitor()),
@@ -249,6 +249,7 @@ fn pages() -> [(&'static str, Vec<Closed>); 19] {
         ("cooler", devices::cooler()),
         ("radiation", radiation()),
         ("advection", advection()),
+        ("fan", devices::fan()),
         ("source", source()),
         ("bearing", losses_pages::bearing()),
         ("seal", losses_pages::seal()),

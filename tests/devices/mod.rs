@@ -115,3 +115,16 @@ fn correlations() -> Vec<Closed> {
         }),
     ]
 }
+
+pub(crate) fn fan() -> Vec<Closed> {
+    // 240 - 1.2 Q = 60 (Q/100)^2 in m^3/h and Pa, by the usual form of the root
+    let flow = ((1.2_f64.powi(2) + 4.0 * 0.006 * 240.0).sqrt() - 1.2) / 0.012;
+    let power = flow / 3600.0 * (240.0 - 1.2 * flow) / 0.3 / 8.0;
+    let rate = 1200.0 * flow / 2.0 / 3600.0;
+    let end = 20.0 + (100.0 + power) / rate;
+    vec![
+        ("fan_heat.P", "steady", power),
+        ("case.T", "steady", end),
+        ("case.T", "30 s", relaxed(20.0, end, 30.0, 500.0 / rate)),
+    ]
+}

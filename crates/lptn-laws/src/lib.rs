@@ -38,6 +38,7 @@ mod convection;
 mod cooler;
 mod declare;
 mod exchanger;
+mod fan;
 mod fins;
 mod fluid;
 mod forced_convection;
@@ -74,6 +75,7 @@ pub use exchanger::{
     effectiveness_counterflow, effectiveness_crossflow, effectiveness_one_stream,
     effectiveness_parallel, effectiveness_shell,
 };
+pub use fan::fan_duty;
 pub use fins::{fin_efficiency, finned};
 pub use fluid::Fluid;
 pub use forced_convection::{
