@@ -5,6 +5,7 @@
 //! (` ```toml`) and one table of results, whose rows begin with a quantity in quotes, `steady` or a
 //! time, and a value with its unit.
 
+mod devices;
 mod joints;
 mod losses_pages;
 mod support;
@@ -118,75 +119,6 @@ fn conduction() -> Vec<Closed> {
         ("sleeve.Q", "steady", 500.0 * sleeve / g),
         ("shell.Q", "steady", 500.0 * shell / g),
         ("bolt.Q", "steady", 500.0 * bolts / g),
-    ]
-}
-
-fn convection() -> Vec<Closed> {
-    // C dx/dt = -c x^(5/4): x = x0 (1 + c x0^(1/4) t / (4 C))^(-4), x0 = 80 K
-    let c = 1.42 * (1.0_f64 / 0.25).powf(0.25) * 0.1;
-    let still = |t: f64| 20.0 + 80.0 * (1.0 + c * 80.0_f64.powf(0.25) * t / (4.0 * 800.0)).powi(-4);
-    let blown = |t| relaxed(100.0, 20.0, t, 800.0 / 4.0);
-    let closed = vec![
-        ("blown.T", "5 min", blown(300.0)),
-        ("still.T", "5 min", still(300.0)),
-        ("still.T", "30 min", still(1800.0)),
-        ("still.T", "steady", 20.0),
-    ];
-    [closed, correlations()].concat()
-}
-
-/// 0.1 m^2 at 80 degC in the gas of the page at 20 degC, whose film is at 50 degC.
-fn correlations() -> Vec<Closed> {
-    let (k, rho, cp, mu, beta) = (0.0277, 1.1, 1007.0, 19.5e-6, 1.0 / 323.15);
-    let pr: f64 = mu * cp / k;
-    let ra = |l: f64| 9.80665 * beta * 60.0 * l.powi(3) * rho * rho * cp / (mu * k);
-    let re = |u: f64, l: f64| rho * u * l / mu;
-    let heat = |nu: f64, l: f64| nu * k / l * 0.1 * 60.0;
-    let weight = |c: f64| (1.0 + (c / pr).powf(9.0 / 16.0)).powf(8.0 / 27.0);
-    let third = pr.powf(1.0 / 3.0);
-    let blown: f64 = re(2.0, 0.05);
-    let late = (1.0 + (blown / 282_000.0).powf(0.625)).powf(0.8);
-    let rod =
-        0.3 + 0.62 * blown.sqrt() * third / (1.0 + (0.4 / pr).powf(2.0 / 3.0)).powf(0.25) * late;
-    let flow = re(6.0, 0.03);
-    let f = (0.79 * flow.ln() - 1.64).powi(-2) / 8.0;
-    let channel = f * (flow - 1000.0) * pr / (1.0 + 12.7 * f.sqrt() * (pr.powf(2.0 / 3.0) - 1.0));
-    let turns = 3000.0 * std::f64::consts::PI / 30.0;
-    let skin: f64 = re(turns * 0.02, 0.04);
-    let ta = (turns * rho / mu).powi(2) * 0.04 * 0.002_f64.powi(3);
-    vec![
-        ("plate.Q", "steady", {
-            heat((0.825 + 0.387 * ra(0.3).powf(1.0 / 6.0) / weight(0.492)).powi(2), 0.3)
-        }),
-        ("pipe.Q", "steady", {
-            heat((0.6 + 0.387 * ra(0.05).powf(1.0 / 6.0) / weight(0.559)).powi(2), 0.05)
-        }),
-        ("lid.Q", "steady", heat(0.54 * ra(0.04).powf(0.25), 0.04)),
-        ("floor.Q", "steady", heat(0.27 * ra(0.08).powf(0.25), 0.08)),
-        ("rod.Q", "steady", heat(rod, 0.05)),
-        ("rod_by_powers.Q", "steady", heat(0.193 * blown.powf(0.618) * third, 0.05)),
-        ("board.Q", "steady", heat(0.664 * re(10.0, 0.5).sqrt() * third, 0.5)),
-        ("channel.Q", "steady", heat(channel, 0.03)),
-        ("shaft.Q", "steady", {
-            heat(0.11 * (0.5 * skin * skin * pr + ra(0.04)).powf(0.35), 0.04)
-        }),
-        ("gap.Q", "steady", heat(0.409 * ta.powf(0.241), 2.0 * 0.002)),
-        ("draught.Q", "steady", {
-            let natural = (0.825 + 0.387 * ra(0.3).powf(1.0 / 6.0) / weight(0.492)).powi(2);
-            let forced = 0.664 * re(2.0, 0.5).sqrt() * third;
-            6.0 * ((natural * k / 0.3).powi(3) + (forced * k / 0.5).powi(3)).powf(1.0 / 3.0)
-        }),
-        ("gearbox.Q", "steady", {
-            6.0 * 18.0 * 0.3_f64.powf(-0.1) * (60.0_f64 / 293.15).powf(0.3)
-        }),
-        ("blown_gearbox.Q", "steady", {
-            let gr = ra(0.5) / pr;
-            6.0 * 0.0086 * (re(2.0, 0.5).powi(2) + gr / 2.5).sqrt().powf(0.64) / 0.5
-        }),
-        ("sink.Q", "steady", {
-            let ml = (2.0 * 10.0 / (167.0 * 1.5e-3_f64)).sqrt() * 0.03;
-            10.0 * (0.01 + 0.2 * ml.tanh() / ml) * 60.0
-        }),
     ]
 }
 
@@ -304,18 +236,20 @@ fn material() -> Vec<Closed> {
 }
 
 /// Every page with its closed forms.
-fn pages() -> [(&'static str, Vec<Closed>); 18] {
+fn pages() -> [(&'static str, Vec<Closed>); 20] {
     [
         ("node", node()),
         ("capacitor", capacitor()),
         ("boundary", boundary()),
         ("resistor", resistor()),
         ("conduction", conduction()),
-        ("convection", convection()),
+        ("convection", devices::convection()),
         ("contact", joints::contact()),
         ("press_fit", joints::press_fit()),
+        ("cooler", devices::cooler()),
         ("radiation", radiation()),
         ("advection", advection()),
+        ("fan", devices::fan()),
         ("source", source()),
         ("bearing", losses_pages::bearing()),
         ("seal", losses_pages::seal()),

@@ -1,9 +1,10 @@
 //! The tables of a page of `docs/elements`, from the declarations of a kind and its laws.
 
 use lptn::laws::{Confidence, FieldDeclaration, Group, Kind, LawDeclaration, Range, Substance};
+use lptn::units::Type;
 
-fn unit(field: &FieldDeclaration) -> String {
-    match field.ty {
+fn unit(ty: Type) -> String {
+    match ty {
         ty if ty.absolute => "degC, K".to_owned(),
         ty if ty.is_scalar() => String::new(),
         _ => field.unit().0,
@@ -68,9 +69,7 @@ fn row(kind: Kind, declared: &LawDeclaration) -> String {
     let mut keys: Vec<&str> = declared.fields.iter().map(key).collect();
     let pair = declared.fields.windows(2).any(|two| two[0].key == two[1].key);
     keys.dedup();
-    let chosen = kind.declaration().selector.filter(|_| {
-        declared.named && (kind.is_source() || kind.laws_named(false).next().is_some())
-    });
+    let chosen = kind.declaration().selector.filter(|_| declared.named);
     let chosen = chosen.map(|key| format!("`{key} = \"{}\"`", declared.name));
     let keys = keys.iter().map(|key| format!("`{key}`"));
     let keys: Vec<String> = chosen.into_iter().chain(keys).collect();
@@ -123,7 +122,7 @@ pub(crate) fn tables(kind: Kind) -> String {
         lines.push(format!(
             "| {key} | {} | {} | {} |{default} |",
             field.meaning,
-            unit(field),
+            unit(field.ty),
             range(field.range)
         ));
     }
@@ -131,13 +130,15 @@ pub(crate) fn tables(kind: Kind) -> String {
     lines.push("| Given by | Law | Holds | Source |".to_owned());
     lines.push("|---|---|---|---|".to_owned());
     lines.extend(kind.laws().map(|law| row(kind, law.declaration())));
-    let mut told = kind.laws().flat_map(|law| law.result_declarations()).peekable();
-    if told.peek().is_some() {
+    let mut told: Vec<String> = Vec::new();
+    for result in kind.laws().flat_map(|law| law.result_declarations()) {
+        let unit = unit(result.ty);
+        let row = format!("| `NAME.{}` | {} | {unit} |", result.key, result.meaning);
+        told.extend((!told.contains(&row)).then_some(row));
+    }
+    if !told.is_empty() {
         lines.extend(["", "| Result | Meaning | Unit |", "|---|---|---|"].map(str::to_owned));
     }
-    lines.extend(told.map(|result| {
-        let unit = result.ty.dimension.si_unit();
-        format!("| `NAME.{}` | {} | {unit} |", result.key, result.meaning)
-    }));
+    lines.extend(told);
     lines.join("\n") + "\n"
 }

@@ -40,6 +40,10 @@ pub trait Law {
         let _ = (values, ends);
         Vec::new()
     }
+
+    /// The key of the capacity rate of a stream that comes to `from` out of what the law describes, so
+    /// that streams have to bring as much there; `None` where `from` is no outlet.
+    const OUTLET: Option<&'static str> = None;
 }
 
 /// What is known of a law.

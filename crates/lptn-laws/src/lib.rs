@@ -35,8 +35,10 @@ mod churning;
 mod conduction;
 mod contact;
 mod convection;
+mod cooler;
 mod declare;
 mod exchanger;
+mod fan;
 mod fins;
 mod fluid;
 mod forced_convection;
@@ -69,7 +71,11 @@ pub use declare::{
     Carries, Confidence, Extent, FieldDeclaration, Form, Group, Hints, KindDeclaration, Law,
     LawDeclaration, Range, ResultDeclaration, Substance, SurfaceKind,
 };
-pub use exchanger::{effectiveness_counterflow, effectiveness_crossflow, effectiveness_parallel};
+pub use exchanger::{
+    effectiveness_counterflow, effectiveness_crossflow, effectiveness_one_stream,
+    effectiveness_parallel, effectiveness_shell,
+};
+pub use fan::fan_duty;
 pub use fins::{fin_efficiency, finned};
 pub use fluid::Fluid;
 pub use forced_convection::{

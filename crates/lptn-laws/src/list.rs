@@ -50,6 +50,11 @@ macro_rules! declare {
                 match self { $($(Self::$law => <crate::$module::$law as Law>::RESULTS,)*)* }
             }
 
+            /// Whose outlet `from` is, as [`Law::OUTLET`].
+            pub const fn outlet(self) -> Option<&'static str> {
+                match self { $($(Self::$law => <crate::$module::$law as Law>::OUTLET,)*)* }
+            }
+
             /// Its results, as [`Law::results`].
             pub fn results(self, values: &[f64], ends: [f64; 2]) -> Vec<f64> {
                 match self {
@@ -80,6 +85,10 @@ declare! {
     joint: { Joint };
     press_fit: PressFit { Interference };
     radiation: Radiation { ExchangeArea, GreySurfaces, ParallelPlates };
+    cooler: Cooler {
+        Counterflow, CounterflowOutlet, Parallel, ParallelOutlet, Crossflow, CrossflowOutlet,
+        Shell, ShellOutlet, OneStream, OneStreamOutlet
+    };
     advection: Advection { CapacityRate, MassFlow, VolumeFlow };
     source: Source { Given };
     bearing: Bearing { BearingNoLoad, BearingLoad };

@@ -2,8 +2,8 @@
 //! their limits; fins.
 
 use lptn_laws::{
-    effectiveness_counterflow, effectiveness_crossflow, effectiveness_parallel, fin_efficiency,
-    finned,
+    Formula, effectiveness_counterflow, effectiveness_crossflow, effectiveness_one_stream,
+    effectiveness_parallel, effectiveness_shell, fin_efficiency, finned,
 };
 use lptn_units::Dual;
 
@@ -20,6 +20,100 @@ fn exchangers_are_those_of_ht() {
     near(effectiveness_crossflow(5.0, 0.7), 0.844_482_179_974_855, 1e-13);
     near(effectiveness_crossflow(0.3, 0.2), 0.252_626_344_509_073_95, 1e-13);
     near(effectiveness_crossflow(2.0, 1.0), 0.614_247_239_273_578, 1e-13);
+    near(effectiveness_crossflow(4000.0 / 1500.0, 1500.0 / 4197.0), 0.835_786_537_947_844, 1e-13);
+    near(effectiveness_shell(5.0, 0.7), 0.683_497_704_431_143_9, 1e-14);
+    near(effectiveness_shell(0.3, 0.2), 0.252_570_353_967_874_03, 1e-14);
+    near(effectiveness_shell(2.0, 1.0), 0.556_809_667_943_669_6, 1e-14);
+    near(effectiveness_one_stream(5.0, 0.7), 0.993_262_053_000_914_5, 1e-14);
+}
+
+/// Incropera et al., 6th edition, example 11.3: gas from 300 to 100 degC warms 1 kg/s of water from 35
+/// to 125 degC; the chart gives 2.1 transfer units for e = 0.75, and U = 100 W/(m^2 K) an area of
+/// 39.7 m^2.
+#[test]
+fn a_cooler_of_a_textbook() {
+    let [gas, water] = [4197.0 * 90.0 / 200.0, 4197.0];
+    let values = [100.0 * 39.7, gas, water];
+    let ends = [573.15, 308.15];
+    let heat = Formula::Crossflow.value(&values, ends) * (ends[0] - ends[1]);
+    near(heat, 3.77e5, 0.015);
+    let told = Formula::Crossflow.results(&values, ends);
+    near(told[0], 0.75, 0.015);
+    near(told[1], 2.1, 0.005);
+    near(told[2] - 273.15, 100.0, 0.03);
+    near(told[3] - 273.15, 125.0, 0.015);
+}
+
+const COOLERS: [[Formula; 2]; 5] = [
+    [Formula::Counterflow, Formula::CounterflowOutlet],
+    [Formula::Parallel, Formula::ParallelOutlet],
+    [Formula::Crossflow, Formula::CrossflowOutlet],
+    [Formula::Shell, Formula::ShellOutlet],
+    [Formula::OneStream, Formula::OneStreamOutlet],
+];
+
+/// The heat from the outlet is that from the inlet that it tells, and both close the balances of the
+/// streams.
+#[test]
+fn a_cooler_is_the_same_from_its_outlet() {
+    for [inlet, outlet] in COOLERS {
+        for rates in [[70.0, 100.0], [100.0, 70.0], [80.0, 80.0]] {
+            let values = [350.0, rates[0], rates[1]];
+            let values = &values[..inlet.declaration().fields.len()];
+            let behind = outlet.results(values, [320.0, 300.0]);
+            let heat = 20.0 * outlet.value(values, [320.0, 300.0]);
+            let before = [behind[2], 300.0];
+            near(inlet.value(values, before) * (before[0] - 300.0), heat, 1e-12);
+            let told = inlet.results(values, before);
+            near(told[2], 320.0, 1e-14);
+            near(rates[0] * (before[0] - told[2]), heat, 1e-11);
+            told.get(3).into_iter().for_each(|to| near(rates[1] * (to - 300.0), heat, 1e-11));
+        }
+    }
+}
+
+/// Without flow no heat, of hardly any flow all that it can carry; finite slopes everywhere, and a
+/// size of 0. A stream that is reversed turns counterflow into parallel.
+#[test]
+fn coolers_stand_still_start_and_turn_round() {
+    for [inlet, outlet] in COOLERS {
+        for law in [inlet, outlet] {
+            for [size, from, to] in [
+                [350.0, 0.0, 100.0],
+                [350.0, 70.0, 0.0],
+                [350.0, 0.0, 0.0],
+                [0.0, 70.0, 100.0],
+                [0.0, 0.0, 0.0],
+                [350.0, 1e-9, 100.0],
+                [350.0, 1e-250, 1e-250],
+                [1e6, 1.0, 1.0],
+                [1e6, 1.0, 1e-3],
+            ] {
+                let of = [(size, 0), (from, 1), (to, 2)].map(|(x, i)| Dual::<3>::variable(x, i));
+                let of = &of[..law.declaration().fields.len()];
+                let found = law.value(of, [Dual::constant(320.0), Dual::constant(300.0)]);
+                let finite = found.derivatives.iter().all(|slope| slope.is_finite());
+                assert!(found.value.is_finite() && finite, "{law:?} {size} {from} {to}: {found:?}");
+                let still = from == 0.0 || size == 0.0 || (to == 0.0 && of.len() == 3);
+                assert_eq!(found.value == 0.0, still, "{law:?} {size} {from} {to}: {found:?}");
+                let most = if of.len() == 3 { from.min(to) } else { from };
+                let between = inlet.value(&[size, from, to][..of.len()], [320.0, 300.0]);
+                assert!(between <= most, "{inlet:?} carries {between} with {most}");
+                let told = law.results(&[size, from, to][..of.len()], [320.0, 300.0]);
+                assert!(told.iter().all(|x| x.is_finite()), "{law:?}: {told:?}");
+            }
+        }
+        let slow = inlet.value(&[350.0, 1e-9, 100.0][..inlet.declaration().fields.len()], [0.0; 2]);
+        near(slow, 1e-9, 1e-9);
+    }
+    let value = |law: Formula, rates: [f64; 2]| law.value(&[350.0, rates[0], rates[1]], [0.0; 2]);
+    for rates in [[-70.0, 100.0], [70.0, -100.0]] {
+        let turned = value(Formula::Counterflow, rates);
+        near(turned, value(Formula::Parallel, [70.0, 100.0]), 1e-15);
+        near(value(Formula::Parallel, rates), value(Formula::Counterflow, [70.0, 100.0]), 1e-15);
+    }
+    let both = value(Formula::Counterflow, [-70.0, -100.0]);
+    near(both, value(Formula::Counterflow, [70.0, 100.0]), 1e-15);
 }
 
 /// Where one side boils all are 1 - exp(-N); small ones are N; equal streams against each other are N

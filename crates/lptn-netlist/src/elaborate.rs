@@ -73,6 +73,7 @@ pub(crate) fn elaborate(
     work.top_level();
     work.tables();
     work.lubricants();
+    work.fans();
     work.parameters();
     work.signals();
     let controls = work.controls();

@@ -45,6 +45,11 @@ impl Owner {
         &self.words
     }
 
+    /// The section that it belongs to.
+    pub(crate) fn kind(&self) -> &'static str {
+        self.section.name
+    }
+
     /// One of its keys as it could be written.
     pub(crate) fn sample(&self, key: &str) -> String {
         self.section.sample(key)

@@ -74,6 +74,7 @@ impl Netlist {
         let start = self.run.as_ref().map_or(0.0, |run| run.start);
         let mut all = self.written.clone();
         all.extend(streams::unbalanced(network, map, start));
+        all.extend(streams::wrong_outlets(network, map, start));
         all.extend(plausible::materials(network, map));
         all.extend(plausible::neighbours(network, map));
         all.extend(

@@ -1,7 +1,8 @@
-//! Streams that do not balance: what flows into a node has to flow out of it.
+//! Streams that do not balance: what flows into a node has to flow out of it, and what leaves a
+//! cooler has to arrive.
 
 use lptn_data::Diagnostic;
-use lptn_network::{End, Item, Network, Passing};
+use lptn_network::{End, Item, Network, Outlet, Passing};
 
 use crate::source_map::SourceMap;
 
@@ -13,6 +14,37 @@ pub(crate) fn unbalanced(network: &Network, map: &SourceMap, time: f64) -> Vec<D
     uneven.map(|passing| warning(network, map, passing)).collect()
 }
 
+/// A warning for each cooler whose outlet gets another stream than the one that it cools, as
+/// [`unbalanced`].
+pub(crate) fn wrong_outlets(network: &Network, map: &SourceMap, time: f64) -> Vec<Diagnostic> {
+    let outlets = network.outlets(time).unwrap_or_default();
+    let wrong = outlets.into_iter().filter(|outlet| !outlet.is_one_stream());
+    wrong.map(|outlet| wrong_outlet(network, map, outlet)).collect()
+}
+
+fn wrong_outlet(network: &Network, map: &SourceMap, outlet: Outlet) -> Diagnostic {
+    let Outlet { path, rate, inflow } = outlet;
+    let conductor = &network.conductors()[path.index()];
+    let (section, from) = (conductor.kind.declaration().section, conductor.from);
+    let from = network.name_of(from.into());
+    let message = format!(
+        "{section} `{}` lets a stream of {} W/K out at `{from}`, where streams bring {} W/K",
+        conductor.name(),
+        short(rate),
+        short(inflow)
+    );
+    let problem = Diagnostic::warning("network::outlet_stream", message);
+    problem.at(map.name(Item::Conductor(path)), "").help(format!(
+        "bring the stream that is cooled to `{from}` by an [advection] of the same flow; where \
+         `from` is the place that the stream comes from, leave `_from_is_outlet` away"
+    ))
+}
+
+/// A rate as people read it.
+fn short(rate: f64) -> String {
+    lptn_units::format_number(format!("{rate:.5e}").parse().unwrap_or(rate))
+}
+
 fn warning(network: &Network, map: &SourceMap, passing: Passing) -> Diagnostic {
     let Passing { node, inflow, outflow } = passing;
     let end = End::Node(node);
@@ -20,8 +52,6 @@ fn warning(network: &Network, map: &SourceMap, passing: Passing) -> Diagnostic {
         conductor.law.is_stream() && (conductor.from == end || conductor.to == end)
     });
     let name = network.name_of(Item::Node(node));
-    let short =
-        |rate: f64| lptn_units::format_number(format!("{rate:.5e}").parse().unwrap_or(rate));
     let message = format!(
         "streams bring {} W/K into node `{name}` and take {} W/K out of it",
         short(inflow),

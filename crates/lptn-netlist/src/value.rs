@@ -35,6 +35,7 @@ impl Elaboration<'_> {
         };
         self.learn(&expression);
         self.learn_lubricants(&expression, &place.raw.span);
+        self.learn_fans(&expression, &place.raw.span);
         let problems = self.names.check(place, &expression, wanted);
         if !problems.is_empty() {
             self.problems.extend(problems);

@@ -75,7 +75,7 @@ pub use periodicity::{NoCommonPeriod, NotPeriodic};
 pub use positions::Positions;
 pub use run::{OutputTimes, RunSettings, Varied, WindowSettings};
 pub use scope::{Context, NetworkScope};
-pub use stream::Passing;
+pub use stream::{Outlet, Passing};
 pub use tangent::{NoTangents, Tangents};
 pub use typed::{
     Area, Conductance, FilmCoefficient, HeatCapacity, HeatFlow, Resistance, Temperature, Time,

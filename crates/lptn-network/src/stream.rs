@@ -1,9 +1,10 @@
 //! Streams and the nodes they pass.
 
-use crate::id::{ConductorId, End, NodeId};
+use crate::id::{ConductorId, End, Item, NodeId};
 use crate::input_error::InputError;
-use crate::law::{ConductorFlow, Received};
+use crate::law::{At, ConductorFlow, Received};
 use crate::network::Network;
+use crate::network::flow::place;
 
 /// Where capacity rates are compared, in K.
 const REFERENCE: f64 = 298.15;
@@ -26,7 +27,51 @@ impl Passing {
     }
 }
 
+/// A path whose `from` is the outlet of a stream, and what streams bring there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Outlet {
+    /// The path.
+    pub path: ConductorId,
+    /// Capacity rate of its stream in W/K.
+    pub rate: f64,
+    /// That of the streams that flow into `from`; 0 for a boundary, which keeps its temperature.
+    pub inflow: f64,
+}
+
+impl Outlet {
+    /// Whether they are one stream, whose specific heat may differ somewhat between temperatures.
+    pub fn is_one_stream(&self) -> bool {
+        (self.rate - self.inflow).abs() <= 0.1 * self.rate.max(self.inflow)
+    }
+}
+
 impl Network {
+    /// The paths whose `from` is the outlet of a stream, as [`Network::passing_streams`].
+    ///
+    /// # Errors
+    /// [`InputError`] if a flow has no value.
+    pub fn outlets(&self, time: f64) -> Result<Vec<Outlet>, InputError> {
+        let passing = self.passing_streams(time)?;
+        let mut scope = self.evaluation();
+        scope.set_time(time, time);
+        let mut outlets = Vec::new();
+        for (path, conductor) in self.conductor_ids().zip(self.conductors()) {
+            let formula = conductor.law.formula();
+            let Some(position) = formula.outlet().and_then(|key| formula.position(key)) else {
+                continue;
+            };
+            let rate = {
+                let (slots, stack) = scope.plain();
+                place(slots, self.parts.dependence(path), &|_| REFERENCE);
+                At { slots, stack }.get(&conductor.law, position)
+            };
+            let rate = rate.map_err(|failed| self.failed(Item::Conductor(path), failed, &scope))?;
+            let at = passing.iter().find(|passing| End::Node(passing.node) == conductor.from);
+            outlets.push(Outlet { path, rate, inflow: at.map_or(0.0, |passing| passing.inflow) });
+        }
+        Ok(outlets)
+    }
+
     /// What passes each node that a stream touches, at `time` in s and with everything at 25 degC,
     /// so that one flow of one fluid has one capacity rate.
     ///

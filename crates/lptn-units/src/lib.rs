@@ -63,7 +63,8 @@ pub use rational::Rational;
 pub use scalar::Scalar;
 pub use suggest::suggest;
 pub use table::{
-    DoubleLog, Interpolation, LookupTable, Outside, Table1, Table2, TableError, TableSymbol,
+    DoubleLog, Interpolation, LookupTable, Outside, PowerLaw, Table1, Table2, TableError,
+    TableSymbol,
 };
 pub use taylor::Taylor;
 pub use types::Type;

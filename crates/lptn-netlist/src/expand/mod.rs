@@ -136,6 +136,7 @@ impl Writer<'_> {
         self.materials();
         self.fluids();
         self.lubricants();
+        self.fans();
         self.nodes();
         self.capacitors();
         self.boundaries();

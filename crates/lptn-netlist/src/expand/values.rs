@@ -63,7 +63,7 @@ impl Writer<'_> {
                 continue;
             }
             let written = match (&*symbol.table, self.map_of(&symbol.table)) {
-                (LookupTable::DoubleLog(_), _) => continue,
+                (LookupTable::DoubleLog(_) | LookupTable::PowerLaw(_), _) => continue,
                 (LookupTable::One(table), _) => of_one(table, symbol).inline(),
                 (LookupTable::Two(_), Some(raw)) => self.csv_map(raw),
                 (LookupTable::Two(_), None) => continue,
@@ -95,6 +95,34 @@ impl Writer<'_> {
             section.put(name.strip_suffix(".nu").unwrap_or(name), fields.inline());
         }
         self.section("lubricant", &section);
+    }
+
+    /// Fans by what they do at their rated speed.
+    pub(super) fn fans(&mut self) {
+        let (network, mut section) = (&self.network, TomlFields::default());
+        let of = |name: &str, what: &str| {
+            let wanted = format!("{name}.{what}");
+            let mut tables = network.tables();
+            let symbol = tables.find(|(other, _)| *other == wanted)?.1;
+            let LookupTable::PowerLaw(law) = &*symbol.table else { return None };
+            Some((law.point(), symbol))
+        };
+        for (flow, _) in network.tables() {
+            let Some(name) = flow.strip_suffix(".flow") else { continue };
+            let (Some(flow), Some(pressure)) = (of(name, "flow"), of(name, "pressure")) else {
+                continue;
+            };
+            let [duty, head] = [flow, pressure].map(|(point, of)| quantity(point[1], of.ty));
+            let mut fields = TomlFields::default();
+            fields.put("duty", format!("[{duty}, {head}]"));
+            let speed = flow.1.arguments.first().copied().unwrap_or(Type::SCALAR);
+            fields.put("rated_speed", quantity(flow.0[0], speed));
+            if let Some((point, power)) = of(name, "power") {
+                fields.put("power", quantity(point[1], power.ty));
+            }
+            section.put(name, fields.inline());
+        }
+        self.section("fan", &section);
     }
 
     /// The line of a table of two arguments in the netlist that it comes from.

@@ -115,7 +115,8 @@ impl<'a> Elaboration<'a> {
             .filter(|field| field.property == Some(Substance::Fluid))
             .map(|field| field.key)
             .filter(|key| !fields.has(key));
-        match (fields.get("fluid"), missing.next()) {
+        let given = fields.get("fluid").filter(|_| fields.known("fluid"));
+        match (given, missing.next()) {
             (Some(raw), Some(_)) => self.used_fluid(fields, raw),
             (Some(raw), None) => {
                 self.refuse_keys(fields, &["fluid"], "has no effect: its properties are all given");

@@ -9,6 +9,7 @@ use super::boundary::BOUNDARY;
 use super::capacitor::CAPACITOR;
 use super::control::CONTROL;
 use super::default::DEFAULT;
+use super::fan::FAN;
 use super::fluid::FLUID;
 use super::grid::GRID;
 use super::limit::LIMIT;
@@ -32,9 +33,9 @@ use crate::toml_text::TomlFields;
 use crate::work::Elaboration;
 
 /// The sections before and behind those of paths and sources, in the order in which they are named to people.
-static BEFORE: [&SectionDeclaration; 11] = [
-    &PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &LUBRICANT, &NODE, &GRID, &CAPACITOR,
-    &BOUNDARY,
+static BEFORE: [&SectionDeclaration; 12] = [
+    &PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &LUBRICANT, &FAN, &NODE, &GRID,
+    &CAPACITOR, &BOUNDARY,
 ];
 static BEHIND: [&SectionDeclaration; 7] =
     [&GEARBOX, &CONTROL, &IMPORT, &LIMIT, &TEMPLATE, &USE, &RUN];

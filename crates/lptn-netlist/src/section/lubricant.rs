@@ -129,7 +129,7 @@ impl<'a> Elaboration<'a> {
     }
 
     /// A quantity that depends on nothing.
-    fn constant_at(
+    pub(super) fn constant_at(
         &mut self,
         fields: &Fields<'a>,
         (key, raw): (&str, &'a RawValue),
@@ -139,7 +139,10 @@ impl<'a> Elaboration<'a> {
         let text = self.kept(self.names.text(place, Some(ty)))?;
         if matches!(&text, Text::Expression(expression) if !expression.names().is_empty()) {
             let message = format!("{} must be a number, got an expression", place.words());
-            let help = "a lubricant has numbers, so that parameters may call it: write the number";
+            let section = fields.owner.kind();
+            let help = format!(
+                "a {section} has numbers, so that parameters may call it: write the number"
+            );
             self.refuse("netlist::not_a_number", message, &raw.span, help);
             return None;
         }

@@ -9,6 +9,7 @@ use crate::format::{ABSOLUTE, Role, SectionDeclaration, key};
 use crate::library::{self, LibrarySubstance};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawValue};
+use crate::section::fan::FAN;
 use crate::section::fluid::FLUID;
 use crate::section::keys::{CP, DENSITY, SOURCE_OF};
 use crate::section::lubricant::LUBRICANT;
@@ -209,6 +210,7 @@ impl<'a> Elaboration<'a> {
             (&MATERIAL, "netlist::unused_material"),
             (&FLUID, "netlist::unused_fluid"),
             (&LUBRICANT, "netlist::unused_lubricant"),
+            (&FAN, "netlist::unused_fan"),
         ];
         let entries = named.into_iter().flat_map(|(section, code)| {
             self.elements(section.name).iter().map(move |entry| (section.name, code, entry))

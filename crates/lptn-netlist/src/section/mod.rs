@@ -6,6 +6,7 @@ mod conductor;
 mod control;
 mod default;
 mod end;
+mod fan;
 mod fluid;
 mod forms;
 mod grid;

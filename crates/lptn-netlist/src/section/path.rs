@@ -37,7 +37,7 @@ impl<'a> Elaboration<'a> {
         }
         let fluid = fields.get("fluid").filter(|_| path.kind.is_stream());
         let fluid = fluid.map(|raw| self.used_fluid(fields, raw));
-        let read = self.read(fields, path.values.iter().filter(|value| value.plain), None);
+        let read = self.read(fields, path.values.iter().filter(|value| value.plain), (None, None));
         let one = begun(&forms, |key| fields.get(key).is_some()).len() == 1;
         let law = of_values(&group?.laws, &read)?;
         let idle = law.declaration().idle.iter().filter(|_| one);
@@ -66,7 +66,7 @@ impl<'a> Elaboration<'a> {
         }
         let fluid = self.film_fluid(fields, law);
         let own = path.values.iter().filter(|value| law.field(value.field.key).is_some());
-        let read = self.read(fields, own, fluid);
+        let read = self.read(fields, own, (Some(law), fluid));
         self.complete(fields, law, read, None)
     }
 
@@ -142,23 +142,25 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// The values as far as they are given; stand-ins for those that are wrong.
+    /// The values as far as they are given, of a law that is known if a word chose it; stand-ins for
+    /// those that are wrong.
     fn read(
         &mut self,
         fields: &Fields<'a>,
         wanted: impl Iterator<Item = &'static PathValue>,
-        fluid: Option<UsedFluid<'a>>,
+        of: (Option<Formula>, Option<UsedFluid<'a>>),
     ) -> Vec<Read> {
-        wanted.map(|value| (value.field, self.values(fields, value, fluid))).collect()
+        wanted.map(|value| (value.field, self.values(fields, value, of))).collect()
     }
 
     fn values(
         &mut self,
         fields: &Fields<'a>,
         value: &PathValue,
-        fluid: Option<UsedFluid<'a>>,
+        (law, fluid): (Option<Formula>, Option<UsedFluid<'a>>),
     ) -> Vec<Input> {
-        let PathValue { field, most, least, types, context, .. } = value;
+        let PathValue { field, types, context, .. } = value;
+        let [least, most] = value.counts(law);
         let wanted = |ty: Option<Type>| Wanted::of_law(ty, *context);
         let raw = fields.get(field.key).filter(|_| fields.known(field.key));
         if let (None, Some(of)) = (raw, field.property) {
@@ -187,15 +189,15 @@ impl<'a> Elaboration<'a> {
                 .iter()
                 .map(|raw| self.input_at(fields, field.key, raw, wanted(Some(field.ty))))
                 .collect();
-            if values.len() == *most {
+            if values.len() == most {
                 return values;
             }
-            let told = if *least > 1 { not_a_list } else { wrong_count };
-            self.report(told(fields, (field, *most), raw, values.len()));
+            let told = if least > 1 { not_a_list } else { wrong_count };
+            self.report(told(fields, (field, most), raw, values.len()));
             return Vec::new();
         }
-        if *least > 1 {
-            self.report(not_a_list(fields, (field, *most), raw, 1));
+        if least > 1 {
+            self.report(not_a_list(fields, (field, most), raw, 1));
             return Vec::new();
         }
         match types.as_slice() {

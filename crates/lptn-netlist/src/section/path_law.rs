@@ -11,18 +11,15 @@ use crate::raw::RawValue;
 /// What stands in the place of a field: nothing, a value, or as many as a list has.
 pub(super) type Read = (&'static FieldDeclaration, Vec<Input>);
 
-/// How many values a key may have in a list.
-pub(super) fn most(kind: Kind, key: &str) -> usize {
-    let count =
-        |law: Formula| law.declaration().fields.iter().filter(|field| field.key == key).count();
-    kind.laws().map(count).max().unwrap_or(1)
+/// The least and the largest number of values that laws of a kind take of a key that they take.
+pub(super) fn counts(kind: Kind, key: &str) -> [usize; 2] {
+    let counts = || kind.laws().map(|law| count(law, key)).filter(|count| *count > 0);
+    [counts().min().unwrap_or(1), counts().max().unwrap_or(1)]
 }
 
-/// The least number of values that a law of a kind takes of a key that it takes.
-pub(super) fn least(kind: Kind, key: &str) -> usize {
-    let count =
-        |law: Formula| law.declaration().fields.iter().filter(|field| field.key == key).count();
-    kind.laws().map(count).filter(|count| *count > 0).min().unwrap_or(1)
+/// How many values a law takes of a key.
+pub(super) fn count(law: Formula, key: &str) -> usize {
+    law.declaration().fields.iter().filter(|field| field.key == key).count()
 }
 
 /// The types that a key has in the laws of a kind, where it chooses the law by its unit.

@@ -8,7 +8,7 @@ use lptn_units::Type;
 
 use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
 use crate::section::keys::{AT, FLUID_OF, LUBRICANT_OF, MATERIAL_OF};
-use crate::section::path_law::{least, most, types};
+use crate::section::path_law::{count, counts, types};
 
 /// A kind of path or source with what follows from its declaration, found once and not for every path.
 pub(crate) struct PathSection {
@@ -29,16 +29,21 @@ impl PathSection {
 /// A value of a path.
 pub(crate) struct PathValue {
     pub(crate) field: &'static FieldDeclaration,
-    /// How many of them a list may have.
-    pub(super) most: usize,
-    /// How many it has at least; of one no list is needed.
-    pub(super) least: usize,
+    /// How many of them a list has at least and at most; of one no list is needed.
+    counts: [usize; 2],
     /// The types of which it may be, where its unit chooses the law.
     pub(super) types: Vec<(Type, Formula)>,
     /// What expressions in it may name: the ends of a path, or the node of a source.
     pub(super) context: Context,
     /// Whether a law takes it that no name chooses.
     pub(super) plain: bool,
+}
+
+impl PathValue {
+    /// How many values it has at least and at most, in the law that a word chose.
+    pub(super) fn counts(&self, law: Option<Formula>) -> [usize; 2] {
+        law.map_or(self.counts, |law| [count(law, self.field.key); 2])
+    }
 }
 
 /// The sections of paths and of sources, in the order in which their columns stand.
@@ -58,8 +63,7 @@ fn path_section(kind: Kind) -> PathSection {
     };
     let value = |field: &'static FieldDeclaration| PathValue {
         field,
-        most: most(kind, field.key),
-        least: least(kind, field.key),
+        counts: counts(kind, field.key),
         types: types(kind, field.key),
         context: if kind.is_source() { Context::Source } else { Context::Link },
         plain: kind.laws_named(false).any(|law| law.field(field.key).is_some()),

@@ -96,6 +96,7 @@ impl Run<'_> {
             Op::Table(table) => match self.table(table) {
                 Some(LookupTable::One(table)) => table.enclose(accumulator),
                 Some(LookupTable::DoubleLog(line)) => line.enclose(accumulator),
+                Some(LookupTable::PowerLaw(law)) => law.enclose(accumulator),
                 _ => Taylor::unknown(),
             },
             Op::PoppedTable(table) => {

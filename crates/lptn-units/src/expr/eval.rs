@@ -149,6 +149,7 @@ impl Program {
         let found = match &self.named(table).table.as_ref() {
             LookupTable::One(table) => table.value_and_slope(argument.value()),
             LookupTable::DoubleLog(line) => line.value_and_slope(argument.value()),
+            LookupTable::PowerLaw(law) => law.value_and_slope(argument.value()),
             LookupTable::Two(_) => None,
         };
         match found {
@@ -167,7 +168,7 @@ impl Program {
         let [x, y] = arguments;
         let found = match &self.named(table).table.as_ref() {
             LookupTable::Two(table) => table.value_and_slopes(x.value(), y.value()),
-            LookupTable::One(_) | LookupTable::DoubleLog(_) => None,
+            LookupTable::One(_) | LookupTable::DoubleLog(_) | LookupTable::PowerLaw(_) => None,
         };
         match found {
             Some((value, slopes)) => Ok(x.chain2(y, value, slopes)),

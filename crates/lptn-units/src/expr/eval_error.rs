@@ -27,7 +27,7 @@ pub enum EvalError {
         span: Range<usize>
     } = "units::outside_table",
         outside(table, *argument, [*from, *to, *value], unit.as_deref()),
-        help "add points to the table, or keep its end values with `outside = \"hold\"`";
+        help "stay inside, or give a [table] more points, or its end values with `outside = \"hold\"`";
     /// The result or one of its derivatives is infinite or not a number; with the part of the text
     /// in which this came up first.
     NotFinite { value: f64, span: Range<usize> } = "units::result_not_finite",

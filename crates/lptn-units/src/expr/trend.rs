@@ -231,6 +231,9 @@ impl Program {
                 let (rises, falls) = (argument.falls, argument.rises);
                 return Trend { low: 0.0, high: f64::INFINITY, rises, falls, signed: false };
             }
+            Some(LookupTable::PowerLaw(_)) => {
+                return Trend { low: 0.0, high: f64::INFINITY, signed: false, ..argument };
+            }
             _ => return Trend::UNKNOWN,
         };
         let values = table.values();

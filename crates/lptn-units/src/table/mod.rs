@@ -9,6 +9,7 @@ mod enclose;
 mod error;
 mod one;
 mod pchip;
+mod power_law;
 mod two;
 
 use std::sync::Arc;
@@ -21,6 +22,7 @@ pub use axis::{Interpolation, Outside};
 pub use double_log::DoubleLog;
 pub use error::TableError;
 pub use one::Table1;
+pub use power_law::PowerLaw;
 pub use two::Table2;
 
 /// A function of one number or of two that is given by numbers.
@@ -32,13 +34,15 @@ pub enum LookupTable {
     Two(Table2),
     /// A function of one number by a formula in place of points.
     DoubleLog(DoubleLog),
+    /// A power of one number.
+    PowerLaw(PowerLaw),
 }
 
 impl LookupTable {
     /// How many arguments it takes: 1 or 2.
     pub fn dimension(&self) -> usize {
         match self {
-            Self::One(_) | Self::DoubleLog(_) => 1,
+            Self::One(_) | Self::DoubleLog(_) | Self::PowerLaw(_) => 1,
             Self::Two(_) => 2,
         }
     }
@@ -49,6 +53,7 @@ impl LookupTable {
         match (self, argument) {
             (Self::One(table), 0) => table.knots(),
             (Self::DoubleLog(line), 0) => line.range(),
+            (Self::PowerLaw(law), 0) => law.range(),
             (Self::Two(table), 0) => table.x_knots(),
             (Self::Two(table), 1) => table.y_knots(),
             _ => &[],
@@ -65,7 +70,7 @@ impl LookupTable {
         match self {
             Self::One(table) => table.outside(),
             Self::Two(table) => table.outside(),
-            Self::DoubleLog(_) => Outside::Error,
+            Self::DoubleLog(_) | Self::PowerLaw(_) => Outside::Error,
         }
     }
 }
