@@ -7,6 +7,13 @@ fn unit(ty: Type) -> String {
     match ty {
         ty if ty.absolute => "degC, K".to_owned(),
         ty if ty.is_scalar() => String::new(),
+        ty => ty.dimension.si_unit(),
+    }
+}
+
+fn unit_of(field: &FieldDeclaration) -> String {
+    match field.ty {
+        ty if ty.absolute || ty.is_scalar() => unit(ty),
         _ => field.unit().0,
     }
 }
@@ -122,7 +129,7 @@ pub(crate) fn tables(kind: Kind) -> String {
         lines.push(format!(
             "| {key} | {} | {} | {} |{default} |",
             field.meaning,
-            unit(field.ty),
+            unit_of(field),
             range(field.range)
         ));
     }

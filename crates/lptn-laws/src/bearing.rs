@@ -4,7 +4,7 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{FieldDeclaration, Hints, KindDeclaration, Law, LawDeclaration};
-use crate::loss::{LOSS, SPEED, THIN, VISCOSITY, length, mm, mm2_per_s, rpm, viscosity};
+use crate::loss::{LOSS, SPEED, THIN_OIL, VISCOSITY, length, mm, mm2_per_s, rpm, viscosity};
 
 /// `[bearing]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
@@ -91,7 +91,7 @@ impl Law for BearingNoLoad {
             4, 2.2 to 4; taper 6, 6, 8 to 10; needle 12, 12, 24.",
         source: "A. Palmgren, Grundlagen der Wälzlagertechnik; T. A. Harris, Rolling Bearing \
             Analysis; ISO/TR 14179-1",
-        groups: &[THIN],
+        groups: &[THIN_OIL],
         ..LOSS
     };
 

@@ -6,7 +6,7 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{FieldDeclaration, KindDeclaration, Law, LawDeclaration, Range};
-use crate::loss::{LOSS, SPEED, THIN, VISCOSITY, length, mm, mm2_per_s, rpm, viscosity};
+use crate::loss::{LOSS, SPEED, THIN_OIL, VISCOSITY, length, mm, mm2_per_s, rpm, viscosity};
 
 /// `[churning]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
@@ -121,7 +121,7 @@ impl Law for ChurnedCylinder {
         validity: "n in rpm, nu in mm^2/s, lengths in mm. Oil, not grease.",
         source: "ISO/TR 14179-1 (AGMA 6123 has the same form)",
         confidence: crate::Confidence::Medium,
-        groups: &[THIN],
+        groups: &[THIN_OIL],
         ..LOSS
     };
 

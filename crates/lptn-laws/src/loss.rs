@@ -34,8 +34,9 @@ pub(crate) const VISCOSITY: FieldDeclaration = FieldDeclaration {
     )
 };
 
-/// Where the curves of lubricants end: below, ASTM D341 is an extrapolation.
-pub(crate) const THIN: Group = Group {
+/// Where the curves of lubricants end: below, ASTM D341 is an extrapolation. It changes no faster
+/// than temperatures do.
+pub const THIN_OIL: Group = Group {
     name: "nu",
     meaning: "viscosity of the lubricant in mm^2/s",
     from: 2.0,

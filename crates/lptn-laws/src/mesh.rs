@@ -8,7 +8,7 @@ use crate::Kind;
 use crate::declare::{
     FieldDeclaration, Group, Hints, KindDeclaration, Law, LawDeclaration, Substance,
 };
-use crate::loss::{LOSS, SPEED, THIN, VISCOSITY, length, mm, viscosity};
+use crate::loss::{LOSS, SPEED, THIN_OIL, VISCOSITY, length, mm, viscosity};
 
 /// `[mesh]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
@@ -246,7 +246,7 @@ impl Law for MeshExternal {
             X_L = 0.75 (6 / v_sum)^0.2.",
         groups: &[
             Group { name: "v", meaning: "pitch line velocity in m/s", from: 2.0, to: 25.0 },
-            THIN,
+            THIN_OIL,
         ],
         source: "L. Schlenk (TU München 1994); H. Ohlendorf (TU München 1958); ISO/TR 14179-2",
         idle: &[("flash", BULK), ("contact", BULK), ("scuffing", BULK), ("margin", BULK)],

@@ -4,7 +4,7 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{FieldDeclaration, Hints, Law, LawDeclaration};
-use crate::loss::{LOSS, SPEED, THIN, VISCOSITY, length, mm, mm2_per_s, rpm, viscosity};
+use crate::loss::{LOSS, SPEED, THIN_OIL, VISCOSITY, length, mm, mm2_per_s, rpm, viscosity};
 
 /// A deep groove ball bearing as the SKF model takes it: sizes, loads and constants in SI units, the
 /// constants as the catalogue prints them.
@@ -162,7 +162,7 @@ impl Law for BearingSkf {
             },
         ],
         ordered: &[["d", "D"]],
-        groups: &[THIN],
+        groups: &[THIN_OIL],
         validity: "Constants unless said: series 160 and 161, in a bath of oil, mineral oil (mu_EHL \
             0.04 synthetic), without drag. As printed, the sliding part jumps where an axial load \
             begins. mu_bl is 0.15 in the catalogue of 2016.",
