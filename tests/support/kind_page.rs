@@ -11,6 +11,21 @@ fn unit(ty: Type) -> String {
     }
 }
 
+fn unit_of(field: &FieldDeclaration) -> String {
+    match field.ty {
+        ty if ty.absolute || ty.is_scalar() => unit(ty),
+        _ => field.unit().0,
+    }
+}
+
+/// A value in the unit of the page, without the rounding of its conversion.
+fn in_unit(field: &FieldDeclaration, si: f64) -> f64 {
+    match field.unit().1 {
+        1.0 => si,
+        scale => (si / scale * 1e12).round() / 1e12,
+    }
+}
+
 fn range(range: Range) -> String {
     match range {
         Range::Finite => "of either sign".into(),
@@ -109,11 +124,12 @@ pub(crate) fn tables(kind: Kind) -> String {
         known.push(field.meaning);
         let or = field.property.map_or(String::new(), |of| format!(" or `{}`", of.key()));
         let key = format!("`{}`{or}", field.key);
-        let default = field.default.map_or(String::new(), |value| format!(" {value}"));
+        let default =
+            field.default.map_or(String::new(), |value| format!(" {}", in_unit(field, value)));
         lines.push(format!(
             "| {key} | {} | {} | {} |{default} |",
             field.meaning,
-            unit(field.ty),
+            unit_of(field),
             range(field.range)
         ));
     }

@@ -152,7 +152,12 @@ fn materials_are_listed_with_their_sources() {
     let json = folder.run(&["materials", "--format", "json"]).exits(0).json();
     assert_eq!(json["materials"]["aluminium_6061"]["cp"]["value"], 896.0);
     assert_eq!(json["fluids"]["air"]["T"]["unit"], "K");
+    let oil = &json["lubricants"]["iso_vg_220"];
+    assert!((oil["nu_100"]["value"].as_f64().unwrap() - 18.75e-6).abs() < 5e-9, "{oil}");
+    folder.run(&["materials", "pao_vg_220"]).exits(0).prints("25.58 mm^2/s").prints("GEARpie");
+    folder.run(&["materials", "iso_vg_22"]).exits(2).says("did you mean `iso_vg_220`?");
     let csv = folder.run(&["materials", "--format", "csv"]).exits(0).out;
+    assert!(csv.contains("iso_vg_32,lubricant,902,,,,"), "{csv}");
     assert!(
         csv.starts_with(
             "name,kind,density [kg/m^3],cp [J/(kg K)],k [W/(m K)],T [K],title,source\n"

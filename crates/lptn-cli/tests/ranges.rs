@@ -200,3 +200,68 @@ fn every_result_says_which_constants_are_unverified() {
         assert!(said.contains("unverified constants: `lip`"), "{words:?}: {said}");
     }
 }
+
+/// Oil in a bath that warms by 0.5 K/s from 60 degC on, with 8 mm^2/s at 40 and 2.5 at 100 degC.
+const THIN: &str = "format = 1
+[param]
+G = '2 W/K'
+[lubricant.thin]
+viscosity = [['40 degC', '8 mm^2/s'], ['100 degC', '2.5 mm^2/s']]
+source = 'made up'
+[boundary]
+room = { T = '20 degC' }
+bath = { T = '60 degC + 0.5 [K/s] * t' }
+[node]
+box = { C = '100 J/K', T0 = '20 degC' }
+[resistor]
+skin = { from = 'box', to = 'room', G = 'G' }
+[bearing.front]
+into = 'box'
+speed = '1500 rpm'
+model = 'no_load'
+d_m = '60 mm'
+f0 = 2
+lubricant = 'thin'
+at = 'bath'
+[size]
+minimise = 'G'
+vary = { G = { from = '1 W/K', to = '10 W/K' } }
+require = ['box.T <= 40 [degC]']
+[run]
+start = '-1 s'
+stop = '200 s'
+output = { every = '20 s' }
+";
+
+/// ASTM D341 through the two points: nu in mm^2/s at a temperature in K, and back.
+fn thin(kelvin: f64) -> f64 {
+    let level = |nu: f64| (nu + 0.7).ln().ln();
+    let slope = (level(8.0) - level(2.5)) / (373.15_f64 / 313.15).ln();
+    (level(8.0) - slope * (kelvin / 313.15).ln()).exp().exp() - 0.7
+}
+
+#[test]
+fn oil_thinner_than_its_curve_is_known_for_is_told() {
+    let folder = Folder::with("oil.toml", THIN);
+    let run = folder.run(&["run", "oil.toml", "--format", "json"]).exits(0).json();
+    let of = &run["out_of_range"][0];
+    assert_eq!([&of["source"], &of["group"], &of["law"]], ["front", "nu", "no_load"]);
+    near(&of["value"], thin(273.15 + 160.0), 1e-9);
+    // where it is 2 mm^2/s, as near as the steps of the run are to each other
+    let (mut low, mut high) = (333.15, 433.15);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        (low, high) = if thin(middle) > 2.0 { (middle, high) } else { (low, middle) };
+    }
+    near(&of["stretches"][0][0]["value"], (low - 333.15) / 0.5, 0.05);
+    assert!(warned(&run).unwrap().contains("viscosity of the lubricant in mm^2/s at least 2"));
+    // at the start it is thick enough
+    let steady = folder.run(&["steady", "oil.toml", "--format", "json"]).exits(0).json();
+    assert!(steady["out_of_range"].is_null(), "{steady}");
+    folder.write("hot.toml", &THIN.replace("60 degC +", "150 degC +"));
+    let steady = folder.run(&["steady", "hot.toml", "--format", "json"]).exits(0).json();
+    near(&steady["out_of_range"][0]["value"], thin(273.15 + 149.5), 1e-9);
+    let sized = folder.run(&["size", "hot.toml", "--format", "json"]).exits(0).json();
+    near(&sized["out_of_range"][0]["value"], thin(273.15 + 149.5), 1e-9);
+    folder.run(&["size", "hot.toml"]).exits(0).prints("viscosity of the lubricant");
+}

@@ -4,7 +4,7 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{FieldDeclaration, Hints, KindDeclaration, Law, LawDeclaration};
-use crate::loss::{LOSS, SPEED, VISCOSITY, length, mm, mm2_per_s, rpm};
+use crate::loss::{LOSS, SPEED, THIN_OIL, VISCOSITY, length, mm, mm2_per_s, rpm, viscosity};
 
 /// `[bearing]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
@@ -91,11 +91,16 @@ impl Law for BearingNoLoad {
             4, 2.2 to 4; taper 6, 6, 8 to 10; needle 12, 12, 24.",
         source: "A. Palmgren, Grundlagen der Wälzlagertechnik; T. A. Harris, Rolling Bearing \
             Analysis; ISO/TR 14179-1",
+        groups: &[THIN_OIL],
         ..LOSS
     };
 
     fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
         bearing_no_load(values[1], values[2], values[3], values[0])
+    }
+
+    fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
+        vec![viscosity::<Self>(values)]
     }
 }
 

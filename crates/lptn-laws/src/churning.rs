@@ -6,7 +6,7 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{FieldDeclaration, KindDeclaration, Law, LawDeclaration, Range};
-use crate::loss::{LOSS, SPEED, VISCOSITY, length, mm, mm2_per_s, rpm};
+use crate::loss::{LOSS, SPEED, THIN_OIL, VISCOSITY, length, mm, mm2_per_s, rpm, viscosity};
 
 /// `[churning]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
@@ -121,11 +121,16 @@ impl Law for ChurnedCylinder {
         validity: "n in rpm, nu in mm^2/s, lengths in mm. Oil, not grease.",
         source: "ISO/TR 14179-1 (AGMA 6123 has the same form)",
         confidence: crate::Confidence::Medium,
+        groups: &[THIN_OIL],
         ..LOSS
     };
 
     fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
         churned(values).cylinder(values[5])
+    }
+
+    fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
+        vec![viscosity::<Self>(values)]
     }
 }
 
@@ -144,6 +149,10 @@ impl Law for ChurnedSides {
 
     fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
         churned(values).sides()
+    }
+
+    fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
+        vec![viscosity::<Self>(values)]
     }
 }
 
@@ -182,5 +191,9 @@ impl Law for ChurnedTeeth {
 
     fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
         churned(values).teeth(values[5], values[6], values[7])
+    }
+
+    fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
+        vec![viscosity::<Self>(values)]
     }
 }

@@ -1,7 +1,9 @@
 //! How a kind of path and a law are declared: everything that netlists, checks, documents and
 //! analyses know of them follows from here.
 
-use lptn_units::{Scalar, Type};
+use std::f64::consts::PI;
+
+use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 pub use crate::range::Range;
@@ -254,6 +256,16 @@ impl FieldDeclaration {
     /// A plain number from a catalogue or a drawing, above 0.
     pub const fn given(key: &'static str, meaning: &'static str, example: &'static str) -> Self {
         Self { hints: Hints::GIVEN, ..Self::new(key, Type::SCALAR, meaning, example) }
+    }
+
+    /// The unit to write it in, and how many SI units that is: an angle in degrees, a torque in N m.
+    pub fn unit(&self) -> (String, f64) {
+        match self.ty {
+            ty if ty == Type::of(Dimension::ANGLE) => ("deg".to_owned(), PI / 180.0),
+            // no law takes an energy: what has its dimension is a torque
+            ty if ty == Type::of(Dimension::ENERGY) => ("N m".to_owned(), 1.0),
+            ty => (ty.usual_unit(), 1.0),
+        }
     }
 
     /// The same with this value where it is left out.

@@ -88,6 +88,7 @@ pub use free_convection::{
 };
 pub use joint::contact_conductance;
 pub use list::{Formula, Kind};
+pub use loss::THIN_OIL;
 pub use lump::{biot, diffusion_time};
 pub use mesh::{GearPair, gear_loss_factor, mesh_friction};
 pub use phase::melting_capacity;

@@ -9,7 +9,8 @@ use std::f64::consts::PI;
 use lptn_units::{Dimension, Scalar, Type};
 
 use crate::declare::{
-    Carries, Confidence, Extent, FieldDeclaration, Form, Hints, LawDeclaration, Substance,
+    Carries, Confidence, Extent, FieldDeclaration, Form, Group, Hints, Law, LawDeclaration,
+    Substance,
 };
 
 /// The speed of a shaft.
@@ -32,6 +33,22 @@ pub(crate) const VISCOSITY: FieldDeclaration = FieldDeclaration {
         "\"60 mm^2/s\"",
     )
 };
+
+/// Where the curves of lubricants end: below, ASTM D341 is an extrapolation. It changes no faster
+/// than temperatures do.
+pub const THIN_OIL: Group = Group {
+    name: "nu",
+    meaning: "viscosity of the lubricant in mm^2/s",
+    from: 2.0,
+    to: f64::INFINITY,
+};
+
+/// The viscosity in mm^2/s of the values of a law; at rest it does not count, for nothing is lost.
+pub(crate) fn viscosity<L: Law>(values: &[f64]) -> Option<f64> {
+    let of = |key| L::DECLARATION.fields.iter().position(|field| field.key == key);
+    let (nu, speed) = (values[of(VISCOSITY.key)?], values[of(SPEED.key)?]);
+    (speed.abs() > 0.0).then_some(mm2_per_s(nu))
+}
 
 /// A length of a part.
 pub(crate) const fn length(

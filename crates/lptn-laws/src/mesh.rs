@@ -8,7 +8,7 @@ use crate::Kind;
 use crate::declare::{
     FieldDeclaration, Group, Hints, KindDeclaration, Law, LawDeclaration, Substance,
 };
-use crate::loss::{LOSS, SPEED, VISCOSITY, length, mm};
+use crate::loss::{LOSS, SPEED, THIN_OIL, VISCOSITY, length, mm, viscosity};
 
 /// `[mesh]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
@@ -244,7 +244,10 @@ impl Law for MeshExternal {
         validity: "H_V after Ohlendorf; F_bt/b in N/mm, v_sum in m/s, rho in mm, eta in mPa s, Ra in \
             um. mu is at most 0.2, which it reaches near rest. Profile shifts that sum to 0. PAG: \
             X_L = 0.75 (6 / v_sum)^0.2.",
-        groups: &[Group { name: "v", meaning: "pitch line velocity in m/s", from: 2.0, to: 25.0 }],
+        groups: &[
+            Group { name: "v", meaning: "pitch line velocity in m/s", from: 2.0, to: 25.0 },
+            THIN_OIL,
+        ],
         source: "L. Schlenk (TU München 1994); H. Ohlendorf (TU München 1958); ISO/TR 14179-2",
         idle: &[("flash", BULK), ("contact", BULK), ("scuffing", BULK), ("margin", BULK)],
         ..LOSS
@@ -255,7 +258,7 @@ impl Law for MeshExternal {
     }
 
     fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
-        vec![pitch_line_velocity(values)]
+        vec![pitch_line_velocity(values), viscosity::<Self>(values)]
     }
 }
 
@@ -277,7 +280,7 @@ impl Law for MeshInternal {
     }
 
     fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
-        vec![pitch_line_velocity(values)]
+        vec![pitch_line_velocity(values), viscosity::<Self>(values)]
     }
 }
 
@@ -300,7 +303,7 @@ fn mesh<S: Scalar>(values: &[S], internal: bool) -> S {
 }
 
 /// In m/s; at rest and without torque it does not count, for nothing is lost.
-pub(crate) fn pitch_line_velocity(values: &[f64]) -> Option<f64> {
+fn pitch_line_velocity(values: &[f64]) -> Option<f64> {
     let (speed, torque, z1) = (values[0].abs(), values[1].abs(), values[2]);
     let (module, helix) = (values[4], values[11]);
     let velocity = 0.5 * speed * z1 * module / helix.cos();

@@ -7,7 +7,7 @@ use lptn_units::{Dimension, Scalar, Type};
 use crate::declare::{
     Confidence, FieldDeclaration, Hints, Law, LawDeclaration, Range, ResultDeclaration,
 };
-use crate::mesh::{GearPair, MeshExternal, MeshInternal, Transverse, pair_of, pitch_line_velocity};
+use crate::mesh::{GearPair, MeshExternal, MeshInternal, Transverse, pair_of};
 
 /// What the flanks of two gears of one material are made of.
 #[derive(Clone, Copy, Debug)]
@@ -279,8 +279,8 @@ impl Law for MeshExternalScuffing {
         MeshExternal::value(values, ends)
     }
 
-    fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
-        vec![pitch_line_velocity(values)]
+    fn groups(values: &[f64], ends: [f64; 2]) -> Vec<Option<f64>> {
+        MeshExternal::groups(values, ends)
     }
 
     const RESULTS: &'static [ResultDeclaration] = RESULTS;
@@ -309,8 +309,8 @@ impl Law for MeshInternalScuffing {
         MeshInternal::value(values, ends)
     }
 
-    fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
-        vec![pitch_line_velocity(values)]
+    fn groups(values: &[f64], ends: [f64; 2]) -> Vec<Option<f64>> {
+        MeshInternal::groups(values, ends)
     }
 
     const RESULTS: &'static [ResultDeclaration] = RESULTS;

@@ -4,7 +4,7 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{FieldDeclaration, Hints, Law, LawDeclaration};
-use crate::loss::{LOSS, SPEED, VISCOSITY, length, mm, mm2_per_s, rpm};
+use crate::loss::{LOSS, SPEED, THIN_OIL, VISCOSITY, length, mm, mm2_per_s, rpm, viscosity};
 
 /// A deep groove ball bearing as the SKF model takes it: sizes, loads and constants in SI units, the
 /// constants as the catalogue prints them.
@@ -162,6 +162,7 @@ impl Law for BearingSkf {
             },
         ],
         ordered: &[["d", "D"]],
+        groups: &[THIN_OIL],
         validity: "Constants unless said: series 160 and 161, in a bath of oil, mineral oil (mu_EHL \
             0.04 synthetic), without drag. As printed, the sliding part jumps where an axial load \
             begins. mu_bl is 0.15 in the catalogue of 2016.",
@@ -185,5 +186,9 @@ impl Law for BearingSkf {
             seals: values[16],
         };
         bearing.power(values[3], values[0])
+    }
+
+    fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
+        vec![viscosity::<Self>(values)]
     }
 }

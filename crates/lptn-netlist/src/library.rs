@@ -39,6 +39,21 @@ pub struct LibrarySubstance {
     pub film: Vec<(String, Table1)>,
 }
 
+/// A lubricant of the library.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LibraryLubricant {
+    /// The name that netlists use.
+    pub name: String,
+    /// What it is, in words.
+    pub title: String,
+    /// Kinematic viscosity at 40 and at 100 degC in m^2/s.
+    pub viscosity: [f64; 2],
+    /// Density at 15 degC in kg/m^3.
+    pub density: f64,
+    /// Where the numbers come from.
+    pub source: String,
+}
+
 struct Library {
     materials: Vec<LibrarySubstance>,
     fluids: Vec<LibrarySubstance>,
@@ -73,8 +88,13 @@ pub fn fluids() -> &'static [LibrarySubstance] {
     &LIBRARY.fluids
 }
 
+/// The lubricants.
+pub fn lubricants() -> impl Iterator<Item = LibraryLubricant> {
+    LIBRARY.lubricants.iter().filter_map(lubricant)
+}
+
 /// The lubricants, as a netlist would write them.
-pub(crate) fn lubricants() -> &'static [RawEntry] {
+pub(crate) fn lubricant_entries() -> &'static [RawEntry] {
     &LIBRARY.lubricants
 }
 
@@ -98,6 +118,37 @@ fn record(entry: &RawEntry) -> Option<LibrarySubstance> {
     })
 }
 
+fn lubricant(entry: &RawEntry) -> Option<LibraryLubricant> {
+    let RawKind::Table(table) = &entry.value.kind else { return None };
+    let quantity =
+        |text: &str, dimension| Some(parse_quantity(text, Some(Type::of(dimension))).ok()?.value);
+    let nu = |text: &str| quantity(text, Dimension::KINEMATIC_VISCOSITY);
+    let viscosity = match text(table, "nu_40") {
+        Some(nu_40) => {
+            let index = number(&table.get("VI")?.value)?;
+            [nu(nu_40)?, lptn_laws::viscosity_at_100(nu(nu_40)? * 1e6, index)? * 1e-6]
+        }
+        None => {
+            let RawKind::Array(points) = &table.get("viscosity")?.value.kind else { return None };
+            [nu(second(points.first()?)?)?, nu(second(points.get(1)?)?)?]
+        }
+    };
+    let source = text(table, "source")?;
+    Some(LibraryLubricant {
+        name: entry.key.clone(),
+        title: source.split(':').next()?.to_owned(),
+        viscosity,
+        density: quantity(text(table, "density")?, Dimension::DENSITY)?,
+        source: source.to_owned(),
+    })
+}
+
+/// The second of a pair: the viscosity of a point.
+fn second(pair: &RawValue) -> Option<&str> {
+    let RawKind::Array(pair) = &pair.kind else { return None };
+    word(pair.get(1)?)
+}
+
 /// The properties of a fluid over temperature in K, in SI units.
 fn film(fluid: &RawEntry) -> Vec<(String, Table1)> {
     let RawKind::Table(properties) = &fluid.value.kind else { return Vec::new() };
@@ -112,15 +163,22 @@ fn film(fluid: &RawEntry) -> Vec<(String, Table1)> {
 
 fn numbers(table: &RawTable, key: &str) -> Option<Vec<f64>> {
     let RawKind::Array(items) = &table.get(key)?.value.kind else { return None };
-    let number = |item: &RawValue| match &item.kind {
-        RawKind::Integer(text) | RawKind::Float(text) => text.parse().ok(),
-        _ => None,
-    };
     items.iter().map(number).collect()
 }
 
+fn number(value: &RawValue) -> Option<f64> {
+    match &value.kind {
+        RawKind::Integer(text) | RawKind::Float(text) => text.parse().ok(),
+        _ => None,
+    }
+}
+
 fn text<'a>(table: &'a RawTable, key: &str) -> Option<&'a str> {
-    match &table.get(key)?.value.kind {
+    word(&table.get(key)?.value)
+}
+
+fn word(value: &RawValue) -> Option<&str> {
+    match &value.kind {
         RawKind::String { text, .. } => Some(text),
         _ => None,
     }
@@ -128,7 +186,16 @@ fn text<'a>(table: &'a RawTable, key: &str) -> Option<&'a str> {
 
 #[cfg(test)]
 mod tests {
-    use super::{TEXT, find, fluids, materials};
+    use super::{LIBRARY, TEXT, find, fluids, lubricants, materials};
+
+    #[test]
+    fn every_lubricant_of_the_library_is_read() {
+        assert_eq!(lubricants().count(), LIBRARY.lubricants.len());
+        let oil = lubricants().find(|oil| oil.name == "iso_vg_220").expect("it is shipped");
+        // the table of docs/losses.md
+        assert!((oil.viscosity[1] - 18.75e-6).abs() < 5e-9, "{:?}", oil.viscosity);
+        assert_eq!(oil.title, "mineral oil ISO VG 220");
+    }
 
     /// A record whose text cannot be read would be missing, or lack the number.
     #[test]

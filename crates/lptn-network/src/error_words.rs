@@ -113,7 +113,10 @@ pub(crate) fn in_unit(value: f64, field: Field) -> String {
         Field::SpecificHeat => Dimension::SPECIFIC_HEAT,
         Field::Conductivity => Dimension::CONDUCTIVITY,
         Field::Size | Field::CharacteristicLength => Dimension::LENGTH,
-        Field::Law(law) if !law.ty.absolute && !law.ty.is_scalar() => law.ty.dimension,
+        Field::Law(law) if !law.ty.absolute && !law.ty.is_scalar() => {
+            let (unit, scale) = law.unit();
+            return format!("{} {unit}", format_short(value / scale));
+        }
         Field::LatentHeat => Dimension::SPECIFIC_ENERGY,
         Field::MinDwell => Dimension::TIME,
         _ => return format_short(value),

@@ -1,7 +1,7 @@
 //! Where and when laws were outside the ranges in which they are known.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_laws::Group;
+use lptn_laws::{Group, THIN_OIL};
 use lptn_network::{InputError, Item, Network};
 
 use crate::snapshot::Snapshot;
@@ -64,6 +64,11 @@ impl OutOfRange {
 
 fn groups_of(network: &Network, item: Item) -> &'static [Group] {
     network.law(item).map_or(&[], |law| law.formula().declaration().groups)
+}
+
+/// Whether groups change no faster than temperatures do.
+fn are_slow(groups: &[Group]) -> bool {
+    groups.iter().all(|group| *group == THIN_OIL)
 }
 
 /// A time in s with the value of a group.
@@ -142,14 +147,44 @@ impl<'a> RangeWatch<'a> {
 
     /// Looks at all groups where the workspace stands, at `time` in s.
     pub(crate) fn sample(&mut self, work: &mut Workspace, time: f64) -> Result<(), InputError> {
-        let mut tracks = self.tracks.iter_mut().enumerate();
+        self.sample_of(work, time, |_| true)
+    }
+
+    /// The same inside a step: those that change no faster than temperatures do wait for its end.
+    pub(crate) fn sample_inside(
+        &mut self,
+        work: &mut Workspace,
+        time: f64,
+    ) -> Result<(), InputError> {
+        self.sample_of(work, time, |groups| !are_slow(groups))
+    }
+
+    fn sample_of(
+        &mut self,
+        work: &mut Workspace,
+        time: f64,
+        asked: impl Fn(&[Group]) -> bool,
+    ) -> Result<(), InputError> {
+        let mut first = 0;
         for &item in &self.items {
+            let groups = groups_of(self.system.network(), item);
+            let tracks = self.tracks.iter_mut().enumerate().skip(first);
+            first += groups.len();
+            if !asked(groups) {
+                continue;
+            }
             let values = self.system.groups(work, item)?;
-            for (value, (place, track)) in values.into_iter().zip(&mut tracks) {
+            for (value, (place, track)) in values.into_iter().zip(tracks) {
                 self.found.extend(track.look(time, value).map(|ended| (place, ended)));
             }
         }
         Ok(())
+    }
+
+    /// Whether it is enough to look at the ends of steps.
+    pub(crate) fn is_slow(&self) -> bool {
+        let network = self.system.network();
+        self.items.iter().all(|item| are_slow(groups_of(network, *item)))
     }
 
     /// What was outside, in the order of paths and sources, their groups and the time.

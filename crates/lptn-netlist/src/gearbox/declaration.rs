@@ -60,6 +60,12 @@ pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
             "\"iso_vg_220\"",
         ),
         key(
+            "scuffing",
+            "absolute temperature, or a word",
+            "with `torque`: as in [mesh]; each mesh tells its `margin` then",
+            "\"mineral_ep\"",
+        ),
+        key(
             "at",
             "name of a node or boundary",
             "whose temperature the lubricant has; the first node that a part heats unless said",

@@ -260,11 +260,11 @@ impl Writer<'_, '_> {
 
     /// Sizes of meshes that lose nothing say nothing.
     fn useless_without_torque(&self, problems: &mut Vec<Diagnostic>) {
-        for (key, _) in SIZES {
+        for key in SIZES.map(|(key, _)| key).into_iter().chain(["scuffing"]) {
             if let Some(span) = self.stage.fields.key(key) {
                 let owner = self.stage.fields.owner.field(key);
                 let message =
-                    format!("{owner} is a size of meshes, which lose nothing without a torque");
+                    format!("{owner} is about meshes, which lose nothing without a torque");
                 let help =
                     format!("add `{}`, or remove `{key}`", self.stage.fields.sample("torque"));
                 problems.push(Diagnostic::wrong("netlist::useless_key", message, span, help));
@@ -337,7 +337,8 @@ impl Writer<'_, '_> {
         ];
         let sizes = SIZES.iter().filter(|(key, _)| stage.fields.get(key).is_some());
         table.extend(sizes.map(|(key, _)| entry(key, text(format!("{here}.{key}"), at))));
-        let oil = ["lubricant", "at"].into_iter().filter_map(|key| stage.fields.entry(key));
+        let oil = ["lubricant", "at", "scuffing"].into_iter();
+        let oil = oil.filter_map(|key| stage.fields.entry(key));
         table.extend(oil.cloned());
         table
     }

@@ -304,7 +304,7 @@ impl<'a> Elaboration<'a> {
             return true;
         }
         let own = self.elements(LUBRICANT.name).iter().any(|entry| entry.key == name);
-        let shipped = library::lubricants().iter().find(|entry| entry.key == name);
+        let shipped = library::lubricant_entries().iter().find(|entry| entry.key == name);
         shipped.filter(|_| !own).is_some_and(|entry| self.lubricant(entry, at).is_some())
     }
 
@@ -313,7 +313,7 @@ impl<'a> Elaboration<'a> {
         let message = format!("no lubricant named `{name}`, which {owner} refers to");
         let problem = Diagnostic::error("netlist::unknown_lubricant", message)
             .at(raw.span.clone(), "neither in [lubricant] nor in the library");
-        let own = self.elements(LUBRICANT.name).iter().chain(library::lubricants());
+        let own = self.elements(LUBRICANT.name).iter().chain(library::lubricant_entries());
         let names: Vec<&str> = own.map(|entry| entry.key.as_str()).collect();
         problem.help(match suggest(name, names.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),

@@ -98,7 +98,7 @@ fn keys(kind: Kind) -> Vec<KeyDeclaration> {
                 keys.push(*new);
             }
         }
-        let unit = if field.ty.is_scalar() { "number".to_owned() } else { field.ty.usual_unit() };
+        let unit = if field.ty.is_scalar() { "number".to_owned() } else { field.unit().0 };
         keys.push(key(field.key, unit.leak(), field.meaning, field.example));
     }
     keys.extend(selector);

@@ -6,7 +6,7 @@ use std::cell::Cell;
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Goal, Requirement};
 use lptn_network::{Network, ParameterId, Parameters};
-use lptn_solve::SteadyState;
+use lptn_solve::{OutOfRange, SteadyState};
 
 use crate::size::SizeError;
 
@@ -36,6 +36,8 @@ pub struct Trial {
     pub value: f64,
     /// How far each requirement is from being broken, in SI units: positive while it is kept.
     pub margins: Vec<f64>,
+    /// The laws that are outside the ranges in which they are known.
+    pub out_of_range: Vec<OutOfRange>,
 }
 
 /// Solves the network again and again, and counts how often.
@@ -63,13 +65,14 @@ impl<'a> Trials<'a> {
             .network
             .with(&parameters)
             .map_err(|errors| SizeError::Network { value, errors })?;
-        let margins = requirement_margins(&network, task.requirements, task.time).map_err(
-            |error| match error {
-                SizeError::Steady { error, .. } => SizeError::Steady { value, error },
-                error => error,
-            },
-        )?;
-        Ok(Trial { value, margins })
+        let of_value = |error| match error {
+            SizeError::Steady { error, .. } => SizeError::Steady { value, error },
+            error => error,
+        };
+        let steady = solved(&network, task.time).map_err(of_value)?;
+        let margins = margins(&network, task.requirements, &steady)?;
+        let out_of_range = OutOfRange::of_steady(&network, &steady).unwrap_or_default();
+        Ok(Trial { value, margins, out_of_range })
     }
 }
 
@@ -83,9 +86,19 @@ pub fn requirement_margins(
     requirements: &[Requirement],
     time: f64,
 ) -> Result<Vec<f64>, SizeError> {
+    margins(network, requirements, &solved(network, time)?)
+}
+
+fn solved(network: &Network, time: f64) -> Result<SteadyState, SizeError> {
     let system = ThermalSystem::assemble(network).map_err(SizeError::Assembly)?;
-    let steady = SteadyState::solve(&system, time)
-        .map_err(|error| SizeError::Steady { value: f64::NAN, error })?;
+    SteadyState::solve(&system, time).map_err(|error| SizeError::Steady { value: f64::NAN, error })
+}
+
+fn margins(
+    network: &Network,
+    requirements: &[Requirement],
+    steady: &SteadyState,
+) -> Result<Vec<f64>, SizeError> {
     let mut scope = steady.evaluation(network);
     let margin = |requirement: &Requirement| {
         let failed = |error| SizeError::Requirement { text: requirement.text.clone(), error };

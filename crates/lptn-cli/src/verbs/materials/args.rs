@@ -14,7 +14,7 @@ Examples:
 #[derive(Debug, Arguments)]
 #[command(before_help = EXAMPLES, help_template = TEMPLATE)]
 pub(crate) struct MaterialsArgs {
-    /// One material or fluid, with the source of its numbers; without it all are listed
+    /// One material, fluid or lubricant, with the source of its numbers; without it all are listed
     #[arg(value_name = "NAME")]
     pub(crate) name: Option<String>,
     #[command(flatten)]

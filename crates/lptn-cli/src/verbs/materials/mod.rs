@@ -7,7 +7,7 @@ pub(crate) use args::MaterialsArgs;
 use std::io;
 
 use lptn_netlist::Diagnostic;
-use lptn_netlist::library::{self, LibrarySubstance};
+use lptn_netlist::library::{self, LibraryLubricant, LibrarySubstance};
 use lptn_report::{Json, Page, Rows, Text, TextTable, significant};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
@@ -20,38 +20,33 @@ use crate::failure::Failure;
 const DIGITS: usize = 5;
 
 pub(crate) fn materials(args: &MaterialsArgs, console: &Console) -> Result<Exit, Failure> {
-    let (materials, fluids) = match &args.name {
-        None => (all(library::materials()), all(library::fluids())),
-        Some(name) => one(name)?,
+    let name = args.name.as_deref();
+    let asked = |other: &str| name.is_none_or(|name| name == other);
+    let of = |records: &'static [LibrarySubstance]| {
+        records.iter().filter(|record| asked(&record.name)).collect::<Records>()
     };
-    let found = Found { materials, fluids, named: args.name.is_some() };
-    console.show(&found, args.printed.format)
+    let found = Found {
+        materials: of(library::materials()),
+        fluids: of(library::fluids()),
+        lubricants: library::lubricants().filter(|oil| asked(&oil.name)).collect(),
+        named: name.is_some(),
+    };
+    match name {
+        Some(name) if found.is_empty() => Err(unknown(name)),
+        _ => console.show(&found, args.printed.format),
+    }
 }
 
 type Records = Vec<&'static LibrarySubstance>;
 
-fn all(records: &'static [LibrarySubstance]) -> Records {
-    records.iter().collect()
-}
-
-fn one(name: &str) -> Result<(Records, Records), Failure> {
-    let of = |records: &'static [LibrarySubstance]| {
-        records.iter().filter(|r| r.name == name).collect::<Records>()
-    };
-    let found = (of(library::materials()), of(library::fluids()));
-    if found.0.is_empty() && found.1.is_empty() {
-        return Err(unknown(name));
-    }
-    Ok(found)
-}
-
 fn unknown(name: &str) -> Failure {
     let problem =
         Diagnostic::error("materials::unknown", format!("the library has no material `{name}`"));
-    let names =
-        library::materials().iter().chain(library::fluids()).map(|record| record.name.as_str());
+    let substances = library::materials().iter().chain(library::fluids());
+    let names = substances.map(|record| record.name.clone());
+    let names: Vec<String> = names.chain(library::lubricants().map(|oil| oil.name)).collect();
     let all = || "`lptn materials` lists them all".into();
-    Failure::new(Exit::Input, problem.did_you_mean(name, names, all))
+    Failure::new(Exit::Input, problem.did_you_mean(name, names.iter().map(String::as_str), all))
 }
 
 fn number(value: Option<f64>) -> String {
@@ -62,8 +57,15 @@ fn number(value: Option<f64>) -> String {
 struct Found {
     materials: Records,
     fluids: Records,
+    lubricants: Vec<LibraryLubricant>,
     /// Whether by name.
     named: bool,
+}
+
+impl Found {
+    fn is_empty(&self) -> bool {
+        self.materials.is_empty() && self.fluids.is_empty() && self.lubricants.is_empty()
+    }
 }
 
 impl Page for Found {
@@ -74,26 +76,29 @@ impl Page for Found {
                 .iter()
                 .chain(&self.fluids)
                 .for_each(|record| describe(record, &mut text));
+            self.lubricants.iter().for_each(|oil| describe_oil(oil, &mut text));
             return text;
         }
         text.table(table("material", &self.materials));
         text.section().table(table("fluid", &self.fluids));
+        text.section().table(oils(&self.lubricants));
         text.section().sentence(
             "",
             "Sources and states: lptn materials NAME, or --format csv. In a netlist: \
-             material = \"steel_8620\", with mass or volume.",
+             material = \"steel_8620\", with mass or volume; lubricant = \"iso_vg_220\".",
         );
         text
     }
 
     fn rows(&self) -> Rows<'_> {
-        Rows::Words(rows(&self.materials, &self.fluids))
+        Rows::Words(rows(self))
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         json.member("format", &1)?;
         json.member("materials", &members(&self.materials))?;
-        json.member("fluids", &members(&self.fluids))
+        json.member("fluids", &members(&self.fluids))?;
+        json.member("lubricants", &oil_members(&self.lubricants))
     }
 }
 
@@ -106,6 +111,26 @@ fn table(title: &str, records: &[&LibrarySubstance]) -> TextTable {
         .left("", |r| short(&r.title))
         .optional()
         .into()
+}
+
+fn oils(oils: &[LibraryLubricant]) -> TextTable {
+    TextTable::of(oils)
+        .left("lubricant", |oil| oil.name.as_str())
+        .right("mm^2/s at 40 degC", |oil| significant(oil.viscosity[0] * 1e6, DIGITS))
+        .right("at 100 degC", |oil| significant(oil.viscosity[1] * 1e6, 4))
+        .right("kg/m^3", |oil| significant(oil.density, DIGITS))
+        .left("", |oil| oil.title.as_str())
+        .optional()
+        .into()
+}
+
+fn describe_oil(oil: &LibraryLubricant, text: &mut Text) {
+    text.line(format!("{}: {}", oil.name, oil.title));
+    text.section();
+    let [nu_40, nu_100] = oil.viscosity.map(|nu| significant(nu * 1e6, 4));
+    text.line(format!("{:22}{nu_40} mm^2/s at 40 degC, {nu_100} mm^2/s at 100 degC", "viscosity"));
+    text.line(format!("{:22}{} kg/m^3", "density at 15 degC", significant(oil.density, DIGITS)));
+    text.sentence(&format!("{:22}", "source"), &oil.source);
 }
 
 /// A title that leaves room for the numbers.
@@ -128,7 +153,7 @@ fn describe(record: &LibrarySubstance, text: &mut Text) {
     text.sentence(&format!("{:22}", "source"), &record.source);
 }
 
-fn rows(materials: &[&LibrarySubstance], fluids: &[&LibrarySubstance]) -> Vec<Vec<String>> {
+fn rows(found: &Found) -> Vec<Vec<String>> {
     let heading = [
         "name",
         "kind",
@@ -145,10 +170,34 @@ fn rows(materials: &[&LibrarySubstance], fluids: &[&LibrarySubstance]) -> Vec<Ve
         let words = [r.name.clone(), kind.to_owned()];
         words.into_iter().chain(numbers).chain([r.title.clone(), r.source.clone()]).collect()
     };
+    // the viscosities stand in the words, so that the columns stay
+    let oil = |oil: &LibraryLubricant| {
+        let [nu_40, nu_100] = oil.viscosity.map(|nu| significant(nu * 1e6, 4));
+        let title =
+            format!("{}, {nu_40} mm^2/s at 40 degC, {nu_100} mm^2/s at 100 degC", oil.title);
+        let numbers = [Some(oil.density), None, None, None].map(cell);
+        let words = [oil.name.clone(), "lubricant".to_owned()];
+        words.into_iter().chain(numbers).chain([title, oil.source.clone()]).collect()
+    };
     std::iter::once(heading.map(str::to_owned).to_vec())
-        .chain(materials.iter().map(|r| row("material", r)))
-        .chain(fluids.iter().map(|r| row("fluid", r)))
+        .chain(found.materials.iter().map(|r| row("material", r)))
+        .chain(found.fluids.iter().map(|r| row("fluid", r)))
+        .chain(found.lubricants.iter().map(oil))
         .collect()
+}
+
+fn oil_members(oils: &[LibraryLubricant]) -> Value {
+    let member = |oil: &LibraryLubricant| {
+        let value = json!({
+            "title": oil.title,
+            "nu_40": SiValue::new(oil.viscosity[0], "m^2/s"),
+            "nu_100": SiValue::new(oil.viscosity[1], "m^2/s"),
+            "density": SiValue::new(oil.density, "kg/m^3"),
+            "source": oil.source,
+        });
+        (oil.name.clone(), value)
+    };
+    oils.iter().map(member).collect()
 }
 
 fn members(records: &[&LibrarySubstance]) -> Value {

@@ -12,6 +12,7 @@ use serde_json::json;
 
 use super::Answer;
 use crate::about::{self, Known};
+use crate::ranges;
 use crate::words::{spaced, unverified};
 
 /// Digits of a value that is shown.
@@ -87,7 +88,8 @@ impl Page for Answer<'_> {
         json.member("requirements", &margins.map(requirement).collect::<Vec<_>>())?;
         json.member("sensitivity", &sizing.sensitivity.map(of_margin))?;
         json.member("breaks_again", &sizing.breaks_again.map(scalar))?;
-        json.member("first_guess", &sizing.first_guess.map(scalar))
+        json.member("first_guess", &sizing.first_guess.map(scalar))?;
+        json.optional("out_of_range", ranges::members(network, &sizing.trial.out_of_range, false))
     }
 
     fn no(&self) -> Option<String> {
@@ -173,6 +175,8 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
         ));
     }
     notes.extend(unverified(&answer.input.netlist.network).map(|unsure| ("note", unsure)));
+    let outside = ranges::warnings(&answer.input.netlist, &sizing.trial.out_of_range, false);
+    notes.extend(outside.into_iter().map(|warning| ("note", warning.message)));
     notes.push(("proof", format!("{} steady states of the full network", sizing.solved)));
     if let Some(value) = sizing.breaks_again {
         let side = if study.goal == Goal::Minimise { "above" } else { "below" };
