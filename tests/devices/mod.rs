@@ -58,7 +58,7 @@ pub(crate) fn convection() -> Vec<Closed> {
         ("still.T", "30 min", still(1800.0)),
         ("still.T", "steady", 20.0),
     ];
-    [closed, correlations()].concat()
+    [closed, correlations(), sinks(), draughts()].concat()
 }
 
 /// 0.1 m^2 at 80 degC in the gas of the page at 20 degC, whose film is at 50 degC.
@@ -114,6 +114,38 @@ fn correlations() -> Vec<Closed> {
             10.0 * (0.01 + 0.2 * ml.tanh() / ml) * 60.0
         }),
     ]
+}
+
+/// The same wall in a flow of 2 m/s up and down.
+fn draughts() -> Vec<Closed> {
+    let (k, rho, cp, mu): (f64, f64, f64, f64) = (0.0277, 1.1, 1007.0, 19.5e-6);
+    let pr = mu * cp / k;
+    let ra = 9.80665 / 323.15 * 60.0 * 0.5_f64.powi(3) * rho.powi(2) * cp / (mu * k);
+    let weight = (1.0 + (0.492 / pr).powf(9.0 / 16.0)).powf(8.0 / 27.0);
+    let natural = (0.825 + 0.387 * ra.powf(1.0 / 6.0) / weight).powi(2) * k / 0.5;
+    let forced = 0.664 * (rho * 2.0 * 0.5 / mu).sqrt() * pr.cbrt() * k / 0.5;
+    let [f, n] = [forced, natural].map(|h: f64| h.powi(3));
+    let heat = |cube: f64| 6.0 * (cube.powi(2) + (0.01 * (f + n)).powi(2)).powf(1.0 / 6.0);
+    vec![("updraught.Q", "steady", heat(f + n)), ("downdraught.Q", "steady", heat(f - n))]
+}
+
+/// Heat sinks in the same gas.
+fn sinks() -> Vec<Closed> {
+    let (k, rho, cp, mu): (f64, f64, f64, f64) = (0.0277, 1.1, 1007.0, 19.5e-6);
+    let pr = mu * cp / k;
+    let el = 9.80665 / 323.15 * 60.0 * 0.008_f64.powi(4) / 0.15 * rho.powi(2) * cp / (mu * k);
+    let still = (576.0 / el.powi(2) + 2.873 / el.sqrt()).powf(-0.5);
+    let re = rho * 4.0 * 0.0025_f64.powi(2) / 0.1 / mu;
+    let flat = 0.664 * re.sqrt() * pr.cbrt() * (1.0 + 3.65 / re.sqrt()).sqrt();
+    let blown = ((re * pr / 2.0).powi(-3) + flat.powi(-3)).powf(-1.0 / 3.0);
+    // 60 K over aluminium fins of 30 mm: gap, length along the flow, thickness
+    let sink = |h: f64, [gap, along, thickness]: [f64; 3], fins: f64| {
+        let ml = (2.0 * h / (167.0 * thickness)).sqrt() * 0.03;
+        h * ((fins - 1.0) * gap + ml.tanh() / ml * 2.0 * fins * 0.03) * along * 60.0
+    };
+    let upright = sink(still * k / 0.008, [0.008, 0.15, 1.5e-3], 12.0);
+    let blown = sink(blown * k / 0.0025, [0.0025, 0.1, 0.8e-3], 20.0);
+    vec![("upright_sink.Q", "steady", upright), ("blown_sink.Q", "steady", blown)]
 }
 
 pub(crate) fn fan() -> Vec<Closed> {

@@ -120,6 +120,10 @@ fn fix(files: &Files, diagnostic: &Diagnostic) -> Option<Value> {
     let (text, Range { start, end }) = (files.text(span.file), span.range.clone());
     let (before, after) = (text.get(..start)?, text.get(end..)?);
     let is_string = |text: &str| within(text, "\"", "\"").is_some();
+    // of `key = "word"` the word is proposed
+    let value = meant.split_once(" = ").map(|(_, value)| value);
+    let value = value.filter(|value| is_string(value) && is_string(files.at(span)));
+    let meant = value.unwrap_or(meant);
     let mut text = meant.to_owned();
     let mut range = start..end;
     if is_string(files.at(span)) && !is_string(meant) {

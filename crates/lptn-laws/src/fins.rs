@@ -54,6 +54,18 @@ const fn area(key: &'static str, meaning: &'static str, example: &'static str) -
     }
 }
 
+/// Conductivity of the fins.
+pub(crate) const K_FIN: FieldDeclaration = FieldDeclaration {
+    hints: Hints::PROPERTY,
+    property: Some(Substance::Material),
+    ..FieldDeclaration::new(
+        "k_fin",
+        Type::of(Dimension::CONDUCTIVITY),
+        "thermal conductivity of the fins",
+        "\"167 W/(m K)\"",
+    )
+};
+
 impl Law for StraightFins {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "straight_fins",
@@ -76,16 +88,7 @@ impl Law for StraightFins {
             area("fin_area", "area of all fins, both sides", "\"0.2 m^2\""),
             length("fin_length", "length of a fin from root to tip", "\"30 mm\""),
             length("fin_thickness", "thickness of a fin", "\"1.5 mm\""),
-            FieldDeclaration {
-                hints: Hints::PROPERTY,
-                property: Some(Substance::Material),
-                ..FieldDeclaration::new(
-                    "k_fin",
-                    Type::of(Dimension::CONDUCTIVITY),
-                    "thermal conductivity of the fins",
-                    "\"167 W/(m K)\"",
-                )
-            },
+            K_FIN,
         ],
         form: Form::Other,
         extent: Extent::Whole,

@@ -50,6 +50,7 @@ mod loss;
 mod lump;
 mod mesh;
 mod phase;
+mod plate_fins;
 mod press_fit;
 mod radiation;
 mod range;
@@ -91,6 +92,7 @@ pub use loss::THIN_OIL;
 pub use lump::{biot, diffusion_time};
 pub use mesh::{GearPair, gear_loss_factor, mesh_friction};
 pub use phase::melting_capacity;
+pub use plate_fins::{nusselt_between_plates, nusselt_through_plates};
 pub use press_fit::Fit;
 pub use radiation::{
     STEFAN_BOLTZMANN, effective_emissivity_parallel_plates, radiation_conductance,
@@ -101,4 +103,4 @@ pub use scuffing::Flanks;
 pub use seal::{lip_seal, shaft_seal};
 pub use skf::SkfBearing;
 pub use viscosity_index::viscosity_at_100;
-pub use wall::{combined, gearbox_wall, gearbox_wall_blown};
+pub use wall::{along, combined, gearbox_wall, gearbox_wall_blown};

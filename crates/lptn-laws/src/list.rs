@@ -80,7 +80,8 @@ declare! {
     forced_convection: { CrossFlow, CrossFlowHilpert, FlatPlate, Duct };
     rotation: { Shaft, Annulus };
     fins: { StraightFins };
-    wall: { WallInWind, GearboxWall, GearboxWallBlown };
+    plate_fins: { PlateFins, PlateFinsBlown };
+    wall: { WallInWind, WallInVerticalFlow, GearboxWall, GearboxWallBlown };
     contact: Contact {};
     joint: { Joint };
     press_fit: PressFit { Interference };

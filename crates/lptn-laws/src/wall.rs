@@ -3,7 +3,7 @@
 use lptn_units::Scalar;
 
 use crate::convection::AREA;
-use crate::declare::{Confidence, Law, LawDeclaration};
+use crate::declare::{Confidence, FieldDeclaration, Group, Law, LawDeclaration};
 use crate::fluid::{
     CONDUCTIVITY, DENSITY, EXPANSION, Fluid, SPECIFIC_HEAT, VISCOSITY, length, prandtl, reynolds,
 };
@@ -22,6 +22,32 @@ use crate::free_convection::{
 pub fn combined<S: Scalar>(forced: S, natural: S) -> S {
     (forced.powi(3) + natural.powi(3)).powf(1.0 / 3.0)
 }
+
+/// Film coefficient of a flow along the natural one or against it, in W/(m^2 K):
+/// h^3 = |h_F^3 + h_N^3| or |h_F^3 - h_N^3|.
+///
+/// * `forced`, `natural`: what each would be alone, in W/(m^2 K), at least 0
+/// * `opposed`: whether they run against each other
+///
+/// Where both are alike and opposed, the printed h is 0 with no slope, which no film is: |x| is
+/// taken as (x^2 + (0.01 (h_F^3 + h_N^3))^2)^(1/2), larger by 1.7e-5 of h where one of them is none and by
+/// 1.5e-4 where the cubes are as 1 to 2. Source: Incropera et al., 6th edition, equation 9.64.
+///
+/// ```
+/// use lptn_laws::along;
+/// assert!((along(2.0_f64, 1.0, true) - 7_f64.cbrt()).abs() < 1e-4);
+/// assert!((along(2.0_f64, 1.0, false) - 9_f64.cbrt()).abs() < 1e-4);
+/// ```
+pub fn along<S: Scalar>(forced: S, natural: S, opposed: bool) -> S {
+    let [forced, natural] = [forced, natural].map(|h| h.powi(3));
+    let sum = forced + natural;
+    let left = if opposed { forced - natural } else { sum };
+    let blurred = sum * S::from_f64(BLUR);
+    (left * left + blurred * blurred).powf(1.0 / 6.0)
+}
+
+/// The share of both cubes that stays where they oppose each other alike.
+const BLUR: f64 = 0.01;
 
 /// Film coefficient of a gearbox in still air, in W/(m^2 K): h = 18 H^(-1/10) (|dT|/T)^(3/10).
 ///
@@ -100,6 +126,70 @@ impl Law for WallInWind {
 
     fn groups(values: &[f64], ends: [f64; 2]) -> Vec<Option<f64>> {
         Self::state(values, ends).0.map(Some).to_vec()
+    }
+}
+
+/// A wall with a flow up or down along it.
+#[derive(Debug)]
+pub(crate) struct WallInVerticalFlow;
+
+impl WallInVerticalFlow {
+    /// Re, Ra, Pr, how far they cancel if they oppose each other, and the film coefficient.
+    fn state<S: Scalar>(values: &[S], [from, to]: [S; 2]) -> ([S; 3], Option<S>, S) {
+        let fluid = Fluid::of(values);
+        let (expansion, speed, height) = (values[4], values[5], values[6]);
+        let re = fluid.reynolds(speed, height);
+        let ra = rayleigh(fluid, expansion, from - to, height);
+        let pr = fluid.prandtl();
+        let one = S::from_f64(1.0);
+        let forced = fluid.film(nusselt_flat_plate(re, pr), height, one);
+        let natural = fluid.film(nusselt_vertical_plate(ra, pr), height, one);
+        let opposed = speed.value() * (from - to).value() < 0.0;
+        let share = || (forced.min(natural) / forced.max(natural)).powi(3);
+        ([re, ra, pr], opposed.then(share), along(forced, natural, opposed))
+    }
+}
+
+impl Law for WallInVerticalFlow {
+    const DECLARATION: LawDeclaration = LawDeclaration {
+        name: "wall_in_vertical_flow",
+        sentence: "A vertical surface with a flow that runs up or down along it, down to no flow.",
+        equation: "Q = |h_F^3 +- h_N^3|^(1/3) A (T_from - T_to), h_F of a flat plate, h_N of a \
+            vertical plate, + up a warm or down a cold wall",
+        fields: &[
+            CONDUCTIVITY,
+            DENSITY,
+            SPECIFIC_HEAT,
+            VISCOSITY,
+            EXPANSION,
+            FieldDeclaration { meaning: "velocity of the flow, positive upwards", ..SPEED },
+            length("height", "height of the surface", "\"25 cm\""),
+            AREA,
+        ],
+        validity: "`from` is the wall. Where the flow runs against the natural one and the cubes of \
+            both are nearer than 1 to 2, they nearly cancel, and that is reported.",
+        groups: &[
+            reynolds(0.0, 1e8),
+            rayleigh_within("Rayleigh number", 0.0, 1e12),
+            prandtl(0.6, 60.0),
+            Group {
+                name: "cancelled share",
+                meaning: "share of h^3 that flows against each other cancel",
+                from: 0.0,
+                to: 0.5,
+            },
+        ],
+        source: "Incropera et al., 6th edition, equation 9.64 with 7.30, 7.38 and 9.26",
+        ..VerticalPlate::DECLARATION
+    };
+
+    fn value<S: Scalar>(values: &[S], ends: [S; 2]) -> S {
+        Self::state(values, ends).2 * values[7]
+    }
+
+    fn groups(values: &[f64], ends: [f64; 2]) -> Vec<Option<f64>> {
+        let (groups, share, _) = Self::state(values, ends);
+        groups.map(Some).into_iter().chain([share]).collect()
     }
 }
 

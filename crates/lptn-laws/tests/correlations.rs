@@ -3,7 +3,7 @@
 //! rest and where a flow turns.
 
 use lptn_laws::{
-    Fluid, Formula, combined, gearbox_wall, gearbox_wall_blown, nusselt_annulus,
+    Fluid, Formula, along, combined, gearbox_wall, gearbox_wall_blown, nusselt_annulus,
     nusselt_cross_flow, nusselt_cross_flow_hilpert, nusselt_duct, nusselt_flat_plate,
     nusselt_horizontal_cylinder, nusselt_plate_driven, nusselt_plate_layered, nusselt_shaft,
     nusselt_vertical_plate, rayleigh,
@@ -148,6 +148,30 @@ fn a_wind_helps_and_does_not_replace() {
     };
     near(wall(0.0), conductance(Formula::VerticalPlate, 30.0), 1e-13);
     assert!(wall(0.5) > wall(0.0) && wall(-0.5).to_bits() == wall(0.5).to_bits());
+}
+
+/// Up a warm wall a flow helps, down a cold one too; against the natural one it takes away, and the
+/// larger counts. Nothing jumps where the flow or the difference turns, or where both are alike.
+#[test]
+fn a_flow_along_a_wall_helps_or_hinders() {
+    near(along(5.0, 5.0, false), 5.0 * 2f64.cbrt(), 2e-5);
+    near(along(50.0, 5.0, true), 50.0, 4e-4);
+    near(along(0.0, 5.0, true), along(0.0, 5.0, false), 1e-15);
+    let wall = |speed: f64, difference: f64| {
+        let values = [&AIR[..], &[speed, 0.1, 0.2]].concat();
+        Formula::WallInVerticalFlow.value(&values, [300.0 + difference, 300.0])
+    };
+    let still = conductance(Formula::VerticalPlate, 30.0);
+    near(wall(0.0, 30.0), still, 2e-5);
+    assert!(wall(0.3, 30.0) > still && wall(-0.1, 30.0) < still);
+    assert_eq!(wall(0.3, 30.0).to_bits(), wall(-0.3, -30.0).to_bits());
+    near(wall(1e-9, 30.0), wall(-1e-9, 30.0), 1e-12);
+    let heat = |difference: f64| wall(1.0, difference) * difference;
+    assert!((heat(1e-9) - heat(-1e-9)).abs() < 1e-8);
+    for i in 0..200 {
+        let of = |i: i32| wall(-0.01 * f64::from(i), 30.0);
+        assert!(of(i) > 0.1 * still && (of(i + 1) - of(i)).abs() < 0.2 * still, "{i}");
+    }
 }
 
 /// The rules for gearboxes know the colder end by themselves, and go over from still air to a flow.

@@ -1,9 +1,10 @@
 //! Reference: heat exchangers against the Python package ht 1.2.0 (Caleb Bell, MIT licence), and in
-//! their limits; fins.
+//! their limits; fins, and films between them.
 
 use lptn_laws::{
     Formula, effectiveness_counterflow, effectiveness_crossflow, effectiveness_one_stream,
-    effectiveness_parallel, effectiveness_shell, fin_efficiency, finned,
+    effectiveness_parallel, effectiveness_shell, fin_efficiency, finned, nusselt_between_plates,
+    nusselt_through_plates,
 };
 use lptn_units::Dual;
 
@@ -158,4 +159,27 @@ fn fins_are_as_good_as_they_conduct() {
     near(fin_efficiency(1e-9), 1.0, 1e-15);
     near(finned(10.0, [0.01, 0.2], 1e-9), 2.1, 1e-14);
     near(finned(10.0, [0.01, 0.2], 2.0), 0.1 + 2.0 * 2f64.tanh() / 2.0, 1e-14);
+}
+
+/// Close together plates warm all air between them, Nu = El / 24; far apart each is a plate of its
+/// own, Nu = 0.59 El^(1/4). Cengel: thin ones give off most at S = 2.714 L / Ra_L^(1/4).
+#[test]
+fn plates_in_still_air_in_their_limits() {
+    near(nusselt_between_plates(1e-4), 1e-4 / 24.0, 1e-6);
+    near(nusselt_between_plates(1e5), 0.59 * 1e5_f64.powf(0.25), 1e-3);
+    let given = |el: f64| nusselt_between_plates(el) / el.sqrt();
+    let best = 2.714_f64.powi(4);
+    assert!(given(best) > given(0.97 * best) && given(best) > given(1.03 * best));
+    let still = nusselt_between_plates(Dual::<1>::variable(0.0, 0));
+    assert_eq!((still.value, still.derivatives), (0.0, [1.0 / 24.0]));
+}
+
+/// A slow flow is warmed as far as it can be, Nu = Re* Pr / 2, and takes nothing at rest; in a fast one
+/// each plate is nearly alone, Nu = 0.664 Re*^(1/2) Pr^(1/3).
+#[test]
+fn plates_in_a_flow_in_their_limits() {
+    near(nusselt_through_plates(1e-5, 0.7), 1e-5 * 0.35, 1e-9);
+    near(nusselt_through_plates(1e8, 0.7), 0.664 * 1e4 * 0.7_f64.cbrt(), 2e-4);
+    let rest = nusselt_through_plates(Dual::<1>::variable(0.0, 0), Dual::constant(0.7));
+    assert_eq!((rest.value, rest.derivatives), (0.0, [0.35]));
 }

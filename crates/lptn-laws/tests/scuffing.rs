@@ -82,7 +82,9 @@ fn the_factor_of_1_11_follows_from_the_moving_band() {
 fn at_rest_without_load_and_reversed_it_is_finite() {
     let pair = pair([25.0, 37.0], [4.0, 20.0], 0.0, false);
     let at = |rpm, torque| flash(&pair, rpm, torque, [25e-6, 800.0, 1.0], 0.4e-6);
-    assert_eq!([at(0.0, 300.0), at(3000.0, 0.0), at(0.0, 0.0)], [0.0; 3]);
+    for rise in [at(0.0, 300.0), at(3000.0, 0.0), at(0.0, 0.0)] {
+        assert!(rise == 0.0, "{rise}");
+    }
     let ahead = at(3000.0, 300.0);
     for (rpm, torque) in [(-3000.0, 300.0), (3000.0, -300.0), (-3000.0, -300.0)] {
         assert_eq!(at(rpm, torque).to_bits(), ahead.to_bits());
