@@ -155,7 +155,7 @@ fn materials_are_listed_with_their_sources() {
     let oil = &json["lubricants"]["iso_vg_220"];
     assert!((oil["nu_100"]["value"].as_f64().unwrap() - 18.75e-6).abs() < 5e-9, "{oil}");
     folder.run(&["materials", "pao_vg_220"]).exits(0).prints("25.58 mm^2/s").prints("GEARpie");
-    folder.run(&["materials", "iso_vg_22"]).exits(2).says("did you mean `iso_vg_220`?");
+    folder.run(&["materials", "pao_vg_22"]).exits(2).says("did you mean `pao_vg_220`?");
     let csv = folder.run(&["materials", "--format", "csv"]).exits(0).out;
     assert!(csv.contains("iso_vg_32,lubricant,902,,,,"), "{csv}");
     assert!(
