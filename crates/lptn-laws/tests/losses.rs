@@ -5,8 +5,8 @@
 use std::f64::consts::PI;
 
 use lptn_laws::{
-    Carries, Formula, GearPair, bearing_no_load, gear_loss_factor, lip_seal, mesh_friction,
-    shaft_seal, viscosity_at_100,
+    Carries, Formula, GearPair, SkfBearing, bearing_no_load, gear_loss_factor, lip_seal,
+    mesh_friction, shaft_seal, viscosity_at_100,
 };
 use lptn_units::{Dual, parse_quantity};
 
@@ -104,6 +104,85 @@ fn the_loss_of_a_mesh_grows_with_torque_as_it_is_printed() {
     let power = |torque: f64, rpm: f64| pair.power(omega(rpm), torque, [60e-6, 860.0, 1.0], 5e-7);
     assert!((power(100.0, 1500.0) / power(50.0, 1500.0) - 2f64.powf(1.2)).abs() < 1e-12);
     assert!((power(50.0, 3000.0) / power(50.0, 1500.0) - 2f64.powf(0.8)).abs() < 1e-12);
+}
+
+/// Reports that GEARpie (C. Fernandes, FEUP) prints: teeth, AC and AE of the path of contact and base
+/// pitches in mm, and H_V after Ohlendorf, of the gears C40, H501 and H701.
+#[test]
+fn factors_of_gear_loss_are_those_that_gearpie_prints() {
+    for (teeth, [ac, ae], [normal, transverse], printed) in [
+        ([16.0, 24.0], [9.68, 19.43], [13.285, 13.285], 0.1986),
+        ([20.0, 30.0], [7.48, 15.55], [10.332, 10.652], 0.1639),
+        ([28.0, 42.0], [5.49, 11.53], [7.380, 7.609], 0.1225),
+    ] {
+        let contact = [(ae - ac) / transverse, ac / transverse];
+        let found = gear_loss_factor(teeth, false, normal / transverse, contact);
+        assert!((found - printed).abs() < 1e-4, "{found} is not {printed}");
+    }
+}
+
+/// Gear C40: F_bt 6370.7 N over 40 mm, base radii 33.829 and pitch radii 36.600 and 54.900 mm, v_t
+/// 6.90 m/s, 49.85 mPa s, Ra 0.4 and 0.31 um, X_L 0.65.
+#[test]
+fn the_friction_of_a_mesh_is_that_which_gearpie_prints() {
+    let sine = (1.0 - (33.829_f64 / 36.6).powi(2)).sqrt();
+    let radius = sine / (1.0 / 36.6 + 1.0 / 54.9);
+    let at = [6370.7 / 40.0, 2.0 * 6.90 * sine, radius];
+    let found = mesh_friction(at, 49.85, 0.355, 0.65);
+    assert!((found - 0.0256).abs() < 5e-5, "{found}");
+}
+
+/// Gear S30: two of 30 teeth and 2 mm without shift: its H_V from the teeth alone is 0.1494.
+#[test]
+fn the_loss_of_a_pair_is_its_friction_times_the_factor_that_gearpie_prints() {
+    let angle = 20f64.to_radians();
+    let pair = GearPair {
+        teeth: [30.0, 30.0],
+        internal: false,
+        module: 2e-3,
+        width: 0.01,
+        pressure: angle,
+        helix: 0.0,
+        addenda: [1.0, 1.0],
+    };
+    let found = pair.power(omega(1000.0), 10.0, [60e-6, 860.0, 1.0], 5e-7);
+    let load = 10.0 / (0.03 * angle.cos()) / 10.0;
+    let at = [load, 2.0 * omega(1000.0) * 0.03 * angle.sin(), 15.0 * angle.sin()];
+    let friction = mesh_friction(at, 60.0 * 0.86, 0.5, 1.0);
+    let factor = found / (omega(1000.0) * 10.0 * friction);
+    assert!((factor - 0.1494).abs() < 5e-5, "{factor}");
+}
+
+/// Gear-Calculation (C. Fernandes, FEUP), run for a bearing of 30 x 90 mm with K_Z 5.1: phi_bl, and
+/// phi_ish phi_rs (nu n)^0.6; and the drag of one of 40 x 90 mm in N mm.
+#[test]
+fn the_factors_of_the_skf_model_are_those_of_another_program() {
+    let of = |rolling: f64, boundary: f64| SkfBearing {
+        bore: 0.03,
+        outer: 0.09,
+        radial: 1.0,
+        axial: 0.0,
+        static_rating: 1e4,
+        rolling: [rolling * 60f64.powf(-1.96), 1.7],
+        sliding: [60f64.powf(0.26), 4.25],
+        starvation: [5.1, 3e-8],
+        friction: [boundary, 0.0],
+        drag: 0.0,
+        seals: 0.0,
+    };
+    for (rpm, nu, mixed, rolled) in [
+        (1800.0, 60.18, 2.645_715_378_805_045_6e-8, 904.582_067_411_625_4),
+        (300.0, 220.0, 1.633_868_103_050_455e-4, 730.222_403_860_368_7),
+        (7000.0, 12.0, 4.924_690_273_104_475e-6, 740.810_119_445_571_1),
+    ] {
+        for (bearing, printed) in [(of(0.0, 1.0), mixed), (of(1.0, 0.0), rolled)] {
+            let moment = 1e3 * bearing.power(nu * 1e-6, omega(rpm)) / omega(rpm);
+            assert!((moment / printed - 1.0).abs() < 1e-9, "{moment} is not {printed}");
+        }
+    }
+    let bath = SkfBearing { bore: 0.04, starvation: [3.1, 3e-8], drag: 1.49e-4, ..of(0.0, 0.0) };
+    let moment = 1e3 * bath.power(1e-5, omega(1800.0)) / omega(1800.0);
+    assert!((moment / 4.514_743_731_127_5 - 1.0).abs() < 1e-12, "{moment}");
 }
 
 /// What may be 0, or turn round, during a run.
