@@ -185,6 +185,33 @@ fn the_factors_of_the_skf_model_are_those_of_another_program() {
     assert!((moment / 4.514_743_731_127_5 - 1.0).abs() < 1e-12, "{moment}");
 }
 
+/// Deep groove balls of series 160, in grease with mu_EHL 0.1, by the statements of a third program,
+/// which takes the same catalogue: moments in N m with and without an axial load.
+#[test]
+fn the_moment_of_a_deep_groove_ball_bearing_is_that_of_another_program() {
+    for ([bore, outer], nu, rating, rpm, [radial, axial], moment) in [
+        ([30.0, 62.0], 60.0, 11_200.0, 3000.0, [1000.0, 200.0], 0.089_132_346_750_208_19),
+        ([30.0, 62.0], 60.0, 11_200.0, 3000.0, [1000.0, 0.0], 0.051_064_550_073_682_32),
+        ([60.0, 130.0], 20.0, 52_000.0, 500.0, [4000.0, 1500.0], 0.424_710_802_817_120_9),
+    ] {
+        let bearing = SkfBearing {
+            bore: bore * 1e-3,
+            outer: outer * 1e-3,
+            radial,
+            axial,
+            static_rating: rating,
+            rolling: [4.3e-7, 1.7],
+            sliding: [4.63e-3, 4.25],
+            starvation: [3.1, 6e-8],
+            friction: [0.12, 0.1],
+            drag: 0.0,
+            seals: 0.0,
+        };
+        let found = bearing.power(nu * 1e-6, omega(rpm)) / omega(rpm);
+        assert!((found / moment - 1.0).abs() < 1e-9, "{found} is not {moment}");
+    }
+}
+
 /// What may be 0, or turn round, during a run.
 const CHANGING: [&str; 7] = ["speed", "torque", "load", "F_r", "F_a", "nu", "dip"];
 
