@@ -96,6 +96,30 @@ fn what_cannot_be_told_is_told_why() {
     }
 }
 
+/// Regression: a value that follows from the teeth was taken, and the stage came apart.
+#[test]
+fn what_follows_from_the_teeth_cannot_be_set() {
+    let folder = Folder::with("train.toml", TRAIN);
+    for name in ["first.carrier.speed", "first.ring.speed", "second.pinion.speed"] {
+        let set = format!("{name}=100rpm");
+        folder.run(&["gear", "train.toml", "--set", &set]).exits(2).says("netlist::gear_follows");
+    }
+    let set = ["gear", "train.toml", "--set", "first.sun.speed=100rpm"];
+    folder.run(&set).exits(0).prints("100 rpm");
+}
+
+/// Regression: a torque that follows from the speed was held where the speed was changed.
+#[test]
+fn a_torque_that_follows_from_the_speed_follows_it() {
+    let sizes = "torque = \"300 [N m] * 3000 [rpm] / first.sun.speed\"\nmodule = \"3 mm\"\nwidth = \
+        \"12 mm\"\nRa = \"0.5 um\"\nlubricant = \"iso_vg_220\"\n";
+    let text = TRAIN.replacen("planets = 3\n", &format!("planets = 3\n{sizes}"), 1);
+    let first = &text[..text.find("[gearbox.second]").unwrap()];
+    let folder = Folder::with("power.toml", first);
+    let json = folder.run(&["gear", "power.toml", "--speed", "1000rpm", "--format", "json"]);
+    near(&json.exits(0).json()["points"][0]["torque"], 900.0);
+}
+
 #[test]
 fn a_picture_and_a_report_show_every_part() {
     let folder = Folder::with("train.toml", TRAIN);

@@ -9,7 +9,7 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::Kind;
 use crate::declare::{
-    Carries, Confidence, Extent, FieldDeclaration, Form, Hints, KindDeclaration, Law,
+    Carries, Confidence, Extent, FieldDeclaration, Form, Group, Hints, KindDeclaration, Law,
     LawDeclaration, ResultDeclaration,
 };
 use crate::exchanger::{
@@ -168,6 +168,15 @@ const COOLER: LawDeclaration = LawDeclaration {
     confidence: Confidence::High,
 };
 
+/// Behind a larger cooler the outlet is as warm as the other stream but for rounding, and tells the
+/// heat no more.
+const TOLD_BY_OUTLET: Group = Group {
+    name: "NTU",
+    meaning: "number of transfer units of which an outlet still tells the heat",
+    from: 0.0,
+    to: 20.0,
+};
+
 /// The two laws of a form: between the inlets, and from the outlet of `from`.
 macro_rules! cooler {
     ($law:ident, $outlet:ident, $name:literal, $what:literal, $equation:literal,
@@ -209,6 +218,7 @@ macro_rules! cooler {
                 fields: &[SIZE, $(forward($rate)),*],
                 validity: "`from` has the temperature at which its stream leaves, `to` that at \
                     which the other enters.",
+                groups: &[TOLD_BY_OUTLET],
                 ..<$law>::DECLARATION
             };
             const OUTLET: Option<&'static str> = Some(RATES.key);
@@ -217,6 +227,10 @@ macro_rules! cooler {
 
             fn value<S: Scalar>(values: &[S], _: [S; 2]) -> S {
                 Duty::of(values, [$form, $turned]).behind()
+            }
+
+            fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
+                vec![(values[1] > 0.0).then(|| Duty::of(values, [$form, $turned]).units)]
             }
 
             fn results(values: &[f64], ends: [f64; 2]) -> Vec<f64> {

@@ -84,6 +84,12 @@ impl Netlist {
         if written.is_empty() {
             return Err(bad("names no parameter", "a name is missing before `=`"));
         }
+        if let Some(given) = self.gearboxes.iter().find_map(|g| g.given_for(written)) {
+            let message = format!("`{written}` follows from other values of its gearbox");
+            let place = Span::new(line.file, line.range.start..line.range.start + name.len());
+            let help = format!("set {given}");
+            return Err(Diagnostic::wrong("netlist::gear_follows", message, &place, help));
+        }
         match new.set_text(written, value) {
             Ok(id) => Ok(Assignment { id, name: written.to_owned(), span: line }),
             Err(error) => Err(self.refused(&error, (name, value), line)),

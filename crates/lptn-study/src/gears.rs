@@ -133,11 +133,9 @@ impl<'a> GearTask<'a> {
     /// # Errors
     /// [`GearError`], in particular where the losses have no steady state.
     pub fn at(&self, point: GearPoint) -> Result<GearState, GearError> {
-        let (speed, torque) = self.input();
-        let speed = point.speed.unwrap_or(speed);
-        let driven = |factor: f64| {
-            self.driven(speed * factor, point.torque.or(torque).filter(|_| self.stages[0].loaded))
-        };
+        let speed = point.speed.unwrap_or(self.input().0);
+        // a torque of its own may follow from the speed
+        let driven = |factor: f64| self.driven(speed * factor, point.torque);
         if point.torque.is_some() && !self.stages[0].loaded {
             return Err(GearError::NoTorque(self.stages[0].name.clone()));
         }
@@ -278,6 +276,12 @@ impl GearState {
     /// What is lost in all in W.
     pub fn loss(&self) -> f64 {
         self.losses.iter().map(|loss| loss.heat).sum()
+    }
+
+    /// The torque on the input in N m, if there is one.
+    pub fn torque(&self, task: &GearTask<'_>) -> Option<f64> {
+        let input = task.stages[0].input;
+        self.members.iter().find(|m| m.stage == 0 && m.member == input)?.torque
     }
 
     /// The power at the input in W without losses: above 0 it drives, below 0 it is driven.

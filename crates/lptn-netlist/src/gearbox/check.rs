@@ -31,6 +31,9 @@ impl Gearbox {
             (Arrangement::Planetary, [sun, planet, ring]) => self.planetary([*sun, *planet, *ring]),
             _ => Vec::new(),
         };
+        if problems.is_empty() && self.loaded && self.arrangement == Arrangement::Planetary {
+            problems.extend(self.undercut(network, teeth[2]));
+        }
         if problems.is_empty() {
             problems.extend(self.stated(&teeth));
         }
@@ -45,6 +48,25 @@ impl Gearbox {
     fn wrong(&self, code: &'static str, what: &str, help: &str) -> Diagnostic {
         let message = format!("in gearbox `{}` {what}", self.name);
         Diagnostic::wrong(code, message, &self.teeth, help)
+    }
+
+    /// That the tips of a ring lie inside its base circle, where no involute is.
+    fn undercut(&self, network: &Network, ring: f64) -> Option<Diagnostic> {
+        let angle = |key: &str, default: f64| {
+            let id = network.parameter(&format!("{}.{key}", self.name));
+            id.map_or(default, |id| network.parameter_value(id))
+        };
+        let helix = angle("helix_angle", 0.0).cos();
+        let transverse = (angle("pressure_angle", PI / 9.0).tan() / helix).atan();
+        let radius = 0.5 * ring / helix;
+        (radius - 1.0 < radius * transverse.cos()).then(|| {
+            let what = format!(
+                "the tips of a ring of {} teeth lie inside its base circle",
+                format_short(ring)
+            );
+            let help = "take more teeth, or a larger `pressure_angle`";
+            self.wrong("netlist::gear_mesh", &what, help)
+        })
     }
 
     fn planetary(&self, [sun, planet, ring]: [f64; 3]) -> Vec<Diagnostic> {
@@ -105,7 +127,9 @@ impl Gearbox {
     fn stated(&self, teeth: &[f64]) -> Option<Diagnostic> {
         let (stated, span) = self.ratio.as_ref()?;
         let ratio = self.ratio_of(teeth);
-        if (stated.abs() / ratio.abs() - 1.0).abs() <= RATIO_TOLERANCE {
+        // without a sign only its size is stated
+        let turned = *stated < 0.0 && ratio > 0.0;
+        if (stated.abs() / ratio.abs() - 1.0).abs() <= RATIO_TOLERANCE && !turned {
             return None;
         }
         let message = format!(

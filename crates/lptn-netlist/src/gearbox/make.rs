@@ -11,7 +11,7 @@ use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::template::Structure;
 
 /// Sizes of the meshes that become parameters, with the type of each.
-const SIZES: [(&str, Dimension); 6] = [
+pub(super) const SIZES: [(&str, Dimension); 6] = [
     ("module", Dimension::LENGTH),
     ("width", Dimension::LENGTH),
     ("Ra", Dimension::LENGTH),

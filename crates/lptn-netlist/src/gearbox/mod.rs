@@ -14,6 +14,7 @@ mod parts;
 mod stage;
 
 use lptn_data::{Diagnostic, nearest};
+use lptn_network::is_name;
 
 pub(crate) use check::check;
 pub(crate) use declaration::GEARBOX;
@@ -34,8 +35,11 @@ pub(crate) fn expand(
 ) -> Gears {
     let entries = take(raw);
     let mut gears = Gears::default();
-    let stages: Vec<Stage<'_>> =
-        entries.iter().filter_map(|entry| Stage::read(entry, structure, problems)).collect();
+    let mut read = |entry| {
+        is_usable(entry, structure, problems).then(|| Stage::read(entry, structure, problems))?
+    };
+    let stages: Vec<Stage<'_>> = entries.iter().filter_map(&mut read).collect();
+    problems.extend(driven_twice(&stages));
     let known: Vec<&str> = entries.iter().map(|entry| entry.key.as_str()).collect();
     let mut made: Vec<Made> = Vec::new();
     let mut open: Vec<&Stage<'_>> = stages.iter().collect();
@@ -69,6 +73,34 @@ pub(crate) fn expand(
         gears.list.push(one.gearbox);
     }
     gears
+}
+
+/// Whether a gearbox has a name that expressions can call.
+fn is_usable(entry: &RawEntry, structure: &Structure, problems: &mut Vec<Diagnostic>) -> bool {
+    let around = structure.instance_at(&entry.key_span);
+    let own = around.and_then(|path| entry.key.strip_prefix(path)?.strip_prefix('.'));
+    let usable = is_name(own.unwrap_or(&entry.key));
+    if !usable {
+        let message = format!("gearbox `{}` has a name that cannot be used", entry.key);
+        let help = "use letters, digits and `_`, and no digit first";
+        problems.push(Diagnostic::wrong("network::bad_name", message, &entry.key_span, help));
+    }
+    usable
+}
+
+/// That the torque of an output goes to two stages.
+fn driven_twice(stages: &[Stage<'_>]) -> Option<Diagnostic> {
+    let drivers = || stages.iter().filter_map(|stage| stage.driver.as_ref());
+    let (at, (name, second)) = drivers()
+        .enumerate()
+        .find(|(at, (name, _))| drivers().take(*at).any(|(earlier, _)| earlier == name))?;
+    let (_, first) = drivers().take(at).find(|(earlier, _)| earlier == name)?;
+    let message =
+        format!("two stages are driven by `{name}`, and each would take its whole torque");
+    let problem = Diagnostic::error("netlist::gear_driver", message)
+        .at(second.span.clone(), "driven by it too")
+        .also(first.span.clone(), "driven by it");
+    Some(problem.help("give the second one the `speed` and `torque` that it takes of it"))
 }
 
 /// That a stage is driven by nothing; nothing is said where the driver itself is wrong.

@@ -43,6 +43,20 @@ impl Gearbox {
         format!("{}.{}.{what}", self.name, member.word())
     }
 
+    /// What to set in the place of a value that follows from others; nothing for what is given.
+    pub(crate) fn given_for(&self, name: &str) -> Option<String> {
+        let rest = name.strip_prefix(self.name.as_str())?.strip_prefix('.')?;
+        let (member, what) = rest.rsplit_once('.').unwrap_or(("", rest));
+        let what = if what == "force" { "torque" } else { what };
+        let known = self.arrangement.members().iter().any(|known| known.word() == member);
+        let follows = (known && ["speed", "torque"].contains(&what)) || rest == "force";
+        let given = self.driver.is_none() && member == self.input.word();
+        (follows && !given).then(|| match &self.driver {
+            Some(driver) => format!("the speed or torque of the input of `{driver}`"),
+            None => format!("`{}`", self.of(self.input, what)),
+        })
+    }
+
     /// The name of the parameter of its teeth.
     pub fn teeth_of(&self, member: Member) -> String {
         format!("{}.z_{}", self.name, member.word())

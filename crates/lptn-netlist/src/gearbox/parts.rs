@@ -5,7 +5,7 @@ use lptn_data::{Diagnostic, list};
 use lptn_laws::{Kind, Substance};
 
 use super::declaration::{AGAINST, ON, PARTS};
-use super::make::{Writer, entry, text};
+use super::make::{SIZES, Writer, entry, text};
 use super::member::Member;
 use crate::fields::Owner;
 use crate::raw::{RawEntry, RawKind, RawTable};
@@ -32,6 +32,12 @@ impl Writer<'_, '_> {
         problems: &mut Vec<Diagnostic>,
     ) {
         let owner = Owner::element(section, &format!("{}.{}", self.stage.entry.key, written.key));
+        if self.is_own(&written.key) {
+            let message = format!("{} has a name that gearboxes use themselves", owner.words());
+            let help = format!("choose another one, for example `{}_1`", written.key);
+            let at = &written.key_span;
+            return problems.push(Diagnostic::wrong("network::reserved_name", message, at, help));
+        }
         let RawKind::Table(table) = &written.value.kind else {
             let message = format!("{} must be a table of fields", owner.words());
             let help = format!("write it like this: `{}`", self.stage.fields.sample(section));
@@ -55,6 +61,14 @@ impl Writer<'_, '_> {
             entries.extend(keys.filter_map(|key| self.stage.fields.entry(key)).cloned());
         }
         self.part((section, &written.key), member == Member::Planet, &entries);
+    }
+
+    /// Whether the block makes something of this name itself.
+    fn is_own(&self, name: &str) -> bool {
+        let own = ["force", "mesh", "sun_planet", "planet_ring"];
+        let size = SIZES.iter().any(|(key, _)| *key == name);
+        let member = self.members().iter().any(|member| member.word() == name);
+        own.contains(&name) || size || member || name.starts_with("z_")
     }
 
     /// The member that a part is on, and its speed against what it turns in: the housing, or the

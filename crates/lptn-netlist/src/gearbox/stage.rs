@@ -12,6 +12,9 @@ use crate::template::Structure;
 /// More planets are a mistake.
 const MOST_PLANETS: usize = 100;
 
+/// No wheel has more teeth.
+const MOST_TEETH: f64 = 10_000.0;
+
 /// A stage as it is written.
 #[derive(Debug)]
 pub(super) struct Stage<'r> {
@@ -131,6 +134,7 @@ impl<'r> Reader<'_, 'r> {
         }
         let found: Vec<_> =
             wheels.iter().filter_map(|m| Some((*m, table.get(m.word())?))).collect();
+        found.iter().for_each(|(member, entry)| self.counted(*member, &entry.value));
         let missing = wheels.iter().find(|member| table.get(member.word()).is_none());
         if let Some(member) = missing.filter(|_| right) {
             let message =
@@ -140,6 +144,18 @@ impl<'r> Reader<'_, 'r> {
             self.wrong("netlist::missing_field", message, &raw.span, help);
         }
         (found.len() == wheels.len()).then_some((arrangement, found))
+    }
+
+    /// That a number of teeth is whole and positive, where it is written as a number.
+    fn counted(&mut self, member: Member, raw: &RawValue) {
+        let (RawKind::Integer(text) | RawKind::Float(text)) = &raw.kind else { return };
+        let whole = |z: f64| (1.0..=MOST_TEETH).contains(&z) && z.fract() == 0.0;
+        if !text.parse().is_ok_and(whole) {
+            let name = &self.fields.owner.words();
+            let message = format!("the {} of {name} has {text} teeth", member.word());
+            let help = format!("write a whole number from 1 to {MOST_TEETH}");
+            self.wrong("netlist::gear_teeth", message, &raw.span, &help);
+        }
     }
 
     /// The member that is held, by its word; `None` if it is wrong.

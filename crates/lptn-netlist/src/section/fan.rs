@@ -209,7 +209,18 @@ impl<'a> Elaboration<'a> {
                     let why = "means nothing beside `power`";
                     self.refuse_keys(fields, &["efficiency"], why);
                 }
-                self.above_zero(fields, ("power", raw), POWER).map(Some)
+                let power = self.above_zero(fields, ("power", raw), POWER)?;
+                if power < flow * pressure {
+                    let message = format!(
+                        "{} is less than its flow times its pressure, {} W",
+                        fields.owner.field("power"),
+                        format_short(flow * pressure)
+                    );
+                    let help = "no fan gives more than it takes: check the units of its points";
+                    self.refuse("network::not_a_fraction", message, &raw.span, help);
+                    return None;
+                }
+                Some(Some(power))
             }
             (None, Some(raw)) => {
                 let share = self.above_zero(fields, ("efficiency", raw), Type::SCALAR)?;

@@ -60,8 +60,6 @@ fn first<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a Gearbox, Failur
 
 /// One load and state of the oil over speeds.
 struct Block {
-    /// The torque on the input in N m, if there is one.
-    torque: Option<f64>,
     /// The temperature of all nodes in K, where it is held.
     temperature: Option<f64>,
     /// The speeds of the input in rad/s, and what the gears do there.
@@ -77,7 +75,7 @@ fn blocks(args: &GearArgs, of: (&Input, &GearTask<'_>)) -> Result<Vec<Block>, Fa
     let mut speeds = list("--speed", &args.speed, Type::of(Dimension::ANGULAR_VELOCITY))?;
     let torques = list("--torque", &args.torque, Type::of(Dimension::ENERGY))?;
     let held = list("--temperature", &args.temperature, Type::ABSOLUTE_TEMPERATURE)?;
-    let (own, torque) = task.input();
+    let (own, _) = task.input();
     if speeds.is_empty() {
         if own == 0.0 {
             return Err(at_rest(input, task));
@@ -103,7 +101,7 @@ fn blocks(args: &GearArgs, of: (&Input, &GearTask<'_>)) -> Result<Vec<Block>, Fa
             Ok((*speed, state))
         };
         let states: Result<Vec<_>, Failure> = speeds.iter().map(state).collect();
-        Ok(Block { torque: load.or(torque), temperature, states: states? })
+        Ok(Block { temperature, states: states? })
     };
     loads.map(block).collect()
 }

@@ -52,8 +52,13 @@ impl View<'_> {
 
     /// At which load and temperatures a block is.
     pub(super) fn said(&self, block: &Block) -> String {
-        let load = match block.torque {
-            Some(torque) => format!("{} N m on the input", significant(torque, 6)),
+        let mut torques = block.states.iter().map(|(_, state)| state.torque(self.task));
+        let first = torques.next().flatten();
+        let load = match first {
+            Some(torque) if torques.all(|other| other == first) => {
+                format!("{} N m on the input", significant(torque, 6))
+            }
+            Some(_) => "the torque of the input follows its speed".to_owned(),
             None => "without load".to_owned(),
         };
         match block.temperature {
@@ -70,6 +75,12 @@ impl View<'_> {
         if self.states().any(|(_, _, s)| s.losses.iter().any(|part| !part.outside.is_empty())) {
             notes.push("* outside the range in which its formula is known".to_owned());
         }
+        if self.task.network.has_time_dependent_inputs() {
+            notes.push(format!(
+                "inputs change with time: but for the speed they are taken as they are at {} s",
+                self.task.time
+            ));
+        }
         if self.task.stages[0].loaded {
             notes
                 .push("torques and the losses of meshes are those without losses elsewhere".into());
@@ -79,9 +90,9 @@ impl View<'_> {
         notes
     }
 
-    fn cells(&self, block: &Block, speed: f64, state: &GearState) -> Vec<Cell> {
+    fn cells(&self, speed: f64, state: &GearState) -> Vec<Cell> {
         let mut cells: Vec<Cell> = vec![("speed [rpm]".into(), Some(rpm(speed)))];
-        cells.push(("torque [N m]".into(), block.torque));
+        cells.push(("torque [N m]".into(), state.torque(self.task)));
         cells.push((
             format!("warmest node [{}]", self.unit.text),
             Some(self.unit.from_si(warmest(state))),
@@ -129,7 +140,7 @@ impl View<'_> {
             .collect();
         json!({
             "speed": SiValue::new(speed, "rad/s"),
-            "torque": block.torque.map(|torque| SiValue::new(torque, "N m")),
+            "torque": state.torque(self.task).map(|torque| SiValue::new(torque, "N m")),
             "settled": block.temperature.is_none(),
             "members": state.members.iter().map(|m| self.member(m)).collect::<Vec<_>>(),
             "losses": state.losses.iter().map(part).collect::<Vec<_>>(),
@@ -168,8 +179,8 @@ impl Page for View<'_> {
         let mut shortest = Shortest::new();
         let mut text = |value: f64| shortest.text(value).to_owned();
         let mut rows: Vec<Vec<String>> = Vec::new();
-        for (block, speed, state) in self.states() {
-            let cells = self.cells(block, speed, state);
+        for (_, speed, state) in self.states() {
+            let cells = self.cells(speed, state);
             if rows.is_empty() {
                 rows.push(cells.iter().map(|(name, _)| name.clone()).collect());
             }
