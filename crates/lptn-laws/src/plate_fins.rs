@@ -182,6 +182,12 @@ impl Law for PlateFinsBlown {
         groups: &[
             Group { name: "Re*", meaning: "Reynolds number Re_S S / L", from: 0.1, to: 100.0 },
             prandtl(0.6, 0.8),
+            Group {
+                name: "Q/Q_air",
+                meaning: "heat over the most that the air between the fins takes",
+                from: 0.0,
+                to: 1.0,
+            },
         ],
         source: "Teertstra et al., 15th IEEE SEMI-THERM (1999) 34; Culham and Muzychka, IEEE \
             Trans. Comp. Pack. Techn. 24 (2001) 159",
@@ -194,8 +200,12 @@ impl Law for PlateFinsBlown {
     }
 
     fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
-        let (fluid, _, re) = Self::state(values);
-        vec![Some(re), Some(fluid.prandtl())]
+        let (fluid, sink, re) = Self::state(values);
+        // outer faces and the base count in full, so that few fins seem to heat more air than passes
+        let section = sink.gap * sink.length * (sink.fins - 1.0);
+        let rate = values[1] * values[2] * values[4].abs() * section;
+        let share = Self::value(values, [0.0; 2]) / rate;
+        vec![Some(re), Some(fluid.prandtl()), (re != 0.0).then_some(share)]
     }
 }
 

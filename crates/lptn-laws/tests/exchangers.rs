@@ -183,3 +183,25 @@ fn plates_in_a_flow_in_their_limits() {
     let rest = nusselt_through_plates(Dual::<1>::variable(0.0, 0), Dual::constant(0.7));
     assert_eq!((rest.value, rest.derivatives), (0.0, [0.35]));
 }
+
+/// Regression: two fins in a slow flow seemed to give twice the heat that the air between them takes.
+#[test]
+fn a_sink_that_heats_more_air_than_passes_is_out_of_range() {
+    let at = |fins: f64, speed: f64| {
+        let air = [0.0277, 1.1, 1007.0, 20e-6, speed];
+        let sink = [2.5e-3, 0.1, 0.03, 0.8e-3, 167.0, fins];
+        let values = [&air[..], &sink].concat();
+        let law = Formula::PlateFinsBlown;
+        let groups = law.groups(&values, [353.15, 293.15]);
+        let rate = 1.1 * 1007.0 * speed * 2.5e-3 * 0.03 * (fins - 1.0);
+        (groups[2], law.value(&values, [353.15, 293.15]) / rate)
+    };
+    let share = |fins: f64, speed: f64| {
+        let (found, expected) = at(fins, speed);
+        near(found.unwrap(), expected, 1e-12);
+        expected
+    };
+    assert!(share(2.0, 0.2) > 1.9 && share(12.0, 0.2) > 1.0);
+    assert!(share(20.0, 3.0) < 1.0);
+    assert_eq!(at(12.0, 0.0).0, None, "at rest nothing passes and nothing is heated");
+}
