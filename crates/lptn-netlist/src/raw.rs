@@ -19,6 +19,17 @@ impl RawNetlist {
         }
     }
 
+    /// Takes the elements of a section out; a section that is not a table is left, to be reported.
+    pub(crate) fn take(&mut self, name: &str) -> Vec<RawEntry> {
+        let entries = &mut self.top.entries;
+        let is_it =
+            |entry: &RawEntry| entry.key == name && matches!(entry.value.kind, RawKind::Table(_));
+        match entries.iter().position(is_it).map(|at| entries.remove(at).value.kind) {
+            Some(RawKind::Table(table)) => table.entries,
+            _ => Vec::new(),
+        }
+    }
+
     /// The elements of a section, in file order.
     pub(crate) fn elements(&self, name: &str) -> &[RawEntry] {
         self.section(name).map_or(&[], |table| &table.entries)

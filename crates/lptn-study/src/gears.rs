@@ -117,15 +117,10 @@ impl<'a> GearTask<'a> {
         stages
     }
 
-    /// Speed and torque of the input as the network has them.
-    pub fn input(&self) -> (f64, Option<f64>) {
-        let (first, mut scope) = (self.stages[0], self.network.evaluation());
-        scope.set_time(self.time, self.time);
-        let torque = first.loaded.then(|| first.of(first.input, "torque"));
-        (
-            value(self.network, &scope, &first.of(first.input, "speed")),
-            torque.map(|name| value(self.network, &scope, &name)),
-        )
+    /// Speed of the input in rad/s as the network has it.
+    pub fn speed(&self) -> f64 {
+        let first = self.stages[0];
+        value(self.network, &self.scope(self.network), &first.of(first.input, "speed"))
     }
 
     /// What the train does at a point.
@@ -133,7 +128,7 @@ impl<'a> GearTask<'a> {
     /// # Errors
     /// [`GearError`], in particular where the losses have no steady state.
     pub fn at(&self, point: GearPoint) -> Result<GearState, GearError> {
-        let speed = point.speed.unwrap_or(self.input().0);
+        let speed = point.speed.unwrap_or_else(|| self.speed());
         // a torque of its own may follow from the speed
         let driven = |factor: f64| self.driven(speed * factor, point.torque);
         if point.torque.is_some() && !self.stages[0].loaded {

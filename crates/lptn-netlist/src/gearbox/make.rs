@@ -360,6 +360,6 @@ impl Writer<'_, '_> {
             let entry = entry(element, RawValue { span: at.clone(), kind });
             self.made.entries.push((section, entry));
         }
-        self.made.gearbox.parts.push(GearboxPart { name, section, elements });
+        self.made.gearbox.parts.push(GearboxPart { name, elements });
     }
 }

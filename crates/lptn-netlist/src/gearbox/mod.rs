@@ -33,7 +33,7 @@ pub(crate) fn expand(
     structure: &Structure,
     problems: &mut Vec<Diagnostic>,
 ) -> Gears {
-    let entries = take(raw);
+    let entries = raw.take(GEARBOX.name);
     let mut gears = Gears::default();
     let mut read = |entry| {
         is_usable(entry, structure, problems).then(|| Stage::read(entry, structure, problems))?
@@ -113,18 +113,6 @@ fn no_driver((name, at): &(String, &RawValue), known: &[&str]) -> Option<Diagnos
     let message = format!("there is no gearbox `{name}`");
     let help = nearest(name, known.iter().copied(), "the gearboxes are");
     Some(Diagnostic::wrong("netlist::gear_driver", message, &at.span, help))
-}
-
-/// Takes the gearboxes out of a netlist; a section that is not a table is left, to be reported.
-fn take(raw: &mut RawNetlist) -> Vec<RawEntry> {
-    let entries = &mut raw.top.entries;
-    let is_it = |entry: &RawEntry| {
-        entry.key == GEARBOX.name && matches!(entry.value.kind, RawKind::Table(_))
-    };
-    match entries.iter().position(is_it).map(|at| entries.remove(at).value.kind) {
-        Some(RawKind::Table(table)) => table.entries,
-        _ => Vec::new(),
-    }
 }
 
 /// Adds an entry to a section, behind those that are there.

@@ -68,8 +68,6 @@ impl Gearbox {
 pub struct GearboxPart {
     /// Its name without the index of a planet.
     pub name: String,
-    /// Its section.
-    pub section: &'static str,
     /// Its elements, which are sources.
     pub elements: Vec<String>,
 }

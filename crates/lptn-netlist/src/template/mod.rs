@@ -21,7 +21,7 @@ use lptn_data::{Diagnostic, Files, Severity};
 
 use crate::format::{NetlistFormat, Role, SectionDeclaration, key};
 use crate::include::any_error;
-use crate::raw::{RawEntry, RawKind, RawNetlist};
+use crate::raw::RawNetlist;
 use definition::Template;
 use instance::Maker;
 
@@ -102,7 +102,7 @@ pub(crate) struct Expanded {
 /// Puts elements in the place of every use.
 pub(crate) fn expand(files: &mut Files, mut raw: RawNetlist, format: &NetlistFormat) -> Expanded {
     let (main, mut problems) = (raw.top.span.file, Vec::new());
-    let (written, uses) = (take(&mut raw, TEMPLATE.name), take(&mut raw, USE.name));
+    let (written, uses) = (raw.take(TEMPLATE.name), raw.take(USE.name));
     let mut templates: Vec<Template<'_>> =
         written.iter().map(|entry| Template::read(entry, format, &mut problems)).collect();
     let sizes = nesting::check(&mut templates, &mut problems);
@@ -118,21 +118,6 @@ pub(crate) fn expand(files: &mut Files, mut raw: RawNetlist, format: &NetlistFor
         problems.retain(|problem| problem.severity == Severity::Error);
     }
     Expanded { raw, structure: Arc::new(structure), problems }
-}
-
-/// Takes the entries of a section out of a netlist; a section that is not a table is left, to be
-/// reported.
-fn take(raw: &mut RawNetlist, name: &str) -> Vec<RawEntry> {
-    let entries = &mut raw.top.entries;
-    let section = entries.iter().position(|entry| entry.key == name && is_table(entry));
-    match section.map(|position| entries.remove(position).value.kind) {
-        Some(RawKind::Table(table)) => table.entries,
-        _ => Vec::new(),
-    }
-}
-
-fn is_table(entry: &RawEntry) -> bool {
-    matches!(entry.value.kind, RawKind::Table(_))
 }
 
 /// A file of templates that is included is there to be chosen from; in its own file a template is

@@ -75,7 +75,7 @@ fn blocks(args: &GearArgs, of: (&Input, &GearTask<'_>)) -> Result<Vec<Block>, Fa
     let mut speeds = list("--speed", &args.speed, Type::of(Dimension::ANGULAR_VELOCITY))?;
     let torques = list("--torque", &args.torque, Type::of(Dimension::ENERGY))?;
     let held = list("--temperature", &args.temperature, Type::ABSOLUTE_TEMPERATURE)?;
-    let (own, _) = task.input();
+    let own = task.speed();
     if speeds.is_empty() {
         if own == 0.0 {
             return Err(at_rest(input, task));
