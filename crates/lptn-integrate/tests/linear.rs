@@ -319,3 +319,57 @@ fn values_decide_between_cholesky_and_lu() {
         assert!(error < 1e-12, "{kind:?}: {error:e}");
     }
 }
+
+#[test]
+fn siblings_share_the_analysis_and_nothing_else() {
+    let (pattern, values) = cube(6, 0.1);
+    let twice: Vec<f64> = values.iter().map(|v| 2.0 * v).collect();
+    let pcg = linear::new(&pattern, true, LinearSolver::Pcg).unwrap();
+    let others = [linear::for_exact(&pattern).unwrap(), pcg];
+    for mut first in solvers(&pattern).into_iter().chain(others) {
+        first.factorize(&values).unwrap();
+        let mut second = first.sibling().unwrap();
+        assert!(second.solve_in_place(&mut vec![1.0; 216]).is_err(), "nothing is factorised");
+        second.factorize(&twice).unwrap();
+        let (mut a, mut b) = (vec![1.0; 216], vec![1.0; 216]);
+        first.solve_in_place(&mut a).unwrap();
+        second.solve_in_place(&mut b).unwrap();
+        let error = a.iter().zip(&b).map(|(a, b)| (a - 2.0 * b).abs()).fold(0.0, f64::max);
+        assert!(error < 1e-12, "{:?}: {error:e}", first.kind());
+    }
+}
+
+#[test]
+fn a_good_guess_saves_iterations() {
+    let (pattern, values) = cube(12, 1.0);
+    let n = pattern.size();
+    let mut next = numbers(5);
+    let exact: Vec<f64> = (0..n).map(|_| 300.0 + next()).collect();
+    let mut b = vec![0.0; n];
+    pattern.multiply(&values, &exact, &mut b);
+    let mut solver = linear::new(&pattern, true, LinearSolver::Pcg).unwrap();
+    solver.factorize(&values).unwrap();
+    let mut count = 0;
+    let mut solved = |x: &mut [f64], allowed| {
+        solver.solve_from(&b, x, allowed).unwrap();
+        let mut product = vec![0.0; n];
+        pattern.multiply(&values, x, &mut product);
+        let left = |i: usize| (b[i] - product[i]).abs() / values[pattern.diagonal_slot(i)];
+        assert!((0..n).all(|i| left(i) <= 1.001 * allowed));
+        let before = std::mem::replace(&mut count, solver.iterations());
+        count - before
+    };
+    let (mut cold, mut warm) = (vec![0.0; n], vec![300.0; n]);
+    let (coarse, near) = (solved(&mut cold, 1e-3), solved(&mut warm, 1e-3));
+    assert!(near < coarse && coarse <= 20, "{near} {coarse}");
+    assert_eq!(solved(&mut warm, 1e-3), 0, "it was good enough");
+    assert!(solved(&mut warm, 1e-9) > 0);
+    let error = warm.iter().zip(&exact).map(|(x, e)| (x - e).abs()).fold(0.0, f64::max);
+    assert!(error < 1e-6, "{error:e}");
+    // exact solvers take the guess as nothing
+    let mut cholesky = SparseCholesky::new(&pattern).unwrap();
+    cholesky.factorize(&values).unwrap();
+    cholesky.solve_from(&b, &mut cold, 1.0).unwrap();
+    let error = cold.iter().zip(&exact).map(|(x, e)| (x - e).abs()).fold(0.0, f64::max);
+    assert!(error < 1e-8, "{error:e}");
+}

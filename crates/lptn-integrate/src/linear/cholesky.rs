@@ -1,5 +1,7 @@
 //! Sparse `L L'` by faer, analysed once.
 
+use std::sync::{Arc, Mutex};
+
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::sparse::linalg::cholesky::{
@@ -9,7 +11,9 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, Par, Side, Spec};
 
-use super::{Factorization, LinearSolverKind, allocated, checked, column, expect_length};
+use super::{
+    Factorization, LinearSolverKind, allocated, checked, column, expect_length, put, taken,
+};
 use crate::{FactorError, Pattern};
 
 /// Sparse Cholesky with approximate minimum degree ordering.
@@ -17,15 +21,27 @@ use crate::{FactorError, Pattern};
 /// One thread: on two cores faer's parallel factorisation costs more processor time and gains next
 /// to nothing.
 pub struct SparseCholesky {
+    analysis: Arc<Analysis>,
+    factors: Vec<f64>,
+    /// To solve in: about a number per row.
+    memory: MemBuffer,
+    ready: bool,
+}
+
+/// What the matrices of one pattern have in common.
+pub(super) struct Analysis {
     lower: SymbolicSparseColMat<usize>,
     /// Slot in the full pattern of every entry of `lower`.
     source: Vec<usize>,
-    lower_values: Vec<f64>,
     symbolic: SymbolicCholesky<usize>,
-    factors: Vec<f64>,
-    memory: MemBuffer,
     full_length: usize,
-    ready: bool,
+    /// To factorise in, when nobody does.
+    spare: Mutex<Option<Workspace>>,
+}
+
+struct Workspace {
+    lower_values: Vec<f64>,
+    memory: MemBuffer,
 }
 
 impl SparseCholesky {
@@ -34,6 +50,28 @@ impl SparseCholesky {
     /// # Errors
     /// [`FactorError::OutOfMemory`].
     pub fn new(pattern: &Pattern) -> Result<Self, FactorError> {
+        Self::of(Arc::new(Analysis::new(pattern)?))
+    }
+
+    /// Factors of their own for other values in the same pattern. The analysis is shared, and so is
+    /// the memory to factorise in.
+    ///
+    /// # Errors
+    /// [`FactorError::OutOfMemory`].
+    pub fn sibling(&self) -> Result<Self, FactorError> {
+        Self::of(Arc::clone(&self.analysis))
+    }
+
+    pub(super) fn of(analysis: Arc<Analysis>) -> Result<Self, FactorError> {
+        let symbolic = &analysis.symbolic;
+        let memory = allocated(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq))?;
+        let factors = vec![0.0; symbolic.len_val()];
+        Ok(Self { analysis, factors, memory, ready: false })
+    }
+}
+
+impl Analysis {
+    pub(super) fn new(pattern: &Pattern) -> Result<Self, FactorError> {
         let (lower, source) = lower_triangle(pattern);
         let symbolic = factorize_symbolic_cholesky(
             lower.as_ref(),
@@ -42,22 +80,42 @@ impl SparseCholesky {
             CholeskySymbolicParams::default(),
         )
         .map_err(|_| FactorError::OutOfMemory)?;
-        let memory = allocated(
-            symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default()),
-            symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
-        )?;
-        let (lower_values, factors) = (vec![0.0; source.len()], vec![0.0; symbolic.len_val()]);
-        let full_length = pattern.len();
-        Ok(Self {
-            lower,
-            source,
-            lower_values,
-            symbolic,
+        let (full_length, spare) = (pattern.len(), Mutex::new(None));
+        Ok(Self { lower, source, symbolic, full_length, spare })
+    }
+
+    /// The memory to factorise in, anew where another thread has it.
+    fn workspace(&self) -> Result<Workspace, FactorError> {
+        if let Some(spare) = taken(&self.spare) {
+            return Ok(spare);
+        }
+        let needed = self.symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
+        let lower_values = vec![0.0; self.source.len()];
+        Ok(Workspace { lower_values, memory: allocated(needed)? })
+    }
+
+    fn factorize(&self, values: &[f64], factors: &mut [f64]) -> Result<(), FactorError> {
+        let mut work = self.workspace()?;
+        for (value, &slot) in work.lower_values.iter_mut().zip(&self.source) {
+            *value = values[slot];
+        }
+        let outcome = self.symbolic.factorize_numeric_llt(
             factors,
-            memory,
-            full_length,
-            ready: false,
-        })
+            SparseColMatRef::new(self.lower.as_ref(), &work.lower_values),
+            Side::Lower,
+            Default::default(),
+            Par::Seq,
+            MemStack::new(&mut work.memory),
+            Spec::default(),
+        );
+        let failure = outcome.err();
+        put(&self.spare, work);
+        match failure {
+            None => Ok(()),
+            Some(LltError::NonPositivePivot { index }) => {
+                Err(FactorError::NotPositiveDefinite { index: self.row_of_pivot(index) })
+            }
+        }
     }
 
     /// The row, in the order given by the caller, of a pivot that faer reports in elimination
@@ -87,7 +145,7 @@ fn lower_triangle(pattern: &Pattern) -> (SymbolicSparseColMat<usize>, Vec<usize>
 
 impl Factorization for SparseCholesky {
     fn size(&self) -> usize {
-        self.lower.nrows()
+        self.analysis.lower.nrows()
     }
 
     fn kind(&self) -> LinearSolverKind {
@@ -98,33 +156,20 @@ impl Factorization for SparseCholesky {
         self.factors.len()
     }
 
+    fn sibling(&self) -> Result<Box<dyn Factorization>, FactorError> {
+        Ok(Box::new(Self::sibling(self)?))
+    }
+
     fn factorize(&mut self, values: &[f64]) -> Result<(), FactorError> {
-        expect_length(self.full_length, values.len())?;
-        for (value, &slot) in self.lower_values.iter_mut().zip(&self.source) {
-            *value = values[slot];
-        }
-        let outcome = self.symbolic.factorize_numeric_llt(
-            &mut self.factors,
-            SparseColMatRef::new(self.lower.as_ref(), &self.lower_values),
-            Side::Lower,
-            Default::default(),
-            Par::Seq,
-            MemStack::new(&mut self.memory),
-            Spec::default(),
-        );
-        let failure = outcome.err();
-        self.ready = failure.is_none();
-        match failure {
-            None => Ok(()),
-            Some(LltError::NonPositivePivot { index }) => {
-                Err(FactorError::NotPositiveDefinite { index: self.row_of_pivot(index) })
-            }
-        }
+        expect_length(self.analysis.full_length, values.len())?;
+        let done = self.analysis.factorize(values, &mut self.factors);
+        self.ready = done.is_ok();
+        done
     }
 
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError> {
         checked((self.size(), self.ready), b, |b| {
-            let factors = LltRef::new(&self.symbolic, &self.factors);
+            let factors = LltRef::new(&self.analysis.symbolic, &self.factors);
             let memory = MemStack::new(&mut self.memory);
             factors.solve_in_place_with_conj(Conj::No, column(b), Par::Seq, memory);
         })

@@ -150,6 +150,10 @@ impl Factorization for Dense {
         self.factors.len()
     }
 
+    fn sibling(&self) -> Result<Box<dyn Factorization>, FactorError> {
+        Ok(Box::new(Self { ready: false, ..self.clone() }))
+    }
+
     fn factorize(&mut self, values: &[f64]) -> Result<(), FactorError> {
         expect_length(self.position.len(), values.len())?;
         self.ready = false;

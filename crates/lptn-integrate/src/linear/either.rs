@@ -68,6 +68,13 @@ impl Factorization for Either {
         }
     }
 
+    fn sibling(&self) -> Result<Box<dyn Factorization>, FactorError> {
+        let cholesky = self.cholesky.as_ref().map(SparseCholesky::sibling).transpose()?;
+        let lu = self.lu.as_ref().map(SparseLu::sibling).transpose()?;
+        let (pattern, mirrored) = (self.pattern.clone(), self.mirrored.clone());
+        Ok(Box::new(Self { pattern, mirrored, cholesky, lu, symmetric: false }))
+    }
+
     fn factorize(&mut self, values: &[f64]) -> Result<(), FactorError> {
         expect_length(self.pattern.len(), values.len())?;
         self.symmetric = self.is_symmetric(values) && self.is_definite(values);

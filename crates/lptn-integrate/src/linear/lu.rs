@@ -1,6 +1,8 @@
 //! Sparse LU by faer, analysed once.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
+use std::sync::Arc;
+
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::sparse::linalg::LuError;
 use faer::sparse::linalg::lu::{
     LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu,
@@ -13,8 +15,8 @@ use crate::{FactorError, Pattern};
 
 /// Sparse LU with column approximate minimum degree ordering and partial pivoting.
 pub struct SparseLu {
-    structure: SymbolicSparseColMat<usize>,
-    symbolic: SymbolicLu<usize>,
+    /// The pattern and its analysis.
+    analysis: Arc<(SymbolicSparseColMat<usize>, SymbolicLu<usize>)>,
     numeric: NumericLu<usize, f64>,
     memory: MemBuffer,
     ready: bool,
@@ -31,17 +33,32 @@ impl SparseLu {
         let structure = SymbolicSparseColMat::new_checked(n, n, pointers, None, rows);
         let symbolic = factorize_symbolic_lu(structure.as_ref(), LuSymbolicParams::default())
             .map_err(|_| FactorError::OutOfMemory)?;
-        let memory = allocated(
+        Self::of(Arc::new((structure, symbolic)))
+    }
+
+    /// Factors of their own for other values in the same pattern, whose analysis is shared.
+    ///
+    /// # Errors
+    /// [`FactorError::OutOfMemory`].
+    pub fn sibling(&self) -> Result<Self, FactorError> {
+        Self::of(Arc::clone(&self.analysis))
+    }
+
+    fn of(
+        analysis: Arc<(SymbolicSparseColMat<usize>, SymbolicLu<usize>)>,
+    ) -> Result<Self, FactorError> {
+        let symbolic = &analysis.1;
+        let memory = allocated(StackReq::any_of(&[
             symbolic.factorize_numeric_lu_scratch::<f64>(Par::Seq, Spec::default()),
             symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
-        )?;
-        Ok(Self { structure, symbolic, numeric: NumericLu::new(), memory, ready: false })
+        ]))?;
+        Ok(Self { analysis, numeric: NumericLu::new(), memory, ready: false })
     }
 }
 
 impl Factorization for SparseLu {
     fn size(&self) -> usize {
-        self.structure.nrows()
+        self.analysis.0.nrows()
     }
 
     fn kind(&self) -> LinearSolverKind {
@@ -49,14 +66,19 @@ impl Factorization for SparseLu {
     }
 
     fn fill(&self) -> usize {
-        self.structure.row_idx().len()
+        self.analysis.0.row_idx().len()
+    }
+
+    fn sibling(&self) -> Result<Box<dyn Factorization>, FactorError> {
+        Ok(Box::new(Self::sibling(self)?))
     }
 
     fn factorize(&mut self, values: &[f64]) -> Result<(), FactorError> {
-        expect_length(self.structure.row_idx().len(), values.len())?;
-        let outcome = self.symbolic.factorize_numeric_lu(
+        let (structure, symbolic) = &*self.analysis;
+        expect_length(structure.row_idx().len(), values.len())?;
+        let outcome = symbolic.factorize_numeric_lu(
             &mut self.numeric,
-            SparseColMatRef::new(self.structure.as_ref(), values),
+            SparseColMatRef::new(structure.as_ref(), values),
             Par::Seq,
             MemStack::new(&mut self.memory),
             Spec::default(),
@@ -72,7 +94,7 @@ impl Factorization for SparseLu {
 
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError> {
         checked((self.size(), self.ready), b, |b| {
-            let factors = LuRef::new_unchecked(&self.symbolic, &self.numeric);
+            let factors = LuRef::new_unchecked(&self.analysis.1, &self.numeric);
             let memory = MemStack::new(&mut self.memory);
             factors.solve_in_place_with_conj(Conj::No, column(b), Par::Seq, memory);
         })

@@ -9,12 +9,16 @@ mod dense;
 mod either;
 mod lu;
 mod pcg;
+mod shape;
+mod sweeps;
 
 pub use cholesky::SparseCholesky;
 pub use dense::Dense;
 pub use either::Either;
 pub use lu::SparseLu;
 pub use pcg::Pcg;
+
+use std::sync::Mutex;
 
 use faer::MatMut;
 use faer::dyn_stack::{MemBuffer, StackReq};
@@ -73,6 +77,18 @@ pub trait Factorization {
     /// fly).
     fn fill(&self) -> usize;
 
+    /// Iterations of all solves so far; 0 for exact factors.
+    fn iterations(&self) -> u64 {
+        0
+    }
+
+    /// A solver for other matrices with the same pattern, with factors of its own and none yet. The
+    /// analysis of the pattern is shared.
+    ///
+    /// # Errors
+    /// [`FactorError::OutOfMemory`].
+    fn sibling(&self) -> Result<Box<dyn Factorization>, FactorError>;
+
     /// Factorises the matrix with these values, one per slot of the pattern; Cholesky reads the
     /// lower triangle only.
     ///
@@ -87,6 +103,19 @@ pub trait Factorization {
     /// [`FactorError::NotFactorized`], a wrong length, or [`FactorError::Singular`] with the first
     /// component of the solution that is not finite.
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError>;
+
+    /// Writes the solution of `A x = b` to `x`, which holds a guess. Solvers that iterate begin
+    /// there and stop where every component of `b - A x` is at most `allowed` of the diagonal entry
+    /// of its row (for a network: `allowed` is in K); the others solve exactly.
+    ///
+    /// # Errors
+    /// Those of [`Factorization::solve_in_place`].
+    fn solve_from(&mut self, b: &[f64], x: &mut [f64], allowed: f64) -> Result<(), FactorError> {
+        let _ = allowed;
+        expect_length(x.len(), b.len())?;
+        x.copy_from_slice(b);
+        self.solve_in_place(x)
+    }
 
     /// Whether the factors are usable: sparse elimination may pass a singular matrix with a pivot
     /// of rounding errors only. Solves once, with the diagonal as right side, so that the solution
@@ -238,7 +267,18 @@ fn column(b: &mut [f64]) -> MatMut<'_, f64> {
     MatMut::from_column_major_slice_mut(b, rows, 1)
 }
 
-/// Memory in which faer can factorise and solve.
-fn allocated(factorize: StackReq, solve: StackReq) -> Result<MemBuffer, FactorError> {
-    MemBuffer::try_new(StackReq::any_of(&[factorize, solve])).map_err(|_| FactorError::OutOfMemory)
+/// Memory in which faer can work.
+fn allocated(needed: StackReq) -> Result<MemBuffer, FactorError> {
+    MemBuffer::try_new(needed).map_err(|_| FactorError::OutOfMemory)
+}
+
+/// What lies on a shelf that siblings share; whoever finds it empty makes another one.
+fn taken<T>(shelf: &Mutex<Option<T>>) -> Option<T> {
+    shelf.lock().ok().and_then(|mut shelf| shelf.take())
+}
+
+fn put<T>(shelf: &Mutex<Option<T>>, item: T) {
+    if let Ok(mut shelf) = shelf.lock() {
+        *shelf = Some(item);
+    }
 }

@@ -6,8 +6,19 @@
 //! Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409; preconditioner: J. A. Meijerink and H. A. van
 //! der Vorst, Math. Comp. 31 (1977) 148, who prove that it exists for the M-matrices that
 //! conductances make.
+//!
+//! The factor is `(D + L) D^-1 (D + L')` with the matrix's own strict lower triangle `L` and a
+//! diagonal `D` with which the product has the diagonal of the matrix: where no three nodes are
+//! linked with each other, as in a body of cells, that is the incomplete factor itself. So nothing
+//! is kept beside the matrix, and its product with a vector costs no more than a sweep of the
+//! preconditioner (S. C. Eisenstat, SIAM J. Sci. Stat. Comput. 2 (1981) 1).
 
-use super::{Factorization, LinearSolverKind, SparseCholesky, checked, expect_length};
+use std::sync::{Arc, Mutex};
+
+use super::cholesky::{Analysis, SparseCholesky};
+use super::shape::Shape;
+use super::sweeps::Lower;
+use super::{Factorization, LinearSolverKind, checked, expect_length, put, taken};
 use crate::{FactorError, Pattern, kernels};
 
 /// What is left over of a right side, relative, both over the diagonal (for a network: in K) and in
@@ -23,177 +34,235 @@ const LEAST_PIVOT: f64 = 1e-3;
 
 /// IC(0)-PCG. Where it does not converge, exact factors take over until there are other values.
 pub struct Pcg {
-    pattern: Pattern,
-    /// Rows of the strict lower triangle: where each begins, and the column of each entry.
-    rows: Vec<usize>,
-    columns: Vec<u32>,
-    /// The slot in the pattern of each entry.
-    source: Vec<usize>,
-    /// Entries and diagonal of the matrix, then of the factor; of its diagonal the reciprocals.
+    family: Arc<Family>,
+    /// The strict lower triangle of the scaled matrix `S A S`, with the `S` for which `D` above is
+    /// 1 everywhere, and its diagonal less 2.
     entries: Vec<f64>,
-    diagonal: Vec<f64>,
-    factor: Vec<f64>,
-    reciprocal: Vec<f64>,
-    values: Vec<f64>,
-    work: [Vec<f64>; 4],
+    excess: Vec<f64>,
+    scale: Vec<f64>,
+    /// Factors of the scaled matrix.
     exact: Option<Box<SparseCholesky>>,
     ready: bool,
+    iterations: u64,
+}
+
+/// What the matrices of one pattern have in common.
+struct Family {
+    pattern: Pattern,
+    shape: Shape,
+    /// To solve in, when nobody does.
+    spare: Mutex<Option<Work>>,
+    /// For exact factors, once they were needed.
+    analysis: Mutex<Option<Arc<Analysis>>>,
+}
+
+/// Vectors in the order of the shape.
+#[derive(Default)]
+struct Work {
+    /// Solution and right side of the scaled system; the latter becomes what is left of it, behind
+    /// `(I + L)^-1`.
+    solution: Vec<f64>,
+    left: Vec<f64>,
+    /// Where the next step goes, the same behind `(I + L')^-1`, and a sweep's result.
+    direction: Vec<f64>,
+    step: Vec<f64>,
+    swept: Vec<f64>,
 }
 
 impl Pcg {
     /// For symmetric matrices with this pattern.
     ///
     /// # Panics
-    /// If the matrix has 2^32 rows or more, which no memory holds.
+    /// If the matrix has 2^32 entries or more, which no memory holds.
     #[must_use]
     pub fn new(pattern: &Pattern) -> Self {
-        let size = pattern.size();
-        let (mut rows, mut columns, mut source) = (vec![0], Vec::new(), Vec::new());
-        for row in 0..size {
-            // the pattern is symmetric: the rows above the diagonal of a column are the columns
-            // before it in its row
-            for slot in pattern.column(row).start..pattern.diagonal_slot(row) {
-                let column = pattern.row_indices()[slot];
-                columns.push(u32::try_from(column).expect("a matrix has fewer than 2^32 rows"));
-                source.push(slot);
-            }
-            rows.push(columns.len());
-        }
-        let (entries, factor) = (vec![0.0; columns.len()], vec![0.0; columns.len()]);
-        Self {
-            pattern: pattern.clone(),
-            rows,
-            columns,
-            source,
-            entries,
-            diagonal: vec![0.0; size],
-            factor,
-            reciprocal: vec![0.0; size],
-            values: Vec::new(),
-            work: [(); 4].map(|()| vec![0.0; size]),
-            exact: None,
-            ready: false,
-        }
+        let (pattern, shape) = (pattern.clone(), Shape::new(pattern));
+        let (spare, analysis) = (Mutex::new(None), Mutex::new(None));
+        Self::of(Arc::new(Family { pattern, shape, spare, analysis }))
     }
 
-    /// The incomplete factor, row by row.
-    fn incomplete(&mut self) -> Result<(), FactorError> {
-        for row in 0..self.diagonal.len() {
-            let (first, end) = (self.rows[row], self.rows[row + 1]);
-            let mut pivot = self.diagonal[row];
-            for at in first..end {
-                let column = self.columns[at] as usize;
-                let sum = self.overlap((first, at), column);
-                let entry = (self.entries[at] - sum) * self.reciprocal[column];
-                self.factor[at] = entry;
-                pivot -= entry * entry;
-            }
-            let diagonal = self.diagonal[row];
+    /// A solver for other values in the same pattern, whose analysis is shared, and so is the
+    /// memory to solve in.
+    #[must_use]
+    pub fn sibling(&self) -> Self {
+        Self::of(Arc::clone(&self.family))
+    }
+
+    fn of(family: Arc<Family>) -> Self {
+        let entries = vec![0.0; family.shape.columns.len()];
+        let size = family.shape.order.len();
+        let (excess, scale) = (vec![0.0; size], vec![0.0; size]);
+        Self { family, entries, excess, scale, exact: None, ready: false, iterations: 0 }
+    }
+
+    fn lower(&self) -> Lower<'_> {
+        let Shape { begins, columns, .. } = &self.family.shape;
+        Lower { begins, columns, entries: &self.entries }
+    }
+
+    /// Scales the matrix so that `D` is 1.
+    fn incomplete(&mut self, values: &[f64]) -> Result<(), FactorError> {
+        let shape = &self.family.shape;
+        for (row, ends) in shape.begins.windows(2).enumerate() {
+            let own = ends[0] as usize..ends[1] as usize;
+            let diagonal = values[shape.diagonal[row] as usize];
             if !(diagonal > 0.0 && diagonal.is_finite()) {
-                return Err(FactorError::NotPositiveDefinite { index: row });
+                return Err(FactorError::NotPositiveDefinite { index: shape.order[row] as usize });
+            }
+            let mut pivot = diagonal;
+            for ((entry, &slot), &column) in self.entries[own.clone()]
+                .iter_mut()
+                .zip(&shape.source[own.clone()])
+                .zip(&shape.columns[own.clone()])
+            {
+                *entry = values[slot as usize] * self.scale[column as usize];
+                pivot -= *entry * *entry;
             }
             let usable = if pivot > LEAST_PIVOT * diagonal { pivot } else { diagonal };
-            self.reciprocal[row] = usable.sqrt().recip();
+            let scale = usable.sqrt().recip();
+            self.entries[own].iter_mut().for_each(|entry| *entry *= scale);
+            self.scale[row] = scale;
+            self.excess[row] = diagonal * scale * scale - 2.0;
         }
         Ok(())
     }
 
-    /// The product of the entries `first..end` of a row with those of another row in the same
-    /// columns.
-    fn overlap(&self, (mut own, end): (usize, usize), other: usize) -> f64 {
-        let (mut theirs, last) = (self.rows[other], self.rows[other + 1]);
-        let mut sum = 0.0;
-        while own < end && theirs < last {
-            let (a, b) = (self.columns[own], self.columns[theirs]);
-            if a == b {
-                sum += self.factor[own] * self.factor[theirs];
-            }
-            own += usize::from(a <= b);
-            theirs += usize::from(b <= a);
-        }
-        sum
+    /// By how much a component that is left over exceeds 0, over the diagonal of the matrix.
+    fn over_diagonal(&self, left: impl Iterator<Item = f64>) -> f64 {
+        let rows = left.zip(&self.excess).zip(&self.scale);
+        rows.fold(0.0, |most: f64, ((left, excess), scale)| {
+            let size = (left * scale / (excess + 2.0)).abs();
+            if size > most { size } else { most }
+        })
     }
 
-    /// Writes `y = A x`.
-    fn multiply(&self, x: &[f64], y: &mut [f64]) {
-        for (row, diagonal) in self.diagonal.iter().enumerate() {
-            let mut sum = diagonal * x[row];
-            for at in self.rows[row]..self.rows[row + 1] {
-                let column = self.columns[at] as usize;
-                sum += self.entries[at] * x[column];
-                y[column] += self.entries[at] * x[row];
-            }
-            y[row] = sum; // later rows add to it
-        }
+    /// What is left over, of which `work.left` holds what is behind `(I + L)^-1`.
+    fn left_over(&self, work: &Work) -> f64 {
+        let left = &work.left;
+        self.over_diagonal(self.lower().times(left).zip(left).map(|(other, own)| other + own))
     }
 
-    /// Writes `z = (L L')^-1 r`.
-    fn precondition(&self, r: &[f64], z: &mut [f64]) {
-        for row in 0..r.len() {
-            let own = self.rows[row]..self.rows[row + 1];
-            let sum: f64 = own.map(|at| self.factor[at] * z[self.columns[at] as usize]).sum();
-            z[row] = (r[row] - sum) * self.reciprocal[row];
-        }
-        for row in (0..r.len()).rev() {
-            z[row] *= self.reciprocal[row];
-            let value = z[row];
-            for at in self.rows[row]..self.rows[row + 1] {
-                z[self.columns[at] as usize] -= self.factor[at] * value;
+    /// Takes the right side and the guess, and says how much of the right side is left.
+    fn begin(&self, b: &[f64], x: Option<&[f64]>, work: &mut Work) -> f64 {
+        let order = &self.family.shape.order;
+        let rows = order.iter().zip(&self.scale);
+        work.left.clear();
+        work.left.extend(rows.clone().map(|(&row, scale)| b[row as usize] * scale));
+        work.solution.clear();
+        work.swept.resize(b.len(), 0.0);
+        match x {
+            None => work.solution.resize(b.len(), 0.0),
+            Some(x) => {
+                work.solution.extend(rows.map(|(&row, scale)| x[row as usize] / scale));
+                self.lower().multiply(&self.excess, &work.solution, &mut work.swept);
+                let parts = work.left.iter_mut().zip(&work.swept).zip(&work.solution);
+                parts.for_each(|((left, product), x)| *left -= product + 2.0 * x);
             }
         }
+        self.over_diagonal(work.left.iter().copied())
     }
 
-    /// The largest component of a residual over the diagonal.
-    fn size_of(&self, r: &[f64]) -> f64 {
-        r.iter().zip(&self.diagonal).fold(0.0, |most: f64, (r, d)| most.max((r / d).abs()))
+    /// Replaces `x` by the solution: within what is allowed from its guess on, or to the usual part
+    /// from 0 on. False if that is not reached.
+    fn iterate(&mut self, b: &[f64], x: &mut [f64], allowed: Option<f64>, work: &mut Work) -> bool {
+        let size = self.begin(b, allowed.map(|_| &*x), work);
+        let allowed = allowed.unwrap_or(LEFT_OVER * size);
+        let done = size <= allowed || self.descend(size, allowed, work);
+        let rows = self.family.shape.order.iter().zip(&self.scale).zip(&work.solution);
+        rows.for_each(|((&row, scale), solution)| x[row as usize] = scale * solution);
+        done && kernels::first_not_finite(x).is_none()
     }
 
-    /// Replaces `b` by the solution; false if that is not reached.
-    fn iterate(&self, b: &mut [f64], [r, z, p, q]: &mut [Vec<f64>; 4]) -> bool {
-        let enough = LEFT_OVER * self.size_of(b);
-        r.copy_from_slice(b);
-        b.fill(0.0);
-        if enough == 0.0 {
-            return true;
-        }
-        self.precondition(r, z);
-        p.copy_from_slice(z);
-        let mut product = kernels::dot(r, z);
+    /// The iterations, from what is left over at the start.
+    fn descend(&mut self, size: f64, allowed: f64, work: &mut Work) -> bool {
+        self.lower().forward(&mut work.left, |_, _| ());
+        work.direction.clone_from(&work.left);
+        work.step.clone_from(&work.left);
+        let mut square = kernels::dot(&work.left, &work.left);
+        // the square falls as what is left over does, by and large
+        let mut known = (size, square);
         for _ in 0..MOST_ITERATIONS {
-            self.multiply(p, q);
-            let step = product / kernels::dot(p, q);
-            if !step.is_finite() {
+            self.iterations += 1;
+            let next = self.advance(square, work);
+            if !next.is_finite() {
                 return false;
             }
-            kernels::scale_and_add(1.0, b, step, p);
-            kernels::scale_and_add(1.0, r, -step, q);
-            if self.size_of(r) <= enough {
-                return true;
+            if known.0 * known.0 * next <= allowed * allowed * known.1 {
+                known = (self.left_over(work), next);
+                if known.0 <= allowed {
+                    return true;
+                }
             }
-            self.precondition(r, z);
-            let next = kernels::dot(r, z);
-            kernels::scale_and_add(next / product, p, 1.0, z);
-            product = next;
+            let share = next / square;
+            let all = work.direction.iter_mut().zip(&mut work.step).zip(&work.left);
+            for ((direction, step), left) in all {
+                *direction = left + share * *direction;
+                *step = *direction;
+            }
+            square = next;
         }
         false
     }
 
-    fn solve_exactly(&mut self, b: &mut [f64]) -> Result<(), FactorError> {
+    /// One step along the direction; the square of what is left over then.
+    fn advance(&self, square: f64, work: &mut Work) -> f64 {
+        let Work { solution, left, direction, step, swept } = work;
+        self.lower().backward(step);
+        let parts = swept.iter_mut().zip(&*direction).zip(&*step).zip(&self.excess);
+        parts.for_each(|(((swept, direction), step), excess)| *swept = direction + excess * step);
+        self.lower().forward(swept, |_, _| ());
+        swept.iter_mut().zip(&*step).for_each(|(swept, step)| *swept += step);
+        let length = square / kernels::dot(swept, direction);
+        if length.is_nan() || length <= 0.0 {
+            return f64::NAN; // not positive definite
+        }
+        kernels::scale_and_add(1.0, solution, length, step);
+        kernels::scale_and_add(1.0, left, -length, swept);
+        kernels::dot(left, left)
+    }
+
+    /// The solution by iterations or, where they fail, by exact factors.
+    fn solve(&mut self, b: &[f64], x: &mut [f64], allowed: Option<f64>) -> Result<(), FactorError> {
         if self.exact.is_none() {
-            let mut exact = SparseCholesky::new(&self.pattern)?;
-            exact.factorize(&self.values)?;
-            self.exact = Some(Box::new(exact));
+            let mut work = taken(&self.family.spare).unwrap_or_default();
+            let done = self.iterate(b, x, allowed, &mut work);
+            put(&self.family.spare, work);
+            if done {
+                return Ok(());
+            }
+            self.exact = Some(Box::new(self.exact_factors()?));
         }
-        match &mut self.exact {
-            Some(exact) => exact.solve_in_place(b),
-            None => Err(FactorError::NotFactorized),
-        }
+        let Some(exact) = &mut self.exact else { return Err(FactorError::NotFactorized) };
+        // the rows of the pattern are those of the caller
+        let rows = || self.family.shape.order.iter().zip(&self.scale);
+        rows().for_each(|(&row, scale)| x[row as usize] = scale * b[row as usize]);
+        exact.solve_in_place(x)?;
+        rows().for_each(|(&row, scale)| x[row as usize] *= scale);
+        kernels::first_not_finite(x).map_or(Ok(()), |index| Err(FactorError::Singular { index }))
+    }
+
+    /// Factors of the scaled matrix.
+    fn exact_factors(&self) -> Result<SparseCholesky, FactorError> {
+        let Family { pattern, shape, analysis, .. } = &*self.family;
+        let analysis = match taken(analysis) {
+            Some(known) => known,
+            None => Arc::new(Analysis::new(pattern)?),
+        };
+        put(&self.family.analysis, Arc::clone(&analysis));
+        let mut exact = SparseCholesky::of(analysis)?;
+        let mut values = vec![0.0; shape.slots];
+        let entries = shape.source.iter().zip(&self.entries);
+        entries.for_each(|(&slot, entry)| values[slot as usize] = *entry);
+        let diagonal = shape.diagonal.iter().zip(&self.excess);
+        diagonal.for_each(|(&slot, excess)| values[slot as usize] = excess + 2.0);
+        exact.factorize(&values)?;
+        Ok(exact)
     }
 }
 
 impl Factorization for Pcg {
     fn size(&self) -> usize {
-        self.diagonal.len()
+        self.excess.len()
     }
 
     fn kind(&self) -> LinearSolverKind {
@@ -201,36 +270,34 @@ impl Factorization for Pcg {
     }
 
     fn fill(&self) -> usize {
-        self.factor.len() + self.reciprocal.len()
+        self.entries.len() + self.excess.len() + self.scale.len()
+    }
+
+    fn iterations(&self) -> u64 {
+        self.iterations
+    }
+
+    fn sibling(&self) -> Result<Box<dyn Factorization>, FactorError> {
+        Ok(Box::new(Self::sibling(self)))
     }
 
     fn factorize(&mut self, values: &[f64]) -> Result<(), FactorError> {
-        expect_length(self.pattern.len(), values.len())?;
-        self.values.clear();
-        self.values.extend_from_slice(values);
+        expect_length(self.family.shape.slots, values.len())?;
         self.exact = None;
-        self.entries.iter_mut().zip(&self.source).for_each(|(entry, &slot)| *entry = values[slot]);
-        let diagonal = self.diagonal.iter_mut().zip(self.pattern.diagonal());
-        diagonal.for_each(|(entry, &slot)| *entry = values[slot]);
-        let done = self.incomplete();
+        let done = self.incomplete(values);
         self.ready = done.is_ok();
         done
     }
 
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError> {
         checked((self.size(), self.ready), b, |_| ())?;
-        if self.exact.is_some() {
-            return self.solve_exactly(b);
-        }
-        let mut work = std::mem::take(&mut self.work);
-        // the right side is kept where the iterations begin
         let right = b.to_vec();
-        let done = self.iterate(b, &mut work);
-        self.work = work;
-        if done && kernels::first_not_finite(b).is_none() {
-            return Ok(());
-        }
-        b.copy_from_slice(&right);
-        self.solve_exactly(b)
+        self.solve(&right, b, None)
+    }
+
+    fn solve_from(&mut self, b: &[f64], x: &mut [f64], allowed: f64) -> Result<(), FactorError> {
+        expect_length(self.size(), b.len())?;
+        checked((self.size(), self.ready), x, |_| ())?;
+        self.solve(b, x, Some(allowed))
     }
 }
