@@ -359,6 +359,7 @@ impl<'a> Recorder<'a> {
         let limits = self.limits.into_seen(self.tolerance);
         Solution {
             controls: Vec::new(),
+            method: None,
             positions: self.positions,
             row_positions: self.row_positions,
             events: with_limits(events, &limits),
