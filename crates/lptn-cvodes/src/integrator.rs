@@ -18,8 +18,9 @@ use crate::shared::SharedBox;
 use crate::start;
 use crate::symmetry::{ATTEMPTS, SYMMETRIC_ATTEMPTS, Symmetry};
 use crate::vector::Vector;
-use lptn_integrate::{checks, 
-    IntegrateError, Integrator, LinearSolverKind, OdeSystem, Options, Statistics, Step, linear,
+use lptn_integrate::{
+    IntegrateError, Integrator, LinearSolverKind, OdeSystem, Options, Statistics, Step, checks,
+    linear,
 };
 
 /// Steps in a row without progress after which the integration has stalled.

@@ -30,10 +30,7 @@ pub fn options(t0: f64, given: &Options) -> Result<(), IntegrateError> {
 ///
 /// # Errors
 /// A wrong length, [`IntegrateError::InvalidOption`].
-pub fn scales(
-    system: &impl OdeSystem,
-    given: &Options,
-) -> Result<(), IntegrateError> {
+pub fn scales(system: &impl OdeSystem, given: &Options) -> Result<(), IntegrateError> {
     let scales = &given.sensitivity_scales;
     if !scales.is_empty() {
         expect_length("sensitivity_scales", system.sensitivity_count(), scales.len())?;

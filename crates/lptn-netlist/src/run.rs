@@ -119,7 +119,17 @@ impl<'a> Elaboration<'a> {
         self.reports(&fields);
         let windows = self.windows(&fields);
         let (signals, held) = (self.used_signals(), self.held());
-        Some(RunPlan { start, stop: stop?, output, tolerance, select, windows, signals, held, integrator: integrator.unwrap_or_default() })
+        Some(RunPlan {
+            start,
+            stop: stop?,
+            output,
+            tolerance,
+            select,
+            windows,
+            signals,
+            held,
+            integrator: integrator.unwrap_or_default(),
+        })
     }
 
     /// The signals with points that something uses.

@@ -1,7 +1,9 @@
 //! The settings of a run, and how it reports on itself.
 
 use lptn_integrate::{LinearSolver, Options};
-use lptn_network::{End, IntegratorChoice, Network, NodeId, OutputTimes, ParameterId, RunSettings, Time};
+use lptn_network::{
+    End, IntegratorChoice, Network, NodeId, OutputTimes, ParameterId, RunSettings, Time,
+};
 
 use crate::curved::Curved;
 use crate::events::ControlState;

@@ -64,10 +64,6 @@ fn cvodes<'a>(
 
 /// There is none.
 #[cfg(not(feature = "cvodes"))]
-fn cvodes<'a>(
-    _: Heat<'a>,
-    _: (f64, &[f64]),
-    _: &Options,
-) -> Result<Stepper<'a>, TransientError> {
+fn cvodes<'a>(_: Heat<'a>, _: (f64, &[f64]), _: &Options) -> Result<Stepper<'a>, TransientError> {
     Err(TransientError::Settings(SettingsError::NoIntegrator))
 }

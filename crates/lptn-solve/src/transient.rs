@@ -181,8 +181,7 @@ impl<'a> Run<'a> {
         let care = if finer { Care::Leaps } else { care };
         let options = settings.options(system.network(), finer, curved.as_ref());
         let choice = (settings.integrator, curved.is_some());
-        let (mut integrator, method) =
-            stepper(heat, (settings.start, &initial), &options, choice)?;
+        let (mut integrator, method) = stepper(heat, (settings.start, &initial), &options, choice)?;
         if !carried.is_empty() {
             integrator.set_sensitivities(&carried).map_err(TransientError::Integrator)?;
         }
@@ -263,6 +262,10 @@ impl<'a> Run<'a> {
     fn enter(&mut self, segment: Segment) -> Result<(), Break> {
         self.stand()?;
         self.recorder.enter(segment, self.switching.as_ref().map(|switching| &switching.positions));
+        if self.method == Method::OneStep {
+            self.integrator.system_mut().draw_line((segment.from, segment.to));
+            self.recorder.draw_line();
+        }
         let sensitivities = self.integrator.sensitivities().map(<[f64]>::to_vec);
         let sensitivities = sensitivities.map_err(|e| self.failed(e))?;
         self.recorder.start(self.integrator.state(), &sensitivities).map_err(Break::Failed)

@@ -20,11 +20,7 @@ impl Jump {
     ///
     /// A row with the time constant `c = M / |J|` that is to move by `d` has terms of the order of
     /// `d (h / 8c)^n`.
-    pub(super) fn longest(
-        &self,
-        rows: impl Iterator<Item = (f64, f64)>,
-        tolerance: f64,
-    ) -> f64 {
+    pub(super) fn longest(&self, rows: impl Iterator<Item = (f64, f64)>, tolerance: f64) -> f64 {
         let mut longest = f64::INFINITY;
         for ((mass, diagonal), (flow, slope)) in rows.zip(self.flow.iter().zip(&self.slope)) {
             let constant = mass / diagonal.abs();

@@ -92,7 +92,8 @@ impl Levels {
             kept.values().map(|kept| kept.factors.fill()).sum()
         };
         while held(&self.kept) + needed > ROOM {
-            let oldest = self.kept.iter().min_by_key(|(_, kept)| kept.used).map(|(&level, _)| level);
+            let oldest =
+                self.kept.iter().min_by_key(|(_, kept)| kept.used).map(|(&level, _)| level);
             let Some(gone) = oldest.and_then(|level| self.kept.remove(&level)) else { return };
             self.iterations += gone.factors.iterations();
         }

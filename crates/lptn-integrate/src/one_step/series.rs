@@ -162,11 +162,7 @@ mod tests {
                 for n in 0..terms {
                     end += change[n] * term;
                     middle += mean[n] * term;
-                    term = if n == 0 {
-                        v * (term + POLE * drift) - term
-                    } else {
-                        (v - 1.0) * term
-                    };
+                    term = if n == 0 { v * (term + POLE * drift) - term } else { (v - 1.0) * term };
                 }
                 let flow = z * middle + drift * 0.5 * share;
                 assert!((end - start - share * flow).abs() < 1e-13, "{terms} {share}");
