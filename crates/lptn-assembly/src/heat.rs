@@ -80,7 +80,8 @@ impl ThermalSystem {
         work: &mut Workspace,
         id: ConductorId,
     ) -> Result<Option<Surface>, InputError> {
-        self.network.surface(id, &mut work.scope, &work.temperature)
+        let (scope, temperature) = work.current();
+        self.network.surface(id, scope, temperature)
     }
 
     /// The heat that the two ends of a conductor receive in W, from inputs read and nodes
@@ -110,6 +111,7 @@ impl ThermalSystem {
     ///
     /// [`Network::groups`]: lptn_network::Network::groups
     pub fn groups(&self, work: &mut Workspace, item: Item) -> Result<Vec<Option<f64>>, InputError> {
-        self.network.groups(item, &mut work.scope, &work.temperature)
+        let (scope, temperature) = work.current();
+        self.network.groups(item, scope, temperature)
     }
 }

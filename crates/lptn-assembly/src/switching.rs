@@ -14,7 +14,8 @@ impl ThermalSystem {
     /// # Errors
     /// [`InputError`] if a threshold cannot be had.
     pub fn control_excess(&self, work: &mut Workspace, id: ControlId) -> Result<f64, InputError> {
-        self.network().control_excess(id, &mut work.scope, &work.temperature)
+        let (scope, temperature) = work.current();
+        self.network().control_excess(id, scope, temperature)
     }
 
     /// The difference of the two sides of a switch and its slope, from the inputs and temperatures
@@ -27,6 +28,7 @@ impl ThermalSystem {
         work: &mut Workspace,
         id: SwitchId,
     ) -> Result<(f64, f64), InputError> {
-        self.network().switch_difference(id, &mut work.scope, &work.temperature)
+        let (scope, temperature) = work.current();
+        self.network().switch_difference(id, scope, temperature)
     }
 }

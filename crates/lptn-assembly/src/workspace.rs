@@ -8,6 +8,7 @@ use crate::slopes::Slopes;
 /// Inputs at one time, and the temperatures of all vertices.
 #[derive(Clone, Debug)]
 pub struct Workspace {
+    /// Where the inputs were read, but for a system with a line: see [`Workspace::current`].
     pub(crate) scope: Evaluation,
     /// Heat of every source in W.
     pub(crate) power: Vec<f64>,
@@ -24,6 +25,39 @@ pub struct Workspace {
     varies: bool,
     /// The time and segment that the inputs were read for.
     read_at: Option<(f64, f64)>,
+    /// The inputs of the present segment, if they are straight lines in time.
+    line: Option<Line>,
+    /// Whether `scope` is behind `read_at`.
+    behind: bool,
+}
+
+/// Inputs that change evenly over a segment.
+#[derive(Clone, Debug)]
+struct Line {
+    from: f64,
+    to: f64,
+    /// Where comparisons of `t` were read; they have the same truth between the ends.
+    segment: f64,
+    /// Heat of every source in W, temperatures of the boundaries in K, at the two ends.
+    power: [Vec<f64>; 2],
+    boundaries: [Vec<f64>; 2],
+}
+
+impl Line {
+    /// The share of the way at a time, if it is on it.
+    fn share(&self, time: f64, segment: f64) -> Option<f64> {
+        let inside = self.from < segment && segment < self.to;
+        let same = inside || self.segment.to_bits() == segment.to_bits();
+        let on = same && (self.from..=self.to).contains(&time);
+        on.then(|| (time - self.from) / (self.to - self.from))
+    }
+}
+
+/// Writes what is between two ends.
+fn between([first, last]: &[Vec<f64>; 2], share: f64, out: &mut [f64]) {
+    for ((out, a), b) in out.iter_mut().zip(first).zip(last) {
+        *out = a + share * (b - a);
+    }
 }
 
 impl Workspace {
@@ -39,6 +73,8 @@ impl Workspace {
             positions: network.initial_positions(),
             varies: network.has_time_dependent_inputs(),
             read_at: None,
+            line: None,
+            behind: false,
         }
     }
 
@@ -56,14 +92,57 @@ impl Workspace {
             return Ok(false);
         }
         self.read_at = None; // an error leaves nothing half read
+        let boundaries = network.nodes().len();
+        if let Some((line, share)) =
+            self.line.as_ref().and_then(|line| Some((line, line.share(time, segment)?)))
+        {
+            between(&line.power, share, &mut self.power);
+            between(&line.boundaries, share, &mut self.temperature[boundaries..]);
+            (self.read_at, self.behind) = (Some((time, segment)), true);
+            return Ok(true);
+        }
+        self.behind = false;
         self.scope.set_time(time, segment);
         network.source_powers(&mut self.scope, &mut self.power)?;
-        network.boundary_temperatures(
-            &mut self.scope,
-            &mut self.temperature[network.nodes().len()..],
-        )?;
+        network.boundary_temperatures(&mut self.scope, &mut self.temperature[boundaries..])?;
         self.read_at = Some((time, segment));
         Ok(true)
+    }
+
+    /// Takes the inputs between two times of a segment for straight lines, which the caller knows:
+    /// a system with many sources is read at two times, not at every step and row. For linear
+    /// systems; forgotten where something switches or another line is drawn.
+    pub fn draw_line(&mut self, network: &Network, (from, to): (f64, f64), segment: f64) {
+        self.forget();
+        if !self.varies || from >= to {
+            return;
+        }
+        let mut ends = [from, to].into_iter().map_while(|time| {
+            // a failure is met again, and told, where the input is read
+            self.read(network, time, segment).ok()?;
+            Some((self.power.clone(), self.temperature[network.nodes().len()..].to_vec()))
+        });
+        let line = match (ends.next(), ends.next()) {
+            (Some((first, at_first)), Some((last, at_last))) => Some(Line {
+                from,
+                to,
+                segment,
+                power: [first, last],
+                boundaries: [at_first, at_last],
+            }),
+            _ => None,
+        };
+        self.forget();
+        self.line = line;
+    }
+
+    /// What expressions read, where the inputs were read last, and the temperatures.
+    pub(crate) fn current(&mut self) -> (&mut Evaluation, &[f64]) {
+        if let (true, Some((time, segment))) = (self.behind, self.read_at) {
+            self.scope.set_time(time, segment);
+            self.behind = false;
+        }
+        (&mut self.scope, &self.temperature)
     }
 
     /// Sets which controls are on and which comparisons hold, as the network begins with
@@ -82,5 +161,7 @@ impl Workspace {
     /// What was read holds no longer.
     pub(crate) fn forget(&mut self) {
         self.read_at = None;
+        self.line = None;
+        self.behind = false;
     }
 }

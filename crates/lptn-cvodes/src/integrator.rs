@@ -20,7 +20,8 @@ use crate::start;
 use crate::symmetry::{ATTEMPTS, SYMMETRIC_ATTEMPTS, Symmetry};
 use crate::vector::Vector;
 use lptn_integrate::{
-    IntegrateError, Integrator, LinearSolverKind, OdeSystem, Options, Statistics, Step, linear,
+    IntegrateError, Integrator, LinearSolverKind, OdeSystem, Options, Statistics, Step, checks,
+    linear,
 };
 
 /// Steps in a row without progress after which the integration has stalled.
@@ -69,9 +70,9 @@ impl<S: OdeSystem> Cvodes<S> {
     /// Lengths that do not match, options out of range, a state or a mass that is not usable, no
     /// memory.
     pub fn new(system: S, t0: f64, y0: &[f64], options: &Options) -> Result<Self, IntegrateError> {
-        start::check_options(t0, options)?;
-        start::check_system(&system, y0)?;
-        start::check_scales(&system, options)?;
+        checks::options(t0, options)?;
+        checks::system(&system, y0)?;
+        checks::scales(&system, options)?;
         let context = Context::new()?;
         let mut state = Vector::new(&context, y0.len())?;
         state.as_mut_slice().copy_from_slice(y0);
@@ -286,7 +287,7 @@ impl<S: OdeSystem> Integrator<S> for Cvodes<S> {
     }
 
     fn interpolate(&mut self, t: f64, y: &mut [f64]) -> Result<(), IntegrateError> {
-        start::expect_length("y", self.state.as_slice().len(), y.len())?;
+        checks::expect_length("y", self.state.as_slice().len(), y.len())?;
         let t = self.within(t)?;
         if t >= self.time {
             y.copy_from_slice(self.state.as_slice());
@@ -300,8 +301,8 @@ impl<S: OdeSystem> Integrator<S> for Cvodes<S> {
     fn restart(&mut self, y: Option<&[f64]>) -> Result<(), IntegrateError> {
         self.read_running().map_err(|flag| self.unexpected(flag))?;
         if let Some(y) = y {
-            start::expect_length("y", self.state.as_slice().len(), y.len())?;
-            start::check_state(y)?;
+            checks::expect_length("y", self.state.as_slice().len(), y.len())?;
+            checks::state(y)?;
             self.state.as_mut_slice().copy_from_slice(y);
         }
         self.restart_here()
@@ -331,8 +332,8 @@ impl<S: OdeSystem> Integrator<S> for Cvodes<S> {
     }
 
     fn set_sensitivities(&mut self, s: &[f64]) -> Result<(), IntegrateError> {
-        start::expect_length("sensitivities", self.sensitivities.blocks.len(), s.len())?;
-        start::check_state(s)?;
+        checks::expect_length("sensitivities", self.sensitivities.blocks.len(), s.len())?;
+        checks::state(s)?;
         let is_new = self.memory.counters().steps == 0;
         self.read_quadratures().map_err(|flag| self.unexpected(flag))?;
         self.sensitivities.vectors.set(s);
@@ -344,7 +345,7 @@ impl<S: OdeSystem> Integrator<S> for Cvodes<S> {
     }
 
     fn interpolate_sensitivities(&mut self, t: f64, s: &mut [f64]) -> Result<(), IntegrateError> {
-        start::expect_length("sensitivities", self.sensitivities.blocks.len(), s.len())?;
+        checks::expect_length("sensitivities", self.sensitivities.blocks.len(), s.len())?;
         let t = self.within(t)?;
         let read =
             if t < self.time { self.read_sensitivities_at(t) } else { self.read_sensitivities() };

@@ -1,8 +1,8 @@
-//! What an integration needs before its first step: checked arguments, the data of the callbacks,
-//! and the setting of Newton's method.
+//! What an integration needs before its first step: the data of the callbacks and the setting of
+//! Newton's method.
 
 use crate::callback::{Counts, Shared};
-use lptn_integrate::{FactorError, IntegrateError, OdeSystem, Options, kernels, linear};
+use lptn_integrate::{FactorError, IntegrateError, OdeSystem, Options, linear};
 
 /// Stopping test of Newton's method for a constant Jacobian: CVODES' own. With factors that match
 /// gamma the first iteration is exact whatever the test, so the books close to rounding, and a
@@ -66,87 +66,4 @@ pub(crate) fn shared<S: OdeSystem>(
         failure: None,
         overcome: None,
     })
-}
-
-pub(crate) fn check_options(t0: f64, options: &Options) -> Result<(), IntegrateError> {
-    if !t0.is_finite() {
-        return Err(IntegrateError::InvalidOption { option: "t0", value: t0 });
-    }
-    let positive = [
-        ("tolerance", Some(options.tolerance)),
-        ("initial_step", options.initial_step),
-        ("max_step_size", options.max_step_size),
-        ("newton_coefficient", options.newton_coefficient),
-    ];
-    let usable = |value: f64| value > 0.0 && value.is_finite();
-    match positive
-        .into_iter()
-        .find_map(|(option, value)| Some((option, value.filter(|&v| !usable(v))?)))
-    {
-        Some((option, value)) => Err(IntegrateError::InvalidOption { option, value }),
-        None => Ok(()),
-    }
-}
-
-/// One positive scale per parameter, or none at all.
-pub(crate) fn check_scales(
-    system: &impl OdeSystem,
-    options: &Options,
-) -> Result<(), IntegrateError> {
-    let scales = &options.sensitivity_scales;
-    if !scales.is_empty() {
-        expect_length("sensitivity_scales", system.sensitivity_count(), scales.len())?;
-    }
-    match scales.iter().find(|&&scale| !(scale > 0.0 && scale.is_finite())) {
-        Some(&value) => Err(IntegrateError::InvalidOption { option: "sensitivity_scales", value }),
-        None => Ok(()),
-    }
-}
-
-pub(crate) fn check_system(system: &impl OdeSystem, y0: &[f64]) -> Result<(), IntegrateError> {
-    if system.size() == 0 {
-        return Err(IntegrateError::InvalidOption { option: "size", value: 0.0 });
-    }
-    expect_length("y0", system.size(), y0.len())?;
-    let rows = system.pattern().size();
-    if rows < system.size() {
-        expect_length("pattern", system.size(), rows)?;
-    }
-    expect_length("mass", rows, system.mass().len())?;
-    if let Some(slope) = system.slope() {
-        expect_length("slope", rows, slope.len())?;
-    }
-    check_state(y0)?;
-    check_mass(system.mass(), system.size())
-}
-
-/// Positive for the `size` states, 0 for the algebraic rows behind them.
-fn check_mass(mass: &[f64], size: usize) -> Result<(), IntegrateError> {
-    let (states, algebraic) = mass.split_at(size);
-    if let Some(index) = states.iter().position(|&mass| !(mass > 0.0 && mass.is_finite())) {
-        return Err(IntegrateError::InvalidMass { index, value: mass[index] });
-    }
-    match algebraic.iter().position(|&mass| mass.abs() > 0.0 || mass.is_nan()) {
-        Some(index) => {
-            Err(IntegrateError::AlgebraicMass { row: size + index, value: algebraic[index] })
-        }
-        None => Ok(()),
-    }
-}
-
-pub(crate) fn check_state(y: &[f64]) -> Result<(), IntegrateError> {
-    kernels::first_not_finite(y)
-        .map_or(Ok(()), |index| Err(IntegrateError::InvalidState { index, value: y[index] }))
-}
-
-pub(crate) fn expect_length(
-    what: &'static str,
-    expected: usize,
-    found: usize,
-) -> Result<(), IntegrateError> {
-    if expected == found {
-        Ok(())
-    } else {
-        Err(IntegrateError::WrongLength { what, expected, found })
-    }
 }

@@ -12,11 +12,13 @@
 //! *maximum* over the components, so adding a million idle components changes neither the steps nor
 //! the error of the others.
 
+pub mod checks;
 pub mod dense;
 mod error;
 mod integrator;
 pub mod kernels;
 pub mod linear;
+mod one_step;
 mod options;
 mod pattern;
 mod statistics;
@@ -25,6 +27,7 @@ mod system;
 pub use error::{Callback, FactorError, IntegrateError};
 pub use integrator::{Integrator, Step};
 pub use linear::{LinearSolver, LinearSolverKind};
+pub use one_step::OneStep;
 pub use options::Options;
 pub use pattern::Pattern;
 pub use statistics::Statistics;

@@ -1,7 +1,9 @@
 //! `[run]`: what to simulate.
 
 use lptn_data::{Diagnostic, Span};
-use lptn_network::{AfterEnd, Evaluation, Network, OutputTimes, RunSettings, WindowSettings};
+use lptn_network::{
+    AfterEnd, Evaluation, IntegratorChoice, Network, OutputTimes, RunSettings, WindowSettings,
+};
 use lptn_units::{Dimension, Type};
 
 use crate::fields::{Fields, Owner};
@@ -46,7 +48,13 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
             "{ climb = { from = \"10 min\", to = \"20 min\" } }",
         ),
         key("tolerance", "K", "how far temperatures may be off", "\"1e-5 K\"").or("1e-5 K"),
-        key("integrator", "`\"auto\"`", "how it is computed", "\"auto\"").or("`\"auto\"`"),
+        key(
+            "integrator",
+            "`\"auto\"`, `\"one_step\"`, `\"cvode\"`",
+            "how it is computed: the one-step method is for linear networks",
+            "\"cvode\"",
+        )
+        .or("`\"auto\"`"),
     ],
     example: "{ stop = \"25 min\" }",
     elsewhere: &[
@@ -86,6 +94,7 @@ pub(crate) struct RunPlan {
     signals: Vec<(String, Span)>,
     pub(crate) windows: Vec<WindowPlan>,
     held: Vec<Option<f64>>,
+    pub(crate) integrator: IntegratorChoice,
 }
 
 /// When rows are written.
@@ -99,7 +108,7 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn run(&mut self) -> Option<RunPlan> {
         let entry = self.raw.top.get(RUN.name)?;
         let fields = self.inner(&RUN, Owner::section(RUN.name), entry)?;
-        self.integrator(&fields);
+        let integrator = self.choice(&fields, "integrator", &IntegratorChoice::WORDS);
         self.word(&fields, "initial");
         self.require(&fields, "stop");
         let stop = self.optional(&fields, "stop", TIME);
@@ -110,7 +119,17 @@ impl<'a> Elaboration<'a> {
         self.reports(&fields);
         let windows = self.windows(&fields);
         let (signals, held) = (self.used_signals(), self.held());
-        Some(RunPlan { start, stop: stop?, output, tolerance, select, windows, signals, held })
+        Some(RunPlan {
+            start,
+            stop: stop?,
+            output,
+            tolerance,
+            select,
+            windows,
+            signals,
+            held,
+            integrator: integrator.unwrap_or_default(),
+        })
     }
 
     /// The signals with points that something uses.
@@ -123,15 +142,6 @@ impl<'a> Elaboration<'a> {
 
     fn optional(&mut self, fields: &Fields<'a>, key: &str, ty: Type) -> Option<Setting> {
         self.setting(&fields.owner, (key, fields.get(key)?), ty)
-    }
-
-    fn integrator(&mut self, fields: &Fields<'a>) {
-        if let Some((_, raw)) = self.word(fields, "integrator").filter(|(text, _)| *text != "auto")
-        {
-            let message = "a choice of `integrator` in [run] is not supported yet";
-            let help = "write `integrator = \"auto\"` or leave it out";
-            self.refuse("netlist::not_supported_yet", message, &raw.span, help);
-        }
     }
 
     fn output(&mut self, fields: &Fields<'a>) -> Option<OutputPlan> {
@@ -203,7 +213,8 @@ impl RunPlan {
             self.windows.iter().filter_map(|plan| check.window(plan, (start, stop))).collect();
         if check.problems.is_empty() {
             let (select, held) = (self.select.clone(), self.held.clone());
-            Ok(RunSettings { start, stop, output, select, windows, tolerance, held })
+            let integrator = self.integrator;
+            Ok(RunSettings { start, stop, output, select, windows, tolerance, integrator, held })
         } else {
             Err(check.problems)
         }

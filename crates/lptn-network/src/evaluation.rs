@@ -28,6 +28,8 @@ pub struct Evaluation {
     dual_stack: Vec<Slope>,
     /// The first signal that has no value at the present time.
     failure: Option<(SignalId, InputProblem)>,
+    /// The segment for which the points of signals were read.
+    read_for: Option<u64>,
 }
 
 impl Evaluation {
@@ -43,6 +45,7 @@ impl Evaluation {
             duals: Vec::new(),
             dual_stack: Vec::new(),
             failure: None,
+            read_for: None,
         };
         parameters.iter().enumerate().for_each(|(i, &value)| scope.set_parameter(i, value));
         scope.set_time(0.0, 0.0);
@@ -50,6 +53,7 @@ impl Evaluation {
     }
 
     pub(crate) fn set_parameter(&mut self, index: usize, value: f64) {
+        self.read_for = None;
         let slot = self.layout.parameter(crate::ParameterId::from_len(index));
         self.set(slot, value);
     }
@@ -84,11 +88,15 @@ impl Evaluation {
         self.set(slot::TIME, time);
         self.set(slot::SEGMENT, segment);
         self.failure = None;
+        let known = self.read_for == Some(segment.to_bits());
         let layout = Arc::clone(&self.layout);
         for (i, signal) in layout.signals().iter().enumerate() {
             let id = SignalId::from_len(i);
             let now = layout.signal(id);
-            for (at, slot) in [(segment, now + 1), (time, now)] {
+            let ends = [(segment, now + 1), (time, now)];
+            // an expression reads the time in both
+            let unknown = usize::from(known && !signal.is_expression());
+            for &(at, slot) in &ends[unknown..] {
                 let value = signal.at(at, segment, &self.slots, &mut self.stack).unwrap_or_else(
                     |problem| {
                         self.failure.get_or_insert((id, problem));
@@ -98,6 +106,7 @@ impl Evaluation {
                 self.set(slot, value);
             }
         }
+        self.read_for = self.failure.is_none().then_some(segment.to_bits());
     }
 
     pub(crate) fn layout(&self) -> &Arc<Layout> {

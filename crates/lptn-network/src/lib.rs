@@ -73,7 +73,7 @@ pub use parts::substance::{Fluid, Material, Melting};
 pub use parts::switch::Switch;
 pub use periodicity::{NoCommonPeriod, NotPeriodic};
 pub use positions::Positions;
-pub use run::{OutputTimes, RunSettings, Varied, WindowSettings};
+pub use run::{IntegratorChoice, OutputTimes, RunSettings, Varied, WindowSettings};
 pub use scope::{Context, NetworkScope};
 pub use stream::{Outlet, Passing};
 pub use tangent::{NoTangents, Tangents};

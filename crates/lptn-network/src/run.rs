@@ -17,9 +17,34 @@ pub struct RunSettings {
     pub windows: Vec<WindowSettings>,
     /// Tolerance in K.
     pub tolerance: f64,
+    /// How it is computed.
+    pub integrator: IntegratorChoice,
     /// For each control by id how long it has been as it stands at the start, in s, from 0: `None`
     /// if it never switched. Empty for a run that starts from no state.
     pub held: Vec<Option<f64>>,
+}
+
+/// Which integrator computes a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum IntegratorChoice {
+    /// The one-step method where it serves, else CVODE.
+    #[default]
+    Auto,
+    /// The one-step method for linear networks; refused for others.
+    OneStep,
+    /// CVODE, which integrates every network.
+    Cvode,
+}
+
+impl IntegratorChoice {
+    /// The words for them, the usual one first.
+    pub const WORDS: [(&str, Self); 3] =
+        [("auto", Self::Auto), ("one_step", Self::OneStep), ("cvode", Self::Cvode)];
+
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        Self::WORDS.into_iter().find(|(_, choice)| *choice == self).map_or("", |(word, _)| word)
+    }
 }
 
 /// A part of the run over which means and extremes are taken.

@@ -90,6 +90,11 @@ impl<'a> Heat<'a> {
         self.unfold.may_leap();
     }
 
+    /// Reads the inputs at the two ends of a segment, or of what is left of it, as straight lines.
+    pub(crate) fn draw_line(&mut self, (from, to): (f64, f64)) {
+        self.work.draw_line(self.system.network(), (from, to), self.segment);
+    }
+
     /// Sets which controls are on and which comparisons hold.
     pub(crate) fn set_positions(&mut self, positions: &Positions) {
         self.work.set_positions(positions);

@@ -94,6 +94,7 @@ pub use snapshot::Snapshot;
 pub use solution::{RunStatus, Solution, SolutionError, Unbounded};
 pub use state::State;
 pub use steady::SteadyState;
+pub use stepper::Method;
 pub use stiffness::Stiffness;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, LabelColumn, Table, TableOf};

@@ -156,6 +156,12 @@ impl<'a> Recorder<'a> {
         }
     }
 
+    /// Reads the inputs at the two ends of the segment as straight lines.
+    pub(crate) fn draw_line(&mut self) {
+        let Segment { from, to } = self.segment;
+        self.work.draw_line(self.system.network(), (from, to), self.readings.inside(from));
+    }
+
     /// Says where the massless nodes of several solutions stand now, in K.
     pub(crate) fn set_branch(&mut self, branch: Vec<f64>) {
         self.branch.clone_from(&branch);
@@ -355,6 +361,7 @@ impl<'a> Recorder<'a> {
         let limits = self.limits.into_seen(self.tolerance);
         Solution {
             controls: Vec::new(),
+            method: None,
             positions: self.positions,
             row_positions: self.row_positions,
             events: with_limits(events, &limits),

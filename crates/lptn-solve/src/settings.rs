@@ -1,7 +1,9 @@
 //! The settings of a run, and how it reports on itself.
 
 use lptn_integrate::{LinearSolver, Options};
-use lptn_network::{End, Network, NodeId, OutputTimes, ParameterId, RunSettings, Time};
+use lptn_network::{
+    End, IntegratorChoice, Network, NodeId, OutputTimes, ParameterId, RunSettings, Time,
+};
 
 use crate::curved::Curved;
 use crate::events::ControlState;
@@ -38,6 +40,8 @@ pub struct Transient {
     /// The parameters by which temperatures are differentiated, each once: see
     /// [`crate::Solution::sensitivity`].
     pub sensitivities: Vec<ParameterId>,
+    /// The integrator; chosen by the network unless said.
+    pub integrator: IntegratorChoice,
     /// The linear solver; chosen by size unless said.
     pub linear_solver: LinearSolver,
 }
@@ -76,6 +80,7 @@ impl Transient {
             balance: None,
             controls: Vec::new(),
             sensitivities: Vec::new(),
+            integrator: IntegratorChoice::Auto,
             linear_solver: LinearSolver::Auto,
         }
     }
@@ -91,6 +96,7 @@ impl Transient {
             start: settings.start,
             output: settings.output.clone(),
             tolerance: settings.tolerance,
+            integrator: settings.integrator,
             controls: stands.map(|(on, held)| ControlState { on, since: since(held) }).collect(),
             ..Self::until(Time(settings.stop))
         }

@@ -47,8 +47,19 @@ pub enum SettingsError {
         format!("outputs every {every} s are none, or more than 10 million");
     /// The state to begin with is one of another network, or not finite.
     State = "run::settings", "the state to begin with is not one of this network";
-    /// The library was built without an integrator.
-    NoIntegrator = "run::settings", "this build has no integrator for runs over time",
+    /// The one-step method is asked for, which cannot compute this run; `curved`: since an input is
+    /// not a straight line in time.
+    OneStep { curved: bool } = "run::settings", {
+            let why = match *curved {
+                true => "an input of this one curves over time",
+                false => "this one is not, or has sensitivities to follow",
+            };
+            format!("the one-step method is for linear networks: {why}")
+        },
+        help "leave `integrator` out, or write `integrator = \"cvode\"`";
+    /// The library was built without the integrator that this run needs.
+    NoIntegrator = "run::settings",
+        "this build has no integrator for runs of networks that are not linear",
         help "build lptn with its feature `cvodes`";
     /// Sensitivities are asked for that do not exist or are not to be had.
     Sensitivity(refusal: NoTangents) = "run::settings",

@@ -23,6 +23,7 @@ use crate::replay::Replay;
 use crate::sensitivity_rows::SensitivityRows;
 use crate::snapshot::Snapshot;
 use crate::state::State;
+use crate::stepper::Method;
 use crate::watch::Watched;
 use crate::window::WindowSeen;
 
@@ -75,6 +76,7 @@ pub struct Solution {
     pub(crate) last: LastState,
     pub(crate) ledger: Ledger,
     pub(crate) statistics: Statistics,
+    pub(crate) method: Option<Method>,
     pub(crate) end: RunStatus,
     pub(crate) tolerance: f64,
     pub(crate) remembered: f64,
@@ -86,6 +88,11 @@ impl Solution {
     /// The network that was run.
     pub fn network(&self) -> &Network {
         self.system.network()
+    }
+
+    /// Which integrator computed it; `None` for a network without capacities.
+    pub fn method(&self) -> Option<Method> {
+        self.method
     }
 
     /// The time of each row in s.

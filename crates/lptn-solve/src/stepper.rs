@@ -1,16 +1,59 @@
-//! The integrator of runs: CVODES, unless the crate is built without the feature `cvodes`.
+//! The integrator of runs: the one-step method where it serves, else CVODES, unless the crate is
+//! built without the feature `cvodes`.
 
-use lptn_integrate::{Integrator, Options};
+use lptn_integrate::{Integrator, OneStep, Options};
+use lptn_network::IntegratorChoice;
 
 use crate::error::TransientError;
 use crate::heat::Heat;
+use crate::settings_error::SettingsError;
 
 /// What steps a run.
 pub(crate) type Stepper<'a> = Box<dyn Integrator<Heat<'a>> + 'a>;
 
-/// Takes the system at a time in s in a state, one value per component.
-#[cfg(feature = "cvodes")]
+/// Which integrator computed a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// The one-step method for linear networks.
+    OneStep,
+    /// CVODES' backward differences.
+    Cvode,
+}
+
+impl Method {
+    /// As it is asked for by `integrator` of `[run]`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::OneStep => IntegratorChoice::OneStep.word(),
+            Self::Cvode => IntegratorChoice::Cvode.word(),
+        }
+    }
+}
+
+/// Takes the system at a time in s in a state, one value per component; `curved`: inputs are not
+/// straight lines in time between their breakpoints.
 pub(crate) fn stepper<'a>(
+    heat: Heat<'a>,
+    (start, state): (f64, &[f64]),
+    options: &Options,
+    (choice, curved): (IntegratorChoice, bool),
+) -> Result<(Stepper<'a>, Method), TransientError> {
+    let serves = OneStep::suits(&heat) && !curved;
+    match choice {
+        IntegratorChoice::Auto | IntegratorChoice::OneStep if serves => {
+            let integrator = OneStep::new(heat, start, state, options);
+            let integrator = integrator.map_err(TransientError::Integrator)?;
+            Ok((Box::new(integrator), Method::OneStep))
+        }
+        IntegratorChoice::OneStep => {
+            Err(TransientError::Settings(SettingsError::OneStep { curved }))
+        }
+        _ => Ok((cvodes(heat, (start, state), options)?, Method::Cvode)),
+    }
+}
+
+#[cfg(feature = "cvodes")]
+fn cvodes<'a>(
     heat: Heat<'a>,
     (start, state): (f64, &[f64]),
     options: &Options,
@@ -21,10 +64,6 @@ pub(crate) fn stepper<'a>(
 
 /// There is none.
 #[cfg(not(feature = "cvodes"))]
-pub(crate) fn stepper<'a>(
-    _: Heat<'a>,
-    _: (f64, &[f64]),
-    _: &Options,
-) -> Result<Stepper<'a>, TransientError> {
-    Err(TransientError::Settings(crate::settings_error::SettingsError::NoIntegrator))
+fn cvodes<'a>(_: Heat<'a>, _: (f64, &[f64]), _: &Options) -> Result<Stepper<'a>, TransientError> {
+    Err(TransientError::Settings(SettingsError::NoIntegrator))
 }

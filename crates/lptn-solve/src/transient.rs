@@ -20,7 +20,7 @@ use crate::settings_error::SettingsError;
 use crate::solution::{RunStatus, Solution};
 use crate::state::{self, State};
 use crate::stateless;
-use crate::stepper::{Stepper, stepper};
+use crate::stepper::{Method, Stepper, stepper};
 use crate::tangent::Tangent;
 use crate::times::{Segment, check_resolution, segments, snap};
 use crate::unsolved::Unsolved;
@@ -130,6 +130,7 @@ enum Break {
 /// A run under way.
 pub(crate) struct Run<'a> {
     integrator: Stepper<'a>,
+    method: Method,
     recorder: Recorder<'a>,
     initial: Vec<f64>,
     books: Books,
@@ -179,13 +180,15 @@ impl<'a> Run<'a> {
         let finer = system.network().has_events() || care == Care::Leaps;
         let care = if finer { Care::Leaps } else { care };
         let options = settings.options(system.network(), finer, curved.as_ref());
-        let mut integrator = stepper(heat, (settings.start, &initial), &options)?;
+        let choice = (settings.integrator, curved.is_some());
+        let (mut integrator, method) = stepper(heat, (settings.start, &initial), &options, choice)?;
         if !carried.is_empty() {
             integrator.set_sensitivities(&carried).map_err(TransientError::Integrator)?;
         }
         let tolerance = settings.tolerance;
         Ok(Self {
             integrator,
+            method,
             recorder,
             initial,
             books,
@@ -259,6 +262,10 @@ impl<'a> Run<'a> {
     fn enter(&mut self, segment: Segment) -> Result<(), Break> {
         self.stand()?;
         self.recorder.enter(segment, self.switching.as_ref().map(|switching| &switching.positions));
+        if self.method == Method::OneStep {
+            self.integrator.system_mut().draw_line((segment.from, segment.to));
+            self.recorder.draw_line();
+        }
         let sensitivities = self.integrator.sensitivities().map(<[f64]>::to_vec);
         let sensitivities = sensitivities.map_err(|e| self.failed(e))?;
         self.recorder.start(self.integrator.state(), &sensitivities).map_err(Break::Failed)
@@ -349,6 +356,6 @@ impl<'a> Run<'a> {
         let stood = self.recorder.branch().to_vec();
         let end_state = State::of_carried(self.integrator.state().to_vec()).standing(stood);
         let solution = self.recorder.into_solution(books, (statistics, events), end);
-        Ok(Solution { end_state, controls, ..solution })
+        Ok(Solution { end_state, controls, method: Some(self.method), ..solution })
     }
 }

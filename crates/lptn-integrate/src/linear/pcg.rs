@@ -96,15 +96,16 @@ impl Pcg {
     }
 
     fn lower(&self) -> Lower<'_> {
-        let Shape { begins, columns, .. } = &self.family.shape;
-        Lower { begins, columns, entries: &self.entries }
+        let Shape { runs, columns, .. } = &self.family.shape;
+        Lower { runs, columns, entries: &self.entries }
     }
 
     /// Scales the matrix so that `D` is 1.
     fn incomplete(&mut self, values: &[f64]) -> Result<(), FactorError> {
         let shape = &self.family.shape;
-        for (row, ends) in shape.begins.windows(2).enumerate() {
-            let own = ends[0] as usize..ends[1] as usize;
+        let rows =
+            shape.runs.iter().flat_map(|run| run.places().map(|row| (row, run.entries(row))));
+        for (row, own) in rows {
             let diagonal = values[shape.diagonal[row] as usize];
             if !(diagonal > 0.0 && diagonal.is_finite()) {
                 return Err(FactorError::NotPositiveDefinite { index: shape.order[row] as usize });
@@ -127,19 +128,23 @@ impl Pcg {
         Ok(())
     }
 
-    /// By how much a component that is left over exceeds 0, over the diagonal of the matrix.
-    fn over_diagonal(&self, left: impl Iterator<Item = f64>) -> f64 {
-        let rows = left.zip(&self.excess).zip(&self.scale);
+    /// The largest component of what is left over, over the diagonal of the matrix.
+    fn over_diagonal(&self, left: &[f64]) -> f64 {
+        let rows = left.iter().zip(&self.excess).zip(&self.scale);
         rows.fold(0.0, |most: f64, ((left, excess), scale)| {
             let size = (left * scale / (excess + 2.0)).abs();
             if size > most { size } else { most }
         })
     }
 
-    /// What is left over, of which `work.left` holds what is behind `(I + L)^-1`.
-    fn left_over(&self, work: &Work) -> f64 {
-        let left = &work.left;
-        self.over_diagonal(self.lower().times(left).zip(left).map(|(other, own)| other + own))
+    /// The same where `work.left` holds what is behind `(I + L)^-1`.
+    fn left_over(&self, work: &mut Work) -> f64 {
+        let Work { left, swept, .. } = work;
+        let mut rows = swept.iter_mut().zip(&*left);
+        self.lower().times(left, |others| {
+            rows.next().into_iter().for_each(|(sum, own)| *sum = own + others);
+        });
+        self.over_diagonal(swept)
     }
 
     /// Takes the right side and the guess, and says how much of the right side is left.
@@ -159,7 +164,7 @@ impl Pcg {
                 parts.for_each(|((left, product), x)| *left -= product + 2.0 * x);
             }
         }
-        self.over_diagonal(work.left.iter().copied())
+        self.over_diagonal(&work.left)
     }
 
     /// Replaces `x` by the solution: within what is allowed from its guess on, or to the usual part
@@ -175,7 +180,7 @@ impl Pcg {
 
     /// The iterations, from what is left over at the start.
     fn descend(&mut self, size: f64, allowed: f64, work: &mut Work) -> bool {
-        self.lower().forward(&mut work.left, |_, _| ());
+        self.lower().forward(&mut work.left);
         work.direction.clone_from(&work.left);
         work.step.clone_from(&work.left);
         let mut square = kernels::dot(&work.left, &work.left);
@@ -210,7 +215,7 @@ impl Pcg {
         self.lower().backward(step);
         let parts = swept.iter_mut().zip(&*direction).zip(&*step).zip(&self.excess);
         parts.for_each(|(((swept, direction), step), excess)| *swept = direction + excess * step);
-        self.lower().forward(swept, |_, _| ());
+        self.lower().forward(swept);
         swept.iter_mut().zip(&*step).for_each(|(swept, step)| *swept += step);
         let length = square / kernels::dot(swept, direction);
         if length.is_nan() || length <= 0.0 {

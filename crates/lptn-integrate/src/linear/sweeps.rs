@@ -1,59 +1,99 @@
 //! Sweeps through the strict lower triangle of a symmetric matrix, row by row.
 
+use super::shape::Run;
+
 /// A strict lower triangle by rows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lower<'a> {
-    /// Where each row ends and the next one begins; 0 at first.
-    pub(super) begins: &'a [u32],
+    /// Rows with the same number of entries together.
+    pub(super) runs: &'a [Run],
     /// The column of each entry.
     pub(super) columns: &'a [u32],
     /// The entries.
     pub(super) entries: &'a [f64],
 }
 
+/// Does something with the columns and entries of the rows of a run. Rows of cells have one, two or
+/// three entries: their loops are unrolled, which halves the instructions of a sweep.
+macro_rules! unrolled {
+    ($lower:ident, $run:ident, $rows:ident => $body:expr) => {{
+        let (columns, entries) = $lower.run($run);
+        unrolled!(@ $run, columns, entries, $rows => $body; 1, 2, 3, 4)
+    }};
+    (@ $run:ident, $columns:ident, $entries:ident, $rows:ident => $body:expr; $($few:literal),+) => {
+        match $run.width as usize {
+            0 => {
+                let none: (&[u32], &[f64]) = (&[], &[]);
+                let $rows = std::iter::repeat_n(none, $run.rows as usize);
+                $body
+            }
+            $($few => {
+                let $rows = $columns.chunks_exact($few).zip($entries.chunks_exact($few));
+                $body
+            })+
+            many => {
+                let $rows = $columns.chunks_exact(many).zip($entries.chunks_exact(many));
+                $body
+            }
+        }
+    };
+}
+
 impl<'a> Lower<'a> {
-    /// Columns and entries of each row, from the first to the last or back.
-    fn rows(self) -> impl DoubleEndedIterator<Item = (&'a [u32], &'a [f64])> + ExactSizeIterator {
-        self.begins.windows(2).map(move |ends| {
-            let row = ends[0] as usize..ends[1] as usize;
-            (&self.columns[row.clone()], &self.entries[row])
-        })
+    fn run(self, run: &Run) -> (&'a [u32], &'a [f64]) {
+        let begin = run.begin as usize;
+        let own = begin..begin + run.rows as usize * run.width as usize;
+        (&self.columns[own.clone()], &self.entries[own])
     }
 
-    /// Replaces `z` by the solution of `(I + L) y = z`, and tells each component to `with`.
-    pub(super) fn forward(self, z: &mut [f64], mut with: impl FnMut(usize, f64)) {
-        for (row, (columns, entries)) in self.rows().enumerate() {
-            let value = z[row] - product(columns, entries, z);
-            z[row] = value;
-            with(row, value);
+    /// Replaces `z` by the solution of `(I + L) y = z`.
+    pub(super) fn forward(self, z: &mut [f64]) {
+        for run in self.runs {
+            unrolled!(self, run, rows => {
+                for (row, (columns, entries)) in run.places().zip(rows) {
+                    z[row] -= product(columns, entries, z);
+                }
+            });
         }
     }
 
     /// Replaces `z` by the solution of `(I + L') y = z`.
     pub(super) fn backward(self, z: &mut [f64]) {
-        for (row, (columns, entries)) in self.rows().enumerate().rev() {
-            let value = z[row];
-            for (&column, entry) in columns.iter().zip(entries) {
-                z[column as usize] -= entry * value;
-            }
+        for run in self.runs.iter().rev() {
+            unrolled!(self, run, rows => {
+                for (row, (columns, entries)) in run.places().zip(rows).rev() {
+                    let value = z[row];
+                    for (&column, entry) in columns.iter().zip(entries) {
+                        z[column as usize] -= entry * value;
+                    }
+                }
+            });
         }
     }
 
-    /// The components of `L x`, from the first on.
-    pub(super) fn times(self, x: &'a [f64]) -> impl Iterator<Item = f64> {
-        self.rows().map(move |(columns, entries)| product(columns, entries, x))
+    /// Tells each component of `L x` to `with`.
+    pub(super) fn times(self, x: &[f64], mut with: impl FnMut(f64)) {
+        for run in self.runs {
+            unrolled!(self, run, rows => {
+                rows.for_each(|(columns, entries)| with(product(columns, entries, x)));
+            });
+        }
     }
 
     /// Writes `y = (L + D + L') x`, `D` given by its diagonal.
     pub(super) fn multiply(self, diagonal: &[f64], x: &[f64], y: &mut [f64]) {
-        for (row, ((columns, entries), diagonal)) in self.rows().zip(diagonal).enumerate() {
-            let value = x[row];
-            let mut sum = diagonal * value;
-            for (&column, entry) in columns.iter().zip(entries) {
-                sum += entry * x[column as usize];
-                y[column as usize] += entry * value;
-            }
-            y[row] = sum; // later rows add to it
+        for run in self.runs {
+            unrolled!(self, run, rows => {
+                for (row, (columns, entries)) in run.places().zip(rows) {
+                    let value = x[row];
+                    let mut sum = diagonal[row] * value;
+                    for (&column, entry) in columns.iter().zip(entries) {
+                        sum += entry * x[column as usize];
+                        y[column as usize] += entry * value;
+                    }
+                    y[row] = sum; // later rows add to it
+                }
+            });
         }
     }
 }

@@ -4,7 +4,7 @@ use super::Writer;
 use crate::run::{OutputPlan, RUN};
 use crate::setting::Setting;
 use crate::toml_text::{TomlFields, quantity, strings};
-use lptn_network::{OutputTimes, RunSettings};
+use lptn_network::{IntegratorChoice, OutputTimes, RunSettings};
 use lptn_units::{Dimension, Type};
 
 impl Writer<'_> {
@@ -47,6 +47,9 @@ impl Writer<'_> {
         if let Some(tolerance) = &plan.tolerance {
             fields.put("tolerance", tolerance.written());
         }
+        if plan.integrator != IntegratorChoice::Auto {
+            fields.word("integrator", plan.integrator.word());
+        }
         self.section(RUN.name, &fields);
     }
 
@@ -67,6 +70,9 @@ impl Writer<'_> {
         };
         fields.put("output", output);
         fields.put("tolerance", quantity(run.tolerance, Type::of(Dimension::TEMPERATURE)));
+        if run.integrator != IntegratorChoice::Auto {
+            fields.word("integrator", run.integrator.word());
+        }
         self.section(RUN.name, &fields);
     }
 

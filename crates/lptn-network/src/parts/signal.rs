@@ -171,6 +171,11 @@ impl Course {
 }
 
 impl Signal {
+    /// Whether it has no points of its own.
+    pub(crate) fn is_expression(&self) -> bool {
+        matches!(self.course, Course::Expression(_))
+    }
+
     /// The value at `time`, on the piece on which `segment` lies.
     pub(crate) fn at(
         &self,

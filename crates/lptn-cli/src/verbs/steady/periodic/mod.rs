@@ -107,8 +107,18 @@ fn settings(args: &SteadyArgs, input: &Input) -> Result<RunSettings, Failure> {
         None => run.map_or(TOLERANCE, |run| run.tolerance),
     };
     let (select, windows) = (Vec::new(), Vec::new());
+    let integrator = run.map_or_else(Default::default, |run| run.integrator);
     let held = run.map_or_else(Vec::new, |run| run.held.clone());
-    Ok(RunSettings { start, stop: start + period, output, select, windows, tolerance, held })
+    Ok(RunSettings {
+        start,
+        stop: start + period,
+        output,
+        select,
+        windows,
+        tolerance,
+        integrator,
+        held,
+    })
 }
 
 /// The period that was given, or that of the repeated signals, in s.

@@ -1,0 +1,203 @@
+//! One step of a size that is tried.
+
+use super::levels::{Levels, step_of};
+use super::series::{self, FEWEST, MOST, POLE, Weights};
+use crate::{FactorError, kernels};
+
+/// What the solver of a term may leave over, as a share of the tolerance: errors of the terms add
+/// up with weights of the order of 1/8.
+const SOLVED_TO: f64 = 0.02;
+
+/// The terms that a step is to take when its size is chosen: longer ones would need less work per
+/// time still, but the forecast is not sharp.
+const WANTED: f64 = 9.0;
+
+/// Values per turn in which terms are added up: they stay in the nearest cache.
+const BLOCK: usize = 512;
+
+/// The right side at the start of a step, in units of `M` times y per time.
+pub(super) struct Drive<'a> {
+    pub(super) flow: &'a [f64],
+    /// Its change per time while the state stands still.
+    pub(super) slope: &'a [f64],
+}
+
+/// The constant system.
+pub(super) struct Body<'a> {
+    pub(super) mass: &'a [f64],
+    /// What leaves each row for a rise of all by 1.
+    pub(super) loss: &'a [f64],
+    /// The values of `M - g h J` for a length h.
+    pub(super) matrix: &'a dyn Fn(f64) -> Vec<f64>,
+}
+
+/// A step as a series: see [`super::series`].
+#[derive(Default)]
+pub(super) struct Series {
+    /// The start of the step.
+    pub(super) start: Vec<f64>,
+    pub(super) length: f64,
+    /// Terms that count; there is room for more.
+    pub(super) count: usize,
+    terms: Vec<Vec<f64>>,
+    right: Vec<f64>,
+    balance: Vec<f64>,
+}
+
+/// How a step went.
+pub(super) enum Outcome {
+    Accepted(Forecast),
+    Rejected(Forecast),
+}
+
+/// What the sizes of the terms say of steps of other sizes.
+pub(super) struct Forecast {
+    /// The estimated error over the tolerance, with so many terms.
+    error: f64,
+    count: usize,
+    /// The last term over the one before.
+    ratio: f64,
+}
+
+impl Series {
+    pub(super) fn attempt(
+        &mut self,
+        (levels, level): (&mut Levels, i32),
+        body: &Body<'_>,
+        drive: &Drive<'_>,
+        tolerance: f64,
+    ) -> Result<Outcome, FactorError> {
+        let h = step_of(level);
+        self.length = h;
+        let factors = levels.factors(level, || (body.matrix)(POLE * h))?;
+        kernels::zip(body.mass, body.loss, &mut self.balance, |m, g| m + POLE * h * g);
+        let whole: f64 = self.balance.iter().sum();
+        let constants = series::error_constants();
+        let (mut before, mut ratio) = (f64::INFINITY, 1.0_f64);
+        for n in 1..=MOST {
+            self.put_right_side(n, body.mass, drive);
+            let put: f64 = self.right.iter().sum();
+            self.guess(n, ratio);
+            let term = &mut self.terms[n - 1];
+            factors.solve_from(&self.right, term, SOLVED_TO * tolerance)?;
+            // what the solver has lost of the heat is put back, evenly
+            let lost = (put - kernels::dot(&self.balance, term)) / whole;
+            self.finish_term(n, lost);
+            let size = kernels::max_norm(&self.terms[n - 1]);
+            if n > 1 && before > 0.0 {
+                ratio = size / before;
+            }
+            before = size;
+            let error = constants[n] * size / tolerance;
+            self.count = n;
+            let forecast = Forecast { error, count: n, ratio };
+            if n >= FEWEST && error <= 1.0 {
+                return Ok(Outcome::Accepted(forecast));
+            }
+            if n == MOST || (n >= FEWEST && forecast.is_hopeless()) {
+                return Ok(Outcome::Rejected(forecast));
+            }
+        }
+        Err(FactorError::NotFactorized) // the last term has returned
+    }
+
+    pub(super) fn begin(&mut self, state: &[f64]) {
+        self.start.clear();
+        self.start.extend_from_slice(state);
+        self.right.resize(state.len(), 0.0);
+        self.balance.resize(state.len(), 0.0);
+    }
+
+    fn put_right_side(&mut self, n: usize, mass: &[f64], drive: &Drive<'_>) {
+        let h = self.length;
+        let curving = POLE * h * h;
+        if n == 1 {
+            kernels::linear_sum(h, drive.flow, curving, drive.slope, &mut self.right);
+            return;
+        }
+        kernels::zip(mass, &self.terms[n - 2], &mut self.right, |m, u| m * u);
+        if n == 2 {
+            kernels::scale_and_add(1.0, &mut self.right, curving, drive.slope);
+        }
+    }
+
+    /// Where a solver that iterates begins: terms alternate and shrink by about the same ratio.
+    fn guess(&mut self, n: usize, ratio: f64) {
+        if self.terms.len() < n {
+            self.terms.push(vec![0.0; self.start.len()]);
+        }
+        let (before, now) = self.terms.split_at_mut(n - 1);
+        match before.last() {
+            Some(before) => kernels::map(before, &mut now[0], |u| (1.0 - ratio.min(1.0)) * u),
+            None => now[0].fill(0.0),
+        }
+    }
+
+    fn finish_term(&mut self, n: usize, lost: f64) {
+        let (before, now) = self.terms.split_at_mut(n - 1);
+        match before.last() {
+            Some(before) => kernels::zip_in_place(&mut now[0], before, |x, u| x + lost - u),
+            None => kernels::map_in_place(&mut now[0], |x| x + lost),
+        }
+    }
+
+    /// Writes the start plus the weighted terms.
+    pub(super) fn add_up(&self, weights: &Weights, out: &mut [f64]) {
+        out.copy_from_slice(&self.start);
+        self.add_terms(weights, out);
+    }
+
+    /// Adds the weighted terms.
+    pub(super) fn add_terms(&self, weights: &Weights, out: &mut [f64]) {
+        for (block, out) in out.chunks_mut(BLOCK).enumerate() {
+            let from = block * BLOCK;
+            let to = from + out.len();
+            for (term, &weight) in self.terms[..self.count].iter().zip(weights) {
+                kernels::scale_and_add(1.0, out, weight, &term[from..to]);
+            }
+        }
+    }
+
+    /// The component with the largest last term.
+    pub(super) fn worst(&self) -> usize {
+        match self.terms[..self.count].last() {
+            Some(term) => kernels::worst(term, &vec![1.0; term.len()]),
+            None => 0,
+        }
+    }
+}
+
+impl Forecast {
+    /// How many terms a step would need that is longer by this factor.
+    ///
+    /// Where a term is a share r of the one before, `r = g h l / (1 + g h l)` with the rate l of
+    /// the modes that matter.
+    fn terms_needed(&self, factor: f64) -> f64 {
+        let ratio = self.ratio.clamp(1e-9, 1.0 - 1e-9);
+        let rate = factor * ratio / (1.0 - ratio);
+        let then = rate / (1.0 + rate);
+        let terms = self.count as f64;
+        let error = self.error * factor * (then / ratio).powf(terms - 1.0);
+        if error <= 0.0 {
+            return FEWEST as f64;
+        }
+        terms + error.ln() / -then.ln()
+    }
+
+    fn is_hopeless(&self) -> bool {
+        // what is foretold is not sharp
+        self.terms_needed(1.0) > 2.0 * MOST as f64
+    }
+
+    /// How many levels higher the next step may be.
+    pub(super) fn rise(&self) -> i32 {
+        let fits = |levels: &i32| self.terms_needed(step_of(*levels)) <= WANTED;
+        (1..=3).rev().find(fits).unwrap_or(0)
+    }
+
+    /// How many levels lower the same step has to be, at least 1.
+    pub(super) fn fall(&self) -> i32 {
+        let fits = |levels: &i32| self.terms_needed(step_of(-*levels)) <= MOST as f64 - 1.0;
+        (1..=3).find(fits).unwrap_or(4)
+    }
+}

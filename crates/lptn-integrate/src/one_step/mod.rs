@@ -1,0 +1,463 @@
+//! An integrator for linear systems with constant coefficients.
+//!
+//! BDF methods factorise a matrix whenever their step changes, some hundred times in a run, and
+//! begin anew with tiny steps after every event. Here a step is a series whose terms all take one
+//! solve with the same matrix ([`series`]), its size is a power of four, so that some ten factors
+//! serve a whole run with all its events ([`levels`]), and so many terms are taken as the tolerance
+//! needs ([`attempt`]): the order follows the tolerance, up to 11. The time of an event need not be
+//! the end of a step: a step reaches beyond it as if the inputs went on, and what lies behind the
+//! event is not used.
+
+mod attempt;
+mod clock;
+mod first;
+mod levels;
+mod series;
+
+use crate::linear::{self, LinearSolverKind};
+use crate::{
+    Callback, FactorError, IntegrateError, Integrator, OdeSystem, Options, Retry, Statistics, Step,
+    checks, kernels,
+};
+use attempt::{Body, Drive, Outcome, Series};
+use clock::Clock;
+use first::Jump;
+use levels::{Levels, level_within, step_of};
+
+/// Terms of a step for each part that is handed out: a polynomial of that degree has no more to
+/// hide between two looks than a step of a multistep method.
+const TERMS_OF_PART: usize = 4;
+
+/// The flow is asked for so much later where no stop is set.
+const LATER: f64 = 1.0;
+
+/// Integrates `M y' = q(t) + J y` with a constant `J` and inputs `q` that are straight lines in
+/// time between two starts: [`Integrator::restart`] is due wherever one of them jumps or has a
+/// kink.
+///
+/// There are no sensitivities and no roots: steps end where they end, and whoever looks for events
+/// has [`Integrator::interpolate`] and [`Integrator::rewind`].
+pub struct OneStep<S> {
+    system: S,
+    clock: Clock,
+    state: Vec<f64>,
+    tolerance: f64,
+    max_steps: u64,
+    longest: f64,
+    levels: Levels,
+    /// The level of the next step.
+    level: i32,
+    jacobian: Vec<f64>,
+    /// What leaves each row for a rise of all by 1.
+    loss: Vec<f64>,
+    /// The flow at the start of the step, and its change per time while the state stands still.
+    flow: Vec<f64>,
+    slope: Vec<f64>,
+    /// Whether the system may have changed since it was read.
+    is_new: bool,
+    /// What the flow and its change were when the last start ended.
+    before: Option<Jump>,
+    series: Series,
+    /// When the series begins; none between a start and the first step.
+    begun: Option<f64>,
+    /// The running integrals when the series began, and at `settled`.
+    earlier: Vec<f64>,
+    integrals: Vec<f64>,
+    settled: f64,
+    trouble: Option<IntegrateError>,
+    directions: Vec<i32>,
+    counts: Statistics,
+}
+
+impl<S: OdeSystem> OneStep<S> {
+    /// Whether a system can be integrated, its inputs aside: linear with constant coefficients,
+    /// without algebraic unknowns, without sensitivities.
+    pub fn suits(system: &S) -> bool {
+        system.jacobian_is_constant()
+            && system.slope().is_none()
+            && system.pattern().size() == system.size()
+            && system.sensitivity_count() == 0
+    }
+
+    /// Takes the system at time `t0` in the state `y0` (one value per component, units of y).
+    ///
+    /// # Errors
+    /// Lengths that do not match, options out of range, a state or a mass that is not usable, no
+    /// memory.
+    pub fn new(system: S, t0: f64, y0: &[f64], options: &Options) -> Result<Self, IntegrateError> {
+        checks::options(t0, options)?;
+        checks::system(&system, y0)?;
+        let analysed =
+            linear::for_steps(system.pattern(), system.symmetric(), options.linear_solver);
+        let analysed = analysed.map_err(|cause| linear_trouble(t0, cause))?;
+        let integrals = vec![0.0; system.quadrature_count()];
+        Ok(Self {
+            clock: Clock::new(t0),
+            state: y0.to_vec(),
+            tolerance: options.tolerance,
+            max_steps: u64::try_from(options.max_steps).unwrap_or(u64::MAX),
+            longest: options.max_step_size.unwrap_or(f64::INFINITY),
+            levels: Levels::new(analysed),
+            level: level_within(options.initial_step.unwrap_or(f64::MAX)),
+            jacobian: vec![0.0; system.pattern().len()],
+            loss: Vec::new(),
+            flow: vec![0.0; y0.len()],
+            slope: vec![0.0; y0.len()],
+            is_new: true,
+            before: None,
+            series: Series::default(),
+            begun: None,
+            earlier: integrals.clone(),
+            integrals,
+            settled: 0.0,
+            trouble: None,
+            directions: vec![0; system.root_count()],
+            counts: Statistics::default(),
+            system,
+        })
+    }
+
+    /// Ends the integration and hands the system back.
+    pub fn into_system(self) -> S {
+        self.system
+    }
+
+    /// Computes the series that begins here.
+    fn begin_series(&mut self) -> Result<(), IntegrateError> {
+        self.settle()?;
+        self.earlier.clone_from(&self.integrals);
+        let time = self.clock.shown;
+        flow_at(&mut self.system, &mut self.counts, (time, &self.state), &mut self.flow)?;
+        if self.is_new {
+            self.read_system(time)?;
+            self.is_new = false;
+        }
+        self.hold_level();
+        self.series.begin(&self.state);
+        loop {
+            let h = step_of(self.level);
+            if self.clock.now + h <= self.clock.now {
+                let index = self.series.worst();
+                return Err(IntegrateError::Stalled { time, step: h, index });
+            }
+            if self.attempt(time)? {
+                self.begun = Some(self.clock.now);
+                return Ok(());
+            }
+        }
+    }
+
+    /// Tries a step of the present level; sets the level of the next one.
+    fn attempt(&mut self, time: f64) -> Result<bool, IntegrateError> {
+        let (jacobian, mass, pattern) = (&self.jacobian, self.system.mass(), self.system.pattern());
+        let matrix = |length: f64| {
+            let mut values: Vec<f64> = jacobian.iter().map(|j| -length * j).collect();
+            mass.iter().zip(pattern.diagonal()).for_each(|(m, &slot)| values[slot] += m);
+            values
+        };
+        let body = Body { mass, loss: &self.loss, matrix: &matrix };
+        let drive = Drive { flow: &self.flow, slope: &self.slope };
+        let at = (&mut self.levels, self.level);
+        let outcome = self.series.attempt(at, &body, &drive, self.tolerance);
+        self.counts.linear_solves += self.series.count as u64;
+        match outcome.map_err(|cause| linear_trouble(time, cause))? {
+            Outcome::Accepted(forecast) => {
+                self.counts.steps += 1;
+                self.counts.last_order = self.series.count as u32 - 1;
+                self.counts.last_step = self.series.length;
+                self.level += forecast.rise();
+                Ok(true)
+            }
+            Outcome::Rejected(forecast) => {
+                self.counts.error_test_failures += 1;
+                self.level -= forecast.fall();
+                Ok(false)
+            }
+        }
+    }
+
+    /// Reads what the series needs to know of the system, and chooses the first level.
+    fn read_system(&mut self, time: f64) -> Result<(), IntegrateError> {
+        self.read_jacobian(time)?;
+        let then = match self.clock.shown_stop {
+            stop if stop.is_finite() => stop,
+            _ => time + time.abs().max(LATER),
+        };
+        let last = std::mem::take(&mut self.slope);
+        self.slope = vec![0.0; self.state.len()];
+        flow_at(&mut self.system, &mut self.counts, (then, &self.state), &mut self.slope)?;
+        let way = then - time;
+        kernels::zip_in_place(&mut self.slope, &self.flow, |then, now| (then - now) / way);
+        let jump = match self.before.take() {
+            Some(Jump { flow, .. }) => Jump { flow, slope: last },
+            None => Jump { flow: vec![0.0; last.len()], slope: vec![0.0; last.len()] },
+        };
+        let diagonal = self.system.pattern().diagonal().iter().map(|&slot| self.jacobian[slot]);
+        let longest = jump
+            .to(&self.flow, &self.slope)
+            .longest(self.system.mass().iter().copied().zip(diagonal), self.tolerance);
+        self.level = self.level.min(level_within(longest));
+        Ok(())
+    }
+
+    /// Reads the Jacobian; what was factorised is kept if it is the same.
+    fn read_jacobian(&mut self, time: f64) -> Result<(), IntegrateError> {
+        let before = self.jacobian.clone();
+        self.counts.jacobian_evaluations += 1;
+        let read = self.system.jacobian(time, &self.state, &mut self.jacobian);
+        read.map_err(|retry| refused(Callback::Jacobian, time, retry))?;
+        if let Some(index) = kernels::first_not_finite(&self.jacobian) {
+            return Err(IntegrateError::NotFinite { callback: Callback::Jacobian, time, index });
+        }
+        if self.loss.is_empty() || before != self.jacobian {
+            self.levels.clear();
+            let level = |value: f64| vec![value; self.state.len()];
+            let (mut low, mut high) = (level(0.0), level(0.0));
+            flow_at(&mut self.system, &mut self.counts, (time, &level(0.0)), &mut low)?;
+            flow_at(&mut self.system, &mut self.counts, (time, &level(1.0)), &mut high)?;
+            kernels::zip_in_place(&mut low, &high, |low, high| low - high);
+            self.loss = low;
+        }
+        Ok(())
+    }
+
+    /// No step is longer than the longest, and none reaches four times as far as the stop.
+    fn hold_level(&mut self) {
+        let way = self.clock.stop - self.clock.now;
+        if way.is_finite() {
+            let within = level_within(way);
+            self.level = self.level.min(within + i32::from(step_of(within) < way));
+        }
+        self.level = self.level.min(level_within(self.longest));
+    }
+
+    /// The share of the series at a time.
+    fn share(&self, begun: f64, time: f64) -> f64 {
+        ((time - begun) / self.series.length).min(1.0)
+    }
+
+    /// The end of the part that begins here.
+    fn part_end(&self, begun: f64) -> f64 {
+        let parts = self.series.count.div_ceil(TERMS_OF_PART);
+        let end = |part: usize| match part == parts {
+            true => begun + self.series.length,
+            false => begun + self.series.length * (part as f64 / parts as f64),
+        };
+        (1..parts).map(end).find(|&end| end > self.clock.now).unwrap_or_else(|| end(parts))
+    }
+
+    fn state_at(&self, time: f64, y: &mut [f64]) {
+        let Some(begun) = self.begun else { return y.copy_from_slice(&self.state) };
+        let share = self.share(begun, time);
+        self.series.add_up(&series::change(self.series.count, share), y);
+    }
+
+    /// Brings the running integrals to the present time. They are due before anybody changes the
+    /// system.
+    fn settle(&mut self) -> Result<(), IntegrateError> {
+        let Some(begun) = self.begun.filter(|_| self.settled < self.clock.now) else {
+            return Ok(());
+        };
+        if self.integrals.is_empty() {
+            self.settled = self.clock.now;
+            return Ok(());
+        }
+        let (now, way) = (self.clock.now, self.clock.now - begun);
+        let mut mean = vec![0.0; self.state.len()];
+        let share = self.share(begun, now);
+        self.series.add_up(&series::mean(self.series.count, share), &mut mean);
+        let time = self.clock.shown_of(begun + 0.5 * way);
+        self.counts.quadrature_evaluations += 1;
+        let integrands = self.system.quadrature(time, &mean, &mut self.integrals);
+        integrands.map_err(|retry| refused(Callback::Quadrature, time, retry))?;
+        if let Some(index) = kernels::first_not_finite(&self.integrals) {
+            return Err(IntegrateError::NotFinite { callback: Callback::Quadrature, time, index });
+        }
+        kernels::zip_in_place(&mut self.integrals, &self.earlier, |q, sum| sum + way * q);
+        self.settled = now;
+        Ok(())
+    }
+
+    /// Begins anew here; the running integrals are settled.
+    fn begin_anew(&mut self) {
+        if let Some(begun) = self.begun.take() {
+            let share = self.share(begun, self.clock.now);
+            let mut flow = vec![0.0; self.state.len()];
+            self.series.add_terms(&series::rate(self.series.count, share), &mut flow);
+            let length = self.series.length;
+            kernels::zip_in_place(&mut flow, self.system.mass(), |rate, m| rate * m / length);
+            self.before = Some(Jump { flow, slope: Vec::new() });
+        }
+        self.counts.restarts += 1;
+        self.clock.begin();
+        self.is_new = true;
+    }
+}
+
+impl<S: OdeSystem> Integrator<S> for OneStep<S> {
+    fn time(&self) -> f64 {
+        self.clock.shown
+    }
+
+    fn state(&self) -> &[f64] {
+        &self.state
+    }
+
+    fn system(&self) -> &S {
+        &self.system
+    }
+
+    fn system_mut(&mut self) -> &mut S {
+        if let Err(error) = self.settle() {
+            self.trouble = Some(error);
+        }
+        &mut self.system
+    }
+
+    fn set_stop(&mut self, t: f64) {
+        self.clock.set_stop(t);
+    }
+
+    fn set_longest_step(&mut self, step: f64) {
+        self.longest = step;
+    }
+
+    fn step(&mut self) -> Result<Step, IntegrateError> {
+        if let Some(error) = self.trouble.take() {
+            return Err(error);
+        }
+        let Clock { now, stop, shown, shown_stop, .. } = self.clock;
+        if stop <= now || stop.is_nan() {
+            return step_at_stop(shown, shown_stop);
+        }
+        if self.counts.steps >= self.max_steps {
+            return Err(IntegrateError::TooManySteps { time: shown, steps: self.counts.steps });
+        }
+        let begun = match self.begun.filter(|begun| now < begun + self.series.length) {
+            Some(begun) => begun,
+            None => {
+                self.begin_series()?;
+                now
+            }
+        };
+        let to = self.part_end(begun).min(stop);
+        let mut state = std::mem::take(&mut self.state);
+        self.state_at(to, &mut state);
+        self.state = state;
+        let (from, shown) = self.clock.step_to(to);
+        Ok(Step { from, to: shown, at_stop: to >= stop, roots: false })
+    }
+
+    fn interpolate(&mut self, t: f64, y: &mut [f64]) -> Result<(), IntegrateError> {
+        checks::expect_length("y", self.state.len(), y.len())?;
+        let time = self.clock.within(t)?;
+        if time >= self.clock.now {
+            y.copy_from_slice(&self.state);
+        } else {
+            self.state_at(time, y);
+        }
+        Ok(())
+    }
+
+    fn restart(&mut self, y: Option<&[f64]>) -> Result<(), IntegrateError> {
+        self.settle()?;
+        if let Some(y) = y {
+            checks::expect_length("y", self.state.len(), y.len())?;
+            checks::state(y)?;
+            self.state.copy_from_slice(y);
+        }
+        self.begin_anew();
+        if y.is_some() {
+            self.before = None;
+        }
+        Ok(())
+    }
+
+    fn rewind(&mut self, t: f64) -> Result<(), IntegrateError> {
+        let time = self.clock.within(t)?;
+        if time < self.clock.now {
+            let mut state = std::mem::take(&mut self.state);
+            self.state_at(time, &mut state);
+            self.state = state;
+            self.clock.begin_at(time, t);
+            if let Some(begun) = self.begun {
+                self.settled = begun;
+                self.integrals.clone_from(&self.earlier);
+            }
+        }
+        self.settle()?;
+        self.begin_anew();
+        Ok(())
+    }
+
+    fn root_directions(&self) -> &[i32] {
+        &self.directions
+    }
+
+    fn quadratures(&mut self) -> Result<&[f64], IntegrateError> {
+        self.settle()?;
+        Ok(&self.integrals)
+    }
+
+    fn sensitivities(&mut self) -> Result<&[f64], IntegrateError> {
+        Ok(&[])
+    }
+
+    fn set_sensitivities(&mut self, s: &[f64]) -> Result<(), IntegrateError> {
+        checks::expect_length("sensitivities", 0, s.len())
+    }
+
+    fn interpolate_sensitivities(&mut self, t: f64, s: &mut [f64]) -> Result<(), IntegrateError> {
+        checks::expect_length("sensitivities", 0, s.len())?;
+        self.clock.within(t).map(|_| ())
+    }
+
+    fn statistics(&self) -> Statistics {
+        Statistics {
+            linear_setups: self.levels.asked,
+            factorizations: self.levels.factorizations,
+            ..self.counts
+        }
+    }
+
+    fn linear_solver(&self) -> LinearSolverKind {
+        self.levels.kind()
+    }
+}
+
+fn step_at_stop(time: f64, stop: f64) -> Result<Step, IntegrateError> {
+    if stop < time {
+        return Err(IntegrateError::StopBehind { time, stop });
+    }
+    if stop.is_nan() {
+        return Err(IntegrateError::InvalidOption { option: "stop", value: stop });
+    }
+    Ok(Step { from: time, to: stop, at_stop: true, roots: false })
+}
+
+fn flow_at(
+    system: &mut impl OdeSystem,
+    counts: &mut Statistics,
+    (time, y): (f64, &[f64]),
+    flow: &mut [f64],
+) -> Result<(), IntegrateError> {
+    counts.flow_evaluations += 1;
+    system.flow(time, y, flow).map_err(|retry| refused(Callback::Flow, time, retry))?;
+    kernels::first_not_finite(flow).map_or(Ok(()), |index| {
+        Err(IntegrateError::NotFinite { callback: Callback::Flow, time, index })
+    })
+}
+
+fn refused(callback: Callback, time: f64, retry: Retry) -> IntegrateError {
+    match retry {
+        Retry::SmallerStep => IntegrateError::Refused { callback, time },
+        Retry::Stop => IntegrateError::Stopped { callback, time },
+    }
+}
+
+fn linear_trouble(time: f64, cause: FactorError) -> IntegrateError {
+    match cause {
+        FactorError::OutOfMemory => IntegrateError::OutOfMemory { function: "linear solver" },
+        cause => IntegrateError::Linear { time, cause },
+    }
+}
