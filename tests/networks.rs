@@ -5,6 +5,7 @@
 mod support;
 
 use lptn::prelude::*;
+use lptn::solve::{Column, RecordedNodes};
 use support::{networks, shipped, transient};
 
 fn files() -> Vec<String> {
@@ -98,4 +99,28 @@ fn a_run_ends_on_its_stop_and_its_rows_increase() {
         );
         assert!(times.windows(2).all(|pair| pair[0] < pair[1]), "{name}");
     }
+}
+
+/// Heat flows that are read while a run comes to its rows are, to the bit, those of a run that kept
+/// every temperature.
+#[test]
+fn columns_do_not_depend_on_what_is_kept() {
+    for name in files() {
+        let (netlist, system) = shipped(&name);
+        let asked = Selection::all(&netlist.network);
+        let table = |record| {
+            let transient = Transient { record, ..transient(&netlist) };
+            let solution = transient.solve(&system).expect("it runs");
+            let table = Table::of_solution(&solution, &asked, &netlist.temperature_unit);
+            let bits = |column: &Column| -> Vec<u64> {
+                column.values.iter().map(|value| value.to_bits()).collect()
+            };
+            table.columns().iter().map(|column| (column.name.clone(), bits(column))).collect()
+        };
+        let [all, read]: [Vec<_>; 2] = [RecordedNodes::All, asked.record()].map(table);
+        assert_eq!(all, read, "{name}");
+    }
+    let (netlist, _) = shipped("gearbox.toml");
+    let heats = Selection::matching(&netlist.network, &["*.Q".into()]).expect("heat flows");
+    assert!(matches!(heats.record(), RecordedNodes::Columns { nodes, .. } if nodes.is_empty()));
 }

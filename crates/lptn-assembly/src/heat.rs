@@ -41,11 +41,11 @@ impl ThermalSystem {
         for (q, share) in heat.iter_mut().zip(&work.heat[nodes..]) {
             *q = -share; // what massless nodes hand on to it
         }
-        for tie in &self.ties {
+        for tie in self.ties.iter() {
             let boundary = tie.b as usize;
             heat[boundary - nodes] += tie.g * (work.temperature[boundary] - y[tie.a as usize]);
         }
-        for bridge in &self.bridges {
+        for bridge in self.bridges.iter() {
             let (a, b) = (bridge.a as usize, bridge.b as usize);
             let q = bridge.g * (work.temperature[a] - work.temperature[b]);
             heat[a - nodes] += q;
@@ -64,7 +64,7 @@ impl ThermalSystem {
     /// # Errors
     /// As [`ThermalSystem::flow`].
     pub fn stream_heat(&self, work: &mut Workspace, heat: &mut [f64]) -> Result<(), InputError> {
-        for (q, &id) in heat.iter_mut().zip(&self.streams) {
+        for (q, &id) in heat.iter_mut().zip(self.streams.iter()) {
             *q = self.received(work, id)?.iter().sum();
         }
         Ok(())

@@ -1,14 +1,17 @@
 //! The pattern of the Jacobian and where each value goes in it.
 
-use faer::sparse::{SymbolicSparseColMat, SymbolicSparseColMatRef};
+use std::sync::Arc;
 
 /// Compressed columns of a structurally symmetric matrix: sorted, without duplicates, with its full
-/// diagonal. It never changes; values are written through slots only.
+/// diagonal. It never changes, so that copies share it; values are written through slots only.
 #[derive(Clone, Debug)]
 pub struct JacobianPattern {
-    symbolic: SymbolicSparseColMat<usize>,
+    /// Slot at which each column begins, and the number of all slots.
+    columns: Arc<Vec<usize>>,
+    /// Row of each slot.
+    rows: Arc<Vec<usize>>,
     /// Slot of each diagonal entry.
-    diagonal: Vec<usize>,
+    diagonal: Arc<Vec<usize>>,
 }
 
 impl JacobianPattern {
@@ -19,14 +22,13 @@ impl JacobianPattern {
         pairs.retain(|(a, b)| a != b);
         pairs.sort_unstable();
         pairs.dedup();
-        let mut counts = vec![1_usize; size]; // the diagonal
-        for &(a, b) in &pairs {
-            counts[a as usize] += 1;
-            counts[b as usize] += 1;
-        }
         let mut columns = vec![0_usize; size + 1];
+        for &(a, b) in &pairs {
+            columns[a as usize + 1] += 1;
+            columns[b as usize + 1] += 1;
+        }
         for i in 0..size {
-            columns[i + 1] = columns[i] + counts[i];
+            columns[i + 1] += columns[i] + 1; // the diagonal
         }
         let mut rows = vec![0_usize; columns[size]];
         let mut next = columns[..size].to_vec();
@@ -49,18 +51,18 @@ impl JacobianPattern {
                 k += 1;
             }
         }
-        let symbolic = SymbolicSparseColMat::new_checked(size, size, columns, None, rows);
-        Self { symbolic, diagonal }
+        Self { columns: columns.into(), rows: rows.into(), diagonal: diagonal.into() }
     }
 
-    /// The compressed columns.
-    pub fn symbolic(&self) -> SymbolicSparseColMatRef<'_, usize> {
-        self.symbolic.as_ref()
+    /// The slot at which each column begins and the number of all slots, the row of each slot, the
+    /// slot of each diagonal entry.
+    pub fn symbolic(&self) -> [Arc<Vec<usize>>; 3] {
+        [&self.columns, &self.rows, &self.diagonal].map(Arc::clone)
     }
 
     /// Number of stored entries.
     pub fn entries(&self) -> usize {
-        self.symbolic.row_idx().len()
+        self.rows.len()
     }
 
     pub(crate) fn diagonal_slot(&self, unknown: usize) -> usize {
@@ -69,9 +71,8 @@ impl JacobianPattern {
 
     /// The slot of an entry, which has to be one of the pattern.
     pub(crate) fn slot(&self, row: u32, column: u32) -> usize {
-        let columns = self.symbolic.col_ptr();
-        let (first, last) = (columns[column as usize], columns[column as usize + 1]);
-        let offset = self.symbolic.row_idx()[first..last].partition_point(|&r| r < row as usize);
+        let (first, last) = (self.columns[column as usize], self.columns[column as usize + 1]);
+        let offset = self.rows[first..last].partition_point(|&r| r < row as usize);
         first + offset
     }
 }
@@ -83,9 +84,10 @@ mod tests {
     #[test]
     fn pattern_is_sorted_symmetric_and_has_its_diagonal() {
         let pattern = JacobianPattern::new(4, vec![(1, 3), (0, 3), (2, 1), (1, 3)]);
-        let (columns, rows) = (pattern.symbolic().col_ptr(), pattern.symbolic().row_idx());
-        assert_eq!(columns, &[0, 2, 5, 7, 10]);
-        assert_eq!(rows, &[0, 3, 1, 2, 3, 1, 2, 0, 1, 3]);
+        let [columns, rows, diagonal] = pattern.symbolic();
+        assert_eq!(*columns, [0, 2, 5, 7, 10]);
+        assert_eq!(*rows, [0, 3, 1, 2, 3, 1, 2, 0, 1, 3]);
+        assert_eq!(*diagonal, [0, 2, 6, 9]);
         let (ab, ba) = (pattern.slot(3, 1), pattern.slot(1, 3));
         assert_eq!((rows[ab], rows[ba]), (3, 1));
     }

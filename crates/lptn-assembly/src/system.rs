@@ -1,5 +1,7 @@
 //! The sparse system `C dT/dt = q(t, T)` of a network.
 
+use std::sync::Arc;
+
 use lptn_network::{ConductorFlow, ConductorId, InputError, Network, NodeId};
 
 use crate::element::{Element, JacobianForm};
@@ -14,31 +16,32 @@ use crate::workspace::Workspace;
 ///
 /// The unknowns are the nodes with capacity (the states), then those massless nodes (the algebraic
 /// ones), each in the network's order. `flow` and `jacobian` read the same links and elements, and
-/// the heat of a link leaves one end and enters the other as one number with two signs.
+/// the heat of a link leaves one end and enters the other as one number with two signs. Copies
+/// share their memory.
 #[derive(Clone, Debug)]
 pub struct ThermalSystem {
     pub(crate) network: Network,
     /// Node of each unknown.
-    pub(crate) unknowns: Vec<NodeId>,
+    pub(crate) unknowns: Arc<Vec<NodeId>>,
     /// How many of them are states.
     pub(crate) states: usize,
     /// Capacity of each state in J/K at its start, then zeros.
-    pub(crate) mass: Vec<f64>,
+    pub(crate) mass: Arc<Vec<f64>>,
     /// Constant conductances between unknowns, by their numbers, with their two slots in the
     /// Jacobian.
-    pub(crate) links: Vec<Link>,
-    pub(crate) link_slots: Vec<[usize; 2]>,
+    pub(crate) links: Arc<Vec<Link>>,
+    pub(crate) link_slots: Arc<Vec<[u32; 2]>>,
     /// Those from an unknown (`a`) to a vertex that is a boundary (`b`).
-    pub(crate) ties: Vec<Link>,
+    pub(crate) ties: Arc<Vec<Link>>,
     /// Those between two boundaries, by vertex: no unknown feels them, the ledger does.
-    pub(crate) bridges: Vec<Link>,
-    pub(crate) radiation: Vec<Radiation>,
+    pub(crate) bridges: Arc<Vec<Link>>,
+    pub(crate) radiation: Arc<Vec<Radiation>>,
     /// Everything else.
-    pub(crate) elements: Vec<Element>,
-    pub(crate) streams: Vec<ConductorId>,
+    pub(crate) elements: Arc<Vec<Element>>,
+    pub(crate) streams: Arc<Vec<ConductorId>>,
     /// Whether every element has a symmetric form.
     pub(crate) symmetric: bool,
-    pub(crate) elimination: Elimination,
+    pub(crate) elimination: Arc<Elimination>,
     pub(crate) pattern: JacobianPattern,
 }
 
@@ -60,33 +63,34 @@ impl ThermalSystem {
         let (links, ties, bridges) = sorted(kept, &number);
         let mut radiation = Radiation::all_of(network);
         let mut elements = Element::all_of(network);
-        let mut pairs: Vec<(u32, u32)> = links.iter().map(|link| (link.a, link.b)).collect();
+        let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(links.len());
+        pairs.extend(links.iter().map(|link| (link.a, link.b)));
         pairs.extend(radiation.iter().filter_map(|r| r.pair(&number)));
         elements.iter().for_each(|element| pairs.extend(element.pairs(&number)));
         let pattern = JacobianPattern::new(unknowns.len(), pairs);
         radiation.iter_mut().for_each(|r| r.place(&number, &pattern));
         elements.iter_mut().for_each(|element| element.place(&number, &pattern));
-        let link_slots =
-            links.iter().map(|l| [pattern.slot(l.a, l.b), pattern.slot(l.b, l.a)]).collect();
+        let place = |row, column| u32::try_from(pattern.slot(row, column));
+        let place = |row, column| place(row, column).expect("fewer than 2^32 links are in memory");
+        let link_slots = links.iter().map(|l| [place(l.a, l.b), place(l.b, l.a)]).collect();
         let symmetric = elements.iter().all(|element| element.is_symmetric(network));
         let mass = unknowns.iter().map(|&id| network.capacity(id)).collect();
         let stream = |id: &ConductorId| network.conductors()[id.index()].law.is_stream();
         let streams = network.conductor_ids().filter(stream).collect();
-        let network = network.clone();
         Ok(Self {
-            network,
-            unknowns,
+            network: network.clone(),
+            unknowns: Arc::new(unknowns),
             states,
-            mass,
-            links,
-            link_slots,
-            ties,
-            bridges,
-            radiation,
-            elements,
-            streams,
+            mass: Arc::new(mass),
+            links: Arc::new(links),
+            link_slots: Arc::new(link_slots),
+            ties: Arc::new(ties),
+            bridges: Arc::new(bridges),
+            radiation: Arc::new(radiation),
+            elements: Arc::new(elements),
+            streams: Arc::new(streams),
             symmetric,
-            elimination,
+            elimination: Arc::new(elimination),
             pattern,
         })
     }
@@ -210,7 +214,7 @@ impl ThermalSystem {
         if !self.is_linear() {
             self.evaluate_elements(work, y)?;
             flow.iter_mut()
-                .zip(&self.unknowns)
+                .zip(self.unknowns.iter())
                 .for_each(|(q, id)| *q += work.element_heat[id.index()]);
         }
         Ok(())
@@ -219,16 +223,16 @@ impl ThermalSystem {
     /// The part of [`ThermalSystem::flow`] that inputs and constant conductances make up: all of it
     /// for a linear system.
     pub fn linear_flow(&self, work: &Workspace, y: &[f64], flow: &mut [f64]) {
-        for (q, id) in flow.iter_mut().zip(&self.unknowns) {
+        for (q, id) in flow.iter_mut().zip(self.unknowns.iter()) {
             *q = work.heat[id.index()];
         }
-        for link in &self.links {
+        for link in self.links.iter() {
             let (a, b) = (link.a as usize, link.b as usize);
             let q = link.g * (y[a] - y[b]);
             flow[a] -= q;
             flow[b] += q;
         }
-        for tie in &self.ties {
+        for tie in self.ties.iter() {
             flow[tie.a as usize] += tie.g * (work.temperature[tie.b as usize] - y[tie.a as usize]);
         }
     }
@@ -246,7 +250,7 @@ impl ThermalSystem {
 
     /// Takes the temperatures of the unknowns.
     fn put(&self, work: &mut Workspace, y: &[f64]) {
-        y.iter().zip(&self.unknowns).for_each(|(t, id)| work.temperature[id.index()] = *t);
+        y.iter().zip(self.unknowns.iter()).for_each(|(t, id)| work.temperature[id.index()] = *t);
     }
 
     /// Writes the derivative of [`ThermalSystem::flow`] by the unknowns in W/K into the slots of
@@ -268,7 +272,7 @@ impl ThermalSystem {
         if !self.is_linear() {
             self.put(work, y);
             self.radiation.iter().for_each(|r| r.add_slopes(&work.temperature, form, values));
-            for element in &self.elements {
+            for element in self.elements.iter() {
                 element.add_slopes(&self.network, work, form, values)?;
             }
         }
@@ -279,12 +283,12 @@ impl ThermalSystem {
     /// system.
     pub fn jacobian(&self, values: &mut [f64]) {
         values.fill(0.0);
-        for (link, slots) in self.links.iter().zip(&self.link_slots) {
-            slots.iter().for_each(|&slot| values[slot] += link.g);
+        for (link, slots) in self.links.iter().zip(self.link_slots.iter()) {
+            slots.iter().for_each(|&slot| values[slot as usize] += link.g);
             values[self.pattern.diagonal_slot(link.a as usize)] -= link.g;
             values[self.pattern.diagonal_slot(link.b as usize)] -= link.g;
         }
-        for tie in &self.ties {
+        for tie in self.ties.iter() {
             values[self.pattern.diagonal_slot(tie.a as usize)] -= tie.g;
         }
     }
@@ -320,12 +324,12 @@ impl ThermalSystem {
 
     /// The sum of all conductances that lead to a boundary, after the elimination, in W/K.
     pub fn boundary_conductance(&self) -> f64 {
-        self.ties.iter().chain(&self.bridges).map(|link| link.g).sum()
+        self.ties.iter().chain(self.bridges.iter()).map(|link| link.g).sum()
     }
 
     /// Temperatures of the unknowns in K among those of all nodes.
     pub fn unknown_temperatures(&self, nodes: &[f64], y: &mut [f64]) {
-        y.iter_mut().zip(&self.unknowns).for_each(|(t, id)| *t = nodes[id.index()]);
+        y.iter_mut().zip(self.unknowns.iter()).for_each(|(t, id)| *t = nodes[id.index()]);
     }
 }
 
@@ -345,17 +349,25 @@ fn constant_links(network: &Network) -> Vec<Link> {
 /// Links between unknowns, from an unknown to a boundary, between boundaries. `kept` is sorted by
 /// vertex and so are they: the numbers of unknowns only grow with those of nodes within states and
 /// within algebraic ones.
-fn sorted(kept: Vec<Link>, number: &[u32]) -> (Vec<Link>, Vec<Link>, Vec<Link>) {
-    let (mut links, mut ties, mut bridges) = (Vec::new(), Vec::new(), Vec::new());
-    for Link { a, b, g } in kept {
+fn sorted(mut kept: Vec<Link>, number: &[u32]) -> (Vec<Link>, Vec<Link>, Vec<Link>) {
+    let (mut ties, mut bridges) = (Vec::new(), Vec::new());
+    // most of them are links, which stay where they are
+    kept.retain_mut(|link| {
+        let Link { a, b, g } = *link;
         match (number[a as usize], number[b as usize]) {
             (u32::MAX, u32::MAX) => bridges.push(Link { a, b, g }),
             (a, u32::MAX) => ties.push(Link { a, b, g }),
             (u32::MAX, b) => ties.push(Link { a: b, b: a, g }),
-            (a, b) => links.push(Link { a, b, g }),
+            (a, b) => {
+                *link = Link { a, b, g };
+                return true;
+            }
         }
-    }
-    (links, ties, bridges)
+        false
+    });
+    kept.shrink_to_fit();
+    ties.shrink_to_fit();
+    (kept, ties, bridges)
 }
 
 fn too_many(network: &Network, error: &TooMany) -> AssemblyError {

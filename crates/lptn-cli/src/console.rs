@@ -14,6 +14,7 @@ use crate::drawing::{self, Drawing};
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
 use crate::options::{Color, Global};
+use crate::phases::Phases;
 use crate::refusal::Refusal;
 use crate::reporting::{self, Reporting};
 
@@ -47,6 +48,7 @@ pub(crate) struct Console {
     printed: AtomicBool,
     /// Commands to type next.
     next: Mutex<Vec<String>>,
+    pub(crate) phases: Phases,
 }
 
 impl Console {
@@ -73,6 +75,7 @@ impl Console {
             refusal: Refusal::wanted(),
             printed: AtomicBool::new(false),
             next: Mutex::default(),
+            phases: Phases::default(),
         }
     }
 
@@ -87,7 +90,8 @@ impl Console {
         if self.plot == Some(Drawing::Terminal) && format != Format::Table {
             return Err(drawing::not_here());
         }
-        self.write(|out| lptn_report::write(page, format, self.look(), out))?;
+        let write = || self.write(|out| lptn_report::write(page, format, self.look(), out));
+        self.phases.timed("write", write)?;
         if self.reports() {
             self.add_report(lptn_report::report_of(page));
         }
@@ -184,6 +188,13 @@ impl Console {
     pub(crate) fn next(&self, command: &str) {
         if self.watched || self.verbose {
             self.next.lock().unwrap_or_else(PoisonError::into_inner).push(command.to_owned());
+        }
+    }
+
+    /// Says how long the parts of the command took; only when verbose.
+    pub(crate) fn say_times(&self) {
+        if self.verbose && !self.phases.seconds().is_empty() {
+            self.note(&self.phases.text());
         }
     }
 

@@ -24,6 +24,7 @@ mod limits;
 mod lumping;
 mod options;
 mod panic_net;
+mod phases;
 mod progress;
 mod ranges;
 mod refusal;
@@ -62,7 +63,10 @@ fn main() -> ExitCode {
     let verb = args.verb.as_ref().map_or("", Verb::name);
     match console.write_report(verb, known) {
         Err(failure) => exit = refused(failure),
-        Ok(()) if known => console.say_next(),
+        Ok(()) if known => {
+            console.say_times();
+            console.say_next();
+        }
         Ok(()) => {}
     }
     console.answer_failure(exit);

@@ -67,6 +67,8 @@ pub(crate) struct Counts {
     pub(crate) setups: u64,
     pub(crate) factorizations: u64,
     pub(crate) solves: u64,
+    /// Of linear solvers that were given up.
+    pub(crate) iterations: u64,
 }
 
 /// A callback that failed.
@@ -249,6 +251,7 @@ impl<S: OdeSystem> Shared<S> {
     /// From now on with these factors, which must be for any values, and with the system's exact
     /// Jacobian.
     pub(crate) fn leave_symmetry(&mut self, factors: Box<dyn Factorization>) {
+        self.counts.iterations += self.factors.iterations();
         self.factors = factors;
         self.jacobian_is_current = false;
         (self.failure, self.overcome) = (None, None);

@@ -11,6 +11,7 @@ use roots::Roots;
 use sensitivities::Sensitivities;
 use times::Shown;
 
+use crate::callback::Shared;
 use crate::context::Context;
 use crate::linear_solver::SolverHandles;
 use crate::memory::{Counters, Flag, Memory, Reached};
@@ -355,7 +356,7 @@ impl<S: OdeSystem> Integrator<S> for Cvodes<S> {
 
     fn statistics(&self) -> Statistics {
         let total = sum(&self.before, &self.memory.counters());
-        let counts = &self.shared.get().counts;
+        let Shared { counts, factors, .. } = self.shared.get();
         Statistics {
             steps: total.steps,
             flow_evaluations: counts.flow,
@@ -365,6 +366,8 @@ impl<S: OdeSystem> Integrator<S> for Cvodes<S> {
             linear_setups: counts.setups,
             factorizations: counts.factorizations,
             linear_solves: counts.solves,
+            linear_iterations: counts.iterations + factors.iterations(),
+            fill: factors.fill() as u64,
             newton_iterations: total.newton_iterations,
             error_test_failures: total.error_test_failures,
             newton_failures: total.newton_failures,

@@ -1,15 +1,15 @@
 //! Where a square sparse matrix can be nonzero.
 
-use faer::sparse::SymbolicSparseColMatRef;
+use std::sync::Arc;
 
 /// Structurally symmetric pattern in compressed columns: rows ascending within a column, no
 /// duplicates, the whole diagonal present. A *slot* is a position in the array of values that goes
-/// with the pattern.
+/// with the pattern. Copies share their memory.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pattern {
-    column_pointers: Vec<usize>,
-    row_indices: Vec<usize>,
-    diagonal: Vec<usize>,
+    column_pointers: Arc<Vec<usize>>,
+    row_indices: Arc<Vec<usize>>,
+    diagonal: Arc<Vec<usize>>,
 }
 
 impl Pattern {
@@ -30,37 +30,23 @@ impl Pattern {
             rows_of[column].push(row);
             rows_of[row].push(column);
         }
-        let mut pattern = Self {
-            column_pointers: vec![0],
-            row_indices: Vec::new(),
-            diagonal: Vec::with_capacity(n),
-        };
+        let (mut pointers, mut indices, mut diagonal) =
+            (vec![0], Vec::new(), Vec::with_capacity(n));
         for (column, mut rows) in rows_of.into_iter().enumerate() {
             rows.sort_unstable();
             rows.dedup();
             let offset = rows.partition_point(|&row| row < column);
-            pattern.diagonal.push(pattern.row_indices.len() + offset);
-            pattern.row_indices.append(&mut rows);
-            pattern.column_pointers.push(pattern.row_indices.len());
+            diagonal.push(indices.len() + offset);
+            indices.append(&mut rows);
+            pointers.push(indices.len());
         }
-        pattern
+        Self::from_symbolic([pointers, indices, diagonal].map(Arc::new))
     }
 
-    /// The pattern of a symbolic matrix that somebody else made: square, structurally symmetric,
-    /// rows ascending and without duplicates (faer keeps these two), the whole diagonal present.
-    ///
-    /// # Panics
-    /// If the diagonal is not whole: that is a mistake of the calling program, never of its input.
+    /// A pattern that somebody else made and shares: the slot at which each column begins with the
+    /// number of slots behind them, the row of each slot, the slot of each diagonal entry.
     #[must_use]
-    pub fn from_symbolic(symbolic: SymbolicSparseColMatRef<'_, usize>) -> Self {
-        let column_pointers = symbolic.col_ptr().to_vec();
-        let row_indices = symbolic.row_idx().to_vec();
-        let slot = |column: usize| {
-            let range = column_pointers[column]..column_pointers[column + 1];
-            let offset = row_indices[range.clone()].binary_search(&column);
-            range.start + offset.unwrap_or_else(|_| panic!("column {column} has no diagonal entry"))
-        };
-        let diagonal = (0..symbolic.ncols()).map(slot).collect();
+    pub fn from_symbolic([column_pointers, row_indices, diagonal]: [Arc<Vec<usize>>; 3]) -> Self {
         Self { column_pointers, row_indices, diagonal }
     }
 

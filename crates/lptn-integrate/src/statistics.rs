@@ -19,6 +19,10 @@ pub struct Statistics {
     pub factorizations: u64,
     /// Linear solves.
     pub linear_solves: u64,
+    /// Iterations in all linear solves; 0 for exact factors.
+    pub linear_iterations: u64,
+    /// Numbers stored for the factors that are in use.
+    pub fill: u64,
     /// Newton iterations.
     pub newton_iterations: u64,
     /// Steps repeated because the estimated error was too large.

@@ -17,10 +17,13 @@ use crate::value::{Input, Value};
 /// A builder takes a law of [`Input`]s, a network holds one of [`Value`]s in SI units.
 #[derive(Clone, Debug)]
 pub struct Law<V = Value> {
-    formula: Formula,
-    fluid: Option<FluidId>,
     values: Values<V>,
+    /// [`NO_FLUID`] where there is none: an option is twice as large, in every conductor.
+    fluid: FluidId,
+    formula: Formula,
 }
+
+const NO_FLUID: FluidId = FluidId(u32::MAX);
 
 /// Nearly all laws of a large network have one value.
 #[derive(Clone, Debug)]
@@ -51,12 +54,12 @@ impl<V> From<Vec<V>> for Values<V> {
 impl<V> Law<V> {
     /// A law with a value for each of its fields, in their order.
     pub fn new(formula: Formula, values: impl Into<Vec<V>>) -> Self {
-        Self { formula, fluid: None, values: values.into().into() }
+        Self { formula, fluid: NO_FLUID, values: values.into().into() }
     }
 
     /// A law of a stream of a fluid.
     pub fn of_fluid(formula: Formula, fluid: FluidId, values: impl Into<Vec<V>>) -> Self {
-        Self { fluid: Some(fluid), ..Self::new(formula, values) }
+        Self { fluid, ..Self::new(formula, values) }
     }
 
     /// Which law it is.
@@ -71,7 +74,7 @@ impl<V> Law<V> {
 
     /// The fluid that it carries.
     pub fn fluid(&self) -> Option<FluidId> {
-        self.fluid
+        Some(self.fluid).filter(|fluid| *fluid != NO_FLUID)
     }
 
     /// Whether heat goes with a fluid that flows from one end to the other.

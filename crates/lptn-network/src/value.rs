@@ -128,6 +128,14 @@ pub struct Lump {
     pub size: Size,
 }
 
+impl Lump {
+    /// Whether it is as much of the same material.
+    pub(crate) fn is_same(&self, other: &Self) -> bool {
+        let ((own, size), (others, same)) = (self.size.field(), other.size.field());
+        self.material == other.material && own == others && size.is_same(same)
+    }
+}
+
 impl Size {
     pub(crate) fn field(&self) -> (Field, &Value) {
         match self {

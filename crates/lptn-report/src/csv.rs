@@ -1,11 +1,15 @@
 //! Tables as CSV.
 
+use std::borrow::Cow;
 use std::io;
 
-use lptn_solve::Table;
+use lptn_solve::{Column, Table};
 
 use crate::number::Shortest;
 use crate::page::Rows;
+
+/// How many bytes are handed on at once.
+const CHUNK: usize = 1 << 13;
 
 /// Writes the rows of a page.
 pub(crate) fn write(rows: &Rows<'_>, out: &mut dyn io::Write) -> io::Result<()> {
@@ -21,7 +25,17 @@ pub(crate) fn write(rows: &Rows<'_>, out: &mut dyn io::Write) -> io::Result<()> 
 /// # Errors
 /// What `out` reports.
 pub fn write_csv(table: &Table, out: impl io::Write) -> io::Result<()> {
-    numbers(table, &mut csv::Writer::from_writer(out)).map_err(io_error)
+    let mut lines = Lines::new(out);
+    table.labels().iter().for_each(|label| lines.word(&label.name));
+    table.columns().iter().for_each(|column| lines.word(&Column::header(column)));
+    lines.end()?;
+    let mut number = Shortest::new();
+    for row in 0..table.rows() {
+        table.labels().iter().for_each(|label| lines.word(&label.cells[row]));
+        table.row(row).for_each(|value| lines.cell(number.text(value)));
+        lines.end()?;
+    }
+    lines.finish()
 }
 
 /// Writes rows of texts, the heading first; all of one length.
@@ -29,31 +43,63 @@ pub fn write_csv(table: &Table, out: impl io::Write) -> io::Result<()> {
 /// # Errors
 /// What the writer reports.
 pub fn write_rows(rows: &[Vec<String>], out: impl io::Write) -> io::Result<()> {
-    let mut writer = csv::Writer::from_writer(out);
-    rows.iter().try_for_each(|row| writer.write_record(row)).map_err(io_error)?;
-    writer.flush()
+    let mut lines = Lines::new(out);
+    for row in rows {
+        row.iter().for_each(|text| lines.word(text));
+        lines.end()?;
+    }
+    lines.finish()
 }
 
-fn numbers(table: &Table, writer: &mut csv::Writer<impl io::Write>) -> csv::Result<()> {
-    let labels = table.labels().iter().map(|label| label.name.clone());
-    writer.write_record(labels.chain(table.columns().iter().map(lptn_solve::Column::header)))?;
-    let mut number = Shortest::new();
-    for row in 0..table.rows() {
-        for label in table.labels() {
-            writer.write_field(&label.cells[row])?;
-        }
-        for value in table.row(row) {
-            writer.write_field(number.text(value))?;
-        }
-        writer.write_record(None::<&[u8]>)?;
-    }
-    Ok(writer.flush()?)
+/// Lines of cells on their way to a stream.
+struct Lines<W> {
+    out: W,
+    text: Vec<u8>,
+    /// Where the present line begins in `text`.
+    begin: usize,
 }
 
-/// The error of the stream itself, so that a closed pipe is known as one.
-fn io_error(error: csv::Error) -> io::Error {
-    match error.into_kind() {
-        csv::ErrorKind::Io(error) => error,
-        other => io::Error::other(format!("{other:?}")),
+impl<W: io::Write> Lines<W> {
+    fn new(out: W) -> Self {
+        Self { out, text: Vec::with_capacity(CHUNK + CHUNK / 8), begin: 0 }
     }
+
+    /// A cell of any text.
+    fn word(&mut self, text: &str) {
+        self.cell(&quoted(text));
+    }
+
+    /// A cell of a text that needs no quotes.
+    fn cell(&mut self, text: &str) {
+        self.text.extend_from_slice(text.as_bytes());
+        self.text.push(b',');
+    }
+
+    /// Ends the line; one without any character would be no row to a reader.
+    fn end(&mut self) -> io::Result<()> {
+        self.text.pop();
+        if self.text.len() == self.begin {
+            self.text.extend_from_slice(b"\"\"");
+        }
+        self.text.push(b'\n');
+        if self.text.len() >= CHUNK {
+            self.out.write_all(&self.text)?;
+            self.text.clear();
+        }
+        self.begin = self.text.len();
+        Ok(())
+    }
+
+    fn finish(mut self) -> io::Result<()> {
+        self.out.write_all(&self.text)?;
+        self.out.flush()
+    }
+}
+
+/// A text as a cell: in quotes where it holds what ends a cell or a line.
+fn quoted(text: &str) -> Cow<'_, str> {
+    if text.contains([',', '"', '\n', '\r']) {
+        return format!("\"{}\"", text.replace('"', "\"\"")).into();
+    }
+    text.into()
 }

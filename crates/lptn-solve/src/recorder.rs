@@ -7,8 +7,10 @@ use lptn_integrate::{IntegrateError, Integrator, Statistics};
 use lptn_network::{NodeId, Positions};
 
 use crate::balance::Balance;
+use crate::columns::{Columns, Room};
 use crate::error::{StopReason, TransientError};
 use crate::events::Event;
+use crate::extremes::Extremes;
 use crate::heat::Heat;
 use crate::last::LastState;
 use crate::ledger::Ledger;
@@ -16,11 +18,9 @@ use crate::limit::{LimitWatch, with_limits};
 use crate::ranges::RangeWatch;
 use crate::reading::Reading;
 use crate::readings::Readings;
-use crate::selection::RecordedNodes;
 use crate::sensed::Sensed;
 use crate::sensitivity_rows::SensitivityRows;
 use crate::settings::Transient;
-use crate::settings_error::SettingsError;
 use crate::solution::{RunStatus, Solution};
 use crate::state::State;
 use crate::times::Segment;
@@ -31,9 +31,6 @@ use crate::watch::{Watch, Watched};
 
 /// Writes the state at a time inside the present step.
 type StateAt<'a> = dyn FnMut(f64, &mut [f64]) -> Result<(), IntegrateError> + 'a;
-
-/// The most temperatures that are kept: 4 GB.
-const MOST_VALUES: usize = 500_000_000;
 
 /// The rows of a run, written in order.
 pub(crate) struct Recorder<'a> {
@@ -53,6 +50,9 @@ pub(crate) struct Recorder<'a> {
     row_positions: Vec<u32>,
     recorded: Vec<NodeId>,
     temperatures: Vec<f64>,
+    columns: Columns,
+    /// The hottest and the coldest node of all rows, recorded or not.
+    extremes: Extremes,
     watch: Vec<Watch>,
     seen: Vec<Watched>,
     /// For each watched node the points of the present step.
@@ -84,18 +84,9 @@ impl<'a> Recorder<'a> {
         settings: &Transient,
     ) -> Result<Self, TransientError> {
         let network = system.network();
-        let mut recorded = match &settings.record {
-            RecordedNodes::All => network.node_ids().collect(),
-            RecordedNodes::Nodes(nodes) => nodes.clone(),
-        };
-        recorded.sort_unstable();
-        recorded.dedup();
+        let Room { recorded, temperatures, columns } =
+            Room::new(system, &settings.record, rows.len()).map_err(TransientError::Settings)?;
         let (start, stop) = (rows[0], rows[rows.len() - 1]);
-        let mut temperatures = Vec::new();
-        let too_much = SettingsError::TooMuch { rows: rows.len(), nodes: recorded.len() };
-        let size = rows.len().checked_mul(recorded.len()).filter(|&size| size <= MOST_VALUES);
-        let size = size.ok_or(TransientError::Settings(too_much.clone()))?;
-        temperatures.try_reserve_exact(size).map_err(|_| TransientError::Settings(too_much))?;
         let unfold =
             Unfold::new(system).map_err(|e| TransientError::Start(Unsolved::new(system, e)))?;
         let windows = settings.windows.iter().cloned().map(|window| Tracked::new(window, network));
@@ -106,6 +97,8 @@ impl<'a> Recorder<'a> {
             positions: Vec::new(),
             row_positions: Vec::new(),
             temperatures,
+            columns,
+            extremes: Extremes::default(),
             rows,
             next: 0,
             segment: Segment { from: start, to: stop },
@@ -252,7 +245,7 @@ impl<'a> Recorder<'a> {
                 let read = integrator.interpolate_sensitivities(time, sensed.carried());
                 read.map_err(|error| StopReason::Integrator { error, node: None })?;
             }
-            if self.is_whole() {
+            if self.is_whole() || !self.columns.is_empty() {
                 self.check_heat()?;
             }
             self.push()?;
@@ -336,11 +329,14 @@ impl<'a> Recorder<'a> {
             let name = self.system.network().nodes()[i].name.clone();
             return Err(StopReason::BelowAbsoluteZero { name, temperature: nodes[i] });
         }
+        self.extremes.take_in_all(self.rows[self.next], (self.system.network(), nodes));
         self.temperatures.extend(self.recorded.iter().map(|id| nodes[id.index()]));
         if let Some(sensed) = &mut self.sensed {
             let pushed = sensed.push(&mut self.work, &self.unfold, &self.recorded);
             pushed.map_err(|e| StopReason::Unsolved(Unsolved::new(self.system, e)))?;
         }
+        let at = (self.rows[self.next], self.inside);
+        self.columns.push(&mut self.reading, &mut self.work, at);
         self.segments.push(self.inside);
         let position = self.positions.len().checked_sub(1).and_then(|i| u32::try_from(i).ok());
         self.row_positions.extend(position);
@@ -374,6 +370,8 @@ impl<'a> Recorder<'a> {
             segments: self.segments,
             recorded: self.recorded,
             temperatures: self.temperatures,
+            columns: self.columns,
+            extremes: self.extremes,
             seen: self.seen,
             limits,
             out_of_range: self.ranges.into_found(),

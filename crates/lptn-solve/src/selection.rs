@@ -11,11 +11,29 @@ pub enum RecordedNodes {
     All,
     /// These nodes only, to save memory.
     Nodes(Vec<NodeId>),
+    /// These nodes, and the values of these columns, which are read as the run comes to each row.
+    Columns {
+        /// The nodes.
+        nodes: Vec<NodeId>,
+        /// The columns.
+        columns: Selection,
+    },
+}
+
+impl RecordedNodes {
+    /// Keeps these nodes too.
+    #[must_use]
+    pub fn and(mut self, more: impl IntoIterator<Item = NodeId>) -> Self {
+        if let Self::Nodes(nodes) | Self::Columns { nodes, .. } = &mut self {
+            nodes.extend(more);
+        }
+        self
+    }
 }
 
 /// The columns of a table, chosen by patterns over their names: `*` stands for any characters, `?`
 /// for one.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Selection {
     quantities: Vec<Quantity>,
 }
@@ -73,10 +91,17 @@ impl Selection {
 
     /// What a run has to keep so that these columns can be had.
     pub fn record(&self) -> RecordedNodes {
-        if self.quantities.iter().any(|q| q.needs_all()) {
-            return RecordedNodes::All;
+        let (nodes, mut columns) = (self.nodes().collect(), self.clone());
+        columns.quantities.retain(|quantity| quantity.needs_all());
+        if columns.is_empty() {
+            return RecordedNodes::Nodes(nodes);
         }
-        RecordedNodes::Nodes(self.nodes().collect())
+        RecordedNodes::Columns { nodes, columns }
+    }
+
+    /// Whether there is a column that follows from the temperatures of several nodes.
+    pub fn has_heat(&self) -> bool {
+        self.quantities.iter().any(|quantity| quantity.needs_all())
     }
 
     /// The nodes whose temperature is selected, in the order of the network.

@@ -2,16 +2,10 @@
 
 use lptn_network::{ConductorId, End, Network, NodeId, SourceId};
 
+use crate::extremes::{Extremes, Place};
 use crate::solution::Solution;
 use crate::steady::SteadyState;
 use crate::times::just_after;
-
-/// Nothing is solid above this temperature in K, 4000 degC: tungsten melts at 3422 degC, tantalum
-/// hafnium carbide at about 3900 degC.
-const HOTTEST: f64 = 4273.15;
-
-/// Below this temperature in K, -100 degC, a node is only brought by something that is as cold.
-const COLDEST: f64 = 173.15;
 
 /// A node with a temperature that nothing real has, and what probably did it.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,19 +24,12 @@ pub struct Beyond {
     pub source: Option<(SourceId, f64)>,
 }
 
-/// A node, its temperature in K and the time in s.
-type Place = (NodeId, f64, Option<f64>);
-
 impl Beyond {
     /// What a run shows, if anything: the hottest node where it is hotter than 4000 degC, or the
     /// coldest where it is colder than -100 degC although neither a start nor a boundary is.
     pub fn of_run(solution: &Solution) -> Option<Self> {
         let network = solution.network();
         let last = solution.last();
-        let rows = solution.times().iter().enumerate().flat_map(|(row, &time)| {
-            let nodes = solution.recorded().iter().zip(solution.row(row));
-            nodes.map(move |(&node, &temperature)| (node, temperature, Some(time)))
-        });
         let peaks =
             solution.watched().iter().map(|seen| (seen.watch.node, seen.peak.0, Some(seen.peak.1)));
         let ends =
@@ -54,7 +41,8 @@ impl Beyond {
         let ids = network.boundary_ids();
         let colder =
             ids.flat_map(|id| solution.boundary_temperature(id)).chain(boundaries.iter().copied());
-        let place = odd(network, rows.chain(peaks).chain(ends), colder)?;
+        let places = solution.extremes.clone().with(peaks).with(ends);
+        let place = places.odd(network, colder)?;
         let temperatures: Vec<f64> = last.temperatures.iter().chain(&boundaries).copied().collect();
         let heat = |id: SourceId| network.source_heat(id, &mut scope, &temperatures).ok();
         let sources: Vec<Option<f64>> = network.source_ids().map(heat).collect();
@@ -65,7 +53,7 @@ impl Beyond {
     pub fn of_steady(network: &Network, steady: &SteadyState) -> Option<Self> {
         let nodes = network.node_ids().zip(&steady.temperatures).map(|(id, &t)| (id, t, None));
         let boundaries = &steady.boundary_temperatures;
-        let place = odd(network, nodes, boundaries.iter().copied())?;
+        let place = Extremes::default().with(nodes).odd(network, boundaries.iter().copied())?;
         let temperatures: Vec<f64> =
             steady.temperatures.iter().chain(boundaries).copied().collect();
         let sources: Vec<Option<f64>> = steady.source_heat.iter().map(|heat| Some(*heat)).collect();
@@ -95,22 +83,4 @@ impl Beyond {
             source: source.or_else(|| sources().max_by(largest)),
         }
     }
-}
-
-/// The hottest or the coldest, where nothing real is as hot, or nothing else that cold. `others`
-/// are the temperatures of boundaries in K.
-fn odd(
-    network: &Network,
-    places: impl Iterator<Item = Place>,
-    others: impl Iterator<Item = f64>,
-) -> Option<Place> {
-    let (mut hottest, mut coldest): (Option<Place>, Option<Place>) = (None, None);
-    for place in places.filter(|place| place.1.is_finite()) {
-        hottest = hottest.filter(|known| known.1 >= place.1).or(Some(place));
-        coldest = coldest.filter(|known| known.1 <= place.1).or(Some(place));
-    }
-    let starts = network.node_ids().map(|id| network.initial(id));
-    let cold_anyway = || others.chain(starts).any(|t| t < COLDEST);
-    let hot = hottest.filter(|place| place.1 > HOTTEST);
-    hot.or_else(|| coldest.filter(|place| place.1 < COLDEST).filter(|_| !cold_anyway()))
 }

@@ -36,10 +36,10 @@ pub enum SettingsError {
     /// A window, its ends in s, is not inside the run, or its end not after its beginning.
     Window { name: String, from: f64, to: f64 } = "run::settings",
         format!("window `{name}` from {from} s to {to} s is not a part of the run");
-    /// More temperatures would be kept than fit in memory.
-    TooMuch { rows: usize, nodes: usize } = "run::settings",
+    /// More values would be kept than fit in memory.
+    TooMuch { rows: usize, values: usize } = "run::settings",
         format!(
-            "{rows} rows of {nodes} temperatures do not fit in memory: write fewer rows, or select \
+            "{rows} rows of {values} values do not fit in memory: write fewer rows, or select \
              fewer columns"
         );
     /// The distance between outputs in s is not positive, or so small that there would be too many.

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use lptn_assembly::{ThermalSystem, Workspace};
+use lptn_assembly::ThermalSystem;
 use lptn_integrate::Statistics;
 use lptn_network::{
     BoundaryId, ConductorId, ControlId, HeatOf, Network, NodeId, ParameterId, Positions, Received,
@@ -10,14 +10,16 @@ use lptn_network::{
 };
 
 use crate::balance::Balance;
+use crate::columns::Columns;
 use crate::curved::MOST_REMEMBERED;
 use crate::events::{ControlState, Event, EventKind};
+use crate::extremes::Extremes;
 use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::LimitSeen;
 use crate::quantity::Quantity;
 use crate::ranges::OutOfRange;
-use crate::reading::Reading;
+use crate::replay::Replay;
 use crate::sensitivity_rows::SensitivityRows;
 use crate::snapshot::Snapshot;
 use crate::state::State;
@@ -64,6 +66,8 @@ pub struct Solution {
     pub(crate) recorded: Vec<NodeId>,
     /// Row by row, one temperature in K for each recorded node.
     pub(crate) temperatures: Vec<f64>,
+    pub(crate) columns: Columns,
+    pub(crate) extremes: Extremes,
     pub(crate) seen: Vec<Watched>,
     pub(crate) limits: Vec<LimitSeen>,
     pub(crate) out_of_range: Vec<OutOfRange>,
@@ -109,9 +113,17 @@ impl Solution {
 
     /// Temperature of a node over the rows in K; `None` if it was not recorded.
     pub fn temperature(&self, node: NodeId) -> Option<Vec<f64>> {
+        Some(self.kept(Quantity::Node(node))?.collect())
+    }
+
+    /// What the run kept of a quantity over the rows in SI units, if it did.
+    pub(crate) fn kept(&self, quantity: Quantity) -> Option<Box<dyn Iterator<Item = f64> + '_>> {
+        let Quantity::Node(node) = quantity else {
+            return self.columns.get(quantity).map(|values| Box::new(values) as _);
+        };
         let column = self.recorded.binary_search(&node).ok()?;
-        let rows = self.temperatures.chunks_exact(self.recorded.len());
-        Some(rows.map(|row| row[column]).collect())
+        let values = self.temperatures.iter().skip(column).step_by(self.recorded.len());
+        Some(Box::new(values.copied()))
     }
 
     /// Temperature of a node over the rows in K.
@@ -231,20 +243,16 @@ impl Solution {
 
     /// The same for some of the rows.
     pub(crate) fn replay_rows(&self, rows: Range<usize>, mut visit: impl FnMut(&mut Replay<'_>)) {
-        let (work, reading) = (self.system.workspace(), Reading::new(&self.system));
-        let mut at = Replay { system: &self.system, work, reading, known: true };
+        let mut at = Replay::new(&self.system);
         let mut nodes = vec![f64::NAN; self.network().nodes().len()];
         for row in rows.clone() {
-            let (time, segment) = (self.times[row], self.segments[row]);
             if let Some(&at_row) = self.row_positions.get(row)
                 && (row == rows.start || self.row_positions[row - 1] != at_row)
             {
-                at.work.set_positions(&self.positions[at_row as usize]);
+                at.set_positions(&self.positions[at_row as usize]);
             }
-            let read = self.system.read_inputs(&mut at.work, time, segment);
             self.recorded.iter().zip(self.row(row)).for_each(|(id, t)| nodes[id.index()] = *t);
-            self.system.place(&mut at.work, &nodes);
-            at.known = read.and_then(|()| at.reading.place(&mut at.work, (time, segment))).is_ok();
+            at.go_to((self.times[row], self.segments[row]), &nodes);
             visit(&mut at);
         }
     }
@@ -363,40 +371,3 @@ pub enum Unbounded {
 /// So many switches add less than the ten tolerances that are promised, with the share that the
 /// integrator gets of them.
 const FEW_SWITCHES: usize = 100;
-
-/// The system at one row of a solution. What follows from a node that was not recorded is NaN.
-pub(crate) struct Replay<'a> {
-    system: &'a ThermalSystem,
-    work: Workspace,
-    reading: Reading<'a>,
-    /// Whether its values can be had.
-    known: bool,
-}
-
-impl Replay<'_> {
-    /// One quantity in SI units. What could be evaluated in the run can be here.
-    pub(crate) fn value(&mut self, quantity: Quantity) -> f64 {
-        let value =
-            if self.known { self.reading.value(&mut self.work, quantity).ok() } else { None };
-        value.unwrap_or(f64::NAN)
-    }
-
-    /// The workspace of this row.
-    pub(crate) fn work(&mut self) -> &mut Workspace {
-        &mut self.work
-    }
-
-    /// Everything at this row, whose time in s is given; `None` if it cannot be evaluated.
-    pub(crate) fn snapshot(&mut self, time: f64) -> Option<Snapshot> {
-        let mut unknowns = vec![0.0; self.system.unknowns().len()];
-        self.system.unknown_temperatures(self.system.node_temperatures(&self.work), &mut unknowns);
-        let taken = self
-            .known
-            .then(|| Snapshot::of_workspace(self.system, &mut self.work, &unknowns, (time, false)));
-        taken?.ok()
-    }
-
-    fn received(&mut self, id: ConductorId) -> Received {
-        self.system.received(&mut self.work, id).unwrap_or([f64::NAN; 2])
-    }
-}

@@ -109,16 +109,24 @@ impl Table {
         let network = solution.network();
         let time =
             Column { name: "time".into(), unit: "s".into(), values: solution.times().to_vec() };
-        let mut columns = vec![time];
-        columns.extend(selection.quantities().iter().map(|&q| empty(q, network, unit)));
-        let shown: Vec<Shown> =
-            selection.quantities().iter().map(|&q| Shown::of(q, network)).collect();
-        solution.replay(|at| {
-            let columns = columns[1..].iter_mut().zip(&shown);
-            for ((column, shown), &quantity) in columns.zip(selection.quantities()) {
-                column.values.push(shown.value(at.value(quantity), unit));
+        let (mut columns, mut missing) = (vec![time], Vec::new());
+        for (at, &quantity) in (1..).zip(selection.quantities()) {
+            let (mut column, shown) =
+                (empty(quantity, network, unit), Shown::of(quantity, network));
+            column.values.reserve_exact(solution.times().len());
+            match solution.kept(quantity) {
+                Some(values) => column.values.extend(values.map(|si| shown.value(si, unit))),
+                None => missing.push((at, quantity, shown)),
             }
-        });
+            columns.push(column);
+        }
+        if !missing.is_empty() {
+            solution.replay(|row| {
+                for (at, quantity, shown) in &missing {
+                    columns[*at].values.push(shown.value(row.value(*quantity), unit));
+                }
+            });
+        }
         Self { labels: Vec::new(), columns }
     }
 

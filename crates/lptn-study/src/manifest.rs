@@ -145,6 +145,10 @@ pub struct Environment {
     pub host: String,
     /// How long the run took.
     pub wall_time: SiValue,
+    /// How long the parts of the command took that were done by then, each a value with its unit;
+    /// only for a run.
+    #[serde(skip_serializing_if = "Map::is_empty")]
+    pub phases: Map<String, Value>,
 }
 
 impl Manifest {

@@ -107,11 +107,11 @@ pub fn dense(system: &ThermalSystem, time: f64, y: &[f64], form: JacobianForm) -
     system.read_inputs(&mut work, time, time).unwrap();
     let mut values = vec![f64::NAN; system.pattern().entries()];
     system.jacobian_at(&mut work, y, form, &mut values).unwrap_or_else(|e| panic!("{e} at {y:?}"));
-    let symbolic = system.pattern().symbolic();
+    let [columns, rows, _] = system.pattern().symbolic();
     let mut matrix = vec![vec![0.0; y.len()]; y.len()];
     for (column, _) in y.iter().enumerate() {
-        for slot in symbolic.col_ptr()[column]..symbolic.col_ptr()[column + 1] {
-            matrix[symbolic.row_idx()[slot]][column] = values[slot];
+        for slot in columns[column]..columns[column + 1] {
+            matrix[rows[slot]][column] = values[slot];
         }
     }
     matrix

@@ -94,12 +94,15 @@ fn refused(code: &'static str, message: String) -> Failure {
 }
 
 /// When and where results were written, for their manifest; they took this long, in s.
-pub(crate) fn environment(wall_time: f64) -> Environment {
+pub(crate) fn environment(wall_time: f64, phases: &[(&str, f64)]) -> Environment {
+    let phase =
+        |(name, seconds): &(&str, f64)| ((*name).to_owned(), SiValue::new(*seconds, "s").json());
     let host = fs::read_to_string("/proc/sys/kernel/hostname").unwrap_or_default();
     Environment {
         written: lptn_study::utc(std::time::SystemTime::now()),
         host: host.trim().to_owned(),
         wall_time: SiValue::new(wall_time, "s"),
+        phases: phases.iter().map(phase).collect(),
     }
 }
 
@@ -111,7 +114,7 @@ pub(crate) fn manifest(inputs: &[FileHash], results: &[FileHash], wall_time: f64
         "arguments": arguments(),
         "inputs": inputs,
         "results": results,
-        "environment": environment(wall_time),
+        "environment": environment(wall_time, &[]),
     })
 }
 

@@ -59,7 +59,7 @@ impl NetworkBuilder {
     pub fn start_at(&mut self, node: NodeId, temperature: crate::Temperature) {
         let start = &mut self.parts.nodes[node.index()];
         match start.massless {
-            true => start.stood = Some(temperature.0),
+            true => start.body_mut().stood = Some(temperature.0),
             false => start.initial = Some(Value::Constant(temperature.0)),
         }
     }

@@ -112,16 +112,12 @@ impl NetworkBuilder {
         let capacity = capacity.map(|c| self.typed(at(Field::Capacity), c, CAPACITY));
         let initial =
             initial.map(|t| self.typed(at(Field::Initial), t, Type::ABSOLUTE_TEMPERATURE));
-        self.parts.nodes.push(Node {
-            name: name.to_owned(),
-            capacity,
-            lump,
-            initial,
-            molten: 0.0,
-            length: None,
-            massless,
-            stood: None,
-        });
+        let node = Node::new(name, capacity, initial, massless);
+        let node = match lump {
+            Some(lump) => node.of_lump(lump, self.parts.nodes.last()),
+            None => node,
+        };
+        self.parts.nodes.push(node);
         Arc::make_mut(&mut self.parts.layout).add_node(id);
         self.register(name, Item::Node(id));
         id

@@ -61,7 +61,7 @@ impl NetworkBuilder {
             let (item, field) = (Item::Node(node), Field::LatentHeat);
             self.error(&name, BuildErrorKind::NotAFraction { item, field, value: share });
         }
-        self.parts.nodes[node.index()].molten = share;
+        self.parts.nodes[node.index()].body_mut().molten = share;
     }
 
     /// The conductivity of a material, for a [`Path`](crate::Path) of conduction; it may depend on
@@ -151,6 +151,6 @@ impl NetworkBuilder {
         let name = self.parts.nodes[node.index()].name.clone();
         let at = (name.as_str(), Item::Node(node), Field::CharacteristicLength);
         let length = self.typed(at, length.into(), Type::of(Dimension::LENGTH));
-        self.parts.nodes[node.index()].length = Some(length);
+        self.parts.nodes[node.index()].body_mut().length = Some(length);
     }
 }

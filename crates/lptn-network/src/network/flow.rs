@@ -21,7 +21,10 @@ type Failed = (Field, InputProblem);
 impl Network {
     /// How a conductor carries heat.
     pub fn flow(&self, id: ConductorId) -> ConductorFlow {
-        self.numbers.flows[id.index()]
+        let number = || self.conductors()[id.index()].law.number();
+        let flow = self.numbers.flows.get(id.index()).copied();
+        // there is a number for every conductor behind those
+        flow.unwrap_or_else(|| number().map_or(ConductorFlow::Variable, ConductorFlow::Conductance))
     }
 
     /// The vertices (nodes, then boundaries) on whose temperatures a conductor depends: its ends
@@ -49,7 +52,7 @@ impl Network {
     /// The heat content of a node over its temperature in J, zero at its start; `None` if its
     /// capacity is constant.
     pub fn enthalpy(&self, id: NodeId) -> Option<&Enthalpy> {
-        self.numbers.enthalpy[id.index()].as_deref()
+        self.numbers.enthalpy.get(id.index())?.as_deref()
     }
 
     /// The heat that the two ends of a [`ConductorFlow::Variable`] conductor receive in W, at the

@@ -14,6 +14,9 @@ use lptn_laws::Range;
 impl Work<'_> {
     pub(crate) fn flows(&mut self) -> Vec<ConductorFlow> {
         let conductors = &self.parts.conductors;
+        let is_more = |conductor: &Conductor| conductor.law.number().is_none();
+        let last = conductors.iter().rposition(is_more);
+        let conductors = &conductors[..last.map_or(0, |last| last + 1)];
         let mut flows: Vec<ConductorFlow> = Vec::with_capacity(conductors.len());
         for (i, conductor) in conductors.iter().enumerate() {
             let item = Item::Conductor(ConductorId::from_len(i));

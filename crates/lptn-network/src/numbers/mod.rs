@@ -30,8 +30,9 @@ pub(crate) struct Numbers {
     pub(crate) given: Vec<bool>,
     pub(crate) capacity: Vec<f64>,
     pub(crate) initial: Vec<f64>,
+    /// Up to the last conductor whose law is more than a number.
     pub(crate) flows: Vec<ConductorFlow>,
-    /// Heat content of each node whose capacity is not constant.
+    /// Heat content of each node whose capacity is not constant, up to the last of them.
     pub(crate) enthalpy: Vec<Option<Arc<Enthalpy>>>,
     /// Heat content of a kg of each fluid whose specific heat is not constant.
     pub(crate) fluids: Vec<Option<Arc<Enthalpy>>>,
@@ -71,9 +72,12 @@ impl Numbers {
         if !work.errors.is_empty() {
             return Err(work.errors);
         }
-        let (enthalpy, fluids) = (work.enthalpies(&initial), work.fluid_enthalpies());
+        let (mut enthalpy, fluids) = (work.enthalpies(&initial), work.fluid_enthalpies());
         whole::collapse(parts, &mut work.errors);
         if work.errors.is_empty() {
+            let last = enthalpy.iter().rposition(Option::is_some);
+            enthalpy.truncate(last.map_or(0, |last| last + 1));
+            enthalpy.shrink_to_fit();
             let is_given = |i: usize| overrides.get(i).is_some_and(Option::is_some);
             let given = (0..parameters.len()).map(is_given).collect();
             Ok(Self { parameters, given, capacity, initial, flows, enthalpy, fluids, min_dwell })

@@ -1,6 +1,8 @@
 //! Nodes, boundaries and what lies between them.
 
 use std::borrow::Cow;
+use std::ops::Deref;
+use std::sync::Arc;
 
 use lptn_laws::{Formula, Kind};
 use lptn_units::Type;
@@ -30,23 +32,67 @@ pub struct Node {
     pub name: String,
     /// Its own heat capacity in J/K, which may depend on its temperature; capacitors add to it.
     pub capacity: Option<Value>,
-    /// The lump that its own capacity was computed from.
-    pub lump: Option<Lump>,
     /// Its temperature at the start in K.
     pub initial: Option<Value>,
+    /// Whether it is a junction that stores nothing.
+    pub massless: bool,
+    /// What few nodes of a large network have, or many of them the same.
+    body: Option<Arc<Body>>,
+}
+
+/// What is known of a node beside its capacity; [`Node`] lends the fields.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// The lump that its own capacity was computed from.
+    pub lump: Option<Lump>,
     /// If it melts at just that temperature: how much is molten then, from 0 to 1.
     pub molten: f64,
     /// Its characteristic length in m, volume over surface, if it is to be checked for being a
     /// lump.
     pub length: Option<Value>,
-    /// Whether it is a junction that stores nothing.
-    pub massless: bool,
-    /// If it is, where it stood in the state that a run starts from, in K: of several solutions of
+    /// If it is massless, where it stood in the state that a run starts from, in K: of several solutions of
     /// its balance it keeps the one that is there.
     pub stood: Option<f64>,
 }
 
+/// That of a node of which no more is known.
+static PLAIN: Body = Body { lump: None, molten: 0.0, length: None, stood: None };
+
+impl Deref for Node {
+    type Target = Body;
+
+    fn deref(&self) -> &Body {
+        self.body.as_deref().unwrap_or(&PLAIN)
+    }
+}
+
 impl Node {
+    pub(crate) fn new(
+        name: &str,
+        capacity: Option<Value>,
+        initial: Option<Value>,
+        massless: bool,
+    ) -> Self {
+        Self { name: name.to_owned(), capacity, initial, massless, body: None }
+    }
+
+    /// Of the lump that its capacity was computed from; cells of one grid are of the same.
+    pub(crate) fn of_lump(mut self, lump: Lump, like: Option<&Self>) -> Self {
+        let shared = like.and_then(|other| other.body.as_ref());
+        let is_same = |body: &&Arc<Body>| {
+            body.is_only_lump() && body.lump.as_ref().is_some_and(|l| l.is_same(&lump))
+        };
+        self.body = shared.filter(is_same).cloned();
+        if self.body.is_none() {
+            self.body_mut().lump = Some(lump);
+        }
+        self
+    }
+
+    pub(crate) fn body_mut(&mut self) -> &mut Body {
+        Arc::make_mut(self.body.get_or_insert_with(|| Arc::new(PLAIN.clone())))
+    }
+
     /// Whether its own capacity and its start are the same values as those of another node.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         let same = |a: &Option<Value>, b: &Option<Value>| match (a, b) {
@@ -56,6 +102,12 @@ impl Node {
         same(&self.capacity, &other.capacity)
             && same(&self.initial, &other.initial)
             && self.molten.to_bits() == other.molten.to_bits()
+    }
+}
+
+impl Body {
+    fn is_only_lump(&self) -> bool {
+        self.molten.to_bits() == 0 && self.length.is_none() && self.stood.is_none()
     }
 }
 

@@ -62,7 +62,8 @@ pub(crate) struct Parts {
     pub(crate) tables: Vec<(String, TableSymbol)>,
     /// The signals are here, with the slots of everything that expressions may name.
     pub(crate) layout: Arc<Layout>,
-    /// The temperatures that each conductor depends on; `None` for a constant one.
+    /// The temperatures that each conductor depends on, up to the last one that depends on any;
+    /// `None` for a constant one.
     pub(crate) conductor_dependence: Vec<Option<Box<Dependence>>>,
     /// For each source the temperatures it depends on.
     pub(crate) source_dependence: Vec<Dependence>,

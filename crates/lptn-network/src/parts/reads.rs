@@ -85,7 +85,8 @@ impl Parts {
 
     /// The temperatures that a conductor was found to depend on; none for a constant one.
     pub(crate) fn dependence(&self, id: ConductorId) -> &Dependence {
-        self.conductor_dependence[id.index()].as_deref().unwrap_or(&NONE)
+        let known = self.conductor_dependence.get(id.index());
+        known.and_then(Option::as_deref).unwrap_or(&NONE)
     }
 
     /// The temperatures a conductor depends on.
@@ -135,12 +136,13 @@ impl Parts {
                 *flag = false;
             }
         };
-        for (conductor, dependence) in self.conductors.iter().zip(&self.conductor_dependence) {
+        for (i, conductor) in self.conductors.iter().enumerate() {
+            let dependence = self.dependence(ConductorId::from_len(i));
             let proportional = conductor.law.carries() == Carries::Conductance;
-            if !proportional || dependence.is_some() {
+            if !proportional || !dependence.vertices.is_empty() {
                 touch(self.vertex(conductor.from));
                 touch(self.vertex(conductor.to));
-                dependence.iter().flat_map(|of| &of.vertices).for_each(|&v| touch(v));
+                dependence.vertices.iter().for_each(|&v| touch(v));
             }
         }
         for (source, dependence) in self.sources.iter().zip(&self.source_dependence) {
@@ -155,10 +157,10 @@ impl Parts {
     /// Works out once what depends on what.
     pub(crate) fn settle(&mut self) {
         self.hold_comparisons();
-        let conductors = self
-            .conductors
-            .iter()
-            .map(|c| self.is_variable(c).then(|| Box::new(self.conductor_dependence(c))));
+        let last = self.conductors.iter().rposition(|conductor| self.is_variable(conductor));
+        let until_last = self.conductors.iter().take(last.map_or(0, |last| last + 1));
+        let conductors =
+            until_last.map(|c| self.is_variable(c).then(|| Box::new(self.conductor_dependence(c))));
         let conductors = conductors.collect();
         let sources = self.sources.iter().map(|s| self.source_dependence(s)).collect();
         self.conductor_dependence = conductors;

@@ -25,6 +25,8 @@ use lptn_report::{Clock, Format, duration};
 /// Why there is no steady state to show.
 #[derive(Debug)]
 pub(crate) enum NoSteady {
+    /// Nobody asks for it.
+    NotShown,
     /// The inputs change with time.
     Inputs,
     /// The network has none.
@@ -101,7 +103,7 @@ impl<'a> Job<'a> {
         system: &ThermalSystem,
         steady: Option<&SteadyState>,
     ) -> Result<Transient, TransientError> {
-        let (mut record, mut watch) = (self.selection.record(), Vec::new());
+        let (mut record, mut watch) = (record(system.network(), &self.selection), Vec::new());
         if self.whole {
             record = RecordedNodes::All;
         }
@@ -110,9 +112,7 @@ impl<'a> Job<'a> {
             let shown = shown(system.network(), selection, steady);
             watch = Summary::watches(system, self.settings.start, &shown, steady)
                 .map_err(TransientError::Start)?;
-            if let RecordedNodes::Nodes(nodes) = &mut record {
-                nodes.extend(shown);
-            }
+            record = record.and(shown);
         }
         let window = |window: &lptn_netlist::WindowSettings| {
             let (name, of) = (window.name.clone(), self.selection.clone());
@@ -126,6 +126,16 @@ impl<'a> Job<'a> {
             ..lptn_solve::Transient::of(system.network(), &self.settings)
         })
     }
+}
+
+/// What is kept for these columns. Whether nodes with a length are lumps is judged in every row
+/// where heat flows are asked for, which takes all temperatures.
+pub(crate) fn record(network: &Network, selection: &Selection) -> RecordedNodes {
+    let is_lump = |id| network.length(id).is_some();
+    if selection.has_heat() && network.node_ids().any(is_lump) {
+        return RecordedNodes::All;
+    }
+    selection.record()
 }
 
 /// Runs to the stop, to the first failure or to Ctrl-C, and shows how far it is.

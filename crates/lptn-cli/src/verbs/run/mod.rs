@@ -19,6 +19,7 @@ use std::time::Instant;
 
 use job::{Job, NoSteady};
 use lptn_assembly::ThermalSystem;
+use lptn_report::Format;
 use lptn_solve::{Lumping, SteadyState, Table};
 use outcome::Outcome;
 
@@ -29,11 +30,11 @@ use crate::files::Folder;
 use crate::input::Input;
 
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
-    let mut input = Input::load(&args.source)?;
+    let mut input = console.phases.timed("read", || Input::load(&args.source))?;
     input.set_times(&args.times)?;
     let (result, folder) = outcome(args, &input, console)?;
     if let Some(folder) = &folder {
-        result.write(folder)?;
+        console.phases.timed("write", || result.write(folder))?;
         console.results_in(folder.path());
     }
     console.show(&result, result.job.format)?;
@@ -49,22 +50,40 @@ pub(crate) fn outcome<'a>(
 ) -> Result<(Outcome<'a>, Option<Folder>), Failure> {
     let job = Job { whole: console.reports(), ..Job::new(args, input)? };
     uncertainty::check(&args.uncertainty, input)?;
-    let system = input.assemble()?;
+    let phases = &console.phases;
+    let system = phases.timed("assemble", || input.assemble())?;
     let folder = (!args.no_files).then(|| Folder::prepare(job.folder(args))).transpose()?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
-    let steady = steady(&system, job.settings.start);
+    // only tables and reports show it
+    let shown = job.format == Format::Table || console.reports();
+    let steady = match shown {
+        true => phases.timed("steady state", || steady(&system, job.settings.start)),
+        false => Err(NoSteady::NotShown),
+    };
     let begun = Instant::now();
-    let (solution, failure) = job.solve(&system, steady.as_ref().ok(), console)?;
+    let solved = phases.timed("integrate", || job.solve(&system, steady.as_ref().ok(), console));
+    let (solution, failure) = solved?;
     // what broke off or was interrupted is not asked how sure it is
     let whole = matches!(solution.end(), lptn_solve::RunStatus::Reached);
     let uncertainty =
         if whole { uncertainty::study(&args.uncertainty, &job, console) } else { None };
     let wall_time = begun.elapsed().as_secs_f64();
-    let lumping = Lumping::of_run(&solution);
-    let table = Table::of_solution(&solution, &job.selection, &job.unit);
-    let detail = console.detail;
-    let result =
-        Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, detail };
+    let (lumping, table) = phases.timed("results", || {
+        let table = Table::of_solution(&solution, &job.selection, &job.unit);
+        (Lumping::of_run(&solution), table)
+    });
+    let result = Outcome {
+        job,
+        steady,
+        solution,
+        lumping,
+        failure,
+        wall_time,
+        phases: phases.seconds(),
+        uncertainty,
+        table,
+        detail: console.detail,
+    };
     Ok((result, folder))
 }
 

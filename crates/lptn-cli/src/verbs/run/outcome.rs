@@ -36,6 +36,8 @@ pub(crate) struct Outcome<'a> {
     /// Why the run broke off.
     pub(crate) failure: Option<Diagnostic>,
     pub(crate) wall_time: f64,
+    /// How long its parts took, in s.
+    pub(crate) phases: Vec<(&'static str, f64)>,
     /// How sure it is, where that was asked.
     pub(crate) uncertainty: Option<Result<Study, Failure>>,
     /// The selected columns, in the unit that is shown.
@@ -98,7 +100,7 @@ impl Outcome<'_> {
                 Value::Object(members)
             }),
             results,
-            environment: files::environment(self.wall_time),
+            environment: files::environment(self.wall_time, &self.phases),
         }
     }
 
@@ -214,6 +216,9 @@ impl Outcome<'_> {
             pieces.push(format!("({rows} rows, solved in {took})"));
             console.note(&labelled("wrote  ", &pieces, WIDTH).join("\n"));
         }
+        if console.verbose {
+            console.note(&labelled("work   ", &work(&self.solution), WIDTH).join("\n"));
+        }
         if let Some(hidden) = select::hidden(&self.job.input.netlist).filter(|_| !self.job.chosen) {
             console.note(&hidden);
         }
@@ -269,6 +274,25 @@ impl Outcome<'_> {
         }
         self.judge(console)
     }
+}
+
+/// What the integrator did.
+fn work(solution: &Solution) -> Vec<String> {
+    let done = solution.statistics();
+    let repeated = done.error_test_failures + done.newton_failures;
+    let counts = [
+        (done.steps, "steps"),
+        (repeated, "repeated"),
+        (done.restarts, "restarts"),
+        (done.flow_evaluations, "heat flows"),
+        (done.jacobian_evaluations, "Jacobians"),
+        (done.linear_setups, "set-ups"),
+        (done.factorizations, "factorisations"),
+        (done.linear_solves, "solves"),
+        (done.linear_iterations, "iterations"),
+    ];
+    let counts = counts.iter().map(|(count, of)| format!("{count} {of},"));
+    counts.chain([format!("{} numbers in the factors", done.fill)]).collect()
 }
 
 /// What a reader should know of the numbers of a run.

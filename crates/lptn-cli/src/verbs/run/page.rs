@@ -224,6 +224,7 @@ fn notes(of: &Outcome<'_>, nodes: &[NodeSummary]) -> Vec<String> {
     }
     notes.extend(short_record(nodes));
     match &of.steady {
+        Err(NoSteady::NotShown) => {}
         Err(NoSteady::Inputs) => notes.push("steady is `-`: the inputs change with time".into()),
         Ok(steady) => {
             notes.extend(others(network, steady, &of.job.unit).map(|found| found.message))

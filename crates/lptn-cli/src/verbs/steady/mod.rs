@@ -24,14 +24,16 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
     if args.cycle.periodic {
         return periodic::periodic(args, console);
     }
-    let input = Input::load(&args.source)?;
+    let phases = &console.phases;
+    let input = phases.timed("read", || Input::load(&args.source))?;
     let netlist = &input.netlist;
     let selection = select::of_option(netlist, &args.shown.select)?;
     let unit = input::temperature_unit(args.shown.scale.temperature_unit.as_deref(), netlist)?;
     let balance = balance::end(netlist, args.balance.as_deref(), args.shown.format)?;
-    let system = input.assemble()?;
+    let system = phases.timed("assemble", || input.assemble())?;
     let start = netlist.run.as_ref().map_or(0.0, |run: &RunSettings| run.start);
-    let steady = SteadyState::solve(&system, start).map_err(|error| failed(&input, &error))?;
+    let steady = phases.timed("solve", || SteadyState::solve(&system, start));
+    let steady = steady.map_err(|error| failed(&input, &error))?;
     console.warn(&netlist.files, &netlist.warnings);
     let limits = limits(&input, &steady, start)?;
     let table = table(&input, &steady, &selection, &unit)?;

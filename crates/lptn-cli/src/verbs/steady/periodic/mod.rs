@@ -24,7 +24,7 @@ use crate::files::names::{MANIFEST, RESULT, WINDOWS};
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
-use crate::verbs::run::job::{Job, NoSteady, explain};
+use crate::verbs::run::job::{Job, NoSteady, explain, record};
 use crate::verbs::run::outcome::Outcome;
 use crate::{balance, scale, select, sense};
 
@@ -38,7 +38,7 @@ const TOLERANCE: f64 = 1e-5;
 const LEAST_ROWS: f64 = 20.0;
 
 pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Failure> {
-    let input = Input::load(&args.source)?;
+    let input = console.phases.timed("read", || Input::load(&args.source))?;
     let netlist = &input.netlist;
     let job = Job {
         settings: settings(args, &input)?,
@@ -53,20 +53,30 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
         at: Vec::new(),
         whole: console.reports(),
     };
-    let system = input.assemble()?;
+    let phases = &console.phases;
+    let system = phases.timed("assemble", || input.assemble())?;
     let folder = args.cycle.output.clone().map(Folder::prepare).transpose()?;
     console.warn(&netlist.files, &netlist.warnings);
     let begun = Instant::now();
-    let found = find(&job, &system, console)?;
+    let found = phases.timed("integrate", || find(&job, &system, console))?;
     let wall_time = begun.elapsed().as_secs_f64();
     let solution = found.solution.clone();
     let lumping = Lumping::of_run(&solution);
     let (failure, uncertainty) = (None, None);
     let steady = Err(NoSteady::Inputs);
     let table = Table::of_solution(&solution, &job.selection, &job.unit);
-    let detail = console.detail;
-    let outcome =
-        Outcome { job, steady, solution, lumping, failure, wall_time, uncertainty, table, detail };
+    let outcome = Outcome {
+        job,
+        steady,
+        solution,
+        lumping,
+        failure,
+        wall_time,
+        phases: phases.seconds(),
+        uncertainty,
+        table,
+        detail: console.detail,
+    };
     let view = View { outcome: &outcome, found: &found };
     if let Some(folder) = &folder {
         outcome.write(folder)?;
@@ -151,7 +161,7 @@ fn find(job: &Job<'_>, system: &ThermalSystem, console: &Console) -> Result<Peri
     let RunSettings { start, stop, .. } = job.settings;
     let window = Window { name: CYCLE.into(), from: start, to: stop, of: job.selection.clone() };
     let transient = Transient {
-        record: job.selection.record(),
+        record: record(system.network(), &job.selection),
         windows: vec![window],
         balance: job.balance,
         ..lptn_solve::Transient::of(system.network(), &job.settings)

@@ -1,0 +1,80 @@
+//! What is kept of each row, and columns that are read as a run comes there, so that no node has to
+//! be kept for them.
+
+use lptn_assembly::{ThermalSystem, Workspace};
+use lptn_network::NodeId;
+
+use crate::quantity::Quantity;
+use crate::reading::Reading;
+use crate::selection::RecordedNodes;
+use crate::settings_error::SettingsError;
+
+/// The most values that are kept: 4 GB.
+const MOST_VALUES: usize = 500_000_000;
+
+/// Room for what is kept of all rows.
+pub(crate) struct Room {
+    /// The nodes, ascending.
+    pub(crate) recorded: Vec<NodeId>,
+    pub(crate) temperatures: Vec<f64>,
+    pub(crate) columns: Columns,
+}
+
+impl Room {
+    /// For so many rows.
+    pub(crate) fn new(
+        system: &ThermalSystem,
+        record: &RecordedNodes,
+        rows: usize,
+    ) -> Result<Self, SettingsError> {
+        let (mut recorded, quantities) = match record {
+            RecordedNodes::All => (system.network().node_ids().collect(), &[][..]),
+            RecordedNodes::Nodes(nodes) => (nodes.clone(), &[][..]),
+            RecordedNodes::Columns { nodes, columns } => (nodes.clone(), columns.quantities()),
+        };
+        recorded.sort_unstable();
+        recorded.dedup();
+        let too_much = SettingsError::TooMuch { rows, values: recorded.len() + quantities.len() };
+        let place = |width: usize| {
+            let size = rows.checked_mul(width).filter(|size| *size <= MOST_VALUES)?;
+            let mut values = Vec::new();
+            values.try_reserve_exact(size).ok().map(|()| values)
+        };
+        let places = place(recorded.len()).zip(place(quantities.len()));
+        let (temperatures, values) = places.ok_or(too_much)?;
+        let columns = Columns { quantities: quantities.to_vec(), values };
+        Ok(Self { recorded, temperatures, columns })
+    }
+}
+
+/// The values of some quantities, row by row.
+#[derive(Clone, Debug)]
+pub(crate) struct Columns {
+    quantities: Vec<Quantity>,
+    values: Vec<f64>,
+}
+
+impl Columns {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.quantities.is_empty()
+    }
+
+    /// Writes a row from inputs read and nodes recovered; what cannot be had is NaN.
+    pub(crate) fn push(&mut self, reading: &mut Reading<'_>, work: &mut Workspace, at: (f64, f64)) {
+        if self.is_empty() {
+            return;
+        }
+        let known = reading.place(work, at).is_ok();
+        let mut value = |&quantity: &Quantity| match known {
+            true => reading.value(work, quantity).unwrap_or(f64::NAN),
+            false => f64::NAN,
+        };
+        self.values.extend(self.quantities.iter().map(&mut value));
+    }
+
+    /// The values of one of them over the rows in SI units; `None` if it is none of them.
+    pub(crate) fn get(&self, quantity: Quantity) -> Option<impl Iterator<Item = f64> + '_> {
+        let column = self.quantities.iter().position(|known| *known == quantity)?;
+        Some(self.values.iter().skip(column).step_by(self.quantities.len()).copied())
+    }
+}
