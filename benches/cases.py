@@ -1,4 +1,5 @@
 """A case: a folder with one network in every form, and its reference."""
+
 import json
 import os
 import tempfile

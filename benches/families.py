@@ -1,10 +1,11 @@
 """The families of networks, each from its own seed: the same arrays on every machine.
 
-    two_node  ladder-N  stiff-N  grid2d-N  grid3d-N  radiation-N      runs
-    NAME-random          the same with events at random times instead of multiples of t_end/16
-    steady-grid2d-N      the steady state under constant heat
-    scale2d-N  scale3d-N      10 minutes and 10 rows of a large grid under constant heat
+two_node  ladder-N  stiff-N  grid2d-N  grid3d-N  radiation-N      runs
+NAME-random          the same with events at random times instead of multiples of t_end/16
+steady-grid2d-N      the steady state under constant heat
+scale2d-N  scale3d-N      10 minutes and 10 rows of a large grid under constant heat
 """
+
 import numpy as np
 
 from network import Network, Source, at_random_times, constant, drive, six_digits
@@ -26,14 +27,18 @@ def make(name):
 
 
 def spread(rng, low, high, count):
-    """Numbers whose logarithms are uniform, of six digits: the same with every numpy, as people write them."""
+    """Numbers whose logarithms are uniform, of six digits: the same with every NumPy."""
     return six_digits(10.0 ** rng.uniform(np.log10(low), np.log10(high), count))
 
 
 def two_node(rng, size):
     """The gearbox: a core heated by 223 W in a housing, 25 minutes, a row every 0.2 s."""
-    net = Network(np.array([1100.0, 1559.0]), np.array([0, 1]), np.array([1, 2]),
-                  np.array([1 / 0.02, 1 / 0.3]))
+    net = Network(
+        np.array([1100.0, 1559.0]),
+        np.array([0, 1]),
+        np.array([1, 2]),
+        np.array([1 / 0.02, 1 / 0.3]),
+    )
     net.t_end = 1500.0
     net.sources = [Source(0, True, [0.0], [223.0])]
     net.rows = np.linspace(0, net.t_end, 7501)[1:]
@@ -64,8 +69,13 @@ def stiff(rng, n):
     ei = np.concatenate([np.arange(1, n), a[apart], cooled])
     ej = np.concatenate([parent, b[apart], np.full(len(cooled), n)])
     chords = int(apart.sum())
-    G = np.concatenate([spread(rng, 1e-2, 1e2, n - 1), spread(rng, 1e-2, 1e2, chords),
-                        spread(rng, 0.1, 10, len(cooled))])
+    G = np.concatenate(
+        [
+            spread(rng, 1e-2, 1e2, n - 1),
+            spread(rng, 1e-2, 1e2, chords),
+            spread(rng, 0.1, 10, len(cooled)),
+        ]
+    )
     return drive(Network(C, ei, ej, G), rng, 20000.0, 200, 50.0)
 
 
@@ -79,8 +89,12 @@ def body(rng, shape):
     ej = np.concatenate([at.take(range(1, shape[x]), x).ravel() for x in axes])
     inside = spread(rng, 0.1, 10, len(ei))
     faces = np.concatenate([at.take(end, x).ravel() for x in axes for end in (0, shape[x] - 1)])
-    return Network(C, np.concatenate([ei, faces]), np.concatenate([ej, np.full(len(faces), n)]),
-                   np.concatenate([inside, spread(rng, 0.01, 0.1, len(faces))]))
+    return Network(
+        C,
+        np.concatenate([ei, faces]),
+        np.concatenate([ej, np.full(len(faces), n)]),
+        np.concatenate([inside, spread(rng, 0.01, 0.1, len(faces))]),
+    )
 
 
 def grid2d(rng, n):
@@ -114,4 +128,6 @@ def radiation(rng, n):
     return net
 
 
-FAMILIES = {f.__name__: f for f in (two_node, ladder, stiff, grid2d, grid3d, radiation, scale2d, scale3d)}
+FAMILIES = {
+    f.__name__: f for f in (two_node, ladder, stiff, grid2d, grid3d, radiation, scale2d, scale3d)
+}

@@ -1,4 +1,5 @@
-"""A network as files: netlist with CSV for lptn, arrays for the C and Python peers, a deck for SPICE."""
+"""A network as files: a netlist for lptn, arrays for programs in C and Python, a deck for SPICE."""
+
 import json
 import struct
 
@@ -20,25 +21,49 @@ def write(net, name, folder):
     netlist(net, name, folder)
     if net.n <= SPICE and not steady:
         (folder / "deck.cir").write_text(deck(net))
-    about = dict(name=name, steady=steady, n=net.n, paths=len(net.ei) + len(net.rk),
-                 linear=net.linear(), events=len(net.events), t_end=net.t_end, rows=len(net.rows),
-                 probes=net.probes.tolist())
+    about = dict(
+        name=name,
+        steady=steady,
+        n=net.n,
+        paths=len(net.ei) + len(net.rk),
+        linear=net.linear(),
+        events=len(net.events),
+        t_end=net.t_end,
+        rows=len(net.rows),
+        probes=net.probes.tolist(),
+    )
     (folder / "case.json").write_text(json.dumps(about))
 
 
 def arrays(net):
-    """The arrays of net.bin by name: sources as corners one after another, `ptr` their beginnings."""
+    """The arrays of net.bin by name; corners of sources follow each other from `ptr` on."""
     corners = [source.corners(net.t_end) for source in net.sources]
     ptr = np.cumsum([0] + [len(points) for points in corners])
     pt, pp = np.array([point for points in corners for point in points]).T
     src = np.array([source.node for source in net.sources])
-    return dict(C=net.C, T0=net.T0, ei=net.ei, ej=net.ej, G=net.G, ri=net.ri, rj=net.rj, rk=net.rk,
-                bT=net.bT, src=src, ptr=ptr, pt=pt, pp=pp, probe=net.probes, tout=net.rows,
-                brk=net.events, t_end=net.t_end)
+    return dict(
+        C=net.C,
+        T0=net.T0,
+        ei=net.ei,
+        ej=net.ej,
+        G=net.G,
+        ri=net.ri,
+        rj=net.rj,
+        rk=net.rk,
+        bT=net.bT,
+        src=src,
+        ptr=ptr,
+        pt=pt,
+        pp=pp,
+        probe=net.probes,
+        tout=net.rows,
+        brk=net.events,
+        t_end=net.t_end,
+    )
 
 
 def binary(net):
-    """Twelve int64 (a mark, ten counts, 0), then float64 arrays, then int32 arrays; little endian."""
+    """Twelve int64 (a mark, nine counts, 0, 0), then float64, then int32; little endian."""
     a = arrays(net)
     counts = [len(a[k]) for k in "C G rk bT src pt probe tout brk".split()]
     floats = [a[k] for k in "t_end C T0 G rk bT pt pp tout brk".split()]
@@ -79,14 +104,24 @@ def netlist(net, name, folder):
         lines += section("source", dict(heats(net)))
     probes = ", ".join(f'"{node(net, i)}.T"' for i in net.probes.tolist())
     every = net.t_end / len(net.rows)
-    lines += section("run", {"stop": f'"{net.t_end!r} s"', "output": f'{{ every = "{every!r} s" }}',
-                             "select": f"[{probes}]"})
+    lines += section(
+        "run",
+        {
+            "stop": f'"{net.t_end!r} s"',
+            "output": f'{{ every = "{every!r} s" }}',
+            "select": f"[{probes}]",
+        },
+    )
     (folder / "net.toml").write_text("\n".join(lines) + "\n")
 
 
 def section(name, entries):
     """The lines of a section, or none."""
-    return ["", f"[{name}]", *(f"{key} = {value}" for key, value in entries.items())] if entries else []
+    return (
+        ["", f"[{name}]", *(f"{key} = {value}" for key, value in entries.items())]
+        if entries
+        else []
+    )
 
 
 def resistors(net):
@@ -117,7 +152,9 @@ def tables(net, folder):
     """nodes.csv and conductors.csv, in digits that read back as the same numbers."""
     with open(folder / "nodes.csv", "w") as out:
         out.write("name,C [J/K],T0 [degC]\n")
-        out.writelines(f"n{i},{c!r},{t!r}\n" for i, (c, t) in enumerate(zip(net.C.tolist(), net.T0.tolist())))
+        out.writelines(
+            f"n{i},{c!r},{t!r}\n" for i, (c, t) in enumerate(zip(net.C.tolist(), net.T0.tolist()))
+        )
     with open(folder / "conductors.csv", "w") as out:
         out.write("from,to,G [W/K]\n")
         ends = zip(net.ei.tolist(), net.ej.tolist(), net.G.tolist())
@@ -127,16 +164,22 @@ def tables(net, folder):
 def deck(net):
     """The network as a circuit: V = degC, I = W, R = K/W, C = J/K; @..@ are filled in for a run."""
     lines = ["thermal network (V = degC, I = W)"]
-    lines += [f"C{i} n{i} 0 {c!r} IC={t!r}" for i, (c, t) in enumerate(zip(net.C.tolist(), net.T0.tolist()))]
+    lines += [
+        f"C{i} n{i} 0 {c!r} IC={t!r}"
+        for i, (c, t) in enumerate(zip(net.C.tolist(), net.T0.tolist()))
+    ]
     ends = zip(net.ei.tolist(), net.ej.tolist(), (1 / net.G).tolist())
     lines += [f"R{k} {node(net, i)} {node(net, j)} {R!r}" for k, (i, j, R) in enumerate(ends)]
     lines += [f"VB{k} b{k} 0 {T!r}" for k, T in enumerate(net.bT.tolist())]
     lines += [radiating_source(net, k) for k in range(len(net.rk))]
     lines += [f"I{k} 0 n{s.node} PWL({ramped(net, s)})" for k, s in enumerate(net.sources)]
     probes = [f"v(n{i})" for i in net.probes.tolist()]
-    lines += [".save " + " ".join(probes[k:k + 10]) for k in range(0, len(probes), 10)]
-    lines += [".options reltol=@RELTOL@ abstol=1e-9 vntol=1e-6 method=trap",
-              f".tran @STEP@ {net.t_end!r} 0 @LARGEST@ uic", ".end"]
+    lines += [".save " + " ".join(probes[k : k + 10]) for k in range(0, len(probes), 10)]
+    lines += [
+        ".options reltol=@RELTOL@ abstol=1e-9 vntol=1e-6 method=trap",
+        f".tran @STEP@ {net.t_end!r} 0 @LARGEST@ uic",
+        ".end",
+    ]
     return "\n".join(lines) + "\n"
 
 

@@ -1,4 +1,5 @@
-"""One run of a program: CPU, memory and error of the whole process; and how runs are put together."""
+"""What a run of a program takes, as a whole process, and the loosest tolerance that will do."""
+
 import json
 import os
 import subprocess
@@ -26,26 +27,41 @@ class Run:
 
 
 def run(tool, case, tolerance, limits):
-    """Runs a tool on a case; `error` is None where it failed, was stopped or wrote something else."""
-    seconds, gigabytes = limits
+    """Runs a tool on a case; `error` is None where it failed or was stopped."""
+    seconds, gigabytes = limits[0] * tool.patience, limits[1]
     with tempfile.TemporaryDirectory(prefix="bench") as place:
         work = Path(place)
         report = work / "report"
         command = [str(word) for word in tool.command(case, tolerance, work)]
-        launch = [tools.folder() / "build/launch", seconds, gigabytes, report, work / "stdout"]
-        environment = os.environ | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1", "LC_ALL": "C"}
-        told = subprocess.run([*map(str, launch), *command], env=environment, stderr=subprocess.PIPE, text=True)
+        launch = [
+            tools.folder() / "build/launch",
+            round(seconds),
+            gigabytes,
+            report,
+            work / "stdout",
+        ]
+        environment = os.environ | {
+            "OPENBLAS_NUM_THREADS": "1",
+            "OMP_NUM_THREADS": "1",
+            "LC_ALL": "C",
+        }
+        told = subprocess.run(
+            [*map(str, launch), *command], env=environment, stderr=subprocess.PIPE, text=True
+        )
         status, user, system, wall, peak = (float(word) for word in report.read_text().split())
-        error = None
-        if status == 0:
-            rows = tool.rows(case, work)
-            error = None if rows is None else case.error(rows)
-        return Run(user + system, wall, peak / 1024, error, told.stderr.strip())
+        rows = tool.rows(case, work) if status == 0 else None
+        error = None if rows is None else case.error(rows)
+        said = (
+            f"stopped after {seconds:.0f} s"
+            if user + system > 0.99 * seconds
+            else told.stderr.strip()
+        )
+        return Run(user + system, wall, peak / 1024, error, said)
 
 
 @dataclass
 class Pick:
-    """The loosest tolerance of a tool that keeps the target on a case, or the best that it reached."""
+    """The loosest tolerance of a tool that keeps the target, or the last that worked."""
 
     tolerance: str
     error: float | None
@@ -57,14 +73,14 @@ def pick(tool, case, target, limits):
     """Goes down the ladder until the error keeps the target; remembers what it found."""
     memory = case.file("picks.json")
     known = json.loads(memory.read_text()) if memory.exists() else {}
-    key = f"{tool.name} {tool.stamp()} {target:g}"
+    key = f"{tool.name} {tool.stamp()} {target:g} {limits[0] * tool.patience:g} s"
     if key not in known:
         best = None
         for tolerance in tool.ladder:
             done = run(tool, case, tolerance, limits)
             if best is None or done.ok():
                 best = Pick(tolerance, done.error, done.cpu, done.said[-300:])
-            if done.cpu > 0.7 * limits[0] or (done.ok() and done.error <= target):
+            if done.cpu > 0.7 * limits[0] * tool.patience or (done.ok() and done.error <= target):
                 break
         remember(memory, key, vars(best))
         return best

@@ -6,6 +6,7 @@ below the number of nodes n is the boundary with that number less n, at bT in de
 
     C_i dT_i/dt = P_i(t) + sum_j G_ij (T_j - T_i) + sum_j k_ij (Tabs_j^4 - Tabs_i^4)
 """
+
 from dataclasses import dataclass, field
 
 import numpy as np

@@ -1,4 +1,5 @@
 """What is run: lptn and its peers, how each is called, and how its temperatures are read."""
+
 import hashlib
 import os
 import shutil
@@ -11,14 +12,18 @@ import numpy as np
 PEERS = Path(__file__).parent / "peers"
 RELATIVE = ["1e-3"] + [f"{d}e-{p}" for p in range(4, 12) for d in (3, 1)]
 KELVIN = ["1"] + [f"{d}e-{p}" for p in range(1, 10) for d in (3, 1)]
-SMALL_PYTHON = 10_000
+SMALL = 10_000
+"""Larger networks are not given to programs in Python."""
 
 
 class Tool:
-    """A program that solves a case. `ladder` are its tolerances, loosest first; `steady` its kind."""
+    """A program that solves a case. `ladder` are its tolerances, loosest first; `steady` its kind.
+
+    `patience` is how much of the limit it may take: what is not a rival is not waited for."""
 
     ladder = RELATIVE
     steady = False
+    patience = 1.0
 
     def __init__(self, name, program):
         self.name, self.program = name, program
@@ -46,9 +51,9 @@ class Lptn(Tool):
 
     ladder = KELVIN
 
-    def __init__(self, called, steady):
+    def __init__(self, called, steady, name=None):
         program, _, self.integrator = called.partition(":")
-        super().__init__(Path(called).name, program)
+        super().__init__(name or Path(called).name, program)
         self.steady = steady
         if steady:
             self.ladder = [""]
@@ -57,7 +62,16 @@ class Lptn(Tool):
         file = case.netlist(self.integrator)
         if self.steady:
             return [self.program, "steady", file, "--format", "csv", *case.selected()]
-        return [self.program, "run", file, "--no-files", "--format", "csv", "--tolerance", f"{tolerance}K"]
+        return [
+            self.program,
+            "run",
+            file,
+            "--no-files",
+            "--format",
+            "csv",
+            "--tolerance",
+            f"{tolerance}K",
+        ]
 
     def rows(self, case, work):
         with open(work / "stdout") as text:
@@ -90,8 +104,8 @@ class Steady(Tool):
     ladder = [""]
     steady = True
 
-    def __init__(self, method, program, most):
-        super().__init__(method, program)
+    def __init__(self, name, method, program, most):
+        super().__init__(name, program)
         self.method, self.most = method, most
 
     def fits(self, case):
@@ -104,7 +118,9 @@ class Steady(Tool):
 class Python(Tool):
     """A Python program of peers/; `needs` are the modules without which it cannot run."""
 
-    def __init__(self, name, script, method, needs, most=SMALL_PYTHON, steady=False):
+    patience = 0.3
+
+    def __init__(self, name, script, method, needs, most=SMALL, steady=False):
         super().__init__(name, python_with(needs))
         self.script, self.method, self.needs, self.most = PEERS / script, method, needs, most
         self.steady = steady
@@ -121,11 +137,20 @@ class Python(Tool):
         return hashlib.sha256(self.script.read_bytes()).hexdigest()[:12]
 
     def command(self, case, tolerance, work):
-        return [self.program, self.script, self.method, case.file("net.npz"), work / "rows.bin", tolerance or "-"]
+        return [
+            self.program,
+            self.script,
+            self.method,
+            case.file("net.npz"),
+            work / "rows.bin",
+            tolerance or "-",
+        ]
 
 
 class Spice(Tool):
     """ngspice in batch mode: trapezoidal rule, tenth of a row as its suggested step."""
+
+    patience = 0.1
 
     def missing(self):
         return None if self.program else "not installed"
@@ -135,9 +160,15 @@ class Spice(Tool):
 
     def command(self, case, tolerance, work):
         row = case.t_end / case.shape[0]
-        largest = case.t_end if float(tolerance) > 1e-5 else row / (1 if float(tolerance) > 1e-6 else 4)
+        largest = (
+            case.t_end if float(tolerance) > 1e-5 else row / (1 if float(tolerance) > 1e-6 else 4)
+        )
         deck = case.file("deck.cir").read_text()
-        for mark, value in (("@RELTOL@", tolerance), ("@STEP@", f"{row / 10:.6g}"), ("@LARGEST@", f"{largest:.6g}")):
+        for mark, value in (
+            ("@RELTOL@", tolerance),
+            ("@STEP@", f"{row / 10:.6g}"),
+            ("@LARGEST@", f"{largest:.6g}"),
+        ):
             deck = deck.replace(mark, value)
         (work / "run.cir").write_text(deck)
         return [self.program, "-b", "-r", work / "raw", work / "run.cir"]
@@ -157,7 +188,7 @@ def raw(path):
     said = {line.split(":")[0]: line.split(":")[1] for line in head if ":" in line}
     columns, points = int(said["No. Variables"]), int(said["No. Points"])
     begin = head.index("Variables:") + 1
-    names = [line.split()[1] for line in head[begin:begin + columns]]
+    names = [line.split()[1] for line in head[begin : begin + columns]]
     return names, np.frombuffer(text, "<f8", columns * points, at + 8).reshape(points, columns)
 
 
@@ -172,7 +203,10 @@ def python_with(modules):
     """A Python that has some modules: this one, or that of the bench's own folder; or nothing."""
     for python in (sys.executable, str(folder() / "venv/bin/python")):
         wanted = f"import {modules}"
-        if Path(python).exists() and subprocess.run([python, "-c", wanted], capture_output=True).returncode == 0:
+        if (
+            Path(python).exists()
+            and subprocess.run([python, "-c", wanted], capture_output=True).returncode == 0
+        ):
             return python
     return None
 
@@ -193,10 +227,10 @@ def peers():
         Spice("ngspice", shutil.which("ngspice")),
         Python("SciPy BDF", "ode.py", "bdf", "numpy, scipy"),
         Python("scikit-sundae", "ode.py", "sundae", "sksundae, scipy"),
-        Steady("chol_amd", steady, 200_000),
-        Steady("chol_metis", steady, 200_000),
-        Steady("klu", steady, 50_000),
-        Steady("pcg_ic0", steady, 10**8),
-        Python("scipy splu", "equilibrium.py", "splu", "numpy, scipy", 50_000, True),
+        Steady("CHOLMOD, AMD", "chol_amd", steady, 200_000),
+        Steady("CHOLMOD, METIS", "chol_metis", steady, 200_000),
+        Steady("KLU, AMD", "klu", steady, 50_000),
+        Steady("CG+IC(0)", "pcg_ic0", steady, 10**8),
+        Python("SciPy splu", "equilibrium.py", "splu", "numpy, scipy", 50_000, True),
         Python("pyamg", "equilibrium.py", "amg", "pyamg", 10**8, True),
     ]

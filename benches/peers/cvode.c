@@ -16,10 +16,10 @@
 
 typedef struct {
     Network net;
-    double from;                        /* the event that the heats below count from, s */
+    double from; /* the event that the heats below count from, s */
     double *load, *slope, *inverse_C;
-    int *rad_ij, *rad_ji;               /* where the Jacobian holds a pair that radiates */
-    double *lower, *inverse_pivot;      /* the preconditioner */
+    int *rad_ij, *rad_ji;          /* where the Jacobian holds a pair that radiates */
+    double *lower, *inverse_pivot; /* the preconditioner */
 } Problem;
 
 static void check(int flag, const char *what)
@@ -93,8 +93,8 @@ static int jacobian(sunrealtype t, N_Vector T_, N_Vector rate_, SUNMatrix J, voi
     return 0;
 }
 
-static int times_jacobian(N_Vector v_, N_Vector Jv_, sunrealtype t, N_Vector T, N_Vector rate_, void *data,
-                          N_Vector scratch)
+static int times_jacobian(N_Vector v_, N_Vector Jv_, sunrealtype t, N_Vector T, N_Vector rate_,
+                          void *data, N_Vector scratch)
 {
     Problem *p = data;
     double *Jv = N_VGetArrayPointer(Jv_);
@@ -105,8 +105,8 @@ static int times_jacobian(N_Vector v_, N_Vector Jv_, sunrealtype t, N_Vector T, 
     return 0;
 }
 
-static int prepare(sunrealtype t, N_Vector T, N_Vector rate_, sunbooleantype jok, sunbooleantype *renewed,
-                   sunrealtype gamma, void *data)
+static int prepare(sunrealtype t, N_Vector T, N_Vector rate_, sunbooleantype jok,
+                   sunbooleantype *renewed, sunrealtype gamma, void *data)
 {
     Problem *p = data;
     incomplete_cholesky(&p->net, 1, gamma, p->lower, p->inverse_pivot);
@@ -116,8 +116,8 @@ static int prepare(sunrealtype t, N_Vector T, N_Vector rate_, sunbooleantype jok
 }
 
 /* (I + gamma C^-1 K) z = r, with C in front of both sides */
-static int precondition(sunrealtype t, N_Vector T, N_Vector rate_, N_Vector r_, N_Vector z_, sunrealtype gamma,
-                        sunrealtype delta, int side, void *data)
+static int precondition(sunrealtype t, N_Vector T, N_Vector rate_, N_Vector r_, N_Vector z_,
+                        sunrealtype gamma, sunrealtype delta, int side, void *data)
 {
     Problem *p = data;
     double *r = N_VGetArrayPointer(r_), *z = N_VGetArrayPointer(z_);
@@ -243,11 +243,12 @@ int main(int argc, char **argv)
     double *rows = doubles((size_t)net->n_rows * net->n_probes);
     for (int e = 0, row = 0; e < net->n_events; e++) {
         p.from = net->event_t[e];
-        row = segment(cvode, &p, T, e + 1 < net->n_events ? net->event_t[e + 1] : net->t_end, row, rows);
+        row = segment(cvode, &p, T, e + 1 < net->n_events ? net->event_t[e + 1] : net->t_end, row,
+                      rows);
         count(cvode, &counts);
     }
     write_doubles(argv[2], rows, (size_t)net->n_rows * net->n_probes);
-    printf("steps=%ld rates=%ld setups=%ld newton=%ld krylov=%ld\n", counts.steps, counts.rates, counts.setups,
-           counts.newton, counts.krylov);
+    printf("steps=%ld rates=%ld setups=%ld newton=%ld krylov=%ld\n", counts.steps, counts.rates,
+           counts.setups, counts.newton, counts.krylov);
     return 0;
 }

@@ -1,4 +1,5 @@
-/* Runs a program and tells what it took:  launch SECONDS GIGABYTES REPORT STDOUT PROGRAM [ARGUMENT..]
+/* Runs a program and tells what it took:
+   launch SECONDS GIGABYTES REPORT STDOUT PROGRAM [ARGUMENT..]
    REPORT receives "status user system wall peak": s, and kB of memory. The program may take so many
    seconds of CPU and gigabytes of address space; it reads nothing, and says its errors on stderr.
    A program this small is between because a child counts its parent's memory until it is itself. */
@@ -57,7 +58,7 @@ int main(int argc, char **argv)
     FILE *report = fopen(argv[3], "w");
     if (!report)
         return 125;
-    fprintf(report, "%d %.6f %.6f %.6f %ld\n", status, seconds(used.ru_utime), seconds(used.ru_stime),
-            now() - begun, used.ru_maxrss);
+    fprintf(report, "%d %.6f %.6f %.6f %ld\n", status, seconds(used.ru_utime),
+            seconds(used.ru_stime), now() - begun, used.ru_maxrss);
     return fclose(report) ? 125 : 0;
 }

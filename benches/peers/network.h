@@ -1,4 +1,4 @@
-/* Reads net.bin (benches/forms.py writes it) and assembles its conductances; shared by the C peers. */
+/* Reads net.bin, which benches/forms.py writes, and assembles its conductances. */
 #ifndef NETWORK_H
 #define NETWORK_H
 #include <math.h>
@@ -121,7 +121,7 @@ static void add_entry(Entries *e, int row, int column, double value)
     e->value[e->count++] = value;
 }
 
-/* Conductances, a zero for each radiating pair of nodes (its place in the Jacobian), the diagonal. */
+/* Conductances, a zero for each radiating pair (its place in the Jacobian), the diagonal. */
 static Entries list_entries(Network *net)
 {
     int n = net->n;

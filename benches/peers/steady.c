@@ -2,7 +2,7 @@
    steady NET.BIN ROWS.BIN chol_amd|chol_metis|klu|pcg_ic0 [RESIDUAL]
      chol_amd, chol_metis  CHOLMOD's Cholesky, supernodal where it chooses so, in AMD or METIS order
      klu                   KLU in AMD order
-     pcg_ic0               conjugate gradients with incomplete Cholesky, to a residual, 1e-10 unless said
+     pcg_ic0               conjugate gradients with incomplete Cholesky, to RESIDUAL or 1e-10
    ROWS.BIN receives the temperatures of the probes, float64; stdout one line of counts. */
 #include "network.h"
 #include <cholmod.h>
@@ -68,7 +68,8 @@ static double dot(const double *a, const double *b, int n)
     return sum;
 }
 
-static void by_conjugate_gradients(const Network *net, const double *heat, double *T, double residual)
+static void by_conjugate_gradients(const Network *net, const double *heat, double *T,
+                                   double residual)
 {
     int n = net->n, iterations = 0;
     double *lower = doubles(net->begin[n]), *inverse = doubles(n);
