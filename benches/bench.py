@@ -123,10 +123,7 @@ def show(case, rows, lptn, target):
 
 def cells(figures, target, ratios):
     if figures["error"] is None:
-        return [
-            figures["tool"],
-            figures["said"].splitlines()[0] if figures["said"] else "failed",
-        ] + [""] * (4 + ratios)
+        return [figures["tool"], figures["said"]] + [""] * (4 + ratios)
     met = "" if figures["error"] <= target else " (not met)"
     return [
         figures["tool"],
@@ -145,7 +142,11 @@ def ladder(case, lptn, options):
     for tool in [tool for tool in lptn if tool.fits(case)]:
         for tolerance in tool.ladder[1:-2:2]:
             done = measure.run(tool, case, tolerance, (options.limit, options.memory))
-            error = f"{done.error * np.ptp(case.right):.1e} K" if done.ok() else done.said
+            error = (
+                f"{done.error * np.ptp(case.right):.1e} K"
+                if done.ok()
+                else done.said + ": " + done.stderr
+            )
             print(f"{tool.name}, {tolerance} K: error {error}, {done.cpu:.3f} s", flush=True)
 
 

@@ -21,6 +21,7 @@ class Run:
     memory: float
     error: float | None
     said: str = ""
+    stderr: str = ""
 
     def ok(self):
         return self.error is not None
@@ -51,12 +52,8 @@ def run(tool, case, tolerance, limits):
         status, user, system, wall, peak = (float(word) for word in report.read_text().split())
         rows = tool.rows(case, work) if status == 0 else None
         error = None if rows is None else case.error(rows)
-        said = (
-            f"stopped after {seconds:.0f} s"
-            if user + system > 0.99 * seconds
-            else told.stderr.strip()
-        )
-        return Run(user + system, wall, peak / 1024, error, said)
+        said = f"stopped after {seconds:.0f} s" if user + system > 0.95 * seconds else "failed"
+        return Run(user + system, wall, peak / 1024, error, said, told.stderr)
 
 
 @dataclass
@@ -79,7 +76,7 @@ def pick(tool, case, target, limits):
         for tolerance in tool.ladder:
             done = run(tool, case, tolerance, limits)
             if best is None or done.ok():
-                best = Pick(tolerance, done.error, done.cpu, done.said[-300:])
+                best = Pick(tolerance, done.error, done.cpu, done.said)
             if done.cpu > 0.7 * limits[0] * tool.patience or (done.ok() and done.error <= target):
                 break
         remember(memory, key, vars(best))

@@ -109,7 +109,7 @@ def every_figure(results):
 def figures(result, row):
     head = [f"`{result['case']}`", power(result["target"]), row["tool"]]
     if row["error"] is None:
-        return [*head, row["said"].splitlines()[0] if row["said"] else "failed", "", "", "", "", ""]
+        return [*head, row["said"], "", "", "", "", ""]
     ratio = f"{row['ratios'][0]:.2f}" if row["ratios"] else ""
     return [
         *head,

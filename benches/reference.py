@@ -44,8 +44,6 @@ def compute(case):
 
 def tolerances(case):
     """That of a reference, and one to judge it by."""
-    if case.n > 500_000:
-        return "1e-7", "1e-6"
     return ("1e-10", "1e-9") if case.n > 3_000 else ("1e-11", "1e-10")
 
 
