@@ -34,7 +34,7 @@ pub struct Statistics {
     /// Time at which symmetric Newton matrices were given up for LU, in units of t; see
     /// [`crate::Integrator::step`].
     pub switched_to_lu: Option<f64>,
-    /// Order of the last step, 1 to 5; 0 before the first.
+    /// Order of the last step, 1 to 11; 0 before the first.
     pub last_order: u32,
     /// Size of the last step in units of t; 0 before the first.
     pub last_step: f64,

@@ -54,9 +54,9 @@ impl Levels {
         self.kept.values().next_back().map_or(self.analysed.kind(), |kept| kept.factors.kind())
     }
 
-    /// The largest number of values that factors hold.
+    /// Numbers that all factors hold together.
     pub(super) fn fill(&self) -> usize {
-        self.kept.values().map(|kept| kept.factors.fill()).max().unwrap_or(0)
+        self.kept.values().map(|kept| kept.factors.fill()).sum()
     }
 
     pub(super) fn iterations(&self) -> u64 {
@@ -88,10 +88,7 @@ impl Levels {
     }
 
     fn make_room(&mut self, needed: usize) {
-        let held = |kept: &BTreeMap<i32, Kept>| -> usize {
-            kept.values().map(|kept| kept.factors.fill()).sum()
-        };
-        while held(&self.kept) + needed > ROOM {
+        while self.fill() + needed > ROOM {
             let oldest =
                 self.kept.iter().min_by_key(|(_, kept)| kept.used).map(|(&level, _)| level);
             let Some(gone) = oldest.and_then(|level| self.kept.remove(&level)) else { return };

@@ -88,7 +88,7 @@ impl<S: OdeSystem> OneStep<S> {
         checks::options(t0, options)?;
         checks::system(&system, y0)?;
         let analysed =
-            linear::for_steps(system.pattern(), system.symmetric(), options.linear_solver);
+            linear::for_stages(system.pattern(), system.symmetric(), options.linear_solver);
         let analysed = analysed.map_err(|cause| linear_trouble(t0, cause))?;
         let integrals = vec![0.0; system.quadrature_count()];
         Ok(Self {
@@ -416,6 +416,8 @@ impl<S: OdeSystem> Integrator<S> for OneStep<S> {
         Statistics {
             linear_setups: self.levels.asked,
             factorizations: self.levels.factorizations,
+            linear_iterations: self.levels.iterations(),
+            fill: self.levels.fill() as u64,
             ..self.counts
         }
     }
