@@ -18,7 +18,7 @@ ORDER = ["two_node", "ladder", "stiff", "grid2d", "grid3d", "radiation", "scale2
 
 
 def main():
-    stamp = tools.Lptn(sys.argv[1], False).stamp()
+    stamp = tools.Lptn(sys.argv[1], "lptn", False).stamp()
     results = [json.loads(file.read_text()) for file in (tools.folder() / "results").glob("*.json")]
     results = sorted((result for result in results if result["lptn"] == stamp), key=place)
     if not results:
@@ -75,8 +75,9 @@ def cell(row, target):
 
 def best(result):
     """The ratio of lptn to the other program that does best, of those that keep the target."""
-    kept = [row for row in result["rows"] if row["tool"] != "lptn" and row.get("ratios")]
-    ratios = [row["ratios"][0] for row in kept if row["error"] <= result["target"]]
+    others = [row for row in result["rows"] if row["tool"] != "lptn" and row["error"] is not None]
+    ratios = [row["ratios"][0] for row in others if row["error"] <= result["target"]]
+    ratios = [ratio for ratio in ratios if ratio is not None]
     return f"{max(ratios):.2f}" if ratios else ""
 
 
@@ -110,7 +111,7 @@ def figures(result, row):
     head = [f"`{result['case']}`", power(result["target"]), row["tool"]]
     if row["error"] is None:
         return [*head, row["said"], "", "", "", "", ""]
-    ratio = f"{row['ratios'][0]:.2f}" if row["ratios"] else ""
+    ratio = "" if row["ratios"][0] is None else f"{row['ratios'][0]:.2f}"
     return [
         *head,
         row["tolerance"],
