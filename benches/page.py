@@ -124,9 +124,8 @@ def figures(result, row):
 
 
 def markdown(heads, rows):
-    return "\n".join(
-        ["| " + " | ".join(line) + " |" for line in (heads, ["---"] * len(heads), *rows)]
-    )
+    lines = ["| " + " | ".join(cells) + " |" for cells in (heads, *rows)]
+    return "\n".join([lines[0], "|---" * len(heads) + "|", *lines[1:]])
 
 
 def conditions(program, results):
