@@ -135,10 +135,7 @@ def conditions(program, results):
     rows = [
         ["Date", ", ".join(dates)],
         ["Machine", f"{processor()}, {platform.machine()}, {system()}"],
-        [
-            "lptn",
-            f"{said([program, '--version'])}; sources {said(['git', 'describe', '--always'])}",
-        ],
+        ["lptn", f"{said([program, '--version'])}; {origin(program)}"],
         ["SUNDIALS of the C programs", sundials()],
         ["Debian's packages", packages()],
         ["Python's packages", modules()],
@@ -152,6 +149,14 @@ def conditions(program, results):
         ],
     ]
     return markdown(["", ""], [[name, text.replace("\n", "; ")] for name, text in rows])
+
+
+def origin(program):
+    """The commit of a program that was built here, else what tells it from others."""
+    root, file = PAGE.parent.parent, Path(program).resolve()
+    if file.is_relative_to(root):
+        return "commit " + said(["git", "describe", "--always", "--dirty"])
+    return "built elsewhere, SHA-256 " + tools.Lptn(program, "lptn", False).stamp() + ".."
 
 
 def said(command):
