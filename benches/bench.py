@@ -12,6 +12,7 @@ and references are kept in BENCH_DIR, target/bench unless set; families.py tells
 
 import argparse
 import json
+import os
 import sys
 import time
 from pathlib import Path
@@ -178,6 +179,7 @@ def record(case, rows, options):
         known=case.known,
         range=float(np.ptp(case.right)),
         date=time.strftime("%Y-%m-%d"),
+        load=os.getloadavg()[0],
         lptn=stamp,
     )
     (place / f"{case.name}@{options.target:g}.json").write_text(
@@ -187,6 +189,8 @@ def record(case, rows, options):
 
 def main():
     options = arguments()
+    if options.record and len(options.lptn) != 1:
+        sys.exit("--record keeps the figures of one --lptn")
     lptn, peers = chosen(options)
     for tool in lptn:
         if tool.missing():

@@ -132,8 +132,11 @@ def conditions(program, results):
     """Date, machine and versions, a row each."""
     dates = sorted({result["date"] for result in results})
     doubt, case = max((float(result["known"].split()[-1]), result["case"]) for result in results)
+    loads = [result["load"] for result in results if "load" in result]
+    load = f"{min(loads):.1f} to {max(loads):.1f}" if loads else "not recorded"
     rows = [
         ["Date", ", ".join(dates)],
+        ["Load of the machine, the bench included", load],
         ["Machine", f"{processor()}, {platform.machine()}, {system()}"],
         ["lptn", f"{said([program, '--version'])}; {origin(program)}"],
         ["SUNDIALS of the C programs", sundials()],
