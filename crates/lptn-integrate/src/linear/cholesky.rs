@@ -11,6 +11,7 @@ use faer::sparse::linalg::cholesky::{
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, Par, Side, Spec};
 
+use super::columns::Columns;
 use super::{
     Factorization, LinearSolverKind, allocated, checked, column, expect_length, put, taken,
 };
@@ -23,8 +24,9 @@ use crate::{FactorError, Pattern};
 pub struct SparseCholesky {
     analysis: Arc<Analysis>,
     factors: Vec<f64>,
-    /// To solve in: about a number per row.
-    memory: MemBuffer,
+    /// To solve in: about a number per row, in the first where faer solves, else in the second.
+    memory: Option<MemBuffer>,
+    work: Vec<f64>,
     ready: bool,
 }
 
@@ -34,6 +36,8 @@ pub(super) struct Analysis {
     /// Slot in the full pattern of every entry of `lower`.
     source: Vec<usize>,
     symbolic: SymbolicCholesky<usize>,
+    /// Where columns are taken one by one.
+    columns: Option<Columns>,
     full_length: usize,
     /// To factorise in, when nobody does.
     spare: Mutex<Option<Workspace>>,
@@ -64,9 +68,12 @@ impl SparseCholesky {
 
     pub(super) fn of(analysis: Arc<Analysis>) -> Result<Self, FactorError> {
         let symbolic = &analysis.symbolic;
-        let memory = allocated(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq))?;
+        let memory = match analysis.columns {
+            Some(_) => None,
+            None => Some(allocated(symbolic.solve_in_place_scratch::<f64>(1, Par::Seq))?),
+        };
         let factors = vec![0.0; symbolic.len_val()];
-        Ok(Self { analysis, factors, memory, ready: false })
+        Ok(Self { analysis, factors, memory, work: Vec::new(), ready: false })
     }
 }
 
@@ -81,7 +88,8 @@ impl Analysis {
         )
         .map_err(|_| FactorError::OutOfMemory)?;
         let (full_length, spare) = (pattern.len(), Mutex::new(None));
-        Ok(Self { lower, source, symbolic, full_length, spare })
+        let columns = Columns::of(&symbolic);
+        Ok(Self { lower, source, symbolic, columns, full_length, spare })
     }
 
     /// Numbers stored for the factors.
@@ -138,6 +146,9 @@ impl Analysis {
         );
         let failure = outcome.err();
         put(&self.spare, work);
+        if let (Some(columns), None) = (&self.columns, &failure) {
+            columns.invert_diagonal(factors);
+        }
         match failure {
             None => Ok(()),
             Some(LltError::NonPositivePivot { index }) => {
@@ -197,9 +208,18 @@ impl Factorization for SparseCholesky {
 
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError> {
         checked((self.size(), self.ready), b, |b| {
-            let factors = LltRef::new(&self.analysis.symbolic, &self.factors);
-            let memory = MemStack::new(&mut self.memory);
-            factors.solve_in_place_with_conj(Conj::No, column(b), Par::Seq, memory);
+            if let Some(columns) = &self.analysis.columns {
+                columns.solve(&self.factors, b, &mut self.work);
+            }
+            if let Some(memory) = &mut self.memory {
+                let factors = LltRef::new(&self.analysis.symbolic, &self.factors);
+                factors.solve_in_place_with_conj(
+                    Conj::No,
+                    column(b),
+                    Par::Seq,
+                    MemStack::new(memory),
+                );
+            }
         })
     }
 }

@@ -5,6 +5,7 @@
 //! [`Factorization::solve_in_place`] work in memory kept between calls.
 
 mod cholesky;
+mod columns;
 mod cost;
 mod dense;
 mod either;

@@ -1,0 +1,128 @@
+//! Which integrator computes a run, and that both find the same.
+#![allow(clippy::unwrap_used, reason = "tests")]
+
+#[path = "common/mod.rs"]
+mod common;
+#[path = "common/elements.rs"]
+mod elements;
+
+use common::{gearbox, nafems_t3, one_node, rc_ladder, stiff, two_masses};
+use elements::{Random, radiation, system};
+use lptn_assembly::ThermalSystem;
+use lptn_network::{
+    Conductance, HeatCapacity, IntegratorChoice, Network, NetworkBuilder, NodeId, Temperature, Time,
+};
+use lptn_solve::{Method, SettingsError, Solution, Transient, TransientError};
+
+fn run(network: &Network, stop: f64, settings: impl FnOnce(&mut Transient)) -> Solution {
+    let mut transient = Transient::until(Time(stop));
+    settings(&mut transient);
+    transient.solve(&ThermalSystem::assemble(network).unwrap()).unwrap()
+}
+
+fn with(network: &Network, stop: f64, integrator: IntegratorChoice) -> Solution {
+    run(network, stop, |transient| transient.integrator = integrator)
+}
+
+/// The largest difference of any temperature at any row in K.
+fn apart(a: &Solution, b: &Solution) -> f64 {
+    assert_eq!(a.times(), b.times());
+    let rows = 0..a.times().len();
+    let pairs = rows.flat_map(|row| a.row(row).iter().zip(b.row(row)));
+    pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn linear_networks_take_the_one_step_method_and_others_cvode() {
+    let method = |network: &Network| run(network, 100.0, |_| ()).method();
+    for network in [gearbox(), rc_ladder(), stiff(), two_masses()] {
+        assert_eq!(method(&network), Some(Method::OneStep));
+    }
+    let straight = one_node(50.0, "20 [degC]", "if(t < 30 [s], 5 [W], 2 [W/s] * t)");
+    assert_eq!(method(&straight), Some(Method::OneStep));
+    // inputs that curve
+    assert_eq!(method(&nafems_t3()), Some(Method::Cvode));
+    let curved = one_node(50.0, "20 [degC]", "1e-3 [W/s^2] * t^2");
+    assert_eq!(method(&curved), Some(Method::Cvode));
+    let mut b = NetworkBuilder::new();
+    let ball = b.node("ball", HeatCapacity(500.0), Temperature(1000.0));
+    let space = b.boundary("space", Temperature(0.0));
+    radiation(&mut b, "glow", (ball, space), "0.05 m^2");
+    let glowing = Transient::until(Time(10.0)).solve(&system(b)).unwrap();
+    assert_eq!(glowing.method(), Some(Method::Cvode));
+}
+
+#[test]
+fn cvode_is_taken_where_it_is_asked_for() {
+    let solution = with(&gearbox(), 1500.0, IntegratorChoice::Cvode);
+    assert_eq!(solution.method(), Some(Method::Cvode));
+    assert!(apart(&solution, &run(&gearbox(), 1500.0, |_| ())) < 1e-4);
+}
+
+#[test]
+fn the_one_step_method_is_refused_where_it_does_not_serve() {
+    let mut transient = Transient::until(Time(10.0));
+    transient.integrator = IntegratorChoice::OneStep;
+    let refused = transient.solve(&ThermalSystem::assemble(&nafems_t3()).unwrap()).unwrap_err();
+    let TransientError::Settings(SettingsError::OneStep { curved: true }) = refused else {
+        panic!("{refused}")
+    };
+}
+
+/// A random tree with chords, sources that jump and ramp at odd times, massless nodes to eliminate.
+fn random_network(random: &mut Random) -> Network {
+    let mut b = NetworkBuilder::new();
+    let count = 3 + random.below(40);
+    let air = b.expression("20 [degC] + if(t < 137 [s], 0 [K], 5 [K])", None).unwrap();
+    let air = b.boundary("air", air);
+    let nodes: Vec<NodeId> = (0..count)
+        .map(|i| match random.below(8) {
+            0 if i > 0 => b.massless(&format!("n{i}")),
+            _ => {
+                let c = 10.0_f64.powf(random.between(-3.0, 3.0));
+                b.node(&format!("n{i}"), HeatCapacity(c), Temperature(random.between(280.0, 330.0)))
+            }
+        })
+        .collect();
+    for i in 1..count {
+        let g = Conductance(10.0_f64.powf(random.between(-2.0, 2.0)));
+        b.resistor(&format!("r{i}"), nodes[random.below(i)], nodes[i], g);
+    }
+    for i in 0..=count / 8 {
+        let node = nodes[random.below(count)];
+        b.resistor(&format!("skin{i}"), node, air, Conductance(random.between(0.1, 2.0)));
+        let (at, power) = (random.between(5.0, 390.0), random.between(1.0, 20.0));
+        let text = match random.below(2) {
+            0 => format!("if(t < {at} [s], 0 [W], {power} [W])"),
+            _ => format!("if(t < {at} [s], {power} [W], {power} [W] - 0.02 [W/s] * t)"),
+        };
+        let heat = b.expression(&text, None).unwrap();
+        b.source(&format!("heat{i}"), node, heat);
+    }
+    b.build().unwrap()
+}
+
+/// Temperatures agree within the tolerances of both, and every source and boundary gives the same
+/// heat.
+#[test]
+fn both_integrators_find_the_same_on_random_networks() {
+    let mut random = Random(16);
+    for _ in 0..60 {
+        let network = random_network(&mut random);
+        for tolerance in [1e-3, 1e-6] {
+            let of = |integrator| {
+                run(&network, 400.0, |transient| {
+                    (transient.tolerance, transient.integrator) = (tolerance, integrator);
+                })
+            };
+            let (own, cvode) = (of(IntegratorChoice::OneStep), of(IntegratorChoice::Cvode));
+            assert!(apart(&own, &cvode) < 10.0 * tolerance, "{}", apart(&own, &cvode));
+            let open = own.ledger().relative_residual().unwrap();
+            assert!(open.abs() < 1e-11, "{open}");
+            let heats = own.ledger().boundaries.iter().zip(&cvode.ledger().boundaries);
+            for (a, b) in heats {
+                assert!((a - b).abs() < 1e-4 * cvode.ledger().turned_over, "{a} {b}");
+            }
+        }
+    }
+}
