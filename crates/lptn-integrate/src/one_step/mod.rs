@@ -416,6 +416,8 @@ impl<S: OdeSystem> Integrator<S> for OneStep<S> {
         Statistics {
             linear_setups: self.levels.asked,
             factorizations: self.levels.factorizations,
+            linear_iterations: self.levels.iterations(),
+            fill: self.levels.fill() as u64,
             ..self.counts
         }
     }
