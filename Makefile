@@ -1,5 +1,9 @@
 # make demo    installs what is missing, builds lptn, runs the gearbox
 # make test    the same set-up, then every test
+# make bench   runs lptn beside other programs at the same error, some 15 minutes, and writes the tables of docs/speed.md.
+#              BENCH="ladder-1000 grid2d-32" TARGET=1e-6 TURNS=5 choose, and then only print. docs/speed.md says more
+# make bench-all    the same with steady states, a million nodes and an error of 1e-6: an hour
+# make bench-micro  the benchmarks inside crates (cargo bench)
 # make audit   licences, doubles and known holes of the dependencies; the tests of the unsafe crate under valgrind
 # make mutants installs cargo-mutants if it is missing, breaks lptn-assembly, -reduce, -network and -units in one place after
 #              another (5,496 in all) and runs the tests of the crate each time: some ten hours on two cores. Results go to
@@ -15,7 +19,7 @@ SUNDIALS ?= system
 export SUNDIALS
 features = $(if $(filter bundled,$(SUNDIALS)),--features lptn-cli/bundled)
 
-.PHONY: demo test build dist book setup setup-tests bench audit fuzz mutants check-wasm clean
+.PHONY: demo test build dist book setup setup-tests setup-bench bench bench-all bench-micro audit fuzz mutants check-wasm clean
 
 demo: build
 	./target/release/lptn run networks/gearbox.toml
@@ -29,7 +33,13 @@ dist:
 test: setup-tests
 	cargo test --workspace --locked $(features)
 
-bench: setup
+bench: setup-bench build
+	@./benches/run
+
+bench-all: setup-bench build
+	@./benches/run --all
+
+bench-micro: setup
 	cargo bench --locked --workspace $(features)
 
 # cargo-mutants ends with 2 or 3 where something was not noticed or did not end: that is a result, not a failure.
@@ -58,6 +68,9 @@ check-wasm:
 
 setup:
 	@./.ci/setup
+
+setup-bench:
+	@./.ci/setup --bench
 
 setup-tests:
 	@./.ci/setup --tests

@@ -47,14 +47,14 @@ fn body(n: usize, axes: u32, h: Option<f64>) -> (Vec<(usize, usize, f64)>, Vec<f
     if h.is_none() {
         own.fill(0.0);
     }
-    for cell in 0..size {
+    for (cell, own) in own.iter_mut().enumerate() {
         for axis in 0..axes {
             let (stride, place) = (n.pow(axis), cell / n.pow(axis) % n);
             if place + 1 < n {
                 links.push((cell + stride, cell, scale * spread(0.1, 10.0)));
             }
             if place == 0 || place + 1 == n {
-                own[cell] += scale * spread(0.01, 0.1);
+                *own += scale * spread(0.01, 0.1);
             }
         }
     }
@@ -77,7 +77,10 @@ fn solver(name: &str, pattern: &Pattern) -> Result<Box<dyn Factorization>, Facto
     match name {
         "cholesky" => linear::new(pattern, true, LinearSolver::Cholesky),
         "pcg" => linear::new(pattern, true, LinearSolver::Pcg),
+        "multigrid" => Ok(Box::new(linear::Multigrid::new(pattern))),
+        "steady" => linear::for_steady(pattern, LinearSolver::Auto),
         "lu" => linear::new(pattern, false, LinearSolver::Lu),
+        "stages" => linear::for_stages(pattern, true, LinearSolver::Auto),
         "steps" => linear::for_steps(pattern, true, LinearSolver::Auto),
         _ => panic!("no solver `{name}`"),
     }

@@ -1,17 +1,11 @@
 //! The linear solvers against each other and against systems solved by hand.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
+mod common;
+
+use common::{chain, cube, matrix, numbers, random_network};
 use lptn_integrate::linear::{Dense, Factorization, SparseCholesky, SparseLu, solve_refined};
 use lptn_integrate::{FactorError, LinearSolver, LinearSolverKind, Pattern, linear};
-
-fn matrix(n: usize, entries: &[(usize, usize, f64)]) -> (Pattern, Vec<f64>) {
-    let pattern = Pattern::new(n, entries.iter().map(|&(i, j, _)| (i, j)));
-    let mut values = vec![0.0; pattern.len()];
-    for &(i, j, value) in entries {
-        values[pattern.slot(i, j).unwrap()] += value;
-    }
-    (pattern, values)
-}
 
 /// All four solvers.
 fn solvers(pattern: &Pattern) -> Vec<Box<dyn Factorization>> {
@@ -21,35 +15,6 @@ fn solvers(pattern: &Pattern) -> Vec<Box<dyn Factorization>> {
         Box::new(SparseCholesky::new(pattern).unwrap()),
         Box::new(SparseLu::new(pattern).unwrap()),
     ]
-}
-
-/// Numbers between 0 and 1 that are the same in every run.
-fn numbers(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed;
-    move || {
-        state =
-            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
-
-/// `M + G` of a random connected network; not symmetric if `upwind`.
-fn random_network(n: usize, upwind: bool) -> (Pattern, Vec<f64>) {
-    let mut next = numbers(n as u64);
-    let mut entries = Vec::new();
-    for i in 0..n {
-        entries.push((i, i, 0.1 + next()));
-        for _ in 0..3 {
-            let (j, g) = ((next() * n as f64) as usize % n, 10_f64.powf(4.0 * next() - 2.0));
-            if i != j {
-                entries.extend([(i, i, g), (i, j, -g)]);
-                if !upwind {
-                    entries.extend([(j, j, g), (j, i, -g)]);
-                }
-            }
-        }
-    }
-    matrix(n, &entries)
 }
 
 #[test]
@@ -125,15 +90,6 @@ fn all_solvers_agree() {
             }
         }
     }
-}
-
-/// A chain of links of 1 with the boundary link `g` at its end.
-fn chain(n: usize, g: f64) -> (Pattern, Vec<f64>) {
-    let mut entries = vec![(n - 1, n - 1, g)];
-    for i in 1..n {
-        entries.extend([(i, i, 1.0), (i - 1, i - 1, 1.0), (i, i - 1, -1.0), (i - 1, i, -1.0)]);
-    }
-    matrix(n, &entries)
 }
 
 #[test]
@@ -218,85 +174,6 @@ fn misuse_is_an_error() {
     ));
 }
 
-/// `M + G` of a cube of `n` cells along each axis, links of 1 between neighbours, masses of `mass`.
-fn cube(n: usize, mass: f64) -> (Pattern, Vec<f64>) {
-    let mut entries = Vec::new();
-    for cell in 0..n * n * n {
-        entries.push((cell, cell, mass));
-        for (stride, place) in [(1, cell % n), (n, cell / n % n), (n * n, cell / (n * n))] {
-            if place + 1 < n {
-                let next = cell + stride;
-                entries.extend([
-                    (cell, cell, 1.0),
-                    (next, next, 1.0),
-                    (cell, next, -1.0),
-                    (next, cell, -1.0),
-                ]);
-            }
-        }
-    }
-    matrix(n * n * n, &entries)
-}
-
-#[test]
-fn conjugate_gradients_solve_what_cholesky_solves() {
-    let networks = [1, 2, 30, 900].map(|n| random_network(n, false));
-    let cubes = [1.0, 1e-2, 1e-4].map(|mass| cube(12, mass));
-    for (pattern, values) in networks.into_iter().chain(cubes) {
-        let n = pattern.size();
-        let mut next = numbers(7);
-        let exact: Vec<f64> = (0..n).map(|_| next() - 0.5).collect();
-        let mut b = vec![0.0; n];
-        pattern.multiply(&values, &exact, &mut b);
-        let mut solver = linear::new(&pattern, true, LinearSolver::Pcg).unwrap();
-        assert_eq!(solver.kind(), LinearSolverKind::Pcg);
-        assert!(solver.solve_in_place(&mut b.clone()).is_err(), "nothing is factorised");
-        for _ in 0..2 {
-            solver.factorize(&values).unwrap();
-            let mut x = vec![0.0; n];
-            let left = solve_refined(solver.as_mut(), (&pattern, &values), &b, &mut x, 1).unwrap();
-            assert!(
-                left < 1e-12 * values.iter().fold(1.0, |most: f64, v| most.max(v.abs())),
-                "{n}: {left:e}"
-            );
-        }
-        let mut nothing = vec![0.0; n];
-        solver.solve_in_place(&mut nothing).unwrap();
-        assert!(nothing.iter().all(|x| *x == 0.0));
-    }
-    assert!(matches!(
-        linear::new(&Pattern::new(1, std::iter::empty()), false, LinearSolver::Pcg),
-        Err(FactorError::NotSymmetric)
-    ));
-}
-
-#[test]
-fn exact_factors_take_over_where_conjugate_gradients_do_not_converge() {
-    // a right side that an island without a boundary cannot take: no iteration can be right
-    let (pattern, values) = cube(6, 0.0);
-    let mut solver = linear::new(&pattern, true, LinearSolver::Pcg).unwrap();
-    solver.factorize(&values).unwrap();
-    let mut b = vec![1.0; pattern.size()];
-    match solver.solve_in_place(&mut b) {
-        // rounding may leave the last pivot of a singular matrix a little above zero
-        Ok(()) => assert!(b.iter().any(|x| x.abs() > 1e9)),
-        Err(error) => assert!(
-            matches!(error, FactorError::NotPositiveDefinite { .. } | FactorError::Singular { .. }),
-            "{error:?}"
-        ),
-    }
-}
-
-#[test]
-fn a_run_takes_conjugate_gradients_for_large_bodies_only() {
-    let kind = |n| {
-        let pattern = cube(n, 1.0).0;
-        linear::for_steps(&pattern, true, LinearSolver::Auto).unwrap().kind()
-    };
-    assert_eq!(kind(8), LinearSolverKind::SparseCholesky);
-    assert_eq!(kind(28), LinearSolverKind::Pcg);
-}
-
 #[test]
 fn values_decide_between_cholesky_and_lu() {
     let (pattern, values) = cube(13, 1.0);
@@ -337,39 +214,4 @@ fn siblings_share_the_analysis_and_nothing_else() {
         let error = a.iter().zip(&b).map(|(a, b)| (a - 2.0 * b).abs()).fold(0.0, f64::max);
         assert!(error < 1e-12, "{:?}: {error:e}", first.kind());
     }
-}
-
-#[test]
-fn a_good_guess_saves_iterations() {
-    let (pattern, values) = cube(12, 1.0);
-    let n = pattern.size();
-    let mut next = numbers(5);
-    let exact: Vec<f64> = (0..n).map(|_| 300.0 + next()).collect();
-    let mut b = vec![0.0; n];
-    pattern.multiply(&values, &exact, &mut b);
-    let mut solver = linear::new(&pattern, true, LinearSolver::Pcg).unwrap();
-    solver.factorize(&values).unwrap();
-    let mut count = 0;
-    let mut solved = |x: &mut [f64], allowed| {
-        solver.solve_from(&b, x, allowed).unwrap();
-        let mut product = vec![0.0; n];
-        pattern.multiply(&values, x, &mut product);
-        let left = |i: usize| (b[i] - product[i]).abs() / values[pattern.diagonal_slot(i)];
-        assert!((0..n).all(|i| left(i) <= 1.001 * allowed));
-        let before = std::mem::replace(&mut count, solver.iterations());
-        count - before
-    };
-    let (mut cold, mut warm) = (vec![0.0; n], vec![300.0; n]);
-    let (coarse, near) = (solved(&mut cold, 1e-3), solved(&mut warm, 1e-3));
-    assert!(near < coarse && coarse <= 20, "{near} {coarse}");
-    assert_eq!(solved(&mut warm, 1e-3), 0, "it was good enough");
-    assert!(solved(&mut warm, 1e-9) > 0);
-    let error = warm.iter().zip(&exact).map(|(x, e)| (x - e).abs()).fold(0.0, f64::max);
-    assert!(error < 1e-6, "{error:e}");
-    // exact solvers take the guess as nothing
-    let mut cholesky = SparseCholesky::new(&pattern).unwrap();
-    cholesky.factorize(&values).unwrap();
-    cholesky.solve_from(&b, &mut cold, 1.0).unwrap();
-    let error = cold.iter().zip(&exact).map(|(x, e)| (x - e).abs()).fold(0.0, f64::max);
-    assert!(error < 1e-8, "{error:e}");
 }

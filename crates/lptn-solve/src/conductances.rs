@@ -57,10 +57,17 @@ impl<'a> Conductances<'a> {
     ) -> Result<Vec<f64>, FactorError> {
         let Some(factors) = &mut self.factors else { return Ok(Vec::new()) };
         let mut states = vec![start; self.system.states().len()];
-        let mut step = vec![0.0; states.len()];
-        for _ in 0..=refinements {
-            self.system.linear_flow(work, &states, &mut step);
-            factors.solve_in_place(&mut step)?;
+        let (mut flow, mut step) = (vec![0.0; states.len()], vec![0.0; states.len()]);
+        for refinement in 0..=refinements {
+            self.system.linear_flow(work, &states, &mut flow);
+            if refinement == 0 {
+                step.copy_from_slice(&flow);
+                factors.solve_in_place(&mut step)?;
+            } else {
+                // where it iterates, what is below the last digits is not sought
+                step.fill(0.0);
+                factors.solve_from(&flow, &mut step, f64::EPSILON * size(&states))?;
+            }
             states.iter_mut().zip(&step).for_each(|(t, dt)| *t += dt);
             if size(&step) <= f64::EPSILON * size(&states) {
                 break;
@@ -80,7 +87,7 @@ fn factorized(system: &ThermalSystem) -> Result<Box<dyn Factorization>, FactorEr
     system.jacobian(&mut values);
     values.iter_mut().for_each(|v| *v = -*v);
     tie_down(system, &pattern, &mut values);
-    let mut factors = linear::new(&pattern, true, LinearSolver::Auto)?;
+    let mut factors = linear::for_steady(&pattern, LinearSolver::Auto)?;
     factors.factorize(&values)?;
     factors.check(&pattern, &values)?;
     Ok(factors)

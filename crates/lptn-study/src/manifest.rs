@@ -27,6 +27,8 @@ pub struct Manifest {
     pub stop: SiValue,
     /// The tolerance of its temperatures in K.
     pub tolerance: SiValue,
+    /// The integrator that computed it, by its word in `[run]`; `null` without capacities.
+    pub integrator: Option<&'static str>,
     /// How it ended.
     pub end: RunEnd,
     /// Counters of the integrator.

@@ -84,6 +84,34 @@ impl Analysis {
         Ok(Self { lower, source, symbolic, full_length, spare })
     }
 
+    /// Numbers stored for the factors.
+    pub(super) fn fill(&self) -> usize {
+        self.symbolic.len_val()
+    }
+
+    /// Whether columns are taken one by one.
+    pub(super) fn simplicial(&self) -> bool {
+        matches!(self.symbolic.raw(), SymbolicCholeskyRaw::Simplicial(_))
+    }
+
+    /// Multiplications of a factorisation: the squares of the lengths of the columns.
+    pub(super) fn products(&self) -> f64 {
+        match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(factor) => {
+                let ends = factor.col_ptr().windows(2);
+                ends.map(|ends| (ends[1] - ends[0]) as f64).map(|length| length * length).sum()
+            }
+            SymbolicCholeskyRaw::Supernodal(factor) => {
+                let parts = factor.supernode_begin().iter().zip(factor.supernode_end());
+                let lengths =
+                    parts.zip(factor.nnz_per_super()).flat_map(|((begin, end), below)| {
+                        (1..=end - begin).map(move |length| (length + below) as f64)
+                    });
+                lengths.map(|length| length * length).sum()
+            }
+        }
+    }
+
     /// The memory to factorise in, anew where another thread has it.
     fn workspace(&self) -> Result<Workspace, FactorError> {
         if let Some(spare) = taken(&self.spare) {

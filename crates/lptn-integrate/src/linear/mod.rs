@@ -5,18 +5,24 @@
 //! [`Factorization::solve_in_place`] work in memory kept between calls.
 
 mod cholesky;
+mod cost;
 mod dense;
 mod either;
+mod fallback;
+mod incomplete;
+mod krylov;
 mod lu;
-mod pcg;
+mod methods;
+mod multigrid;
 mod shape;
 mod sweeps;
 
 pub use cholesky::SparseCholesky;
 pub use dense::Dense;
 pub use either::Either;
+pub use krylov::Krylov;
 pub use lu::SparseLu;
-pub use pcg::Pcg;
+pub use multigrid::Multigrid;
 
 use std::sync::Mutex;
 
@@ -63,6 +69,10 @@ pub enum LinearSolverKind {
     SparseLu,
     /// Conjugate gradients with an incomplete Cholesky factor.
     Pcg,
+    /// Conjugate gradients with a multigrid method.
+    Multigrid,
+    /// BiCGStab with an incomplete LU factor.
+    BiCgStab,
 }
 
 /// A matrix that can be factorised again and again with other values in the same pattern.
@@ -125,14 +135,22 @@ pub trait Factorization {
     /// [`FactorError::Singular`] with the component that is largest: for a network one of an island
     /// that leads nowhere.
     fn check(&mut self, pattern: &Pattern, values: &[f64]) -> Result<(), FactorError> {
-        let mut probe: Vec<f64> =
-            pattern.diagonal().iter().map(|&slot| values[slot].abs()).collect();
-        self.solve_in_place(&mut probe)?;
-        let index = kernels::worst(&probe, &vec![1.0; probe.len()]);
-        match probe.get(index) {
-            Some(largest) if largest.abs() > SINGULAR => Err(FactorError::Singular { index }),
-            _ => Ok(()),
-        }
+        probe(pattern, values, |b| self.solve_in_place(b))
+    }
+}
+
+/// See [`Factorization::check`].
+fn probe(
+    pattern: &Pattern,
+    values: &[f64],
+    mut solve: impl FnMut(&mut [f64]) -> Result<(), FactorError>,
+) -> Result<(), FactorError> {
+    let mut probe: Vec<f64> = pattern.diagonal().iter().map(|&slot| values[slot].abs()).collect();
+    solve(&mut probe)?;
+    let index = kernels::worst(&probe, &vec![1.0; probe.len()]);
+    match probe.get(index) {
+        Some(largest) if largest.abs() > SINGULAR => Err(FactorError::Singular { index }),
+        _ => Ok(()),
     }
 }
 
@@ -154,7 +172,7 @@ pub fn new(
         return Err(FactorError::NotSymmetric);
     }
     if choice == LinearSolver::Pcg {
-        return Ok(Box::new(Pcg::new(pattern)));
+        return Ok(Box::new(Krylov::new(pattern, true)));
     }
     if is_dense(choice, pattern.size()) {
         return Ok(Box::new(Dense::new(pattern, symmetric)));
@@ -165,14 +183,8 @@ pub fn new(
     Ok(Box::new(SparseLu::new(pattern)?))
 }
 
-/// The factors of a Cholesky decomposition hold more numbers than this, and more than so many times
-/// those of the matrix, where a body is cut into cells along three axes: 8 million and 41 times for
-/// 30 x 30 x 30 cells, 27 million and 60 times for 40 x 40 x 40, but 4 million and 8 times for 300
-/// x 300.
-const FILL: (usize, usize) = (5_000_000, 25);
-
-/// As [`new`], for the matrices `M - gamma J` of the steps of a run: [`LinearSolver::Auto`] takes
-/// [`Pcg`] where exact factors fill up.
+/// As [`new`], for the matrices `M - gamma J` of a multistep method, which change with every step
+/// size: [`LinearSolver::Auto`] takes [`Krylov`] where exact factors would cost more.
 ///
 /// # Errors
 /// As [`new`].
@@ -181,12 +193,47 @@ pub fn for_steps(
     symmetric: bool,
     choice: LinearSolver,
 ) -> Result<Box<dyn Factorization>, FactorError> {
-    let factors = new(pattern, symmetric, choice)?;
-    let fills = factors.fill() > FILL.0 && factors.fill() / FILL.1 > pattern.len();
-    if choice == LinearSolver::Auto && factors.kind() == LinearSolverKind::SparseCholesky && fills {
-        return Ok(Box::new(Pcg::new(pattern)));
+    cheapest(pattern, symmetric, (choice, cost::NEWTON))
+}
+
+/// As [`new`], for the matrices of a one-step method with few step sizes, of which each is solved
+/// with many times by [`Factorization::solve_from`].
+///
+/// # Errors
+/// As [`new`].
+pub fn for_stages(
+    pattern: &Pattern,
+    symmetric: bool,
+    choice: LinearSolver,
+) -> Result<Box<dyn Factorization>, FactorError> {
+    cheapest(pattern, symmetric, (choice, cost::STAGES))
+}
+
+/// As [`new`], for the symmetric matrix of a steady state, which is badly conditioned:
+/// [`LinearSolver::Auto`] takes [`Krylov`] or [`Multigrid`] where exact factors would cost more.
+///
+/// # Errors
+/// As [`new`].
+pub fn for_steady(
+    pattern: &Pattern,
+    choice: LinearSolver,
+) -> Result<Box<dyn Factorization>, FactorError> {
+    if choice == LinearSolver::Auto && !is_dense(choice, pattern.size()) {
+        return cost::steady(pattern);
     }
-    Ok(factors)
+    new(pattern, true, choice)
+}
+
+fn cheapest(
+    pattern: &Pattern,
+    symmetric: bool,
+    (choice, demand): (LinearSolver, cost::Demand),
+) -> Result<Box<dyn Factorization>, FactorError> {
+    if choice != LinearSolver::Auto || is_dense(choice, pattern.size()) {
+        return new(pattern, symmetric, choice);
+    }
+    let cheapest = if symmetric { cost::cheapest } else { cost::not_symmetric };
+    cheapest(pattern, demand)
 }
 
 /// From so many rows on the exact Jacobians of Newton's method are looked at for symmetry: below it

@@ -1,6 +1,8 @@
 //! A symmetric pattern as rows of its strict lower triangle, in an order in which neighbours are
 //! near.
 
+use std::sync::Arc;
+
 use crate::Pattern;
 
 /// The strict lower triangle of a symmetric pattern by rows, in an order of its own.
@@ -13,16 +15,30 @@ use crate::Pattern;
 pub(super) struct Shape {
     /// The row of the pattern at each place.
     pub(super) order: Vec<u32>,
-    /// Rows with the same number of entries together.
-    pub(super) runs: Vec<Run>,
-    /// The place of the column of each entry, below that of its row.
-    pub(super) columns: Vec<u32>,
+    /// The entries.
+    pub(super) triangle: Arc<Triangle>,
     /// The slot of each entry in the lower triangle of the pattern.
     pub(super) source: Vec<u32>,
+    /// The slot of its mirror image in the upper triangle, for matrices that are not symmetric; else
+    /// none.
+    pub(super) mirror: Vec<u32>,
     /// The slot of the diagonal entry at each place.
     pub(super) diagonal: Vec<u32>,
     /// Number of slots of the pattern.
     pub(super) slots: usize,
+    /// Rows of the largest level.
+    pub(super) width: usize,
+    /// Levels of the deepest part.
+    pub(super) depth: usize,
+}
+
+/// Where a strict lower triangle has entries.
+#[derive(Debug, Default)]
+pub(super) struct Triangle {
+    /// Rows with the same number of entries together.
+    pub(super) runs: Vec<Run>,
+    /// The column of each entry, below its row.
+    pub(super) columns: Vec<u32>,
 }
 
 /// Rows of a triangle that follow each other and have the same number of entries.
@@ -52,14 +68,22 @@ impl Run {
     }
 }
 
-/// Appends a row with so many entries.
-pub(super) fn push_row(runs: &mut Vec<Run>, width: u32) {
-    let (first, begin) = runs
-        .last()
-        .map_or((0, 0), |last| (last.first + last.rows, last.begin + last.rows * last.width));
-    match runs.last_mut() {
-        Some(last) if last.width == width => last.rows += 1,
-        _ => runs.push(Run { first, rows: 1, begin, width }),
+impl Triangle {
+    /// Ends a row with the columns that were appended since the last one.
+    pub(super) fn end_row(&mut self) {
+        let last = self.runs.last();
+        let (first, begin) = last
+            .map_or((0, 0), |last| (last.first + last.rows, last.begin + last.rows * last.width));
+        let width = short(self.columns.len()) - begin;
+        match self.runs.last_mut() {
+            Some(last) if last.width == width => last.rows += 1,
+            _ => self.runs.push(Run { first, rows: 1, begin, width }),
+        }
+    }
+
+    /// Each row with its entries.
+    pub(super) fn rows(&self) -> impl Iterator<Item = (usize, std::ops::Range<usize>)> {
+        self.runs.iter().flat_map(|run| run.places().map(|row| (row, run.entries(row))))
     }
 }
 
@@ -67,26 +91,70 @@ impl Shape {
     /// # Panics
     /// If the pattern has 2^32 slots or more, which no memory holds.
     pub(super) fn new(pattern: &Pattern) -> Self {
-        let order = breadth_first(pattern);
+        let (order, [width, depth]) = breadth_first(pattern);
         let mut place = vec![0; order.len()];
         (0..).zip(&order).for_each(|(at, &row)| place[row as usize] = at);
         let entries = (pattern.len() - pattern.size()) / 2;
-        let (mut columns, mut source) = (Vec::with_capacity(entries), Vec::with_capacity(entries));
-        let mut runs = Vec::new();
+        let (columns, mut source) = (Vec::with_capacity(entries), Vec::with_capacity(entries));
+        let mut triangle = Triangle { runs: Vec::new(), columns };
         for (at, &row) in (0..).zip(&order) {
-            let (row, before) = (row as usize, columns.len());
+            let row = row as usize;
             for slot in pattern.column(row) {
                 let other = pattern.row_indices()[slot];
                 if place[other] < at {
-                    columns.push(place[other]);
+                    triangle.columns.push(place[other]);
                     source.push(lower(pattern, row, other, slot));
                 }
             }
-            push_row(&mut runs, short(columns.len() - before));
+            triangle.end_row();
         }
-        let diagonal = order.iter().map(|&row| short(pattern.diagonal_slot(row as usize)));
-        let diagonal = diagonal.collect();
-        Self { order, runs, columns, source, diagonal, slots: pattern.len() }
+        let slot = |&row: &u32| short(pattern.diagonal_slot(row as usize));
+        let diagonal = order.iter().map(slot).collect();
+
+        Self {
+            order,
+            triangle: Arc::new(triangle),
+            source,
+            mirror: Vec::new(),
+            diagonal,
+            slots: pattern.len(),
+            width,
+            depth,
+        }
+    }
+
+    /// Products of a Cholesky decomposition, at least: bodies of cells take 12 to 19 times the cube
+    /// of the width, in the plane and in space.
+    pub(super) fn products(&self) -> f64 {
+        10.0 * (self.width as f64).powi(3)
+    }
+
+    /// The same with the slots that matrices which are not symmetric need: `source` is then that of
+    /// the entry itself, and `mirror` that of its mirror image.
+    pub(super) fn with_mirror(mut self, pattern: &Pattern) -> Self {
+        let Triangle { columns, .. } = &*self.triangle;
+        self.mirror = vec![0; columns.len()];
+        for (at, own) in self.triangle.rows() {
+            let row = self.order[at] as usize;
+            for entry in own {
+                let column = self.order[columns[entry] as usize] as usize;
+                let slot =
+                    |row, column| short(pattern.slot(row, column).expect("a pattern is symmetric"));
+                self.source[entry] = slot(row, column);
+                self.mirror[entry] = slot(column, row);
+            }
+        }
+        self
+    }
+
+    /// The pattern that it is the shape of.
+    pub(super) fn pattern(&self) -> Pattern {
+        let Triangle { columns, .. } = &*self.triangle;
+        let row = |at: usize| self.order[at] as usize;
+        let links = self.triangle.rows().flat_map(|(at, own)| {
+            columns[own].iter().map(move |&column| (row(at), row(column as usize)))
+        });
+        Pattern::new(self.order.len(), links)
     }
 }
 
@@ -96,20 +164,22 @@ fn lower(pattern: &Pattern, column: usize, row: usize, slot: usize) -> u32 {
     short(slot.expect("a pattern is symmetric"))
 }
 
-/// All rows, each part of the network from a row with few neighbours on.
-fn breadth_first(pattern: &Pattern) -> Vec<u32> {
+/// All rows, each part of the network from a row with few neighbours on, the size of the
+/// largest level and the number of levels of the deepest part.
+fn breadth_first(pattern: &Pattern) -> (Vec<u32>, [usize; 2]) {
     let neighbours = |row: u32| &pattern.row_indices()[pattern.column(row as usize)];
     let mut starts: Vec<u32> = (0..short(pattern.size())).collect();
     starts.sort_by_key(|&row| neighbours(row).len());
     // for each row how many of its neighbours stand in levels before its own, once it is found
     let mut behind = vec![0_u32; starts.len()];
     let mut order = Vec::with_capacity(starts.len());
+    let (mut width, mut depth) = (0, 0);
     for start in starts {
         if behind[start as usize] > 0 {
             continue;
         }
         behind[start as usize] = 1;
-        let mut level = order.len();
+        let (mut level, mut levels) = (order.len(), 0);
         order.push(start);
         while level < order.len() {
             let end = order.len();
@@ -122,10 +192,13 @@ fn breadth_first(pattern: &Pattern) -> Vec<u32> {
                 }
             }
             order[end..].sort_by_key(|&row| behind[row as usize]);
+            width = width.max(end - level);
+            levels += 1;
             level = end;
         }
+        depth = depth.max(levels);
     }
-    order
+    (order, [width, depth])
 }
 
 pub(super) fn short(index: usize) -> u32 {

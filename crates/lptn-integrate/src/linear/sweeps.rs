@@ -1,16 +1,13 @@
 //! Sweeps through the strict lower triangle of a symmetric matrix, row by row.
 
-use super::shape::Run;
+use super::shape::{Run, Triangle};
 
 /// A strict lower triangle by rows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lower<'a> {
-    /// Rows with the same number of entries together.
-    pub(super) runs: &'a [Run],
-    /// The column of each entry.
-    pub(super) columns: &'a [u32],
-    /// The entries.
-    pub(super) entries: &'a [f64],
+    runs: &'a [Run],
+    columns: &'a [u32],
+    entries: &'a [f64],
 }
 
 /// Does something with the columns and entries of the rows of a run. Rows of cells have one, two or
@@ -40,6 +37,10 @@ macro_rules! unrolled {
 }
 
 impl<'a> Lower<'a> {
+    pub(super) fn new(triangle: &'a Triangle, entries: &'a [f64]) -> Self {
+        Self { runs: &triangle.runs, columns: &triangle.columns, entries }
+    }
+
     fn run(self, run: &Run) -> (&'a [u32], &'a [f64]) {
         let begin = run.begin as usize;
         let own = begin..begin + run.rows as usize * run.width as usize;
@@ -80,18 +81,63 @@ impl<'a> Lower<'a> {
         }
     }
 
-    /// Writes `y = (L + D + L') x`, `D` given by its diagonal.
-    pub(super) fn multiply(self, diagonal: &[f64], x: &[f64], y: &mut [f64]) {
+    /// Adds `L' x` to `y`.
+    pub(super) fn add_transposed(self, x: &[f64], y: &mut [f64]) {
         for run in self.runs {
             unrolled!(self, run, rows => {
                 for (row, (columns, entries)) in run.places().zip(rows) {
                     let value = x[row];
-                    let mut sum = diagonal[row] * value;
+                    for (&column, entry) in columns.iter().zip(entries) {
+                        y[column as usize] += entry * value;
+                    }
+                }
+            });
+        }
+    }
+
+    /// Writes `y = (I + L + L') x`.
+    pub(super) fn multiply(self, x: &[f64], y: &mut [f64]) {
+        for run in self.runs {
+            unrolled!(self, run, rows => {
+                for (row, (columns, entries)) in run.places().zip(rows) {
+                    let value = x[row];
+                    let mut sum = value;
                     for (&column, entry) in columns.iter().zip(entries) {
                         sum += entry * x[column as usize];
                         y[column as usize] += entry * value;
                     }
                     y[row] = sum; // later rows add to it
+                }
+            });
+        }
+    }
+
+    /// Writes `x = (I + L)^-1 b` and `y = -L' x`.
+    pub(super) fn descend(self, b: &[f64], x: &mut [f64], y: &mut [f64]) {
+        for run in self.runs {
+            unrolled!(self, run, rows => {
+                for (row, (columns, entries)) in run.places().zip(rows) {
+                    let value = b[row] - product(columns, entries, x);
+                    x[row] = value;
+                    y[row] = 0.0; // later rows subtract from it
+                    for (&column, entry) in columns.iter().zip(entries) {
+                        y[column as usize] -= entry * value;
+                    }
+                }
+            });
+        }
+    }
+
+    /// Replaces `x` by `(I + L')^-1 (b - L x)`; `b` is lost.
+    pub(super) fn ascend(self, x: &mut [f64], b: &mut [f64]) {
+        for run in self.runs.iter().rev() {
+            unrolled!(self, run, rows => {
+                for (row, (columns, entries)) in run.places().zip(rows).rev() {
+                    let value = b[row] - product(columns, entries, x);
+                    x[row] = value;
+                    for (&column, entry) in columns.iter().zip(entries) {
+                        b[column as usize] -= entry * value;
+                    }
                 }
             });
         }

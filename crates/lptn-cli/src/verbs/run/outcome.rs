@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use lptn_netlist::Diagnostic;
 use lptn_network::{Parameter, list_of_names};
 use lptn_report::{Format, WIDTH, duration, labelled, significant, words, write_csv, write_rows};
-use lptn_solve::{Lumping, RunStatus, Solution, SteadyState, Table, Unbounded};
+use lptn_solve::{Lumping, Method, RunStatus, Solution, SteadyState, Table, Unbounded};
 use lptn_study::{
     FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, SiValue, StatisticsRecord, Sundials,
 };
@@ -84,6 +84,7 @@ impl Outcome<'_> {
             start: SiValue::new(settings.start, "s"),
             stop: SiValue::new(settings.stop, "s"),
             tolerance: SiValue::new(settings.tolerance, "K"),
+            integrator: self.solution.method().map(Method::name),
             end: RunEnd::of(&self.solution, settings.stop, self.ended_early()),
             statistics: StatisticsRecord::new(&self.solution),
             ledger: self.ledger(),

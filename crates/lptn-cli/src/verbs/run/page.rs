@@ -7,7 +7,7 @@ use lptn_plot::Figure;
 use lptn_report::{
     Clock, Flow, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, significant, sparkline,
 };
-use lptn_solve::{NodeSummary, RunStatus, Solution, SteadyError, Summary, first_there};
+use lptn_solve::{Method, NodeSummary, RunStatus, Solution, SteadyError, Summary, first_there};
 use lptn_study::{RunEnd, StatisticsRecord};
 
 use super::job::NoSteady;
@@ -293,11 +293,18 @@ pub(crate) fn heat_over(text: &mut Text, solution: &Solution, (length, clock): (
 fn solver(of: &Outcome<'_>) -> Vec<String> {
     let statistics = of.solution.statistics();
     let repeated = statistics.error_test_failures + statistics.newton_failures;
-    vec![
-        format!("tolerance {} K,", significant(of.job.settings.tolerance, 3)),
+    let method = match of.solution.method() {
+        Some(Method::OneStep) => vec!["one-step method,".to_owned()],
+        Some(Method::Cvode) => vec!["CVODE,".to_owned()],
+        None => Vec::new(),
+    };
+    let mut words = vec![format!("tolerance {} K,", significant(of.job.settings.tolerance, 3))];
+    words.extend(method);
+    words.extend([
         format!("{} steps,", statistics.steps),
         format!("{repeated} repeated,"),
-        format!("{} Newton iterations,", statistics.newton_iterations),
-        format!("{} factorisations", statistics.factorizations),
-    ]
+        format!("{} factorisations,", statistics.factorizations),
+        format!("{} solves", statistics.linear_solves),
+    ]);
+    words
 }

@@ -1,0 +1,166 @@
+//! What solvers cost, foretold by counts: the same matrix always gets the same solver.
+//!
+//! Times in ns are those of one core of a server of 2023; only their ratios decide. Measured on
+//! bodies of cells in the plane (32 x 32 to 1000 x 1000) and in space (5^3 to 40^3) with
+//! `examples/solvers.rs`; they hold within a factor of 1.5:
+//!
+//! - exact factors: 5 ns for each number and 0.45 ns for each product, or 10 ns and 0.035 ns where
+//!   faer takes columns together;
+//! - a solve with them: 1.5 ns for each number;
+//! - an iteration of conjugate gradients: 2.5 ns for each row and 1.2 ns for each link. A solve has
+//!   one and a half more, to begin and to see the end.
+//!
+//! Where [`Shape::products`] says that exact factors are out of the question nothing is ordered at
+//! all.
+
+use std::sync::Arc;
+
+use super::cholesky::{Analysis, SparseCholesky};
+use super::shape::Shape;
+use super::{Factorization, Krylov, Multigrid, SparseLu};
+use crate::{FactorError, Pattern};
+
+/// What the factors of one set of values are for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Demand {
+    /// Solves with them.
+    solves: f64,
+    /// Iterations of each.
+    iterations: f64,
+}
+
+/// The Newton matrices of a multistep method: they change with every step size, and a solve begins
+/// at nothing.
+pub(super) const NEWTON: Demand = Demand { solves: 5.0, iterations: 20.0 };
+
+/// The matrices of a one-step method with few step sizes, solved from a guess to a tolerance.
+pub(super) const STAGES: Demand = Demand { solves: 30.0, iterations: 6.0 };
+
+/// From so many rows on the width is looked at before the matrix is ordered.
+const LARGE: usize = 20_000;
+
+/// The matrix of a steady state, solved once and refined; iterations besides those that heat needs
+/// to cross the body once.
+const STEADY: Demand = Demand { solves: 1.6, iterations: 15.0 };
+
+/// Below so many rows a steady state is solved exactly whatever it costs.
+const SOON_DONE: usize = 5000;
+
+/// From so many rows on a steady state in space is solved on several levels.
+const MANY: usize = 30_000;
+
+/// Iterations that the levels of a multigrid method and its cycles cost.
+const MULTIGRID: f64 = 360.0;
+
+/// LU over Cholesky: twice the products, and its rows are found while it runs.
+const LU: f64 = 6.0;
+
+/// What it takes to order a row, in ns.
+const ORDER: f64 = 1500.0;
+
+/// Exact factors that hold more than so many times the numbers of the matrix are not made to save
+/// time, since there is one of them for every step size.
+const MOST_FILL: usize = 25;
+
+/// Costs of exact factors in ns.
+#[derive(Clone, Copy, Debug)]
+struct Exact {
+    factorize: f64,
+    solve: f64,
+}
+
+impl Exact {
+    fn of(analysis: &Analysis) -> Self {
+        let (fill, products) = (analysis.fill() as f64, analysis.products());
+        let (number, product) = if analysis.simplicial() { (5.0, 0.45) } else { (10.0, 0.035) };
+        Self { factorize: number * fill + product * products, solve: 1.5 * fill }
+    }
+}
+
+/// The cost in ns of one iteration.
+fn iteration(pattern: &Pattern) -> f64 {
+    let rows = pattern.size();
+    2.5 * rows as f64 + 1.2 * ((pattern.len() - rows) / 2) as f64
+}
+
+/// What exact factors cost at least, in ns.
+fn least(shape: &Shape) -> f64 {
+    0.035 * shape.products()
+}
+
+/// Exact factors or conjugate gradients for a large symmetric matrix.
+///
+/// # Errors
+/// [`FactorError::OutOfMemory`].
+pub(super) fn cheapest(
+    pattern: &Pattern,
+    demand: Demand,
+) -> Result<Box<dyn Factorization>, FactorError> {
+    let iteration = iteration(pattern);
+    let iterated = demand.solves * (demand.iterations + 1.5) * iteration;
+    let mut shape = None;
+    if pattern.size() > LARGE {
+        let known = Shape::new(pattern);
+        if least(&known) > 10.0 * iterated {
+            return Ok(Box::new(Krylov::symmetric(known, None)));
+        }
+        shape = Some(known);
+    }
+    let analysis = Analysis::new(pattern)?;
+    let exact = Exact::of(&analysis);
+    if exact.factorize + demand.solves * exact.solve <= iterated {
+        return Ok(Box::new(SparseCholesky::of(analysis.into())?));
+    }
+    let fits = analysis.fill() / MOST_FILL <= pattern.len();
+    let patience = (exact.factorize / iteration).ceil() as usize;
+    let exact = fits.then(|| (patience, (pattern.size() <= LARGE).then(|| analysis.into())));
+    let shape = shape.unwrap_or_else(|| Shape::new(pattern));
+    Ok(Box::new(Krylov::symmetric(shape, exact)))
+}
+
+/// Exact factors or iterations for a large matrix that is not symmetric.
+///
+/// # Errors
+/// [`FactorError::OutOfMemory`].
+pub(super) fn not_symmetric(
+    pattern: &Pattern,
+    demand: Demand,
+) -> Result<Box<dyn Factorization>, FactorError> {
+    if pattern.size() > SOON_DONE {
+        // two products with the matrix each
+        let iterated = demand.solves * (2.0 * demand.iterations + 1.5) * iteration(pattern);
+        if LU * least(&Shape::new(pattern)) > iterated {
+            return Ok(Box::new(Krylov::new(pattern, false)));
+        }
+    }
+    Ok(Box::new(SparseLu::new(pattern)?))
+}
+
+/// Exact factors, conjugate gradients or a multigrid method for the symmetric matrix of a steady
+/// state.
+///
+/// # Errors
+/// [`FactorError::OutOfMemory`].
+pub(super) fn steady(pattern: &Pattern) -> Result<Box<dyn Factorization>, FactorError> {
+    let rows = pattern.size();
+    if rows < SOON_DONE {
+        return Ok(Box::new(SparseCholesky::new(pattern)?));
+    }
+    let (shape, iteration) = (Shape::new(pattern), iteration(pattern));
+    let iterations = STEADY.solves * (STEADY.iterations + shape.depth as f64);
+    let several = if rows > MANY { MULTIGRID } else { f64::INFINITY };
+    let other = iteration * iterations.min(several);
+    let mut analysis = None;
+    if ORDER * rows as f64 + least(&shape) < other {
+        let known = Arc::new(Analysis::new(pattern)?);
+        let exact = Exact::of(&known);
+        if exact.factorize + 2.0 * exact.solve <= other {
+            return Ok(Box::new(SparseCholesky::of(known)?));
+        }
+        analysis = Some(((exact.factorize / iteration).ceil() as usize, Some(known)));
+    }
+    if several < iterations {
+        return Ok(Box::new(Multigrid::with(shape.into())));
+    }
+    Ok(Box::new(Krylov::symmetric(shape, analysis)))
+}

@@ -1,0 +1,169 @@
+//! Krylov methods behind an incomplete factor, for large bodies and steps that are short.
+//!
+//! For the Newton matrices `M - gamma J` of bodies that are cut into cells along three axes: their
+//! exact factors hold sixty times as many numbers as the matrix (40 x 40 x 40 cells), and the steps
+//! of a run are short enough for a few dozen iterations to do.
+
+use std::sync::{Arc, Mutex};
+
+use super::cholesky::Analysis;
+use super::fallback::Fallback;
+use super::incomplete::{Incomplete, Work};
+use super::methods::{End, conjugate, stabilized};
+use super::shape::Shape;
+use super::{Factorization, LinearSolverKind, SparseCholesky, SparseLu, checked, expect_length};
+use super::{put, taken};
+use crate::{FactorError, Pattern, kernels};
+
+/// What is left over of a right side, relative, both over the diagonal (for a network: in K) and in
+/// the maximum norm, in which CVODES measures errors too. CVODES solves to 1e-2 and less of a
+/// tolerance, so the books of a run do not feel it.
+const LEFT_OVER: f64 = 1e-9;
+
+/// Conjugate gradients or, for matrices that are not symmetric, BiCGStab. Where they do not
+/// converge, exact factors take over until there are other values.
+pub struct Krylov {
+    family: Arc<Family>,
+    matrix: Incomplete,
+    exact: Option<Fallback>,
+    ready: bool,
+    /// Iterations of all solves, and those with the values at hand.
+    iterations: u64,
+    spent: usize,
+}
+
+/// What the matrices of one pattern have in common.
+struct Family {
+    symmetric: bool,
+    /// Iterations with one set of values after which exact factors take over.
+    patience: usize,
+    /// To solve in, when nobody does.
+    spare: Mutex<Option<Work>>,
+    /// For exact factors, where they were analysed to choose.
+    analysis: Option<Arc<Analysis>>,
+}
+
+impl Krylov {
+    /// For matrices with this pattern.
+    ///
+    /// # Panics
+    /// If the matrix has 2^32 entries or more, which no memory holds.
+    #[must_use]
+    pub fn new(pattern: &Pattern, symmetric: bool) -> Self {
+        let shape = Shape::new(pattern);
+        if symmetric {
+            return Self::symmetric(shape, None);
+        }
+        let shape = shape.with_mirror(pattern);
+        let (patience, spare, analysis) = (usize::MAX, Mutex::new(None), None);
+        Self::of(Arc::new(Family { symmetric, patience, spare, analysis }), Arc::new(shape))
+    }
+
+    /// For symmetric matrices of a known shape, with the iterations with one set of values after
+    /// which exact factors would have been cheaper and take over, with their analysis if it is
+    /// there.
+    pub(super) fn symmetric(shape: Shape, exact: Option<(usize, Option<Arc<Analysis>>)>) -> Self {
+        let (patience, analysis) = exact.unwrap_or((usize::MAX, None));
+        let (symmetric, spare) = (true, Mutex::new(None));
+        Self::of(Arc::new(Family { symmetric, patience, spare, analysis }), Arc::new(shape))
+    }
+
+    /// A solver for other values in the same pattern, whose analysis is shared, and so is the
+    /// memory to solve in.
+    #[must_use]
+    pub fn sibling(&self) -> Self {
+        Self::of(Arc::clone(&self.family), Arc::clone(&self.matrix.shape))
+    }
+
+    fn of(family: Arc<Family>, shape: Arc<Shape>) -> Self {
+        let matrix = Incomplete::new(shape);
+        Self { family, matrix, exact: None, ready: false, iterations: 0, spent: 0 }
+    }
+
+    /// Replaces `x` by the solution: within what is allowed from its guess on, or to the usual part
+    /// from 0 on. False if that is not reached.
+    fn iterate(&mut self, b: &[f64], x: &mut [f64], allowed: Option<f64>, work: &mut Work) -> bool {
+        let size = self.matrix.begin(b, allowed.map(|_| &*x), work);
+        let allowed = allowed.unwrap_or(LEFT_OVER * size);
+        if size > allowed {
+            let most = self.family.patience.saturating_sub(self.spent);
+            let method = if self.family.symmetric { conjugate } else { stabilized };
+            let (count, done) = method(&self.matrix, work, size, End { allowed, most });
+            self.iterations += count as u64;
+            self.spent += count;
+            if !done {
+                return false;
+            }
+        }
+        self.matrix.end(&work.solution, x);
+        kernels::first_not_finite(x).is_none()
+    }
+
+    /// The solution by iterations or, where they fail, by exact factors.
+    fn solve(&mut self, b: &[f64], x: &mut [f64], allowed: Option<f64>) -> Result<(), FactorError> {
+        if self.exact.is_none() {
+            let mut work = taken(&self.family.spare).unwrap_or_default();
+            let done = self.iterate(b, x, allowed, &mut work);
+            put(&self.family.spare, work);
+            if done {
+                return Ok(());
+            }
+            self.exact = Some(self.exact_factors()?);
+        }
+        self.exact.as_mut().map_or(Err(FactorError::NotFactorized), |exact| exact.solve(b, x))
+    }
+
+    fn exact_factors(&self) -> Result<Fallback, FactorError> {
+        let Family { symmetric, analysis, .. } = &*self.family;
+        Fallback::new(&self.matrix.shape, self.matrix.values(), |pattern| {
+            Ok(match (symmetric, analysis) {
+                (true, Some(analysis)) => Box::new(SparseCholesky::of(Arc::clone(analysis))?),
+                (true, None) => Box::new(SparseCholesky::new(pattern)?),
+                (false, _) => Box::new(SparseLu::new(pattern)?),
+            })
+        })
+    }
+}
+
+impl Factorization for Krylov {
+    fn size(&self) -> usize {
+        self.matrix.size()
+    }
+
+    fn kind(&self) -> LinearSolverKind {
+        if self.family.symmetric { LinearSolverKind::Pcg } else { LinearSolverKind::BiCgStab }
+    }
+
+    fn fill(&self) -> usize {
+        let exact = self.exact.as_ref().map_or(0, Fallback::fill);
+        self.matrix.fill() + exact
+    }
+
+    fn iterations(&self) -> u64 {
+        self.iterations
+    }
+
+    fn sibling(&self) -> Result<Box<dyn Factorization>, FactorError> {
+        Ok(Box::new(Self::sibling(self)))
+    }
+
+    fn factorize(&mut self, values: &[f64]) -> Result<(), FactorError> {
+        expect_length(self.matrix.shape.slots, values.len())?;
+        (self.exact, self.spent) = (None, 0);
+        let done = self.matrix.factorize(values);
+        self.ready = done.is_ok();
+        done
+    }
+
+    fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError> {
+        checked((self.size(), self.ready), b, |_| ())?;
+        let right = b.to_vec();
+        self.solve(&right, b, None)
+    }
+
+    fn solve_from(&mut self, b: &[f64], x: &mut [f64], allowed: f64) -> Result<(), FactorError> {
+        expect_length(self.size(), b.len())?;
+        checked((self.size(), self.ready), x, |_| ())?;
+        self.solve(b, x, Some(allowed))
+    }
+}
