@@ -12,8 +12,10 @@ and references are kept in BENCH_DIR, target/bench unless set; families.py tells
 
 import argparse
 import json
+import os
 import sys
 import time
+from pathlib import Path
 
 import numpy as np
 
@@ -57,11 +59,18 @@ def chosen(options):
     """lptn in both its kinds, and the peers that are asked for."""
     words = options.tools.lower().split(",") if options.tools is not None else [""]
     peers = [tool for tool in tools.peers() if any(word in tool.name.lower() for word in words)]
-    name = "lptn" if options.record else None
     lptn = [
-        tools.Lptn(program, steady, name) for program in options.lptn for steady in (False, True)
+        tools.Lptn(program, name, steady)
+        for program, name in zip(options.lptn, names(options))
+        for steady in (False, True)
     ]
     return lptn, peers
+
+
+def names(options):
+    """What each lptn is called: by its file, or by its whole path where files share a name."""
+    short = ["lptn" if options.record else Path(program).name for program in options.lptn]
+    return short if len(set(short)) == len(short) else options.lptn
 
 
 def bench(case, lptn, peers, options):
@@ -74,30 +83,36 @@ def bench(case, lptn, peers, options):
             picks[tool] = measure.Pick("", None, 0, why)
         else:
             picks[tool] = measure.pick(tool, case, options.target, limits)
-    runs = {tool: [] for tool, pick in picks.items() if pick.error is not None}
+    runs = {tool: {} for tool, pick in picks.items() if pick.error is not None}
     for turn in range(options.turns):
         for tool, done in runs.items():
             if turn < measure.turns_of(picks[tool].cpu, options.turns, options.budget):
-                one = measure.run(tool, case, picks[tool].tolerance, limits)
-                done += [one] if one.ok() else []
-    return [row(tool, picks[tool], runs, [one for one in lptn if one in runs]) for tool in picks]
+                done[turn] = measure.run(tool, case, picks[tool].tolerance, limits)
+    runs = {
+        tool: {turn: one for turn, one in done.items() if one.ok()} for tool, done in runs.items()
+    }
+    ours = [runs.get(tool, {}) for tool in lptn if tool.fits(case)]
+    return [row(tool.name, pick, runs.get(tool, {}), ours) for tool, pick in picks.items()]
 
 
-def row(tool, pick, runs, lptn):
+def row(name, pick, done, ours):
     """The figures of a tool: medians over its turns, and the ratio of each lptn to it."""
-    done = runs.get(tool, [])
-    figures = dict(
-        tool=tool.name, tolerance=pick.tolerance, error=pick.error, said=pick.said, turns=len(done)
+    figures = dict(tool=name, tolerance=pick.tolerance, error=pick.error, said=pick.said)
+    if not done:
+        return figures | dict(error=None, said=pick.said or "failed")
+    return figures | dict(
+        turns=len(done),
+        cpu=measure.median(one.cpu for one in done.values()),
+        memory=measure.median(one.memory for one in done.values()),
+        ratios=[ratio(one, done) for one in ours],
     )
-    if done:
-        figures["cpu"] = measure.median(one.cpu for one in done)
-        figures["memory"] = measure.median(one.memory for one in done)
-        figures["ratios"] = [ratio(runs[one], done) for one in lptn]
-    return figures
 
 
 def ratio(ours, theirs):
-    return measure.median(a.cpu / max(b.cpu, 1e-5) for a, b in zip(ours, theirs))
+    """The median of the ratios of the turns that both made, or nothing."""
+    both = ours.keys() & theirs.keys()
+    ratios = [ours[turn].cpu / max(theirs[turn].cpu, 1e-5) for turn in both]
+    return measure.median(ratios) if ratios else None
 
 
 def show(case, rows, lptn, target):
@@ -132,7 +147,7 @@ def cells(figures, target, ratios):
         f"{figures['cpu']:.4f}",
         f"{figures['memory']:.0f}",
         str(figures["turns"]),
-        *(f"{x:.2f}" for x in figures["ratios"]),
+        *("" if x is None else f"{x:.2f}" for x in figures["ratios"]),
     ]
 
 
@@ -154,7 +169,7 @@ def record(case, rows, options):
     """Keeps the figures of a case, with all that the page says about them."""
     place = tools.folder() / "results"
     place.mkdir(exist_ok=True)
-    stamp = tools.Lptn(options.lptn[0], False).stamp()
+    stamp = tools.Lptn(options.lptn[0], "lptn", False).stamp()
     about = dict(
         case=case.name,
         n=case.n,
@@ -164,6 +179,7 @@ def record(case, rows, options):
         known=case.known,
         range=float(np.ptp(case.right)),
         date=time.strftime("%Y-%m-%d"),
+        load=os.getloadavg()[0],
         lptn=stamp,
     )
     (place / f"{case.name}@{options.target:g}.json").write_text(
@@ -173,6 +189,8 @@ def record(case, rows, options):
 
 def main():
     options = arguments()
+    if options.record and len(options.lptn) != 1:
+        sys.exit("--record keeps the figures of one --lptn")
     lptn, peers = chosen(options)
     for tool in lptn:
         if tool.missing():

@@ -18,7 +18,7 @@ ORDER = ["two_node", "ladder", "stiff", "grid2d", "grid3d", "radiation", "scale2
 
 
 def main():
-    stamp = tools.Lptn(sys.argv[1], False).stamp()
+    stamp = tools.Lptn(sys.argv[1], "lptn", False).stamp()
     results = [json.loads(file.read_text()) for file in (tools.folder() / "results").glob("*.json")]
     results = sorted((result for result in results if result["lptn"] == stamp), key=place)
     if not results:
@@ -75,8 +75,9 @@ def cell(row, target):
 
 def best(result):
     """The ratio of lptn to the other program that does best, of those that keep the target."""
-    kept = [row for row in result["rows"] if row["tool"] != "lptn" and row.get("ratios")]
-    ratios = [row["ratios"][0] for row in kept if row["error"] <= result["target"]]
+    others = [row for row in result["rows"] if row["tool"] != "lptn" and row["error"] is not None]
+    ratios = [row["ratios"][0] for row in others if row["error"] <= result["target"]]
+    ratios = [ratio for ratio in ratios if ratio is not None]
     return f"{max(ratios):.2f}" if ratios else ""
 
 
@@ -110,7 +111,7 @@ def figures(result, row):
     head = [f"`{result['case']}`", power(result["target"]), row["tool"]]
     if row["error"] is None:
         return [*head, row["said"], "", "", "", "", ""]
-    ratio = f"{row['ratios'][0]:.2f}" if row["ratios"] else ""
+    ratio = "" if row["ratios"][0] is None else f"{row['ratios'][0]:.2f}"
     return [
         *head,
         row["tolerance"],
@@ -123,22 +124,21 @@ def figures(result, row):
 
 
 def markdown(heads, rows):
-    return "\n".join(
-        ["| " + " | ".join(line) + " |" for line in (heads, ["---"] * len(heads), *rows)]
-    )
+    lines = ["| " + " | ".join(cells) + " |" for cells in (heads, *rows)]
+    return "\n".join([lines[0], "|---" * len(heads) + "|", *lines[1:]])
 
 
 def conditions(program, results):
     """Date, machine and versions, a row each."""
     dates = sorted({result["date"] for result in results})
     doubt, case = max((float(result["known"].split()[-1]), result["case"]) for result in results)
+    loads = [result["load"] for result in results if "load" in result]
+    load = f"{min(loads):.1f} to {max(loads):.1f}" if loads else "not recorded"
     rows = [
         ["Date", ", ".join(dates)],
+        ["Load of the machine, the bench included", load],
         ["Machine", f"{processor()}, {platform.machine()}, {system()}"],
-        [
-            "lptn",
-            f"{said([program, '--version'])}; sources {said(['git', 'describe', '--always'])}",
-        ],
+        ["lptn", f"{said([program, '--version'])}; {origin(program)}"],
         ["SUNDIALS of the C programs", sundials()],
         ["Debian's packages", packages()],
         ["Python's packages", modules()],
@@ -152,6 +152,14 @@ def conditions(program, results):
         ],
     ]
     return markdown(["", ""], [[name, text.replace("\n", "; ")] for name, text in rows])
+
+
+def origin(program):
+    """The commit of a program that was built here, else what tells it from others."""
+    root, file = PAGE.parent.parent, Path(program).resolve()
+    if file.is_relative_to(root):
+        return "commit " + said(["git", "describe", "--always", "--dirty"])
+    return "built elsewhere, SHA-256 " + tools.Lptn(program, "lptn", False).stamp() + ".."
 
 
 def said(command):

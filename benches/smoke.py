@@ -30,7 +30,7 @@ def main():
         import tools
 
         for name in ("ladder-30", "grid2d-12-random"):
-            solve(name, [tools.Lptn(sys.argv[1], False)])
+            solve(name, [tools.Lptn(sys.argv[1], "lptn", False)])
     return "the bench works"
 
 

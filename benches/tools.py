@@ -51,9 +51,9 @@ class Lptn(Tool):
 
     ladder = KELVIN
 
-    def __init__(self, called, steady, name=None):
+    def __init__(self, called, name, steady):
         program, _, self.integrator = called.partition(":")
-        super().__init__(name or Path(called).name, program)
+        super().__init__(name, program)
         self.steady = steady
         if steady:
             self.ladder = [""]
