@@ -16,11 +16,18 @@ Examples:
 #[command(name = "lptn", before_help = EXAMPLES, help_template = TEMPLATE)]
 #[command(disable_version_flag = true)]
 pub(crate) struct Args {
+    #[command(flatten)]
+    pub(crate) always: Always,
+    #[command(subcommand)]
+    pub(crate) verb: Option<Verb>,
+}
+
+/// What stands beside any verb, and before it.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Always {
     /// Print the versions of lptn and of the SUNDIALS it runs with
     #[arg(short = 'V', long)]
     pub(crate) version: bool,
     #[command(flatten)]
     pub(crate) global: Global,
-    #[command(subcommand)]
-    pub(crate) verb: Option<Verb>,
 }

@@ -3,16 +3,17 @@
 use std::path::Path;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{CommandFactory as _, FromArgMatches as _};
+use clap::{ArgMatches, Args as _, Command, CommandFactory as _, FromArgMatches as _};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_units::suggest;
 
-use crate::args::Args;
+use crate::args::{Always, Args};
 use crate::console::Console;
 use crate::drawing::terminal_width;
 use crate::exit::Exit;
 use crate::input::quoted;
 use crate::options::{Color, Global};
+use crate::verbs::Verb;
 
 /// Longer lines are hard to read, however wide the terminal is.
 const WIDEST_HELP: usize = 100;
@@ -24,7 +25,18 @@ pub(crate) fn command() -> clap::Command {
 
 /// What the command line asks for.
 pub(crate) fn parsed() -> Result<Args, clap::Error> {
-    Args::from_arg_matches(&command().try_get_matches()?)
+    match of_first_word() {
+        Some(matches) => Args::from_arg_matches(&matches),
+        None => Args::from_arg_matches(&command().try_get_matches()?),
+    }
+}
+
+/// The same by a parser of one verb: to build those of all takes as long as a small run. `None`
+/// where the first word is none, and where something is wrong or help is asked for.
+fn of_first_word() -> Option<ArgMatches> {
+    let verb = std::env::args_os().nth(1)?.into_string().ok()?;
+    let parser = Always::augment_args(Command::new("lptn"));
+    parser.subcommand(Verb::parser(&verb)?).try_get_matches().ok()
 }
 
 /// Prints why a command line cannot be understood, or the help that it asks for.

@@ -50,8 +50,8 @@ fn main() -> ExitCode {
         Ok(args) => args,
         Err(error) => return ExitCode::from(command::refuse(&error) as u8),
     };
-    let report = args.verb.as_ref().and_then(Verb::report).or(args.global.report.clone());
-    let console = Console::new(&args.global, report);
+    let report = args.verb.as_ref().and_then(Verb::report).or(args.always.global.report.clone());
+    let console = Console::new(&args.always.global, report);
     let outcome = panic_net::caught(|| dispatch(&args, &console));
     let refused = |failure: Failure| {
         console.report(&failure.files, &failure.diagnostics);
@@ -74,7 +74,7 @@ fn main() -> ExitCode {
 }
 
 fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
-    if args.version {
+    if args.always.version {
         return console.print(&version());
     }
     match &args.verb {

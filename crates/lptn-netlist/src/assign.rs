@@ -33,6 +33,9 @@ impl Netlist {
     /// [`Rejected`] with every problem: a text that is not an assignment, an unknown parameter, a
     /// wrong unit, or what the new values break in the network or in `[run]`.
     pub fn set(&mut self, assignments: &[String]) -> Result<(), Rejected> {
+        if assignments.is_empty() {
+            return Ok(()); // nothing is evaluated again
+        }
         let mut files = self.files.clone();
         let file = files.add(FILE, assignments.join("\n"));
         let mut new = self.assigned.clone();
@@ -41,9 +44,7 @@ impl Netlist {
         match result {
             Ok((network, run)) => {
                 (self.network, self.run, self.files, self.assigned) = (network, run, files, new);
-                if !assignments.is_empty() {
-                    self.judge();
-                }
+                self.judge();
                 Ok(())
             }
             Err(diagnostics) => Err(Rejected::arranged(files, diagnostics, 0)),

@@ -92,10 +92,10 @@ impl Selection {
     /// What a run has to keep so that these columns can be had.
     pub fn record(&self) -> RecordedNodes {
         let (nodes, mut columns) = (self.nodes().collect(), self.clone());
-        columns.quantities.retain(|quantity| quantity.needs_all());
-        if columns.is_empty() {
+        if !self.has_heat() {
             return RecordedNodes::Nodes(nodes);
         }
+        columns.quantities.retain(|quantity| !matches!(quantity, Quantity::Node(_)));
         RecordedNodes::Columns { nodes, columns }
     }
 

@@ -22,11 +22,16 @@ pub(crate) mod verify;
 
 use std::path::PathBuf;
 
-use clap::Subcommand;
+use clap::{Args, Command, Subcommand};
 
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
+
+/// The verb of what does it, `run` of `run::run`.
+fn called(path: &'static str) -> &'static str {
+    path.split("::").next().unwrap_or("").trim()
+}
 
 /// Names each verb with its options, what does it, and whether there is a picture of its answer.
 macro_rules! verbs {
@@ -49,8 +54,16 @@ macro_rules! verbs {
             /// What it is called on the command line.
             pub(crate) fn name(&self) -> &'static str {
                 match self {
-                    $(Self::$Verb(_) => stringify!($($does)::*).split("::").next().unwrap_or("").trim(),)*
+                    $(Self::$Verb(_) => called(stringify!($($does)::*)),)*
                 }
+            }
+
+            /// The parser of the verb that is called this.
+            pub(crate) fn parser(name: &str) -> Option<Command> {
+                let parsers: &[(&'static str, fn(Command) -> Command)] =
+                    &[$((called(stringify!($($does)::*)), <$($args)::* as Args>::augment_args)),*];
+                let (name, parser) = parsers.iter().find(|(known, _)| *known == name)?;
+                Some(parser(Command::new(*name)))
             }
 
             /// Whether `--plot` has something to draw.

@@ -57,7 +57,7 @@ pub(crate) fn outcome<'a>(
     // only tables and reports show it
     let shown = job.format == Format::Table || console.reports();
     let steady = match shown {
-        true => phases.timed("steady state", || steady(&system, job.settings.start)),
+        true => phases.timed("steady", || steady(&system, job.settings.start)),
         false => Err(NoSteady::NotShown),
     };
     let begun = Instant::now();
