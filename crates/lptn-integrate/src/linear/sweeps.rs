@@ -17,7 +17,8 @@ macro_rules! unrolled {
         let (columns, entries) = $lower.run($run);
         unrolled!(@ $run, columns, entries, $rows => $body; 1, 2, 3, 4, 5, 6)
     }};
-    (@ $run:ident, $columns:ident, $entries:ident, $rows:ident => $body:expr; $($few:literal),+) => {
+    (@ $run:ident, $columns:ident, $entries:ident, $rows:ident => $body:expr;
+     $($few:literal),+) => {
         match $run.width as usize {
             0 => {
                 let none: (&[u32], &[f64]) = (&[], &[]);
@@ -31,7 +32,8 @@ macro_rules! unrolled {
             many => {
                 // chunks of a length that is not known divide
                 let own = |row: usize| row * many..row * many + many;
-                let $rows = (0..$run.rows as usize).map(|row| (&$columns[own(row)], &$entries[own(row)]));
+                let $rows = (0..$run.rows as usize)
+                    .map(|row| (&$columns[own(row)], &$entries[own(row)]));
                 $body
             }
         }

@@ -94,8 +94,8 @@ impl Network {
         (groups, coarse)
     }
 
-    /// The partner of each node, `NONE` where it stays alone. The partner of one that joins need not
-    /// be its own partner's.
+    /// The partner of each node, `NONE` where it stays alone. The partner of one that joins another
+    /// one may have a partner of its own.
     fn partners(&self, diagonal: &[f64], loose: &[bool]) -> Vec<u32> {
         let inverse: Vec<f64> = diagonal.iter().map(|d| d.recip()).collect();
         let takes_part = |row: usize, column: usize| !loose[row] && !loose[column];

@@ -1,9 +1,11 @@
 //! Conjugate gradients with a multigrid method, for steady states of large bodies.
 //!
 //! Incomplete factors need as many iterations as a body is wide; with coarser levels the number
-//! hardly grows. Levels are networks: pairs of nodes with the links between them summed, so that nothing but conductances is ever stored, however they spread. Every
-//! few levels a level is solved with two steps of conjugate gradients (the K-cycle), which makes up
-//! for the plain sums: Y. Notay, Electron. Trans. Numer. Anal. 37 (2010) 123.
+//! hardly grows. Levels are networks: pairs of nodes with the links between them summed, so that
+//! nothing but conductances is ever stored, however they spread. Every few levels a level is solved
+//! with two steps of conjugate gradients (the K-cycle), which makes up for the plain sums: Y.
+//! Notay, Electron. Trans. Numer. Anal. 37 (2010) 123. Larger groups on one level take fewer levels, but
+//! their cycles grow with the spread: measured with groups of four and of eight.
 
 mod groups;
 mod level;
