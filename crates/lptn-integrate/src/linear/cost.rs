@@ -27,21 +27,22 @@ pub(super) struct Demand {
     solves: f64,
     /// Iterations of each.
     iterations: f64,
+    /// Whether heat has to cross the body, which takes an iteration for each of its levels.
+    crosses: bool,
 }
 
 /// The Newton matrices of a multistep method: they change with every step size, and a solve begins
 /// at nothing.
-pub(super) const NEWTON: Demand = Demand { solves: 5.0, iterations: 20.0 };
+pub(super) const NEWTON: Demand = Demand { solves: 5.0, iterations: 20.0, crosses: false };
 
 /// The matrices of a one-step method with few step sizes, solved from a guess to a tolerance.
-pub(super) const STAGES: Demand = Demand { solves: 30.0, iterations: 6.0 };
+pub(super) const STAGES: Demand = Demand { solves: 30.0, iterations: 6.0, crosses: false };
 
 /// From so many rows on the width is looked at before the matrix is ordered.
 const LARGE: usize = 20_000;
 
-/// The matrix of a steady state, solved once and refined; iterations besides those that heat needs
-/// to cross the body once.
-const STEADY: Demand = Demand { solves: 1.6, iterations: 15.0 };
+/// The matrix of a steady state, solved once and refined.
+const STEADY: Demand = Demand { solves: 1.6, iterations: 15.0, crosses: true };
 
 /// Below so many rows a steady state is solved exactly whatever it costs.
 const SOON_DONE: usize = 5000;
@@ -50,13 +51,13 @@ const SOON_DONE: usize = 5000;
 const MANY: usize = 30_000;
 
 /// Iterations that the levels of a multigrid method and its cycles cost.
-const MULTIGRID: f64 = 360.0;
+const MULTIGRID: f64 = 400.0;
 
 /// LU over Cholesky: twice the products, and its rows are found while it runs.
 const LU: f64 = 6.0;
 
 /// What it takes to order a row, in ns.
-const ORDER: f64 = 1500.0;
+const ORDER: f64 = 1000.0;
 
 /// Exact factors that hold more than so many times the numbers of the matrix are not made to save
 /// time, since there is one of them for every step size.
@@ -127,13 +128,25 @@ pub(super) fn not_symmetric(
     demand: Demand,
 ) -> Result<Box<dyn Factorization>, FactorError> {
     if pattern.size() > SOON_DONE {
+        let shape = Shape::new(pattern);
+        let iterations = demand.iterations + if demand.crosses { shape.depth as f64 } else { 0.0 };
         // two products with the matrix each
-        let iterated = demand.solves * (2.0 * demand.iterations + 1.5) * iteration(pattern);
-        if LU * least(&Shape::new(pattern)) > iterated {
+        let iterated = demand.solves * (2.0 * iterations + 1.5) * iteration(pattern);
+        if LU * least(&shape) > iterated {
             return Ok(Box::new(Krylov::new(pattern, false)));
         }
     }
     Ok(Box::new(SparseLu::new(pattern)?))
+}
+
+/// Exact factors or iterations for the exact Jacobian of a steady state.
+///
+/// # Errors
+/// [`FactorError::OutOfMemory`].
+pub(super) fn steady_not_symmetric(
+    pattern: &Pattern,
+) -> Result<Box<dyn Factorization>, FactorError> {
+    not_symmetric(pattern, STEADY)
 }
 
 /// Exact factors, conjugate gradients or a multigrid method for the symmetric matrix of a steady

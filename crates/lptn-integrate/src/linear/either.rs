@@ -1,9 +1,10 @@
-//! Cholesky where it can be, LU where it must be.
+//! A symmetric solver where it can be, another one where it must be.
 
-use super::{Factorization, LinearSolverKind, SparseCholesky, SparseLu, expect_length};
+use super::{Factorization, LinearSolverKind, cost, expect_length};
 use crate::{FactorError, Pattern};
 
-/// Sparse Cholesky for values that are symmetric and positive definite, sparse LU for others.
+/// A solver for values that are symmetric and positive definite, another one for the rest.
+///
 /// Looked at anew with every set of values: the Jacobian of a body that radiates to its
 /// surroundings is symmetric, that of one whose conductivity depends on temperature is not, and LU
 /// of a large body takes many times as long. Each is analysed when it is first needed.
@@ -11,10 +12,12 @@ pub struct Either {
     pattern: Pattern,
     /// For each slot above the diagonal its own place and that of its mirror image.
     mirrored: Vec<(usize, usize)>,
-    cholesky: Option<SparseCholesky>,
-    lu: Option<SparseLu>,
+    cholesky: Option<Box<dyn Factorization>>,
+    lu: Option<Box<dyn Factorization>>,
     /// Which of them holds the factors.
     symmetric: bool,
+    /// The values, where iterations may yet find that they are not positive definite.
+    values: Vec<f64>,
 }
 
 impl Either {
@@ -32,7 +35,8 @@ impl Either {
                 next[row] += 1;
             }
         }
-        Self { pattern: pattern.clone(), mirrored, cholesky: None, lu: None, symmetric: false }
+        let (pattern, values) = (pattern.clone(), Vec::new());
+        Self { pattern, mirrored, cholesky: None, lu: None, symmetric: false, values }
     }
 
     /// Whether the values are symmetric but for the rounding of sums.
@@ -43,12 +47,26 @@ impl Either {
         })
     }
 
-    /// Whether Cholesky succeeds.
+    /// Whether the values are positive definite, as far as factors tell.
     fn is_definite(&mut self, values: &[f64]) -> bool {
         if self.cholesky.is_none() {
-            self.cholesky = SparseCholesky::new(&self.pattern).ok();
+            self.cholesky = cost::steady(&self.pattern).ok();
         }
-        self.cholesky.as_mut().is_some_and(|cholesky| cholesky.factorize(values).is_ok())
+        let Some(cholesky) = &mut self.cholesky else { return false };
+        let definite = cholesky.factorize(values).is_ok();
+        self.values.clear();
+        if definite && cholesky.kind() != LinearSolverKind::SparseCholesky {
+            self.values.extend_from_slice(values);
+        }
+        definite
+    }
+
+    fn factorize_any(&mut self, values: &[f64]) -> Result<(), FactorError> {
+        self.symmetric = false;
+        if self.lu.is_none() {
+            self.lu = Some(cost::steady_not_symmetric(&self.pattern)?);
+        }
+        self.lu.as_mut().map_or(Err(FactorError::NotFactorized), |lu| lu.factorize(values))
     }
 }
 
@@ -58,40 +76,52 @@ impl Factorization for Either {
     }
 
     fn kind(&self) -> LinearSolverKind {
-        if self.symmetric { LinearSolverKind::SparseCholesky } else { LinearSolverKind::SparseLu }
+        let (used, kind) = match self.symmetric {
+            true => (&self.cholesky, LinearSolverKind::SparseCholesky),
+            false => (&self.lu, LinearSolverKind::SparseLu),
+        };
+        used.as_ref().map_or(kind, |used| used.kind())
     }
 
     fn fill(&self) -> usize {
         match &self.cholesky {
             Some(cholesky) if self.symmetric => cholesky.fill(),
-            _ => self.pattern.len(),
+            _ => self.lu.as_ref().map_or(self.pattern.len(), |lu| lu.fill()),
         }
     }
 
+    fn iterations(&self) -> u64 {
+        self.cholesky.iter().chain(&self.lu).map(|solver| solver.iterations()).sum()
+    }
+
     fn sibling(&self) -> Result<Box<dyn Factorization>, FactorError> {
-        let cholesky = self.cholesky.as_ref().map(SparseCholesky::sibling).transpose()?;
-        let lu = self.lu.as_ref().map(SparseLu::sibling).transpose()?;
+        let cholesky = self.cholesky.as_ref().map(|cholesky| cholesky.sibling()).transpose()?;
+        let lu = self.lu.as_ref().map(|lu| lu.sibling()).transpose()?;
         let (pattern, mirrored) = (self.pattern.clone(), self.mirrored.clone());
-        Ok(Box::new(Self { pattern, mirrored, cholesky, lu, symmetric: false }))
+        Ok(Box::new(Self { pattern, mirrored, cholesky, lu, symmetric: false, values: Vec::new() }))
     }
 
     fn factorize(&mut self, values: &[f64]) -> Result<(), FactorError> {
         expect_length(self.pattern.len(), values.len())?;
         self.symmetric = self.is_symmetric(values) && self.is_definite(values);
-        if self.symmetric {
-            return Ok(());
-        }
-        if self.lu.is_none() {
-            self.lu = Some(SparseLu::new(&self.pattern)?);
-        }
-        self.lu.as_mut().map_or(Err(FactorError::NotFactorized), |lu| lu.factorize(values))
+        if self.symmetric { Ok(()) } else { self.factorize_any(values) }
     }
 
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError> {
-        match (&mut self.cholesky, &mut self.lu) {
-            (Some(cholesky), _) if self.symmetric => cholesky.solve_in_place(b),
-            (_, Some(lu)) => lu.solve_in_place(b),
-            _ => Err(FactorError::NotFactorized),
+        if !self.symmetric {
+            let lu = self.lu.as_mut().ok_or(FactorError::NotFactorized)?;
+            return lu.solve_in_place(b);
+        }
+        let right = if self.values.is_empty() { Vec::new() } else { b.to_vec() };
+        let cholesky = self.cholesky.as_mut().ok_or(FactorError::NotFactorized)?;
+        match cholesky.solve_in_place(b) {
+            Err(FactorError::NotPositiveDefinite { .. }) if !right.is_empty() => {
+                let values = std::mem::take(&mut self.values);
+                self.factorize_any(&values)?;
+                b.copy_from_slice(&right);
+                self.solve_in_place(b)
+            }
+            done => done,
         }
     }
 }

@@ -101,6 +101,9 @@ impl Krylov {
 
     /// The solution by iterations or, where they fail, by exact factors.
     fn solve(&mut self, b: &[f64], x: &mut [f64], allowed: Option<f64>) -> Result<(), FactorError> {
+        if let Some(index) = kernels::first_not_finite(b) {
+            return Err(FactorError::Singular { index });
+        }
         if self.exact.is_none() {
             let mut work = taken(&self.family.spare).unwrap_or_default();
             let done = self.iterate(b, x, allowed, &mut work);

@@ -24,7 +24,7 @@ struct Watch {
 }
 
 impl Watch {
-    /// Whether no more than `allowed` is left over, of which `left` holds what is behind the factor.
+    /// Whether no more than `allowed` is left over; `left` is what is left behind the factor.
     fn sees_the_end(
         &mut self,
         (matrix, allowed): (&Incomplete, f64),

@@ -43,8 +43,8 @@ const SINGULAR: f64 = 1e15;
 /// Which solver to use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LinearSolver {
-    /// Dense up to [`DENSE_LIMIT`] components, else sparse; Cholesky for symmetric matrices, else
-    /// LU.
+    /// Dense up to [`DENSE_LIMIT`] components, else what costs least for what the matrix is for:
+    /// exact sparse factors or iterations.
     #[default]
     Auto,
     /// Dense Cholesky for symmetric matrices, else dense LU with partial pivoting.

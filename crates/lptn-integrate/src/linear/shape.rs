@@ -19,8 +19,7 @@ pub(super) struct Shape {
     pub(super) triangle: Arc<Triangle>,
     /// The slot of each entry in the lower triangle of the pattern.
     pub(super) source: Vec<u32>,
-    /// The slot of its mirror image in the upper triangle, for matrices that are not symmetric; else
-    /// none.
+    /// The slot of its mirror image, for matrices that are not symmetric; else none.
     pub(super) mirror: Vec<u32>,
     /// The slot of the diagonal entry at each place.
     pub(super) diagonal: Vec<u32>,

@@ -15,9 +15,10 @@ pub(super) struct Lower<'a> {
 macro_rules! unrolled {
     ($lower:ident, $run:ident, $rows:ident => $body:expr) => {{
         let (columns, entries) = $lower.run($run);
-        unrolled!(@ $run, columns, entries, $rows => $body; 1, 2, 3, 4)
+        unrolled!(@ $run, columns, entries, $rows => $body; 1, 2, 3, 4, 5, 6)
     }};
-    (@ $run:ident, $columns:ident, $entries:ident, $rows:ident => $body:expr; $($few:literal),+) => {
+    (@ $run:ident, $columns:ident, $entries:ident, $rows:ident => $body:expr;
+     $($few:literal),+) => {
         match $run.width as usize {
             0 => {
                 let none: (&[u32], &[f64]) = (&[], &[]);
@@ -29,7 +30,10 @@ macro_rules! unrolled {
                 $body
             })+
             many => {
-                let $rows = $columns.chunks_exact(many).zip($entries.chunks_exact(many));
+                // chunks of a length that is not known divide
+                let own = |row: usize| row * many..row * many + many;
+                let $rows = (0..$run.rows as usize)
+                    .map(|row| (&$columns[own(row)], &$entries[own(row)]));
                 $body
             }
         }

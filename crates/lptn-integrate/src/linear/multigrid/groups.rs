@@ -36,21 +36,27 @@ pub(super) struct Network {
 }
 
 impl Network {
-    /// All links: row, column, conductance.
-    pub(super) fn links(&self) -> impl Iterator<Item = (usize, usize, f64)> {
-        self.triangle.rows().flat_map(move |(row, own)| {
-            let links = self.triangle.columns[own.clone()].iter().zip(&self.links[own]);
-            links.map(move |(&column, &link)| (row, column as usize, link))
-        })
+    /// Tells all links: row, column, conductance.
+    pub(super) fn each_link(&self, mut tell: impl FnMut(usize, usize, f64)) {
+        for run in &self.triangle.runs {
+            for row in run.places() {
+                let own = run.entries(row);
+                for (&column, &link) in
+                    self.triangle.columns[own.clone()].iter().zip(&self.links[own])
+                {
+                    tell(row, column as usize, link);
+                }
+            }
+        }
     }
 
     /// The diagonal of its matrix.
     pub(super) fn diagonal(&self) -> Vec<f64> {
         let mut diagonal = self.ground.clone();
-        for (row, column, link) in self.links() {
+        self.each_link(|row, column, link| {
             diagonal[row] += link;
             diagonal[column] += link;
-        }
+        });
         diagonal
     }
 
@@ -88,15 +94,15 @@ impl Network {
         (groups, coarse)
     }
 
-    /// The partner of each node, `NONE` where it stays alone. The partner of one that joins need not
-    /// be its own partner's.
+    /// The partner of each node, `NONE` where it stays alone. The partner of one that joins another
+    /// one may have a partner of its own.
     fn partners(&self, diagonal: &[f64], loose: &[bool]) -> Vec<u32> {
         let inverse: Vec<f64> = diagonal.iter().map(|d| d.recip()).collect();
         let takes_part = |row: usize, column: usize| !loose[row] && !loose[column];
         let mut partner = vec![NONE; loose.len()];
         for _ in 0..ROUNDS {
             let mut best = vec![(0.0, NONE); partner.len()];
-            for (row, column, link) in self.links() {
+            self.each_link(|row, column, link| {
                 let strength = link * (inverse[row] + inverse[column]);
                 let free = partner[row] == NONE && partner[column] == NONE;
                 if free && strength >= STRONG && takes_part(row, column) {
@@ -107,28 +113,28 @@ impl Network {
                         }
                     }
                 }
-            }
+            });
             for (node, &(_, other)) in best.iter().enumerate() {
                 if other != NONE && best[other as usize].1 == short(node) {
                     partner[node] = other;
                 }
             }
         }
-        for (row, column, link) in self.links() {
+        self.each_link(|row, column, link| {
             let free = partner[row] == NONE && partner[column] == NONE;
             let strong = link * (inverse[row] + inverse[column]) >= STRONG;
             if free && strong && takes_part(row, column) {
                 (partner[row], partner[column]) = (short(column), short(row));
             }
-        }
-        for (row, column, link) in self.links() {
+        });
+        self.each_link(|row, column, link| {
             for (node, other) in [(row, column), (column, row)] {
                 let joins = partner[node] == NONE && link * inverse[node] >= JOINS;
                 if joins && takes_part(row, column) {
                     partner[node] = short(other);
                 }
             }
-        }
+        });
         partner
     }
 
@@ -142,25 +148,23 @@ impl Network {
         }
         // links sorted by row: where each row begins, then the links themselves
         let mut begins = vec![0_u32; count + 1];
-        for (row, column, link) in self.links() {
-            match (groups[row], groups[column]) {
-                (NONE, NONE) => {}
-                (NONE, group) | (group, NONE) => ground[group as usize] += link,
-                (a, b) if a == b => {}
-                (a, b) => begins[a.max(b) as usize + 1] += 1,
-            }
-        }
+        self.each_link(|row, column, link| match (groups[row], groups[column]) {
+            (NONE, NONE) => {}
+            (NONE, group) | (group, NONE) => ground[group as usize] += link,
+            (a, b) if a == b => {}
+            (a, b) => begins[a.max(b) as usize + 1] += 1,
+        });
         (0..count).for_each(|row| begins[row + 1] += begins[row]);
         let mut sorted = vec![(0_u32, 0.0); begins[count] as usize];
         let mut next = begins.clone();
-        for (row, column, link) in self.links() {
+        self.each_link(|row, column, link| {
             let (a, b) = (groups[row], groups[column]);
             if a != b && a != NONE && b != NONE {
                 let place = &mut next[a.max(b) as usize];
                 sorted[*place as usize] = (a.min(b), link);
                 *place += 1;
             }
-        }
+        });
         summed(&begins, &sorted, ground)
     }
 }

@@ -35,9 +35,10 @@ pub(super) struct Coarse {
 }
 
 impl Coarse {
-    pub(super) fn new(size: usize) -> Self {
+    pub(super) fn new(size: usize, twice: bool) -> Self {
         let vector = || vec![0.0; size];
-        Self { right: vector(), steps: [vector(), vector()], products: [vector(), vector()] }
+        let more = || if twice { vector() } else { Vec::new() };
+        Self { right: vector(), steps: [vector(), more()], products: [more(), more()] }
     }
 }
 
@@ -83,6 +84,9 @@ fn correct(levels: &mut [Level], last: &mut SparseCholesky, coarse: &mut Coarse,
     level.lower().multiply(first, of_first);
     let (length, along) = (kernels::dot(first, of_first), kernels::dot(first, right));
     let step = along / length;
+    if !step.is_finite() {
+        return; // nothing is left over here
+    }
     let before = kernels::dot(right, right);
     kernels::scale_and_add(1.0, right, -step, of_first);
     let after = kernels::dot(right, right);
