@@ -17,13 +17,13 @@ use crate::extremes::Extremes;
 use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::LimitSeen;
+use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::ranges::OutOfRange;
 use crate::replay::Replay;
 use crate::sensitivity_rows::SensitivityRows;
 use crate::snapshot::Snapshot;
 use crate::state::State;
-use crate::stepper::Method;
 use crate::watch::Watched;
 use crate::window::WindowSeen;
 

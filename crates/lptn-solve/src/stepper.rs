@@ -6,29 +6,11 @@ use lptn_network::IntegratorChoice;
 
 use crate::error::TransientError;
 use crate::heat::Heat;
+use crate::method::Method;
 use crate::settings_error::SettingsError;
 
 /// What steps a run.
 pub(crate) type Stepper<'a> = Box<dyn Integrator<Heat<'a>> + 'a>;
-
-/// Which integrator computed a run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
-    /// The one-step method for linear networks.
-    OneStep,
-    /// CVODES' backward differences.
-    Cvode,
-}
-
-impl Method {
-    /// As it is asked for by `integrator` of `[run]`.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::OneStep => IntegratorChoice::OneStep.word(),
-            Self::Cvode => IntegratorChoice::Cvode.word(),
-        }
-    }
-}
 
 /// Takes the system at a time in s in a state, one value per component; `curved`: inputs are not
 /// straight lines in time between their breakpoints.

@@ -74,7 +74,7 @@ impl Series {
         let whole: f64 = self.balance.iter().sum();
         let constants = series::error_constants();
         let (mut before, mut ratio) = (f64::INFINITY, 1.0_f64);
-        for n in 1..=MOST {
+        for (n, constant) in (1..=MOST).zip(&constants[1..]) {
             self.put_right_side(n, body.mass, drive);
             let put: f64 = self.right.iter().sum();
             self.guess(n, ratio);
@@ -88,7 +88,7 @@ impl Series {
                 ratio = size / before;
             }
             before = size;
-            let error = constants[n] * size / tolerance;
+            let error = constant * size / tolerance;
             self.count = n;
             let forecast = Forecast { error, count: n, ratio };
             if n >= FEWEST && error <= 1.0 {

@@ -28,17 +28,22 @@ pub(super) const MOST: usize = 12;
 /// One weight per term.
 pub(super) type Weights = [f64; MOST];
 
-/// `L_0` to `L_(MOST + 1)` at `x`.
-fn laguerre(x: f64) -> [f64; MOST + 2] {
+/// `L_0` to `L_(MOST + 1)` at `x`, as far as `last`.
+const fn laguerre(x: f64, last: usize) -> [f64; MOST + 2] {
     let mut values = [1.0; MOST + 2];
     values[1] = 1.0 - x;
-    let mut n = 1.0;
-    for k in 1..=MOST {
+    let (mut n, mut k) = (1.0, 1);
+    while k < last {
         values[k + 1] = ((2.0 * n + 1.0 - x) * values[k] - n * values[k - 1]) / (n + 1.0);
         n += 1.0;
+        k += 1;
     }
     values
 }
+
+/// What is left of an infinitely fast mode at the end of a step by a series that is only cut off,
+/// by the number of its terms.
+const AT_INFINITY: [f64; MOST + 2] = laguerre(1.0 / POLE, MOST + 1);
 
 /// Alternating: -1 for odd n.
 fn sign(n: usize) -> f64 {
@@ -48,7 +53,7 @@ fn sign(n: usize) -> f64 {
 /// The weights with which `terms` terms add up to the change of the state over a share of the step
 /// from 0 to 1.
 pub(super) fn change(terms: usize, share: f64) -> Weights {
-    let values = laguerre(share / POLE);
+    let values = laguerre(share / POLE, terms);
     let mut weights = [0.0; MOST];
     for n in 1..=terms {
         weights[n - 1] = POLE * sign(n) * (values[n] - values[n - 1]);
@@ -56,7 +61,7 @@ pub(super) fn change(terms: usize, share: f64) -> Weights {
     // rounding of the polynomial would be a rate that the books do not know
     weights[0] = share;
     let smooth = share * share * (3.0 - 2.0 * share);
-    weights[terms - 1] -= POLE * sign(terms) * at_infinity(terms) * smooth;
+    weights[terms - 1] -= POLE * sign(terms) * AT_INFINITY[terms] * smooth;
     weights
 }
 
@@ -81,7 +86,7 @@ pub(super) fn mean(terms: usize, share: f64) -> Weights {
 /// The weights of the rate of change behind a share of the step, times its length; of the series
 /// that is only cut off.
 pub(super) fn rate(terms: usize, share: f64) -> Weights {
-    let values = laguerre(share / POLE);
+    let values = laguerre(share / POLE, terms);
     let mut weights = [0.0; MOST];
     for n in 1..=terms {
         weights[n - 1] = -sign(n) * values[n - 1]; // (L_n - L_(n-1))' = -L_(n-1)
@@ -89,16 +94,11 @@ pub(super) fn rate(terms: usize, share: f64) -> Weights {
     weights
 }
 
-/// What is left of an infinitely fast mode by the series of so many terms that is only cut off.
-fn at_infinity(terms: usize) -> f64 {
-    laguerre(1.0 / POLE)[terms]
-}
-
 /// The error of a step of so many terms over the size of its last one: the change of the last
 /// weight and the first two that are left out, whichever is largest, so that no zero of a polynomial
 /// feigns an accuracy.
 pub(super) fn error_constants() -> [f64; MOST + 1] {
-    let values = laguerre(1.0 / POLE).map(f64::abs);
+    let values = AT_INFINITY.map(f64::abs);
     let mut constants = [POLE; MOST + 1];
     for n in 1..=MOST {
         constants[n] = POLE * values[n].max(0.5 * values[n - 1]).max(0.5 * values[n + 1]);

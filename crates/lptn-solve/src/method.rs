@@ -1,0 +1,22 @@
+//! The integrators that there are.
+
+use lptn_network::IntegratorChoice;
+
+/// Which integrator computed a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// The one-step method for linear networks.
+    OneStep,
+    /// CVODES' backward differences.
+    Cvode,
+}
+
+impl Method {
+    /// As it is asked for by `integrator` of `[run]`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::OneStep => IntegratorChoice::OneStep.word(),
+            Self::Cvode => IntegratorChoice::Cvode.word(),
+        }
+    }
+}
