@@ -90,8 +90,12 @@ impl<'a> Heat<'a> {
         self.unfold.may_leap();
     }
 
-    /// Reads the inputs at the two ends of a segment, or of what is left of it, as straight lines.
+    /// Reads the inputs at the two ends of a segment, or of what is left of it, as straight lines;
+    /// not where they are held, at a time that has nothing to do with the segment.
     pub(crate) fn draw_line(&mut self, (from, to): (f64, f64)) {
+        if self.held.is_some() {
+            return;
+        }
         self.work.draw_line(self.system.network(), (from, to), self.segment);
     }
 

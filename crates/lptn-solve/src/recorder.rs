@@ -158,6 +158,9 @@ impl<'a> Recorder<'a> {
 
     /// Reads the inputs at the two ends of the segment as straight lines.
     pub(crate) fn draw_line(&mut self) {
+        if self.idle {
+            return;
+        }
         let Segment { from, to } = self.segment;
         self.work.draw_line(self.system.network(), (from, to), self.readings.inside(from));
     }
