@@ -210,6 +210,19 @@ fn cycles_hardly_grow_with_the_body() {
 }
 
 #[test]
+fn a_uniform_body_has_levels_down_to_a_few_rows() {
+    for (pattern, values) in [cube(40, 1e-4), square(200)] {
+        let mut solver = linear::Multigrid::new(&pattern);
+        solver.factorize(&values).unwrap();
+        let fill = solver.fill() as f64 / pattern.size() as f64;
+        assert!(fill < 25.0, "{fill}");
+        let mut x: Vec<f64> = (0..pattern.size()).map(|i| (i % 17) as f64 - 3.0).collect();
+        solver.solve_in_place(&mut x).unwrap();
+        assert!(solver.iterations() <= 22, "{}", solver.iterations());
+    }
+}
+
+#[test]
 fn cycles_stand_what_networks_are_like() {
     // links over up to eight decades
     for decades in [3.0, 6.0, 8.0] {

@@ -14,6 +14,10 @@ use super::super::shape::{Triangle, short};
 /// Notay's paper).
 const STRONG: f64 = 0.25;
 
+/// Weaker links do where neither end has one that is stronger than this: in a uniform body all of
+/// them are alike.
+const ALIKE: f64 = 2.0;
+
 /// A node joins a group behind a link that is this part of all that it is linked with.
 const JOINS: f64 = 0.5;
 
@@ -99,13 +103,23 @@ impl Network {
     fn partners(&self, diagonal: &[f64], loose: &[bool]) -> Vec<u32> {
         let inverse: Vec<f64> = diagonal.iter().map(|d| d.recip()).collect();
         let takes_part = |row: usize, column: usize| !loose[row] && !loose[column];
+        let mut strongest = vec![0.0; loose.len()];
+        self.each_link(|row, column, link| {
+            let strength = link * (inverse[row] + inverse[column]);
+            strongest[row] = f64::max(strongest[row], strength);
+            strongest[column] = f64::max(strongest[column], strength);
+        });
+        let is_strong = |row: usize, column: usize, strength: f64| {
+            let other = f64::max(strongest[row], strongest[column]);
+            strength >= STRONG.min(other / ALIKE) && strength > 0.0
+        };
         let mut partner = vec![NONE; loose.len()];
         for _ in 0..ROUNDS {
             let mut best = vec![(0.0, NONE); partner.len()];
             self.each_link(|row, column, link| {
                 let strength = link * (inverse[row] + inverse[column]);
                 let free = partner[row] == NONE && partner[column] == NONE;
-                if free && strength >= STRONG && takes_part(row, column) {
+                if free && is_strong(row, column, strength) && takes_part(row, column) {
                     let strength = strength * (1.0 + scatter(row, column));
                     for (node, other) in [(row, column), (column, row)] {
                         if strength > best[node].0 {
@@ -122,7 +136,7 @@ impl Network {
         }
         self.each_link(|row, column, link| {
             let free = partner[row] == NONE && partner[column] == NONE;
-            let strong = link * (inverse[row] + inverse[column]) >= STRONG;
+            let strong = is_strong(row, column, link * (inverse[row] + inverse[column]));
             if free && strong && takes_part(row, column) {
                 (partner[row], partner[column]) = (short(column), short(row));
             }

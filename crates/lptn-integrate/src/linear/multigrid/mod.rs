@@ -267,7 +267,8 @@ impl Factorization for Multigrid {
     fn fill(&self) -> usize {
         let levels = self.levels.iter().map(|level| level.entries.len() + 2 * level.weight.len());
         let exact = self.exact.iter().map(Fallback::fill);
-        levels.chain(exact).sum()
+        let last = self.last.iter().map(Factorization::fill);
+        levels.chain(last).chain(exact).sum()
     }
 
     fn iterations(&self) -> u64 {
