@@ -142,6 +142,9 @@ stop = "10 s"
 "#;
     let folder = Folder::with("gears.toml", gears);
     let json = folder.run(&["run", "gears.toml", "--format", "json"]).exits(0).json();
+    // the law bends the straight line of the speed, which the one-step method must not take
+    let asked = ["run", "gears.toml", "--no-files", "-v"];
+    assert!(folder.run(&asked).out.contains("CVODE"));
     let of = &json["out_of_range"][0];
     assert_eq!([&of["source"], &of["group"], &of["law"]], ["teeth", "v", "external"]);
     let stretches = of["stretches"].as_array().unwrap();

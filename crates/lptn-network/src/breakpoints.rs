@@ -138,6 +138,14 @@ impl Network {
         }
     }
 
+    /// Whether the heat of every source and the temperature of every boundary is a straight line in
+    /// time between [`Network::breakpoints`], what switches held.
+    pub fn inputs_are_straight(&self) -> bool {
+        let mut boundaries = self.boundaries().iter();
+        boundaries.all(|boundary| self.course(&boundary.temperature) < Degree::Nonlinear)
+            && self.source_ids().all(|id| self.course_of_source(id) < Degree::Nonlinear)
+    }
+
     /// How a value goes over time between [`Network::breakpoints`], temperatures held.
     pub fn course(&self, value: &Value) -> Degree {
         self.parts.course(value)

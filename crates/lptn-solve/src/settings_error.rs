@@ -52,7 +52,8 @@ pub enum SettingsError {
     OneStep { curved: bool } = "run::settings", {
             let why = match *curved {
                 true => "an input of this one curves over time",
-                false => "this one is not, or has sensitivities to follow",
+                false => "this one is not, or its conductances are too far apart for the tolerance, or \
+                          it has sensitivities to follow",
             };
             format!("the one-step method is for linear networks: {why}")
         },

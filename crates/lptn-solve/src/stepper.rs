@@ -15,12 +15,14 @@ pub(crate) type Stepper<'a> = Box<dyn Integrator<Heat<'a>> + 'a>;
 /// Takes the system at a time in s in a state, one value per component; `curved`: inputs are not
 /// straight lines in time between their breakpoints.
 pub(crate) fn stepper<'a>(
-    heat: Heat<'a>,
+    mut heat: Heat<'a>,
     (start, state): (f64, &[f64]),
     options: &Options,
     (choice, curved): (IntegratorChoice, bool),
 ) -> Result<(Stepper<'a>, Method), TransientError> {
-    let serves = OneStep::suits(&heat) && !curved;
+    let serves = choice != IntegratorChoice::Cvode
+        && !curved
+        && OneStep::suits(&mut heat, (start, state), options.tolerance);
     match choice {
         IntegratorChoice::Auto | IntegratorChoice::OneStep if serves => {
             let integrator = OneStep::new(heat, start, state, options);

@@ -181,7 +181,8 @@ impl<'a> Run<'a> {
         let finer = system.network().has_events() || care == Care::Leaps;
         let care = if finer { Care::Leaps } else { care };
         let options = settings.options(system.network(), finer, curved.as_ref());
-        let choice = (settings.integrator, curved.is_some());
+        let straight = curved.is_none() && system.network().inputs_are_straight();
+        let choice = (settings.integrator, !straight);
         let (mut integrator, method) = stepper(heat, (settings.start, &initial), &options, choice)?;
         if !carried.is_empty() {
             integrator.set_sensitivities(&carried).map_err(TransientError::Integrator)?;

@@ -78,9 +78,14 @@ impl Watched {
     /// Takes in the temperatures at successive points of a step, the first being where the curve
     /// stands.
     pub(crate) fn look(&mut self, points: &[(f64, f64)]) {
-        for &point in points {
+        for (k, &point) in points.iter().enumerate() {
             self.peak_at(point);
-            self.cross(point);
+            if self.crosses(point) {
+                self.crossed = Some(match k {
+                    0 => self.straight(point),
+                    k => on_the_curve(points, k, self.watch.level.unwrap_or(point.1)),
+                });
+            }
             self.last = point;
         }
     }
@@ -103,19 +108,62 @@ impl Watched {
 
     /// Takes in the temperature after a jump: a massless node may leap over its level in no time.
     pub(crate) fn jump(&mut self, time: f64, temperature: f64) {
-        self.cross((time, temperature));
+        if self.crosses((time, temperature)) {
+            self.crossed = Some(self.straight((time, temperature)));
+        }
         self.peak_at((time, temperature));
         self.last = (time, temperature);
     }
 
-    /// Finds the crossing between the last point and this one by linear interpolation.
-    fn cross(&mut self, (time, temperature): (f64, f64)) {
-        let (Some(level), None) = (self.watch.level, self.crossed) else { return };
+    /// Whether the level is first reached between the last point and this one.
+    fn crosses(&self, (_, temperature): (f64, f64)) -> bool {
+        let (Some(level), None) = (self.watch.level, self.crossed) else { return false };
         let (before, after) = (self.last.1 - level, temperature - level);
-        if (before > 0.0) != (after > 0.0) || after == 0.0 {
-            self.crossed = Some(self.last.0 + (time - self.last.0) * (before / (before - after)));
+        (before > 0.0) != (after > 0.0) || after == 0.0
+    }
+
+    /// When it is, on the line from the last point to this one.
+    fn straight(&self, (time, temperature): (f64, f64)) -> f64 {
+        let level = self.watch.level.unwrap_or(temperature);
+        let (before, after) = (self.last.1 - level, temperature - level);
+        self.last.0 + (time - self.last.0) * (before / (before - after))
+    }
+}
+
+/// Points on either side of a crossing whose polynomial stands for the curve between them.
+const BESIDE: usize = 3;
+
+/// Halvings of the interval between two points: to the rounding of its length.
+const HALVINGS: usize = 53;
+
+/// When a curve through successive points of a step reaches a level between point `k - 1` and `k`.
+fn on_the_curve(points: &[(f64, f64)], k: usize, level: f64) -> f64 {
+    let near = &points[k.saturating_sub(BESIDE)..(k + BESIDE).min(points.len())];
+    let above = |time: f64| polynomial(near, time) > level;
+    let (mut before, mut after) = (points[k - 1].0, points[k].0);
+    let begins_above = points[k - 1].1 > level;
+    for _ in 0..HALVINGS {
+        let middle = before + 0.5 * (after - before);
+        match above(middle) == begins_above {
+            true => before = middle,
+            false => after = middle,
         }
     }
+    after
+}
+
+/// The polynomial through at most twice [`BESIDE`] points at a time, by Neville's scheme.
+fn polynomial(points: &[(f64, f64)], time: f64) -> f64 {
+    let mut values = [0.0; 2 * BESIDE];
+    values.iter_mut().zip(points).for_each(|(value, point)| *value = point.1);
+    for width in 1..points.len() {
+        for i in 0..points.len() - width {
+            let (from, to) = (points[i].0, points[i + width].0);
+            let share = (time - from) / (to - from);
+            values[i] += share * (values[i + 1] - values[i]);
+        }
+    }
+    values[0]
 }
 
 /// Whether two times between these ends are one: far from 0 those of a short step are all near each
@@ -144,6 +192,18 @@ mod tests {
         let y = |t: f64| 5.0 - (t - 1.25) * (t - 1.25);
         let found = top([(0.0, y(0.0)), (1.0, y(1.0)), (3.0, y(3.0))]).unwrap();
         assert!((found.0 - 5.0).abs() < 1e-14 && (found.1 - 1.25).abs() < 1e-14, "{found:?}");
+    }
+
+    /// Between points that are an eighth of a time constant apart.
+    #[test]
+    fn a_level_is_reached_on_the_curve_and_not_on_the_chord() {
+        let points: Vec<(f64, f64)> =
+            (0..=8).map(|k| f64::from(k) / 8.0).map(|t| (t, -(-t).exp_m1())).collect();
+        for level in [0.05, 0.3, 0.6] {
+            let after = points.iter().position(|point| point.1 > level).unwrap();
+            let (found, exact) = (on_the_curve(&points, after, level), -(1.0_f64 - level).ln());
+            assert!((found - exact).abs() < 2e-5, "{level}: {found}");
+        }
     }
 
     #[test]
