@@ -152,19 +152,3 @@ fn of_many_controls_at_most_64_positions_are_tried() {
     );
     assert!(error.to_string().ends_with("`fan0`, `fan1` and 5 more things"), "{error}");
 }
-
-/// The inputs of a steady state are those of its time, not a line between that time and the end of
-/// the time in which the network is followed: a ramp that goes on would show it.
-#[test]
-fn a_heat_that_rises_is_held_while_a_thermostat_settles() {
-    let mut b = NetworkBuilder::new();
-    let fan = b.control("fan");
-    let body = node(&mut b, "body");
-    let air = b.boundary("air", Temperature(AMBIENT));
-    b.resistor("skin", body, air, Conductance(3.0));
-    source(&mut b, "heat", body, "30 [W] + 1 [W/s] * t - 6 [W] * fan");
-    thermostat(&mut b, fan, (body, Acts::Cooling), (9.0, 2.0), false);
-    let steady = solve(b).unwrap();
-    // 10 K without the fan, 8 K with it
-    assert!((steady.temperatures[0] - AMBIENT - 8.0).abs() < 1e-6);
-}
