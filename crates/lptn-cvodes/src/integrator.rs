@@ -119,7 +119,7 @@ impl<S: OdeSystem> Cvodes<S> {
         self.memory.start((self.time, &self.state), pointer)?;
         self.memory.attach_solver::<S>(&self.handles)?;
         if let Some(quadratures) = &self.quadratures {
-            self.memory.start_quadratures::<S>(quadratures)?;
+            self.memory.start_quadratures::<S>(quadratures, options.integrals)?;
         }
         self.start_sensitivities(options)?;
         self.start_roots()?;

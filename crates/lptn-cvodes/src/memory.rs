@@ -7,7 +7,7 @@ use sundials_sys as sys;
 use crate::context::Context;
 use crate::{callback, linear_solver};
 use crate::{callback::Shared, linear_solver::SolverHandles, vector::Vector, vectors::Vectors};
-use lptn_integrate::{IntegrateError, OdeSystem};
+use lptn_integrate::{Allowance, IntegrateError, OdeSystem};
 
 /// An owned CVODES object. Its methods ask for what must be alive for the call; the owner keeps it
 /// alive until the object is dropped.
@@ -30,7 +30,7 @@ pub(crate) struct Memory {
 /// step.
 const STRATEGY: c_int = sys::CV_SIMULTANEOUS;
 
-/// Absolute tolerance of the running integrals.
+/// Stands for an infinite tolerance of the running integrals.
 const BOUNDLESS: f64 = 1e300;
 
 /// Flag of a SUNDIALS function that failed.
@@ -112,19 +112,27 @@ impl Memory {
         }
     }
 
-    pub(crate) fn start_quadratures<S: OdeSystem>(&self, q0: &Vector) -> Result<(), Flag> {
+    pub(crate) fn start_quadratures<S: OdeSystem>(
+        &self,
+        q0: &Vector,
+        allowed: Allowance,
+    ) -> Result<(), Flag> {
+        let amount = allowed.amount.min(BOUNDLESS);
         // SAFETY: the object is alive and copies the vector.
         unsafe {
             check(
                 "CVodeQuadInit",
                 sys::CVodeQuadInit(self.raw, Some(callback::integrands::<S>), q0.raw()),
             )?;
-            // They take part in the error test with a tolerance that nothing exceeds. Left out of
-            // it altogether, CVODES raises the order of their formula with the correction of the
+            // They take part in the error test even where nothing is asked of them. Left out of it
+            // altogether, CVODES raises the order of their formula with the correction of the
             // wrong step (cvChooseEta saves it only if they are in the test), and the books are off
             // by an amount that grows with the tolerance: 4.5e-8 of the heat on a plate at 1e-5,
             // instead of 1e-13.
-            check("CVodeQuadSStolerances", sys::CVodeQuadSStolerances(self.raw, 0.0, BOUNDLESS))?;
+            check(
+                "CVodeQuadSStolerances",
+                sys::CVodeQuadSStolerances(self.raw, allowed.share, amount),
+            )?;
             check("CVodeSetQuadErrCon", sys::CVodeSetQuadErrCon(self.raw, 1))
         }
     }

@@ -1,6 +1,6 @@
 //! What every integrator checks of its arguments.
 
-use crate::{IntegrateError, OdeSystem, Options, kernels};
+use crate::{Allowance, IntegrateError, OdeSystem, Options, kernels};
 
 /// The start time is finite, and the options are in range.
 ///
@@ -17,6 +17,13 @@ pub fn options(t0: f64, given: &Options) -> Result<(), IntegrateError> {
         ("newton_coefficient", given.newton_coefficient),
     ];
     let usable = |value: f64| value > 0.0 && value.is_finite();
+    let Allowance { share, amount } = given.integrals;
+    if !(share >= 0.0 && share.is_finite() && amount >= 0.0 && share + amount > 0.0) {
+        return Err(IntegrateError::InvalidOption {
+            option: "integrals",
+            value: amount.min(share),
+        });
+    }
     match positive
         .into_iter()
         .find_map(|(option, value)| Some((option, value.filter(|&v| !usable(v))?)))

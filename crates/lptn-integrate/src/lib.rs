@@ -28,7 +28,7 @@ pub use error::{Callback, FactorError, IntegrateError};
 pub use integrator::{Integrator, Step};
 pub use linear::{LinearSolver, LinearSolverKind};
 pub use one_step::OneStep;
-pub use options::Options;
+pub use options::{Allowance, Options};
 pub use pattern::Pattern;
 pub use statistics::Statistics;
 pub use system::{OdeSystem, Retry};

@@ -9,6 +9,10 @@ pub struct Options {
     /// an arbitrary zero. CVODE works with a third of it. For stable systems the error of every
     /// component stays below ten times the tolerance (a rule from measurement, not a bound).
     pub tolerance: f64,
+    /// Running integrals err by at most this in a step: a share of what they have gathered and, in
+    /// their own unit, an amount that is of no interest; not negative, not both 0. Tighter than what
+    /// the error of the state alone asks for, it makes steps smaller.
+    pub integrals: Allowance,
     /// Largest number of steps over the life of the integrator, restarts included.
     pub max_steps: usize,
     /// Size of the first step after the start and after every restart, positive, in units of t.
@@ -32,6 +36,7 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             tolerance: 1e-5,
+            integrals: Allowance { share: 0.0, amount: f64::INFINITY },
             max_steps: 10_000_000,
             initial_step: None,
             max_step_size: None,
@@ -40,4 +45,13 @@ impl Default for Options {
             sensitivity_scales: Vec::new(),
         }
     }
+}
+
+/// What a running integral may err by.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Allowance {
+    /// Of what has been gathered.
+    pub share: f64,
+    /// In the unit of the integral; infinite where nothing is asked.
+    pub amount: f64,
 }

@@ -1,6 +1,7 @@
 //! The settings of a run, and how it reports on itself.
 
-use lptn_integrate::{LinearSolver, Options};
+use lptn_assembly::ThermalSystem;
+use lptn_integrate::{Allowance, LinearSolver, Options};
 use lptn_network::{
     End, IntegratorChoice, Network, NodeId, OutputTimes, ParameterId, RunSettings, Time,
 };
@@ -184,16 +185,21 @@ impl Transient {
     /// or leaps.
     pub(crate) fn options(
         &self,
-        network: &Network,
+        system: &ThermalSystem,
         switches: bool,
         curved: Option<&Curved>,
     ) -> Options {
+        let network = system.network();
         let switching =
             if switches { SWITCHING.max(FINEST / self.tolerance).min(1.0) } else { 1.0 };
         Options {
             sensitivity_scales: self.sensitivities.iter().map(|&id| scale(network, id)).collect(),
             tolerance: self.tolerance * curved.map_or(1.0, |c| c.share).min(switching),
             linear_solver: self.linear_solver,
+            integrals: Allowance {
+                share: self.tolerance / USUAL_CHANGE,
+                amount: self.tolerance * system.capacity().iter().sum::<f64>(),
+            },
             ..Options::default()
         }
     }
@@ -208,7 +214,10 @@ const SWITCHING: f64 = 0.01;
 /// In K: nothing is tightened below, where rounding decides.
 const FINEST: f64 = 1e-8;
 
-/// The change of a temperature in K whose effect is to be as accurate as the temperatures are.
+/// The change of a temperature in K whose effect is to be as accurate as the temperatures are. Heats
+/// are computed to the share of it that the tolerance is, or to what the tolerance is worth in all
+/// capacities together: the error of the states says little of the heat where capacities are so
+/// small that they follow at once.
 const USUAL_CHANGE: f64 = 10.0;
 
 /// The change of a parameter, in its SI unit, whose effect is to be as accurate as the temperatures

@@ -180,7 +180,7 @@ impl<'a> Run<'a> {
             .then(|| Switching::new(system, &settings.controls, settings.tolerance));
         let finer = system.network().has_events() || care == Care::Leaps;
         let care = if finer { Care::Leaps } else { care };
-        let options = settings.options(system.network(), finer, curved.as_ref());
+        let options = settings.options(system, finer, curved.as_ref());
         let straight = curved.is_none() && system.network().inputs_are_straight();
         let choice = (settings.integrator, !straight);
         let (mut integrator, method) = stepper(heat, (settings.start, &initial), &options, choice)?;

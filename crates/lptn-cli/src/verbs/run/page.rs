@@ -53,11 +53,10 @@ impl Page for Outcome<'_> {
                 balance::section(&mut text, network, (of, Some(span)));
             }
         }
-        let label = format!("{:1$}", "lumping:", over(span.1 - span.0, self.job.clock).len() + 2);
-        lumping::lines(&mut text, network, (&self.lumping, &label, self.detail));
-        if self.detail == Detail::Verbose {
-            text.labelled("solver: ", solver(self));
-        }
+        let width = over(span.1 - span.0, self.job.clock).len() + 2;
+        let label = |word: &str| format!("{word:width$}");
+        lumping::lines(&mut text, network, (&self.lumping, &label("lumping:"), self.detail));
+        text.labelled(&label("solver:"), solver(self));
         text
     }
 
@@ -290,21 +289,27 @@ pub(crate) fn heat_over(text: &mut Text, solution: &Solution, (length, clock): (
     text.sentence(&format!("{:width$}", "balance:"), &balance);
 }
 
+/// Who computed the temperatures, to what; with `-v` what it took. Nobody where nothing stores heat.
 fn solver(of: &Outcome<'_>) -> Vec<String> {
-    let statistics = of.solution.statistics();
-    let repeated = statistics.error_test_failures + statistics.newton_failures;
     let method = match of.solution.method() {
-        Some(Method::OneStep) => vec!["one-step method,".to_owned()],
-        Some(Method::Cvode) => vec!["CVODE,".to_owned()],
-        None => Vec::new(),
+        Some(Method::OneStep) => "one-step method",
+        Some(Method::Cvode) => "CVODE",
+        None => return Vec::new(),
     };
-    let mut words = vec![format!("tolerance {} K,", significant(of.job.settings.tolerance, 3))];
-    words.extend(method);
-    words.extend([
-        format!("{} steps,", statistics.steps),
-        format!("{repeated} repeated,"),
-        format!("{} factorisations,", statistics.factorizations),
-        format!("{} solves", statistics.linear_solves),
-    ]);
+    let tolerance = format!("tolerance {} K", significant(of.job.settings.tolerance, 3));
+    let mut words = vec![method.to_owned(), tolerance];
+    if of.detail == Detail::Verbose {
+        let done = of.solution.statistics();
+        let repeated = done.error_test_failures + done.newton_failures;
+        let counts = [
+            (done.steps, "steps"),
+            (repeated, "repeated"),
+            (done.factorizations, "factorisations"),
+            (done.linear_solves, "solves"),
+        ];
+        words.extend(counts.map(|(count, of)| format!("{count} {of}")));
+    }
+    let last = words.len() - 1;
+    words[..last].iter_mut().for_each(|word| word.push(','));
     words
 }
