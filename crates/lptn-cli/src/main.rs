@@ -22,6 +22,7 @@ mod input;
 mod interrupt;
 mod limits;
 mod lumping;
+mod operating_point;
 mod options;
 mod panic_net;
 mod phases;

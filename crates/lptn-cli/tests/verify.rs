@@ -22,7 +22,7 @@ const PULSE: &str = "format = 1\n[node]\nbody = { C = \"100 J/K\", T0 = \"20 deg
 
 const TWO_MASSES: &str = include_str!("../../../networks/two_masses.toml");
 
-/// A row of nodes, one more than is solved by modes.
+/// A row of nodes.
 fn row_of(nodes: usize) -> String {
     let mut text = String::from(
         "format = 1\n[default]\nT0 = \"0 degC\"\n[boundary]\nair = { T = \"10 degC\" }\n[node]\n",
@@ -171,9 +171,17 @@ fn a_network_without_capacity_has_no_modes_and_says_so() {
 }
 
 #[test]
-fn large_networks_have_no_modes_and_no_independent_solution() {
+fn large_networks_have_their_slowest_modes_and_no_independent_solution() {
     let folder = Folder::with("row.toml", &row_of(2001));
-    folder.run(&["modes", "row.toml"]).exits(2).says("modes::too_large").says("at most 2000");
+    folder.run(&["modes", "row.toml"]).exits(0).prints("the 10 slowest of 2001 modes");
+    let (_, rows) = csv(&folder.run(&["modes", "row.toml", "-k", "3", "--format", "csv"]).out);
+    for (k, row) in (1_u32..).zip(&rows) {
+        // held beyond one end, free at the other: 1/tau = 4 sin^2((2k - 1) pi / (4n + 2))
+        let angle = f64::from(2 * k - 1) * std::f64::consts::PI / (4.0 * 2001.0 + 2.0);
+        let exact = 1.0 / (4.0 * angle.sin().powi(2));
+        assert!((row[0] / exact - 1.0).abs() < 1e-9, "{} {exact}", row[0]);
+    }
+    assert_eq!(rows.len(), 3);
     let ran =
         folder.run(&["verify", "row.toml"]).exits(0).prints("no independent solution: 2001 nodes");
     assert!(
@@ -250,4 +258,31 @@ fn an_input_that_fails_ends_with_its_place() {
     assert_ne!(text, GEARBOX);
     let ran = Folder::with("gearbox.toml", &text).run(&["verify", "gearbox.toml"]).exits(3);
     ran.says("solve::input").says("P_7000 * sqrt");
+}
+
+/// A ball that glows into space: d(sigma A T^4)/dT over C is its rate.
+#[test]
+fn a_network_that_is_not_linear_has_modes_near_a_state() {
+    let glowing = "format = 1\n[node]\nball = { C = \"500 J/K\", T0 = \"900 K\" }\n[boundary]\n\
+        space = { T = \"300 K\" }\n[radiation]\nglow = { from = \"ball\", to = \"space\", emissivity = 1, \
+        area = \"0.05 m^2\" }\n[source]\nheater = { into = \"ball\", P = \"1 kW\" }\n[run]\n\
+        stop = \"1 min\"\n";
+    let folder = Folder::with("glow.toml", glowing);
+    let refused = folder.run(&["modes", "glow.toml"]).exits(2);
+    refused.says("modes::not_linear").says("glow.toml:7:1").says("--at steady");
+    let json = folder.run(&["modes", "glow.toml", "--at", "steady", "--format", "json"]);
+    let json = json.exits(0).json();
+    let hot = (300.0_f64.powi(4) + 1000.0 / (5.670_374_419e-8 * 0.05)).powf(0.25);
+    let tau = 500.0 / (4.0 * 5.670_374_419e-8 * 0.05 * hot.powi(3));
+    assert!((scalar(&json["modes"][0]["tau"]) / tau - 1.0).abs() < 1e-9);
+    assert_eq!(json["at"]["settled"], true);
+    assert!((scalar(&json["at"]["tried"]["disturbance"]) - 10.0).abs() < 1e-12);
+    let at = folder.run(&["modes", "glow.toml", "--at", "0s"]).exits(0);
+    at.prints("for small disturbances of the state at 0 s: at 10 K along");
+    let tau = 500.0 / (4.0 * 5.670_374_419e-8 * 0.05 * 900.0_f64.powi(3));
+    let (_, rows) = csv(&folder.run(&["modes", "glow.toml", "--at=0s", "--format=csv"]).out);
+    let found = rows[0][0];
+    assert!((found / tau - 1.0).abs() < 1e-9, "{found} {tau}");
+    folder.run(&["modes", "glow.toml", "--at", "2min"]).exits(2).says("run::time");
+    folder.run(&["modes", "glow.toml", "--at", "10 K"]).exits(2);
 }

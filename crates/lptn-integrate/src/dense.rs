@@ -18,6 +18,55 @@ pub fn eigenvalue_magnitudes(a: MatRef<'_, f64>) -> Option<Vec<f64>> {
     Some(a.eigenvalues().ok()?.iter().map(|z| z.re.hypot(z.im)).collect())
 }
 
+/// A complex number.
+pub type Complex = faer::c64;
+
+/// Eigenvalues of a square matrix with their vectors in the columns that go with them; those of a
+/// pair stand beside each other, the one with the positive imaginary part first.
+pub struct GeneralEigen {
+    /// Eigenvalues.
+    pub values: Vec<Complex>,
+    /// Right eigenvectors of length 1.
+    pub vectors: Mat<Complex>,
+}
+
+impl GeneralEigen {
+    /// Brings the smallest magnitudes to the front.
+    pub fn sort(&mut self) {
+        let mut order: Vec<usize> = (0..self.values.len()).collect();
+        let key = |k: usize| (self.values[k].norm(), -self.values[k].im);
+        order.sort_by(|&a, &b| key(a).0.total_cmp(&key(b).0).then(key(a).1.total_cmp(&key(b).1)));
+        self.values = order.iter().map(|&k| self.values[k]).collect();
+        let rows = self.vectors.nrows();
+        self.vectors = Mat::from_fn(rows, order.len(), |i, k| self.vectors[(i, order[k])]);
+    }
+}
+
+/// Eigenvalues and right eigenvectors of a square matrix. `None` where they are not found.
+#[must_use]
+pub fn general_eigen(a: MatRef<'_, f64>) -> Option<GeneralEigen> {
+    let eigen = a.eigen().ok()?;
+    let values = eigen.S().column_vector().iter().copied().collect();
+    Some(GeneralEigen { values, vectors: eigen.U().to_owned() })
+}
+
+/// The inverse of a square matrix. `None` where it is singular to rounding.
+#[must_use]
+pub fn complex_inverse(a: &Mat<Complex>) -> Option<Mat<Complex>> {
+    let size = a.nrows();
+    let inverse = a.partial_piv_lu().solve(Mat::<Complex>::identity(size, size));
+    let finite = (0..size).all(|j| (0..size).all(|i| inverse[(i, j)].norm().is_finite()));
+    finite.then_some(inverse)
+}
+
+/// `A^-1 B` for a square matrix. `None` where it is singular to rounding.
+#[must_use]
+pub fn solve(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Option<Mat<f64>> {
+    let x = a.partial_piv_lu().solve(b);
+    let finite = (0..x.ncols()).all(|j| (0..x.nrows()).all(|i| x[(i, j)].is_finite()));
+    finite.then_some(x)
+}
+
 /// `A^-1 B` for a symmetric matrix A, of which the lower triangle is read. `None` where it is not
 /// positive definite.
 #[must_use]

@@ -17,6 +17,7 @@ pub mod dense;
 mod error;
 mod integrator;
 pub mod kernels;
+pub mod lanczos;
 pub mod linear;
 mod one_step;
 mod options;

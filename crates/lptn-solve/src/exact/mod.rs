@@ -51,7 +51,7 @@ pub struct Difference {
     pub by_node: Vec<f64>,
 }
 
-const MERGE: &str = "merge the nodes that the largest conductances join";
+pub(crate) const MERGE: &str = "merge the nodes that the largest conductances join";
 
 const CONSTANTS: &str = "only a network of constants has modes; `lptn run` follows it over time";
 

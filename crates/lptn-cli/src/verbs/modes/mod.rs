@@ -10,7 +10,7 @@ use std::io;
 use lptn_network::{Network, Node};
 use lptn_plot::Figure;
 use lptn_report::{Json, Page, Report, Rows, Text, TextTable, duration, fixed, shortened};
-use lptn_solve::{EventKind, Mode, Modes};
+use lptn_solve::{EventKind, LinearisedError, Mode, Modes, ModesError};
 use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
@@ -19,6 +19,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{Input, quoted};
+use crate::operating_point::OperatingPoint;
 use crate::words::{MOST_NODES, count};
 
 /// Modes that are shown without `--count`: all of up to so many, else the slowest so many.
@@ -38,12 +39,16 @@ const PARTNER_WIDTH: usize = 44;
 pub(crate) fn modes(args: &ModesArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
     let netlist = &input.netlist;
-    let mut modes = Modes::solve(&netlist.network).map_err(|error| input.failure(&error, None))?;
-    let all = modes.modes().len();
-    let usual = if all <= ALL_UP_TO { all } else { OF_MORE };
-    modes.truncate(args.count.map_or(usual, |count| usize::try_from(count).unwrap_or(usize::MAX)));
+    let system = input.assemble()?;
+    let point = args.at.find(&input, console)?;
+    let asked = args.count.map(|count| usize::try_from(count).unwrap_or(usize::MAX));
+    let state = point.as_ref().map(|point| &point.state);
+    let modes = Modes::of(&system, state, asked.unwrap_or(OF_MORE));
+    let mut modes = modes.map_err(|error| failed(&input, &error))?;
+    let all = modes.all();
+    modes.truncate(asked.unwrap_or(if all <= ALL_UP_TO { all } else { OF_MORE }));
     console.warn(&netlist.files, &netlist.warnings);
-    let view = View { input: &input, modes: &modes, all };
+    let view = View { input: &input, modes: &modes, all, point };
     let exit = console.show(&view, args.printed.format)?;
     if let (Some(file), Some(node)) = (input.typed(), view.slowest()) {
         console.next(&format!("lptn reduce {file} --port {}", quoted(node)));
@@ -51,11 +56,24 @@ pub(crate) fn modes(args: &ModesArgs, console: &Console) -> Result<Exit, Failure
     Ok(exit)
 }
 
+/// With the place of what makes a network not linear.
+fn failed(input: &Input, error: &ModesError) -> Failure {
+    let place = match error {
+        ModesError::NotLinear { item, .. } => input.netlist.source_map.name(*item),
+        ModesError::Linearised(LinearisedError::Input(error)) => input.place_of(error),
+        ModesError::Linearised(LinearisedError::Melts { name }) => input.node_place(name),
+        _ => None,
+    };
+    input.failure(error, place)
+}
+
 struct View<'a> {
     input: &'a Input,
     modes: &'a Modes,
     /// How many modes there are in all.
     all: usize,
+    /// The state whose small disturbances have these modes.
+    point: Option<OperatingPoint>,
 }
 
 impl View<'_> {
@@ -66,11 +84,13 @@ impl View<'_> {
     /// A line a mode: its time constant, and the nodes that take most part in it.
     fn overview(&self) -> TextTable {
         let modes: Vec<(usize, &Mode)> = (1..).zip(self.modes.modes()).collect();
-        TextTable::of(&modes)
+        let mut table = TextTable::of(&modes)
             .right("mode", |(number, _)| number.to_string())
-            .right("tau", |(_, mode)| tau(mode))
-            .left("participation", |(_, mode)| self.partners(mode))
-            .into()
+            .right("tau", |(_, mode)| tau(mode));
+        if self.modes.swing() {
+            table = table.right("period", |(_, mode)| period(mode));
+        }
+        table.left("participation", |(_, mode)| self.partners(mode)).into()
     }
 
     /// The node that takes most part in the slowest mode.
@@ -138,6 +158,19 @@ impl View<'_> {
         if self.all == 0 {
             notes.push("no node stores heat: temperatures follow the inputs at once".to_owned());
         }
+        if let Some(point) = self.point.as_ref().filter(|_| self.all > 0) {
+            notes.extend(point.notes(self.modes.tried()));
+        }
+        if self.modes.swing() {
+            notes.push(
+                "modes with a period swing: their shapes are amplitudes; --format csv and json have \
+                 the phases"
+                    .to_owned(),
+            );
+        }
+        if self.modes.modes().iter().any(|mode| mode.rate < 0.0) {
+            notes.push("a mode that grows: the network leaves this state by itself".to_owned());
+        }
         // conductances that switch are refused: what is left are sources and boundaries
         if let Some(kind) = EventKind::switching(self.network()).next() {
             let name = kind.name(self.network());
@@ -157,15 +190,20 @@ impl View<'_> {
     }
 
     fn mode(&self, mode: &Mode) -> Value {
-        let by_node = |values: &[f64]| -> Map<String, Value> {
+        let by_node = |values: &[f64], unit: &'static str| -> Map<String, Value> {
             let named = self.network().nodes().iter().zip(values);
-            named.map(|(node, &x)| (node.name.clone(), json!(SiValue::new(x, "1")))).collect()
+            named.map(|(node, &x)| (node.name.clone(), json!(SiValue::new(x, unit)))).collect()
         };
-        json!({
+        let mut members = json!({
             "tau": SiValue::new(mode.tau(), "s"),
-            "shape": by_node(&mode.shape),
-            "participation": by_node(&mode.participation),
-        })
+            "shape": by_node(&mode.shape, "1"),
+            "participation": by_node(&mode.participation, "1"),
+        });
+        if mode.omega != 0.0 {
+            members["omega"] = json!(SiValue::new(mode.omega, "rad/s"));
+            members["phase"] = json!(by_node(&mode.phase, "rad"));
+        }
+        members
     }
 }
 
@@ -197,15 +235,29 @@ impl Page for View<'_> {
         self.input.head(json, &[])?;
         json.member("notes", &self.findings())?;
         json.member("count", &SiValue::new(count_as_number(self.all), "1"))?;
+        if let Some(point) = &self.point {
+            json.member("at", &point.json(self.modes.tried()))?;
+        }
         json.member("modes", &modes)
     }
 }
 
-#[expect(clippy::cast_precision_loss, reason = "at most 2000")]
+#[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53")]
 fn count_as_number(n: usize) -> f64 {
     n as f64
 }
 
 fn tau(mode: &Mode) -> String {
-    if mode.rate == 0.0 { "for ever".to_owned() } else { duration(mode.tau(), 5) }
+    match mode.rate {
+        0.0 => "for ever".to_owned(),
+        rate if rate < 0.0 => format!("grows, {}", duration(-mode.tau(), 5)),
+        _ => duration(mode.tau(), 5),
+    }
+}
+
+fn period(mode: &Mode) -> String {
+    match mode.omega {
+        0.0 => "-".to_owned(),
+        omega => duration(std::f64::consts::TAU / omega, 5),
+    }
 }

@@ -84,7 +84,7 @@ fn limits(input: &Input, steady: &SteadyState, time: f64) -> Result<Vec<Judged>,
     Ok(network.limit_ids().zip(margins).map(one).collect())
 }
 
-pub(super) fn failed(input: &Input, error: &SteadyError) -> Failure {
+pub(crate) fn failed(input: &Input, error: &SteadyError) -> Failure {
     let place = match error {
         SteadyError::NoBoundary { nodes, .. } => {
             nodes.first().and_then(|&node| input.netlist.source_map.name(Item::Node(node)))

@@ -1,0 +1,203 @@
+//! A network as it answers small disturbances of one state: `C dx/dt = J x`.
+
+use faer::Mat;
+use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
+use lptn_integrate::{Pattern, dense};
+use lptn_network::{InputError, NodeId};
+
+use crate::snapshot::Snapshot;
+use crate::times::just_after;
+
+lptn_units::errors! {
+/// Why a network cannot be taken for a linear one near a state.
+#[derive(Clone, Debug)]
+pub enum LinearisedError {
+    /// An element or input has no value there.
+    Input => InputError;
+    /// A node takes up latent heat at just the temperature that it has there; its name.
+    Melts { name: String } = "linearised::melts",
+        format!("`{name}` melts there: its temperature does not answer to heat"),
+        help "choose an operating point at which it is solid or molten";
+    /// The balances of the massless nodes cannot be solved for them.
+    Singular = "linearised::singular",
+        "the massless nodes do not answer to a small disturbance there",
+        help "give them a capacity", class lptn_units::Class::Numbers;
+}
+}
+
+/// A network near one of its states, its inputs and positions held as they are there.
+pub struct Linearised<'a> {
+    system: &'a ThermalSystem,
+    work: Workspace,
+    /// Temperature of each unknown in K.
+    at: Vec<f64>,
+    /// Capacity of each state there in J/K.
+    capacity: Vec<f64>,
+    pattern: Pattern,
+    /// `J` in W/K in the slots of the pattern, over all unknowns.
+    values: Vec<f64>,
+}
+
+/// How far a linear network was tried against its full one.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tried {
+    /// The largest temperature of the disturbance in K, to either side.
+    pub disturbance: f64,
+    /// The largest difference of the heat into any node in W.
+    pub heat: f64,
+    /// The same over the largest heat that the disturbance brings into any node.
+    pub share: f64,
+}
+
+impl<'a> Linearised<'a> {
+    /// Near a snapshot of the system.
+    ///
+    /// # Errors
+    /// [`LinearisedError`]
+    pub fn near(system: &'a ThermalSystem, state: &Snapshot) -> Result<Self, LinearisedError> {
+        let mut at = vec![0.0; system.unknowns().len()];
+        system.unknown_temperatures(&state.temperatures, &mut at);
+        let mut work = system.workspace();
+        if system.network().has_events() {
+            work.set_positions(&state.positions);
+        }
+        Self::new(system, work, state.time, at)
+    }
+
+    /// Of a system that is proportional ([`ThermalSystem::is_proportional`]) and so the same near
+    /// every state and at every time.
+    ///
+    /// # Errors
+    /// [`LinearisedError`]
+    pub fn of_proportional(system: &'a ThermalSystem) -> Result<Self, LinearisedError> {
+        let at = vec![lptn_network::ZERO_CELSIUS; system.unknowns().len()];
+        Self::new(system, system.workspace(), 0.0, at)
+    }
+
+    fn new(
+        system: &'a ThermalSystem,
+        mut work: Workspace,
+        time: f64,
+        at: Vec<f64>,
+    ) -> Result<Self, LinearisedError> {
+        let pattern = Pattern::from_symbolic(system.pattern().symbolic());
+        let mut values = vec![0.0; pattern.len()];
+        system.read_inputs(&mut work, time, just_after(time))?;
+        system.jacobian_at(&mut work, &at, JacobianForm::Exact, &mut values)?;
+        let capacity = capacities(system, &at)?;
+        Ok(Self { system, work, at, capacity, pattern, values })
+    }
+
+    /// The system it is of.
+    pub fn system(&self) -> &'a ThermalSystem {
+        self.system
+    }
+
+    /// Capacity of each state there in J/K, in the order of [`ThermalSystem::states`].
+    pub fn capacity(&self) -> &[f64] {
+        &self.capacity
+    }
+
+    /// Whether warming one node brings heat to another exactly as the other way round.
+    pub fn is_symmetric(&self) -> bool {
+        let rows = self.pattern.row_indices();
+        (0..self.pattern.size()).all(|column| {
+            self.pattern.column(column).all(|slot| {
+                let other = self.pattern.slot(column, rows[slot]);
+                other.is_some_and(|other| {
+                    self.values[slot].to_bits() == self.values[other].to_bits()
+                })
+            })
+        })
+    }
+
+    /// The pattern of the unknowns, and `-J` in W/K in its slots.
+    pub(crate) fn conductances(&self) -> (&Pattern, Vec<f64>) {
+        (&self.pattern, self.values.iter().map(|v| -v).collect())
+    }
+
+    /// `J` of the states in W/K, dense, the massless nodes that are solved for eliminated; and what
+    /// those (rows) follow of each state (columns).
+    ///
+    /// # Errors
+    /// [`LinearisedError::Singular`]
+    pub(crate) fn dense(&self) -> Result<(Mat<f64>, Mat<f64>), LinearisedError> {
+        let (all, states) = (self.pattern.size(), self.capacity.len());
+        let mut whole = Mat::<f64>::zeros(all, all);
+        for column in 0..all {
+            for slot in self.pattern.column(column) {
+                whole[(self.pattern.row_indices()[slot], column)] = self.values[slot];
+            }
+        }
+        let algebraic = all - states;
+        let block = |i, j, rows, columns| whole.submatrix(i, j, rows, columns);
+        let own = block(0, 0, states, states).to_owned();
+        if algebraic == 0 {
+            return Ok((own, Mat::zeros(0, states)));
+        }
+        let (of_own, of_states) =
+            (block(states, states, algebraic, algebraic), block(states, 0, algebraic, states));
+        let follow = dense::solve(of_own, of_states).ok_or(LinearisedError::Singular)?;
+        let follow = Mat::from_fn(algebraic, states, |i, j| -follow[(i, j)]);
+        let through = dense::product(block(0, states, states, algebraic), follow.as_ref());
+        Ok((Mat::from_fn(states, states, |i, j| own[(i, j)] + through[(i, j)]), follow))
+    }
+
+    /// Temperatures of all nodes that follow from those of the unknowns, both as differences to the
+    /// state in K.
+    pub(crate) fn recover(&mut self, unknowns: &[f64]) -> Vec<f64> {
+        // what follows is linear: differences as large as this leave nothing to rounding
+        const SCALE: f64 = 1_048_576.0;
+        let moved: Vec<f64> = self.at.iter().zip(unknowns).map(|(t, x)| t + SCALE * x).collect();
+        self.system.recover(&mut self.work, &moved);
+        let there = self.system.node_temperatures(&self.work).to_vec();
+        self.system.recover(&mut self.work, &self.at);
+        let here = self.system.node_temperatures(&self.work);
+        let mut nodes: Vec<f64> = there.iter().zip(here).map(|(a, b)| (a - b) / SCALE).collect();
+        let known = self.system.unknowns().iter().zip(unknowns);
+        known.for_each(|(id, x): (&NodeId, &f64)| nodes[id.index()] = *x);
+        nodes
+    }
+
+    /// Compares the heat of a disturbance of the unknowns in K, and of its opposite, with that of
+    /// the full network.
+    ///
+    /// # Errors
+    /// [`InputError`] where the full network has no value there.
+    pub fn tried(&mut self, disturbance: &[f64]) -> Result<Tried, InputError> {
+        let size = disturbance.len();
+        let (mut here, mut there) = (vec![0.0; size], vec![0.0; size]);
+        self.system.flow(&mut self.work, &self.at, &mut here)?;
+        let mut linear = vec![0.0; size];
+        self.pattern.multiply(&self.values, disturbance, &mut linear);
+        let mut off: f64 = 0.0;
+        for sign in [1.0, -1.0] {
+            let moved: Vec<f64> =
+                self.at.iter().zip(disturbance).map(|(t, x)| (t + sign * x).max(1.0)).collect();
+            self.system.flow(&mut self.work, &moved, &mut there)?;
+            let differences = there.iter().zip(&here).zip(&linear);
+            off = differences.map(|((b, a), q)| (b - a - sign * q).abs()).fold(off, f64::max);
+        }
+        let most = |values: &[f64]| values.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
+        let brought = most(&linear);
+        let share = if brought > 0.0 { off / brought } else { 0.0 };
+        Ok(Tried { disturbance: most(disturbance), heat: off, share })
+    }
+}
+
+/// Capacity of each state in J/K at temperatures of the unknowns in K.
+fn capacities(system: &ThermalSystem, at: &[f64]) -> Result<Vec<f64>, LinearisedError> {
+    let network = system.network();
+    let of = |((&id, &constant), &t): ((&NodeId, &f64), &f64)| {
+        let Some(curve) = network.enthalpy(id) else { return Ok(constant) };
+        let there = curve.heat(t).and_then(|heat| curve.temperature(heat));
+        match there.map(|content| content.capacity) {
+            Some(capacity) if capacity.is_finite() => Ok(capacity),
+            _ => {
+                let name = network.nodes()[id.index()].name.clone();
+                Err(LinearisedError::Melts { name })
+            }
+        }
+    };
+    system.states().iter().zip(system.capacity()).zip(at).map(of).collect()
+}
