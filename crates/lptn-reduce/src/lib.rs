@@ -6,7 +6,8 @@
 //! what "nearest" means, so [`Reduction`] gives it by four [`Definition`]s, each with the largest
 //! [`Deviation`] it leads to, measured for a unit step of heat and for the network's own inputs.
 //! [`fit_exponential`] and [`Bias`] are the method of the seed paper, which takes heat from one
-//! exponential.
+//! exponential. The impedance of a port has two forms, [`Foster`] and [`Cauer`], each of which
+//! follows from the other.
 //!
 //! Units: SI, temperatures in K, resistances in K/W, capacities in J/K, heat positive into a node.
 
@@ -16,6 +17,7 @@ mod definition;
 mod deviation;
 mod error;
 mod fit;
+mod ladder;
 mod lanczos;
 mod norton;
 mod one_node;
@@ -29,6 +31,7 @@ pub use definition::{Definition, Pair, Recommended};
 pub use deviation::Deviation;
 pub use error::{FitError, ReduceError};
 pub use fit::{ExponentialFit, fit_exponential};
+pub use ladder::{Cauer, Foster, LadderError};
 pub use norton::{Inputs, NortonEquivalent, port, transfer_resistance};
 pub use reduction::{Dynamics, LeastSquaresWindow, Reduction, ReductionOptions, TOLERANCE};
 pub use step::{ResponseTerm, StepResponse};

@@ -78,7 +78,7 @@ made_of! {
     lptn_network::BuildError, lptn_network::BuildErrors, lptn_network::InputError,
     lptn_network::NoTangents, lptn_network::ParameterError, lptn_network::UnknownName,
     lptn_graph::NoSankey, lptn_graph::NoSlice, lptn_graph::TooMany, lptn_plot::PngError,
-    lptn_reduce::FitError, lptn_reduce::ReduceError,
+    lptn_reduce::FitError, lptn_reduce::LadderError, lptn_reduce::ReduceError,
     lptn_solve::ExactError, lptn_solve::LinearisedError, lptn_solve::ModesError,
     lptn_solve::PeriodicError, lptn_solve::SensitiveError,
     lptn_solve::SettingsError, lptn_solve::SolutionError, lptn_solve::SteadyError,
