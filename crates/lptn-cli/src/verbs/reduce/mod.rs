@@ -2,7 +2,9 @@
 
 mod args;
 mod figure;
+mod notes;
 mod page;
+mod verdict;
 
 pub(crate) use args::ReduceArgs;
 
@@ -11,10 +13,10 @@ use std::path::Path;
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Derived, Diagnostic};
 use lptn_reduce::{
-    Bias, Definition, FitError, Pair, ReduceError, Reduction, ReductionOptions, port,
+    Allowed, Bias, Definition, FitError, Judge, Pair, ReduceError, Reduction, ReductionOptions,
+    port,
 };
 use lptn_report::{Format, plain, significant};
-use lptn_solve::Transient;
 use lptn_units::{Dimension, Problem as _, Type, Unit};
 
 use args::ReduceFormat;
@@ -29,19 +31,23 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
     let input = Input::load(&args.source)?;
     let name = args.port.as_deref().ok_or_else(|| no_port(&input))?;
     let unit = input::temperature_unit(args.scale.temperature_unit.as_deref(), &input.netlist)?;
-    let limit = args.max_error.as_deref().map(Limit::parse).transpose()?;
+    let limit = Limit::parse(&args.max_error)?;
     let window = args.window.as_deref().map(window).transpose()?;
     let run = input.netlist.run.clone();
-    if run.is_none() && (limit.is_some() || args.bias) {
-        return Err(no_run(&input, if limit.is_some() { "--max-error" } else { "--bias" }));
+    if run.is_none()
+        && let Some(option) = about_the_run(args, &limit)
+    {
+        return Err(no_run(&input, option));
     }
     let system = input.assemble()?;
     let explain = |error: ReduceError| failed(&input, name, &error);
     let port = port(&input.netlist.network, name).map_err(explain)?;
     let run = run.as_ref().map(|run| lptn_solve::Transient::of(&input.netlist.network, run));
-    let reduction =
-        Reduction::new(&system, port, &options(&system, run.as_ref(), (window, limit.is_some())));
-    let reduction = reduction.map_err(explain)?;
+    let wanted = about_the_run(args, &limit).is_some();
+    let run_compared = run.clone().filter(|_| wanted || !system.network().has_events());
+    let options =
+        ReductionOptions { run: run_compared, window, judge: args.judge, allowed: limit.allowed };
+    let reduction = Reduction::new(&system, port, &options).map_err(explain)?;
     let bias = match &run {
         Some(run) if args.bias => Some(Bias::new(&system, port, run).map_err(explain)?),
         _ => None,
@@ -73,7 +79,7 @@ pub(crate) struct View<'a> {
     pub(crate) reduction: Reduction,
     pub(crate) bias: Option<Result<Bias, FitError>>,
     pub(crate) unit: Unit,
-    pub(crate) limit: Option<Limit>,
+    pub(crate) limit: Limit,
     /// The definition that was asked for.
     pub(crate) definition: Option<Definition>,
 }
@@ -82,7 +88,8 @@ impl View<'_> {
     /// The pair that is judged and written: the one asked for, else the recommended one.
     pub(crate) fn pair(&self) -> Option<&Pair> {
         let dynamics = self.reduction.dynamics.as_ref()?;
-        Some(dynamics.pair(self.definition.unwrap_or(dynamics.recommended.definition)))
+        let asked = self.definition.and_then(|definition| dynamics.pair(definition));
+        Some(asked.unwrap_or(dynamics.best()))
     }
 
     fn show(&self, console: &Console) -> Result<(), Failure> {
@@ -94,6 +101,8 @@ impl View<'_> {
             ReduceFormat::Toml => console.print(&self.netlist(None)?).map(drop)?,
         }
         if self.args.format == ReduceFormat::Of(Format::Csv) {
+            let short = self.reduction.dynamics.as_ref().and_then(|dynamics| self.short(dynamics));
+            short.iter().for_each(|short| console.note(&format!("warning: {short}")));
             self.notes().iter().for_each(|note| console.note(&format!("note: {note}")));
         }
         if let Some(path) = &self.args.write {
@@ -130,30 +139,28 @@ impl View<'_> {
         let from = plain(&self.input.text.name);
         let mut text = format!("# What `{}` of {from} sees, by `lptn reduce`.\n", self.port);
         if let Some(pair) = self.pair() {
-            let error = match pair.run {
-                Some(run) => {
-                    format!("; over the run it errs by {} K at most", significant(run.kelvin, 2))
-                }
-                None => String::new(),
-            };
-            text += &format!("# C_eq by {}{error}.\n", pair.definition.key());
+            text += &format!("# It {}.\n# C_eq by {}.\n", self.verdict(), pair.definition.key());
         }
         text
     }
 
     fn conclude(&self, console: &Console) -> Exit {
-        let (Some(limit), Some(pair)) = (&self.limit, self.pair()) else { return Exit::Done };
-        let Some(run) = pair.run else { return Exit::Done };
-        if run.within(limit.kelvin, limit.relative) {
+        let judged = self.reduction.dynamics.as_ref().zip(self.pair());
+        let Some((dynamics, pair)) = judged else { return Exit::Done };
+        let Some((judge, error)) = dynamics.judged(pair) else { return Exit::Done };
+        if dynamics.collapses(pair) != Some(false) {
             return Exit::Done;
         }
-        let share =
-            run.relative.map(|r| format!(" ({} %)", significant(100.0 * r, 3))).unwrap_or_default();
+        let share = error.relative.map(|r| format!("{} %", significant(100.0 * r, 3)));
+        let kelvin = (judge == Judge::Run).then(|| format!("{} K", significant(error.kelvin, 3)));
+        let size = match (kelvin, share) {
+            (Some(kelvin), Some(share)) => format!("{kelvin} ({share})"),
+            (kelvin, share) => kelvin.or(share).unwrap_or_default(),
+        };
         console.message(&format!(
-            "too large: with C_eq by {} the error reaches {} K{share}, and {} is allowed",
+            "too large: with C_eq by {} the error reaches {size}, and {} is allowed",
             pair.definition.key(),
-            significant(run.kelvin, 3),
-            limit.text
+            self.limit.text
         ));
         Exit::No
     }
@@ -161,9 +168,8 @@ impl View<'_> {
 
 /// The largest error allowed.
 pub(crate) struct Limit {
-    pub(crate) kelvin: Option<f64>,
-    pub(crate) relative: Option<f64>,
-    text: String,
+    pub(crate) allowed: Allowed,
+    pub(crate) text: String,
 }
 
 impl Limit {
@@ -172,28 +178,24 @@ impl Limit {
         let share = text.trim().ends_with('%');
         let wanted = if share { Dimension::NONE } else { Dimension::TEMPERATURE };
         let what = (wanted, "reduce::max_error", "0.5K or 2%");
-        let quantity = input::positive("--max-error", text, what)?;
-        let [kelvin, relative] =
-            if share { [None, Some(quantity.value)] } else { [Some(quantity.value), None] };
-        Ok(Self { kelvin, relative, text: text.trim().to_owned() })
+        let value = input::positive("--max-error", text, what)?.value;
+        let allowed = if share { Allowed::Share(value) } else { Allowed::Kelvin(value) };
+        Ok(Self { allowed, text: text.trim().to_owned() })
     }
+}
+
+/// The option that asks for the run, if there is one.
+fn about_the_run(args: &ReduceArgs, limit: &Limit) -> Option<&'static str> {
+    let options = [
+        (matches!(limit.allowed, Allowed::Kelvin(_)), "--max-error in K"),
+        (args.judge == Judge::Run, "--for run"),
+        (args.bias, "--bias"),
+    ];
+    options.into_iter().find(|(asks, _)| *asks).map(|(_, option)| option)
 }
 
 fn window(text: &str) -> Result<f64, Failure> {
     input::quantity("--window", text, Type::of(Dimension::TIME)).map(|quantity| quantity.value)
-}
-
-/// One node cannot follow a network that switches over its run: the run is left out, but where it
-/// is asked for.
-fn options(
-    system: &ThermalSystem,
-    run: Option<&Transient>,
-    (window, wanted): (Option<f64>, bool),
-) -> ReductionOptions {
-    if wanted || !system.network().has_events() {
-        return ReductionOptions { run: run.cloned(), window };
-    }
-    ReductionOptions { run: None, window: window.or(run.map(|run| run.stop - run.start)) }
 }
 
 /// The run of the file.
