@@ -37,17 +37,31 @@ impl Deviation {
 /// decade from a thousandth of the shortest to 50 of the longest time constant, and at 0, then
 /// refined. `share` of the rise is what is allowed.
 pub(crate) fn of_step(step: &StepResponse, capacity: f64, share: f64) -> Deviation {
-    const PER_DECADE: f64 = 200.0;
     let tau = step.resistance * capacity;
     // without capacity all of the rise comes at once
     let model = |time: f64| {
         if tau > 0.0 { -step.resistance * f64::exp_m1(-time / tau) } else { step.resistance }
     };
+    of_curve(step, &model, (tau > 0.0).then_some((tau, tau)), share)
+}
+
+/// The same for any curve in place of the step response, with its shortest and longest time
+/// constant.
+pub(crate) fn of_curve(
+    step: &StepResponse,
+    model: &dyn Fn(f64) -> f64,
+    span: Option<(f64, f64)>,
+    share: f64,
+) -> Deviation {
+    const PER_DECADE: f64 = 200.0;
     let signed = |time: f64| model(time) - step.value(time);
     let error = |time: f64| signed(time).abs();
-    let (least, most) = step.span();
-    let from = (1e-3 * if tau > 0.0 { least.min(tau) } else { least }).log10();
-    let count = ((50.0 * most.max(tau)).log10() - from) * PER_DECADE;
+    let mut whole = step.span();
+    if let Some((least, most)) = span {
+        whole = (whole.0.min(least), whole.1.max(most));
+    }
+    let from = (1e-3 * whole.0).log10();
+    let count = ((50.0 * whole.1).log10() - from) * PER_DECADE;
     let at = |k: f64| 10_f64.powf(from + k / PER_DECADE);
     let (mut best, mut place, mut k) = (error(0.0), None, 0.0);
     let allowed = share * step.resistance;

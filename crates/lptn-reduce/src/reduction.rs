@@ -9,8 +9,9 @@ use crate::capacity::least_squares;
 use crate::definition::{Definition, Judge, Pair, Recommended, recommended};
 use crate::deviation::{self, Dense, Deviation, Record};
 use crate::error::ReduceError;
+use crate::nodes::Nodes;
 use crate::norton::{Inputs, NortonEquivalent, grounded};
-use crate::one_node::OneNode;
+use crate::one_node::{OneNode, Row};
 use crate::rises::Rises;
 use crate::step::StepResponse;
 
@@ -159,8 +160,93 @@ impl Reduction {
         pair: Option<&Pair>,
     ) -> Result<Network, ReduceError> {
         still(system.network())?;
-        let capacity = pair.map(|pair| pair.capacity).filter(|capacity| *capacity > 0.0);
-        self.one_node(system, start).network(capacity)
+        let row = Row::one(self.norton.resistance, pair.map_or(0.0, |pair| pair.capacity));
+        self.one_node(system, start).network(&row)
+    }
+
+    /// The network of a few nodes, started as the whole one is at its port; that node has the name
+    /// of the port.
+    ///
+    /// # Errors
+    /// As [`Reduction::network`].
+    pub fn network_of(
+        &self,
+        system: &ThermalSystem,
+        start: f64,
+        nodes: &Nodes,
+    ) -> Result<Network, ReduceError> {
+        still(system.network())?;
+        let row = Row { direct: nodes.direct, ladder: Some(nodes.ladder.clone()) };
+        self.one_node(system, start).network(&row)
+    }
+
+    /// The error of a few nodes: that of the run, where there is one in which the port rises, else
+    /// that of a step. `None` where streams go on from node to node.
+    ///
+    /// # Errors
+    /// [`ReduceError::Run`], and as [`Reduction::network`].
+    pub fn judged(
+        &self,
+        system: &ThermalSystem,
+        nodes: &Nodes,
+        (run, allowed): (Option<&Transient>, Allowed),
+    ) -> Result<Option<(Judge, Deviation)>, ReduceError> {
+        let whole = run.map(|run| Whole::new(self, system, run)).transpose()?;
+        self.error_of(whole.as_ref(), nodes, allowed)
+    }
+
+    /// The smallest number of nodes, from two to eight, whose error is no larger than what is
+    /// accepted; `None` where there is none, as where the heat goes in elsewhere.
+    ///
+    /// # Errors
+    /// As [`Reduction::judged`].
+    pub fn fewest(
+        &self,
+        system: &ThermalSystem,
+        (run, allowed): (Option<&Transient>, Allowed),
+    ) -> Result<Option<(Nodes, Judge, Deviation)>, ReduceError> {
+        const MOST: usize = 8;
+        /// A node more has to take so much of the error away, else more will not help.
+        const LESS: f64 = 0.9;
+        let Some(step) = self.dynamics.as_ref().and_then(|dynamics| dynamics.step.as_ref()) else {
+            return Ok(None);
+        };
+        let whole = run.map(|run| Whole::new(self, system, run)).transpose()?;
+        let mut before = f64::INFINITY;
+        for nodes in (2..=MOST).filter_map(|count| Nodes::of(step, count)) {
+            let Some((judge, error)) = self.error_of(whole.as_ref(), &nodes, allowed)? else {
+                return Ok(None);
+            };
+            if error.within(allowed) {
+                return Ok(Some((nodes, judge, error)));
+            }
+            if error.kelvin > LESS * before {
+                return Ok(None);
+            }
+            before = error.kelvin;
+        }
+        Ok(None)
+    }
+
+    fn error_of(
+        &self,
+        whole: Option<&Whole<'_>>,
+        nodes: &Nodes,
+        allowed: Allowed,
+    ) -> Result<Option<(Judge, Deviation)>, ReduceError> {
+        if let Some(whole) = whole {
+            let row = Row { direct: nodes.direct, ladder: Some(nodes.ladder.clone()) };
+            let error = whole.deviation(&row, allowed)?;
+            if error.relative.is_some() {
+                return Ok(Some((Judge::Run, error)));
+            }
+        }
+        let step = self.dynamics.as_ref().and_then(|dynamics| dynamics.step.as_ref());
+        let taus = nodes.terms.iter().map(|term| term.0);
+        let span = taus.fold((f64::INFINITY, 0.0), |(a, b), tau| (tau.min(a), tau.max(b)));
+        let rise = |time: f64| nodes.rise(time);
+        let of_step = |step| deviation::of_curve(step, &rise, Some(span), allowed.share());
+        Ok(step.map(|step| (Judge::Step, of_step(step))))
     }
 
     fn one_node<'a>(&'a self, system: &'a ThermalSystem, start: f64) -> OneNode<'a> {
@@ -224,21 +310,44 @@ impl Reduction {
         capacities: &[(Definition, f64)],
         options: &ReductionOptions,
     ) -> Result<Comparison, ReduceError> {
+        let whole = Whole::new(self, system, run)?;
+        let resistance = self.norton.resistance;
+        let deviation = |&(_, capacity): &(Definition, f64)| {
+            whole.deviation(&Row::one(resistance, capacity), options.allowed)
+        };
+        let deviations = capacities.iter().map(deviation).collect::<Result<_, _>>()?;
+        Ok(Comparison { deviations, tolerance: whole.tolerance, rise: whole.record.rise() })
+    }
+}
+
+/// The whole network's run, with which reduced ones are compared.
+struct Whole<'a> {
+    one_node: OneNode<'a>,
+    run: Dense,
+    record: Record,
+    tolerance: f64,
+}
+
+impl<'a> Whole<'a> {
+    fn new(
+        reduction: &'a Reduction,
+        system: &'a ThermalSystem,
+        run: &Transient,
+    ) -> Result<Self, ReduceError> {
         let tolerance = TOLERANCE.min(0.01 * run.tolerance);
-        let mut one_node = self.one_node(system, run.start);
+        let mut one_node = reduction.one_node(system, run.start);
         let run = Dense::new(system, run, tolerance)?;
-        let whole = Record::of(system, self.norton.port, &run)?;
-        one_node.initial = whole.first().unwrap_or(one_node.initial);
-        let mut deviations = Vec::with_capacity(capacities.len());
-        for &(_, capacity) in capacities {
-            let network = one_node.network(Some(capacity).filter(|capacity| *capacity > 0.0))?;
-            let port = network.node_ids().next().unwrap_or(self.norton.port); // its only node
-            let reduced = ThermalSystem::assemble(&network)
-                .map_err(|error| ReduceError::Equivalent(error.to_string()))?;
-            let record = Record::of(&reduced, port, &run)?;
-            deviations.push(whole.deviation(&record, options.allowed));
-        }
-        Ok(Comparison { deviations, tolerance, rise: whole.rise() })
+        let record = Record::of(system, reduction.norton.port, &run)?;
+        one_node.initial = record.first().unwrap_or(one_node.initial);
+        Ok(Self { one_node, run, record, tolerance })
+    }
+
+    fn deviation(&self, row: &Row, allowed: Allowed) -> Result<Deviation, ReduceError> {
+        let network = self.one_node.network(row)?;
+        let port = network.node_ids().next().unwrap_or(self.one_node.norton.port); // the first
+        let reduced = ThermalSystem::assemble(&network)
+            .map_err(|error| ReduceError::Equivalent(error.to_string()))?;
+        Ok(self.record.deviation(&Record::of(&reduced, port, &self.run)?, allowed))
     }
 }
 

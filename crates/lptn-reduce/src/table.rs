@@ -4,13 +4,15 @@ use lptn_solve::Table;
 
 use crate::definition::Pair;
 use crate::deviation::Deviation;
+use crate::nodes::Nodes;
 use crate::reduction::Reduction;
 
 impl Reduction {
     /// One row a pair: `definition`, `recommended` and `within` what is allowed (`yes` or `no`);
     /// `R_eq`, `C_eq`, `tau` (their
     /// product, the time constant of the one-node network), and of both errors `max`, `relative`
-    /// (to the rise, -), `time`, `signed` (one node less network) and `good_from`. What does not exist is NaN; a port that sees no capacity has
+    /// (to the rise, -), `time`, `signed` (one node less network) and `good_from`. `any_load.max` is the largest error
+    /// over all powers between 0 and 1 W. What does not exist is NaN; a port that sees no capacity has
     /// one row without a definition.
     pub fn table(&self) -> Table {
         let pairs: Vec<Option<&Pair>> = match &self.dynamics {
@@ -49,6 +51,11 @@ impl Reduction {
             column(&format!("{name}.signed"), "K", &|pair| Some(of(pair)?.signed));
             column(&format!("{name}.good_from"), "s", &|pair| of(pair)?.good_from);
         }
+        let step = self.dynamics.as_ref().and_then(|dynamics| dynamics.step.as_ref());
+        table.column("any_load.max", "K", |pair| {
+            let nodes = pair.zip(step).and_then(|(pair, step)| Nodes::of_pair(step, pair));
+            nodes.map_or(f64::NAN, |nodes| nodes.worst.most())
+        });
         table.done()
     }
 }

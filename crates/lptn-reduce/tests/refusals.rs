@@ -111,6 +111,7 @@ fn codes_stay_as_they_are() {
         (ReduceError::NotLinear { name: String::new() }, "reduce::not_linear"),
         (FactorError::NotSymmetric.into(), "reduce::singular"),
         (ReduceError::Modes, "reduce::modes"),
+        (ReduceError::OneWay, "reduce::one_way"),
         (ReduceError::Equivalent(String::new()), "reduce::equivalent"),
     ];
     for (error, code) in codes {

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args as Arguments;
+use clap::builder::TypedValueParser as _;
 use lptn_reduce::{Definition, Judge};
 use lptn_report::Format;
 
@@ -13,7 +14,8 @@ Examples:
   lptn reduce motor.toml --port winding --max-error 20%
   lptn reduce motor.toml --port winding --max-error 30% --definition sum
   lptn reduce motor.toml --port winding --max-error 20% --for run
-  lptn reduce motor.toml --port winding --max-error 20% --format toml > one.toml";
+  lptn reduce motor.toml --port winding --error 2K --power 60W
+  lptn reduce motor.toml --port winding --nodes 3 --format toml > three.toml";
 
 /// Replace a network by one node, and say how wrong that is
 #[derive(Debug, Arguments)]
@@ -27,6 +29,19 @@ pub(crate) struct ReduceArgs {
     /// Exit with 1 if the error is larger than this: 0.5K, or 2% of the rise
     #[arg(long, value_name = "ERROR", default_value = "5%")]
     pub(crate) max_error: String,
+    /// Use as few nodes as keep this error over every load: 0.1K, or 1%
+    #[arg(long, value_name = "ERROR", conflicts_with_all = ["nodes", "definition"])]
+    pub(crate) error: Option<String>,
+    /// The largest power of these loads, not the largest Q_N
+    #[arg(long, value_name = "POWER")]
+    pub(crate) power: Option<String>,
+    /// Use so many nodes instead of one
+    #[arg(long, value_name = "N", conflicts_with = "definition")]
+    #[arg(value_parser = clap::value_parser!(u8).range(1..=100).map(usize::from))]
+    pub(crate) nodes: Option<usize>,
+    /// Write the load with the largest error as a signal
+    #[arg(long, value_name = "FILE")]
+    pub(crate) worst: Option<PathBuf>,
     /// Recommend the pair with the smallest error of a step, or of the run
     #[arg(long = "for", value_name = "WHAT", default_value = "step", hide_possible_values = true)]
     #[arg(value_parser = one_of(&Judge::ALL, Judge::key))]

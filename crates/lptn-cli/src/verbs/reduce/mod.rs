@@ -2,6 +2,7 @@
 
 mod args;
 mod figure;
+mod loads;
 mod notes;
 mod page;
 mod verdict;
@@ -13,25 +14,27 @@ use std::path::Path;
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Derived, Diagnostic};
 use lptn_reduce::{
-    Allowed, Bias, Definition, FitError, Judge, Pair, ReduceError, Reduction, ReductionOptions,
-    port,
+    Allowed, Bias, Definition, Deviation, FitError, Judge, Nodes, Pair, ReduceError, Reduction,
+    ReductionOptions, port,
 };
 use lptn_report::{Format, plain, significant};
 use lptn_units::{Dimension, Problem as _, Type, Unit};
 
 use args::ReduceFormat;
+use loads::{Asked, Loads};
 
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{self, Input, quoted};
+use crate::words::count;
 use crate::{files, written};
 
 pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
     let name = args.port.as_deref().ok_or_else(|| no_port(&input))?;
     let unit = input::temperature_unit(args.scale.temperature_unit.as_deref(), &input.netlist)?;
-    let limit = Limit::parse(&args.max_error)?;
+    let limit = Limit::parse("--max-error", &args.max_error)?;
     let window = args.window.as_deref().map(window).transpose()?;
     let run = input.netlist.run.clone();
     if run.is_none()
@@ -48,11 +51,12 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
     let options =
         ReductionOptions { run: run_compared, window, judge: args.judge, allowed: limit.allowed };
     let reduction = Reduction::new(&system, port, &options).map_err(explain)?;
+    let asked = Asked { args, system: &system, run: options.run.as_ref(), allowed: limit.allowed };
+    let loads = Loads::new(&asked, &reduction, &explain)?;
     let bias = match &run {
         Some(run) if args.bias => Some(Bias::new(&system, port, run).map_err(explain)?),
         _ => None,
     };
-    let definition = args.definition;
     console.warn(&input.netlist.files, &input.netlist.warnings);
     let view = View {
         input: &input,
@@ -60,10 +64,10 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
         port: name,
         system: &system,
         reduction,
+        loads,
         bias,
         unit,
         limit,
-        definition,
     };
     view.show(console)?;
     Ok(view.conclude(console))
@@ -77,22 +81,40 @@ pub(crate) struct View<'a> {
     pub(crate) port: &'a str,
     pub(crate) system: &'a ThermalSystem,
     pub(crate) reduction: Reduction,
+    /// What is known of every load.
+    pub(crate) loads: Loads,
     pub(crate) bias: Option<Result<Bias, FitError>>,
     pub(crate) unit: Unit,
     pub(crate) limit: Limit,
-    /// The definition that was asked for.
-    pub(crate) definition: Option<Definition>,
 }
 
 impl View<'_> {
     /// The pair that is judged and written: the one asked for, else the recommended one.
     pub(crate) fn pair(&self) -> Option<&Pair> {
         let dynamics = self.reduction.dynamics.as_ref()?;
-        let asked = self.definition.and_then(|definition| dynamics.pair(definition));
+        let asked = self.loads.nodes.as_ref().and_then(|nodes| nodes.definition);
+        let asked = asked.or(self.args.definition).and_then(|d| dynamics.pair(d));
         Some(asked.unwrap_or(dynamics.best()))
     }
 
+    /// The error that is judged, and whether it is within the limit.
+    pub(crate) fn judged(&self) -> Option<(Judge, Deviation, Option<bool>)> {
+        let dynamics = self.reduction.dynamics.as_ref()?;
+        if let Some((judge, error)) = self.loads.error {
+            let in_kelvin = matches!(self.limit.allowed, Allowed::Kelvin(_));
+            let can = judge == Judge::Run || !in_kelvin;
+            return Some((judge, error, can.then(|| error.within(self.limit.allowed))));
+        }
+        let pair = self.pair()?;
+        let (judge, error) = dynamics.judged(pair)?;
+        Some((judge, error, dynamics.collapses(pair)))
+    }
+
     fn show(&self, console: &Console) -> Result<(), Failure> {
+        if let (Some(path), Some(text)) = (&self.args.worst, self.loads.csv()) {
+            files::write_new(path, &text, "reduce::exists")?;
+            console.note(&self.load_help(path));
+        }
         if let Some(path) = &self.args.write {
             files::write_new(path, &self.netlist(Some(path))?, "reduce::exists")?;
         }
@@ -125,8 +147,10 @@ impl View<'_> {
     fn netlist(&self, place: Option<&Path>) -> Result<String, Failure> {
         let run = self.input.netlist.run.as_ref();
         let start = run.map_or(0.0, |run| run.start);
-        let pair = self.pair();
-        let network = self.reduction.network(self.system, start, pair);
+        let network = match &self.loads.nodes {
+            Some(nodes) => self.reduction.network_of(self.system, start, nodes),
+            None => self.reduction.network(self.system, start, self.pair()),
+        };
         let network = network.map_err(|error| failed(self.input, self.port, &error))?;
         let title = format!("{}, seen from {}", self.input.title(), self.port);
         let folder = place.map(|place| place.parent().unwrap_or(Path::new("")));
@@ -138,31 +162,46 @@ impl View<'_> {
     fn comment(&self) -> String {
         let from = plain(&self.input.text.name);
         let mut text = format!("# What `{}` of {from} sees, by `lptn reduce`.\n", self.port);
-        if let Some(pair) = self.pair() {
-            text += &format!("# It {}.\n# C_eq by {}.\n", self.verdict(), pair.definition.key());
+        if self.reduction.dynamics.is_some() {
+            text += &format!("# Verdict: {}.\n", self.verdict());
+        }
+        if let Some(definition) = self.definition() {
+            text += &format!("# C_eq by {}.\n", definition.key());
         }
         text
     }
 
     fn conclude(&self, console: &Console) -> Exit {
-        let judged = self.reduction.dynamics.as_ref().zip(self.pair());
-        let Some((dynamics, pair)) = judged else { return Exit::Done };
-        let Some((judge, error)) = dynamics.judged(pair) else { return Exit::Done };
-        if dynamics.collapses(pair) != Some(false) {
-            return Exit::Done;
+        if let Some(kept) = self.loads.kept() {
+            return if kept { Exit::Done } else { self.refuse(console, &self.verdict()) };
         }
+        let Some((judge, error, Some(false))) = self.judged() else { return Exit::Done };
         let share = error.relative.map(|r| format!("{} %", significant(100.0 * r, 3)));
         let kelvin = (judge == Judge::Run).then(|| format!("{} K", significant(error.kelvin, 3)));
         let size = match (kelvin, share) {
             (Some(kelvin), Some(share)) => format!("{kelvin} ({share})"),
             (kelvin, share) => kelvin.or(share).unwrap_or_default(),
         };
-        console.message(&format!(
-            "too large: with C_eq by {} the error reaches {size}, and {} is allowed",
-            pair.definition.key(),
-            self.limit.text
-        ));
+        let with = match (self.definition(), &self.loads.nodes) {
+            (Some(definition), _) => format!("C_eq by {}", definition.key()),
+            (None, nodes) => count(nodes.as_ref().map_or(1, Nodes::count), "node"),
+        };
+        let limit = &self.limit.text;
+        let text = format!("with {with} the error reaches {size}, and {limit} is allowed");
+        self.refuse(console, &text)
+    }
+
+    fn refuse(&self, console: &Console, text: &str) -> Exit {
+        console.message(&format!("too large: {text}"));
         Exit::No
+    }
+
+    /// The definition of C_eq of what is judged, if it is one node.
+    pub(crate) fn definition(&self) -> Option<Definition> {
+        match &self.loads.nodes {
+            Some(nodes) => nodes.definition,
+            None => self.pair().map(|pair| pair.definition),
+        }
     }
 }
 
@@ -174,11 +213,11 @@ pub(crate) struct Limit {
 
 impl Limit {
     /// `0.5K` or `2%`.
-    fn parse(text: &str) -> Result<Self, Failure> {
+    fn parse(option: &str, text: &str) -> Result<Self, Failure> {
         let share = text.trim().ends_with('%');
         let wanted = if share { Dimension::NONE } else { Dimension::TEMPERATURE };
         let what = (wanted, "reduce::max_error", "0.5K or 2%");
-        let value = input::positive("--max-error", text, what)?.value;
+        let value = input::positive(option, text, what)?.value;
         let allowed = if share { Allowed::Share(value) } else { Allowed::Kelvin(value) };
         Ok(Self { allowed, text: text.trim().to_owned() })
     }

@@ -26,6 +26,7 @@ impl Page for View<'_> {
             let label = self.pair().and_then(|pair| dynamics.collapses(pair)) == Some(false);
             let label = if label { "nearest: " } else { "use " };
             text.section().sentence(label, &self.advice(dynamics));
+            text.append(self.loads_text());
         }
         match &self.bias {
             Some(Ok(bias)) => text.section().table(self.bias(bias)),
@@ -62,6 +63,7 @@ impl Page for View<'_> {
         json.member("boundary_weights", &named(boundaries, &norton.boundary_weights))?;
         json.member("source_weights", &named(sources, &norton.source_weights))?;
         dynamics((self.reduction.dynamics.as_ref(), &self.unit), json)?;
+        json.member("any_load", &self.loads_json())?;
         json.optional("bias", self.bias.as_ref().map(|bias| of_bias(bias, &self.unit)))?;
         let short = self.reduction.dynamics.as_ref().and_then(|dynamics| self.short(dynamics));
         let notes: Vec<String> = short.into_iter().chain(self.notes()).collect();
