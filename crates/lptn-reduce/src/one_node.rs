@@ -1,4 +1,4 @@
-//! The one-node network of a Norton equivalent, as a network that runs.
+//! One node, or a few in a row, in place of a network: as a network that runs.
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
@@ -8,9 +8,30 @@ use lptn_network::{
 use lptn_units::{Problem, Problems, Quantity, Type, format_number};
 
 use crate::error::ReduceError;
+use crate::ladder::Ladder;
 use crate::norton::NortonEquivalent;
 
-/// Everything but the capacity.
+/// What stands between the port and the reference.
+pub(crate) struct Row {
+    /// Resistance in K/W in front of the first capacity; 0 for none.
+    pub(crate) direct: f64,
+    /// What follows, if there is any capacity.
+    pub(crate) ladder: Option<Ladder>,
+}
+
+impl Row {
+    /// One node with this capacity in J/K, or none.
+    pub(crate) fn one(resistance: f64, capacity: f64) -> Self {
+        if capacity > 0.0 {
+            let ladder = Ladder { capacity: vec![capacity], resistance: vec![resistance] };
+            Self { direct: 0.0, ladder: Some(ladder) }
+        } else {
+            Self { direct: resistance, ladder: None }
+        }
+    }
+}
+
+/// Everything but the capacities.
 pub(crate) struct OneNode<'a> {
     pub(crate) system: &'a ThermalSystem,
     pub(crate) norton: &'a NortonEquivalent,
@@ -21,30 +42,55 @@ pub(crate) struct OneNode<'a> {
 }
 
 impl OneNode<'_> {
-    /// The network with this capacity in J/K, or none. Its node is the port's namesake.
+    /// The network with this row of nodes. The first is the port's namesake.
     ///
-    /// Constant inputs become one boundary `T_ref` behind `R_eq` and one source `Q_N`. Where an
-    /// input changes with time, every boundary stays, behind `R_eq` over its weight, and every
-    /// source, times its weight: expressions stay as they are written, and the whole is the same
-    /// equivalent at every moment.
-    pub(crate) fn network(&self, capacity: Option<f64>) -> Result<Network, ReduceError> {
+    /// Constant inputs become one boundary `T_ref` at the end of the row and one source `Q_N`. Where
+    /// an input changes with time, every boundary stays, behind the last resistance over its
+    /// weight, and every source, times its weight: expressions stay as they are written, and the
+    /// whole is the same equivalent at every moment.
+    pub(crate) fn network(&self, row: &Row) -> Result<Network, ReduceError> {
         let from = self.system.network();
         let mut builder = NetworkBuilder::new();
-        let name = &from.nodes()[self.norton.port.index()].name;
         let varies = from.has_time_dependent_inputs();
         if varies {
             self.parameters(&mut builder)?;
         }
-        let node = match capacity {
-            Some(capacity) => builder.node(name, HeatCapacity(capacity), Temperature(self.initial)),
-            None => builder.massless(name),
-        };
+        let (port, end) = self.row(&mut builder, row);
         if varies {
-            self.boundaries(&mut builder, node).and_then(|()| self.sources(&mut builder, node))?;
+            self.boundaries(&mut builder, end).and_then(|()| self.sources(&mut builder, port))?;
         } else {
-            self.constants(&mut builder, node)?;
+            self.constants(&mut builder, port, end)?;
         }
         builder.build().map_err(|errors| ReduceError::Equivalent(first(&errors)))
+    }
+
+    /// The nodes; the port and the last of them, with the resistance behind it.
+    fn row(&self, builder: &mut NetworkBuilder, row: &Row) -> (NodeId, (NodeId, f64)) {
+        let name = &self.system.network().nodes()[self.norton.port.index()].name;
+        let start = Temperature(self.initial);
+        let (capacity, resistance) = match &row.ladder {
+            Some(ladder) => (&ladder.capacity[..], &ladder.resistance[..]),
+            None => (&[][..], &[][..]),
+        };
+        let massless = (row.direct > 0.0).then(|| builder.massless(name));
+        let mut before = massless.map(|port| (port, row.direct));
+        let mut port = massless;
+        for (k, (&capacity, &resistance)) in (1..).zip(capacity.iter().zip(resistance)) {
+            let here = if k == 1 && massless.is_none() {
+                name.clone()
+            } else {
+                self.free(&format!("n{k}"))
+            };
+            let node = builder.node(&here, HeatCapacity(capacity), start);
+            if let Some((last, resistance)) = before {
+                let between = self.free(&format!("R_{k}"));
+                builder.resistor(&between, last, node, Resistance(resistance));
+            }
+            port = port.or(Some(node));
+            before = Some((node, resistance));
+        }
+        let end = before.unwrap_or_else(|| (builder.massless(name), self.norton.resistance));
+        (port.unwrap_or(end.0), end)
     }
 
     /// The parameters that the inputs use, as the constants they come to; with signals and tables
@@ -85,24 +131,34 @@ impl OneNode<'_> {
         Ok(())
     }
 
-    fn constants(&self, builder: &mut NetworkBuilder, node: NodeId) -> Result<(), ReduceError> {
+    fn constants(
+        &self,
+        builder: &mut NetworkBuilder,
+        port: NodeId,
+        (end, resistance): (NodeId, f64),
+    ) -> Result<(), ReduceError> {
         let inputs = self.norton.inputs(self.system, self.start).map_err(ReduceError::Input)?;
         let reference = builder.boundary(&self.free("T_ref"), Temperature(inputs.reference));
-        builder.resistor(&self.free("R_eq"), node, reference, Resistance(self.norton.resistance));
+        let name = self.free(if port == end { "R_eq" } else { "R_end" });
+        builder.resistor(&name, end, reference, Resistance(resistance));
         if !self.system.network().sources().is_empty() {
-            builder.source(&self.free("Q_N"), node, HeatFlow(inputs.heat));
+            builder.source(&self.free("Q_N"), port, HeatFlow(inputs.heat));
         }
         Ok(())
     }
 
-    fn boundaries(&self, builder: &mut NetworkBuilder, node: NodeId) -> Result<(), ReduceError> {
+    fn boundaries(
+        &self,
+        builder: &mut NetworkBuilder,
+        (node, resistance): (NodeId, f64),
+    ) -> Result<(), ReduceError> {
         let network = self.system.network();
         for (boundary, &weight) in network.boundaries().iter().zip(&self.norton.boundary_weights) {
             if weight > 0.0 {
                 let value = input(builder, &boundary.temperature, Type::ABSOLUTE_TEMPERATURE, 1.0)?;
                 let end = builder.boundary(&boundary.name, value);
                 let name = self.free(&format!("R_{}", boundary.name));
-                builder.resistor(&name, node, end, Resistance(self.norton.resistance / weight));
+                builder.resistor(&name, node, end, Resistance(resistance / weight));
             }
         }
         Ok(())
