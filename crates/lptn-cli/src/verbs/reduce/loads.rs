@@ -284,7 +284,7 @@ fn largest(asked: &Asked<'_>, reduction: &Reduction) -> Result<f64, lptn_network
     Ok(if most > 0.0 { most } else { 1.0 })
 }
 
-fn power(text: &str) -> Result<f64, Failure> {
+pub(super) fn power(text: &str) -> Result<f64, Failure> {
     let what = (Dimension::POWER, "reduce::power", "250W");
     Ok(input::positive("--power", text, what)?.value)
 }
