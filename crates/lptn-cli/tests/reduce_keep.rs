@@ -52,6 +52,14 @@ fn kept_nodes_are_a_network_that_runs() {
     assert!(nodes.iter().all(|node| number(&node["C"]) > 0.0));
     let links = json["conductances"].as_array().unwrap();
     assert!(links.iter().all(|link| number(&link["G"]) > 0.0));
+    // at rest the modes give the kept nodes their resistance, by hand: 0.7 K/W
+    // to the joint, and from there 3 K/W beside 0.2 + 0.01 + 1.2 K/W
+    let modes = json["projected"]["modes"].as_array().unwrap();
+    let square = |mode: &Value| mode["shape"]["winding"].as_f64().unwrap().powi(2);
+    let resistance: f64 = modes.iter().map(square).sum();
+    let expected = 0.7 + 1.0 / (1.0 / 3.0 + 1.0 / 1.41);
+    assert!((resistance / expected - 1.0).abs() < 1e-9, "{resistance} is not {expected}");
+    assert_eq!(modes.len(), nodes.len());
     // the run of the written network misses that of the whole one by what was said
     folder.run(&["check", "kept.toml"]).exits(0);
     let last = |file: &str, name: &str| {

@@ -85,6 +85,14 @@ impl KeptReference {
         Ok(KeptErrors { run, loads: self.over_loads(&responses(&few, &here)?) })
     }
 
+    /// How far a model is from it over every load, of which these are the weights in K/W and time
+    /// constants in s of the rise of one node for heat into another.
+    pub(crate) fn errors_of(&self, between: &dyn Fn(NodeId, NodeId) -> Terms) -> KeptErrors {
+        let pairs = (0..self.asked.len()).flat_map(|p| (0..=p).map(move |q| (p, q)));
+        let terms = pairs.map(|(p, q)| (between(self.asked[p], self.asked[q]), 0.0));
+        KeptErrors { run: None, loads: self.over_loads(&terms.collect::<Vec<_>>()) }
+    }
+
     fn over_run(
         &self,
         (few, here): (&ThermalSystem, &[NodeId]),
@@ -133,7 +141,7 @@ struct Responses<'a> {
 }
 
 /// Weights in K/W with time constants in s.
-type Terms = Vec<(f64, f64)>;
+pub(crate) type Terms = Vec<(f64, f64)>;
 
 impl Responses<'_> {
     /// What is still missing of the rise of one for 1 W into the other, and the whole rise: a

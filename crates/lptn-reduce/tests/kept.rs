@@ -10,7 +10,7 @@ use lptn_network::{
     Conductance, HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Temperature, Time,
 };
 use lptn_reduce::{
-    Allowed, Kept, KeptErrors, KeptReference, NortonEquivalent, ReduceError, Reduction,
+    Allowed, Kept, KeptErrors, KeptReference, NortonEquivalent, Projected, ReduceError, Reduction,
     ReductionOptions,
 };
 use lptn_solve::{SteadyState, Transient};
@@ -196,6 +196,53 @@ fn the_run_is_compared_at_every_node_asked_for() {
         errors.run.unwrap().iter().map(|(error, _)| error.kelvin).fold(0.0, f64::max)
     };
     assert!(error(2) > 0.1 && error(3) < 1e-5, "{} {}", error(2), error(3));
+}
+
+/// The model's own response, and the steady state between the nodes asked for; what it says of every
+/// load is held against loads.
+#[test]
+fn a_projection_is_exact_at_rest_and_no_load_exceeds_its_error() {
+    let mut random = Random::new(11);
+    for _ in 0..12 {
+        let (system, nodes) = random.network();
+        let asked = [nodes[0], nodes[nodes.len() - 1]];
+        let with = (None, Allowed::default());
+        let reference = KeptReference::new(&system, &asked, with).unwrap();
+        for count in [2, 4, 6, 99] {
+            let model = Projected::new(&system, &reference, count).unwrap();
+            assert!(model.tau.len() <= count && model.tau.iter().all(|tau| *tau >= 0.0));
+            let rise = |p: usize, q: usize, time: f64| -> f64 {
+                let modes = model.tau.iter().zip(&model.shapes);
+                let part = |(tau, shape): (&f64, &Vec<f64>)| {
+                    let weight = shape[asked[p].index()] * shape[asked[q].index()];
+                    if *tau > 0.0 { -weight * (-time / tau).exp_m1() } else { weight }
+                };
+                modes.map(part).sum()
+            };
+            for (p, q) in [(0, 0), (0, 1), (1, 1)] {
+                near(rise(p, q, 1e30), moments(&system, asked[p], asked[q]).0, 1e-9);
+            }
+            let spectra = [0, 1].map(|from| Spectrum::between(&system, asked[from], asked[0]));
+            let slow = spectra[0].terms.iter().fold(0.0, |a: f64, term| a.max(term.0));
+            let (most, whole) = model.errors.loads[0];
+            for _ in 0..20 {
+                let (one, end) = random.load(slow);
+                let (other, _) = random.load(slow);
+                let mut error = 0.0;
+                for ((from, spectrum), load) in spectra.iter().enumerate().zip([one, other]) {
+                    let mut before = 0.0;
+                    for (start, power) in load.into_iter().filter(|(start, _)| *start < end) {
+                        let time = end - start;
+                        error += (power - before) * (rise(from, 0, time) - spectrum.rise(time));
+                        before = power;
+                    }
+                }
+                assert!(error.abs() <= most + 1e-7 * whole, "{error} is more than {most}");
+            }
+            // the last modes are lost in rounding: the space begins with the slow ones
+            assert!(count < 99 || most < 1e-2 * whole, "{most} of {whole}");
+        }
+    }
 }
 
 #[test]

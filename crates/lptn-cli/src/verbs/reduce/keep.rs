@@ -6,7 +6,9 @@ use std::path::Path;
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Derived, Diagnostic};
 use lptn_network::{NodeId, list_of};
-use lptn_reduce::{Allowed, Kept, KeptErrors, KeptReference, NortonEquivalent, ReduceError, port};
+use lptn_reduce::{
+    Allowed, Kept, KeptErrors, KeptReference, NortonEquivalent, Projected, ReduceError, port,
+};
 use lptn_report::{Format, plain, significant};
 use lptn_solve::Transient;
 use lptn_units::Unit;
@@ -31,6 +33,8 @@ pub(super) struct KeptView<'a> {
     pub(super) names: Vec<String>,
     pub(super) kept: Kept,
     pub(super) errors: KeptErrors,
+    /// As many modes in place of the nodes.
+    pub(super) projected: Projected,
     /// The largest power of the loads in W.
     pub(super) power: f64,
     /// What has to be kept, over the run or over every load.
@@ -62,10 +66,20 @@ pub(super) fn keep(args: &ReduceArgs, console: &Console, names: &str) -> Result<
         None => largest(&system, &nodes, run.as_ref()).map_err(explain)?,
     };
     let question = Question { args, system: &system, run: run.as_ref(), limit: &limit, power };
-    let (kept, errors) = question.answer(&nodes, count).map_err(explain)?;
+    let (kept, errors, projected) = question.answer(&nodes, count).map_err(explain)?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
-    let view =
-        KeptView { input: &input, args, system: &system, names, kept, errors, power, limit, unit };
+    let view = KeptView {
+        input: &input,
+        args,
+        system: &system,
+        names,
+        kept,
+        errors,
+        projected,
+        power,
+        limit,
+        unit,
+    };
     view.show(console)?;
     Ok(view.conclude(console))
 }
@@ -149,7 +163,7 @@ impl Question<'_> {
         &self,
         nodes: &[NodeId],
         count: Option<usize>,
-    ) -> Result<(Kept, KeptErrors), ReduceError> {
+    ) -> Result<(Kept, KeptErrors, Projected), ReduceError> {
         let mut next = count.unwrap_or(nodes.len());
         let reference = KeptReference::new(self.system, nodes, (self.run, self.limit.allowed))?;
         loop {
@@ -158,7 +172,8 @@ impl Question<'_> {
             let holds =
                 within(&errors, self.limit.allowed, (self.args.error.is_some(), self.power));
             if count.is_some() || holds != Some(false) || all || next >= MOST {
-                return Ok((kept, errors));
+                let projected = Projected::new(self.system, &reference, kept.count())?;
+                return Ok((kept, errors, projected));
             }
             next += 1;
         }

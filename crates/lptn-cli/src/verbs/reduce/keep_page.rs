@@ -94,6 +94,7 @@ impl Page for KeptView<'_> {
         let link = |(from, to, g): (String, String, f64)| json!({ "from": from, "to": to, "G": si(g, "W/K") });
         let links: Vec<Value> = self.conductances().into_iter().map(link).collect();
         json.member("conductances", &links)?;
+        json.member("projected", &self.projected_json())?;
         json.member("moments_missed", &si(self.kept.moments, "1"))?;
         json.member("notes", &self.notes())
     }
@@ -136,6 +137,28 @@ impl KeptView<'_> {
             .into()
     }
 
+    /// The modes that stand for the network as well, at the nodes asked for.
+    fn projected_json(&self) -> Value {
+        let network = &self.input.netlist.network;
+        let asked = &self.kept.nodes[..self.kept.asked];
+        let modes = self.projected.tau.iter().zip(&self.projected.shapes);
+        let mode = |(tau, shape): (&f64, &Vec<f64>)| {
+            let at = |node: &lptn_network::NodeId| {
+                (network.nodes()[node.index()].name.clone(), json!(shape[node.index()]))
+            };
+            let shape: serde_json::Map<String, Value> = asked.iter().map(at).collect();
+            json!({ "tau": { "value": tau, "unit": "s" }, "shape": shape })
+        };
+        let loads = self.names.iter().zip(&self.projected.errors.loads);
+        let load = |(name, (error, _)): (&String, &(f64, f64))| {
+            (name.clone(), json!({ "value": error * self.power, "unit": "K" }))
+        };
+        json!({
+            "modes": modes.map(mode).collect::<Vec<Value>>(),
+            "any_load": loads.map(load).collect::<serde_json::Map<String, Value>>(),
+        })
+    }
+
     /// Names and conductances between nodes, then to boundaries, in W/K.
     fn conductances(&self) -> Vec<(String, String, f64)> {
         let network = &self.input.netlist.network;
@@ -165,6 +188,13 @@ impl KeptView<'_> {
             "any load: all powers between 0 and {} W into each of the kept nodes at once",
             significant(self.power, 4)
         )];
+        let worst = self.projected.errors.share();
+        notes.push(format!(
+            "{} that are no network of their own (`--format json`: projected) would be {} % wrong \
+             over every load",
+            count(self.projected.tau.len(), "mode"),
+            significant(100.0 * worst, 2)
+        ));
         let links = self.conductances().len();
         if links > MOST_LINKS {
             let all = count(links, "conductance");
