@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lptn_assembly::ThermalSystem;
-use lptn_reduce::{Allowed, Deviation, Dynamics, Judge, Nodes, ReduceError, Reduction};
+use lptn_reduce::{Allowed, Deviation, Dynamics, Judge, Nodes, ReduceError, Reduction, Stretch};
 use lptn_report::{Text, TextTable, duration, fixed, plain, significant};
 use lptn_solve::Transient;
 use lptn_units::Dimension;
@@ -195,21 +195,13 @@ impl View<'_> {
         let rise = self.reduction.norton.resistance * loads.power;
         let kelvin = loads.kelvin(nodes);
         let whence = if loads.given { "" } else { ", the largest Q_N" };
-        let (stretches, end) = nodes.worst.load();
-        let switches: Vec<String> = stretches
-            .iter()
-            .map(|(from, on)| {
-                format!("{} from {}", if *on { "on" } else { "off" }, duration(*from, 4))
-            })
-            .collect();
         let mut text = format!(
             "between 0 and {} W{whence}, it errs by at most {} K, {} % of R_eq times that. It reads \
-             too cold by as much at {}, the heat being {}",
+             too cold by as much after {}",
             significant(loads.power, 4),
             significant(kelvin, 3),
             significant(100.0 * kelvin / rise, 3),
-            duration(end, 4),
-            switches.join(", ")
+            lengths(&nodes.worst.load())
         );
         if nodes.worst.missed > 0.0 {
             let missed = significant(nodes.worst.missed * loads.power, 2);
@@ -263,6 +255,21 @@ impl View<'_> {
              after_end = \"hold\" }}",
             plain(&path.display().to_string())
         )
+    }
+}
+
+/// "5.15 d on, 23.3 h off, 7.7 h on and 3 shorter ones": the last are short and close to the end.
+fn lengths((stretches, end): &(Vec<Stretch>, f64)) -> String {
+    const SHOWN: usize = 5;
+    let ends = stretches.iter().skip(1).map(|stretch| stretch.0).chain([*end]);
+    let length = |((from, on), to): (&Stretch, f64)| {
+        format!("{} {}", duration(to - from, 3), if *on { "on" } else { "off" })
+    };
+    let all: Vec<String> = stretches.iter().zip(ends).map(length).collect();
+    let shown = all.len().min(SHOWN);
+    match all.len() - shown {
+        0 => all.join(", "),
+        more => format!("{} and {more} shorter ones", all[..shown].join(", ")),
     }
 }
 
