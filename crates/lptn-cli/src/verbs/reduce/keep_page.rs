@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use super::keep::KeptView;
 use super::page::error_json;
 use crate::about::{self, Known};
+use crate::scale;
 use crate::words::count;
 
 /// So many conductances are shown.
@@ -79,7 +80,7 @@ impl Page for KeptView<'_> {
         json.member("power", &si(self.power, "W"))?;
         let node = |row: &Row<'_>| {
             let load = row.load.map(
-                |(error, rise)| json!({ "max": si(error, "K"), "relative": si(error / rise, "1") }),
+                |(error, rise)| json!({ "max": scale::of_difference(error, &self.unit), "relative": si(error / rise, "1") }),
             );
             json!({
                 "name": row.name,
@@ -151,7 +152,7 @@ impl KeptView<'_> {
         };
         let loads = self.names.iter().zip(&self.projected.errors.loads);
         let load = |(name, (error, _)): (&String, &(f64, f64))| {
-            (name.clone(), json!({ "value": error * self.power, "unit": "K" }))
+            (name.clone(), json!(scale::of_difference(error * self.power, &self.unit)))
         };
         json!({
             "modes": modes.map(mode).collect::<Vec<Value>>(),

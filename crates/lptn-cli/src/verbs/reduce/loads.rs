@@ -13,6 +13,7 @@ use super::args::ReduceArgs;
 use super::{Limit, View};
 use crate::failure::Failure;
 use crate::input;
+use crate::scale;
 
 /// Most nodes that are tried where a limit is to be kept.
 const MOST: usize = 20;
@@ -217,8 +218,8 @@ impl View<'_> {
             json!({
                 "nodes": nodes.count(),
                 "definition": nodes.definition.map(|d| d.key()),
-                "error": si(loads.kelvin(nodes), "K"),
-                "bound": si(nodes.worst.missed * loads.power, "K"),
+                "error": scale::of_difference(loads.kelvin(nodes), &self.unit),
+                "bound": scale::of_difference(nodes.worst.missed * loads.power, &self.unit),
             })
         };
         let chosen = loads.nodes.as_ref().map(|nodes| {
