@@ -110,7 +110,7 @@ fn highest(f: &dyn Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
 }
 
 /// Temperatures of one node at the times of a comparison.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Record {
     times: Vec<f64>,
     temperatures: Vec<f64>,
@@ -124,9 +124,22 @@ impl Record {
         node: NodeId,
         run: &Dense,
     ) -> Result<Self, TransientError> {
-        let solution = run.transient.clone().record(&[node]).solve(system)?;
-        let temperatures = solution.temperature(node).unwrap_or_default();
-        Ok(Self { times: solution.times().to_vec(), temperatures, breaks: run.breaks.clone() })
+        Ok(Self::all(system, &[node], run)?.pop().unwrap_or_default())
+    }
+
+    /// Runs `system` and keeps these nodes, each in a record of its own.
+    pub(crate) fn all(
+        system: &ThermalSystem,
+        nodes: &[NodeId],
+        run: &Dense,
+    ) -> Result<Vec<Self>, TransientError> {
+        let solution = run.transient.clone().record(nodes).solve(system)?;
+        let record = |&node: &NodeId| Self {
+            times: solution.times().to_vec(),
+            temperatures: solution.temperature(node).unwrap_or_default(),
+            breaks: run.breaks.clone(),
+        };
+        Ok(nodes.iter().map(record).collect())
     }
 
     /// The largest change from the start in K.

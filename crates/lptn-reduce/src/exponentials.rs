@@ -24,7 +24,7 @@ pub(crate) struct Variation {
 const PER_DECADE: f64 = 60.0;
 
 /// Unseen extremes in an interval that add less than this share of the rises are not looked for.
-const ENOUGH: f64 = 1e-7;
+const ENOUGH: f64 = 1e-6;
 
 /// Rises below this share of the weights are rounding.
 const SMALLEST: f64 = 1e-6;

@@ -361,7 +361,7 @@ fn window(step: &StepResponse, options: &ReductionOptions) -> LeastSquaresWindow
 }
 
 /// Nothing may switch by itself in a network that one node is to follow over time.
-fn still(network: &Network) -> Result<(), ReduceError> {
+pub(crate) fn still(network: &Network) -> Result<(), ReduceError> {
     match EventKind::switching(network).next() {
         Some(kind) => Err(ReduceError::Switches { name: kind.name(network) }),
         None => Ok(()),
@@ -376,7 +376,11 @@ struct Comparison {
 }
 
 /// Temperature of a node at the start, a massless one with the inputs on.
-fn initial(system: &ThermalSystem, node: NodeId, start: f64) -> Result<f64, ReduceError> {
+pub(crate) fn initial(
+    system: &ThermalSystem,
+    node: NodeId,
+    start: f64,
+) -> Result<f64, ReduceError> {
     let stop = start + 1.0;
     let segments = system.network().breakpoints(start, stop).map_err(TransientError::Input)?;
     let inside = 0.5 * (start + segments.first().copied().unwrap_or(stop));

@@ -57,6 +57,11 @@ impl<'a> Rises<'a> {
     /// Rise of every node in K for these heats into the nodes in W.
     pub(crate) fn of_nodes(&mut self, heat: &[f64], way: Way) -> Result<Vec<f64>, ReduceError> {
         self.system.apply(&mut self.work, heat, &self.still);
+        self.solved(way)
+    }
+
+    /// Temperature of every node for the inputs in `work`.
+    fn solved(&mut self, way: Way) -> Result<Vec<f64>, ReduceError> {
         let unknowns = match &mut self.solver {
             Solver::Paths(paths) => paths.states(&self.work, 0.0, Conductances::REFINEMENTS)?,
             Solver::Streams(streams) => {
@@ -80,6 +85,15 @@ impl<'a> Rises<'a> {
                 Ok(streams.solve(&b, false)?)
             }
         }
+    }
+
+    /// Temperature of every node in K for one boundary at 1 K, all others and all heats at zero.
+    pub(crate) fn of_boundary(&mut self, boundary: usize) -> Result<Vec<f64>, ReduceError> {
+        let mut temperatures = self.still.clone();
+        temperatures[boundary] = 1.0;
+        let none = vec![0.0; self.system.network().nodes().len()];
+        self.system.apply(&mut self.work, &none, &temperatures);
+        self.solved(Way::Forth)
     }
 
     /// By how much the port follows each boundary: `back` is what heat everywhere does to it, as

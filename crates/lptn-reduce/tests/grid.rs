@@ -6,7 +6,7 @@ mod common;
 use common::{assembled, near};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Conductance, HeatCapacity, NetworkBuilder, NodeId, Temperature};
-use lptn_reduce::{Nodes, NortonEquivalent, StepResponse};
+use lptn_reduce::{Allowed, Kept, KeptReference, Nodes, NortonEquivalent, Projected, StepResponse};
 
 /// `n` x `n` cells of 1 J/K, 1 W/K between them and 2 W/K from each of one side to the boundary.
 fn plate(n: usize) -> (ThermalSystem, Vec<NodeId>) {
@@ -65,4 +65,17 @@ fn a_large_plate_is_ten_nodes() {
     let (late, all) = check(100, (3.41167636849099, tau));
     assert!(late < 1e-3, "{late}");
     assert!(all < 1e-4, "{all}");
+}
+
+/// Between two nodes ten modes do what ten nodes with positive elements do not.
+#[test]
+fn two_corners_of_a_plate_are_ten_modes() {
+    let (system, cells) = plate(40);
+    let asked = [cells[0], cells[39]];
+    let reference = KeptReference::new(&system, &asked, (None, Allowed::default())).unwrap();
+    let (kept, errors) = Kept::new(&system, &reference, 10).unwrap();
+    let model = Projected::new(&system, &reference, 10).unwrap();
+    assert_eq!((kept.count(), model.tau.len()), (10, 10));
+    let (nodes, modes) = (errors.share(), model.errors.share());
+    assert!(modes < 0.03 && modes < 0.2 * nodes, "{modes} {nodes}");
 }

@@ -140,6 +140,11 @@ pub struct Spectrum {
 
 impl Spectrum {
     pub fn of(system: &ThermalSystem, port: NodeId) -> Self {
+        Self::between(system, port, port)
+    }
+
+    /// The rise of one node for heat into the other.
+    pub fn between(system: &ThermalSystem, from: NodeId, to: NodeId) -> Self {
         let network = system.network();
         let n = network.nodes().len();
         let mut g = Mat::<f64>::zeros(n, n);
@@ -154,7 +159,7 @@ impl Spectrum {
             }
         }
         let capacity: Vec<f64> = network.node_ids().map(|id| network.capacity(id)).collect();
-        Self::from(&g, &capacity, port.index(), 0.0)
+        Self::from(&g, &capacity, (from.index(), to.index()), 0.0)
     }
 
     pub fn of_ladder(nodes: &Nodes) -> Self {
@@ -168,17 +173,17 @@ impl Spectrum {
                 g[(i + 1, i)] -= 1.0 / r;
             }
         }
-        Self::from(&g, c, 0, nodes.direct)
+        Self::from(&g, c, (0, 0), nodes.direct)
     }
 
-    fn from(g: &Mat<f64>, capacity: &[f64], port: usize, direct: f64) -> Self {
+    fn from(g: &Mat<f64>, capacity: &[f64], (p, q): (usize, usize), direct: f64) -> Self {
         let n = capacity.len();
         let root: Vec<f64> = capacity.iter().map(|c| c.sqrt()).collect();
         let scaled = Mat::from_fn(n, n, |i, j| g[(i, j)] / root[i] / root[j]);
         let (rates, vectors) = dense::symmetric_eigen(scaled.as_ref()).unwrap();
         let term = |k: usize| {
-            let share = vectors[(port, k)] / root[port];
-            (1.0 / rates[k], share * share / rates[k])
+            let share = vectors[(p, k)] / root[p] * vectors[(q, k)] / root[q];
+            (1.0 / rates[k], share / rates[k])
         };
         Self { terms: (0..n).map(term).collect(), direct }
     }

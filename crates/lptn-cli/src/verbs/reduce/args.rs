@@ -15,7 +15,8 @@ Examples:
   lptn reduce motor.toml --port winding --max-error 30% --definition sum
   lptn reduce motor.toml --port winding --max-error 20% --for run
   lptn reduce motor.toml --port winding --error 2K --power 60W
-  lptn reduce motor.toml --port winding --nodes 3 --format toml > three.toml";
+  lptn reduce motor.toml --port winding --nodes 3 --format toml > three.toml
+  lptn reduce motor.toml --keep winding,housing --write kept.toml";
 
 /// Replace a network by one node, and say how wrong that is
 #[derive(Debug, Arguments)]
@@ -26,6 +27,13 @@ pub(crate) struct ReduceArgs {
     /// The node that the network is seen from
     #[arg(long, value_name = "NODE")]
     pub(crate) port: Option<String>,
+    /// Keep several nodes, and what stands between them: steel,housing
+    #[arg(long, value_name = "NODES")]
+    #[arg(conflicts_with_all = ["port", "definition", "bias", "window", "worst"])]
+    pub(crate) keep: Option<String>,
+    /// Write how all temperatures follow from the kept ones
+    #[arg(long, value_name = "FILE")]
+    pub(crate) recover: Option<PathBuf>,
     /// Exit with 1 if the error is larger than this: 0.5K, or 2% of the rise
     #[arg(long, value_name = "ERROR", default_value = "5%")]
     pub(crate) max_error: String,
@@ -35,7 +43,7 @@ pub(crate) struct ReduceArgs {
     /// The largest power of these loads, not the largest Q_N
     #[arg(long, value_name = "POWER")]
     pub(crate) power: Option<String>,
-    /// Use so many nodes instead of one
+    /// Use so many nodes
     #[arg(long, value_name = "N", conflicts_with = "definition")]
     #[arg(value_parser = clap::value_parser!(u8).range(1..=100).map(usize::from))]
     pub(crate) nodes: Option<usize>,

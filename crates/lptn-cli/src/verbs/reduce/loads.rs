@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use lptn_assembly::ThermalSystem;
-use lptn_reduce::{Allowed, Deviation, Dynamics, Judge, Nodes, ReduceError, Reduction};
+use lptn_reduce::{Allowed, Deviation, Dynamics, Judge, Nodes, ReduceError, Reduction, Stretch};
 use lptn_report::{Text, TextTable, duration, fixed, plain, significant};
 use lptn_solve::Transient;
 use lptn_units::Dimension;
@@ -13,6 +13,7 @@ use super::args::ReduceArgs;
 use super::{Limit, View};
 use crate::failure::Failure;
 use crate::input;
+use crate::scale;
 
 /// Most nodes that are tried where a limit is to be kept.
 const MOST: usize = 20;
@@ -195,21 +196,13 @@ impl View<'_> {
         let rise = self.reduction.norton.resistance * loads.power;
         let kelvin = loads.kelvin(nodes);
         let whence = if loads.given { "" } else { ", the largest Q_N" };
-        let (stretches, end) = nodes.worst.load();
-        let switches: Vec<String> = stretches
-            .iter()
-            .map(|(from, on)| {
-                format!("{} from {}", if *on { "on" } else { "off" }, duration(*from, 4))
-            })
-            .collect();
         let mut text = format!(
             "between 0 and {} W{whence}, it errs by at most {} K, {} % of R_eq times that. It reads \
-             too cold by as much at {}, the heat being {}",
+             too cold by as much after {}",
             significant(loads.power, 4),
             significant(kelvin, 3),
             significant(100.0 * kelvin / rise, 3),
-            duration(end, 4),
-            switches.join(", ")
+            lengths(&nodes.worst.load())
         );
         if nodes.worst.missed > 0.0 {
             let missed = significant(nodes.worst.missed * loads.power, 2);
@@ -225,8 +218,8 @@ impl View<'_> {
             json!({
                 "nodes": nodes.count(),
                 "definition": nodes.definition.map(|d| d.key()),
-                "error": si(loads.kelvin(nodes), "K"),
-                "bound": si(nodes.worst.missed * loads.power, "K"),
+                "error": scale::of_difference(loads.kelvin(nodes), &self.unit),
+                "bound": scale::of_difference(nodes.worst.missed * loads.power, &self.unit),
             })
         };
         let chosen = loads.nodes.as_ref().map(|nodes| {
@@ -266,6 +259,21 @@ impl View<'_> {
     }
 }
 
+/// "5.15 d on, 23.3 h off, 7.7 h on and 3 shorter ones": the last are short and close to the end.
+fn lengths((stretches, end): &(Vec<Stretch>, f64)) -> String {
+    const SHOWN: usize = 5;
+    let ends = stretches.iter().skip(1).map(|stretch| stretch.0).chain([*end]);
+    let length = |((from, on), to): (&Stretch, f64)| {
+        format!("{} {}", duration(to - from, 3), if *on { "on" } else { "off" })
+    };
+    let all: Vec<String> = stretches.iter().zip(ends).map(length).collect();
+    let shown = all.len().min(SHOWN);
+    match all.len() - shown {
+        0 => all.join(", "),
+        more => format!("{} and {more} shorter ones", all[..shown].join(", ")),
+    }
+}
+
 /// Whether what no load exceeds is rounding.
 fn exact(nodes: &Nodes) -> bool {
     nodes.worst.most() <= 1e-9 * nodes.rise(f64::INFINITY)
@@ -284,7 +292,7 @@ fn largest(asked: &Asked<'_>, reduction: &Reduction) -> Result<f64, lptn_network
     Ok(if most > 0.0 { most } else { 1.0 })
 }
 
-fn power(text: &str) -> Result<f64, Failure> {
+pub(super) fn power(text: &str) -> Result<f64, Failure> {
     let what = (Dimension::POWER, "reduce::power", "250W");
     Ok(input::positive("--power", text, what)?.value)
 }

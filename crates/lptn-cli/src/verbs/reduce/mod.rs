@@ -2,6 +2,8 @@
 
 mod args;
 mod figure;
+mod keep;
+mod keep_page;
 mod loads;
 mod notes;
 mod page;
@@ -31,6 +33,12 @@ use crate::words::count;
 use crate::{files, written};
 
 pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failure> {
+    if let Some(names) = &args.keep {
+        return keep::keep(args, console, names);
+    }
+    if args.recover.is_some() {
+        return Err(keep::recovers_nothing());
+    }
     let input = Input::load(&args.source)?;
     let name = args.port.as_deref().ok_or_else(|| no_port(&input))?;
     let unit = input::temperature_unit(args.scale.temperature_unit.as_deref(), &input.netlist)?;
