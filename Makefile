@@ -25,7 +25,7 @@ demo: build
 	./target/release/lptn run networks/gearbox.toml
 
 build: setup
-	cargo build --release --locked -p lptn-cli $(features)
+	@./.ci/build $(features)
 
 dist:
 	@./.ci/dist

@@ -19,7 +19,7 @@ fn main() -> Result<(), lptn::Error> {
         let (system, steel, _) = gearbox(ratio * 0.3)?;
         let reduction = Reduction::new(&system, steel, &ReductionOptions::default())?;
         let pairs = reduction.dynamics.expect("the gearbox stores heat").pairs;
-        let error = |i: usize| pairs[i].step.relative.unwrap_or(0.0);
+        let error = |i: usize| pairs[i].step.and_then(|step| step.relative).unwrap_or(0.0);
         let now = [Definition::Sum, Definition::FirstMoment, Definition::DominantPole]
             .map(|d| Definition::ALL.iter().position(|other| *other == d).map_or(0.0, error));
         let order =

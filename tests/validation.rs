@@ -12,17 +12,7 @@ use std::path::{Path, PathBuf};
 
 use lptn::solve::{available_threads, in_parallel};
 use serde_json::{Value, json};
-use validation::{Report, Waiting, cases, own_folder};
-
-/// Case and quantity of every value that is not computed yet. Nothing else may go unanswered, and
-/// nothing that has an answer may stand here.
-const WAITING: [(&str, &str); 2] =
-    [("freq_two_node", "freq_gain"), ("freq_two_node", "freq_phase")];
-
-/// Judges a case with what the project's list lets wait.
-fn judge(id: &str, case: &Value) -> Report {
-    validation::judge(id, case, Waiting { list: &WAITING, known: &cases(&own_folder()) })
-}
+use validation::{Report, cases, judge, own_folder};
 
 /// Runs every case of a folder; prints the table.
 fn reports(folder: &Path) -> Vec<Report> {
@@ -32,13 +22,7 @@ fn reports(folder: &Path) -> Vec<Report> {
     println!("{}", Report::heading());
     reports.iter().for_each(|report| print!("{report}"));
     let sum = |i: usize| reports.iter().map(|report| report.counts()[i]).sum::<usize>();
-    println!(
-        "{} cases: {} values right, {} wrong, {} WAITING",
-        names.len(),
-        sum(0),
-        sum(1),
-        sum(2)
-    );
+    println!("{} cases: {} values right, {} wrong", names.len(), sum(0), sum(1));
     reports
 }
 
@@ -56,10 +40,6 @@ fn every_case_is_answered() {
     assert!(reports.len() >= 34, "only {} cases", reports.len());
     let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/validation.md");
     validation::page::keep(&page, &reports, |id| validation::json(&folder, id));
-    for (case, quantity) in WAITING {
-        let asked = reports.iter().any(|r| r.id == case && r.quantities().any(|q| q == quantity));
-        assert!(asked, "nothing asks for {quantity} of {case}, which is said to wait");
-    }
 }
 
 #[test]
@@ -96,7 +76,7 @@ fn a_wrong_value_is_found() {
         let right = validation::json(&own_folder(), id);
         let wrong = judge(id, &moved(right.clone()));
         let count = right["expected"].as_array().expect("a list").len();
-        assert_eq!(wrong.counts(), [0, count, 0], "{id}: {:?}", wrong.complaints());
+        assert_eq!(wrong.counts(), [0, count], "{id}: {:?}", wrong.complaints());
         assert_eq!(wrong.complaints().len(), count);
     }
 }
@@ -130,26 +110,6 @@ fn what_the_format_does_not_know_is_an_error() {
         drop(case["expected"][0].as_object_mut().expect("a value").remove("tol_abs"))
     };
     assert!(said(&untold).contains("no tolerance"));
-}
-
-#[test]
-fn a_quantity_may_wait_only_where_the_list_says_so() {
-    let known = cases(&own_folder());
-    let judge = |id: &str, list: &[(&str, &str)]| {
-        validation::judge(id, &validation::json(&own_folder(), id), Waiting { list, known: &known })
-    };
-    let unlisted = judge("freq_two_node", &[("freq_two_node", "freq_gain")]);
-    assert_eq!(unlisted.counts()[1..], [15, 15], "{:?}", unlisted.complaints());
-    let needless = judge("bridge_steady", &[("bridge_steady", "T")]);
-    assert!(
-        needless.complaints()[0].contains("T need not wait any longer"),
-        "{:?}",
-        needless.complaints()
-    );
-    // a case that the list cannot know of
-    let case = validation::json(&own_folder(), "freq_two_node");
-    let stranger = validation::judge("freq_two_node", &case, Waiting { list: &[], known: &[] });
-    assert_eq!(stranger.counts()[1..], [0, 30], "{:?}", stranger.complaints());
 }
 
 /// What the format has and no case of the set uses, with closed forms. A body (100 J/K, 20 K above
@@ -211,7 +171,7 @@ fn unusual() -> Value {
 #[test]
 fn the_whole_format_is_understood() {
     let report = judge("unusual", &unusual());
-    assert_eq!(report.counts(), [13, 0, 0], "{report}\n{}", report.complaints().join("\n"));
+    assert_eq!(report.counts(), [13, 0], "{report}\n{}", report.complaints().join("\n"));
 }
 
 /// A body with an island beside it that keeps its heat: the mean of the island is a mode that never
@@ -235,5 +195,40 @@ fn modes_that_never_die_may_be_skipped_and_sources_sized() {
         ],
     });
     let report = judge("island", &case);
-    assert_eq!(report.counts(), [2, 0, 0], "{report}\n{}", report.complaints().join("\n"));
+    assert_eq!(report.counts(), [2, 0], "{report}\n{}", report.complaints().join("\n"));
+}
+
+/// A body of 50 s that starts at 50 degC in air of 20 degC: both are found from its record.
+#[test]
+fn starts_and_boundaries_are_calibrated() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let data = folder.join("cooling.csv");
+    let row = |t: u32| format!("{t},{}\n", 20.0 + 30.0 * (-f64::from(t) / 50.0).exp());
+    let rows: String = (0..40).map(|k| row(5 * k)).collect();
+    std::fs::write(&data, format!("t,T\n{rows}")).expect("a folder of the tests");
+    let target = |id: &str, field: &str| json!([{ "list": "nodes", "id": id, "field": field }]);
+    let case = json!({
+        "format": "lptn-validation-1", "id": "cooling", "title": "", "kinds": [], "provenance": "closed form",
+        "source": "", "proves": "", "temperature_unit": "C", "celsius_zero_K": 273.15,
+        "nodes": [
+            { "id": "body", "type": "capacitance", "C": 100.0, "T0": 40.0 },
+            { "id": "air", "type": "boundary", "T": 15.0 },
+        ],
+        "edges": [{ "id": "path", "type": "conductance", "a": "body", "b": "air", "G": 2.0 }],
+        "sources": [],
+        "calibration": {
+            "data": data, "time_column": "t", "objective": "least squares",
+            "observations": [{ "node": "body", "column": "T" }],
+            "parameters": [
+                { "name": "start", "initial": 40.0, "targets": target("body", "T0") },
+                { "name": "air", "initial": 15.0, "targets": target("air", "T") },
+            ],
+        },
+        "expected": [
+            { "quantity": "calibrated", "param": "start", "label": "a comment", "value": 50.0, "tol_abs": 1e-4 },
+            { "quantity": "calibrated", "param": "air", "value": 20.0, "tol_abs": 1e-4 },
+        ],
+    });
+    let report = judge("cooling", &case);
+    assert_eq!(report.counts(), [2, 0], "{report}\n{}", report.complaints().join("\n"));
 }

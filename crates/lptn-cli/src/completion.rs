@@ -24,7 +24,7 @@ fn with_names(command: Command) -> Command {
         let found: Option<fn() -> Vec<String>> = match arg.get_id().as_str() {
             "set" => Some(parameters),
             "select" => Some(columns),
-            "balance" | "port" => Some(nodes),
+            "answering" | "balance" | "keep" | "port" => Some(nodes),
             "gearbox" => Some(gearboxes),
             "name" if materials => Some(substances),
             _ => None,

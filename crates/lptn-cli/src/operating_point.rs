@@ -1,10 +1,10 @@
 //! The state of a network that is looked at: where it settles, or a time of its run.
 
 use clap::Args as Arguments;
-use lptn_netlist::{Diagnostic, RunSettings};
+use lptn_netlist::{Diagnostic, RunSettings, Span};
 use lptn_network::Network;
 use lptn_report::{duration, significant};
-use lptn_solve::{RunStatus, Snapshot, Solution, SteadyState, Transient, Tried};
+use lptn_solve::{LinearisedError, RunStatus, Snapshot, Solution, SteadyState, Transient, Tried};
 use lptn_study::SiValue;
 use lptn_units::Unit;
 use serde_json::{Value, json};
@@ -63,7 +63,7 @@ impl OperatingPoint {
             _ => "more than".to_owned(),
         };
         vec![format!(
-            "for small disturbances of {}: at {} K along the slowest mode, to both sides, heat \
+            "for small disturbances of {}: at {} K to both sides, heat \
              flows of the full network differ from these by up to {} W, {brought} what the \
              disturbance brings",
             self.name,
@@ -83,6 +83,16 @@ impl OperatingPoint {
         });
         let time = SiValue::new(self.state.time, "s");
         json!({ "time": time, "settled": self.state.settled, "tried": tried })
+    }
+}
+
+/// Where the file makes a network not linear.
+pub(crate) fn place(input: &Input, error: &LinearisedError) -> Option<Span> {
+    match error {
+        LinearisedError::NotLinear { item, .. } => input.netlist.source_map.name(*item),
+        LinearisedError::Input(error) => input.place_of(error),
+        LinearisedError::Melts { name } => input.node_place(name),
+        LinearisedError::Singular => None,
     }
 }
 

@@ -80,9 +80,10 @@ fn csv_has_a_row_a_definition() {
         folder.run(&["reduce", "gearbox.toml", "--port", "steel", "--format", format]).exits(0)
     };
     let ran = reduce("csv");
-    let header = "definition,recommended,R_eq [K/W],C_eq [J/K],tau [s],step.max [K],step.relative \
-        [-],step.time [s],\
-                  run.max [K],run.relative [-],run.time [s]";
+    let header = "definition,recommended,within,R_eq [K/W],C_eq [J/K],tau [s],step.max \
+        [K],step.relative [-],step.time [s],step.signed [K],step.good_from [s],\
+                  run.max [K],run.relative [-],run.time [s],run.signed [K],run.good_from \
+                  [s],any_load.max [K]";
     assert_eq!(ran.out.lines().next(), Some(header));
     let (rows, json) = (rows(&ran.out), reduce("json").json());
     assert_eq!(rows.iter().map(|row| row["definition"].as_str()).collect::<Vec<_>>(), DEFINITIONS);
@@ -92,7 +93,9 @@ fn csv_has_a_row_a_definition() {
         near(cell("R_eq [K/W]"), 67.2 / 220.6, 1e-12);
         near(cell("tau [s]"), 67.2 / 220.6 * cell("C_eq [J/K]"), 1e-12);
         near(cell("C_eq [J/K]"), number(&json, &["C_eq", definition]), 1e-15);
-        for (name, unit) in [("max", "K"), ("relative", "-"), ("time", "s")] {
+        let cells =
+            [("max", "K"), ("relative", "-"), ("time", "s"), ("signed", "K"), ("good_from", "s")];
+        for (name, unit) in cells {
             for judgement in ["step", "run"] {
                 let expected = number(&json, &["errors", definition, judgement, name]);
                 near(cell(&format!("{judgement}.{name} [{unit}]")), expected, 1e-15);
@@ -165,7 +168,8 @@ fn inputs_that_change_are_written_as_they_are() {
     let folder = Folder::with("duty.toml", DUTY);
     let write =
         ["reduce", "duty.toml", "--port", "winding", "--definition", "sum", "--write", "one.toml"];
-    let ran = folder.run(&write).exits(0).prints("the inputs change with time");
+    let ran = folder.run(&write).exits(1).prints("the inputs change with time");
+    let ran = ran.prints("does not collapse: one node is 59 % wrong");
     assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
     let text = folder.read("one.toml");
     assert!(
@@ -177,7 +181,8 @@ fn inputs_that_change_are_written_as_they_are() {
         "{text}"
     );
     let json = |file| {
-        folder.run(&["reduce", file, "--port", "winding", "--format", "json"]).exits(0).json()
+        let any = "--max-error=90%";
+        folder.run(&["reduce", file, "--port", "winding", "--format", "json", any]).exits(0).json()
     };
     let (first, again) = (json("duty.toml"), json("one.toml"));
     for key in ["R_eq", "T_ref", "Q_N"] {
@@ -200,6 +205,11 @@ fn too_large_an_error_ends_with_1_and_says_so_last() {
     assert!(last.starts_with("too large: with C_eq by sum the error reaches 0.70"), "{last}");
     assert!(last.ends_with("0.5 K is allowed"), "{last}");
     reduce(&["--max-error", "0.5%"]).exits(1).says("0.5% is allowed");
+    let first = |more: &[&str]| reduce(more).out.lines().next().unwrap_or_default().to_owned();
+    assert_eq!(first(&[]), "collapses to one node within 0.78 % (0.447 K)");
+    let refused = first(&["--max-error", "0.5%"]);
+    let expected = "does not collapse: one node is 0.78 % wrong (0.447 K); 2 nodes are exact";
+    assert_eq!(refused, expected);
     reduce(&["--max-error", "2 W"]).exits(2).says("--max-error");
     reduce(&["--max-error", "0 K"]).exits(2).says("reduce::max_error");
     reduce(&["--window", "0 s"]).exits(2).says("reduce::window");
@@ -249,12 +259,12 @@ fn nodes_apart_from_the_port_are_noted() {
     let apart =
         DUTY.replace("[boundary]", "stone = { C = \"5000 J/K\", T0 = \"20 degC\" }\n[boundary]");
     let folder = Folder::with("apart.toml", &apart);
-    let ran = folder.run(&["reduce", "apart.toml", "--port", "winding"]).exits(0);
+    let ran = folder.run(&["reduce", "apart.toml", "--port", "winding"]).exits(1);
     let ran = ran.prints("C_eq is that of the 2 nodes that heat from the port reaches; 1 apart");
     assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
     let json = folder
         .run(&["reduce", "apart.toml", "--port", "winding", "--format", "json"])
-        .exits(0)
+        .exits(1)
         .json();
     near(number(&json, &["C_eq", "sum"]), 950.0, 1e-14);
     folder.run(&["reduce", "apart.toml", "--port", "stone"]).exits(2).says("boundary from `stone`");
@@ -264,8 +274,10 @@ fn nodes_apart_from_the_port_are_noted() {
 fn without_run_or_capacity_it_says_what_is_missing() {
     let without_run = DUTY.split("[run]").next().unwrap_or_default();
     let folder = Folder::with("duty.toml", without_run);
-    let reduce =
-        |more: &[&str]| folder.run(&[&["reduce", "duty.toml", "--port", "winding"], more].concat());
+    let reduce = |more: &[&str]| {
+        let begin = ["reduce", "duty.toml", "--port", "winding", "--max-error=90%"];
+        folder.run(&[&begin[..], more].concat())
+    };
     let json = reduce(&["--format", "json"]).exits(0).json();
     assert!(json["errors"]["sum"]["run"].is_null() && json["rise"].is_null());
     assert_eq!(json["recommended_by"], "step");
@@ -274,7 +286,9 @@ fn without_run_or_capacity_it_says_what_is_missing() {
         rows(&reduce(&["--format", "csv"]).exits(0).says("without [run] no run is compared").out);
     assert!(csv.len() == 4 && csv.iter().all(|row| row["run.max [K]"] == "NaN"), "{csv:?}");
     reduce(&["--bias"]).exits(2).says("run::no_run");
-    reduce(&["--max-error", "1K"]).exits(2).says("run::no_run");
+    reduce(&["--for", "run"]).exits(2).says("run::no_run");
+    let limited = ["reduce", "duty.toml", "--port", "winding", "--max-error", "1K"];
+    folder.run(&limited).exits(2).says("run::no_run");
     let massless = DUTY.replace("C = \"50 J/K\", T0 = \"20 degC\"", "massless = true");
     folder.write(
         "massless.toml",
@@ -310,7 +324,7 @@ inner = { from = "port", to = "wall", R = "0.9 K/W" }
 outer = { from = "wall", to = "air", R = "0.1 K/W" }
 "#;
     let folder = Folder::with("junction.toml", text);
-    let reduce = ["reduce", "junction.toml", "--port", "port"];
+    let reduce = ["reduce", "junction.toml", "--port", "port", "--max-error", "20%"];
     folder
         .run(&reduce)
         .exits(0)

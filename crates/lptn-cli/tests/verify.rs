@@ -269,7 +269,7 @@ fn a_network_that_is_not_linear_has_modes_near_a_state() {
         stop = \"1 min\"\n";
     let folder = Folder::with("glow.toml", glowing);
     let refused = folder.run(&["modes", "glow.toml"]).exits(2);
-    refused.says("modes::not_linear").says("glow.toml:7:1").says("--at steady");
+    refused.says("linearised::not_linear").says("glow.toml:7:1").says("--at steady");
     let json = folder.run(&["modes", "glow.toml", "--at", "steady", "--format", "json"]);
     let json = json.exits(0).json();
     let hot = (300.0_f64.powi(4) + 1000.0 / (5.670_374_419e-8 * 0.05)).powf(0.25);
@@ -278,7 +278,7 @@ fn a_network_that_is_not_linear_has_modes_near_a_state() {
     assert_eq!(json["at"]["settled"], true);
     assert!((scalar(&json["at"]["tried"]["disturbance"]) - 10.0).abs() < 1e-12);
     let at = folder.run(&["modes", "glow.toml", "--at", "0s"]).exits(0);
-    at.prints("for small disturbances of the state at 0 s: at 10 K along");
+    at.prints("for small disturbances of the state at 0 s: at 10 K to");
     let tau = 500.0 / (4.0 * 5.670_374_419e-8 * 0.05 * 900.0_f64.powi(3));
     let (_, rows) = csv(&folder.run(&["modes", "glow.toml", "--at=0s", "--format=csv"]).out);
     let found = rows[0][0];

@@ -136,7 +136,7 @@ fn a_port_of_a_grid_or_an_import_is_written_or_refused_but_never_another() {
         skin = { from = \"bar.x1\", to = \"air\", h = \"10 W/(m^2 K)\" }\n[run]\nstop = \"1 \
         min\"\n";
     let folder = Folder::with("whole.toml", grid);
-    folder.run(&["reduce", "whole.toml", "--port", "bar[1,1,1]", "--write", "one.toml"]).exits(0);
+    folder.run(&["reduce", "whole.toml", "--port", "bar[1,1,1]", "--write", "one.toml"]).exits(1);
     folder.run(&["check", "one.toml"]).exits(0);
     assert!(folder.read("one.toml").contains("\"bar[1,1,1]\" = {"));
 }

@@ -98,6 +98,35 @@ pub fn max_norm(x: &[f64]) -> f64 {
         .fold(0.0, |largest, x| if x.is_nan() { f64::INFINITY } else { f64::max(largest, x.abs()) })
 }
 
+/// Smallest and largest `x[i]`; `None` if any of them is not finite.
+pub fn range(x: &[f64]) -> Option<(f64, f64)> {
+    if x.len() < LANES {
+        let range = x.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(least, most), &x| {
+            (if x < least { x } else { least }, if x > most { x } else { most })
+        });
+        return x.iter().all(|x| x.is_finite()).then_some(range);
+    }
+    let mut least = [f64::INFINITY; LANES];
+    let mut most = [f64::NEG_INFINITY; LANES];
+    let mut watch = [0.0_f64; LANES];
+    let (chunks, tail) = x.as_chunks::<LANES>();
+    for x in chunks {
+        for k in 0..LANES {
+            least[k] = if x[k] < least[k] { x[k] } else { least[k] };
+            most[k] = if x[k] > most[k] { x[k] } else { most[k] };
+            watch[k] += 0.0 * x[k];
+        }
+    }
+    for (k, &x) in tail.iter().enumerate() {
+        least[k] = if x < least[k] { x } else { least[k] };
+        most[k] = if x > most[k] { x } else { most[k] };
+        watch[k] += 0.0 * x;
+    }
+    let finite = !watch.iter().sum::<f64>().is_nan();
+    let least = least.iter().copied().fold(f64::INFINITY, f64::min);
+    finite.then(|| (least, most.iter().copied().fold(f64::NEG_INFINITY, f64::max)))
+}
+
 /// Smallest `x[i]`.
 pub fn min(x: &[f64]) -> f64 {
     x.iter().copied().fold(f64::INFINITY, f64::min)
@@ -196,6 +225,23 @@ mod tests {
         }
         assert_eq!(weighted_max(&[f64::INFINITY], &[1.0]), f64::INFINITY);
         assert_eq!(first_not_finite(&[1.0; 33]), None);
+    }
+
+    #[test]
+    fn the_range_is_that_of_finite_numbers() {
+        for n in 1..40 {
+            let mut x = numbers(n, 5);
+            let sorted = {
+                let mut sorted = x.clone();
+                sorted.sort_by(f64::total_cmp);
+                (sorted[0], sorted[n - 1])
+            };
+            assert_eq!(range(&x), Some(sorted));
+            for wrong in [f64::NAN, f64::INFINITY] {
+                x[n / 2] = wrong;
+                assert_eq!(range(&x), None);
+            }
+        }
     }
 
     #[test]

@@ -40,7 +40,7 @@ impl Kind {
                 fields.push(field);
             }
         }
-        fields.sort_by_key(|field| !self.laws().all(|law| law.field(field.key).is_some()));
+        fields.sort_by_cached_key(|field| !self.laws().all(|law| law.field(field.key).is_some()));
         fields
     }
 }

@@ -7,6 +7,11 @@ const CODE: &str = "netlist::toml_1_1";
 
 /// A line break or a trailing comma in an inline table.
 pub(crate) fn inline_table(written: &str, span: &Span) -> Option<Diagnostic> {
+    let ends_with_comma =
+        || written.strip_suffix('}').is_none_or(|inner| inner.trim_end().ends_with(','));
+    if !written.contains('\n') && !ends_with_comma() {
+        return None;
+    }
     let mut scan = Scan { text: written, at: 1, open: Vec::new(), last: '{' };
     while let Some((at, found)) = scan.next() {
         let place = |len| Span::new(span.file, span.range.start + at..span.range.start + at + len);

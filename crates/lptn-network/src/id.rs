@@ -10,10 +10,12 @@ macro_rules! ids {
 
         impl $name {
             /// Position in the network's list of this kind, from 0.
+            #[inline]
             pub fn index(self) -> usize {
                 self.0 as usize
             }
 
+            #[inline]
             pub(crate) fn from_len(len: usize) -> Self {
                 Self(u32::try_from(len).expect("a network holds fewer than 2^32 items of a kind"))
             }

@@ -40,11 +40,35 @@ pub struct Pair {
     pub definition: Definition,
     /// `C_eq` in J/K; 0 where the least squares of a massless port are those of no capacity.
     pub capacity: f64,
-    /// Largest error for a step of 1 W at the port; the rise is `R_eq` times 1 W.
-    pub step: Deviation,
+    /// Largest error for a step of 1 W at the port; the rise is `R_eq` times 1 W. `None` where
+    /// streams go on from node to node, so that the step is no sum of falling exponentials.
+    pub step: Option<Deviation>,
     /// Largest error for the network's own sources, boundaries and run; `None` where no run was
     /// given.
     pub run: Option<Deviation>,
+}
+
+/// What a pair is judged by.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Judge {
+    /// A step of heat at the port and all times after it: the same whatever the run is.
+    #[default]
+    Step,
+    /// The network's own run.
+    Run,
+}
+
+impl Judge {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Step, Self::Run];
+
+    /// The word for it in results and on the command line.
+    pub fn key(self) -> &'static str {
+        match self {
+            Self::Step => "step",
+            Self::Run => "run",
+        }
+    }
 }
 
 /// The pair to use.
@@ -52,26 +76,35 @@ pub struct Pair {
 pub struct Recommended {
     /// The definition whose capacity is recommended.
     pub definition: Definition,
-    /// Whether it has the smallest error of the run, or else of the unit step.
-    pub by_run: bool,
+    /// What it has the smallest error of; `None` where there is nothing to judge by.
+    pub by: Option<Judge>,
 }
 
-/// The pair with the smallest error; of pairs that differ by less than the noise of the run or of
-/// the step, both in K, the simplest.
-pub(crate) fn recommended(pairs: &[Pair; 4], (of_run, of_step): (f64, f64)) -> Recommended {
-    let by_run = pairs.iter().all(|pair| pair.run.is_some_and(|run| run.relative.is_some()));
-    let error = |pair: &Pair| match pair.run {
-        Some(run) if by_run => run.kelvin,
-        _ => pair.step.kelvin,
+/// The pair with the smallest error of what is asked for, or else of what there is; of pairs that
+/// differ by less than the noise of the run or of the step, both in K, the simplest.
+pub(crate) fn recommended(
+    pairs: &[Pair],
+    wanted: Judge,
+    (of_run, of_step): (f64, f64),
+) -> Recommended {
+    let error = |pair: &Pair, judge: Judge| match judge {
+        Judge::Run => pair.run.filter(|run| run.relative.is_some()),
+        Judge::Step => pair.step,
     };
-    let noise = if by_run { of_run } else { of_step };
+    let known = |judge: &Judge| pairs.iter().all(|pair| error(pair, *judge).is_some());
+    let Some(by) = [wanted, Judge::Step, Judge::Run].into_iter().find(known) else {
+        // the first moment is exact in the mean over every load
+        return Recommended { definition: Definition::FirstMoment, by: None };
+    };
+    let noise = if by == Judge::Run { of_run } else { of_step };
+    let kelvin = |pair: &Pair| error(pair, by).map_or(f64::INFINITY, |d| d.kelvin);
     let mut best = &pairs[0];
     for pair in &pairs[1..] {
-        if error(pair) < error(best) - noise {
+        if kelvin(pair) < kelvin(best) - noise {
             best = pair;
         }
     }
-    Recommended { definition: best.definition, by_run }
+    Recommended { definition: best.definition, by: Some(by) }
 }
 
 #[cfg(test)]
@@ -80,24 +113,35 @@ mod tests {
 
     /// Pairs with these errors in K of the step and of the run; no run where it is not finite.
     fn pairs(of_step: [f64; 4], of_run: [f64; 4]) -> [Pair; 4] {
-        let deviation =
-            |kelvin: f64| Deviation { kelvin, relative: Some(kelvin / 50.0), time: 1.0 };
+        let deviation = |kelvin: f64| Deviation {
+            kelvin,
+            relative: Some(kelvin / 50.0),
+            time: 1.0,
+            signed: kelvin,
+            good_from: None,
+        };
         [0, 1, 2, 3].map(|k| Pair {
             definition: Definition::ALL[k],
             capacity: 1.0,
-            step: deviation(of_step[k]),
+            step: Some(deviation(of_step[k])),
             run: Some(deviation(of_run[k])).filter(|run| run.kelvin.is_finite()),
         })
     }
 
     const NO_RUN: [f64; 4] = [f64::NAN; 4];
 
+    fn found(definition: Definition, by: Judge) -> Recommended {
+        Recommended { definition, by: Some(by) }
+    }
+
     #[test]
-    fn the_run_decides_where_there_is_one() {
-        let found = recommended(&pairs([1.0, 2.0, 3.0, 4.0], [4.0, 3.0, 1.0, 2.0]), (0.1, 0.1));
-        assert_eq!(found, Recommended { definition: Definition::DominantPole, by_run: true });
-        let found = recommended(&pairs([2.0, 1.0, 3.0, 4.0], NO_RUN), (0.1, 0.1));
-        assert_eq!(found, Recommended { definition: Definition::FirstMoment, by_run: false });
+    fn the_run_decides_where_it_is_asked_for() {
+        let both = pairs([1.0, 2.0, 3.0, 4.0], [4.0, 3.0, 1.0, 2.0]);
+        let by = |judge| recommended(&both, judge, (0.1, 0.1));
+        assert_eq!(by(Judge::Run), found(Definition::DominantPole, Judge::Run));
+        assert_eq!(by(Judge::Step), found(Definition::Sum, Judge::Step));
+        let none = recommended(&pairs([2.0, 1.0, 3.0, 4.0], NO_RUN), Judge::Run, (0.1, 0.1));
+        assert_eq!(none, found(Definition::FirstMoment, Judge::Step));
     }
 
     /// A run in which nothing rises has no share of the rise: it cannot decide.
@@ -105,23 +149,27 @@ mod tests {
     fn a_run_in_which_nothing_rises_decides_nothing() {
         let mut still = pairs([2.0, 3.0, 4.0, 1.0], [0.0; 4]);
         for pair in &mut still {
-            pair.run = Some(Deviation { kelvin: 0.0, relative: None, time: 0.0 });
+            pair.run = pair.run.map(|run| Deviation { kelvin: 0.0, relative: None, ..run });
         }
-        let found = recommended(&still, (0.0, 0.0));
-        assert_eq!(found, Recommended { definition: Definition::LeastSquares, by_run: false });
+        let by_step = found(Definition::LeastSquares, Judge::Step);
+        assert_eq!(recommended(&still, Judge::Run, (0.0, 0.0)), by_step);
+        still.iter_mut().for_each(|pair| pair.step = None);
+        let nothing = Recommended { definition: Definition::FirstMoment, by: None };
+        assert_eq!(recommended(&still, Judge::Run, (0.0, 0.0)), nothing);
     }
 
     #[test]
     fn within_the_noise_the_simplest_is_taken() {
         let definition = |errors: [f64; 4], noise| {
-            recommended(&pairs(NO_RUN.map(|_| 9.0), errors), noise).definition
+            recommended(&pairs(NO_RUN.map(|_| 9.0), errors), Judge::Run, noise).definition
         };
         assert_eq!(definition([1.0, 0.9, 0.9, 0.8], (0.3, 0.0)), Definition::Sum);
         assert_eq!(definition([1.0, 0.9, 0.9, 0.8], (0.15, 0.0)), Definition::LeastSquares);
         assert_eq!(definition([1.0, 0.5, 0.5, 0.5], (0.0, 9.0)), Definition::FirstMoment);
         // better by exactly the noise is not better
         assert_eq!(definition([1.0, 0.5, 0.5, 0.5], (0.5, 0.0)), Definition::Sum);
-        let by_step = recommended(&pairs([1.0, 0.9, 0.8, 0.7], NO_RUN), (0.0, 0.25));
+        let steps = pairs([1.0, 0.9, 0.8, 0.7], NO_RUN);
+        let by_step = recommended(&steps, Judge::Step, (0.0, 0.25));
         assert_eq!(by_step.definition, Definition::LeastSquares);
     }
 }

@@ -4,6 +4,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_network::{NodeId, OutputTimes};
 use lptn_solve::{Transient, TransientError, top};
 
+use crate::allowed::Allowed;
 use crate::step::StepResponse;
 
 /// The largest difference between the temperatures of the port and of its one-node equivalent.
@@ -15,41 +16,87 @@ pub struct Deviation {
     pub relative: Option<f64>,
     /// When it occurs, in s: after the step, or in the time of the run.
     pub time: f64,
+    /// The one node less the network at that time in K: negative where the one node reads too cold.
+    pub signed: f64,
+    /// From when on the error stays within what is allowed, in s as `time`; `None` where it is
+    /// above that at the end of the run.
+    pub good_from: Option<f64>,
 }
 
 impl Deviation {
-    /// Whether the error is at most this.
-    pub fn within(&self, kelvin: Option<f64>, relative: Option<f64>) -> bool {
-        kelvin.is_none_or(|most| self.kelvin <= most)
-            && relative.is_none_or(|most| self.relative.unwrap_or(0.0) <= most)
+    /// Whether the error is at most this; where nothing rises, no share of it is too large.
+    pub fn within(&self, allowed: Allowed) -> bool {
+        match allowed {
+            Allowed::Kelvin(most) => self.kelvin <= most,
+            Allowed::Share(most) => self.relative.unwrap_or(0.0) <= most,
+        }
     }
 }
 
 /// For a step of 1 W at the port and all times after it. Looked for on a grid of 200 points a
 /// decade from a thousandth of the shortest to 50 of the longest time constant, and at 0, then
-/// refined.
-pub(crate) fn of_step(step: &StepResponse, capacity: f64) -> Deviation {
-    const PER_DECADE: f64 = 200.0;
+/// refined. `share` of the rise is what is allowed.
+pub(crate) fn of_step(step: &StepResponse, capacity: f64, share: f64) -> Deviation {
     let tau = step.resistance * capacity;
     // without capacity all of the rise comes at once
     let model = |time: f64| {
         if tau > 0.0 { -step.resistance * f64::exp_m1(-time / tau) } else { step.resistance }
     };
-    let error = |time: f64| (step.value(time) - model(time)).abs();
-    let (least, most) = step.span();
-    let from = (1e-3 * if tau > 0.0 { least.min(tau) } else { least }).log10();
-    let count = ((50.0 * most.max(tau)).log10() - from) * PER_DECADE;
+    of_curve(step, &model, (tau > 0.0).then_some((tau, tau)), share)
+}
+
+/// The same for any curve in place of the step response, with its shortest and longest time
+/// constant.
+pub(crate) fn of_curve(
+    step: &StepResponse,
+    model: &dyn Fn(f64) -> f64,
+    span: Option<(f64, f64)>,
+    share: f64,
+) -> Deviation {
+    const PER_DECADE: f64 = 200.0;
+    let signed = |time: f64| model(time) - step.value(time);
+    let error = |time: f64| signed(time).abs();
+    let mut whole = step.span();
+    if let Some((least, most)) = span {
+        whole = (whole.0.min(least), whole.1.max(most));
+    }
+    let from = (1e-3 * whole.0).log10();
+    let count = ((50.0 * whole.1).log10() - from) * PER_DECADE;
     let at = |k: f64| 10_f64.powf(from + k / PER_DECADE);
     let (mut best, mut place, mut k) = (error(0.0), None, 0.0);
+    let allowed = share * step.resistance;
+    let mut bad = (best > allowed).then_some(0.0);
     while k <= count {
-        if error(at(k)) > best {
-            (best, place) = (error(at(k)), Some(k));
+        let here = error(at(k));
+        if here > best {
+            (best, place) = (here, Some(k));
+        }
+        if here > allowed {
+            bad = Some(at(k));
         }
         k += 1.0;
     }
     let time = place.map_or(0.0, |k| highest(&error, at(k - 1.0), at(k + 1.0)));
     let kelvin = best.max(error(time));
-    Deviation { kelvin, relative: Some(kelvin / step.resistance), time }
+    let good_from = bad.map_or(0.0, |bad| {
+        last(&|t| error(t) > allowed, bad, bad.max(at(0.0)) * at(1.0) / at(0.0))
+    });
+    Deviation {
+        kelvin,
+        relative: Some(kelvin / step.resistance),
+        time,
+        signed: kelvin.copysign(signed(time)),
+        good_from: Some(good_from),
+    }
+}
+
+/// Where what is true at `a` and not at `b` ceases to be.
+fn last(is: &dyn Fn(f64) -> bool, mut a: f64, mut b: f64) -> f64 {
+    for _ in 0..60 {
+        let middle = 0.5 * (a + b);
+        if is(middle) { a = middle } else { b = middle }
+    }
+    b
 }
 
 /// The maximum of a function with one top between `a` and `b`, by golden section.
@@ -63,7 +110,7 @@ fn highest(f: &dyn Fn(f64) -> f64, mut a: f64, mut b: f64) -> f64 {
 }
 
 /// Temperatures of one node at the times of a comparison.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Record {
     times: Vec<f64>,
     temperatures: Vec<f64>,
@@ -77,9 +124,22 @@ impl Record {
         node: NodeId,
         run: &Dense,
     ) -> Result<Self, TransientError> {
-        let solution = run.transient.clone().record(&[node]).solve(system)?;
-        let temperatures = solution.temperature(node).unwrap_or_default();
-        Ok(Self { times: solution.times().to_vec(), temperatures, breaks: run.breaks.clone() })
+        Ok(Self::all(system, &[node], run)?.pop().unwrap_or_default())
+    }
+
+    /// Runs `system` and keeps these nodes, each in a record of its own.
+    pub(crate) fn all(
+        system: &ThermalSystem,
+        nodes: &[NodeId],
+        run: &Dense,
+    ) -> Result<Vec<Self>, TransientError> {
+        let solution = run.transient.clone().record(nodes).solve(system)?;
+        let record = |&node: &NodeId| Self {
+            times: solution.times().to_vec(),
+            temperatures: solution.temperature(node).unwrap_or_default(),
+            breaks: run.breaks.clone(),
+        };
+        Ok(nodes.iter().map(record).collect())
     }
 
     /// The largest change from the start in K.
@@ -88,12 +148,31 @@ impl Record {
         self.largest(self.temperatures.iter().map(|t| (t - start).abs())).0
     }
 
-    /// The largest difference from `other` at the same times and between them.
-    pub(crate) fn deviation(&self, other: &Self) -> Deviation {
+    /// The largest difference of `other` from this at the same times and between them.
+    pub(crate) fn deviation(&self, other: &Self, allowed: Allowed) -> Deviation {
         let pairs = self.temperatures.iter().zip(&other.temperatures);
-        let (kelvin, time) = self.largest(pairs.map(|(a, b)| (a - b).abs()));
+        let signed: Vec<f64> = pairs.map(|(whole, one)| one - whole).collect();
+        let (kelvin, time) = self.largest(signed.iter().map(|d| d.abs()));
         let rise = self.rise();
-        Deviation { kelvin, relative: (rise > 0.0).then(|| kelvin / rise), time }
+        let row = self.times.partition_point(|&t| t <= time).saturating_sub(1);
+        // a top between two rows has the sign of the larger of them
+        let [a, b] = [row, row + 1].map(|k| signed.get(k).copied().unwrap_or(0.0));
+        let sign = if a.abs() >= b.abs() { a } else { b };
+        let most = allowed.of(rise);
+        let bad = signed.iter().rposition(|d| d.abs() > most);
+        let good_from = bad.map_or(self.times.first(), |bad| self.times.get(bad + 1)).copied();
+        Deviation {
+            kelvin,
+            relative: (rise > 0.0).then(|| kelvin / rise),
+            time,
+            signed: kelvin.copysign(sign),
+            good_from,
+        }
+    }
+
+    /// The temperature at the start in K.
+    pub(crate) fn first(&self) -> Option<f64> {
+        self.temperatures.first().copied()
     }
 
     /// The largest of these sizes, one a row, and its time; between rows by a parabola through
@@ -169,12 +248,18 @@ mod tests {
         let term = ResponseTerm { tau: 1.0, resistance: 2.0, error: 0.0 };
         let step = StepResponse { resistance: 2.0, direct: 0.0, terms: vec![term], residual: 0.0 };
         for q in [1e-6_f64, 0.3, 3.0, 500.0, 1e6] {
-            let found = of_step(&step, 1.0 / (2.0 * q));
+            let found = of_step(&step, 1.0 / (2.0 * q), 0.05);
             let size = (q.powf(-1.0 / (q - 1.0)) - q.powf(-q / (q - 1.0))).abs();
             assert!((found.relative.unwrap() / size - 1.0).abs() < 1e-9, "{q}: {found:?} {size}");
             assert!((found.kelvin - 2.0 * found.relative.unwrap()).abs() < 1e-15);
             let time = q.ln() / (q - 1.0);
             assert!((found.time / time - 1.0).abs() < 1e-4, "{q}: {found:?} {time}");
+            // one node of a larger capacity (q < 1) reads too cold
+            assert_eq!(found.signed < 0.0, q < 1.0, "{found:?}");
+            let error = |t: f64| ((-t).exp() - (-q * t).exp()).abs();
+            let from = found.good_from.unwrap();
+            assert!((error(from) - 0.05).abs() < 1e-9 && from > time, "{q}: {found:?}");
+            assert!(error(1.01 * from) < 0.05, "{found:?}");
         }
     }
 
@@ -182,17 +267,26 @@ mod tests {
     fn without_capacity_the_error_is_all_that_is_still_to_come() {
         let term = ResponseTerm { tau: 7.0, resistance: 0.5, error: 0.0 };
         let step = StepResponse { resistance: 2.0, direct: 1.5, terms: vec![term], residual: 0.0 };
-        assert_eq!(of_step(&step, 0.0), Deviation { kelvin: 0.5, relative: Some(0.25), time: 0.0 });
+        let found = of_step(&step, 0.0, 0.05);
+        assert_eq!((found.kelvin, found.relative, found.time), (0.5, Some(0.25), 0.0));
+        // too warm, until 0.5 exp(-t/7) is 0.1
+        assert!(found.signed > 0.0, "{found:?}");
+        assert!((found.good_from.unwrap() - 7.0 * 5_f64.ln()).abs() < 1e-9, "{found:?}");
     }
 
     #[test]
     fn a_deviation_is_held_against_both_bounds() {
-        let found = Deviation { kelvin: 2.0, relative: Some(0.1), time: 0.0 };
-        assert!(found.within(None, None) && found.within(Some(2.0), Some(0.1)));
-        assert!(!found.within(Some(1.9), None) && !found.within(None, Some(0.09)));
-        assert!(!found.within(Some(1.9), Some(0.2)) && !found.within(Some(3.0), Some(0.09)));
+        let found = Deviation {
+            kelvin: 2.0,
+            relative: Some(0.1),
+            time: 0.0,
+            signed: -2.0,
+            good_from: None,
+        };
+        assert!(found.within(Allowed::Kelvin(2.0)) && found.within(Allowed::Share(0.1)));
+        assert!(!found.within(Allowed::Kelvin(1.9)) && !found.within(Allowed::Share(0.09)));
         // nothing rises: no share of it is too large
-        assert!(Deviation { relative: None, ..found }.within(Some(3.0), Some(0.0)));
+        assert!(Deviation { relative: None, ..found }.within(Allowed::Share(0.0)));
     }
 
     /// Of a parabola with its top, 4, at 1.3.
@@ -200,7 +294,23 @@ mod tests {
         let of =
             |temperatures| Record { times: times.to_vec(), temperatures, breaks: breaks.to_vec() };
         let other = of(vec![0.0; times.len()]);
-        of(times.iter().map(|t| 4.0 - (t - 1.3) * (t - 1.3)).collect()).deviation(&other)
+        of(times.iter().map(|t| 4.0 - (t - 1.3) * (t - 1.3)).collect())
+            .deviation(&other, Allowed::default())
+    }
+
+    #[test]
+    fn a_record_is_good_from_the_row_after_the_last_bad_one() {
+        let of = |temperatures: [f64; 5]| Record {
+            times: vec![0.0, 1.0, 2.0, 3.0, 4.0],
+            temperatures: temperatures.to_vec(),
+            breaks: Vec::new(),
+        };
+        let whole = of([0.0, 6.0, 8.0, 9.0, 10.0]);
+        let found = whole.deviation(&of([0.0, 5.0, 8.1, 8.4, 10.1]), Allowed::default());
+        assert!(found.signed <= -1.0 && found.good_from == Some(4.0), "{found:?}");
+        let found = whole.deviation(&of([0.0, 6.2, 8.1, 9.4, 11.0]), Allowed::default());
+        assert!(found.signed >= 1.0 && found.good_from.is_none(), "{found:?}");
+        assert_eq!(whole.deviation(&whole, Allowed::default()).good_from, Some(0.0));
     }
 
     #[test]

@@ -33,6 +33,10 @@ pub enum ReduceError {
             "put a constant conductance, capacity or heat in place of `{name}`, as it is in steady \
              state: `lptn steady`"
         );
+    /// Streams go on from node to node: heat there is not felt here as heat here is felt there.
+    OneWay = "reduce::one_way",
+        "streams go on from node to node: their network has one equivalent node at most",
+        help "leave --nodes, --error and --keep out, or write the streams as conductances";
     /// Sources or boundaries switch by themselves, which one node without the places that are felt
     /// cannot follow.
     Switches { name: String } = "reduce::switches",

@@ -5,33 +5,53 @@
 //! exponentials, [`StepResponse`]; the capacity `C_eq` of the nearest one-node network depends on
 //! what "nearest" means, so [`Reduction`] gives it by four [`Definition`]s, each with the largest
 //! [`Deviation`] it leads to, measured for a unit step of heat and for the network's own inputs.
-//! [`fit_exponential`] and [`Bias`] are the method of the seed paper, which takes heat from one
-//! exponential. The impedance of a port has two forms, [`Foster`] and [`Cauer`], each of which
-//! follows from the other.
+//! Streams of constant capacity rate may be among the paths; what goes on from node to node makes the
+//! network lack symmetry, and leaves it without a [`StepResponse`].
+//! [`Nodes`] are a few nodes at a port, [`WorstCase`] their error over every load, [`Kept`] several
+//! nodes with what stands between them. The impedance of a port has two forms, [`Foster`] and
+//! [`Cauer`], each of which follows from the other. [`fit_exponential`] and [`Bias`] are the method of
+//! the seed paper, which takes heat from one exponential.
 //!
 //! Units: SI, temperatures in K, resistances in K/W, capacities in J/K, heat positive into a node.
 
+mod allowed;
 mod bias;
 mod capacity;
+mod carried;
 mod definition;
 mod deviation;
 mod error;
+mod exponentials;
+mod fewer;
 mod fit;
+mod kept;
+mod kept_errors;
+mod kept_network;
 mod ladder;
 mod lanczos;
+mod nodes;
 mod norton;
 mod one_node;
+mod projected;
 mod reduction;
 mod rises;
 mod step;
+mod streams;
 mod table;
+mod worst;
 
+pub use allowed::Allowed;
 pub use bias::Bias;
-pub use definition::{Definition, Pair, Recommended};
+pub use definition::{Definition, Judge, Pair, Recommended};
 pub use deviation::Deviation;
 pub use error::{FitError, ReduceError};
 pub use fit::{ExponentialFit, fit_exponential};
+pub use kept::{Kept, Recovery};
+pub use kept_errors::{KeptErrors, KeptReference};
 pub use ladder::{Cauer, Foster, LadderError};
+pub use nodes::Nodes;
 pub use norton::{Inputs, NortonEquivalent, port, transfer_resistance};
+pub use projected::Projected;
 pub use reduction::{Dynamics, LeastSquaresWindow, Reduction, ReductionOptions, TOLERANCE};
 pub use step::{ResponseTerm, StepResponse};
+pub use worst::{Stretch, WorstCase};

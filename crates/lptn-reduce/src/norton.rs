@@ -1,28 +1,32 @@
 //! What a network is in steady state, seen from one node.
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{End, InputError, Item, Network, NodeId};
+use lptn_network::{ConductorFlow, End, InputError, Item, Network, NodeId};
 
 use crate::error::ReduceError;
-use crate::rises::Rises;
+use crate::rises::{Rises, Way};
 
 /// The Norton equivalent of a linear network at a port: `q = Q_N - (T - T_ref) / R_eq`, where q is
 /// the heat that the network gives out of the port in W when something outside holds the port at T.
 ///
 /// `R_eq = (G^-1)_pp` is the rise of the port for 1 W into it. By reciprocity (G is symmetric) the
-/// response `R_pk` of node k to heat at the port is that of the port to heat at k, so one solution
+/// response `R_kp` of node k to heat at the port is that of the port to heat at k, so one solution
 /// gives the weights of all sources, `R_pk / R_pp`, and of all boundaries: the share of the 1 W
-/// that each takes. Source: L. O. Chua, C. A. Desoer, E. S. Kuh, Linear and Nonlinear Circuits
-/// (1987), chapters 5 and 13.
+/// that each takes. A stream that goes on to another node is felt there and not back: G is then
+/// not symmetric, and the weights come from a solution with its transpose, equally exact. Source:
+/// L. O. Chua, C. A. Desoer, E. S. Kuh, Linear and Nonlinear Circuits (1987), chapters 5 and 13.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NortonEquivalent {
     /// The node seen from outside.
     pub port: NodeId,
     /// `R_eq` in K/W, positive.
     pub resistance: f64,
-    /// `R_pk` in K/W: rise of every node for 1 W into the port, between 0 and `R_eq`; 0 for nodes
-    /// that only a boundary connects with the port.
+    /// `R_kp` in K/W: rise of every node for 1 W into the port, between 0 and `R_eq`; 0 for nodes
+    /// that no heat from the port reaches.
     pub response: Vec<f64>,
+    /// `R_pk` in K/W: rise of the port for 1 W into every node; the same as `response` where no
+    /// stream goes on to another node.
+    pub influence: Vec<f64>,
     /// Weight of every boundary in `T_ref`: not negative, sum 1.
     pub boundary_weights: Vec<f64>,
     /// Weight of every source in `Q_N`: `R_pk / R_pp` of its node, between 0 and 1.
@@ -49,7 +53,8 @@ pub fn port(network: &Network, name: &str) -> Result<NodeId, ReduceError> {
     }
 }
 
-/// Rise of node `to` in K for 1 W into node `from`, in K/W; the same with the two exchanged.
+/// Rise of node `to` in K for 1 W into node `from`, in K/W; the same with the two exchanged where no
+/// stream goes on from one node to another.
 ///
 /// # Errors
 /// [`ReduceError::NoGround`] and [`ReduceError::Factorization`].
@@ -82,18 +87,22 @@ impl NortonEquivalent {
         let network = system.network();
         let mut heat = vec![0.0; network.nodes().len()];
         heat[port.index()] = 1.0;
-        let reached = reached(network, port);
-        let rise = rises.of_nodes(&heat)?;
-        let response: Vec<f64> =
-            rise.iter().zip(&reached).map(|(&r, &is)| if is { r } else { 0.0 }).collect();
+        let mut solved = |way| -> Result<Vec<f64>, ReduceError> {
+            let rise = rises.of_nodes(&heat, way)?;
+            let is_reached = reached(network, port, way);
+            Ok(rise.iter().zip(is_reached).map(|(&r, is)| if is { r } else { 0.0 }).collect())
+        };
+        let response = solved(Way::Forth)?;
+        let influence = if system.is_linear() { response.clone() } else { solved(Way::Back)? };
         let resistance = response[port.index()];
         let weight = |source: &lptn_network::Source| {
-            source.into.iter().map(|(node, share)| share * response[node.index()]).sum::<f64>()
+            source.into.iter().map(|(node, share)| share * influence[node.index()]).sum::<f64>()
                 / resistance
         };
         let source_weights = network.sources().iter().map(weight).collect();
-        let boundary_weights = rises.boundary_heat().iter().map(|w| w.max(0.0)).collect();
-        Ok(Self { port, resistance, response, boundary_weights, source_weights })
+        let weights = rises.boundary_weights(port, &influence)?;
+        let boundary_weights = weights.iter().map(|w| w.max(0.0)).collect();
+        Ok(Self { port, resistance, response, influence, boundary_weights, source_weights })
     }
 
     /// `T_ref` in K from the temperatures of all boundaries in K.
@@ -127,22 +136,16 @@ impl NortonEquivalent {
 
     /// Sum of the capacities of all nodes that heat from the port reaches, in J/K.
     pub fn capacity_sum(&self, network: &Network) -> f64 {
-        self.reached(network).map(|(_, capacity)| capacity).sum()
+        let is_reached = reached(network, self.port, Way::Forth);
+        let all = network.node_ids().zip(is_reached).filter(|(_, is)| *is);
+        all.map(|(id, _)| network.capacity(id)).sum()
     }
 
-    /// `m1 = sum of C_k R_pk^2` in K s/W: the first moment of the impulse response at the port (W.
-    /// C. Elmore, J. Appl. Phys. 19 (1948) 55; for a driving point of an RC network the sum over
-    /// squares).
+    /// `m1 = sum of R_pk C_k R_kp` in K s/W: the first moment of the impulse response at the port
+    /// (W. C. Elmore, J. Appl. Phys. 19 (1948) 55; without streams the sum over squares).
     pub fn first_moment(&self, network: &Network) -> f64 {
-        self.reached(network).map(|(r, capacity)| capacity * r * r).sum()
-    }
-
-    /// Response and capacity of the nodes that heat from the port reaches.
-    fn reached(&self, network: &Network) -> impl Iterator<Item = (f64, f64)> {
-        let capacities = network.node_ids().map(|id| network.capacity(id)).collect::<Vec<_>>();
-        let is_reached = reached(network, self.port);
-        let all = self.response.clone().into_iter().zip(capacities).zip(is_reached);
-        all.filter(|(_, is)| *is).map(|(pair, _)| pair)
+        let rises = self.response.iter().zip(&self.influence);
+        network.node_ids().zip(rises).map(|(id, (r, back))| network.capacity(id) * r * back).sum()
     }
 }
 
@@ -156,20 +159,26 @@ pub(crate) fn grounded(network: &Network, port: NodeId) -> Result<(), ReduceErro
     Err(ReduceError::NoGround { names })
 }
 
-/// Which nodes are connected with the port by paths over nodes.
-fn reached(network: &Network, port: NodeId) -> Vec<bool> {
-    let mut neighbours: Vec<Vec<usize>> = vec![Vec::new(); network.nodes().len()];
-    for conductor in network.conductors() {
+/// Which nodes heat from the port reaches over nodes, or from which heat reaches the port.
+fn reached(network: &Network, port: NodeId, way: Way) -> Vec<bool> {
+    let mut next_to: Vec<Vec<usize>> = vec![Vec::new(); network.nodes().len()];
+    for (conductor, id) in network.conductors().iter().zip(network.conductor_ids()) {
         if let (End::Node(a), End::Node(b)) = (conductor.from, conductor.to) {
-            neighbours[a.index()].push(b.index());
-            neighbours[b.index()].push(a.index());
+            let (a, b) = (a.index(), b.index());
+            let (forth, back) = match network.flow(id) {
+                ConductorFlow::Stream(mcp) => (mcp > 0.0, mcp < 0.0),
+                _ => (true, true),
+            };
+            let [forth, back] = if way == Way::Forth { [forth, back] } else { [back, forth] };
+            forth.then(|| next_to[a].push(b));
+            back.then(|| next_to[b].push(a));
         }
     }
-    let mut reached = vec![false; neighbours.len()];
+    let mut reached = vec![false; next_to.len()];
     reached[port.index()] = true;
     let mut open = vec![port.index()];
     while let Some(node) = open.pop() {
-        for &next in &neighbours[node] {
+        for &next in &next_to[node] {
             if !std::mem::replace(&mut reached[next], true) {
                 open.push(next);
             }

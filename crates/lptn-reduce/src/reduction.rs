@@ -4,12 +4,14 @@ use lptn_assembly::ThermalSystem;
 use lptn_network::{Network, NodeId};
 use lptn_solve::{EventKind, Transient, TransientError};
 
+use crate::allowed::Allowed;
 use crate::capacity::least_squares;
-use crate::definition::{Definition, Pair, Recommended, recommended};
+use crate::definition::{Definition, Judge, Pair, Recommended, recommended};
 use crate::deviation::{self, Dense, Deviation, Record};
 use crate::error::ReduceError;
+use crate::nodes::Nodes;
 use crate::norton::{Inputs, NortonEquivalent, grounded};
-use crate::one_node::OneNode;
+use crate::one_node::{OneNode, Row};
 use crate::rises::Rises;
 use crate::step::StepResponse;
 
@@ -22,9 +24,12 @@ pub const TOLERANCE: f64 = 1e-7;
 pub struct ReductionOptions {
     /// The run to compare over; `None` leaves the second error out.
     pub run: Option<Transient>,
-    /// Length in s of the window of [`Definition::LeastSquares`], from the step on; else that of
-    /// the run.
+    /// Length in s of the window of [`Definition::LeastSquares`], from the step on.
     pub window: Option<f64>,
+    /// What the recommended pair is to have the smallest error of.
+    pub judge: Judge,
+    /// How large an error is accepted: it says from when on a pair is good.
+    pub allowed: Allowed,
 }
 
 /// The window of the least-squares definition, which begins with the step. Lengths in s.
@@ -32,9 +37,9 @@ pub struct ReductionOptions {
 pub enum LeastSquaresWindow {
     /// As it was asked for.
     Given(f64),
-    /// As long as the run.
+    /// As long as the run, by which the pairs are judged.
     Run(f64),
-    /// Five of the slowest time constants: there is no run.
+    /// Five of the slowest time constants.
     TimeConstants(f64),
 }
 
@@ -62,24 +67,48 @@ pub struct Reduction {
 /// What depends on capacities.
 #[derive(Clone, Debug)]
 pub struct Dynamics {
-    /// The step response of the port.
-    pub step: StepResponse,
-    /// The window of the least-squares definition.
-    pub window: LeastSquaresWindow,
-    /// One pair a definition, in the order of [`Definition::ALL`].
-    pub pairs: [Pair; 4],
+    /// The step response of the port; `None` where streams go on from node to node.
+    pub step: Option<StepResponse>,
+    /// The window of the least-squares definition, where there is one.
+    pub window: Option<LeastSquaresWindow>,
+    /// One pair a definition, in the order of [`Definition::ALL`]; where streams go on from node to
+    /// node only the sum and the first moment.
+    pub pairs: Vec<Pair>,
     /// The pair to use.
     pub recommended: Recommended,
     /// Tolerance in K of the runs compared; `None` without a run.
     pub tolerance: Option<f64>,
     /// The port's largest change from its start over the run, in K.
     pub rise: Option<f64>,
+    /// How large an error is accepted.
+    pub allowed: Allowed,
 }
 
 impl Dynamics {
-    /// The pair of a definition.
-    pub fn pair(&self, definition: Definition) -> &Pair {
-        self.pairs.iter().find(|pair| pair.definition == definition).unwrap_or(&self.pairs[0])
+    /// The pair of a definition, where there is one.
+    pub fn pair(&self, definition: Definition) -> Option<&Pair> {
+        self.pairs.iter().find(|pair| pair.definition == definition)
+    }
+
+    /// The error that says whether a pair may stand for the network: that of the run, where the
+    /// port rises in it, else that of a step. `None` where there is neither.
+    pub fn judged(&self, pair: &Pair) -> Option<(Judge, Deviation)> {
+        let run = pair.run.filter(|run| run.relative.is_some()).map(|run| (Judge::Run, run));
+        run.or(pair.step.map(|step| (Judge::Step, step)))
+    }
+
+    /// Whether that error is no larger than what is accepted. In K a step says nothing: it has no
+    /// heat of its own.
+    pub fn collapses(&self, pair: &Pair) -> Option<bool> {
+        match (self.judged(pair)?, self.allowed) {
+            ((Judge::Step, _), Allowed::Kelvin(_)) => None,
+            ((_, error), allowed) => Some(error.within(allowed)),
+        }
+    }
+
+    /// Its recommended pair.
+    pub fn best(&self) -> &Pair {
+        self.pair(self.recommended.definition).unwrap_or(&self.pairs[0])
     }
 }
 
@@ -106,9 +135,13 @@ impl Reduction {
         let start = options.run.as_ref().map_or(0.0, |run| run.start);
         let inputs = norton.inputs(system, start).map_err(ReduceError::Input)?;
         let initial = initial(system, port, start)?;
-        let step = StepResponse::with(system, &norton, &mut rises)?;
+        let step = if rises.is_symmetric() {
+            StepResponse::with(system, &norton, &mut rises)?
+        } else {
+            None
+        };
         let mut reduction = Self { norton, inputs, initial, dynamics: None };
-        if let Some(step) = step {
+        if reduction.norton.capacity_sum(system.network()) > 0.0 {
             reduction.dynamics = Some(reduction.dynamics(system, step, options)?);
         }
         Ok(reduction)
@@ -127,8 +160,91 @@ impl Reduction {
         pair: Option<&Pair>,
     ) -> Result<Network, ReduceError> {
         still(system.network())?;
-        let capacity = pair.map(|pair| pair.capacity).filter(|capacity| *capacity > 0.0);
-        self.one_node(system, start).network(capacity)
+        let row = Row::one(self.norton.resistance, pair.map_or(0.0, |pair| pair.capacity));
+        self.one_node(system, start).network(&row)
+    }
+
+    /// The network of a few nodes, started as the whole one is at its port; that node has the name
+    /// of the port.
+    ///
+    /// # Errors
+    /// As [`Reduction::network`].
+    pub fn network_of(
+        &self,
+        system: &ThermalSystem,
+        start: f64,
+        nodes: &Nodes,
+    ) -> Result<Network, ReduceError> {
+        still(system.network())?;
+        self.one_node(system, start).network(&Row::from(&nodes.ladder))
+    }
+
+    /// The error of a few nodes: that of the run, where there is one in which the port rises, else
+    /// that of a step. `None` where streams go on from node to node.
+    ///
+    /// # Errors
+    /// [`ReduceError::Run`], and as [`Reduction::network`].
+    pub fn judged(
+        &self,
+        system: &ThermalSystem,
+        nodes: &Nodes,
+        (run, allowed): (Option<&Transient>, Allowed),
+    ) -> Result<Option<(Judge, Deviation)>, ReduceError> {
+        let whole = run.map(|run| Whole::new(self, system, run)).transpose()?;
+        self.error_of(whole.as_ref(), nodes, allowed)
+    }
+
+    /// The smallest number of nodes, from two to eight, whose error is no larger than what is
+    /// accepted; `None` where there is none, as where the heat goes in elsewhere.
+    ///
+    /// # Errors
+    /// As [`Reduction::judged`].
+    pub fn fewest(
+        &self,
+        system: &ThermalSystem,
+        (run, allowed): (Option<&Transient>, Allowed),
+    ) -> Result<Option<(Nodes, Judge, Deviation)>, ReduceError> {
+        const MOST: usize = 8;
+        /// A node more has to take so much of the error away, else more will not help.
+        const LESS: f64 = 0.9;
+        let Some(step) = self.dynamics.as_ref().and_then(|dynamics| dynamics.step.as_ref()) else {
+            return Ok(None);
+        };
+        let whole = run.map(|run| Whole::new(self, system, run)).transpose()?;
+        let mut before = f64::INFINITY;
+        for nodes in (2..=MOST).filter_map(|count| Nodes::of(step, count)) {
+            let Some((judge, error)) = self.error_of(whole.as_ref(), &nodes, allowed)? else {
+                return Ok(None);
+            };
+            if error.within(allowed) {
+                return Ok(Some((nodes, judge, error)));
+            }
+            if error.kelvin > LESS * before {
+                return Ok(None);
+            }
+            before = error.kelvin;
+        }
+        Ok(None)
+    }
+
+    fn error_of(
+        &self,
+        whole: Option<&Whole<'_>>,
+        nodes: &Nodes,
+        allowed: Allowed,
+    ) -> Result<Option<(Judge, Deviation)>, ReduceError> {
+        if let Some(whole) = whole {
+            let error = whole.deviation(&Row::from(&nodes.ladder), allowed)?;
+            if error.relative.is_some() {
+                return Ok(Some((Judge::Run, error)));
+            }
+        }
+        let step = self.dynamics.as_ref().and_then(|dynamics| dynamics.step.as_ref());
+        let taus = nodes.foster.terms.iter().map(|term| term.1);
+        let span = taus.fold((f64::INFINITY, 0.0), |(a, b), tau| (tau.min(a), tau.max(b)));
+        let rise = |time: f64| nodes.foster.step(time);
+        let of_step = |step| deviation::of_curve(step, &rise, Some(span), allowed.share());
+        Ok(step.map(|step| (Judge::Step, of_step(step))))
     }
 
     fn one_node<'a>(&'a self, system: &'a ThermalSystem, start: f64) -> OneNode<'a> {
@@ -138,64 +254,112 @@ impl Reduction {
     fn dynamics(
         &self,
         system: &ThermalSystem,
-        step: StepResponse,
+        step: Option<StepResponse>,
         options: &ReductionOptions,
     ) -> Result<Dynamics, ReduceError> {
-        let slowest = step.slowest().tau;
-        let window = match (options.window, &options.run) {
-            (Some(length), _) => LeastSquaresWindow::Given(length),
-            (None, Some(run)) => LeastSquaresWindow::Run(run.stop - run.start),
-            (None, None) => LeastSquaresWindow::TimeConstants(5.0 * slowest),
-        };
-        let (network, r) = (system.network(), self.norton.resistance);
-        let capacities = Definition::ALL.map(|definition| match definition {
-            Definition::Sum => self.norton.capacity_sum(network),
-            Definition::FirstMoment => self.norton.first_moment(network) / (r * r),
-            Definition::DominantPole => slowest / r,
-            Definition::LeastSquares => least_squares(&step, window.length()),
-        });
+        let window = step.as_ref().map(|step| window(step, options));
+        let capacities = self.capacities(system.network(), step.as_ref().zip(window));
         // in a window far from every time constant the change of the port is lost in rounding
-        if !capacities[3].is_finite() {
+        if let Some((window, (_, capacity))) = window.zip(capacities.last())
+            && !capacity.is_finite()
+        {
             return Err(ReduceError::Window(window.length()));
         }
-        let run =
-            options.run.as_ref().map(|run| self.compare(system, run, capacities)).transpose()?;
-        let mut k = 0;
-        let pairs = Definition::ALL.map(|definition| {
-            let (capacity, run) = (capacities[k], run.as_ref().map(|run| run.deviations[k]));
-            k += 1;
-            Pair { definition, capacity, step: deviation::of_step(&step, capacity), run }
-        });
+        let run = options.run.as_ref().map(|run| self.compare(system, run, &capacities, options));
+        let run = run.transpose()?;
+        let share = options.allowed.share();
+        let pair = |(k, &(definition, capacity)): (usize, &(Definition, f64))| Pair {
+            definition,
+            capacity,
+            step: step.as_ref().map(|step| deviation::of_step(step, capacity, share)),
+            run: run.as_ref().map(|run| run.deviations[k]),
+        };
+        let pairs: Vec<Pair> = capacities.iter().enumerate().map(pair).collect();
         let tolerance = run.as_ref().map(|run| run.tolerance);
-        let recommended = recommended(&pairs, (10.0 * tolerance.unwrap_or(0.0), 1e-9 * r));
+        let noise = (10.0 * tolerance.unwrap_or(0.0), 1e-9 * self.norton.resistance);
+        let recommended = recommended(&pairs, options.judge, noise);
         let rise = run.map(|run| run.rise);
-        Ok(Dynamics { step, window, pairs, recommended, tolerance, rise })
+        let allowed = options.allowed;
+        Ok(Dynamics { step, window, pairs, recommended, tolerance, rise, allowed })
+    }
+
+    /// The capacity of every definition that there is, in J/K.
+    fn capacities(
+        &self,
+        network: &Network,
+        step: Option<(&StepResponse, LeastSquaresWindow)>,
+    ) -> Vec<(Definition, f64)> {
+        let r = self.norton.resistance;
+        let mut all = vec![
+            (Definition::Sum, self.norton.capacity_sum(network)),
+            (Definition::FirstMoment, self.norton.first_moment(network) / (r * r)),
+        ];
+        if let Some((step, window)) = step {
+            all.push((Definition::DominantPole, step.slowest().tau / r));
+            all.push((Definition::LeastSquares, least_squares(step, window.length())));
+        }
+        all
     }
 
     fn compare(
         &self,
         system: &ThermalSystem,
         run: &Transient,
-        capacities: [f64; 4],
+        capacities: &[(Definition, f64)],
+        options: &ReductionOptions,
     ) -> Result<Comparison, ReduceError> {
+        let whole = Whole::new(self, system, run)?;
+        let resistance = self.norton.resistance;
+        let deviation = |&(_, capacity): &(Definition, f64)| {
+            whole.deviation(&Row::one(resistance, capacity), options.allowed)
+        };
+        let deviations = capacities.iter().map(deviation).collect::<Result<_, _>>()?;
+        Ok(Comparison { deviations, tolerance: whole.tolerance, rise: whole.record.rise() })
+    }
+}
+
+/// The whole network's run, with which reduced ones are compared.
+struct Whole<'a> {
+    one_node: OneNode<'a>,
+    run: Dense,
+    record: Record,
+    tolerance: f64,
+}
+
+impl<'a> Whole<'a> {
+    fn new(
+        reduction: &'a Reduction,
+        system: &'a ThermalSystem,
+        run: &Transient,
+    ) -> Result<Self, ReduceError> {
         let tolerance = TOLERANCE.min(0.01 * run.tolerance);
-        let one_node = self.one_node(system, run.start);
-        let mut deviations = [Deviation { kelvin: 0.0, relative: None, time: run.start }; 4];
+        let mut one_node = reduction.one_node(system, run.start);
         let run = Dense::new(system, run, tolerance)?;
-        let whole = Record::of(system, self.norton.port, &run)?;
-        for (capacity, deviation) in capacities.into_iter().zip(&mut deviations) {
-            let network = one_node.network(Some(capacity).filter(|capacity| *capacity > 0.0))?;
-            let port = network.node_ids().next().unwrap_or(self.norton.port); // its only node
-            let reduced = ThermalSystem::assemble(&network)
-                .map_err(|error| ReduceError::Equivalent(error.to_string()))?;
-            *deviation = whole.deviation(&Record::of(&reduced, port, &run)?);
-        }
-        Ok(Comparison { deviations, tolerance, rise: whole.rise() })
+        let record = Record::of(system, reduction.norton.port, &run)?;
+        one_node.initial = record.first().unwrap_or(one_node.initial);
+        Ok(Self { one_node, run, record, tolerance })
+    }
+
+    fn deviation(&self, row: &Row, allowed: Allowed) -> Result<Deviation, ReduceError> {
+        let network = self.one_node.network(row)?;
+        let port = network.node_ids().next().unwrap_or(self.one_node.norton.port); // the first
+        let reduced = ThermalSystem::assemble(&network)
+            .map_err(|error| ReduceError::Equivalent(error.to_string()))?;
+        Ok(self.record.deviation(&Record::of(&reduced, port, &self.run)?, allowed))
+    }
+}
+
+/// The window of the least-squares definition: it follows the run only where the run judges.
+fn window(step: &StepResponse, options: &ReductionOptions) -> LeastSquaresWindow {
+    match (options.window, &options.run, options.judge) {
+        (Some(length), _, _) => LeastSquaresWindow::Given(length),
+        (None, Some(run), Judge::Run) => LeastSquaresWindow::Run(run.stop - run.start),
+        _ => LeastSquaresWindow::TimeConstants(5.0 * step.slowest().tau),
     }
 }
 
 /// Nothing may switch by itself in a network that one node is to follow over time.
-fn still(network: &Network) -> Result<(), ReduceError> {
+pub(crate) fn still(network: &Network) -> Result<(), ReduceError> {
     match EventKind::switching(network).next() {
         Some(kind) => Err(ReduceError::Switches { name: kind.name(network) }),
         None => Ok(()),
@@ -204,13 +368,17 @@ fn still(network: &Network) -> Result<(), ReduceError> {
 
 /// What the runs of the four pairs gave.
 struct Comparison {
-    deviations: [Deviation; 4],
+    deviations: Vec<Deviation>,
     tolerance: f64,
     rise: f64,
 }
 
 /// Temperature of a node at the start, a massless one with the inputs on.
-fn initial(system: &ThermalSystem, node: NodeId, start: f64) -> Result<f64, ReduceError> {
+pub(crate) fn initial(
+    system: &ThermalSystem,
+    node: NodeId,
+    start: f64,
+) -> Result<f64, ReduceError> {
     let stop = start + 1.0;
     let segments = system.network().breakpoints(start, stop).map_err(TransientError::Input)?;
     let inside = 0.5 * (start + segments.first().copied().unwrap_or(stop));

@@ -1,40 +1,75 @@
 //! Rises from heat alone: `G x = b` with every boundary at zero.
 
 use lptn_assembly::{ThermalSystem, Workspace};
+use lptn_network::{ConductorFlow, Item, Network, NodeId};
 use lptn_solve::Conductances;
 
 use crate::error::ReduceError;
+use crate::streams::{Streams, inflow};
 
 /// Temperatures over boundaries that are all at zero.
 pub(crate) struct Rises<'a> {
     system: &'a ThermalSystem,
     work: Workspace,
-    conductances: Conductances<'a>,
+    solver: Solver<'a>,
     still: Vec<f64>,
+}
+
+enum Solver<'a> {
+    Paths(Conductances<'a>),
+    Streams(Box<Streams>),
+}
+
+/// Which way heat is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Way {
+    /// What heat here does everywhere.
+    Forth,
+    /// What heat everywhere does here: the same where no stream goes on to another node.
+    Back,
 }
 
 impl<'a> Rises<'a> {
     /// Factorises the conductances; heat may go in only where a path leads to a boundary.
     pub(crate) fn new(system: &'a ThermalSystem) -> Result<Self, ReduceError> {
-        if let Some(item) = system.network().first_nonlinear() {
-            return Err(ReduceError::NotLinear {
-                name: system.network().name_of(item).into_owned(),
-            });
+        let network = system.network();
+        if let Some(item) = first_variable(network) {
+            return Err(ReduceError::NotLinear { name: network.name_of(item).into_owned() });
         }
-        let still = vec![0.0; system.network().boundaries().len()];
-        Ok(Self {
-            system,
-            work: system.workspace(),
-            conductances: Conductances::new(system)?,
-            still,
-        })
+        let solver = if system.is_linear() {
+            Solver::Paths(Conductances::new(system)?)
+        } else {
+            Solver::Streams(Box::new(Streams::new(system)?))
+        };
+        let still = vec![0.0; network.boundaries().len()];
+        Ok(Self { system, work: system.workspace(), solver, still })
+    }
+
+    /// Whether heat here does there what heat there does here, so that the modes are real and a
+    /// step response is a sum of exponentials that all fall.
+    pub(crate) fn is_symmetric(&self) -> bool {
+        match &self.solver {
+            Solver::Paths(_) => true,
+            Solver::Streams(streams) => streams.symmetric && self.system.algebraic().is_empty(),
+        }
     }
 
     /// Rise of every node in K for these heats into the nodes in W.
-    pub(crate) fn of_nodes(&mut self, heat: &[f64]) -> Result<Vec<f64>, ReduceError> {
+    pub(crate) fn of_nodes(&mut self, heat: &[f64], way: Way) -> Result<Vec<f64>, ReduceError> {
         self.system.apply(&mut self.work, heat, &self.still);
-        let states = self.conductances.states(&self.work, 0.0, Conductances::REFINEMENTS)?;
-        self.system.recover(&mut self.work, &states);
+        self.solved(way)
+    }
+
+    /// Temperature of every node for the inputs in `work`.
+    fn solved(&mut self, way: Way) -> Result<Vec<f64>, ReduceError> {
+        let unknowns = match &mut self.solver {
+            Solver::Paths(paths) => paths.states(&self.work, 0.0, Conductances::REFINEMENTS)?,
+            Solver::Streams(streams) => {
+                let b = inflow(self.system, &mut self.work).map_err(ReduceError::Input)?;
+                streams.solve(&b, way == Way::Back)?
+            }
+        };
+        self.system.recover(&mut self.work, &unknowns);
         Ok(self.system.node_temperatures(&self.work).to_vec())
     }
 
@@ -43,11 +78,53 @@ impl<'a> Rises<'a> {
         let mut nodes = vec![0.0; self.system.network().nodes().len()];
         self.system.states().iter().zip(heat).for_each(|(id, q)| nodes[id.index()] = *q);
         self.system.apply(&mut self.work, &nodes, &self.still);
-        Ok(self.conductances.states(&self.work, 0.0, 1)?)
+        match &mut self.solver {
+            Solver::Paths(paths) => Ok(paths.states(&self.work, 0.0, 1)?),
+            Solver::Streams(streams) => {
+                let b = inflow(self.system, &mut self.work).map_err(ReduceError::Input)?;
+                Ok(streams.solve(&b, false)?)
+            }
+        }
+    }
+
+    /// Temperature of every node in K for one boundary at 1 K, all others and all heats at zero.
+    pub(crate) fn of_boundary(&mut self, boundary: usize) -> Result<Vec<f64>, ReduceError> {
+        let mut temperatures = self.still.clone();
+        temperatures[boundary] = 1.0;
+        let none = vec![0.0; self.system.network().nodes().len()];
+        self.system.apply(&mut self.work, &none, &temperatures);
+        self.solved(Way::Forth)
+    }
+
+    /// By how much the port follows each boundary: `back` is what heat everywhere does to it, as
+    /// [`Rises::of_nodes`] last gave it.
+    pub(crate) fn boundary_weights(
+        &mut self,
+        port: NodeId,
+        back: &[f64],
+    ) -> Result<Vec<f64>, ReduceError> {
+        if matches!(self.solver, Solver::Paths(_)) {
+            return Ok(self.boundary_heat());
+        }
+        let none = vec![0.0; self.system.network().nodes().len()];
+        let cold = vec![0.0; self.system.unknowns().len()];
+        let mut weights = Vec::with_capacity(self.still.len());
+        for boundary in 0..self.still.len() {
+            let mut temperatures = self.still.clone();
+            temperatures[boundary] = 1.0;
+            self.system.apply(&mut self.work, &none, &temperatures);
+            let b = inflow(self.system, &mut self.work).map_err(ReduceError::Input)?;
+            let felt = self.system.unknowns().iter().zip(&b).map(|(id, q)| back[id.index()] * q);
+            // what an eliminated port takes from the boundary without any unknown between them
+            self.system.recover(&mut self.work, &cold);
+            let direct = self.system.node_temperatures(&self.work)[port.index()];
+            weights.push(felt.sum::<f64>() + direct);
+        }
+        Ok(weights)
     }
 
     /// Heat that every boundary takes in W at the rises last asked for by [`Rises::of_nodes`].
-    pub(crate) fn boundary_heat(&self) -> Vec<f64> {
+    fn boundary_heat(&self) -> Vec<f64> {
         let mut heat = vec![0.0; self.still.len()];
         let mut states = vec![0.0; self.system.states().len()];
         self.system.unknown_temperatures(self.system.node_temperatures(&self.work), &mut states);
@@ -55,4 +132,14 @@ impl<'a> Rises<'a> {
         heat.iter_mut().for_each(|q| *q = -*q);
         heat
     }
+}
+
+/// The first item that is more than a constant.
+fn first_variable(network: &Network) -> Option<Item> {
+    let varies = |flow| matches!(flow, ConductorFlow::Radiation(_) | ConductorFlow::Variable);
+    let conductor = network.conductor_ids().find(|id| varies(network.flow(*id)));
+    let source = network.source_ids().find(|id| !network.source_variables(*id).is_empty());
+    let node = network.node_ids().find(|id| network.enthalpy(*id).is_some());
+    let items = [conductor.map(Item::Conductor), source.map(Item::Source), node.map(Item::Node)];
+    items.into_iter().flatten().next()
 }

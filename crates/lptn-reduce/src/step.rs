@@ -5,7 +5,7 @@ use lptn_assembly::ThermalSystem;
 use crate::error::ReduceError;
 use crate::lanczos::{self, Mode};
 use crate::norton::NortonEquivalent;
-use crate::rises::Rises;
+use crate::rises::{Rises, Way};
 
 /// One exponential of a step response.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,14 +65,40 @@ impl StepResponse {
         norton: &NortonEquivalent,
         rises: &mut Rises<'_>,
     ) -> Result<Option<Self>, ReduceError> {
+        let known = Known {
+            rise: &norton.response,
+            resistance: norton.resistance,
+            direct: direct(system, norton),
+        };
+        Self::known(system, &known, rises)
+    }
+
+    /// The response of `sum of h_n T_n` to heat of h_n W in every node n: that of a port where h is
+    /// 1 there, and of the sum or difference of two.
+    pub(crate) fn for_heat(
+        system: &ThermalSystem,
+        heat: &[f64],
+        rises: &mut Rises<'_>,
+    ) -> Result<Self, ReduceError> {
+        let rise = rises.of_nodes(heat, Way::Forth)?;
+        let resistance = heat.iter().zip(&rise).map(|(h, r)| h * r).sum();
+        let known = Known { rise: &rise, resistance, direct: at_once(system, heat) };
+        let none = Self { resistance, direct: known.direct, terms: Vec::new(), residual: 0.0 };
+        Ok(Self::known(system, &known, rises)?.unwrap_or(none))
+    }
+
+    fn known(
+        system: &ThermalSystem,
+        known: &Known<'_>,
+        rises: &mut Rises<'_>,
+    ) -> Result<Option<Self>, ReduceError> {
+        let &Known { rise, resistance, direct } = known;
         let root: Vec<f64> = system.capacity().iter().map(|c| c.sqrt()).collect();
-        let rise = system.states().iter().map(|id| norton.response[id.index()]);
+        let rise = system.states().iter().map(|id| rise[id.index()]);
         let start: Vec<f64> = rise.zip(&root).map(|(r, c)| r * c).collect();
-        if start.iter().all(|x| *x <= 0.0) {
+        if start.iter().all(|x| *x == 0.0) {
             return Ok(None);
         }
-        let direct = direct(system, norton);
-        let resistance = norton.resistance;
         let moved = resistance - direct;
         let enough = |modes: &[Mode]| {
             let first = modes[0];
@@ -125,19 +151,31 @@ fn terms(modes: &[Mode]) -> Vec<ResponseTerm> {
         .collect()
 }
 
+/// What a step response begins with.
+struct Known<'a> {
+    /// Rise of every node in the end in K.
+    rise: &'a [f64],
+    resistance: f64,
+    direct: f64,
+}
+
 /// The rise of a massless port in K/W while every capacity still has its old temperature.
 fn direct(system: &ThermalSystem, norton: &NortonEquivalent) -> f64 {
     let network = system.network();
-    let port = norton.port;
-    if !network.nodes()[port.index()].massless {
+    if !network.nodes()[norton.port.index()].massless {
         return 0.0;
     }
     let mut heat = vec![0.0; network.nodes().len()];
-    heat[port.index()] = 1.0;
+    heat[norton.port.index()] = 1.0;
+    at_once(system, &heat)
+}
+
+/// `sum of h_n T_n` in K for these heats in W while every capacity still has its old temperature.
+fn at_once(system: &ThermalSystem, heat: &[f64]) -> f64 {
     let mut work = system.workspace();
-    system.apply(&mut work, &heat, &vec![0.0; network.boundaries().len()]);
+    system.apply(&mut work, heat, &vec![0.0; system.network().boundaries().len()]);
     system.recover(&mut work, &vec![0.0; system.states().len()]);
-    system.node_temperatures(&work)[port.index()]
+    heat.iter().zip(system.node_temperatures(&work)).map(|(h, t)| h * t).sum()
 }
 
 #[cfg(test)]

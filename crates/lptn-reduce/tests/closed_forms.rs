@@ -5,7 +5,9 @@ mod common;
 
 use common::{assembled, near, two_nodes};
 use lptn_network::{HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Resistance, Temperature, Time};
-use lptn_reduce::{Definition, LeastSquaresWindow, ReduceError, Reduction, ReductionOptions};
+use lptn_reduce::{
+    Definition, Judge, LeastSquaresWindow, ReduceError, Reduction, ReductionOptions,
+};
 use lptn_solve::Transient;
 
 /// Printed values: capacity, half of its last digit, error in %, half of its last digit. Source:
@@ -95,15 +97,16 @@ fn check(r_int: f64, r_amb: f64, printed_tau: [f64; 2], printed: Printed) {
     );
     let (system, [steel, _]) = two_nodes(c, r_int, r_amb, 220.6);
     let run = Transient::until(Time(1500.0));
-    let options = ReductionOptions { run: Some(run), window: None };
+    let judge = Judge::Run;
+    let options = ReductionOptions { run: Some(run), judge, ..Default::default() };
     let reduction = Reduction::new(&system, steel, &options).unwrap();
     near(reduction.norton.resistance, r_int + r_amb, 1e-14);
     near(reduction.norton.boundary_weights[0], 1.0, 1e-14);
     let dynamics = reduction.dynamics.unwrap();
-    near(dynamics.step.slowest().tau, exact.tau[0], 1e-12);
-    near(dynamics.step.terms[1].tau, exact.tau[1], 1e-10);
-    near(dynamics.step.terms[1].resistance, exact.r[1], 1e-8);
-    assert_eq!(dynamics.window, LeastSquaresWindow::Run(1500.0));
+    near(dynamics.step.as_ref().unwrap().slowest().tau, exact.tau[0], 1e-12);
+    near(dynamics.step.as_ref().unwrap().terms[1].tau, exact.tau[1], 1e-10);
+    near(dynamics.step.as_ref().unwrap().terms[1].resistance, exact.r[1], 1e-8);
+    assert_eq!(dynamics.window, Some(LeastSquaresWindow::Run(1500.0)));
     for ((pair, capacity), printed) in
         dynamics.pairs.iter().zip(exact.capacities(1500.0)).zip(printed)
     {
@@ -112,12 +115,12 @@ fn check(r_int: f64, r_amb: f64, printed_tau: [f64; 2], printed: Printed) {
         let [printed_capacity, its_half_digit, printed_error, half_digit] = printed;
         assert!((pair.capacity - printed_capacity).abs() <= its_half_digit, "{pair:?}");
         let (error, time) = exact.error(pair.capacity);
-        near(pair.step.relative.unwrap(), error, 1e-7);
+        near(pair.step.unwrap().relative.unwrap(), error, 1e-7);
         assert!(
-            (pair.step.relative.unwrap() * 100.0 - printed_error).abs() <= half_digit,
+            (pair.step.unwrap().relative.unwrap() * 100.0 - printed_error).abs() <= half_digit,
             "{pair:?}"
         );
-        near(pair.step.time, time, 1e-3);
+        near(pair.step.unwrap().time, time, 1e-3);
         // the run is a step of 220.6 W from rest, cut off at 1500 s: the same error times 220.6 W,
         // in K
         let run = pair.run.unwrap();
@@ -154,27 +157,34 @@ fn clearly_two_nodes() {
 #[test]
 fn the_pair_with_the_smallest_error_is_recommended() {
     let (system, [steel, _]) = two_nodes([1000.0, 1659.0], 0.1, 0.3, 220.6);
-    let with_run = ReductionOptions { run: Some(Transient::until(Time(1500.0))), window: None };
+    let with_run =
+        ReductionOptions { run: Some(Transient::until(Time(1500.0))), ..Default::default() };
     for options in [with_run, ReductionOptions::default()] {
-        let by_run = options.run.is_some();
-        let reduction = Reduction::new(&system, steel, &options).unwrap();
-        let recommended = reduction.dynamics.unwrap().recommended;
-        assert_eq!(
-            (recommended.definition, recommended.by_run),
-            (Definition::LeastSquares, by_run)
-        );
+        for judge in Judge::ALL {
+            let by = if options.run.is_some() { judge } else { Judge::Step };
+            let options = ReductionOptions { judge, ..options.clone() };
+            let reduction = Reduction::new(&system, steel, &options).unwrap();
+            let recommended = reduction.dynamics.unwrap().recommended;
+            assert_eq!(
+                (recommended.definition, recommended.by),
+                (Definition::LeastSquares, Some(by))
+            );
+        }
     }
 }
 
 #[test]
 fn one_node_is_its_own_equivalent_by_all_definitions() {
     let (system, nodes) = common::chain(&[2659.0], &[3.25]);
-    let options =
-        ReductionOptions { run: Some(Transient::until(Time(900.0))), window: Some(400.0) };
+    let options = ReductionOptions {
+        run: Some(Transient::until(Time(900.0))),
+        window: Some(400.0),
+        ..Default::default()
+    };
     let dynamics = Reduction::new(&system, nodes[0], &options).unwrap().dynamics.unwrap();
     for pair in &dynamics.pairs {
         near(pair.capacity, 2659.0, 1e-12);
-        assert!(pair.step.relative.unwrap() < 1e-12, "{pair:?}");
+        assert!(pair.step.unwrap().relative.unwrap() < 1e-12, "{pair:?}");
         assert!(pair.run.unwrap().kelvin < 1e-9 && pair.run.unwrap().relative.is_none());
     }
     assert_eq!(dynamics.recommended.definition, Definition::Sum);
@@ -195,7 +205,8 @@ fn the_error_of_a_pulse_is_not_that_of_a_parabola_over_its_end() {
     b.resistor("inner", port, wall, Resistance(r_int));
     b.resistor("outer", wall, air, Resistance(r_amb));
     b.source("heat", port, pulse);
-    let options = ReductionOptions { run: Some(Transient::until(Time(600.0))), window: None };
+    let options =
+        ReductionOptions { run: Some(Transient::until(Time(600.0))), ..Default::default() };
     let dynamics = Reduction::new(&assembled(b), port, &options).unwrap().dynamics.unwrap();
     for pair in &dynamics.pairs {
         let tau = exact.resistance * pair.capacity;
@@ -225,7 +236,8 @@ fn the_error_of_a_leaping_port_is_largest_just_before_it_leaps() {
     b.resistor("inner", port, wall, Resistance(r_int));
     b.resistor("outer", wall, air, Resistance(r_amb));
     b.source("heat", port, ramp);
-    let options = ReductionOptions { run: Some(Transient::until(Time(100.0))), window: None };
+    let options =
+        ReductionOptions { run: Some(Transient::until(Time(100.0))), ..Default::default() };
     let reduction = Reduction::new(&assembled(b), port, &options).unwrap();
     let rise = |r: f64, tau: f64, t: f64| slope * r * (t + tau * (-t / tau).exp_m1());
     // the fourth is so small a capacity that the one-node network errs by more after the leap
@@ -252,21 +264,25 @@ fn a_massless_port_may_be_best_without_capacity() {
     b.resistor("outer", wall, air, Resistance(0.1));
     b.source("heat", port, lptn_network::HeatFlow(50.0));
     let system = assembled(b);
-    let options = ReductionOptions { run: Some(Transient::until(Time(1000.0))), window: None };
+    let options =
+        ReductionOptions { run: Some(Transient::until(Time(1000.0))), ..Default::default() };
     let reduction = Reduction::new(&system, port, &options).unwrap();
     let dynamics = reduction.dynamics.as_ref().unwrap();
-    let pair = dynamics.pair(Definition::LeastSquares);
+    let pair = dynamics.pair(Definition::LeastSquares).unwrap();
     assert!(pair.capacity.abs() < f64::MIN_POSITIVE);
-    near(pair.step.kelvin, 0.1, 1e-9);
+    near(pair.step.unwrap().kelvin, 0.1, 1e-9);
     near(pair.run.unwrap().kelvin, 5.0, 1e-6);
-    let by_step =
-        Reduction::new(&system, port, &ReductionOptions { run: None, window: Some(1000.0) })
-            .unwrap();
+    let by_step = Reduction::new(
+        &system,
+        port,
+        &ReductionOptions { window: Some(1000.0), ..Default::default() },
+    )
+    .unwrap();
     assert_eq!(by_step.dynamics.unwrap().recommended.definition, Definition::LeastSquares);
     let one = reduction.network(&system, 0.0, Some(pair)).unwrap();
     assert!(one.nodes()[0].massless);
     // with a capacity the one-node network misses what comes at once
-    near(dynamics.pair(Definition::Sum).step.kelvin, 0.9, 1e-9);
+    near(dynamics.pair(Definition::Sum).unwrap().step.unwrap().kelvin, 0.9, 1e-9);
 }
 
 /// Regression: any node without a path to a boundary was a `reduce::no_ground`, however far from
@@ -294,7 +310,8 @@ fn islands_without_ground_do_not_matter_to_a_port_that_has_one() {
         b.source("P_disp", steel, HeatFlow(220.6));
         b.source("elsewhere", chain[1], HeatFlow(1000.0));
         let system = common::assembled(b);
-        let options = ReductionOptions { run: Some(Transient::until(Time(1500.0))), window: None };
+        let run = Some(Transient::until(Time(1500.0)));
+        let options = ReductionOptions { run, judge: Judge::Run, ..Default::default() };
         let reduction = Reduction::new(&system, steel, &options).unwrap();
         near(reduction.norton.resistance, r_int + r_amb, 1e-14);
         near(reduction.inputs.heat, 220.6, 1e-14);
@@ -321,26 +338,25 @@ fn islands_without_ground_do_not_matter_to_a_port_that_has_one() {
     }
 }
 
-/// As asked for, else as long as the run, else five of the slowest time constants: 2659 J/K over
-/// 3.25 W/K.
+/// As asked for; as long as the run where the run judges; else five of the slowest time constants,
+/// 2659 J/K over 3.25 W/K, whatever the run is.
 #[test]
 fn the_window_is_that_of_the_question() {
     let (system, nodes) = common::chain(&[2659.0], &[3.25]);
-    let window = |run: Option<Transient>, window: Option<f64>| {
-        Reduction::new(&system, nodes[0], &ReductionOptions { run, window })
-            .unwrap()
-            .dynamics
-            .unwrap()
-            .window
+    let window = |run: Option<Transient>, window: Option<f64>, judge: Judge| {
+        let options = ReductionOptions { run, window, judge, ..Default::default() };
+        let reduction = Reduction::new(&system, nodes[0], &options).unwrap();
+        reduction.dynamics.unwrap().window.unwrap()
     };
     let mut late = Transient::until(Time(1500.0));
     late.start = 400.0;
-    assert_eq!(window(Some(late.clone()), None), LeastSquaresWindow::Run(1100.0));
-    assert_eq!(window(Some(late), Some(30.0)), LeastSquaresWindow::Given(30.0));
-    let LeastSquaresWindow::TimeConstants(length) = window(None, None) else {
-        panic!("no run, no window")
-    };
-    near(length, 5.0 * 2659.0 / 3.25, 1e-12);
+    let run = Some(late);
+    assert_eq!(window(run.clone(), None, Judge::Run), LeastSquaresWindow::Run(1100.0));
+    assert_eq!(window(run.clone(), Some(30.0), Judge::Run), LeastSquaresWindow::Given(30.0));
+    for found in [window(None, None, Judge::Run), window(run, None, Judge::Step)] {
+        let LeastSquaresWindow::TimeConstants(length) = found else { panic!("{found:?}") };
+        near(length, 5.0 * 2659.0 / 3.25, 1e-12);
+    }
 }
 
 #[test]
@@ -350,7 +366,7 @@ fn a_window_must_be_a_time() {
         let error = Reduction::new(
             &system,
             nodes[0],
-            &ReductionOptions { run: None, window: Some(window) },
+            &ReductionOptions { window: Some(window), ..Default::default() },
         )
         .unwrap_err();
         assert_eq!(error.code(), "reduce::window");

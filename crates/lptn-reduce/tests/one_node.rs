@@ -9,7 +9,7 @@ use lptn_reduce::{Reduction, ReductionOptions};
 use lptn_solve::Transient;
 
 fn options(stop: f64) -> ReductionOptions {
-    ReductionOptions { run: Some(Transient::until(Time(stop))), window: None }
+    ReductionOptions { run: Some(Transient::until(Time(stop))), ..Default::default() }
 }
 
 #[test]
@@ -148,9 +148,12 @@ fn a_massless_port_starts_with_what_acts_after_the_start() {
     for (start, heat) in [(0.0, 40.0), (100.0, 5.0), (200.0, 7.0)] {
         let mut run = Transient::until(Time(1000.0));
         run.start = start;
-        let reduction =
-            Reduction::new(&system, port, &ReductionOptions { run: Some(run), window: None })
-                .unwrap();
+        let reduction = Reduction::new(
+            &system,
+            port,
+            &ReductionOptions { run: Some(run), ..Default::default() },
+        )
+        .unwrap();
         near(reduction.initial, 300.0 + heat / 2.0, 1e-14);
     }
 }
@@ -162,9 +165,12 @@ fn the_tolerance_of_the_comparison_follows_that_of_the_run() {
     let (system, [steel, _]) = common::two_nodes([1000.0, 1659.0], 0.1, 0.3, 220.6);
     for (asked, kept) in [(1e-3, lptn_reduce::TOLERANCE), (1e-6, 1e-8)] {
         let run = Transient::until(Time(100.0)).tolerance(asked);
-        let reduction =
-            Reduction::new(&system, steel, &ReductionOptions { run: Some(run), window: None })
-                .unwrap();
+        let reduction = Reduction::new(
+            &system,
+            steel,
+            &ReductionOptions { run: Some(run), ..Default::default() },
+        )
+        .unwrap();
         near(reduction.dynamics.unwrap().tolerance.unwrap(), kept, 1e-12);
     }
 }

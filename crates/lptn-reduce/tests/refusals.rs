@@ -39,7 +39,8 @@ fn a_network_that_switches_has_no_run_of_one_node() {
     let system = assembled(switched());
     let node = system.network().node("a").unwrap();
     let run = Some(Transient::until(Time(10.0)));
-    let error = Reduction::new(&system, node, &ReductionOptions { run, window: None }).unwrap_err();
+    let error =
+        Reduction::new(&system, node, &ReductionOptions { run, ..Default::default() }).unwrap_err();
     assert_eq!(error.code(), "reduce::switches");
     assert!(
         error.to_string().contains("`fan`") && error.help().unwrap().contains("in place of `fan`")
@@ -110,6 +111,7 @@ fn codes_stay_as_they_are() {
         (ReduceError::NotLinear { name: String::new() }, "reduce::not_linear"),
         (FactorError::NotSymmetric.into(), "reduce::singular"),
         (ReduceError::Modes, "reduce::modes"),
+        (ReduceError::OneWay, "reduce::one_way"),
         (ReduceError::Equivalent(String::new()), "reduce::equivalent"),
     ];
     for (error, code) in codes {

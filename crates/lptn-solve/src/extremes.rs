@@ -32,14 +32,23 @@ impl Extremes {
         }
     }
 
-    /// Takes in every node in K at a time in s.
-    pub(crate) fn take_in_all(&mut self, time: f64, (network, nodes): (&Network, &[f64])) {
-        let range = |place: Option<Place>, none: f64| place.map_or(none, |place| place.1);
-        let (most, least) = (range(self.hottest, f64::MIN), range(self.coldest, f64::MAX));
+    /// Takes in every node in K at a time in s; `range` is their lowest and highest one.
+    pub(crate) fn take_in_all(
+        &mut self,
+        time: f64,
+        (network, nodes): (&Network, &[f64]),
+        range: Option<(f64, f64)>,
+    ) {
+        let all = || network.node_ids().zip(nodes).map(|(id, &t)| (id, t, Some(time)));
+        let Some((least, most)) = range else {
+            return all().for_each(|place| self.take_in(place));
+        };
         // rows in which nothing is new are the most
-        if nodes.iter().any(|t| !(least..=most).contains(t)) {
-            let all = network.node_ids().zip(nodes);
-            all.for_each(|(id, &t)| self.take_in((id, t, Some(time))));
+        if self.hottest.is_none_or(|known| most > known.1) {
+            all().find(|place| place.1 >= most).into_iter().for_each(|place| self.take_in(place));
+        }
+        if self.coldest.is_none_or(|known| least < known.1) {
+            all().find(|place| place.1 <= least).into_iter().for_each(|place| self.take_in(place));
         }
     }
 

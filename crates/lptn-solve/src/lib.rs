@@ -38,6 +38,7 @@ mod reading;
 mod readings;
 mod recorder;
 mod replay;
+mod response;
 mod runaway;
 mod selection;
 mod sense;
@@ -78,6 +79,7 @@ pub use limit::{LimitSeen, limit_margins_at};
 pub use linearised::{Linearised, LinearisedError, Tried};
 #[cfg(feature = "cvodes")]
 pub use lptn_cvodes::{Linkage, linked};
+pub use lptn_integrate::dense::Complex;
 pub use lptn_integrate::{LinearSolver, Statistics};
 pub use lptn_network::OutputTimes;
 pub use lumping::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
@@ -86,6 +88,7 @@ pub use modes::{Mode, Modes, ModesError};
 pub use parallel::{available_threads, in_parallel};
 pub use periodic::{CycleMethod, Periodic, PeriodicError};
 pub use ranges::OutOfRange;
+pub use response::{Drive, FrequencyResponse, ResponseError, StepAnswer};
 pub use selection::{RecordedNodes, Selection, name_matches};
 pub use sense::Beyond;
 pub use sensitive_run::{

@@ -1,9 +1,11 @@
 //! A network as it answers small disturbances of one state: `C dx/dt = J x`.
 
+use std::fmt;
+
 use faer::Mat;
 use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::{Pattern, dense};
-use lptn_network::{InputError, NodeId};
+use lptn_network::{InputError, Item, NodeId};
 
 use crate::snapshot::Snapshot;
 use crate::times::just_after;
@@ -14,6 +16,11 @@ lptn_units::errors! {
 pub enum LinearisedError {
     /// An element or input has no value there.
     Input => InputError;
+    /// It is not linear, and no state is named; the first item that makes it so.
+    NotLinear { item: Item, name: String } = "linearised::not_linear",
+        format!("`{name}` makes the network more than constant capacities and conductances"),
+        help "say near which state it is to be looked at: --at steady, or a time such as \
+            --at \"20 min\"";
     /// A node takes up latent heat at just the temperature that it has there; its name.
     Melts { name: String } = "linearised::melts",
         format!("`{name}` melts there: its temperature does not answer to heat"),
@@ -38,6 +45,12 @@ pub struct Linearised<'a> {
     values: Vec<f64>,
 }
 
+impl fmt::Debug for Linearised<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Linearised").field("states", &self.capacity.len()).finish_non_exhaustive()
+    }
+}
+
 /// How far a linear network was tried against its full one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tried {
@@ -49,7 +62,29 @@ pub struct Tried {
     pub share: f64,
 }
 
+/// The largest temperature in K of the disturbance that a linear network is tried with.
+const DISTURBANCE: f64 = 10.0;
+
 impl<'a> Linearised<'a> {
+    /// A network that is linear, streams of constant capacity rates among its paths, or else near a
+    /// state.
+    ///
+    /// # Errors
+    /// [`LinearisedError`], of a network that is not linear where no state is named too.
+    pub fn of(system: &'a ThermalSystem, at: Option<&Snapshot>) -> Result<Self, LinearisedError> {
+        if is_proportional(system) {
+            return Self::of_proportional(system);
+        }
+        let network = system.network();
+        match (at, network.first_nonlinear()) {
+            (Some(state), _) => Self::near(system, state),
+            (None, None) => Self::of_proportional(system),
+            (None, Some(item)) => {
+                Err(LinearisedError::NotLinear { item, name: network.name_of(item).into_owned() })
+            }
+        }
+    }
+
     /// Near a snapshot of the system.
     ///
     /// # Errors
@@ -143,20 +178,20 @@ impl<'a> Linearised<'a> {
         Ok((Mat::from_fn(states, states, |i, j| own[(i, j)] + through[(i, j)]), follow))
     }
 
+    /// The workspace with the inputs there, and the temperatures of the unknowns in K.
+    pub(crate) fn workspace(&self) -> (Workspace, &[f64]) {
+        (self.work.clone(), &self.at)
+    }
+
     /// Temperatures of all nodes that follow from those of the unknowns, both as differences to the
     /// state in K.
-    pub(crate) fn recover(&mut self, unknowns: &[f64]) -> Vec<f64> {
-        // what follows is linear: differences as large as this leave nothing to rounding
-        const SCALE: f64 = 1_048_576.0;
-        let moved: Vec<f64> = self.at.iter().zip(unknowns).map(|(t, x)| t + SCALE * x).collect();
-        self.system.recover(&mut self.work, &moved);
-        let there = self.system.node_temperatures(&self.work).to_vec();
-        self.system.recover(&mut self.work, &self.at);
-        let here = self.system.node_temperatures(&self.work);
-        let mut nodes: Vec<f64> = there.iter().zip(here).map(|(a, b)| (a - b) / SCALE).collect();
-        let known = self.system.unknowns().iter().zip(unknowns);
-        known.for_each(|(id, x): (&NodeId, &f64)| nodes[id.index()] = *x);
-        nodes
+    pub(crate) fn recover(&self, unknowns: &[f64]) -> Vec<f64> {
+        let network = self.system.network();
+        let mut work = self.system.workspace();
+        let rest = (vec![0.0; network.nodes().len()], vec![0.0; network.boundaries().len()]);
+        self.system.apply(&mut work, &rest.0, &rest.1);
+        self.system.recover(&mut work, unknowns);
+        self.system.node_temperatures(&work).to_vec()
     }
 
     /// Compares the heat of a disturbance of the unknowns in K, and of its opposite, with that of
@@ -183,6 +218,28 @@ impl<'a> Linearised<'a> {
         let share = if brought > 0.0 { off / brought } else { 0.0 };
         Ok(Tried { disturbance: most(disturbance), heat: off, share })
     }
+
+    /// The same for temperatures of all nodes with this shape, the largest of them 10 K; `None` for
+    /// a network that is linear itself.
+    ///
+    /// # Errors
+    /// As [`Linearised::tried`].
+    pub fn tried_along(&mut self, shape: &[f64]) -> Result<Option<Tried>, LinearisedError> {
+        if is_proportional(self.system) {
+            return Ok(None);
+        }
+        let largest = shape.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let unknowns = self.system.unknowns().iter();
+        let disturbance: Vec<f64> =
+            unknowns.map(|id| DISTURBANCE * shape[id.index()] / largest).collect();
+        Ok(Some(self.tried(&disturbance)?))
+    }
+}
+
+/// Whether a network is the same near every state: streams with constant capacity rates are.
+fn is_proportional(system: &ThermalSystem) -> bool {
+    let network = system.network();
+    system.is_proportional() && system.states().iter().all(|&id| network.enthalpy(id).is_none())
 }
 
 /// Capacity of each state in J/K at temperatures of the unknowns in K.

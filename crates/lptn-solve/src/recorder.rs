@@ -3,7 +3,7 @@
 mod look;
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_integrate::{IntegrateError, Integrator, Statistics};
+use lptn_integrate::{IntegrateError, Integrator, Statistics, kernels};
 use lptn_network::{NodeId, Positions};
 
 use crate::balance::Balance;
@@ -328,11 +328,15 @@ impl<'a> Recorder<'a> {
 
     fn push(&mut self) -> Result<(), StopReason> {
         let nodes = self.system.node_temperatures(&self.work);
-        if let Some(i) = nodes.iter().position(|&t| t < 0.0) {
+        let range = kernels::range(nodes);
+        if range.is_none_or(|(least, _)| least < 0.0)
+            && let Some(i) = nodes.iter().position(|&t| t < 0.0)
+        {
             let name = self.system.network().nodes()[i].name.clone();
             return Err(StopReason::BelowAbsoluteZero { name, temperature: nodes[i] });
         }
-        self.extremes.take_in_all(self.rows[self.next], (self.system.network(), nodes));
+        let time = self.rows[self.next];
+        self.extremes.take_in_all(time, (self.system.network(), nodes), range);
         self.temperatures.extend(self.recorded.iter().map(|id| nodes[id.index()]));
         if let Some(sensed) = &mut self.sensed {
             let pushed = sensed.push(&mut self.work, &self.unfold, &self.recorded);

@@ -12,7 +12,7 @@ mod elements;
 use elements::{quantity, radiation, stream, system};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Conductance, HeatCapacity, NetworkBuilder, Temperature};
-use lptn_solve::{Modes, ModesError, SteadyState};
+use lptn_solve::{LinearisedError, Modes, ModesError, SteadyState};
 
 /// A capacity rate in W/K.
 fn rate(flow: f64) -> lptn_network::Input {
@@ -103,7 +103,10 @@ fn a_glowing_ball_has_the_rate_of_its_slope() {
     assert!((tried.heat / rest - 1.0).abs() < 1e-6, "{} {rest}", tried.heat);
     assert!((tried.share / (rest / (rate * 500.0 * 10.0)) - 1.0).abs() < 1e-6);
     let refused = Modes::of(&system, None, 1).unwrap_err();
-    assert!(matches!(refused, ModesError::NotLinear { .. }), "{refused}");
+    assert!(
+        matches!(refused, ModesError::Linearised(LinearisedError::NotLinear { .. })),
+        "{refused}"
+    );
 }
 
 /// Cells of a square plate with one insulated pair of edges; its eigenvalues are sums of those

@@ -35,6 +35,10 @@ pub(crate) enum Measure {
 /// The first `±` from `at` on.
 pub(crate) fn plus_minus(text: &str, at: usize) -> Option<Range<usize>> {
     let rest = text.get(at..)?;
+    // most texts have neither
+    if !rest.bytes().any(|byte| byte == b'+' || byte == 0xc2) {
+        return None;
+    }
     PLUS_MINUS
         .iter()
         .filter_map(|sign| rest.find(sign).map(|i| at + i..at + i + sign.len()))

@@ -1,5 +1,6 @@
 //! Numbers in text: `5`, `-0.3`, `8.7e-5`, `1_000`.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::error::{UnitError, UnitErrorKind};
@@ -23,8 +24,7 @@ pub(crate) fn scan(text: &str, at: usize, signed: bool) -> Result<Option<Number>
         return Ok(None);
     }
     let end = sign_length + length;
-    let digits = rest.get(sign_length..end).unwrap_or_default().replace('_', "");
-    let plain = if negative { format!("-{digits}") } else { digits };
+    let plain = plain(negative, rest.get(sign_length..end).unwrap_or_default());
     let span = at..at + end;
     let out_of_range = || {
         let number = rest.get(..end).unwrap_or_default().to_owned();
@@ -37,6 +37,15 @@ pub(crate) fn scan(text: &str, at: usize, signed: bool) -> Result<Option<Number>
         return Err(out_of_range());
     }
     Ok(Some(Number { value, exact: Rational::from_decimal(&plain), span }))
+}
+
+/// The number as every reader of numbers takes it.
+fn plain(negative: bool, digits: &str) -> Cow<'_, str> {
+    match (negative, digits.contains('_')) {
+        (false, false) => digits.into(),
+        (false, true) => digits.replace('_', "").into(),
+        (true, _) => format!("-{}", digits.replace('_', "")).into(),
+    }
 }
 
 /// Is the sign a minus, and how many bytes has it? The typographic minus counts.

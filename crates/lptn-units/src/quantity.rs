@@ -91,6 +91,9 @@ pub(crate) fn read(text: &str) -> Result<Reading<'_>, UnitError> {
     let Some(number) = number::scan(text, start, true)? else {
         return Err(no_number(text, start..end));
     };
+    if number.span.end == end {
+        return Ok(Reading { text, number, deviation: None, unit: None });
+    }
     separators::check(text, &number)?;
     separators::check_fraction(text, &number)?;
     let after_number = number.span.end;

@@ -38,9 +38,11 @@ impl Rational {
         if fraction.len() > 9 || !fraction.bytes().all(|b| b.is_ascii_digit()) {
             return None;
         }
-        let digits: String = [whole, fraction].concat();
-        let num: i64 = digits.parse().ok()?;
         let den = 10_i64.checked_pow(u32::try_from(fraction.len()).ok()?)?;
+        let num: i64 = match fraction {
+            "" => whole.parse().ok()?,
+            fraction => [whole, fraction].concat().parse().ok()?,
+        };
         Self::reduced(num, den)
     }
 

@@ -6,11 +6,11 @@ use lptn::fit::network::NetworkFit;
 use lptn::network::{BoundaryId, ConductorId, End, NodeId};
 use lptn::prelude::*;
 use lptn::reduce::{Bias, ExponentialFit, NortonEquivalent, fit_exponential, transfer_resistance};
-use lptn::solve::{Mode, Modes};
+use lptn::solve::{Complex, Drive, FrequencyResponse, Linearised, Mode, Modes};
 
 use super::calibration;
 use super::case::Case;
-use super::expected::{Direction, Expected, Fit, Moment, Quantity, Side};
+use super::expected::{Direction, Expected, Fit, Frequency, Moment, Quantity, Side};
 use super::gate;
 use super::mean::Means;
 use super::network::Model;
@@ -18,16 +18,11 @@ use super::size;
 
 /// Why there is no answer.
 #[derive(Clone, Debug)]
-pub enum Trouble {
-    /// lptn has no such analysis yet.
-    Missing(&'static str),
-    /// It should have answered.
-    Failed(String),
-}
+pub struct Trouble(pub String);
 
 impl<E: std::fmt::Display> From<E> for Trouble {
     fn from(error: E) -> Self {
-        Self::Failed(error.to_string())
+        Self(error.to_string())
     }
 }
 
@@ -91,9 +86,8 @@ impl<'a> Laboratory<'a> {
             Quantity::FitTau(fit) => Ok(self.fit(fit)?.tau),
             Quantity::FitRms(fit) => Ok(self.fit(fit)?.rms),
             Quantity::Size { .. } => size::answer(self, &expected.quantity),
-            Quantity::FrequencyGain(_) | Quantity::FrequencyPhase(_) => {
-                Err(Trouble::Missing("frequency response"))
-            }
+            Quantity::FrequencyGain(frequency) => Ok(self.swing(frequency)?.norm()),
+            Quantity::FrequencyPhase(frequency) => Ok(self.swing(frequency)?.arg()),
             Quantity::GateFirstSwitch { .. }
             | Quantity::GateOnTime { .. }
             | Quantity::GatePeriod { .. } => gate::answer(self.whole_run()?, &expected.quantity),
@@ -102,6 +96,18 @@ impl<'a> Laboratory<'a> {
             }
             Quantity::CalibrationRms {} => Ok(self.calibrated()?.rms),
         }
+    }
+
+    /// How a node answers a heat or a boundary that swings.
+    fn swing(&self, of: &Frequency) -> Result<Complex, Trouble> {
+        let drive = match (&of.input_source, &of.input_boundary) {
+            (Some(node), None) => Drive::Node(self.node(node)?),
+            (None, Some(boundary)) => Drive::Boundary(self.boundary(boundary)?),
+            _ => return Err("one of input_source and input_boundary is wanted".to_owned().into()),
+        };
+        let node = self.node(&of.node)?;
+        let linear = Linearised::of_proportional(self.system())?;
+        Ok(FrequencyResponse::new(&linear, drive)?.at(of.omega)?[node.index()])
     }
 
     pub fn end_named(&self, id: &str) -> Result<End, Trouble> {

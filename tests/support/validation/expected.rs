@@ -177,8 +177,10 @@ impl TryFrom<Map<String, Value>> for Expected {
         let failed = |why: &str| format!("{why} in {said}");
         let value =
             map.remove("value").and_then(|v| v.as_f64()).ok_or_else(|| failed("no `value`"))?;
-        if map.remove("provenance").is_some_and(|text| !text.is_string()) {
-            return Err(failed("`provenance` is not a text"));
+        for comment in ["provenance", "label"] {
+            if map.remove(comment).is_some_and(|text| !text.is_string()) {
+                return Err(failed(&format!("`{comment}` is not a text")));
+            }
         }
         let common: Map<String, Value> =
             ["tol_abs", "tol_rel"].into_iter().filter_map(|key| map.remove_entry(key)).collect();

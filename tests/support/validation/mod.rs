@@ -16,7 +16,6 @@ mod network;
 pub mod page;
 mod size;
 mod verdict;
-mod waiting;
 
 use std::path::{Path, PathBuf};
 
@@ -24,7 +23,6 @@ use lptn::network::Network;
 use serde_json::Value;
 
 pub use verdict::Report;
-pub use waiting::Waiting;
 
 use answer::{Laboratory, Trouble};
 use case::Case;
@@ -65,7 +63,7 @@ pub fn json(folder: &Path, id: &str) -> Value {
 }
 
 /// Runs a case and judges every value.
-pub fn judge(id: &str, json: &Value, waiting: Waiting<'_>) -> Report {
+pub fn judge(id: &str, json: &Value) -> Report {
     let case: Case = match serde_json::from_value(json.clone()) {
         Ok(case) => case,
         Err(error) => return Report::unreadable(id, &error.to_string()),
@@ -74,7 +72,7 @@ pub fn judge(id: &str, json: &Value, waiting: Waiting<'_>) -> Report {
     if case.id != id {
         report.complain(format!("its id is `{}`", case.id));
     }
-    values(&case, Laboratory::new(&case, json), waiting, &mut report);
+    values(&case, Laboratory::new(&case, json), &mut report);
     report
 }
 
@@ -90,18 +88,11 @@ pub fn judge_network(id: &str, network: &Network, names: &[(&str, &str)]) -> Rep
     let mut report = Report::new(id, &case);
     let laboratory =
         Model::of(network, &case, names).map(|model| Laboratory::of(&case, &json, model));
-    let nothing_waits = Waiting { list: &[], known: &[id.to_owned()] };
-    values(&case, laboratory.map_err(Trouble::Failed), nothing_waits, &mut report);
+    values(&case, laboratory.map_err(Trouble), &mut report);
     report
 }
 
-fn values(
-    case: &Case,
-    laboratory: Result<Laboratory<'_>, Trouble>,
-    waiting: Waiting<'_>,
-    report: &mut Report,
-) {
-    let id = report.id.clone();
+fn values(case: &Case, laboratory: Result<Laboratory<'_>, Trouble>, report: &mut Report) {
     if case.expected.is_empty() {
         report.complain("nothing is expected of it".to_owned());
     }
@@ -112,10 +103,8 @@ fn values(
         };
         let verdict = match found {
             Ok(found) => Verdict::of(found, expected),
-            Err(Trouble::Missing(_)) if waiting.may_wait(&id, &expected.name) => Verdict::Waiting,
-            Err(Trouble::Missing(what)) => Verdict::Wrong(format!("lptn has no {what} yet")),
-            Err(Trouble::Failed(why)) => Verdict::Wrong(why),
+            Err(Trouble(why)) => Verdict::Wrong(why),
         };
-        report.add(expected, verdict, waiting.is_listed(&id, &expected.name));
+        report.add(expected, verdict);
     }
 }

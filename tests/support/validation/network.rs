@@ -177,6 +177,13 @@ impl Building {
         )
     }
 
+    /// A temperature of the case, or the parameter in its place, a number on the case's scale.
+    fn temperature(&self, place: (&str, &str, &str), plain: Input) -> Result<Input, String> {
+        let Some(factor) = self.factor(place) else { return Ok(plain) };
+        let zero = self.zero;
+        self.expression(Context::Time, &format!("absolute(({factor} + {zero}) * 1 [K])"))
+    }
+
     pub fn expression(&self, context: Context, text: &str) -> Result<Input, String> {
         let program = self.b.expression_in(context, text, None);
         program.map(Input::from).map_err(|errors| format!("`{text}`: {errors:?}"))
@@ -190,11 +197,13 @@ impl Building {
                     Some(curve) => self.capacity(id, *capacity, curve)?,
                 };
                 let initial = Temperature(initial + self.zero);
+                let initial = self.temperature(("nodes", id, "T0"), initial.into())?;
                 (id, self.b.node(&name("node", id), capacity, initial).into())
             }
             Node::Massless { id, .. } => (id, self.b.massless(&name("node", id)).into()),
             Node::Boundary { id, temperature } => {
-                let temperature = self.of_time(temperature, Unit::Kelvin)?;
+                let plain = self.of_time(temperature, Unit::Kelvin)?;
+                let temperature = self.temperature(("nodes", id, "T"), plain)?;
                 (id, self.b.boundary(&name("node", id), temperature).into())
             }
         };

@@ -26,11 +26,10 @@ const CLASSES: [(f64, &str); 7] = [
 /// The rows that may stand for a report, the tightest first.
 fn rows(report: &Report, case: &Value) -> Vec<String> {
     let of = |key: &str| case[key].as_str().expect("a text").to_owned();
-    let [right, _, waiting] = report.counts();
+    let [right, _] = report.counts();
     let id = &report.id;
     let link = format!("[`{id}`](../tests/validation/{id}/case.json)");
-    let waits = if waiting > 0 { format!(", {waiting} wait") } else { String::new() };
-    let start = format!("| {link} | {} | {} | {right}{waits} |", of("title"), of("provenance"));
+    let start = format!("| {link} | {} | {} | {right} |", of("title"), of("provenance"));
     let near = |(end, _): &&(f64, &str)| {
         report.worst() <= *end && (*end <= 1e-4 || report.worst() > end / 30.0)
     };

@@ -12,8 +12,6 @@ pub enum Verdict {
     Right(f64),
     /// It is wrong, or was not found.
     Wrong(String),
-    /// It waits for an analysis that lptn does not have.
-    Waiting,
 }
 
 impl Verdict {
@@ -34,7 +32,6 @@ struct Line {
     quantity: String,
     right: usize,
     wrong: usize,
-    waiting: usize,
     /// The largest error as a share of what is allowed, and what is allowed there.
     worst: (f64, f64),
 }
@@ -67,7 +64,7 @@ impl Report {
         self.complaints.push(format!("{}: {what}", self.id));
     }
 
-    pub fn add(&mut self, expected: &Expected, verdict: Verdict, listed: bool) {
+    pub fn add(&mut self, expected: &Expected, verdict: Verdict) {
         let i = self.lines.iter().position(|line| line.quantity == expected.name).unwrap_or_else(
             || {
                 let quantity = expected.name.clone();
@@ -75,7 +72,6 @@ impl Report {
                     quantity,
                     right: 0,
                     wrong: 0,
-                    waiting: 0,
                     worst: (0.0, expected.allowed()),
                 });
                 self.lines.len() - 1
@@ -88,15 +84,11 @@ impl Report {
                 if share >= line.worst.0 {
                     line.worst = (share, expected.allowed());
                 }
-                if listed {
-                    self.complain(format!("{} need not wait any longer", expected.name));
-                }
             }
             Verdict::Wrong(why) => {
                 line.wrong += 1;
                 self.complain(format!("{why}: {expected:?}"));
             }
-            Verdict::Waiting => line.waiting += 1,
         }
     }
 
@@ -105,10 +97,10 @@ impl Report {
         &self.complaints
     }
 
-    /// Values that are right, that are wrong and that wait.
-    pub fn counts(&self) -> [usize; 3] {
+    /// Values that are right and that are wrong.
+    pub fn counts(&self) -> [usize; 2] {
         let sum = |of: fn(&Line) -> usize| self.lines.iter().map(of).sum();
-        [sum(|line| line.right), sum(|line| line.wrong), sum(|line| line.waiting)]
+        [sum(|line| line.right), sum(|line| line.wrong)]
     }
 
     /// The largest error of a value that is right, as a share of what is allowed.
@@ -133,11 +125,10 @@ impl Report {
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for line in &self.lines {
-            let n = line.right + line.wrong + line.waiting;
+            let n = line.right + line.wrong;
             write!(f, "{:<26} {:<18} {n:>4} ", self.id, line.quantity)?;
             match line {
                 Line { wrong: 1.., .. } => write!(f, "{:>9} ", "WRONG")?,
-                Line { waiting: 1.., .. } => write!(f, "{:>9} ", "WAITING")?,
                 _ => write!(f, "{:>9.2e} ", line.worst.0)?,
             }
             writeln!(f, "{:>9.1e} {:>6.0e} K", line.worst.1, self.tolerance)?;

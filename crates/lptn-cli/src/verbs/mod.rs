@@ -7,6 +7,7 @@ pub(crate) mod explain;
 pub(crate) mod fit;
 pub(crate) mod gear;
 pub(crate) mod graph;
+pub(crate) mod impedance;
 pub(crate) mod man;
 pub(crate) mod materials;
 pub(crate) mod modes;
@@ -97,6 +98,7 @@ verbs! {
     Size(size::SizeArgs) => size::size, drawn |args| args.file.is_some();
     Fit(fit::FitArgs) => fit::fit, drawn |_| true;
     Reduce(reduce::ReduceArgs) => reduce::reduce, drawn |_| true;
+    Impedance(impedance::ImpedanceArgs) => impedance::impedance, drawn |_| true;
     Gear(gear::GearArgs) => gear::gear, drawn |_| true;
     Graph(graph::GraphArgs) => graph::graph, drawn |_| true;
     Check(check::CheckArgs) => check::check, drawn |_| false;

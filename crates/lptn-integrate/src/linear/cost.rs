@@ -11,11 +11,14 @@
 //!   one and a half more, to begin and to see the end.
 //!
 //! Where [`Shape::products`] says that exact factors are out of the question nothing is ordered at
-//! all.
+//! all. Large matrices are ordered and counted first, since an analysis that is not used would take
+//! more memory than all else.
 
 use std::sync::Arc;
 
 use super::cholesky::{Analysis, SparseCholesky};
+use super::counts::Counts;
+use super::krylov::Patience;
 use super::shape::Shape;
 use super::{Factorization, Krylov, Multigrid, SparseLu};
 use crate::{FactorError, Pattern};
@@ -76,6 +79,24 @@ impl Exact {
         let (number, product) = if analysis.simplicial() { (5.0, 0.45) } else { (10.0, 0.035) };
         Self { factorize: number * fill + product * products, solve: 1.5 * fill }
     }
+
+    /// Of factors that are only counted: as faer takes the columns that way which costs less.
+    fn counted(counts: &Counts) -> Self {
+        let of = |number: f64, product: f64| number * counts.fill + product * counts.products;
+        Self { factorize: of(5.0, 0.45).min(of(10.0, 0.035)), solve: 1.5 * counts.fill }
+    }
+
+    /// With so many solves.
+    fn whole(&self, solves: f64) -> f64 {
+        self.factorize + solves * self.solve
+    }
+
+    /// The same in iterations.
+    fn patience(&self, iteration: f64) -> Patience {
+        let [factorize, solve] =
+            [self.factorize, self.solve].map(|cost| (cost / iteration).ceil() as usize);
+        Patience { factorize, solve }
+    }
 }
 
 /// The cost in ns of one iteration.
@@ -99,24 +120,28 @@ pub(super) fn cheapest(
 ) -> Result<Box<dyn Factorization>, FactorError> {
     let iteration = iteration(pattern);
     let iterated = demand.solves * (demand.iterations + 1.5) * iteration;
-    let mut shape = None;
     if pattern.size() > LARGE {
-        let known = Shape::new(pattern);
-        if least(&known) > 10.0 * iterated {
-            return Ok(Box::new(Krylov::symmetric(known, None)));
+        let shape = Shape::new(pattern);
+        if least(&shape) > 10.0 * iterated {
+            return Ok(Box::new(Krylov::symmetric(shape, None)));
         }
-        shape = Some(known);
+        let counts = Counts::of(pattern)?;
+        let exact = Exact::counted(&counts);
+        if exact.whole(demand.solves) > iterated {
+            let fits = counts.fill <= (MOST_FILL * pattern.len()) as f64;
+            let exact = fits.then(|| (exact.patience(iteration), None));
+            return Ok(Box::new(Krylov::symmetric(shape, exact)));
+        }
     }
     let analysis = Analysis::new(pattern)?;
     let exact = Exact::of(&analysis);
-    if exact.factorize + demand.solves * exact.solve <= iterated {
+    if exact.whole(demand.solves) <= iterated {
         return Ok(Box::new(SparseCholesky::of(analysis.into())?));
     }
     let fits = analysis.fill() / MOST_FILL <= pattern.len();
-    let patience = (exact.factorize / iteration).ceil() as usize;
-    let exact = fits.then(|| (patience, (pattern.size() <= LARGE).then(|| analysis.into())));
-    let shape = shape.unwrap_or_else(|| Shape::new(pattern));
-    Ok(Box::new(Krylov::symmetric(shape, exact)))
+    let small = pattern.size() <= LARGE;
+    let exact = fits.then(|| (exact.patience(iteration), small.then(|| analysis.into())));
+    Ok(Box::new(Krylov::symmetric(Shape::new(pattern), exact)))
 }
 
 /// Exact factors or iterations for a large matrix that is not symmetric.
@@ -170,7 +195,7 @@ pub(super) fn steady(pattern: &Pattern) -> Result<Box<dyn Factorization>, Factor
         if exact.factorize + 2.0 * exact.solve <= other {
             return Ok(Box::new(SparseCholesky::of(known)?));
         }
-        analysis = Some(((exact.factorize / iteration).ceil() as usize, Some(known)));
+        analysis = Some((exact.patience(iteration), Some(known)));
     }
     if several < iterations {
         return Ok(Box::new(Multigrid::with(shape.into())));

@@ -110,7 +110,7 @@ impl Incomplete {
         solution.clear();
         product.clear();
         product.resize(b.len(), 0.0);
-        let Some(x) = x else {
+        let Some(x) = x.filter(|x| x.iter().any(|x| x.abs() > 0.0)) else {
             solution.resize(b.len(), 0.0);
             return self.over_diagonal(left);
         };

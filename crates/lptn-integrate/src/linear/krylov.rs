@@ -27,16 +27,28 @@ pub struct Krylov {
     matrix: Incomplete,
     exact: Option<Fallback>,
     ready: bool,
-    /// Iterations of all solves, and those with the values at hand.
+    /// Iterations of all solves.
     iterations: u64,
-    spent: usize,
+    /// Those that exact factors of the values at hand would have cost, less those spent.
+    left: usize,
+}
+
+/// What exact factors would have cost, in iterations: once as much was spent on one set of values,
+/// they take over, so the price is at most twice the least.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Patience {
+    pub(super) factorize: usize,
+    pub(super) solve: usize,
+}
+
+impl Patience {
+    const ENDLESS: Self = Self { factorize: usize::MAX, solve: 0 };
 }
 
 /// What the matrices of one pattern have in common.
 struct Family {
     symmetric: bool,
-    /// Iterations with one set of values after which exact factors take over.
-    patience: usize,
+    patience: Patience,
     /// To solve in, when nobody does.
     spare: Mutex<Option<Work>>,
     /// For exact factors, where they were analysed to choose.
@@ -55,15 +67,17 @@ impl Krylov {
             return Self::symmetric(shape, None);
         }
         let shape = shape.with_mirror(pattern);
-        let (patience, spare, analysis) = (usize::MAX, Mutex::new(None), None);
+        let (patience, spare, analysis) = (Patience::ENDLESS, Mutex::new(None), None);
         Self::of(Arc::new(Family { symmetric, patience, spare, analysis }), Arc::new(shape))
     }
 
-    /// For symmetric matrices of a known shape, with the iterations with one set of values after
-    /// which exact factors would have been cheaper and take over, with their analysis if it is
-    /// there.
-    pub(super) fn symmetric(shape: Shape, exact: Option<(usize, Option<Arc<Analysis>>)>) -> Self {
-        let (patience, analysis) = exact.unwrap_or((usize::MAX, None));
+    /// For symmetric matrices of a known shape, with what exact factors cost and their analysis if
+    /// it is there.
+    pub(super) fn symmetric(
+        shape: Shape,
+        exact: Option<(Patience, Option<Arc<Analysis>>)>,
+    ) -> Self {
+        let (patience, analysis) = exact.unwrap_or((Patience::ENDLESS, None));
         let (symmetric, spare) = (true, Mutex::new(None));
         Self::of(Arc::new(Family { symmetric, patience, spare, analysis }), Arc::new(shape))
     }
@@ -77,7 +91,7 @@ impl Krylov {
 
     fn of(family: Arc<Family>, shape: Arc<Shape>) -> Self {
         let matrix = Incomplete::new(shape);
-        Self { family, matrix, exact: None, ready: false, iterations: 0, spent: 0 }
+        Self { family, matrix, exact: None, ready: false, iterations: 0, left: 0 }
     }
 
     /// Replaces `x` by the solution: within what is allowed from its guess on, or to the usual part
@@ -85,12 +99,13 @@ impl Krylov {
     fn iterate(&mut self, b: &[f64], x: &mut [f64], allowed: Option<f64>, work: &mut Work) -> bool {
         let size = self.matrix.begin(b, allowed.map(|_| &*x), work);
         let allowed = allowed.unwrap_or(LEFT_OVER * size);
+        self.left = self.left.saturating_add(self.family.patience.solve);
         if size > allowed {
-            let most = self.family.patience.saturating_sub(self.spent);
+            let most = self.left;
             let method = if self.family.symmetric { conjugate } else { stabilized };
             let (count, done) = method(&self.matrix, work, size, End { allowed, most });
             self.iterations += count as u64;
-            self.spent += count;
+            self.left = self.left.saturating_sub(count);
             if !done {
                 return false;
             }
@@ -152,7 +167,7 @@ impl Factorization for Krylov {
 
     fn factorize(&mut self, values: &[f64]) -> Result<(), FactorError> {
         expect_length(self.matrix.shape.slots, values.len())?;
-        (self.exact, self.spent) = (None, 0);
+        (self.exact, self.left) = (None, self.family.patience.factorize);
         let done = self.matrix.factorize(values);
         self.ready = done.is_ok();
         done

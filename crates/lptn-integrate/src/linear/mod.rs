@@ -7,6 +7,7 @@
 mod cholesky;
 mod columns;
 mod cost;
+mod counts;
 mod dense;
 mod either;
 mod fallback;

@@ -27,8 +27,6 @@ pub(super) struct Body<'a> {
     pub(super) mass: &'a [f64],
     /// What leaves each row for a rise of all by 1.
     pub(super) loss: &'a [f64],
-    /// The values of `M - g h J` for a length h.
-    pub(super) matrix: &'a dyn Fn(f64) -> Vec<f64>,
 }
 
 /// A step as a series: see [`super::series`].
@@ -69,7 +67,7 @@ impl Series {
     ) -> Result<Outcome, FactorError> {
         let h = step_of(level);
         self.length = h;
-        let factors = levels.factors(level, || (body.matrix)(POLE * h))?;
+        let factors = levels.factors(level)?;
         kernels::zip(body.mass, body.loss, &mut self.balance, |m, g| m + POLE * h * g);
         let whole: f64 = self.balance.iter().sum();
         let constants = series::error_constants();
@@ -153,7 +151,7 @@ impl Series {
             let from = block * BLOCK;
             let to = from + out.len();
             for (term, &weight) in self.terms[..self.count].iter().zip(weights) {
-                kernels::scale_and_add(1.0, out, weight, &term[from..to]);
+                out.iter_mut().zip(&term[from..to]).for_each(|(z, x)| *z += weight * x);
             }
         }
     }

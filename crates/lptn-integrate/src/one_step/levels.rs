@@ -9,6 +9,9 @@ use crate::{FactorError, LinearSolverKind};
 /// first.
 const ROOM: usize = 32 << 20;
 
+/// The same for incomplete factors, which are made anew in the time of an iteration or two.
+const ROOM_TO_ITERATE: usize = ROOM / 4;
+
 /// The size of the steps of a level, `4^level`: exact.
 pub(super) fn step_of(level: i32) -> f64 {
     2.0_f64.powi(2 * level)
@@ -63,21 +66,26 @@ impl Levels {
         self.iterations + self.kept.values().map(|kept| kept.factors.iterations()).sum::<u64>()
     }
 
-    /// The factors of a level; `values` makes the values of its matrix, if there are none yet.
-    pub(super) fn factors(
-        &mut self,
-        level: i32,
-        values: impl FnOnce() -> Vec<f64>,
-    ) -> Result<&mut dyn Factorization, FactorError> {
+    /// Whether the factors of a level are there, for one who asks for them.
+    pub(super) fn are_ready(&mut self, level: i32) -> bool {
         self.asked += 1;
+        self.kept.contains_key(&level)
+    }
+
+    /// Makes the factors of a level from the values of its matrix.
+    pub(super) fn make(&mut self, level: i32, values: &[f64]) -> Result<(), FactorError> {
+        let mut factors = self.analysed.sibling()?;
+        self.factorizations += 1;
+        self.make_room(factors.fill());
+        factors.factorize(values)?;
+        self.make_room(factors.fill()); // of some the size is only known now
+        self.kept.insert(level, Kept { factors, used: self.asked });
+        Ok(())
+    }
+
+    /// The factors of a level, which are ready.
+    pub(super) fn factors(&mut self, level: i32) -> Result<&mut dyn Factorization, FactorError> {
         let asked = self.asked;
-        if !self.kept.contains_key(&level) {
-            let mut factors = self.analysed.sibling()?;
-            self.factorizations += 1;
-            factors.factorize(&values())?;
-            self.make_room(factors.fill());
-            self.kept.insert(level, Kept { factors, used: asked });
-        }
         match self.kept.get_mut(&level) {
             Some(kept) => {
                 kept.used = asked;
@@ -88,7 +96,11 @@ impl Levels {
     }
 
     fn make_room(&mut self, needed: usize) {
-        while self.fill() + needed > ROOM {
+        let room = match self.analysed.kind() {
+            LinearSolverKind::Pcg => ROOM_TO_ITERATE,
+            _ => ROOM,
+        };
+        while self.fill() + needed > room {
             let oldest =
                 self.kept.iter().min_by_key(|(_, kept)| kept.used).map(|(&level, _)| level);
             let Some(gone) = oldest.and_then(|level| self.kept.remove(&level)) else { return };

@@ -24,6 +24,7 @@ use attempt::{Body, Drive, Outcome, Series};
 use clock::Clock;
 use first::Jump;
 use levels::{Levels, level_within, step_of};
+use series::POLE;
 
 /// Terms of a step for each part that is handed out: a polynomial of that degree has no more to
 /// hide between two looks than a step of a multistep method.
@@ -157,17 +158,14 @@ impl<S: OdeSystem> OneStep<S> {
 
     /// Tries a step of the present level; sets the level of the next one.
     fn attempt(&mut self, time: f64) -> Result<bool, IntegrateError> {
-        let (jacobian, mass, pattern) = (&self.jacobian, self.system.mass(), self.system.pattern());
-        let matrix = |length: f64| {
-            let mut values: Vec<f64> = jacobian.iter().map(|j| -length * j).collect();
-            mass.iter().zip(pattern.diagonal()).for_each(|(m, &slot)| values[slot] += m);
-            values
-        };
-        let body = Body { mass, loss: &self.loss, matrix: &matrix };
-        let drive = Drive { flow: &self.flow, slope: &self.slope };
-        let at = (&mut self.levels, self.level);
-        let outcome = self.series.attempt(at, &body, &drive, self.tolerance);
-        self.counts.linear_solves += self.series.count as u64;
+        let outcome = self.factorize(time)?.and_then(|()| {
+            let body = Body { mass: self.system.mass(), loss: &self.loss };
+            let drive = Drive { flow: &self.flow, slope: &self.slope };
+            let at = (&mut self.levels, self.level);
+            let outcome = self.series.attempt(at, &body, &drive, self.tolerance);
+            self.counts.linear_solves += self.series.count as u64;
+            outcome
+        });
         if let Err(FactorError::NotPositiveDefinite { .. } | FactorError::Singular { .. }) = outcome
         {
             // next to a long step a small mass is lost in the rounding
@@ -189,6 +187,23 @@ impl<S: OdeSystem> OneStep<S> {
                 Ok(false)
             }
         }
+    }
+
+    /// Factorises the matrix `M - g h J` of the present level, unless that is done.
+    fn factorize(&mut self, time: f64) -> Result<Result<(), FactorError>, IntegrateError> {
+        if self.levels.are_ready(self.level) {
+            return Ok(Ok(()));
+        }
+        let length = POLE * step_of(self.level);
+        // the Jacobian becomes the matrix and is read again: a copy would be the longest of all vectors
+        let mut values = std::mem::take(&mut self.jacobian);
+        kernels::map_in_place(&mut values, |j| -length * j);
+        let rows = self.system.mass().iter().zip(self.system.pattern().diagonal());
+        rows.for_each(|(m, &slot)| values[slot] += m);
+        let made = self.levels.make(self.level, &values);
+        self.jacobian = values;
+        self.read_entries(time)?;
+        Ok(made)
     }
 
     /// Reads what the series needs to know of the system, and chooses the first level.
@@ -219,8 +234,7 @@ impl<S: OdeSystem> OneStep<S> {
     fn read_jacobian(&mut self, time: f64) -> Result<(), IntegrateError> {
         let before = self.jacobian.clone();
         self.counts.jacobian_evaluations += 1;
-        let read = self.system.jacobian(time, &self.state, &mut self.jacobian);
-        read.map_err(|retry| refused(Callback::Jacobian, time, retry))?;
+        self.read_entries(time)?;
         if let Some(index) = kernels::first_not_finite(&self.jacobian) {
             return Err(IntegrateError::NotFinite { callback: Callback::Jacobian, time, index });
         }
@@ -231,6 +245,11 @@ impl<S: OdeSystem> OneStep<S> {
                 .map_err(|retry| refused(Callback::Flow, time, retry))?;
         }
         Ok(())
+    }
+
+    fn read_entries(&mut self, time: f64) -> Result<(), IntegrateError> {
+        let read = self.system.jacobian(time, &self.state, &mut self.jacobian);
+        read.map_err(|retry| refused(Callback::Jacobian, time, retry))
     }
 
     /// No step is longer than the longest, and none reaches four times as far as the stop.

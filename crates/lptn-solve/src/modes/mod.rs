@@ -2,9 +2,11 @@
 
 mod near;
 
+pub(crate) use near::{Shapes, shapes};
+
 use lptn_integrate::FactorError;
 use lptn_integrate::lanczos::LanczosError;
-use lptn_network::{Item, Network, NodeId};
+use lptn_network::{Network, NodeId};
 
 use crate::exact::{ExactError, Island, Reduced, islands};
 use crate::linearised::{LinearisedError, Tried};
@@ -60,11 +62,6 @@ pub enum ModesError {
     Exact => ExactError;
     /// It cannot be taken for a linear one there.
     Linearised => LinearisedError;
-    /// It is not linear, and no state is named; the first item that makes it so.
-    NotLinear { item: Item, name: String } = "modes::not_linear",
-        format!("`{name}` makes the network more than constant capacities and conductances"),
-        help "say near which state its modes are asked for: --at steady, or a time such as \
-            --at \"20 min\"";
     /// Too many nodes with capacity for a network without symmetry.
     TooLarge { nodes: usize } = "modes::too_large",
         format!("{nodes} nodes with capacity are more than the 2000 of a network with streams or \

@@ -9,7 +9,7 @@ use lptn_integrate::{FactorError, linear};
 
 use super::{Mode, Modes, ModesError, normalised, participation};
 use crate::exact::Reduced;
-use crate::linearised::{Linearised, LinearisedError, Tried};
+use crate::linearised::Linearised;
 use crate::snapshot::Snapshot;
 
 /// Modes slower than the fastest by more than this are computed from the inverse, where rounding
@@ -19,9 +19,6 @@ const SPREAD: f64 = 1e6;
 /// The largest condition number of an eigenvalue: beyond it, the modes of a chain of equal cells,
 /// which are none (the matrix is defective), cannot be told from others.
 const DEFECTIVE: f64 = 1e7;
-
-/// The largest temperature in K of the disturbance that a linear network is tried with.
-const DISTURBANCE: f64 = 10.0;
 
 impl Modes {
     /// The modes of a network, slowest first: the slowest `count` of a large one (more than 2000
@@ -38,40 +35,20 @@ impl Modes {
         count: usize,
     ) -> Result<Self, ModesError> {
         let network = system.network();
-        let Some(item) = network.first_nonlinear() else {
-            if network.nodes().len() <= Reduced::MOST_NODES {
-                return Ok(Self::solve(network)?);
-            }
-            return near(&mut Linearised::of_proportional(system)?, count);
-        };
-        match at {
-            _ if is_proportional(system) => near(&mut Linearised::of_proportional(system)?, count),
-            Some(state) => {
-                let mut linear = Linearised::near(system, state)?;
-                let modes = near(&mut linear, count)?;
-                let tried =
-                    modes.modes.first().map(|mode| try_out(&mut linear, mode)).transpose()?;
-                Ok(Self { tried, ..modes })
-            }
-            None => Err(ModesError::NotLinear { item, name: network.name_of(item).into_owned() }),
+        if network.first_nonlinear().is_none() && network.nodes().len() <= Reduced::MOST_NODES {
+            return Ok(Self::solve(network)?);
         }
+        let mut linear = Linearised::of(system, at)?;
+        let modes = near(&linear, count)?;
+        let tried = match modes.modes.first() {
+            Some(mode) => linear.tried_along(&mode.shape)?,
+            None => None,
+        };
+        Ok(Self { tried, ..modes })
     }
 }
 
-/// Whether a network is the same near every state: streams with constant capacity rates are.
-fn is_proportional(system: &ThermalSystem) -> bool {
-    let network = system.network();
-    system.is_proportional() && system.states().iter().all(|&id| network.enthalpy(id).is_none())
-}
-
-/// Tries a linear network along a mode.
-fn try_out(linear: &mut Linearised<'_>, mode: &Mode) -> Result<Tried, ModesError> {
-    let unknowns = linear.system().unknowns().iter();
-    let disturbance: Vec<f64> = unknowns.map(|id| DISTURBANCE * mode.shape[id.index()]).collect();
-    Ok(linear.tried(&disturbance).map_err(LinearisedError::Input)?)
-}
-
-fn near(linear: &mut Linearised<'_>, count: usize) -> Result<Modes, ModesError> {
+fn near(linear: &Linearised<'_>, count: usize) -> Result<Modes, ModesError> {
     let states = linear.capacity().len();
     if states <= Reduced::MOST_NODES {
         return dense_modes(linear);
@@ -82,28 +59,114 @@ fn near(linear: &mut Linearised<'_>, count: usize) -> Result<Modes, ModesError> 
     }
 }
 
-/// All of them, from the dense matrix `C^-1/2 J C^-1/2`.
-fn dense_modes(linear: &mut Linearised<'_>) -> Result<Modes, ModesError> {
-    let (jacobian, follow) = linear.dense()?;
-    let root: Vec<f64> = linear.capacity().iter().map(|c| c.sqrt()).collect();
-    let scaled =
-        Mat::from_fn(root.len(), root.len(), |i, j| jacobian[(i, j)] / (root[i] * root[j]));
-    let loose = !linear.system().network().ungrounded().is_empty();
-    let eigen = eigen_of(&scaled, loose)?;
-    let left = dense::complex_inverse(&eigen.vectors).ok_or(ModesError::Defective)?;
-    let mut modes = Vec::new();
-    for (k, &value) in eigen.values.iter().enumerate().filter(|(_, value)| value.im >= 0.0) {
-        let right: Vec<Complex> = (0..root.len()).map(|i| eigen.vectors[(i, k)]).collect();
-        let left: Vec<Complex> = (0..root.len()).map(|i| left[(k, i)]).collect();
-        if length(&right) * length(&left) > DEFECTIVE {
-            return Err(ModesError::Defective);
+/// All modes, from the dense matrix `C^-1/2 J C^-1/2`.
+struct Dense {
+    eigen: GeneralEigen,
+    /// Left eigenvectors in the rows: the inverse of the right ones.
+    left: Mat<Complex>,
+    /// `C^1/2`
+    root: Vec<f64>,
+    /// What the massless nodes that are solved for (rows) follow of each state (columns).
+    follow: Mat<f64>,
+}
+
+impl Dense {
+    fn of(linear: &Linearised<'_>) -> Result<Self, ModesError> {
+        let (jacobian, follow) = linear.dense()?;
+        let root: Vec<f64> = linear.capacity().iter().map(|c| c.sqrt()).collect();
+        let scaled =
+            Mat::from_fn(root.len(), root.len(), |i, j| jacobian[(i, j)] / (root[i] * root[j]));
+        let loose = !linear.system().network().ungrounded().is_empty();
+        let eigen = eigen_of(&scaled, loose)?;
+        let left = dense::complex_inverse(&eigen.vectors).ok_or(ModesError::Defective)?;
+        let found = Self { eigen, left, root, follow };
+        let condition = |k: usize| length(&found.right(k)) * length(&found.left(k));
+        match (0..found.root.len()).all(|k| condition(k) <= DEFECTIVE) {
+            true => Ok(found),
+            false => Err(ModesError::Defective),
         }
+    }
+
+    fn right(&self, k: usize) -> Vec<Complex> {
+        (0..self.root.len()).map(|i| self.eigen.vectors[(i, k)]).collect()
+    }
+
+    fn left(&self, k: usize) -> Vec<Complex> {
+        (0..self.root.len()).map(|i| self.left[(k, i)]).collect()
+    }
+
+    /// Temperatures of all nodes in a mode, massless ones recovered.
+    fn nodes(&self, linear: &Linearised<'_>, k: usize) -> Vec<Complex> {
+        let of_states: Vec<Complex> =
+            self.right(k).iter().zip(&self.root).map(|(x, root)| x / root).collect();
+        nodes(linear, &of_states, &self.follow)
+    }
+}
+
+fn dense_modes(linear: &Linearised<'_>) -> Result<Modes, ModesError> {
+    let found = Dense::of(linear)?;
+    let mut modes = Vec::new();
+    for (k, &value) in found.eigen.values.iter().enumerate().filter(|(_, value)| value.im >= 0.0) {
+        let (right, left) = (found.right(k), found.left(k));
         let parts: Vec<f64> = right.iter().zip(&left).map(|(x, y)| (x * y).norm()).collect();
-        let of_states: Vec<Complex> = right.iter().zip(&root).map(|(x, root)| x / root).collect();
-        modes.push(mode(linear, (value, &of_states), &parts, &follow));
+        let nodes = found.nodes(linear, k);
+        modes.push(mode(linear, (value, nodes), &parts));
     }
     modes.sort_by(|a, b| a.rate.total_cmp(&b.rate));
     Ok(Modes { all: modes.len(), modes, tried: None })
+}
+
+/// What the answer to a step is made of: `x_k` and `y_k` with `y_j x_k = 1` for `j = k`, else 0, and
+/// both of a pair that swings.
+pub(crate) struct Shapes {
+    /// `-lambda_k` in 1/s.
+    pub(crate) rates: Vec<Complex>,
+    /// Temperatures of all nodes in each mode.
+    pub(crate) right: Vec<Vec<Complex>>,
+    /// By how much each mode is in temperatures of the states.
+    pub(crate) left: Vec<Vec<Complex>>,
+}
+
+/// All modes of a network near a state; those of constants from their own matrices, which keep slow
+/// ones beside much faster ones.
+pub(crate) fn shapes(linear: &Linearised<'_>) -> Result<Shapes, ModesError> {
+    let (system, states) = (linear.system(), linear.capacity().len());
+    if states > Reduced::MOST_NODES {
+        return Err(ModesError::TooLarge { nodes: states });
+    }
+    if system.network().first_nonlinear().is_none() {
+        return Ok(of_constants(&Modes::solve(system.network())?, linear));
+    }
+    let found = Dense::of(linear)?;
+    let left = |k: usize| -> Vec<Complex> {
+        found.left(k).iter().zip(&found.root).map(|(y, root)| y * root).collect()
+    };
+    Ok(Shapes {
+        rates: found.eigen.values.iter().map(|value| -value).collect(),
+        left: (0..states).map(left).collect(),
+        right: (0..states).map(|k| found.nodes(linear, k)).collect(),
+    })
+}
+
+/// Where conductances are symmetric, `y` is `C x` over `x' C x`.
+fn of_constants(modes: &Modes, linear: &Linearised<'_>) -> Shapes {
+    let real = |x: f64| Complex::new(x, 0.0);
+    let states = linear.system().states();
+    let left = |mode: &Mode| -> Vec<Complex> {
+        let weighed =
+            || states.iter().zip(linear.capacity()).map(|(id, c)| c * mode.shape[id.index()]);
+        let all: f64 = weighed().zip(states).map(|(y, id)| y * mode.shape[id.index()]).sum();
+        weighed().map(|y| real(y / all)).collect()
+    };
+    Shapes {
+        rates: modes.modes.iter().map(|mode| real(mode.rate)).collect(),
+        right: modes
+            .modes
+            .iter()
+            .map(|mode| mode.shape.iter().map(|&x| real(x)).collect())
+            .collect(),
+        left: modes.modes.iter().map(left).collect(),
+    }
 }
 
 /// Eigenvalues and vectors; slow ones from the inverse if there is one. `loose`: some are zero.
@@ -140,14 +203,9 @@ fn eigen_of(scaled: &Mat<f64>, loose: bool) -> Result<GeneralEigen, ModesError> 
     Ok(direct)
 }
 
-/// A mode from its eigenvalue, the temperatures of the states and their parts.
-fn mode(
-    linear: &mut Linearised<'_>,
-    (value, of_states): (Complex, &[Complex]),
-    parts: &[f64],
-    follow: &Mat<f64>,
-) -> Mode {
-    let mut recovered = |of: &dyn Fn(&Complex) -> f64| {
+/// Temperatures of all nodes from those of the states.
+fn nodes(linear: &Linearised<'_>, of_states: &[Complex], follow: &Mat<f64>) -> Vec<Complex> {
+    let recovered = |of: &dyn Fn(&Complex) -> f64| {
         let mut unknowns: Vec<f64> = of_states.iter().map(of).collect();
         let following = (0..follow.nrows())
             .map(|i| (0..of_states.len()).map(|j| follow[(i, j)] * unknowns[j]).sum::<f64>());
@@ -156,24 +214,21 @@ fn mode(
         linear.recover(&unknowns)
     };
     let (real, imaginary) = (recovered(&|x| x.re), recovered(&|x| x.im));
-    let states = linear.system().states();
-    let participation = participation(states, parts, real.len());
+    real.into_iter().zip(imaginary).map(|(re, im)| Complex::new(re, im)).collect()
+}
+
+/// A mode from its eigenvalue, the temperatures of all nodes and the parts of the states.
+fn mode(linear: &Linearised<'_>, (value, nodes): (Complex, Vec<Complex>), parts: &[f64]) -> Mode {
+    let participation = participation(linear.system().states(), parts, nodes.len());
     let rate = if value.re == 0.0 { 0.0 } else { -value.re };
     if value.im == 0.0 {
-        return Mode {
-            rate,
-            omega: 0.0,
-            shape: normalised(real),
-            phase: Vec::new(),
-            participation,
-        };
+        let shape = normalised(nodes.into_iter().map(|z| z.re).collect());
+        return Mode { rate, omega: 0.0, shape, phase: Vec::new(), participation };
     }
-    let complex: Vec<Complex> =
-        real.into_iter().zip(imaginary).map(|(re, im)| Complex::new(re, im)).collect();
-    let largest = complex.iter().fold(0.0, |most: f64, z| most.max(z.norm()));
-    let first = complex.iter().copied().find(|z| z.norm() >= (1.0 - super::EQUAL) * largest);
+    let largest = nodes.iter().fold(0.0, |most: f64, z| most.max(z.norm()));
+    let first = nodes.iter().copied().find(|z| z.norm() >= (1.0 - super::EQUAL) * largest);
     let unit = first.unwrap_or(Complex::new(1.0, 0.0));
-    let turned: Vec<Complex> = complex.iter().map(|z| z / unit).collect();
+    let turned: Vec<Complex> = nodes.iter().map(|z| z / unit).collect();
     Mode {
         rate,
         omega: value.im,
@@ -185,7 +240,7 @@ fn mode(
 
 /// The slowest of a symmetric network, as the largest eigenvalues of
 /// `C^1/2 (G + shift C)^-1 C^1/2`.
-fn slowest(linear: &mut Linearised<'_>, count: usize) -> Result<Modes, ModesError> {
+fn slowest(linear: &Linearised<'_>, count: usize) -> Result<Modes, ModesError> {
     let capacity = linear.capacity().to_vec();
     let root: Vec<f64> = capacity.iter().map(|c| c.sqrt()).collect();
     let lasting = lasting(linear, &root);
@@ -212,7 +267,8 @@ fn slowest(linear: &mut Linearised<'_>, count: usize) -> Result<Modes, ModesErro
         let parts: Vec<f64> = vector.iter().map(|y| y * y).collect();
         let of_states: Vec<Complex> =
             vector.iter().zip(&root).map(|(y, root)| Complex::new(y / root, 0.0)).collect();
-        mode(linear, (Complex::new(-rate, 0.0), &of_states), &parts, &none)
+        let nodes = nodes(linear, &of_states, &none);
+        mode(linear, (Complex::new(-rate, 0.0), nodes), &parts)
     });
     Ok(Modes { modes: modes.collect(), all: capacity.len(), tried: None })
 }

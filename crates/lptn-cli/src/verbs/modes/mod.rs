@@ -10,7 +10,7 @@ use std::io;
 use lptn_network::{Network, Node};
 use lptn_plot::Figure;
 use lptn_report::{Json, Page, Report, Rows, Text, TextTable, duration, fixed, shortened};
-use lptn_solve::{EventKind, LinearisedError, Mode, Modes, ModesError};
+use lptn_solve::{EventKind, Mode, Modes, ModesError};
 use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
@@ -19,7 +19,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{Input, quoted};
-use crate::operating_point::OperatingPoint;
+use crate::operating_point::{OperatingPoint, place};
 use crate::words::{MOST_NODES, count};
 
 /// Modes that are shown without `--count`: all of up to so many, else the slowest so many.
@@ -59,9 +59,7 @@ pub(crate) fn modes(args: &ModesArgs, console: &Console) -> Result<Exit, Failure
 /// With the place of what makes a network not linear.
 fn failed(input: &Input, error: &ModesError) -> Failure {
     let place = match error {
-        ModesError::NotLinear { item, .. } => input.netlist.source_map.name(*item),
-        ModesError::Linearised(LinearisedError::Input(error)) => input.place_of(error),
-        ModesError::Linearised(LinearisedError::Melts { name }) => input.node_place(name),
+        ModesError::Linearised(error) => place(input, error),
         _ => None,
     };
     input.failure(error, place)

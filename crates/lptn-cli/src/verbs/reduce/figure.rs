@@ -18,8 +18,8 @@ const ERRORS: f64 = 0.6;
 
 impl View<'_> {
     /// The rise for 1 W at the port over time, and by how much each pair misses it.
-    pub(super) fn figure(&self, dynamics: &Dynamics) -> Figure {
-        let (step, port) = (&dynamics.step, self.port);
+    pub(super) fn figure(&self, dynamics: &Dynamics) -> Option<Figure> {
+        let (step, port) = (dynamics.step.as_ref()?, self.port);
         let slowest = step.slowest().tau;
         let ratio = (TO / FROM).powf(f64::from(POINTS).recip());
         let times = (0..=POINTS).map(|i| FROM * slowest * ratio.powi(i));
@@ -40,11 +40,11 @@ impl View<'_> {
             errors.curves.push(Curve::line(&name, miss).as_place(place));
         }
         let recommended = dynamics.recommended.definition.key().replace('_', " ");
-        Figure {
+        Some(Figure {
             title: format!("{}, seen from {port}", self.input.title()),
-            note: format!("one node instead of the network; recommended: {recommended}"),
+            note: format!("{}; nearest: {recommended}", self.verdict()),
             panels: vec![rises, errors],
-        }
+        })
     }
 }
 

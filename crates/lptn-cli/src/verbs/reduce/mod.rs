@@ -2,7 +2,12 @@
 
 mod args;
 mod figure;
+mod keep;
+mod keep_page;
+mod loads;
+mod notes;
 mod page;
+mod verdict;
 
 pub(crate) use args::ReduceArgs;
 
@@ -11,42 +16,55 @@ use std::path::Path;
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Derived, Diagnostic};
 use lptn_reduce::{
-    Bias, Definition, FitError, Pair, ReduceError, Reduction, ReductionOptions, port,
+    Allowed, Bias, Definition, Deviation, FitError, Judge, Nodes, Pair, ReduceError, Reduction,
+    ReductionOptions, port,
 };
 use lptn_report::{Format, plain, significant};
-use lptn_solve::Transient;
 use lptn_units::{Dimension, Problem as _, Type, Unit};
 
 use args::ReduceFormat;
+use loads::{Asked, Loads};
 
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{self, Input, quoted};
+use crate::words::count;
 use crate::{files, written};
 
 pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failure> {
+    if let Some(names) = &args.keep {
+        return keep::keep(args, console, names);
+    }
+    if args.recover.is_some() {
+        return Err(keep::recovers_nothing());
+    }
     let input = Input::load(&args.source)?;
     let name = args.port.as_deref().ok_or_else(|| no_port(&input))?;
     let unit = input::temperature_unit(args.scale.temperature_unit.as_deref(), &input.netlist)?;
-    let limit = args.max_error.as_deref().map(Limit::parse).transpose()?;
+    let limit = Limit::parse("--max-error", &args.max_error)?;
     let window = args.window.as_deref().map(window).transpose()?;
     let run = input.netlist.run.clone();
-    if run.is_none() && (limit.is_some() || args.bias) {
-        return Err(no_run(&input, if limit.is_some() { "--max-error" } else { "--bias" }));
+    if run.is_none()
+        && let Some(option) = about_the_run(args, &limit)
+    {
+        return Err(no_run(&input, option));
     }
     let system = input.assemble()?;
     let explain = |error: ReduceError| failed(&input, name, &error);
     let port = port(&input.netlist.network, name).map_err(explain)?;
     let run = run.as_ref().map(|run| lptn_solve::Transient::of(&input.netlist.network, run));
-    let reduction =
-        Reduction::new(&system, port, &options(&system, run.as_ref(), (window, limit.is_some())));
-    let reduction = reduction.map_err(explain)?;
+    let wanted = about_the_run(args, &limit).is_some();
+    let run_compared = run.clone().filter(|_| wanted || !system.network().has_events());
+    let options =
+        ReductionOptions { run: run_compared, window, judge: args.judge, allowed: limit.allowed };
+    let reduction = Reduction::new(&system, port, &options).map_err(explain)?;
+    let asked = Asked { args, system: &system, run: options.run.as_ref(), allowed: limit.allowed };
+    let loads = Loads::new(&asked, &reduction, &explain)?;
     let bias = match &run {
         Some(run) if args.bias => Some(Bias::new(&system, port, run).map_err(explain)?),
         _ => None,
     };
-    let definition = args.definition;
     console.warn(&input.netlist.files, &input.netlist.warnings);
     let view = View {
         input: &input,
@@ -54,10 +72,10 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
         port: name,
         system: &system,
         reduction,
+        loads,
         bias,
         unit,
         limit,
-        definition,
     };
     view.show(console)?;
     Ok(view.conclude(console))
@@ -71,21 +89,40 @@ pub(crate) struct View<'a> {
     pub(crate) port: &'a str,
     pub(crate) system: &'a ThermalSystem,
     pub(crate) reduction: Reduction,
+    /// What is known of every load.
+    pub(crate) loads: Loads,
     pub(crate) bias: Option<Result<Bias, FitError>>,
     pub(crate) unit: Unit,
-    pub(crate) limit: Option<Limit>,
-    /// The definition that was asked for.
-    pub(crate) definition: Option<Definition>,
+    pub(crate) limit: Limit,
 }
 
 impl View<'_> {
     /// The pair that is judged and written: the one asked for, else the recommended one.
     pub(crate) fn pair(&self) -> Option<&Pair> {
         let dynamics = self.reduction.dynamics.as_ref()?;
-        Some(dynamics.pair(self.definition.unwrap_or(dynamics.recommended.definition)))
+        let asked = self.loads.nodes.as_ref().and_then(|nodes| nodes.definition);
+        let asked = asked.or(self.args.definition).and_then(|d| dynamics.pair(d));
+        Some(asked.unwrap_or(dynamics.best()))
+    }
+
+    /// The error that is judged, and whether it is within the limit.
+    pub(crate) fn judged(&self) -> Option<(Judge, Deviation, Option<bool>)> {
+        let dynamics = self.reduction.dynamics.as_ref()?;
+        if let Some((judge, error)) = self.loads.error {
+            let in_kelvin = matches!(self.limit.allowed, Allowed::Kelvin(_));
+            let can = judge == Judge::Run || !in_kelvin;
+            return Some((judge, error, can.then(|| error.within(self.limit.allowed))));
+        }
+        let pair = self.pair()?;
+        let (judge, error) = dynamics.judged(pair)?;
+        Some((judge, error, dynamics.collapses(pair)))
     }
 
     fn show(&self, console: &Console) -> Result<(), Failure> {
+        if let (Some(path), Some(text)) = (&self.args.worst, self.loads.csv()) {
+            files::write_new(path, &text, "reduce::exists")?;
+            console.note(&self.load_help(path));
+        }
         if let Some(path) = &self.args.write {
             files::write_new(path, &self.netlist(Some(path))?, "reduce::exists")?;
         }
@@ -94,6 +131,8 @@ impl View<'_> {
             ReduceFormat::Toml => console.print(&self.netlist(None)?).map(drop)?,
         }
         if self.args.format == ReduceFormat::Of(Format::Csv) {
+            let short = self.reduction.dynamics.as_ref().and_then(|dynamics| self.short(dynamics));
+            short.iter().for_each(|short| console.note(&format!("warning: {short}")));
             self.notes().iter().for_each(|note| console.note(&format!("note: {note}")));
         }
         if let Some(path) = &self.args.write {
@@ -116,8 +155,10 @@ impl View<'_> {
     fn netlist(&self, place: Option<&Path>) -> Result<String, Failure> {
         let run = self.input.netlist.run.as_ref();
         let start = run.map_or(0.0, |run| run.start);
-        let pair = self.pair();
-        let network = self.reduction.network(self.system, start, pair);
+        let network = match &self.loads.nodes {
+            Some(nodes) => self.reduction.network_of(self.system, start, nodes),
+            None => self.reduction.network(self.system, start, self.pair()),
+        };
         let network = network.map_err(|error| failed(self.input, self.port, &error))?;
         let title = format!("{}, seen from {}", self.input.title(), self.port);
         let folder = place.map(|place| place.parent().unwrap_or(Path::new("")));
@@ -129,71 +170,79 @@ impl View<'_> {
     fn comment(&self) -> String {
         let from = plain(&self.input.text.name);
         let mut text = format!("# What `{}` of {from} sees, by `lptn reduce`.\n", self.port);
-        if let Some(pair) = self.pair() {
-            let error = match pair.run {
-                Some(run) => {
-                    format!("; over the run it errs by {} K at most", significant(run.kelvin, 2))
-                }
-                None => String::new(),
-            };
-            text += &format!("# C_eq by {}{error}.\n", pair.definition.key());
+        if self.reduction.dynamics.is_some() {
+            text += &format!("# Verdict: {}.\n", self.verdict());
+        }
+        if let Some(definition) = self.definition() {
+            text += &format!("# C_eq by {}.\n", definition.key());
         }
         text
     }
 
     fn conclude(&self, console: &Console) -> Exit {
-        let (Some(limit), Some(pair)) = (&self.limit, self.pair()) else { return Exit::Done };
-        let Some(run) = pair.run else { return Exit::Done };
-        if run.within(limit.kelvin, limit.relative) {
-            return Exit::Done;
+        if let Some(kept) = self.loads.kept() {
+            return if kept { Exit::Done } else { self.refuse(console, &self.verdict()) };
         }
-        let share =
-            run.relative.map(|r| format!(" ({} %)", significant(100.0 * r, 3))).unwrap_or_default();
-        console.message(&format!(
-            "too large: with C_eq by {} the error reaches {} K{share}, and {} is allowed",
-            pair.definition.key(),
-            significant(run.kelvin, 3),
-            limit.text
-        ));
+        let Some((judge, error, Some(false))) = self.judged() else { return Exit::Done };
+        let share = error.relative.map(|r| format!("{} %", significant(100.0 * r, 3)));
+        let kelvin = (judge == Judge::Run).then(|| format!("{} K", significant(error.kelvin, 3)));
+        let size = match (kelvin, share) {
+            (Some(kelvin), Some(share)) => format!("{kelvin} ({share})"),
+            (kelvin, share) => kelvin.or(share).unwrap_or_default(),
+        };
+        let with = match (self.definition(), &self.loads.nodes) {
+            (Some(definition), _) => format!("C_eq by {}", definition.key()),
+            (None, nodes) => count(nodes.as_ref().map_or(1, Nodes::count), "node"),
+        };
+        let limit = &self.limit.text;
+        let text = format!("with {with} the error reaches {size}, and {limit} is allowed");
+        self.refuse(console, &text)
+    }
+
+    fn refuse(&self, console: &Console, text: &str) -> Exit {
+        console.message(&format!("too large: {text}"));
         Exit::No
+    }
+
+    /// The definition of C_eq of what is judged, if it is one node.
+    pub(crate) fn definition(&self) -> Option<Definition> {
+        match &self.loads.nodes {
+            Some(nodes) => nodes.definition,
+            None => self.pair().map(|pair| pair.definition),
+        }
     }
 }
 
 /// The largest error allowed.
 pub(crate) struct Limit {
-    pub(crate) kelvin: Option<f64>,
-    pub(crate) relative: Option<f64>,
-    text: String,
+    pub(crate) allowed: Allowed,
+    pub(crate) text: String,
 }
 
 impl Limit {
     /// `0.5K` or `2%`.
-    fn parse(text: &str) -> Result<Self, Failure> {
+    fn parse(option: &str, text: &str) -> Result<Self, Failure> {
         let share = text.trim().ends_with('%');
         let wanted = if share { Dimension::NONE } else { Dimension::TEMPERATURE };
         let what = (wanted, "reduce::max_error", "0.5K or 2%");
-        let quantity = input::positive("--max-error", text, what)?;
-        let [kelvin, relative] =
-            if share { [None, Some(quantity.value)] } else { [Some(quantity.value), None] };
-        Ok(Self { kelvin, relative, text: text.trim().to_owned() })
+        let value = input::positive(option, text, what)?.value;
+        let allowed = if share { Allowed::Share(value) } else { Allowed::Kelvin(value) };
+        Ok(Self { allowed, text: text.trim().to_owned() })
     }
+}
+
+/// The option that asks for the run, if there is one.
+fn about_the_run(args: &ReduceArgs, limit: &Limit) -> Option<&'static str> {
+    let options = [
+        (matches!(limit.allowed, Allowed::Kelvin(_)), "--max-error in K"),
+        (args.judge == Judge::Run, "--for run"),
+        (args.bias, "--bias"),
+    ];
+    options.into_iter().find(|(asks, _)| *asks).map(|(_, option)| option)
 }
 
 fn window(text: &str) -> Result<f64, Failure> {
     input::quantity("--window", text, Type::of(Dimension::TIME)).map(|quantity| quantity.value)
-}
-
-/// One node cannot follow a network that switches over its run: the run is left out, but where it
-/// is asked for.
-fn options(
-    system: &ThermalSystem,
-    run: Option<&Transient>,
-    (window, wanted): (Option<f64>, bool),
-) -> ReductionOptions {
-    if wanted || !system.network().has_events() {
-        return ReductionOptions { run: run.cloned(), window };
-    }
-    ReductionOptions { run: None, window: window.or(run.map(|run| run.stop - run.start)) }
 }
 
 /// The run of the file.

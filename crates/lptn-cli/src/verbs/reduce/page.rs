@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::io;
 
 use lptn_plot::Figure;
-use lptn_reduce::{Bias, Definition, Deviation, Dynamics, FitError, LeastSquaresWindow, Pair};
+use lptn_reduce::{Bias, Deviation, Dynamics, FitError, Judge, LeastSquaresWindow, Pair};
 use lptn_report::{
     Json, Page, Report, Rows, Text, TextTable, decimals, duration, fixed, significant,
 };
@@ -15,15 +15,18 @@ use serde_json::{Value, json};
 use super::View;
 use crate::about::{self, Known};
 use crate::scale;
-use crate::words::count;
 
 impl Page for View<'_> {
     fn text(&self) -> Text {
-        let mut text = self.input.begun();
+        let mut text = self.judgement();
+        text.append(self.input.begun());
         text.section().table(self.equivalent());
         if let Some(dynamics) = &self.reduction.dynamics {
             text.section().table(pairs(dynamics));
-            text.section().sentence("use ", &self.advice(dynamics));
+            let label = self.pair().and_then(|pair| dynamics.collapses(pair)) == Some(false);
+            let label = if label { "nearest: " } else { "use " };
+            text.section().sentence(label, &self.advice(dynamics));
+            text.append(self.loads_text());
         }
         match &self.bias {
             Some(Ok(bias)) => text.section().table(self.bias(bias)),
@@ -39,7 +42,7 @@ impl Page for View<'_> {
     }
 
     fn figures(&self) -> Vec<Figure> {
-        self.reduction.dynamics.iter().map(|dynamics| self.figure(dynamics)).collect()
+        self.reduction.dynamics.iter().filter_map(|dynamics| self.figure(dynamics)).collect()
     }
 
     fn more(&self) -> Report {
@@ -53,14 +56,18 @@ impl Page for View<'_> {
         let sources = netlist.network.sources().iter().map(|s| s.name());
         self.input.head(json, &[])?;
         json.member("port", self.port)?;
+        json.member("verdict", &self.verdict_json())?;
         json.member("R_eq", &scalar(norton.resistance, "K/W"))?;
         json.member("T_ref", &scale::temperature(inputs.reference, &self.unit))?;
         json.member("Q_N", &scalar(inputs.heat, "W"))?;
         json.member("boundary_weights", &named(boundaries, &norton.boundary_weights))?;
         json.member("source_weights", &named(sources, &norton.source_weights))?;
         dynamics((self.reduction.dynamics.as_ref(), &self.unit), json)?;
+        json.member("any_load", &self.loads_json())?;
         json.optional("bias", self.bias.as_ref().map(|bias| of_bias(bias, &self.unit)))?;
-        json.member("notes", &self.notes())
+        let short = self.reduction.dynamics.as_ref().and_then(|dynamics| self.short(dynamics));
+        let notes: Vec<String> = short.into_iter().chain(self.notes()).collect();
+        json.member("notes", &notes)
     }
 }
 
@@ -89,8 +96,8 @@ impl View<'_> {
                 weights(sources, &norton.source_weights),
             ],
         ];
-        if let Some(dynamics) = &self.reduction.dynamics {
-            let slowest = dynamics.step.slowest();
+        if let Some(step) = self.reduction.dynamics.as_ref().and_then(|d| d.step.as_ref()) {
+            let slowest = step.slowest();
             let share = significant(100.0 * slowest.resistance / norton.resistance, 4);
             let what = format!("slowest time constant, {share} % of R_eq");
             rows.push(["tau_1".to_owned(), duration(slowest.tau, 5), what]);
@@ -105,24 +112,24 @@ impl View<'_> {
 
     /// Which pair to use, and why.
     fn advice(&self, dynamics: &Dynamics) -> String {
-        let recommended = dynamics.recommended;
-        let pair = dynamics.pair(recommended.definition);
-        let why = match (pair.run, dynamics.rise) {
-            (Some(run), Some(rise)) if recommended.by_run => format!(
+        let pair = dynamics.best();
+        let why = match (dynamics.recommended.by, pair.run, pair.step, dynamics.rise) {
+            (Some(Judge::Run), Some(run), _, Some(rise)) => format!(
                 "the smallest error over this run, {} K of a rise of {} K",
                 significant(run.kelvin, 3),
                 significant(rise, 3)
             ),
-            _ => format!(
+            (Some(Judge::Step), _, Some(step), _) => format!(
                 "the smallest error for a step, {} % of the rise",
-                significant(100.0 * pair.step.relative.unwrap_or(f64::NAN), 3)
+                significant(100.0 * step.relative.unwrap_or(f64::NAN), 3)
             ),
+            _ => "right in the mean over every load".to_owned(),
         };
         format!(
             "R_eq {} K/W with C_eq {} J/K ({}): {why}",
             significant(self.reduction.norton.resistance, 5),
             significant(pair.capacity, 5),
-            recommended.definition.key()
+            dynamics.recommended.definition.key()
         )
     }
 
@@ -163,99 +170,6 @@ impl View<'_> {
             .left(heading, |row| &row.2)
             .into()
     }
-
-    /// What has to be known beside the numbers.
-    pub(crate) fn notes(&self) -> Vec<String> {
-        let mut notes = Vec::new();
-        if self.input.netlist.network.has_time_dependent_inputs() {
-            notes.push(
-                "the inputs change with time; T_ref and Q_N are those at the start of the run"
-                    .to_owned(),
-            );
-        }
-        notes.extend(self.switched());
-        notes.extend(self.apart());
-        let Some(dynamics) = &self.reduction.dynamics else {
-            notes.push(
-                "the port sees no capacity: T = T_ref + R_eq Q_N holds at every moment".to_owned(),
-            );
-            return notes;
-        };
-        let window = duration(dynamics.window.length(), 4);
-        notes.push(match dynamics.window {
-            LeastSquaresWindow::Given(_) => {
-                format!("least_squares fits the response to a step over {window}")
-            }
-            LeastSquaresWindow::Run(_) => {
-                format!(
-                    "least_squares fits the response to a step over {window}, as long as the run"
-                )
-            }
-            LeastSquaresWindow::TimeConstants(_) => {
-                format!(
-                    "without [run] no run is compared, and least_squares fits {window}, five times \
-                    tau_1"
-                )
-            }
-        });
-        if let Some(tolerance) = dynamics.tolerance {
-            notes.push(format!(
-                "runs are compared at a tolerance of {} K",
-                significant(tolerance, 2)
-            ));
-        }
-        let (residual, resistance) = (dynamics.step.residual, dynamics.step.resistance);
-        if dynamics.pair(Definition::LeastSquares).capacity <= 0.0 {
-            let share = significant(100.0 * dynamics.step.direct / resistance, 3);
-            notes.push(format!(
-                "the port answers at once with {share} % of the rise: no capacity at all is \
-                 nearest to that"
-            ));
-        }
-        if residual > 1e-6 * resistance {
-            let share = significant(100.0 * residual / resistance, 2);
-            notes.push(format!(
-                "the fastest modes, {share} % of R_eq, are not resolved: the errors for a step \
-                hold but for its very beginning"
-            ));
-        }
-        notes
-    }
-}
-
-impl View<'_> {
-    /// What is said of controls.
-    fn switched(&self) -> Option<String> {
-        let network = &self.input.netlist.network;
-        let stands = |id: lptn_network::ControlId| {
-            let on = network.thermostat(id).is_some_and(|thermostat| thermostat.start);
-            format!("`{}` {}", network.controls()[id.index()].name, if on { "on" } else { "off" })
-        };
-        let stand: Vec<String> = network.control_ids().map(stands).collect();
-        let says =
-            if self.input.netlist.initial().is_some() { "the state" } else { "their `start`" };
-        (!stand.is_empty()).then(|| {
-            format!(
-                "T_ref and Q_N are those with {}, as {says} says; what switches over the run is \
-                 not compared",
-                stand.join(", ")
-            )
-        })
-    }
-
-    /// What is said of nodes that the port does not feel.
-    fn apart(&self) -> Option<String> {
-        let response = &self.reduction.norton.response;
-        let reached = response.iter().filter(|rise| **rise > 0.0).count();
-        let apart = response.len() - reached;
-        (apart > 0).then(|| {
-            let reached = count(reached, "node");
-            format!(
-                "C_eq is that of the {reached} that heat from the port reaches; {apart} apart from \
-                it do not matter"
-            )
-        })
-    }
 }
 
 /// `0.7 bed + 0.3 air`, the largest first.
@@ -277,28 +191,35 @@ fn signed(value: f64) -> String {
     if value > 0.0 { format!("+{text}") } else { text }
 }
 
-/// The four capacities with their errors.
+/// With its sign, also where it is positive.
+fn plus(value: f64, digits: usize) -> String {
+    let text = fixed(value, digits);
+    if value > 0.0 { format!("+{text}") } else { text }
+}
+
+/// The capacities with their errors.
 fn pairs(dynamics: &Dynamics) -> TextTable {
     let list = &dynamics.pairs;
     let largest = |values: &dyn Fn(&Pair) -> f64| list.iter().map(values).fold(0.0, f64::max);
     let digits = decimals(largest(&|p| p.capacity), 5, 0);
     let percent = |deviation: Option<Deviation>| {
         let relative = deviation.and_then(|d| d.relative);
-        relative.map_or_else(|| "-".to_owned(), |r| fixed(100.0 * r, 3))
+        let sign = deviation.map_or(1.0, |d| 1_f64.copysign(d.signed));
+        relative.map_or_else(|| "-".to_owned(), |r| plus(100.0 * r * sign, 3))
     };
     let table = TextTable::of(list)
         .left("error with C_eq by", |p| p.definition.key())
         .right("[J/K]", |p| fixed(p.capacity, digits))
-        .right("step [%]", |p| percent(Some(p.step)))
-        .left("at", |p| duration(p.step.time, 3));
+        .right("step [%]", |p| percent(p.step))
+        .left("at", |p| p.step.map_or(String::new(), |step| duration(step.time, 3)));
     if dynamics.rise.is_none() {
         return table.into();
     }
-    let kelvin = |p: &Pair| p.run.map_or(0.0, |run| run.kelvin);
+    let kelvin = |p: &Pair| p.run.map_or(0.0, |run| run.signed);
     // below a mK it is the runs' own tolerance that shows
-    let digits = decimals(largest(&kelvin).max(1e-3), 3, 2);
+    let digits = decimals(largest(&|p| kelvin(p).abs()).max(1e-3), 3, 2);
     table
-        .right("run [K]", |p| fixed(kelvin(p), digits))
+        .right("run [K]", |p| plus(kelvin(p), digits))
         .right("[%]", |p| percent(p.run))
         .left("at", |p| p.run.map_or(String::new(), |r| duration(r.time, 3)))
         .into()
@@ -315,29 +236,37 @@ fn dynamics((dynamics, unit): (Option<&Dynamics>, &Unit), json: &mut Json<'_>) -
     };
     json.member("C_eq", &by_name(&|pair| json!(scalar(pair.capacity, "J/K"))))?;
     let errors = |pair: &lptn_reduce::Pair| {
-        let run = pair.run.as_ref().map(|run| error(run, unit));
-        json!({ "step": error(&pair.step, unit), "run": run })
+        let run = pair.run.as_ref().map(|run| error_json(run, unit));
+        let step = pair.step.as_ref().map(|step| error_json(step, unit));
+        json!({ "step": step, "run": run })
     };
     json.member("errors", &by_name(&errors))?;
     json.member("recommended", dynamics.recommended.definition.key())?;
-    json.member("recommended_by", if dynamics.recommended.by_run { "run" } else { "step" })?;
-    json.member("tau_1", &scalar(dynamics.step.slowest().tau, "s"))?;
-    let of = match dynamics.window {
-        LeastSquaresWindow::Given(_) => "given",
-        LeastSquaresWindow::Run(_) => "run",
-        LeastSquaresWindow::TimeConstants(_) => "five time constants",
-    };
-    json.member("window", &json!({ "value": dynamics.window.length(), "unit": "s", "from": of }))?;
+    json.member("recommended_by", &dynamics.recommended.by.map(Judge::key))?;
+    let slowest = dynamics.step.as_ref().map(|step| scalar(step.slowest().tau, "s"));
+    json.member("tau_1", &slowest)?;
+    json.member("window", &dynamics.window.map(window))?;
     let kelvin = |value: f64| scale::of_difference(value, unit);
     json.member("rise", &dynamics.rise.map(kelvin))?;
     json.member("tolerance", &dynamics.tolerance.map(kelvin))
 }
 
-fn error(deviation: &Deviation, unit: &Unit) -> Value {
+fn window(window: LeastSquaresWindow) -> Value {
+    let of = match window {
+        LeastSquaresWindow::Given(_) => "given",
+        LeastSquaresWindow::Run(_) => "run",
+        LeastSquaresWindow::TimeConstants(_) => "five time constants",
+    };
+    json!({ "value": window.length(), "unit": "s", "from": of })
+}
+
+pub(super) fn error_json(deviation: &Deviation, unit: &Unit) -> Value {
     json!({
         "max": scale::of_difference(deviation.kelvin, unit),
         "relative": deviation.relative.map(|relative| scalar(relative, "1")),
         "time": scalar(deviation.time, "s"),
+        "signed": scale::of_difference(deviation.signed, unit),
+        "good_from": deviation.good_from.map(|time| scalar(time, "s")),
     })
 }
 

@@ -1,0 +1,205 @@
+//! `lptn impedance`
+
+mod args;
+mod figure;
+mod lists;
+mod page;
+
+pub(crate) use args::ImpedanceArgs;
+
+use lptn_netlist::Diagnostic;
+use lptn_network::{Item, Network, NodeId};
+use lptn_reduce::{ReduceError, port};
+use lptn_solve::{Complex, Drive, FrequencyResponse, Linearised, ResponseError, StepAnswer, Tried};
+
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::{Input, quoted};
+use crate::operating_point::OperatingPoint;
+
+/// Shares of the time constants up to which the answer is shown, and from which on.
+const BEFORE: f64 = 0.1;
+const AFTER: f64 = 5.0;
+
+pub(crate) fn impedance(args: &ImpedanceArgs, console: &Console) -> Result<Exit, Failure> {
+    let input = Input::load(&args.source)?;
+    let network = &input.netlist.network;
+    let name = args.port.as_deref().ok_or_else(|| no_port(&input))?;
+    let drive = drive(network, name).map_err(|error| unknown(&input, &error))?;
+    let to = to(args, &input, (drive, name))?;
+    let shares = args.duty.as_deref().map(lists::shares).transpose()?.unwrap_or_default();
+    let same = drive == Drive::Node(to);
+    if !(same || shares.is_empty()) {
+        return Err(pulses_elsewhere());
+    }
+    let system = input.assemble()?;
+    let point = args.at.find(&input, console)?;
+    let failed = |error: &ResponseError| failed(&input, error);
+    let state = point.as_ref().map(|point| &point.state);
+    let mut linear = Linearised::of(&system, state).map_err(|error| failed(&error.into()))?;
+    let step = StepAnswer::new(&linear, drive);
+    let even = vec![1.0; network.nodes().len()];
+    let tried = linear.tried_along(step.as_ref().map_or(&even, |step| &step.settled));
+    let tried = tried.map_err(|error| failed(&error.into()))?;
+    let answer = match &args.omega {
+        Some(list) => swing(&linear, (drive, to), (list.as_deref(), step.as_ref().ok()))?
+            .map_err(|error| failed(&error))?,
+        None => {
+            stepped(&step.map_err(|error| failed(&error))?, to, (args.time.as_deref(), &shares))?
+        }
+    };
+    console.warn(&input.netlist.files, &input.netlist.warnings);
+    let to = network.nodes()[to.index()].name.as_str();
+    let view = View { input: &input, name, to, drive, answer, shares, point, tried };
+    console.show(&view, args.printed.format)
+}
+
+/// An answer and how it is shown.
+struct View<'a> {
+    input: &'a Input,
+    /// What is put in.
+    name: &'a str,
+    /// The node that answers.
+    to: &'a str,
+    drive: Drive,
+    answer: Answer,
+    /// The shares of their periods that pulses take.
+    shares: Vec<f64>,
+    /// The state near which the network is taken for a linear one.
+    point: Option<OperatingPoint>,
+    tried: Option<Tried>,
+}
+
+/// What a node does, per W or K.
+enum Answer {
+    /// After a step.
+    Step { settled: f64, rows: Vec<Stepped> },
+    /// To a swing.
+    Swing(Vec<Swung>),
+}
+
+/// The answer at a time after a step.
+struct Stepped {
+    /// In s.
+    time: f64,
+    rise: f64,
+    /// The highest rise of settled pulses of this length, one value a share.
+    pulses: Vec<f64>,
+}
+
+/// The answer to a swing.
+struct Swung {
+    /// In rad/s.
+    omega: f64,
+    answer: Complex,
+}
+
+fn drive(network: &Network, name: &str) -> Result<Drive, ReduceError> {
+    match network.item(name) {
+        Ok(Item::Boundary(id)) => Ok(Drive::Boundary(id)),
+        Ok(Item::Source(id)) => Ok(Drive::Source(id)),
+        _ => port(network, name).map(Drive::Node),
+    }
+}
+
+/// The node that answers: the one that is named, else the port itself, or what a source heats.
+fn to(
+    args: &ImpedanceArgs,
+    input: &Input,
+    (drive, name): (Drive, &str),
+) -> Result<NodeId, Failure> {
+    let network = &input.netlist.network;
+    if let Some(name) = &args.to {
+        return port(network, name).map_err(|error| unknown(input, &error));
+    }
+    let heated = |id: lptn_network::SourceId| match network.sources()[id.index()].into[..] {
+        [(node, _)] => Some(node),
+        _ => None,
+    };
+    let found = match drive {
+        Drive::Node(node) => Some(node),
+        Drive::Source(source) => heated(source),
+        Drive::Boundary(_) => None,
+    };
+    found.ok_or_else(|| {
+        let message = format!("which node answers `{name}`?");
+        let help = "name it: --to NODE";
+        Failure::new(Exit::Input, Diagnostic::error("impedance::no_node", message).help(help))
+    })
+}
+
+fn stepped(
+    step: &StepAnswer,
+    to: NodeId,
+    (times, shares): (Option<&str>, &[f64]),
+) -> Result<Answer, Failure> {
+    let to = to.index();
+    let times = match times {
+        Some(list) => lists::times(list)?,
+        None => {
+            let (fastest, slowest) = step.span(to).unwrap_or((1.0, 1.0));
+            lists::three_a_decade(BEFORE * fastest, AFTER * slowest)
+        }
+    };
+    let row = |time: f64| Stepped {
+        time,
+        rise: step.value(to, time),
+        pulses: shares.iter().map(|share| step.pulse(to, time, *share)).collect(),
+    };
+    Ok(Answer::Step { settled: step.settled[to], rows: times.into_iter().map(row).collect() })
+}
+
+/// The inner error is that of the numbers, the outer one that of the command line.
+fn swing(
+    linear: &Linearised<'_>,
+    (drive, to): (Drive, NodeId),
+    (list, step): (Option<&str>, Option<&StepAnswer>),
+) -> Result<Result<Answer, ResponseError>, Failure> {
+    let omegas = match list {
+        Some(list) => lists::omegas(list)?,
+        None => {
+            let span = step.and_then(|step| step.span(to.index())).unwrap_or((1.0, 1.0));
+            lists::three_a_decade(BEFORE / span.1, 1.0 / (BEFORE * span.0))
+        }
+    };
+    let answers = || {
+        let mut response = FrequencyResponse::new(linear, drive)?;
+        let one = |omega: f64| Ok(Swung { omega, answer: response.at(omega)?[to.index()] });
+        Ok(Answer::Swing(omegas.into_iter().map(one).collect::<Result<_, ResponseError>>()?))
+    };
+    Ok(answers())
+}
+
+fn no_port(input: &Input) -> Failure {
+    let network = &input.netlist.network;
+    let heated = network.sources().first().and_then(|source| source.into.first());
+    let likely = heated.map_or("NODE", |(node, _)| &network.nodes()[node.index()].name);
+    let message = format!("where does the heat go into {}?", input.text.name);
+    let file = input.typed().unwrap_or_else(|| "-".into());
+    let help = format!(
+        "name a node, source or boundary: `lptn impedance {file} --port {}`",
+        quoted(likely)
+    );
+    Failure::new(Exit::Input, Diagnostic::error("impedance::no_port", message).help(help))
+}
+
+fn pulses_elsewhere() -> Failure {
+    let message = "pulses are known where the heat goes in: elsewhere the highest rise comes later";
+    let help = "leave --to or --duty out, or let `lptn steady --periodic` find the settled pulses";
+    Failure::new(Exit::Input, Diagnostic::error("impedance::pulses_elsewhere", message).help(help))
+}
+
+fn unknown(input: &Input, error: &ReduceError) -> Failure {
+    input.failure(error, None)
+}
+
+fn failed(input: &Input, error: &ResponseError) -> Failure {
+    let place = match error {
+        ResponseError::NoGround { names } => names.first().and_then(|name| input.node_place(name)),
+        ResponseError::Input(error) => input.place_of(error),
+        ResponseError::Linearised(error) => crate::operating_point::place(input, error),
+        _ => None,
+    };
+    input.failure(error, place)
+}
