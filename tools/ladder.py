@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the elements of Cauer ladders that `crates/lptn-reduce/tests/ladder.rs` compares with.
+"""Writes the elements of Cauer ladders that `crates/lptn-network/tests/ladder.rs` compares with.
 
     pip install mpmath
     python3 tools/ladder.py
@@ -15,7 +15,7 @@ from pathlib import Path
 import mpmath
 from mpmath import mpf
 
-FILE = Path(__file__).resolve().parent.parent / "crates/lptn-reduce/tests/ladder.csv"
+FILE = Path(__file__).resolve().parent.parent / "crates/lptn-network/tests/ladder.csv"
 
 
 def geometric(count, first, ratio):

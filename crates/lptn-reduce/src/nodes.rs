@@ -2,7 +2,8 @@
 
 use crate::definition::{Definition, Pair};
 use crate::fewer::fewer;
-use crate::ladder::{Cauer, Foster};
+use lptn_network::{Cauer, Foster};
+
 use crate::step::StepResponse;
 use crate::worst::WorstCase;
 

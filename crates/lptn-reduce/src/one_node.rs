@@ -2,12 +2,11 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    HeatCapacity, HeatFlow, Network, NetworkBuilder, NodeId, Resistance, Temperature,
+    Cauer, HeatCapacity, HeatFlow, Network, NetworkBuilder, NodeId, Resistance, Temperature,
 };
 
 use crate::carried::{Carried, first};
 use crate::error::ReduceError;
-use crate::ladder::Cauer;
 use crate::norton::NortonEquivalent;
 
 /// What stands between the port and the reference.

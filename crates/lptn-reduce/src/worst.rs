@@ -1,7 +1,8 @@
 //! The largest error over every load.
 
+use lptn_network::Foster;
+
 use crate::exponentials::Exponentials;
-use crate::ladder::Foster;
 use crate::step::StepResponse;
 
 /// The largest error at a port for all powers into it between 0 and 1 W, from rest.

@@ -73,6 +73,17 @@ impl StepAnswer {
         self.direct[node] + self.terms.iter().map(of).sum::<f64>()
     }
 
+    /// What a node answers at once, in K per unit.
+    pub fn direct(&self, node: usize) -> f64 {
+        self.direct[node]
+    }
+
+    /// The rate in 1/s of each mode, with what it is still missing of a node's rise at time 0, in K
+    /// per unit; the real parts of all and what comes at once make the settled rise.
+    pub fn terms(&self, node: usize) -> impl Iterator<Item = (Complex, Complex)> {
+        self.terms.iter().map(move |(rate, nodes)| (*rate, nodes[node]))
+    }
+
     /// The shortest and the longest time constant in s that a node sees: those of the modes with at
     /// least a millionth of its largest share. `None` if it answers at once, or not at all.
     pub fn span(&self, node: usize) -> Option<(f64, f64)> {

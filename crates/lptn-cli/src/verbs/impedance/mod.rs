@@ -1,20 +1,30 @@
 //! `lptn impedance`
 
 mod args;
+mod chain;
+mod chain_page;
+mod curve;
 mod figure;
 mod lists;
+mod netlist;
 mod page;
 
+use args::Asked;
 pub(crate) use args::ImpedanceArgs;
+use chain::{Chain, Spectrum};
+use curve::Curve;
 
 use lptn_netlist::Diagnostic;
 use lptn_network::{Item, Network, NodeId};
 use lptn_reduce::{ReduceError, port};
-use lptn_solve::{Complex, Drive, FrequencyResponse, Linearised, ResponseError, StepAnswer, Tried};
+use lptn_solve::{
+    Complex, Drive, FrequencyResponse, Linearised, ModesError, ResponseError, StepAnswer, Tried,
+};
 
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::files;
 use crate::input::{Input, quoted};
 use crate::operating_point::OperatingPoint;
 
@@ -29,9 +39,12 @@ pub(crate) fn impedance(args: &ImpedanceArgs, console: &Console) -> Result<Exit,
     let drive = drive(network, name).map_err(|error| unknown(&input, &error))?;
     let to = to(args, &input, (drive, name))?;
     let shares = args.duty.as_deref().map(lists::shares).transpose()?.unwrap_or_default();
-    let same = drive == Drive::Node(to);
+    let same = is_at(network, drive, to);
     if !(same || shares.is_empty()) {
         return Err(pulses_elsewhere());
+    }
+    if args.write.is_some() && args.chain().is_none() {
+        return Err(nothing_to_write());
     }
     let system = input.assemble()?;
     let point = args.at.find(&input, console)?;
@@ -42,16 +55,34 @@ pub(crate) fn impedance(args: &ImpedanceArgs, console: &Console) -> Result<Exit,
     let even = vec![1.0; network.nodes().len()];
     let tried = linear.tried_along(step.as_ref().map_or(&even, |step| &step.settled));
     let tried = tried.map_err(|error| failed(&error.into()))?;
-    let answer = match &args.omega {
-        Some(list) => swing(&linear, (drive, to), (list.as_deref(), step.as_ref().ok()))?
+    let answer = match (&args.omega, args.chain()) {
+        (Some(list), _) => swing(&linear, (drive, to), (list.as_deref(), step.as_ref().ok()))?
             .map_err(|error| failed(&error))?,
-        None => {
-            stepped(&step.map_err(|error| failed(&error))?, to, (args.time.as_deref(), &shares))?
+        (None, chain) => {
+            let list = (args.time.as_deref(), &shares[..]);
+            match (step, chain) {
+                (Err(error), chain) if is_large(&error) && same && point.is_none() => {
+                    let spectrum = Spectrum::of_large(&input, &system, to)?;
+                    match chain {
+                        Some(asked) => Answer::Chain(spectrum.chain(asked)?),
+                        None => stepped(&Curve::from(&spectrum), list)?,
+                    }
+                }
+                (Err(error), _) => return Err(failed(&error)),
+                (Ok(step), Some(asked)) => {
+                    let spectrum = Spectrum::of(&step, (to.index(), same))?;
+                    Answer::Chain(spectrum.chain(asked)?)
+                }
+                (Ok(step), None) => stepped(&Curve::Modes(&step, to.index()), list)?,
+            }
         }
     };
     console.warn(&input.netlist.files, &input.netlist.warnings);
     let to = network.nodes()[to.index()].name.as_str();
     let view = View { input: &input, name, to, drive, answer, shares, point, tried };
+    if let (Some(path), Answer::Chain(chain)) = (&args.write, &view.answer) {
+        files::write_new(path, &view.netlist(chain), "impedance::exists")?;
+    }
     console.show(&view, args.printed.format)
 }
 
@@ -77,6 +108,8 @@ enum Answer {
     Step { settled: f64, rows: Vec<Stepped> },
     /// To a swing.
     Swing(Vec<Swung>),
+    /// As elements.
+    Chain(Chain),
 }
 
 /// The answer at a time after a step.
@@ -129,25 +162,34 @@ fn to(
     })
 }
 
-fn stepped(
-    step: &StepAnswer,
-    to: NodeId,
-    (times, shares): (Option<&str>, &[f64]),
-) -> Result<Answer, Failure> {
-    let to = to.index();
+/// Whether a node is what is heated.
+fn is_at(network: &Network, drive: Drive, to: NodeId) -> bool {
+    match drive {
+        Drive::Node(node) => node == to,
+        Drive::Source(source) => network.sources()[source.index()].into[..] == [(to, 1.0)],
+        Drive::Boundary(_) => false,
+    }
+}
+
+/// Whether there are too many modes to have all of them.
+fn is_large(error: &ResponseError) -> bool {
+    matches!(error, ResponseError::Modes(ModesError::TooLarge { .. }))
+}
+
+fn stepped(curve: &Curve<'_>, (times, shares): (Option<&str>, &[f64])) -> Result<Answer, Failure> {
     let times = match times {
         Some(list) => lists::times(list)?,
         None => {
-            let (fastest, slowest) = step.span(to).unwrap_or((1.0, 1.0));
+            let (fastest, slowest) = curve.span().unwrap_or((1.0, 1.0));
             lists::three_a_decade(BEFORE * fastest, AFTER * slowest)
         }
     };
     let row = |time: f64| Stepped {
         time,
-        rise: step.value(to, time),
-        pulses: shares.iter().map(|share| step.pulse(to, time, *share)).collect(),
+        rise: curve.value(time),
+        pulses: shares.iter().map(|share| curve.pulse(time, *share)).collect(),
     };
-    Ok(Answer::Step { settled: step.settled[to], rows: times.into_iter().map(row).collect() })
+    Ok(Answer::Step { settled: curve.settled(), rows: times.into_iter().map(row).collect() })
 }
 
 /// The inner error is that of the numbers, the outer one that of the command line.
@@ -188,6 +230,12 @@ fn pulses_elsewhere() -> Failure {
     let message = "pulses are known where the heat goes in: elsewhere the highest rise comes later";
     let help = "leave --to or --duty out, or let `lptn steady --periodic` find the settled pulses";
     Failure::new(Exit::Input, Diagnostic::error("impedance::pulses_elsewhere", message).help(help))
+}
+
+fn nothing_to_write() -> Failure {
+    let message = "--write writes an R-tau table or a ladder, and neither is asked for";
+    let help = "add --foster or --cauer";
+    Failure::new(Exit::Input, Diagnostic::error("impedance::nothing_to_write", message).help(help))
 }
 
 fn unknown(input: &Input, error: &ReduceError) -> Failure {

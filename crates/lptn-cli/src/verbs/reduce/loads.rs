@@ -276,7 +276,7 @@ fn lengths((stretches, end): &(Vec<Stretch>, f64)) -> String {
 
 /// Whether what no load exceeds is rounding.
 fn exact(nodes: &Nodes) -> bool {
-    nodes.worst.most() <= 1e-9 * nodes.rise(f64::INFINITY)
+    nodes.worst.most() <= 1e-9 * nodes.ladder.resistance()
 }
 
 /// The largest heat at the port over the run, or at its start; 1 W where there is none.

@@ -1,6 +1,6 @@
 //! The sum of exponentials.
 
-use lptn_integrate::dense::Complex;
+use num_complex::Complex64 as Complex;
 
 use super::error::{self, LadderError};
 

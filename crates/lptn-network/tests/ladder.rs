@@ -3,7 +3,7 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, PI};
 
-use lptn_reduce::{Cauer, Foster, LadderError};
+use lptn_network::{Cauer, Foster, LadderError};
 
 /// Relative differences of both columns, at most.
 fn apart(found: &[(f64, f64)], expected: &[(f64, f64)]) -> f64 {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use lptn_integrate::dense::Complex;
+use num_complex::Complex64 as Complex;
 
 use super::error::{self, LadderError};
 use super::quotients::Quotients;
