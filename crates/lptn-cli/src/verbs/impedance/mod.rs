@@ -8,18 +8,17 @@ mod figure;
 mod lists;
 mod netlist;
 mod page;
+mod question;
 
 use args::Asked;
 pub(crate) use args::ImpedanceArgs;
-use chain::{Chain, Spectrum};
-use curve::Curve;
+use chain::Chain;
+use question::Question;
 
 use lptn_netlist::Diagnostic;
 use lptn_network::{Item, Network, NodeId};
 use lptn_reduce::{ReduceError, port};
-use lptn_solve::{
-    Complex, Drive, FrequencyResponse, Linearised, ModesError, ResponseError, StepAnswer, Tried,
-};
+use lptn_solve::{Complex, Drive, Linearised, ResponseError, StepAnswer, Tried};
 
 use crate::console::Console;
 use crate::exit::Exit;
@@ -27,10 +26,6 @@ use crate::failure::Failure;
 use crate::files;
 use crate::input::{Input, quoted};
 use crate::operating_point::OperatingPoint;
-
-/// Shares of the time constants up to which the answer is shown, and from which on.
-const BEFORE: f64 = 0.1;
-const AFTER: f64 = 5.0;
 
 pub(crate) fn impedance(args: &ImpedanceArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
@@ -55,28 +50,8 @@ pub(crate) fn impedance(args: &ImpedanceArgs, console: &Console) -> Result<Exit,
     let even = vec![1.0; network.nodes().len()];
     let tried = linear.tried_along(step.as_ref().map_or(&even, |step| &step.settled));
     let tried = tried.map_err(|error| failed(&error.into()))?;
-    let answer = match (&args.omega, args.chain()) {
-        (Some(list), _) => swing(&linear, (drive, to), (list.as_deref(), step.as_ref().ok()))?
-            .map_err(|error| failed(&error))?,
-        (None, chain) => {
-            let list = (args.time.as_deref(), &shares[..]);
-            match (step, chain) {
-                (Err(error), chain) if is_large(&error) && same && point.is_none() => {
-                    let spectrum = Spectrum::of_large(&input, &system, to)?;
-                    match chain {
-                        Some(asked) => Answer::Chain(spectrum.chain(asked)?),
-                        None => stepped(&Curve::from(&spectrum), list)?,
-                    }
-                }
-                (Err(error), _) => return Err(failed(&error)),
-                (Ok(step), Some(asked)) => {
-                    let spectrum = Spectrum::of(&step, (to.index(), same))?;
-                    Answer::Chain(spectrum.chain(asked)?)
-                }
-                (Ok(step), None) => stepped(&Curve::Modes(&step, to.index()), list)?,
-            }
-        }
-    };
+    let question = Question { args, input: &input, linear: &linear, drive, to, shares: &shares };
+    let answer = question.answer(step)?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
     let to = network.nodes()[to.index()].name.as_str();
     let view = View { input: &input, name, to, drive, answer, shares, point, tried };
@@ -169,48 +144,6 @@ fn is_at(network: &Network, drive: Drive, to: NodeId) -> bool {
         Drive::Source(source) => network.sources()[source.index()].into[..] == [(to, 1.0)],
         Drive::Boundary(_) => false,
     }
-}
-
-/// Whether there are too many modes to have all of them.
-fn is_large(error: &ResponseError) -> bool {
-    matches!(error, ResponseError::Modes(ModesError::TooLarge { .. }))
-}
-
-fn stepped(curve: &Curve<'_>, (times, shares): (Option<&str>, &[f64])) -> Result<Answer, Failure> {
-    let times = match times {
-        Some(list) => lists::times(list)?,
-        None => {
-            let (fastest, slowest) = curve.span().unwrap_or((1.0, 1.0));
-            lists::three_a_decade(BEFORE * fastest, AFTER * slowest)
-        }
-    };
-    let row = |time: f64| Stepped {
-        time,
-        rise: curve.value(time),
-        pulses: shares.iter().map(|share| curve.pulse(time, *share)).collect(),
-    };
-    Ok(Answer::Step { settled: curve.settled(), rows: times.into_iter().map(row).collect() })
-}
-
-/// The inner error is that of the numbers, the outer one that of the command line.
-fn swing(
-    linear: &Linearised<'_>,
-    (drive, to): (Drive, NodeId),
-    (list, step): (Option<&str>, Option<&StepAnswer>),
-) -> Result<Result<Answer, ResponseError>, Failure> {
-    let omegas = match list {
-        Some(list) => lists::omegas(list)?,
-        None => {
-            let span = step.and_then(|step| step.span(to.index())).unwrap_or((1.0, 1.0));
-            lists::three_a_decade(BEFORE / span.1, 1.0 / (BEFORE * span.0))
-        }
-    };
-    let answers = || {
-        let mut response = FrequencyResponse::new(linear, drive)?;
-        let one = |omega: f64| Ok(Swung { omega, answer: response.at(omega)?[to.index()] });
-        Ok(Answer::Swing(omegas.into_iter().map(one).collect::<Result<_, ResponseError>>()?))
-    };
-    Ok(answers())
 }
 
 fn no_port(input: &Input) -> Failure {
