@@ -29,11 +29,12 @@ impl StepAnswer {
     pub fn new(linear: &Linearised<'_>, drive: Drive) -> Result<Self, ResponseError> {
         let effect = Effect::of(linear, drive)?;
         grounded(linear.system(), &effect)?;
+        // first, since it refuses networks that are too large
+        let Shapes { rates, right, left } = shapes(linear)?;
         let settled = FrequencyResponse::new(linear, drive)?.at(0.0)?;
         let settled: Vec<f64> = settled.iter().map(|z| z.re).collect();
         let states: Vec<f64> =
             linear.system().states().iter().map(|id| settled[id.index()]).collect();
-        let Shapes { rates, right, left } = shapes(linear)?;
         if rates.iter().any(|rate| rate.re < 0.0) {
             return Err(ResponseError::Grows);
         }
