@@ -6,7 +6,8 @@
 //!
 //! # Why this crate may use `unsafe`
 //!
-//! It is the only one of the workspace that calls C. The argument that it is sound has five parts:
+//! It is the only one of the workspace that calls C, and that stands in for it (`elementary`). The
+//! argument that it is sound has five parts:
 //!
 //! 1. *Lifetimes.* Every object made by SUNDIALS belongs to exactly one Rust value with a `Drop`;
 //!    [`Cvodes`] declares its fields in the order in which SUNDIALS must free them, the context
@@ -27,6 +28,8 @@
 
 mod callback;
 mod context;
+#[cfg(feature = "portable")]
+mod elementary;
 mod integrator;
 mod linear_solver;
 mod memory;

@@ -1,0 +1,42 @@
+//! The same bytes on every processor.
+
+#![allow(clippy::unwrap_used, reason = "a helper of a test that cannot go on")]
+
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// The C library without fused multiplication and wide vectors, as on an older processor.
+const OLDER: &str = "glibc.cpu.hwcaps=-FMA,-AVX2,-FMA4,-AVX512F,-AVX2_Usable,-FMA_Usable";
+
+fn networks() -> Vec<PathBuf> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../networks");
+    let mut found: Vec<PathBuf> = folder.read_dir().unwrap().map(|e| e.unwrap().path()).collect();
+    found.retain(|path| path.extension().is_some_and(|extension| extension == "toml"));
+    found.sort();
+    found
+}
+
+fn printed(verb: &[&str], network: &Path, processor: Option<&str>) -> Vec<u8> {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_lptn"));
+    command.args(verb).arg(network).env_remove("GLIBC_TUNABLES");
+    if let Some(processor) = processor {
+        command.env("GLIBC_TUNABLES", processor);
+    }
+    command.output().unwrap().stdout
+}
+
+/// The elementary functions of the C library differ in the last digit between processors: runs of
+/// `drive_cycle.toml`, `gearbox_parts.toml` and `sunlit_wall.toml` did.
+#[test]
+fn results_do_not_depend_on_the_processor() {
+    let networks = networks();
+    assert!(networks.len() > 30);
+    let run: &[&str] = &["run", "--no-files", "--format", "csv"];
+    let verify: &[&str] = &["verify", "--format", "json"];
+    for network in &networks {
+        for verb in [run, verify] {
+            let (here, older) = (printed(verb, network, None), printed(verb, network, Some(OLDER)));
+            assert!(!here.is_empty() && here == older, "{} {}", verb[0], network.display());
+        }
+    }
+}
