@@ -94,8 +94,46 @@ pub fn weighted_max_masked(x: &[f64], w: &[f64], mask: &[f64]) -> f64 {
 
 /// Largest `|x[i]|`, infinity if any of them is not a number.
 pub fn max_norm(x: &[f64]) -> f64 {
-    x.iter()
-        .fold(0.0, |largest, x| if x.is_nan() { f64::INFINITY } else { f64::max(largest, x.abs()) })
+    let mut largest = [0.0_f64; LANES];
+    let mut watch = [0.0_f64; LANES];
+    let (chunks, tail) = x.as_chunks::<LANES>();
+    for x in chunks {
+        for k in 0..LANES {
+            let a = x[k].abs();
+            largest[k] = if a > largest[k] { a } else { largest[k] };
+            watch[k] += 0.0 * a;
+        }
+    }
+    let largest = largest.iter().chain(tail).fold(0.0, |most, x| f64::max(most, x.abs()));
+    let watched = watch.iter().chain(tail).any(|x| x.is_nan());
+    if watched { f64::INFINITY } else { largest }
+}
+
+/// Largest `|f(x[i], [y[i], z[i]])|` of those that are numbers.
+pub fn largest_of(x: &[f64], [y, z]: [&[f64]; 2], f: impl Fn(f64, [f64; 2]) -> f64) -> f64 {
+    let mut largest = [0.0_f64; LANES];
+    let ((xs, x_tail), (ys, y_tail), (zs, z_tail)) =
+        (x.as_chunks::<LANES>(), y.as_chunks::<LANES>(), z.as_chunks::<LANES>());
+    for ((x, y), z) in xs.iter().zip(ys).zip(zs) {
+        for k in 0..LANES {
+            let a = f(x[k], [y[k], z[k]]).abs();
+            largest[k] = if a > largest[k] { a } else { largest[k] };
+        }
+    }
+    let tail = x_tail.iter().zip(y_tail).zip(z_tail).map(|((&x, &y), &z)| f(x, [y, z]).abs());
+    largest.into_iter().chain(tail).fold(0.0, f64::max)
+}
+
+/// Sum of `x[i]`.
+pub fn sum(x: &[f64]) -> f64 {
+    let mut lanes = [0.0; LANES];
+    let (chunks, tail) = x.as_chunks::<LANES>();
+    for x in chunks {
+        for k in 0..LANES {
+            lanes[k] += x[k];
+        }
+    }
+    lanes.iter().sum::<f64>() + tail.iter().sum::<f64>()
 }
 
 /// Smallest and largest `x[i]`; `None` if any of them is not finite.
@@ -206,6 +244,7 @@ mod tests {
             assert!((max_norm(&x) - x.iter().map(|x| x.abs()).fold(0.0, f64::max)).abs() <= 0.0);
             let sum: f64 = x.iter().zip(&w).map(|(x, w)| x * w).sum();
             assert!((dot(&x, &w) - sum).abs() < 1e-14);
+            assert!((super::sum(&x) - x.iter().sum::<f64>()).abs() < 1e-14);
         }
     }
 

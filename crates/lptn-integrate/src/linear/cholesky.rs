@@ -147,7 +147,7 @@ impl Analysis {
         let failure = outcome.err();
         put(&self.spare, work);
         if let (Some(columns), None) = (&self.columns, &failure) {
-            columns.invert_diagonal(factors);
+            columns.arrange(factors);
         }
         match failure {
             None => Ok(()),

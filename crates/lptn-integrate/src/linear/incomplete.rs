@@ -12,7 +12,7 @@ use std::sync::Arc;
 
 use super::shape::Shape;
 use super::sweeps::Lower;
-use crate::FactorError;
+use crate::{FactorError, kernels};
 
 /// A pivot below this part of its diagonal entry is replaced by the entry.
 const LEAST_PIVOT: f64 = 1e-3;
@@ -114,7 +114,8 @@ impl Incomplete {
             solution.resize(b.len(), 0.0);
             return self.over_diagonal(left);
         };
-        solution.extend(rows.map(|(row, scale)| x[row] / scale));
+        solution.extend(rows.map(|(row, _)| x[row]));
+        kernels::zip_in_place(solution, &self.scale, |x, scale| x / scale);
         let others = product.iter_mut().zip(&*solution).zip(&self.excess);
         others.for_each(|((product, x), excess)| *product = (excess + 2.0) * x);
         self.upper().add_transposed(solution, product);
@@ -144,10 +145,8 @@ impl Incomplete {
 
     /// The largest component of what is left over, over the diagonal of `A`.
     fn over_diagonal(&self, left: &[f64]) -> f64 {
-        let rows = left.iter().zip(&self.excess).zip(&self.scale);
-        rows.fold(0.0, |most: f64, ((left, excess), scale)| {
-            let size = (left * scale / (excess + 2.0)).abs();
-            if size > most { size } else { most }
+        kernels::largest_of(left, [&self.excess, &self.scale], |left, [excess, scale]| {
+            left * scale / (excess + 2.0)
         })
     }
 

@@ -15,6 +15,9 @@ const WANTED: f64 = 9.0;
 /// Values per turn in which terms are added up: they stay in the nearest cache.
 const BLOCK: usize = 512;
 
+/// Fewer components than this are added up one by one.
+const FEW: usize = 8;
+
 /// The right side at the start of a step, in units of `M` times y per time.
 pub(super) struct Drive<'a> {
     pub(super) flow: &'a [f64],
@@ -69,12 +72,12 @@ impl Series {
         self.length = h;
         let factors = levels.factors(level)?;
         kernels::zip(body.mass, body.loss, &mut self.balance, |m, g| m + POLE * h * g);
-        let whole: f64 = self.balance.iter().sum();
+        let whole = kernels::sum(&self.balance);
         let constants = series::error_constants();
         let (mut before, mut ratio) = (f64::INFINITY, 1.0_f64);
         for (n, constant) in (1..=MOST).zip(&constants[1..]) {
             self.put_right_side(n, body.mass, drive);
-            let put: f64 = self.right.iter().sum();
+            let put = kernels::sum(&self.right);
             self.guess(n, ratio);
             let term = &mut self.terms[n - 1];
             factors.solve_from(&self.right, term, SOLVED_TO * tolerance)?;
@@ -145,13 +148,33 @@ impl Series {
         self.add_terms(weights, out);
     }
 
-    /// Adds the weighted terms.
+    /// Adds the weighted terms, four at a time: each number is then fetched and stored less often.
     pub(super) fn add_terms(&self, weights: &Weights, out: &mut [f64]) {
+        if out.len() < FEW {
+            return self.add_few(weights, out);
+        }
+        let (fours, few) = self.terms[..self.count].as_chunks::<4>();
+        let (weights_of_fours, weights_of_few) = weights[..self.count].as_chunks::<4>();
         for (block, out) in out.chunks_mut(BLOCK).enumerate() {
-            let from = block * BLOCK;
-            let to = from + out.len();
-            for (term, &weight) in self.terms[..self.count].iter().zip(weights) {
-                out.iter_mut().zip(&term[from..to]).for_each(|(z, x)| *z += weight * x);
+            let own = block * BLOCK..block * BLOCK + out.len();
+            for ([a, b, c, d], [wa, wb, wc, wd]) in fours.iter().zip(weights_of_fours) {
+                let terms = [a, b, c, d].map(|term| &term[own.clone()]);
+                let rest = terms[1].iter().zip(terms[2]).zip(terms[3]);
+                for ((z, a), ((b, c), d)) in out.iter_mut().zip(terms[0]).zip(rest) {
+                    *z = *z + wa * a + wb * b + wc * c + wd * d;
+                }
+            }
+            for (term, &weight) in few.iter().zip(weights_of_few) {
+                kernels::scale_and_add(1.0, out, weight, &term[own.clone()]);
+            }
+        }
+    }
+
+    /// The same for a few components, where loops over them would hardly have begun.
+    fn add_few(&self, weights: &Weights, out: &mut [f64]) {
+        for (term, weight) in self.terms[..self.count].iter().zip(weights) {
+            for i in 0..out.len().min(term.len()) {
+                out[i] += weight * term[i];
             }
         }
     }

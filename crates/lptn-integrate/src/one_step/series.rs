@@ -29,18 +29,32 @@ pub(super) const MOST: usize = 12;
 /// One weight per term.
 pub(super) type Weights = [f64; MOST];
 
-/// `L_0` to `L_(MOST + 1)` at `x`, as far as `last`.
+/// `L_0` to `L_(MOST + 1)` at `x`, as far as `last`. A row of a run asks for them, so nothing is
+/// divided.
 const fn laguerre(x: f64, last: usize) -> [f64; MOST + 2] {
     let mut values = [1.0; MOST + 2];
     values[1] = 1.0 - x;
-    let (mut n, mut k) = (1.0, 1);
+    let mut k = 1;
     while k < last {
-        values[k + 1] = ((2.0 * n + 1.0 - x) * values[k] - n * values[k - 1]) / (n + 1.0);
-        n += 1.0;
+        let [a, b] = STEPS[k];
+        values[k + 1] = (b - a * x) * values[k] - (b - 1.0) * values[k - 1];
         k += 1;
     }
     values
 }
+
+/// For each `n` the numbers of `L_(n+1) = (b - a x) L_n - (b - 1) L_(n-1)`: `a = 1 / (n + 1)` and
+/// `b = (2 n + 1) / (n + 1)`.
+const STEPS: [[f64; 2]; MOST + 1] = {
+    let mut steps = [[0.0; 2]; MOST + 1];
+    let (mut n, mut k) = (0.0, 0);
+    while k <= MOST {
+        steps[k] = [1.0 / (n + 1.0), (2.0 * n + 1.0) / (n + 1.0)];
+        n += 1.0;
+        k += 1;
+    }
+    steps
+};
 
 /// What is left of an infinitely fast mode at the end of a step by a series that is only cut off,
 /// by the number of its terms.
@@ -56,8 +70,10 @@ fn sign(n: usize) -> f64 {
 pub(super) fn change(terms: usize, share: f64) -> Weights {
     let values = laguerre(share / POLE, terms);
     let mut weights = [0.0; MOST];
-    for n in 1..=terms {
-        weights[n - 1] = POLE * sign(n) * (values[n] - values[n - 1]);
+    let mut factor = POLE;
+    for (weight, ends) in weights[..terms].iter_mut().zip(values.windows(2)) {
+        factor = -factor;
+        *weight = factor * (ends[1] - ends[0]);
     }
     // rounding of the polynomial would be a rate that the books do not know
     weights[0] = share;
