@@ -1,5 +1,6 @@
 //! How a linear network answers one input: swinging at a frequency, or stepping from 0 to 1.
 
+mod carried;
 mod frequency;
 mod step;
 
