@@ -75,6 +75,16 @@ fn capacitor() -> Vec<Closed> {
     vec![("shaft.T", "10 min", relaxed(75.0, 25.0, 600.0, 0.5 * c)), ("shaft.T", "steady", 25.0)]
 }
 
+fn foster() -> Vec<Closed> {
+    let table = [(0.02, 2e-3), (0.06, 50e-3), (0.04, 0.4)];
+    let rise = |t: f64| table.iter().map(|(r, tau)| -500.0 * r * (-t / tau).exp_m1()).sum::<f64>();
+    vec![
+        ("chip.T", "10 ms", 80.0 + rise(10e-3)),
+        ("chip.T", "100 ms", 80.0 + rise(0.1)),
+        ("chip.T", "steady", 140.0),
+    ]
+}
+
 fn boundary() -> Vec<Closed> {
     let (tau, w) = (1200.0, 2.0 * std::f64::consts::PI / 3600.0);
     let casing = |t: f64| {
@@ -236,11 +246,12 @@ fn material() -> Vec<Closed> {
 }
 
 /// Every page with its closed forms.
-fn pages() -> [(&'static str, Vec<Closed>); 20] {
+fn pages() -> [(&'static str, Vec<Closed>); 21] {
     [
         ("node", node()),
         ("capacitor", capacitor()),
         ("boundary", boundary()),
+        ("foster", foster()),
         ("resistor", resistor()),
         ("conduction", conduction()),
         ("convection", devices::convection()),

@@ -75,6 +75,8 @@ fn a_chain_of_equal_cells_answers_without_modes() {
     for (row, rise) in rows.iter().zip(expected) {
         assert!((row[1] / rise - 1.0).abs() < 1e-12, "{row:?}");
     }
+    let table = ["impedance", "chain.toml", "--port=c1", "--foster"];
+    folder.run(&table).exits(2).says("modes::defective");
     let pulses = ["impedance", "chain.toml", "--port=c1", "--duty=0.25"];
     folder.run(&pulses).exits(0).prints("D = 0.25");
     folder.run(&["impedance", "chain.toml", "--port=c1", "--omega"]).exits(0);
@@ -98,4 +100,110 @@ fn what_cannot_be_asked_is_said() {
     refused(&["--port", "body", "--to", "loose", "--duty", "0.5"], "impedance::pulses_elsewhere");
     let loose = ["impedance", "body.toml", "--port", "loose", "--omega", "1 rad/s"];
     folder.run(&loose).exits(0).prints("0.2").prints("-90");
+}
+
+/// Two bodies behind a junction. Conductances 4, 2 W/K and capacities 2, 4 J/K: the squared rates of
+/// `C^-1/2 G C^-1/2` are those of [[3, -2/8^0.5], ..]; the closed forms stand in the test.
+const PAIR: &str = "format = 1\n[default]\nT0 = \"20 degC\"\n[node]\njoint = { massless = true }\n\
+    a = { C = \"2 J/K\" }\nb = { C = \"4 J/K\" }\n[boundary]\nair = { T = \"20 degC\" }\n\
+    [resistor]\nin = { from = \"joint\", to = \"a\", R = \"0.5 K/W\" }\n\
+    mid = { from = \"a\", to = \"b\", G = \"4 W/K\" }\nout = { from = \"b\", to = \"air\", G = \"2 W/K\" }\n";
+
+#[test]
+fn a_table_and_a_ladder_are_the_network() {
+    let folder = Folder::with("pair.toml", PAIR);
+    let ask = |words: &[&str]| folder.run(&[&["impedance", "pair.toml"], words].concat());
+    let json = ask(&["--port", "joint", "--cauer", "--format=json"]).exits(0).json();
+    assert!((scalar(&json["direct"]) - 0.5).abs() < 1e-12);
+    let rungs = json["cauer"].as_array().unwrap().iter();
+    for (rung, (c, r)) in rungs.zip([(2.0, 0.25), (4.0, 0.5)]) {
+        assert!((scalar(&rung["C"]) - c).abs() < 1e-11 && (scalar(&rung["R"]) - r).abs() < 1e-11);
+    }
+    // rates: roots of s^2 - (2 + 1.5) s + 2 * 1.5 - 2
+    let root = (3.5_f64.powi(2) - 4.0).sqrt();
+    let rates = [0.5 * (3.5 + root), 0.5 * (3.5 - root)];
+    let (headers, rows) = csv(&ask(&["--port", "a", "--foster", "--format=csv"]).exits(0).out);
+    assert_eq!(headers, ["R [K/W]", "tau [s]"]);
+    for (row, rate) in rows.iter().zip(rates) {
+        assert!((row[1] * rate - 1.0).abs() < 1e-12, "{row:?}");
+    }
+    // the residues of (s + 1.5) / (2 (s^2 + 3.5 s + 1)) over the rates
+    let residue = |rate: f64, other: f64| (1.5 - rate) / (2.0 * (other - rate)) / rate;
+    assert!((rows[0][0] - residue(rates[0], rates[1])).abs() < 1e-12);
+    assert!((rows[1][0] - residue(rates[1], rates[0])).abs() < 1e-12);
+    // between two places terms of either sign: 4 / (8 (s^2 + 3.5 s + 1))
+    let (_, rows) =
+        csv(&ask(&["--port", "a", "--to", "b", "--foster", "--format=csv"]).exits(0).out);
+    let residue = |rate: f64, other: f64| 0.5 / (other - rate) / rate;
+    assert!((rows[0][0] - residue(rates[0], rates[1])).abs() < 1e-12 && rows[0][0] < 0.0);
+    ask(&["--port", "a", "--to", "b", "--cauer"]).exits(2).says("impedance::between");
+    ask(&["--port", "a", "--to", "b", "--foster=1"]).exits(2).says("impedance::between");
+    ask(&["--port", "a", "--write", "x.toml"]).exits(2).says("impedance::nothing_to_write");
+}
+
+#[test]
+fn what_is_written_has_the_same_impedance() {
+    let folder = Folder::with("pair.toml", PAIR);
+    for (form, file) in [("--foster", "table.toml"), ("--cauer", "ladder.toml")] {
+        folder.run(&["impedance", "pair.toml", "--port", "joint", form, "--write", file]).exits(0);
+        folder.run(&["check", file]).exits(0).prints("0 warnings");
+        let ask = |file: &str| {
+            let run = ["impedance", file, "--port", "joint", "--time=0.1s,3s", "--format=csv"];
+            csv(&folder.run(&run).exits(0).out).1
+        };
+        for (here, there) in ask(file).iter().zip(ask("pair.toml")) {
+            assert!((here[1] / there[1] - 1.0).abs() < 1e-12, "{here:?} {there:?}");
+        }
+        let again = ["impedance", "pair.toml", "--port", "joint", form, "--write", file];
+        folder.run(&again).exits(2).says("impedance::exists");
+    }
+}
+
+/// Fewer terms state their error over every load, which one term of a chain of many has: against
+/// the closed form of the step, which is one of the loads.
+#[test]
+fn fewer_terms_say_how_wrong_they_are() {
+    let folder = Folder::with("pair.toml", PAIR);
+    let ran = folder.run(&["impedance", "pair.toml", "--port", "a", "--foster=1", "--format=json"]);
+    let json = ran.exits(0).json();
+    let error = scalar(&json["error"]);
+    let tau = scalar(&json["foster"][0]["tau"]);
+    let root = (3.5_f64.powi(2) - 4.0).sqrt();
+    let (fast, slow) = (0.5 * (3.5 + root), 0.5 * (3.5 - root));
+    let part = |rate: f64, other: f64| (1.5 - rate) / (2.0 * (other - rate)) / rate;
+    let whole =
+        |t: f64| -part(fast, slow) * (-fast * t).exp_m1() - part(slow, fast) * (-slow * t).exp_m1();
+    let one = |t: f64| -0.75 * (-t / tau).exp_m1();
+    let worst = (1..2000).map(|k| (whole(0.01 * f64::from(k)) - one(0.01 * f64::from(k))).abs());
+    let worst = worst.fold(0.0, f64::max);
+    assert!(worst > 0.02 && error >= worst && error < 2.0 * worst, "{error} {worst}");
+}
+
+#[test]
+fn a_chain_is_refused_where_it_says_nothing() {
+    let folder = Folder::with("pair.toml", PAIR);
+    let stream = PAIR.replace("massless = true", "C = \"1 J/K\"").replace(
+        "mid = { from",
+        "m2 = { from = \"b\", to = \"joint\", R = \"9 K/W\" }\nmid = { from",
+    );
+    let ring = format!(
+        "{stream}[advection]\nu = {{ from = \"joint\", to = \"a\", mcp = \"50 W/K\" }}\n\
+         v = {{ from = \"a\", to = \"b\", mcp = \"50 W/K\" }}\n\
+         w = {{ from = \"b\", to = \"joint\", mcp = \"50 W/K\" }}\n"
+    );
+    folder.write("ring.toml", &ring);
+    folder
+        .run(&["impedance", "ring.toml", "--port", "a", "--foster"])
+        .exits(2)
+        .says("impedance::swings");
+    let light = PAIR.replace("a = { C = \"2 J/K\" }", "a = { massless = true }");
+    let light = light.replace("b = { C = \"4 J/K\" }", "b = { massless = true }");
+    let light = light.replace("[boundary]", "c = { C = \"1 J/K\" }\n[boundary]");
+    let light = light
+        .replace("[resistor]", "[resistor]\nd = { from = \"c\", to = \"air\", R = \"1 K/W\" }");
+    folder.write("light.toml", &light);
+    folder
+        .run(&["impedance", "light.toml", "--port", "a", "--foster"])
+        .exits(2)
+        .says("impedance::at_once");
 }

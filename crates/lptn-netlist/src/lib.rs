@@ -39,6 +39,7 @@ mod fields;
 mod fit;
 mod foreign;
 mod format;
+mod foster;
 mod gearbox;
 mod grid_names;
 mod grid_part;

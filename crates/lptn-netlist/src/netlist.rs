@@ -15,6 +15,7 @@ use lptn_units::Unit;
 use crate::csv_files::CsvFiles;
 use crate::elaborate::{Elaborated, elaborate};
 use crate::foreign;
+use crate::foster::{self, Chain};
 use crate::gearbox::{self, Gearbox, Gears};
 use crate::head;
 use crate::import;
@@ -197,17 +198,19 @@ fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netl
         return included(files, raw, (Path::new(name), file), loader);
     }
     // what is wrong with templates may follow from the broken line
-    let (Expanded { raw, structure, .. }, gears) = written_out(&mut files, raw);
+    let (Expanded { raw, structure, .. }, gears, _) = written_out(&mut files, raw);
     let (_, found) = elaborate(&raw, (&structure, &gears), &CsvFiles::default(), None);
     add_certain(&mut diagnostics, found.problems, (&files, file));
     Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, found.dropped) })
 }
 
-/// Every template and gearbox as elements.
-fn written_out(files: &mut Files, raw: RawNetlist) -> (Expanded, Gears) {
+/// Every template, gearbox and chain as elements.
+fn written_out(files: &mut Files, raw: RawNetlist) -> (Expanded, Gears, Vec<Chain>) {
     let mut expanded = template::expand(files, raw, section::format());
-    let gears = gearbox::expand(&mut expanded.raw, &expanded.structure, &mut expanded.problems);
-    (expanded, gears)
+    let Expanded { raw, structure, problems } = &mut expanded;
+    let gears = gearbox::expand(raw, structure, problems);
+    let chains = foster::expand(raw, structure, problems);
+    (expanded, gears, chains)
 }
 
 /// The rest of the way for a text that is TOML.
@@ -222,7 +225,7 @@ fn included(
     if incomplete {
         return Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, 0) });
     }
-    let (Expanded { raw, structure, problems }, gears) = written_out(&mut files, raw);
+    let (Expanded { raw, structure, problems }, gears, chains) = written_out(&mut files, raw);
     diagnostics.extend(problems);
     let initial = raw.section(RUN.name).and_then(|run| run.get("initial"));
     let state =
@@ -237,20 +240,28 @@ fn included(
     diagnostics.extend(found.problems);
     arrange(&files, &mut diagnostics);
     match done {
-        Some(done) => finish(files, (done, gears.list, state.map(|file| file.state)), diagnostics),
+        Some(done) => {
+            let made = (done, (gears.list, chains), state.map(|file| file.state));
+            finish(files, made, diagnostics)
+        }
         None => Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, found.dropped) }),
     }
 }
 
 fn finish(
     files: Files,
-    (done, gearboxes, initial): (Elaborated, Vec<Gearbox>, Option<InitialState>),
+    (done, (gearboxes, chains), initial): (
+        Elaborated,
+        (Vec<Gearbox>, Vec<Chain>),
+        Option<InitialState>,
+    ),
     mut diagnostics: Vec<Diagnostic>,
 ) -> Result<Netlist, Rejected> {
     let Elaborated { network, run: plan, studies, map, temperature_unit, structure } = done;
     let run = plan.as_ref().map(|plan| plan.settings(&network)).transpose();
     let mut problems = studies.check(&network);
     problems.extend(gearbox::check(&gearboxes, &network));
+    problems.extend(foster::check(&chains, &network, &map));
     let run = run.unwrap_or_else(|more| {
         problems.extend(more);
         None

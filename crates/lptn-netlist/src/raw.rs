@@ -30,6 +30,21 @@ impl RawNetlist {
         }
     }
 
+    /// Adds an element to a section, behind those that are there.
+    pub(crate) fn push(&mut self, section: &str, element: RawEntry) {
+        let entries = &mut self.top.entries;
+        let position = entries.iter().position(|known| known.key == section);
+        let position = position.unwrap_or_else(|| {
+            let span = element.key_span.clone();
+            let kind = RawKind::Table(RawTable { span: span.clone(), entries: Vec::new() });
+            entries.push(RawEntry::new(section, RawValue { span, kind }));
+            entries.len() - 1
+        });
+        if let Some(RawKind::Table(table)) = entries.get_mut(position).map(|e| &mut e.value.kind) {
+            table.entries.push(element);
+        }
+    }
+
     /// The elements of a section, in file order.
     pub(crate) fn elements(&self, name: &str) -> &[RawEntry] {
         self.section(name).map_or(&[], |table| &table.entries)
@@ -61,6 +76,13 @@ pub struct RawEntry {
     pub key_span: Span,
     /// The value.
     pub value: RawValue,
+}
+
+impl RawEntry {
+    /// An entry that is generated: its key stands where its value does.
+    pub(crate) fn new(key: &str, value: RawValue) -> Self {
+        Self { key: key.to_owned(), key_span: value.span.clone(), value }
+    }
 }
 
 /// A value with its place.
@@ -113,6 +135,11 @@ impl RawKind {
 }
 
 impl RawValue {
+    /// Text that is generated: its place is that of what it follows from.
+    pub(crate) fn text(text: String, at: &Span) -> Self {
+        Self { span: at.clone(), kind: RawKind::String { text, start: None } }
+    }
+
     /// The place of some bytes of the string's content; the whole value where they cannot be told.
     pub(crate) fn part(&self, range: &std::ops::Range<usize>) -> Span {
         let RawKind::String { text, start: Some(start) } = &self.kind else {

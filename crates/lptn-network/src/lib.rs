@@ -21,6 +21,7 @@ mod error_words;
 mod evaluation;
 mod id;
 mod input_error;
+mod ladder;
 mod law;
 mod name_index;
 mod names;
@@ -56,6 +57,7 @@ pub use id::{
     TableId,
 };
 pub use input_error::{InputError, InputProblem};
+pub use ladder::{Cauer, Foster, LadderError};
 pub use law::{ConductorFlow, Law, Received};
 pub use lptn_laws::{Carries, Extent, Formula, Kind as ConductorKind};
 pub use names::{UnknownName, is_name, is_path, list_of, list_of_names};

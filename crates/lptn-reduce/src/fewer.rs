@@ -6,8 +6,8 @@ use lptn_integrate::dense;
 use crate::exponentials::Exponentials;
 use crate::step::{ResponseTerm, StepResponse};
 
-/// `terms` exponentials in place of those of a step response: time constants in s with resistances
-/// in K/W, all positive, with the same sum.
+/// `terms` exponentials in place of those of a step response: resistances in K/W with time
+/// constants in s, all positive, with the same sum.
 ///
 /// In the coordinates of its modes the network is `diag(tau) dx/dt = b P - x` with `b_i =
 /// sqrt(r_i)`. It is projected onto the answers `b / (1 + s tau)` at as many real frequencies s >=
@@ -25,7 +25,7 @@ use crate::step::{ResponseTerm, StepResponse};
 ///
 /// The other frequencies are those for which the error over every load is smallest, by a search.
 pub(crate) fn fewer(step: &StepResponse, terms: usize) -> Option<Vec<(f64, f64)>> {
-    let all: Vec<(f64, f64)> = step.terms.iter().map(|term| (term.tau, term.resistance)).collect();
+    let all: Vec<(f64, f64)> = step.terms.iter().map(|term| (term.resistance, term.tau)).collect();
     if all.len() <= terms {
         return Some(all);
     }
@@ -93,7 +93,7 @@ impl<'a> Search<'a> {
     /// The largest error over every load of up to 1 W in K, as a look at the times shows it.
     fn error(&self, shifts: &[f64]) -> Option<f64> {
         let terms = self.projected(shifts)?;
-        let curve = Exponentials::new(terms.into_iter().map(|(tau, r)| (-r, tau)));
+        let curve = Exponentials::new(terms.into_iter().map(|(r, tau)| (-r, tau)));
         let (mut last, mut rises) = (0.0, 0.0);
         for (&time, value) in self.times.iter().zip(&self.values) {
             let here = value + curve.value(time);
@@ -103,7 +103,7 @@ impl<'a> Search<'a> {
         Some(rises + f64::max(-last, 0.0))
     }
 
-    /// Time constants and resistances of the projection onto the answers at 0 and at these decades
+    /// Resistances and time constants of the projection onto the answers at 0 and at these decades
     /// of frequencies. `None` where two of them are the same to rounding.
     fn projected(&self, shifts: &[f64]) -> Option<Vec<(f64, f64)>> {
         const SAME: f64 = 1e-10;
@@ -131,7 +131,7 @@ impl<'a> Search<'a> {
         let (tau, vectors) = dense::symmetric_eigen(Mat::from_fn(n, n, entry).as_ref())?;
         let heat: Vec<f64> = basis.iter().map(|vector| dot(vector, &b)).collect();
         let weight = |k: usize| (0..n).map(|i| vectors[(i, k)] * heat[i]).sum::<f64>().powi(2);
-        let terms: Vec<(f64, f64)> = (0..n).rev().map(|k| (tau[k], weight(k))).collect();
+        let terms: Vec<(f64, f64)> = (0..n).rev().map(|k| (weight(k), tau[k])).collect();
         terms.iter().all(|term| term.0 > 0.0 && term.1 > 0.0).then_some(terms)
     }
 }

@@ -8,8 +8,9 @@
 //! Streams of constant capacity rate may be among the paths; what goes on from node to node makes the
 //! network lack symmetry, and leaves it without a [`StepResponse`].
 //! [`Nodes`] are a few nodes at a port, [`WorstCase`] their error over every load, [`Kept`] several
-//! nodes with what stands between them. [`fit_exponential`] and [`Bias`] are the method of the seed paper, which takes heat from one
-//! exponential.
+//! nodes with what stands between them. The impedance of a port has two forms, [`Foster`](lptn_network::Foster) and
+//! [`Cauer`](lptn_network::Cauer), each of which follows from the other. [`fit_exponential`] and [`Bias`] are the method of
+//! the seed paper, which takes heat from one exponential.
 //!
 //! Units: SI, temperatures in K, resistances in K/W, capacities in J/K, heat positive into a node.
 
@@ -26,7 +27,6 @@ mod fit;
 mod kept;
 mod kept_errors;
 mod kept_network;
-mod ladder;
 mod lanczos;
 mod nodes;
 mod norton;
@@ -47,7 +47,6 @@ pub use error::{FitError, ReduceError};
 pub use fit::{ExponentialFit, fit_exponential};
 pub use kept::{Kept, Recovery};
 pub use kept_errors::{KeptErrors, KeptReference};
-pub use ladder::Ladder;
 pub use nodes::Nodes;
 pub use norton::{Inputs, NortonEquivalent, port, transfer_resistance};
 pub use projected::Projected;

@@ -2,7 +2,8 @@
 
 use crate::definition::{Definition, Pair};
 use crate::fewer::fewer;
-use crate::ladder::Ladder;
+use lptn_network::{Cauer, Foster};
+
 use crate::step::StepResponse;
 use crate::worst::WorstCase;
 
@@ -11,48 +12,42 @@ use crate::worst::WorstCase;
 pub struct Nodes {
     /// The definition of the capacity, where it is one node.
     pub definition: Option<Definition>,
-    /// Resistance in K/W between the port and the first node: 0 unless the port is massless, and
+    /// The nodes, one a rung. What stands before the first is 0 unless the port is massless, and
     /// then that which answers at once.
-    pub direct: f64,
-    /// The nodes.
-    pub ladder: Ladder,
+    pub ladder: Cauer,
+    /// Their step response.
+    pub foster: Foster,
     /// The largest error over every load.
     pub worst: WorstCase,
-    /// Time constants in s and resistances in K/W of the step response.
-    pub terms: Vec<(f64, f64)>,
 }
 
 impl Nodes {
-    /// Rise of the port in K at a time in s after a step of 1 W.
-    pub fn rise(&self, time: f64) -> f64 {
-        let parts = self.terms.iter().map(|(tau, r)| -r * (-time / tau).exp_m1());
-        self.direct + parts.sum::<f64>()
-    }
-
     /// How many nodes with capacity there are.
     pub fn count(&self) -> usize {
-        self.ladder.capacity.len()
+        self.ladder.rungs.len()
     }
 
     /// One node, with the capacity of a pair; `None` for a capacity of 0.
     pub fn of_pair(step: &StepResponse, pair: &Pair) -> Option<Self> {
         let (resistance, capacity) = (step.resistance, pair.capacity);
-        let ladder = Ladder { capacity: vec![capacity], resistance: vec![resistance] };
-        let terms = vec![(resistance * capacity, resistance)];
-        let worst = WorstCase::new(step, &terms);
-        let definition = Some(pair.definition);
-        (capacity > 0.0).then_some(Self { definition, direct: 0.0, ladder, worst, terms })
+        let ladder = Cauer::new(vec![(capacity, resistance)], 0.0).ok()?;
+        let foster = Foster::new(0.0, &[(resistance, resistance * capacity)]).ok()?;
+        let worst = WorstCase::new(step, &foster);
+        Some(Self { definition: Some(pair.definition), ladder, foster, worst })
     }
 
     /// So many nodes behind one another, with the smallest error over every load that was found;
-    /// fewer where the port sees no more. `None` where rounding leaves an element that is not
-    /// positive.
+    /// fewer where the port sees no more. `None` where elements are beyond what a number holds.
     pub fn of(step: &StepResponse, count: usize) -> Option<Self> {
         let terms = fewer(step, count)?;
-        let sum = step.resistance - step.direct;
-        let ladder = Ladder::new(&terms)?.with_sum(sum);
-        let worst = WorstCase::new(step, &terms);
-        Some(Self { definition: None, direct: step.direct, ladder, worst, terms })
+        // rounding must not move the steady state
+        let sum: f64 = terms.iter().map(|term| term.0).sum();
+        let factor = (step.resistance - step.direct) / sum;
+        let terms: Vec<(f64, f64)> = terms.iter().map(|(r, tau)| (r * factor, *tau)).collect();
+        let foster = Foster::new(step.direct, &terms).ok()?;
+        let ladder = foster.cauer().ok()?;
+        let worst = WorstCase::new(step, &foster);
+        Some(Self { definition: None, ladder, foster, worst })
     }
 
     /// The smallest number of nodes, at most `most`, whose error over every load is no larger than

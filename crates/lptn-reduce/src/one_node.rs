@@ -2,30 +2,34 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    HeatCapacity, HeatFlow, Network, NetworkBuilder, NodeId, Resistance, Temperature,
+    Cauer, HeatCapacity, HeatFlow, Network, NetworkBuilder, NodeId, Resistance, Temperature,
 };
 
 use crate::carried::{Carried, first};
 use crate::error::ReduceError;
-use crate::ladder::Ladder;
 use crate::norton::NortonEquivalent;
 
 /// What stands between the port and the reference.
 pub(crate) struct Row {
     /// Resistance in K/W in front of the first capacity; 0 for none.
     pub(crate) direct: f64,
-    /// What follows, if there is any capacity.
-    pub(crate) ladder: Option<Ladder>,
+    /// Capacities in J/K with the resistances behind them in K/W, port first.
+    pub(crate) rungs: Vec<(f64, f64)>,
+}
+
+impl From<&Cauer> for Row {
+    fn from(ladder: &Cauer) -> Self {
+        Self { direct: ladder.direct, rungs: ladder.rungs.clone() }
+    }
 }
 
 impl Row {
     /// One node with this capacity in J/K, or none.
     pub(crate) fn one(resistance: f64, capacity: f64) -> Self {
         if capacity > 0.0 {
-            let ladder = Ladder { capacity: vec![capacity], resistance: vec![resistance] };
-            Self { direct: 0.0, ladder: Some(ladder) }
+            Self { direct: 0.0, rungs: vec![(capacity, resistance)] }
         } else {
-            Self { direct: resistance, ladder: None }
+            Self { direct: resistance, rungs: Vec::new() }
         }
     }
 }
@@ -69,14 +73,10 @@ impl OneNode<'_> {
     fn row(&self, builder: &mut NetworkBuilder, row: &Row) -> (NodeId, (NodeId, f64)) {
         let name = &self.system.network().nodes()[self.norton.port.index()].name;
         let start = Temperature(self.initial);
-        let (capacity, resistance) = match &row.ladder {
-            Some(ladder) => (&ladder.capacity[..], &ladder.resistance[..]),
-            None => (&[][..], &[][..]),
-        };
         let massless = (row.direct > 0.0).then(|| builder.massless(name));
         let mut before = massless.map(|port| (port, row.direct));
         let mut port = massless;
-        for (k, (&capacity, &resistance)) in (1..).zip(capacity.iter().zip(resistance)) {
+        for (k, &(capacity, resistance)) in (1..).zip(&row.rungs) {
             let here = if k == 1 && massless.is_none() {
                 name.clone()
             } else {

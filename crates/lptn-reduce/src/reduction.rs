@@ -176,8 +176,7 @@ impl Reduction {
         nodes: &Nodes,
     ) -> Result<Network, ReduceError> {
         still(system.network())?;
-        let row = Row { direct: nodes.direct, ladder: Some(nodes.ladder.clone()) };
-        self.one_node(system, start).network(&row)
+        self.one_node(system, start).network(&Row::from(&nodes.ladder))
     }
 
     /// The error of a few nodes: that of the run, where there is one in which the port rises, else
@@ -235,16 +234,15 @@ impl Reduction {
         allowed: Allowed,
     ) -> Result<Option<(Judge, Deviation)>, ReduceError> {
         if let Some(whole) = whole {
-            let row = Row { direct: nodes.direct, ladder: Some(nodes.ladder.clone()) };
-            let error = whole.deviation(&row, allowed)?;
+            let error = whole.deviation(&Row::from(&nodes.ladder), allowed)?;
             if error.relative.is_some() {
                 return Ok(Some((Judge::Run, error)));
             }
         }
         let step = self.dynamics.as_ref().and_then(|dynamics| dynamics.step.as_ref());
-        let taus = nodes.terms.iter().map(|term| term.0);
+        let taus = nodes.foster.terms.iter().map(|term| term.1);
         let span = taus.fold((f64::INFINITY, 0.0), |(a, b), tau| (tau.min(a), tau.max(b)));
-        let rise = |time: f64| nodes.rise(time);
+        let rise = |time: f64| nodes.foster.step(time);
         let of_step = |step| deviation::of_curve(step, &rise, Some(span), allowed.share());
         Ok(step.map(|step| (Judge::Step, of_step(step))))
     }

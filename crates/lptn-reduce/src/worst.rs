@@ -1,5 +1,7 @@
 //! The largest error over every load.
 
+use lptn_network::Foster;
+
 use crate::exponentials::Exponentials;
 use crate::step::StepResponse;
 
@@ -37,11 +39,10 @@ impl WorstCase {
         levels.fold(0.0, |most: f64, level| if level.abs() > most.abs() { level } else { most })
     }
 
-    /// Of time constants in s and resistances in K/W in place of a step response, with what comes
-    /// at once in K/W.
-    pub(crate) fn new(step: &StepResponse, terms: &[(f64, f64)]) -> Self {
+    /// Of a few exponentials in place of a step response; what comes at once is the same in both.
+    pub(crate) fn new(step: &StepResponse, few: &Foster) -> Self {
         let network = step.terms.iter().map(|term| (term.resistance, term.tau));
-        let model = terms.iter().map(|&(tau, resistance)| (-resistance, tau));
+        let model = few.terms.iter().map(|&(resistance, tau)| (-resistance, tau));
         let curve = Exponentials::new(network.chain(model));
         let found = curve.variation();
         Self { kelvin: found.rises, missed: found.missed, turns: found.turns, curve }

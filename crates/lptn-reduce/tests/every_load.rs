@@ -49,8 +49,8 @@ fn check(random: &mut Random) {
     for nodes in &candidates {
         // positive elements, and the steady state of the whole network
         let ladder = &nodes.ladder;
-        assert!(ladder.capacity.iter().chain(&ladder.resistance).all(|x| *x > 0.0), "{nodes:?}");
-        near(nodes.direct + ladder.resistance.iter().sum::<f64>(), r, 1e-12);
+        assert!(ladder.rungs.iter().all(|(c, r)| *c > 0.0 && *r > 0.0), "{nodes:?}");
+        near(ladder.resistance(), r, 1e-12);
         // reached by its own load
         let most = nodes.worst.most();
         if most > 1e-9 * r {
@@ -60,7 +60,7 @@ fn check(random: &mut Random) {
             assert!(reached <= most + rounding, "{reached} of {most}: {nodes:?}");
             // what is on where that is off reads too warm by as much
             let before = if load.len() > nodes.worst.turns.len() { 0.0 } else { 1.0 };
-            let slow = nodes.terms.iter().fold(step.slowest().tau, |a, term| a.max(term.0));
+            let slow = nodes.foster.terms.iter().fold(step.slowest().tau, |a, term| a.max(term.1));
             let mut other = vec![(-100.0 * slow, before)];
             other.extend(load.iter().map(|&(from, power)| (from, 1.0 - power)));
             let reached = error(&whole, nodes, &other, end);
@@ -111,11 +111,10 @@ fn more_nodes_than_there_are_are_those_there_are() {
     let dynamics = reduction.dynamics.unwrap();
     let found = Nodes::of(dynamics.step.as_ref().unwrap(), 9).unwrap();
     // the chain itself, from its end
-    for (found, expected) in found.ladder.capacity.iter().zip([20.0, 30.0, 50.0]) {
-        near(*found, expected, 1e-9);
-    }
-    for (found, expected) in found.ladder.resistance.iter().zip([0.25, 1.0 / 3.0, 0.5]) {
-        near(*found, expected, 1e-9);
+    let own = [(20.0, 0.25), (30.0, 1.0 / 3.0), (50.0, 0.5)];
+    for (found, own) in found.ladder.rungs.iter().zip(own) {
+        near(found.0, own.0, 1e-9);
+        near(found.1, own.1, 1e-9);
     }
     assert!(found.worst.most() < 1e-9);
 }

@@ -40,7 +40,7 @@ fn check(n: usize, (resistance, tau): (f64, f64)) -> (f64, f64) {
     near(step.slowest().tau, tau, 1e-10);
     let ten = Nodes::of(&step, 10).unwrap();
     assert_eq!(ten.count(), 10);
-    let error = |time: f64| (ten.rise(time) - step.value(time)).abs() / norton.resistance;
+    let error = |time: f64| (ten.foster.step(time) - step.value(time)).abs() / norton.resistance;
     let largest = |from: f64| {
         (0..4000).map(|k| error(tau * from * 10_f64.powf(f64::from(k) / 400.0))).fold(0.0, f64::max)
     };

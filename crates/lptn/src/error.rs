@@ -76,7 +76,7 @@ made_of! {
     lptn_fit::network::NetworkFitError, lptn_fit::step::StepError,
     lptn_netlist::ReadError, lptn_netlist::Rejected, lptn_netlist::WrittenError,
     lptn_network::BuildError, lptn_network::BuildErrors, lptn_network::InputError,
-    lptn_network::NoTangents, lptn_network::ParameterError, lptn_network::UnknownName,
+    lptn_network::LadderError, lptn_network::NoTangents, lptn_network::ParameterError, lptn_network::UnknownName,
     lptn_graph::NoSankey, lptn_graph::NoSlice, lptn_graph::TooMany, lptn_plot::PngError,
     lptn_reduce::FitError, lptn_reduce::ReduceError,
     lptn_solve::ExactError, lptn_solve::LinearisedError, lptn_solve::ModesError,

@@ -112,15 +112,6 @@ fn kind_of(value: &RawValue, raw: &RawNetlist, structure: &Structure) -> ValueKi
     }
 }
 
-/// Text that is generated: its place is that of what it follows from.
-pub(super) fn text(text: String, at: &Span) -> RawValue {
-    RawValue { span: at.clone(), kind: RawKind::String { text, start: None } }
-}
-
-pub(super) fn entry(key: &str, value: RawValue) -> RawEntry {
-    RawEntry { key: key.to_owned(), key_span: value.span.clone(), value }
-}
-
 impl Writer<'_, '_> {
     fn at(&self) -> &Span {
         &self.stage.entry.key_span
@@ -139,7 +130,7 @@ impl Writer<'_, '_> {
     fn value(&mut self, kind: ValueKind, name: &str, value: RawValue, ty: Type) {
         let key = format!("{}.{name}", self.stage.entry.key);
         self.made.types.push((key.clone(), ty));
-        self.made.entries.push((kind.section(), entry(&key, value)));
+        self.made.entries.push((kind.section(), RawEntry::new(&key, value)));
     }
 
     fn teeth(&mut self) {
@@ -157,15 +148,15 @@ impl Writer<'_, '_> {
         let input = self.name(stage.input, "speed");
         for member in stage.arrangement.shafts() {
             let value = match (driver, stage.fields.get("speed")) {
-                _ if Some(*member) == stage.held => text("0 rpm".to_owned(), self.at()),
+                _ if Some(*member) == stage.held => RawValue::text("0 rpm".to_owned(), self.at()),
                 (Some(driver), _) if *member == stage.input => {
                     let from = &driver.gearbox;
-                    text(self.beside(&from.of(from.output, "speed")), self.at())
+                    RawValue::text(self.beside(&from.of(from.output, "speed")), self.at())
                 }
                 (None, Some(raw)) if *member == stage.input => raw.clone(),
                 _ => {
                     let (sign, factor) = self.quotient(stage.input, *member);
-                    text(format!("{sign}{input}{factor}"), self.at())
+                    RawValue::text(format!("{sign}{input}{factor}"), self.at())
                 }
             };
             self.value(kind, &format!("{}.speed", member.word()), value, ty);
@@ -174,7 +165,7 @@ impl Writer<'_, '_> {
             let [sun, carrier] = [Member::Sun, Member::Carrier].map(|m| self.name(m, "speed"));
             let [z_sun, z_planet] = [Member::Sun, Member::Planet].map(|member| self.z(member));
             let value = format!("-({sun} - {carrier}) * {z_sun} / {z_planet}");
-            let value = text(value, self.at());
+            let value = RawValue::text(value, self.at());
             self.value(kind, "planet.speed", value, ty);
         }
     }
@@ -187,14 +178,17 @@ impl Writer<'_, '_> {
             let value = match (driver, stage.fields.get("torque")) {
                 (Some(driver), _) if *member == stage.input => {
                     let from = &driver.gearbox;
-                    text(format!("-{}", self.beside(&from.of(from.output, "torque"))), self.at())
+                    RawValue::text(
+                        format!("-{}", self.beside(&from.of(from.output, "torque"))),
+                        self.at(),
+                    )
                 }
                 (None, Some(raw)) if *member == stage.input => raw.clone(),
                 _ => {
                     let (sign, factor) = self.quotient(*member, stage.input);
                     // as the weight of the member, and not against it
                     let sign = if sign.is_empty() { "-" } else { "" };
-                    text(format!("{sign}{input}{factor}"), self.at())
+                    RawValue::text(format!("{sign}{input}{factor}"), self.at())
                 }
             };
             let name = format!("{}.torque", member.word());
@@ -212,7 +206,7 @@ impl Writer<'_, '_> {
                 stage.planets,
                 self.z(first)
             );
-            let value = text(value, self.at());
+            let value = RawValue::text(value, self.at());
             self.value(kind, "force", value, Type::of(Dimension::FORCE));
         }
     }
@@ -294,7 +288,7 @@ impl Writer<'_, '_> {
         }
         let share = |at: &Span| RawValue { span: at.clone(), kind: RawKind::Float("0.5".into()) };
         let entries = [(a, raw), (b, second)];
-        let entries = entries.map(|(name, raw)| entry(&name, share(&raw.span)));
+        let entries = entries.map(|(name, raw)| RawEntry::new(&name, share(&raw.span)));
         let table = RawTable { span: raw.span.clone(), entries: entries.into() };
         Some(RawValue { span: raw.span.clone(), kind: RawKind::Table(table) })
     }
@@ -328,15 +322,17 @@ impl Writer<'_, '_> {
         };
         let model = if b == Member::Ring { "internal" } else { "external" };
         let mut table = vec![
-            entry("into", into),
-            entry("speed", text(speed, at)),
-            entry("torque", text(torque, at)),
-            entry("z1", text(self.z(a), at)),
-            entry("z2", text(self.z(b), at)),
-            entry("model", text(model.to_owned(), at)),
+            RawEntry::new("into", into),
+            RawEntry::new("speed", RawValue::text(speed, at)),
+            RawEntry::new("torque", RawValue::text(torque, at)),
+            RawEntry::new("z1", RawValue::text(self.z(a), at)),
+            RawEntry::new("z2", RawValue::text(self.z(b), at)),
+            RawEntry::new("model", RawValue::text(model.to_owned(), at)),
         ];
         let sizes = SIZES.iter().filter(|(key, _)| stage.fields.get(key).is_some());
-        table.extend(sizes.map(|(key, _)| entry(key, text(format!("{here}.{key}"), at))));
+        table.extend(
+            sizes.map(|(key, _)| RawEntry::new(key, RawValue::text(format!("{here}.{key}"), at))),
+        );
         let oil = ["lubricant", "at", "scuffing"].into_iter();
         let oil = oil.filter_map(|key| stage.fields.entry(key));
         table.extend(oil.cloned());
@@ -357,7 +353,7 @@ impl Writer<'_, '_> {
         };
         for element in &elements {
             let kind = RawKind::Table(RawTable { span: at.clone(), entries: table.to_vec() });
-            let entry = entry(element, RawValue { span: at.clone(), kind });
+            let entry = RawEntry::new(element, RawValue { span: at.clone(), kind });
             self.made.entries.push((section, entry));
         }
         self.made.gearbox.parts.push(GearboxPart { name, elements });

@@ -22,7 +22,7 @@ pub use member::{Arrangement, Member};
 pub(crate) use model::Gears;
 pub use model::{Gearbox, GearboxPart};
 
-use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+use crate::raw::{RawEntry, RawNetlist, RawValue};
 use crate::template::Structure;
 use make::Made;
 use stage::Stage;
@@ -68,7 +68,7 @@ pub(crate) fn expand(
         problems.extend(stage.driver.as_ref().and_then(|driver| no_driver(driver, &known)));
     }
     for one in made {
-        one.entries.into_iter().for_each(|(section, entry)| push(raw, section, entry));
+        one.entries.into_iter().for_each(|(section, entry)| raw.push(section, entry));
         gears.types.extend(one.types);
         gears.list.push(one.gearbox);
     }
@@ -113,20 +113,4 @@ fn no_driver((name, at): &(String, &RawValue), known: &[&str]) -> Option<Diagnos
     let message = format!("there is no gearbox `{name}`");
     let help = nearest(name, known.iter().copied(), "the gearboxes are");
     Some(Diagnostic::wrong("netlist::gear_driver", message, &at.span, help))
-}
-
-/// Adds an entry to a section, behind those that are there.
-fn push(raw: &mut RawNetlist, section: &str, entry: RawEntry) {
-    let entries = &mut raw.top.entries;
-    let position = entries.iter().position(|known| known.key == section);
-    let position = position.unwrap_or_else(|| {
-        let span = entry.key_span.clone();
-        let kind = RawKind::Table(RawTable { span: span.clone(), entries: Vec::new() });
-        let value = RawValue { span: span.clone(), kind };
-        entries.push(RawEntry { key: section.to_owned(), key_span: span, value });
-        entries.len() - 1
-    });
-    if let Some(RawKind::Table(table)) = entries.get_mut(position).map(|e| &mut e.value.kind) {
-        table.entries.push(entry);
-    }
 }

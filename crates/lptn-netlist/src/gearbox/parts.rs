@@ -5,10 +5,10 @@ use lptn_data::{Diagnostic, list};
 use lptn_laws::{Kind, Substance};
 
 use super::declaration::{AGAINST, ON, PARTS};
-use super::make::{SIZES, Writer, entry, text};
+use super::make::{SIZES, Writer};
 use super::member::Member;
 use crate::fields::Owner;
-use crate::raw::{RawEntry, RawKind, RawTable};
+use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 
 impl Writer<'_, '_> {
     /// The parts of every section.
@@ -49,12 +49,12 @@ impl Writer<'_, '_> {
         };
         let own = table.entries.iter().filter(|e| ![ON, AGAINST].contains(&e.key.as_str()));
         let mut entries: Vec<RawEntry> = own.cloned().collect();
-        entries.push(entry("speed", text(speed, &written.key_span)));
+        entries.push(RawEntry::new("speed", RawValue::text(speed, &written.key_span)));
         if table.get("into").is_none() {
             let Some(node) = self.stage.node_of(member) else {
                 return problems.push(self.no_node(member));
             };
-            entries.push(entry("into", node.clone()));
+            entries.push(RawEntry::new("into", node.clone()));
         }
         if takes_oil(section, table) {
             let keys = ["lubricant", "at"].into_iter().filter(|key| table.get(key).is_none());

@@ -21,6 +21,7 @@ use super::signal::SIGNAL;
 use super::table::TABLE;
 use crate::fit::FitStudy;
 use crate::format::{NetlistFormat, Role, SectionDeclaration};
+use crate::foster::FOSTER;
 use crate::gearbox::GEARBOX;
 use crate::import::IMPORT;
 use crate::parameters::PARAM;
@@ -33,9 +34,9 @@ use crate::toml_text::TomlFields;
 use crate::work::Elaboration;
 
 /// The sections before and behind those of paths and sources, in the order in which they are named to people.
-static BEFORE: [&SectionDeclaration; 12] = [
+static BEFORE: [&SectionDeclaration; 13] = [
     &PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &LUBRICANT, &FAN, &NODE, &GRID,
-    &CAPACITOR, &BOUNDARY,
+    &CAPACITOR, &BOUNDARY, &FOSTER,
 ];
 static BEHIND: [&SectionDeclaration; 7] =
     [&GEARBOX, &CONTROL, &IMPORT, &LIMIT, &TEMPLATE, &USE, &RUN];

@@ -163,7 +163,7 @@ impl Spectrum {
     }
 
     pub fn of_ladder(nodes: &Nodes) -> Self {
-        let (c, r) = (&nodes.ladder.capacity, &nodes.ladder.resistance);
+        let (c, r): (Vec<f64>, Vec<f64>) = nodes.ladder.rungs.iter().copied().unzip();
         let mut g = Mat::<f64>::zeros(c.len(), c.len());
         for (i, r) in r.iter().enumerate() {
             g[(i, i)] += 1.0 / r;
@@ -173,7 +173,7 @@ impl Spectrum {
                 g[(i + 1, i)] -= 1.0 / r;
             }
         }
-        Self::from(&g, c, (0, 0), nodes.direct)
+        Self::from(&g, &c, (0, 0), nodes.ladder.direct)
     }
 
     fn from(g: &Mat<f64>, capacity: &[f64], (p, q): (usize, usize), direct: f64) -> Self {

@@ -33,13 +33,17 @@ impl StepAnswer {
     pub fn new(linear: &Linearised<'_>, drive: Drive) -> Result<Self, ResponseError> {
         let effect = Effect::of(linear, drive)?;
         grounded(linear.system(), &effect)?;
+        // first, since it refuses networks that are too large
+        let shapes = match shapes(linear) {
+            Err(ModesError::Defective) => None,
+            found => Some(found?),
+        };
         let settled = FrequencyResponse::new(linear, drive)?.at(0.0)?;
         let settled: Vec<f64> = settled.iter().map(|z| z.re).collect();
         let states: Vec<f64> =
             linear.system().states().iter().map(|id| settled[id.index()]).collect();
-        let Shapes { rates, right, left } = match shapes(linear) {
-            Err(ModesError::Defective) => return Self::carried(linear, settled, &states),
-            found => found?,
+        let Some(Shapes { rates, right, left }) = shapes else {
+            return Self::carried(linear, settled, &states);
         };
         if rates.iter().any(|rate| rate.re < 0.0) {
             return Err(ResponseError::Grows);
@@ -97,6 +101,22 @@ impl StepAnswer {
             (nodes[node] * left).re
         };
         self.direct[node] + self.terms.iter().map(of).sum::<f64>()
+    }
+
+    /// What a node answers at once, in K per unit.
+    pub fn direct(&self, node: usize) -> f64 {
+        self.direct[node]
+    }
+
+    /// Whether it is a sum over modes; else [`StepAnswer::terms`] has none.
+    pub fn has_terms(&self) -> bool {
+        self.carried.is_none()
+    }
+
+    /// The rate in 1/s of each mode, with what it is still missing of a node's rise at time 0, in K
+    /// per unit; the real parts of all and what comes at once make the settled rise.
+    pub fn terms(&self, node: usize) -> impl Iterator<Item = (Complex, Complex)> {
+        self.terms.iter().map(move |(rate, nodes)| (*rate, nodes[node]))
     }
 
     /// The shortest and the longest time constant in s that a node sees: those of the modes with at

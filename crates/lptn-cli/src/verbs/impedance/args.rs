@@ -1,6 +1,9 @@
 //! The options of `lptn impedance`.
 
+use std::path::PathBuf;
+
 use clap::Args as Arguments;
+use clap::builder::TypedValueParser as _;
 
 use crate::operating_point::At;
 use crate::options::{Printed, Source, TEMPLATE};
@@ -9,6 +12,7 @@ const EXAMPLES: &str = "\
 Examples:
   lptn impedance module.toml --port chip
   lptn impedance module.toml --port chip --duty 0.5,0.1 --format csv
+  lptn impedance module.toml --port chip --cauer --write chip.toml
   lptn impedance wall.toml --port outside --to inner --omega \"1/24 Hz\"";
 
 /// Say how a node answers heat: step by step, by pulses, or by frequency
@@ -32,8 +36,38 @@ pub(crate) struct ImpedanceArgs {
     /// Heat that swings instead: at these frequencies, in rad/s or Hz, or at three a decade
     #[arg(long, value_name = "LIST", num_args = 0..=1, conflicts_with_all = ["time", "duty"])]
     pub(crate) omega: Option<Option<String>>,
+    /// As a sum of exponentials, the R-tau table of data sheets: as many as matter, or N
+    #[arg(long, value_name = "N", num_args = 0..=1, conflicts_with_all = ["time", "duty", "omega"])]
+    #[arg(value_parser = clap::value_parser!(u8).range(1..=100).map(usize::from))]
+    pub(crate) foster: Option<Option<usize>>,
+    /// As a ladder of capacities and resistances, whose sums are the structure function
+    #[arg(long, value_name = "N", num_args = 0..=1)]
+    #[arg(conflicts_with_all = ["time", "duty", "omega", "foster"])]
+    #[arg(value_parser = clap::value_parser!(u8).range(1..=100).map(usize::from))]
+    pub(crate) cauer: Option<Option<usize>>,
+    /// Write the table or the ladder as a netlist too
+    #[arg(long, value_name = "FILE")]
+    pub(crate) write: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) at: At,
     #[command(flatten)]
     pub(crate) printed: Printed,
+}
+
+/// A chain that is asked for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asked {
+    /// How many terms, where that is said.
+    pub(super) count: Option<usize>,
+    /// As a ladder.
+    pub(super) ladder: bool,
+}
+
+impl ImpedanceArgs {
+    /// The chain that is asked for, if one is.
+    pub(super) fn chain(&self) -> Option<Asked> {
+        let asked = |count: Option<usize>, ladder: bool| Asked { count, ladder };
+        let foster = self.foster.map(|count| asked(count, false));
+        foster.or(self.cauer.map(|count| asked(count, true)))
+    }
 }

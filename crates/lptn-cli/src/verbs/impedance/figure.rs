@@ -8,7 +8,11 @@ use super::{Answer, View};
 impl View<'_> {
     pub(super) fn figure(&self) -> Figure {
         let unit = self.unit();
-        let title = format!("{}: `{}` to `{}`", self.input.title(), self.name, self.to);
+        let ends = match self.name == self.to {
+            true => format!("`{}`", self.to),
+            false => format!("`{}` to `{}`", self.name, self.to),
+        };
+        let title = format!("{}: {ends}", self.input.title());
         match &self.answer {
             Answer::Step { rows, .. } => {
                 let mut panel = Panel::new(Axis::log("time", "s"), Axis::log("rise", unit));
@@ -27,6 +31,9 @@ impl View<'_> {
                         .to_owned()
                 };
                 Figure { title, note, panels: vec![panel] }
+            }
+            Answer::Chain(chain) => {
+                Figure { title, note: String::new(), panels: vec![self.chain_panel(chain)] }
             }
             Answer::Swing(rows) => {
                 let swings = || rows.iter().filter(|row| row.omega > 0.0);

@@ -1,26 +1,31 @@
 //! `lptn impedance`
 
 mod args;
+mod chain;
+mod chain_page;
+mod curve;
 mod figure;
 mod lists;
+mod netlist;
 mod page;
+mod question;
 
+use args::Asked;
 pub(crate) use args::ImpedanceArgs;
+use chain::Chain;
+use question::Question;
 
 use lptn_netlist::Diagnostic;
 use lptn_network::{Item, Network, NodeId};
 use lptn_reduce::{ReduceError, port};
-use lptn_solve::{Complex, Drive, FrequencyResponse, Linearised, ResponseError, StepAnswer, Tried};
+use lptn_solve::{Complex, Drive, Linearised, ResponseError, StepAnswer, Tried};
 
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::files;
 use crate::input::{Input, quoted};
 use crate::operating_point::OperatingPoint;
-
-/// Shares of the time constants up to which the answer is shown, and from which on.
-const BEFORE: f64 = 0.1;
-const AFTER: f64 = 5.0;
 
 pub(crate) fn impedance(args: &ImpedanceArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
@@ -29,9 +34,12 @@ pub(crate) fn impedance(args: &ImpedanceArgs, console: &Console) -> Result<Exit,
     let drive = drive(network, name).map_err(|error| unknown(&input, &error))?;
     let to = to(args, &input, (drive, name))?;
     let shares = args.duty.as_deref().map(lists::shares).transpose()?.unwrap_or_default();
-    let same = drive == Drive::Node(to);
+    let same = is_at(network, drive, to);
     if !(same || shares.is_empty()) {
         return Err(pulses_elsewhere());
+    }
+    if args.write.is_some() && args.chain().is_none() {
+        return Err(nothing_to_write());
     }
     let system = input.assemble()?;
     let point = args.at.find(&input, console)?;
@@ -42,16 +50,14 @@ pub(crate) fn impedance(args: &ImpedanceArgs, console: &Console) -> Result<Exit,
     let even = vec![1.0; network.nodes().len()];
     let tried = linear.tried_along(step.as_ref().map_or(&even, |step| &step.settled));
     let tried = tried.map_err(|error| failed(&error.into()))?;
-    let answer = match &args.omega {
-        Some(list) => swing(&linear, (drive, to), (list.as_deref(), step.as_ref().ok()))?
-            .map_err(|error| failed(&error))?,
-        None => {
-            stepped(&step.map_err(|error| failed(&error))?, to, (args.time.as_deref(), &shares))?
-        }
-    };
+    let question = Question { args, input: &input, linear: &linear, drive, to, shares: &shares };
+    let answer = question.answer(step)?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
     let to = network.nodes()[to.index()].name.as_str();
     let view = View { input: &input, name, to, drive, answer, shares, point, tried };
+    if let (Some(path), Answer::Chain(chain)) = (&args.write, &view.answer) {
+        files::write_new(path, &view.netlist(chain), "impedance::exists")?;
+    }
     console.show(&view, args.printed.format)
 }
 
@@ -77,6 +83,8 @@ enum Answer {
     Step { settled: f64, rows: Vec<Stepped> },
     /// To a swing.
     Swing(Vec<Swung>),
+    /// As elements.
+    Chain(Chain),
 }
 
 /// The answer at a time after a step.
@@ -129,46 +137,13 @@ fn to(
     })
 }
 
-fn stepped(
-    step: &StepAnswer,
-    to: NodeId,
-    (times, shares): (Option<&str>, &[f64]),
-) -> Result<Answer, Failure> {
-    let to = to.index();
-    let times = match times {
-        Some(list) => lists::times(list)?,
-        None => {
-            let (fastest, slowest) = step.span(to).unwrap_or((1.0, 1.0));
-            lists::three_a_decade(BEFORE * fastest, AFTER * slowest)
-        }
-    };
-    let row = |time: f64| Stepped {
-        time,
-        rise: step.value(to, time),
-        pulses: shares.iter().map(|share| step.pulse(to, time, *share)).collect(),
-    };
-    Ok(Answer::Step { settled: step.settled[to], rows: times.into_iter().map(row).collect() })
-}
-
-/// The inner error is that of the numbers, the outer one that of the command line.
-fn swing(
-    linear: &Linearised<'_>,
-    (drive, to): (Drive, NodeId),
-    (list, step): (Option<&str>, Option<&StepAnswer>),
-) -> Result<Result<Answer, ResponseError>, Failure> {
-    let omegas = match list {
-        Some(list) => lists::omegas(list)?,
-        None => {
-            let span = step.and_then(|step| step.span(to.index())).unwrap_or((1.0, 1.0));
-            lists::three_a_decade(BEFORE / span.1, 1.0 / (BEFORE * span.0))
-        }
-    };
-    let answers = || {
-        let mut response = FrequencyResponse::new(linear, drive)?;
-        let one = |omega: f64| Ok(Swung { omega, answer: response.at(omega)?[to.index()] });
-        Ok(Answer::Swing(omegas.into_iter().map(one).collect::<Result<_, ResponseError>>()?))
-    };
-    Ok(answers())
+/// Whether a node is what is heated.
+fn is_at(network: &Network, drive: Drive, to: NodeId) -> bool {
+    match drive {
+        Drive::Node(node) => node == to,
+        Drive::Source(source) => network.sources()[source.index()].into[..] == [(to, 1.0)],
+        Drive::Boundary(_) => false,
+    }
 }
 
 fn no_port(input: &Input) -> Failure {
@@ -188,6 +163,12 @@ fn pulses_elsewhere() -> Failure {
     let message = "pulses are known where the heat goes in: elsewhere the highest rise comes later";
     let help = "leave --to or --duty out, or let `lptn steady --periodic` find the settled pulses";
     Failure::new(Exit::Input, Diagnostic::error("impedance::pulses_elsewhere", message).help(help))
+}
+
+fn nothing_to_write() -> Failure {
+    let message = "--write writes an R-tau table or a ladder, and neither is asked for";
+    let help = "add --foster or --cauer";
+    Failure::new(Exit::Input, Diagnostic::error("impedance::nothing_to_write", message).help(help))
 }
 
 fn unknown(input: &Input, error: &ReduceError) -> Failure {

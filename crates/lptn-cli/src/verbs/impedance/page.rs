@@ -26,6 +26,7 @@ impl View<'_> {
             Answer::Swing(_) => {
                 format!("`{to}` in {unit} of `{name}`, which swings as cos(omega t)")
             }
+            Answer::Chain(chain) => self.chain_line(chain),
         }
     }
 
@@ -49,6 +50,7 @@ impl View<'_> {
                 .right(format!("amplitude [{unit}]"), |row| significant(row.answer.norm(), 5))
                 .right("phase [deg]", |row| significant(row.answer.arg().to_degrees(), 4))
                 .into(),
+            Answer::Chain(chain) => self.chain_shown(chain),
         }
     }
 
@@ -71,6 +73,7 @@ impl View<'_> {
                 table.column("im", unit, |row| row.answer.im);
                 table.done()
             }
+            Answer::Chain(chain) => self.chain_table(chain),
         }
     }
 
@@ -88,11 +91,17 @@ impl View<'_> {
                 let omega = SiValue::new(row.omega, "rad/s");
                 json!({ "omega": omega, "re": of(row.answer.re), "im": of(row.answer.im) })
             }).collect(),
+            Answer::Chain(_) => Vec::new(),
         }
     }
 
     fn notes(&self) -> Vec<String> {
-        self.point.as_ref().map(|point| point.notes(self.tried)).unwrap_or_default()
+        let mut notes =
+            self.point.as_ref().map(|point| point.notes(self.tried)).unwrap_or_default();
+        if let Answer::Chain(chain) = &self.answer {
+            notes.extend(self.chain_note(chain));
+        }
+        notes
     }
 }
 
@@ -126,6 +135,9 @@ impl Page for View<'_> {
         }
         if let Answer::Step { settled, .. } = &self.answer {
             json.member("settled", &SiValue::new(*settled, self.unit()))?;
+        }
+        if let Answer::Chain(chain) = &self.answer {
+            return self.chain_json(chain, json);
         }
         json.member("points", &self.points())
     }

@@ -233,9 +233,9 @@ impl View<'_> {
                 .collect();
             json!({
                 "any_load": of(nodes),
-                "direct": si(nodes.direct, "K/W"),
-                "C": nodes.ladder.capacity.iter().map(|c| si(*c, "J/K")).collect::<Vec<_>>(),
-                "R": nodes.ladder.resistance.iter().map(|r| si(*r, "K/W")).collect::<Vec<_>>(),
+                "direct": si(nodes.ladder.direct, "K/W"),
+                "C": nodes.ladder.rungs.iter().map(|rung| si(rung.0, "J/K")).collect::<Vec<_>>(),
+                "R": nodes.ladder.rungs.iter().map(|rung| si(rung.1, "K/W")).collect::<Vec<_>>(),
                 "load": load,
                 "end": si(end, "s"),
             })
@@ -276,7 +276,7 @@ fn lengths((stretches, end): &(Vec<Stretch>, f64)) -> String {
 
 /// Whether what no load exceeds is rounding.
 fn exact(nodes: &Nodes) -> bool {
-    nodes.worst.most() <= 1e-9 * nodes.rise(f64::INFINITY)
+    nodes.worst.most() <= 1e-9 * nodes.ladder.resistance()
 }
 
 /// The largest heat at the port over the run, or at its start; 1 W where there is none.
