@@ -235,6 +235,32 @@ fn slow_nodes_keep_their_digits_beside_fast_ones() {
     agrees(&network, &rows.concat(), 2e-10);
 }
 
+/// No boundary, no source, and rows at any times; mpmath's `expm` with 40 digits.
+#[test]
+fn regression_a_loop_without_inputs_goes_by_long_steps_too() {
+    let mut b = NetworkBuilder::new();
+    let cell = |b: &mut NetworkBuilder, name: &str, c: f64, t: f64| {
+        b.node(name, HeatCapacity(c), Temperature::celsius(t))
+    };
+    let cells = [cell(&mut b, "a", 50.0, 20.0), cell(&mut b, "b", 70.0, 60.0)];
+    let last = cell(&mut b, "c", 70.0, 30.0);
+    stream(&mut b, "s1", (cells[0], cells[1]), rate(20.0));
+    stream(&mut b, "s2", (cells[1], last), rate(20.0));
+    stream(&mut b, "s3", (last, cells[0]), rate(20.0));
+    let expected = [
+        (0.1, "a", 20.408_649_736_245_47),
+        (0.1, "b", 58.879_058_192_253_36),
+        (0.1, "c", 30.829_049_138_999_874),
+        (1.777, "a", 27.978_593_670_694_856),
+        (1.777, "b", 45.794_368_839_795_155),
+        (1.777, "c", 38.506_635_681_137_09),
+        (9.1, "a", 38.461_832_280_858_246),
+        (9.1, "b", 38.190_426_805_722_18),
+        (9.1, "c", 38.622_550_136_521_93),
+    ];
+    agrees(&b.build().unwrap(), &expected, 1e-12);
+}
+
 #[test]
 fn runs_with_streams_are_verified_and_wrong_ones_are_not() {
     let settings = Transient::until(Time(200.0)).every(Time(0.1));

@@ -61,6 +61,7 @@ impl Chain {
     /// `None` if the rates span more than the numbers can hold.
     pub(crate) fn new(wanted: Wanted) -> Option<Self> {
         let Wanted { rates, drive, leak, unit, longest, terms } = wanted;
+        let terms = terms.max(1); // without inputs too: what is forced marks lengths up to the unit
         let norm = norm(&rates);
         if !(norm.is_finite() && unit > 0.0 && unit <= longest && longest.is_finite()) {
             return None;
