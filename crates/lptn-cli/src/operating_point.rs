@@ -52,6 +52,11 @@ impl At {
 }
 
 impl OperatingPoint {
+    /// "the steady state", "the state at 20 min".
+    pub(crate) fn name(&self) -> &str {
+        &self.name
+    }
+
     /// That a linear network stands for another, and how far it was tried; `None` where the network
     /// is linear itself.
     pub(crate) fn notes(&self, tried: Option<Tried>) -> Vec<String> {

@@ -53,6 +53,35 @@ fn a_swing_is_r_over_one_plus_j_omega_rc() {
     ran.prints("amplitude [K/W]").prints("phase [deg]");
 }
 
+/// Equal cells in a stream have one mode for all: `1/mcp P(k, t mcp / C)` by mpmath, as in
+/// `crates/lptn-solve/tests/response.rs`.
+#[test]
+fn a_chain_of_equal_cells_answers_without_modes() {
+    let mut text = String::from(
+        "format = 1\n[default]\nT0 = \"20 degC\"\n[boundary]\ninlet = { T = \
+        \"20 degC\" }\n[node]\n",
+    );
+    (1..=6).for_each(|i| text += &format!("c{i} = {{ C = \"50 J/K\" }}\n"));
+    text += "[advection]\ns1 = { from = \"inlet\", to = \"c1\", mcp = \"20 W/K\" }\n\
+        s7 = { from = \"c6\", to = \"inlet\", mcp = \"20 W/K\" }\n";
+    let hose = |i| format!("s{i} = {{ from = \"c{}\", to = \"c{i}\", mcp = \"20 W/K\" }}\n", i - 1);
+    (2..=6).for_each(|i| text += &hose(i));
+    let folder = Folder::with("chain.toml", &text);
+    folder.run(&["modes", "chain.toml"]).exits(2).says("modes::defective");
+    let words =
+        ["impedance", "chain.toml", "--port=c1", "--to=c6", "--time=5s,20s", "--format=csv"];
+    let (_, rows) = csv(&folder.run(&words).exits(0).out);
+    let expected = [8.281_804_240_307_22e-4, 0.040_438_196_896_018_74];
+    for (row, rise) in rows.iter().zip(expected) {
+        assert!((row[1] / rise - 1.0).abs() < 1e-12, "{row:?}");
+    }
+    let table = ["impedance", "chain.toml", "--port=c1", "--foster"];
+    folder.run(&table).exits(2).says("modes::defective");
+    let pulses = ["impedance", "chain.toml", "--port=c1", "--duty=0.25"];
+    folder.run(&pulses).exits(0).prints("D = 0.25");
+    folder.run(&["impedance", "chain.toml", "--port=c1", "--omega"]).exits(0);
+}
+
 #[test]
 fn what_cannot_be_asked_is_said() {
     let folder = Folder::with("body.toml", BODY);

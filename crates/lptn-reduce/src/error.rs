@@ -2,7 +2,7 @@
 
 use lptn_integrate::FactorError;
 use lptn_network::{InputError, UnknownName, list_of_names};
-use lptn_solve::TransientError;
+use lptn_solve::{ResponseError, TransientError};
 use lptn_units::Class;
 
 lptn_units::errors! {
@@ -30,8 +30,8 @@ pub enum ReduceError {
             "`{name}` is more than a constant: only linear networks have one equivalent resistance"
         ),
         help format!(
-            "put a constant conductance, capacity or heat in place of `{name}`, as it is in steady \
-             state: `lptn steady`"
+            "near one of its states it has one: --port with --at steady, or with --at 10min; or put \
+             a constant conductance, capacity or heat in place of `{name}`"
         );
     /// Streams go on from node to node: heat there is not felt here as heat here is felt there.
     OneWay = "reduce::one_way",
@@ -56,6 +56,8 @@ pub enum ReduceError {
     /// The modes at the port could not be computed.
     Modes = "reduce::modes", "the time constants at the port cannot be computed",
         class Class::Numbers;
+    /// The network cannot be taken for a linear one near a state, or does not answer there.
+    Response => ResponseError;
     /// A run of the network or of its equivalent failed.
     Run => TransientError;
     /// The equivalent network could not be built; the text says why.

@@ -28,6 +28,7 @@ mod kept;
 mod kept_errors;
 mod kept_network;
 mod lanczos;
+mod near;
 mod nodes;
 mod norton;
 mod one_node;

@@ -350,7 +350,7 @@ impl<'a> Whole<'a> {
 }
 
 /// The window of the least-squares definition: it follows the run only where the run judges.
-fn window(step: &StepResponse, options: &ReductionOptions) -> LeastSquaresWindow {
+pub(crate) fn window(step: &StepResponse, options: &ReductionOptions) -> LeastSquaresWindow {
     match (options.window, &options.run, options.judge) {
         (Some(length), _, _) => LeastSquaresWindow::Given(length),
         (None, Some(run), Judge::Run) => LeastSquaresWindow::Run(run.stop - run.start),

@@ -88,7 +88,7 @@ pub use modes::{Mode, Modes, ModesError};
 pub use parallel::{available_threads, in_parallel};
 pub use periodic::{CycleMethod, Periodic, PeriodicError};
 pub use ranges::OutOfRange;
-pub use response::{Drive, FrequencyResponse, ResponseError, StepAnswer};
+pub use response::{Drive, FrequencyResponse, ResponseError, StepAnswer, settled_rises};
 pub use selection::{RecordedNodes, Selection, name_matches};
 pub use sense::Beyond;
 pub use sensitive_run::{

@@ -22,10 +22,12 @@ pub struct Verification {
 /// What runs are compared with.
 #[derive(Clone, Debug)]
 pub enum Reference {
-    /// The solution by modes.
+    /// The solution by modes, and by the exponential of a matrix where streams flow.
     Exact {
-        /// Number of modes.
+        /// Number of nodes with capacity.
         states: usize,
+        /// See [`ExactSolution::carried`].
+        carried: usize,
         /// See [`ExactSolution::quadrature_error`].
         quadrature_error: Option<f64>,
         /// See [`ExactSolution::own_error`].
@@ -129,6 +131,7 @@ impl Verification {
         Self {
             reference: Reference::Exact {
                 states: exact.states(),
+                carried: exact.carried(),
                 quadrature_error: exact.quadrature_error(),
                 own_error: exact.own_error(),
             },

@@ -138,3 +138,44 @@ fn what_is_not_grounded_settles_at_no_temperature() {
     assert!((swing.at(2.0).unwrap()[loose.index()] - Complex::new(0.0, -0.05)).norm() < 1e-16);
     assert!(matches!(swing.at(0.0).unwrap_err(), ResponseError::NoGround { .. }));
 }
+
+/// A chain of equal cells has one mode for all: cell k answers heat into the first by Erlang's
+/// distribution, `1/mcp P(k, t mcp / C)`; a joint in the last hose follows at once. By mpmath with 40
+/// digits; the pulses as their sum.
+#[test]
+fn a_chain_of_equal_cells_answers_a_step_as_erlang_has_it() {
+    let mut b = NetworkBuilder::new();
+    let inlet = b.boundary("inlet", start());
+    let mut last: lptn_network::End = inlet.into();
+    for i in 1..=6 {
+        let cell = b.node(&format!("c{i}"), HeatCapacity(50.0), start());
+        stream(&mut b, &format!("s{i}"), (last, cell), quantity("20 W/K"));
+        last = cell.into();
+    }
+    let joint = b.massless("joint");
+    stream(&mut b, "s7", (last, joint), quantity("20 W/K"));
+    stream(&mut b, "s8", (joint, inlet), quantity("20 W/K"));
+    let system = system(b);
+    let linear = Linearised::of(&system, None).unwrap();
+    let network = system.network();
+    let of = |name: &str| node(network, name).index();
+    let step = StepAnswer::new(&linear, Drive::Node(node(network, "c1"))).unwrap();
+    let expected = [
+        ("c1", 5.0, 0.043_233_235_838_169_37),
+        ("c1", 20.0, 0.049_983_226_868_604_874),
+        ("c6", 5.0, 8.281_804_240_307_22e-4),
+        ("c6", 20.0, 0.040_438_196_896_018_74),
+        ("joint", 20.0, 0.040_438_196_896_018_74),
+    ];
+    for (name, time, value) in expected {
+        let found = step.value(of(name), time);
+        assert!((found / value - 1.0).abs() < 1e-13, "{name} at {time} s: {found}");
+    }
+    assert!((step.value(of("c1"), 1e-6) / (1e-6 / 50.0) - 1.0).abs() < 1e-6);
+    assert!((step.settled[of("c6")] - 0.05).abs() < 1e-16);
+    // c1 forgets by itself: a geometric series of one exponential
+    let pulse = 0.05 * (-2.0_f64).exp_m1() / (-8.0_f64).exp_m1();
+    assert!((step.pulse(of("c1"), 5.0, 0.25) / pulse - 1.0).abs() < 1e-13);
+    let (short, long) = step.span(of("c1")).unwrap();
+    assert!((short / 2.5 - 1.0).abs() < 2e-3 && (long / 2.5 - 1.0).abs() < 2e-3, "{short} {long}");
+}

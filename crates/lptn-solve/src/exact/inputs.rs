@@ -49,6 +49,16 @@ impl<'a> Inputs<'a> {
         self.forms.contains(&Degree::Nonlinear)
     }
 
+    /// Terms of the longest series that an input may need.
+    pub(crate) fn terms(&self) -> usize {
+        let of = |form: &Degree| match form {
+            Degree::Constant => 1,
+            Degree::Affine => 2,
+            Degree::Nonlinear => TERMS,
+        };
+        self.forms.iter().map(of).max().unwrap_or(0)
+    }
+
     /// How many of them are boundaries; they come first.
     pub(crate) fn boundaries(&self) -> usize {
         self.network.boundaries().len()

@@ -11,7 +11,7 @@
 pub(crate) const TERMS: usize = 16;
 
 /// The Gauss-Legendre rule with [`TERMS`] points.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Rule {
     pub(crate) points: [f64; TERMS],
     weights: [f64; TERMS],

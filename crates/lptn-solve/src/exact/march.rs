@@ -1,12 +1,13 @@
-//! From row to row: every mode answers to the inputs of a panel in closed form.
+//! From row to row: every part of a network answers to the inputs of a panel in closed form.
 
 use lptn_network::InputError;
 
 use super::ExactError;
+use super::carried::{Carried, Lengths};
 use super::inputs::{Inputs, Panel};
-use super::legendre::{TERMS, responses};
+use super::modal::Modal;
 use super::reduced::Reduced;
-use super::spectrum::Island;
+use super::spectrum::{Island, groups};
 
 /// What the series in place of the inputs may cost, in K.
 const TARGET: f64 = 1e-10;
@@ -17,13 +18,59 @@ const MOST_PANELS: u64 = 5_000_000;
 /// Panels at least, where a series stands for an input.
 const LEAST_PANELS: f64 = 300.0;
 
-/// An island with what the inputs do to its modes.
-struct Driven<'a> {
-    island: &'a Island,
-    /// Mode (row) per unit of each input (column).
-    drive: Vec<Vec<f64>>,
-    /// Amplitude of each mode.
-    amplitude: Vec<f64>,
+/// States that are joined to each other and to no others.
+enum Part<'a> {
+    Modal(Box<Modal>),
+    Carried(Box<Carried<'a>>),
+}
+
+impl<'a> Part<'a> {
+    fn all(
+        (reduced, boundaries): (&'a Reduced, usize),
+        rises: &[f64],
+        lengths: Lengths,
+    ) -> Result<Vec<Self>, ExactError> {
+        let ties = reduced.ties(boundaries);
+        let of = |members: Vec<usize>| {
+            let inside = |&(to, _, _): &(usize, usize, f64)| members.binary_search(&to).is_ok();
+            if reduced.streams.iter().any(inside) {
+                let carried = Carried::new((reduced, boundaries), members, rises, lengths)?;
+                return Ok(Self::Carried(Box::new(carried)));
+            }
+            let island = Island::of(reduced, &ties, members)?;
+            Ok(Self::Modal(Box::new(Modal::new(island, reduced, rises))))
+        };
+        groups(reduced).into_iter().map(of).collect()
+    }
+
+    fn step(&mut self, panel: &Panel, (from, to): (f64, f64)) {
+        match self {
+            Self::Modal(part) => part.step(panel, to - from),
+            Self::Carried(part) => part.step(panel, (from, to)),
+        }
+    }
+
+    fn add_rises(&self, sum: &mut [f64]) {
+        match self {
+            Self::Modal(part) => part.add_rises(sum),
+            Self::Carried(part) => part.add_rises(sum),
+        }
+    }
+
+    fn add_slopes(&self, inputs: &[f64], sum: &mut [f64]) {
+        match self {
+            Self::Modal(part) => part.add_slopes(inputs, sum),
+            Self::Carried(part) => part.add_slopes(inputs, sum),
+        }
+    }
+
+    /// The most that heat into each state in W for `duration` in s can do to one of them.
+    fn largest_rise(&self, duration: f64, heat: &[f64]) -> f64 {
+        match self {
+            Self::Modal(part) => part.largest_rise(duration, heat),
+            Self::Carried(part) => part.largest_rise(heat),
+        }
+    }
 }
 
 /// What one unit of an input's error can do to a temperature.
@@ -38,7 +85,7 @@ struct Gain {
 pub(crate) struct March<'a> {
     reduced: &'a Reduced,
     inputs: Inputs<'a>,
-    islands: Vec<Driven<'a>>,
+    parts: Vec<Part<'a>>,
     gains: Vec<Gain>,
     duration: f64,
     panels: u64,
@@ -52,30 +99,38 @@ pub(crate) struct March<'a> {
 }
 
 impl<'a> March<'a> {
-    /// Starts from the rises of the states over the reference of the inputs.
+    /// Starts from the rises of the states over the reference of the inputs; `usual` is the most
+    /// frequent distance of two rows in s.
+    ///
+    /// # Errors
+    /// [`ExactError`] if the numbers fail.
     pub(crate) fn new(
         inputs: Inputs<'a>,
-        (reduced, islands): (&'a Reduced, &'a [Island]),
+        reduced: &'a Reduced,
         rises: &[f64],
-        duration: f64,
-    ) -> Self {
-        let driven = |island| Driven::new(island, reduced, rises);
-        let islands: Vec<Driven<'a>> = islands.iter().map(driven).collect();
-        let columns = 0..reduced.feeds.ncols();
-        let gains = columns.map(|i| gain(reduced, &islands, i, duration)).collect();
+        (usual, duration): (f64, f64),
+    ) -> Result<Self, ExactError> {
         let longest =
             if inputs.need_quadrature() { duration / LEAST_PANELS } else { f64::INFINITY };
-        Self {
+        let mut unit = usual;
+        while unit > longest {
+            unit *= 0.5; // as panels are halved
+        }
+        let lengths = Lengths { unit, duration, terms: inputs.terms() };
+        let parts = Part::all((reduced, inputs.boundaries()), rises, lengths)?;
+        let columns = 0..reduced.feeds.ncols();
+        let gains = columns.map(|i| gain(reduced, &parts, i, duration)).collect();
+        Ok(Self {
             reduced,
             inputs,
-            islands,
+            parts,
             gains,
             duration,
             panels: 0,
             longest,
             lasting: 0.0,
             summed: 0.0,
-        }
+        })
     }
 
     /// Enters a segment: comparisons of `t` are read inside it.
@@ -103,7 +158,7 @@ impl<'a> March<'a> {
             let middle = 0.5 * (from + to);
             let divisible = from < middle && middle < to;
             if !divisible || self.accepts(&panel, to - from) {
-                self.step(&panel, to - from);
+                self.parts.iter_mut().for_each(|part| part.step(&panel, (from, to)));
             } else if self.panels < MOST_PANELS {
                 open.extend([(middle, to), (from, middle)]);
             } else {
@@ -134,63 +189,55 @@ impl<'a> March<'a> {
         true
     }
 
-    fn step(&mut self, panel: &Panel, length: f64) {
-        let mut weights = [0.0; TERMS];
-        let weights = &mut weights[..panel.terms()];
-        for Driven { island, drive, amplitude } in &mut self.islands {
-            for ((rate, drive), y) in island.rates.iter().zip(drive).zip(amplitude) {
-                *y *= (-rate * length).exp();
-                if weights.is_empty() {
-                    continue;
-                }
-                responses(0.5 * rate * length, weights);
-                let answer = |series: &Vec<f64>| -> f64 {
-                    series.iter().zip(&*weights).map(|(c, w)| c * w).sum()
-                };
-                let heat: f64 =
-                    panel.series.iter().zip(drive).map(|(series, f)| *f * answer(series)).sum();
-                *y += length * heat;
-            }
-        }
-    }
-
     /// Forgets everything that a boundary takes: a start from which a cycle shows what it brings.
+    /// Cycles are asked of networks without streams.
     pub(crate) fn forget(&mut self) {
-        for Driven { island, amplitude, .. } in &mut self.islands {
-            island
-                .rates
-                .iter()
-                .zip(amplitude)
-                .filter(|(rate, _)| **rate > 0.0)
-                .for_each(|(_, y)| *y = 0.0);
-        }
+        self.modal().for_each(Modal::forget);
     }
 
     /// After a cycle of `period` in s from [`March::forget`]: the amplitudes that it leads back to.
     /// With what the cycle brings, c, they obey `y = exp(-r period) y + c`.
     pub(crate) fn repeat(&mut self, period: f64) {
-        for Driven { island, amplitude, .. } in &mut self.islands {
-            let forgetful = island.rates.iter().zip(amplitude).filter(|(rate, _)| **rate > 0.0);
-            forgetful.for_each(|(rate, y)| *y /= -(-rate * period).exp_m1());
-        }
+        self.modal().for_each(|part| part.repeat(period));
+    }
+
+    /// The slowest rate of a mode that a boundary takes part in, in 1/s.
+    pub(crate) fn slowest(&mut self) -> f64 {
+        self.modal().map(|part| part.slowest()).fold(f64::INFINITY, f64::min)
+    }
+
+    fn modal(&mut self) -> impl Iterator<Item = &mut Modal> {
+        self.parts.iter_mut().filter_map(|part| match part {
+            Part::Modal(part) => Some(&mut **part),
+            Part::Carried(_) => None,
+        })
+    }
+
+    /// How many states go on by the exponential of a matrix, and what rounding made of them in K.
+    pub(crate) fn carried(&self) -> (usize, f64) {
+        let carried = self.parts.iter().filter_map(|part| match part {
+            Part::Modal(_) => None,
+            Part::Carried(part) => Some((part.states(), part.rounding())),
+        });
+        carried.fold((0, 0.0), |sum: (usize, f64), part| (sum.0 + part.0, sum.1.max(part.1)))
     }
 
     /// Rises of the states.
     pub(crate) fn rises(&self) -> Vec<f64> {
-        self.superposed(|island, k| island.amplitude[k])
+        let mut sum = vec![0.0; self.reduced.states.len()];
+        self.parts.iter().for_each(|part| part.add_rises(&mut sum));
+        sum
     }
 
-    /// What is wrong with the modes, in K: the rates of change that they give at `time` are put
-    /// into the heat balance of every node, path by path, and what is left over is taken as heat
-    /// that lasts for the whole run. An eigenvector or a rate that is off shows here, whatever the
-    /// reason.
+    /// What is wrong with the modes and matrices, in K: the rates of change that they give at `time`
+    /// are put into the heat balance of every node, path by path, and what is left over is taken as
+    /// heat that lasts for the whole run. An eigenvector or a rate that is off shows here, whatever
+    /// the reason.
     pub(crate) fn defect(&mut self, time: f64) -> Result<f64, InputError> {
         let inputs = self.inputs.at(time)?;
         let rises = self.rises();
-        let slopes = self.superposed(|island, k| {
-            let heat: f64 = island.drive[k].iter().zip(&inputs).map(|(f, u)| f * u).sum();
-            heat - island.island.rates[k] * island.amplitude[k]
-        });
+        let mut slopes = vec![0.0; rises.len()];
+        self.parts.iter().for_each(|part| part.add_slopes(&inputs, &mut slopes));
         let boundaries = self.inputs.boundaries();
         let mut left: Vec<f64> =
             slopes.iter().zip(&self.reduced.capacity).map(|(slope, c)| -c * slope).collect();
@@ -199,81 +246,24 @@ impl<'a> March<'a> {
             left[a] -= heat;
             left[b] += heat;
         }
+        for &(to, from, g) in &self.reduced.streams {
+            left[to] += g * (rises[from] - rises[to]);
+        }
         for (i, left) in left.iter_mut().enumerate() {
             for (j, u) in inputs.iter().enumerate() {
                 let u = if j < boundaries { u - rises[i] } else { *u };
                 *left += self.reduced.feeds[(i, j)] * u;
             }
         }
-        let rise = |island: &Driven<'_>| {
-            let members = &island.island.members;
-            island.largest_rise(self.duration, |k| {
-                members
-                    .iter()
-                    .enumerate()
-                    .map(|(row, &i)| island.island.shapes[(row, k)] * left[i])
-                    .sum()
-            })
-        };
-        Ok(self.islands.iter().map(rise).fold(0.0, f64::max))
-    }
-
-    /// The modes times what `value` gives for each.
-    fn superposed(&self, value: impl Fn(&Driven<'_>, usize) -> f64) -> Vec<f64> {
-        let mut sum = vec![0.0; self.reduced.states.len()];
-        for island in &self.islands {
-            for k in 0..island.amplitude.len() {
-                let y = value(island, k);
-                for (row, &state) in island.island.members.iter().enumerate() {
-                    sum[state] += island.island.shapes[(row, k)] * y;
-                }
-            }
-        }
-        sum
+        let rises = self.parts.iter().map(|part| part.largest_rise(self.duration, &left));
+        Ok(rises.fold(0.0, f64::max))
     }
 }
 
-impl<'a> Driven<'a> {
-    fn new(island: &'a Island, reduced: &Reduced, rises: &[f64]) -> Self {
-        let project = |k: usize, value: &dyn Fn(usize) -> f64| -> f64 {
-            let members = island.members.iter().enumerate();
-            members.map(|(row, &state)| island.shapes[(row, k)] * value(state)).sum()
-        };
-        let modes = 0..island.rates.len();
-        let inputs = reduced.feeds.ncols();
-        let drive =
-            |k| (0..inputs).map(|i| project(k, &|state| reduced.feeds[(state, i)])).collect();
-        let amplitude = |k| project(k, &|state| reduced.capacity[state] * rises[state]);
-        Self {
-            island,
-            drive: modes.clone().map(drive).collect(),
-            amplitude: modes.map(amplitude).collect(),
-        }
-    }
-
-    /// The most that `heat` into each mode for `duration` can do to a member.
-    fn largest_rise(&self, duration: f64, heat: impl Fn(usize) -> f64) -> f64 {
-        let mut weight = [0.0];
-        let mut rises = vec![0.0; self.island.members.len()];
-        for (k, rate) in self.island.rates.iter().enumerate() {
-            responses(0.5 * rate * duration, &mut weight);
-            let answer = (heat(k) * duration * weight[0]).abs();
-            let add = |(row, rise): (usize, &mut f64)| {
-                *rise += answer * self.island.shapes[(row, k)].abs()
-            };
-            rises.iter_mut().enumerate().for_each(add);
-        }
-        rises.into_iter().fold(0.0, f64::max)
-    }
-}
-
-fn gain(reduced: &Reduced, islands: &[Driven<'_>], input: usize, duration: f64) -> Gain {
-    let lasting = islands
-        .iter()
-        .map(|island| island.largest_rise(duration, |k| island.drive[k][input]))
-        .fold(0.0, f64::max);
-    let states = 0..reduced.states.len();
-    let at_once =
-        states.map(|i| reduced.feeds[(i, input)] / reduced.capacity[i]).fold(0.0, f64::max);
+fn gain(reduced: &Reduced, parts: &[Part<'_>], input: usize, duration: f64) -> Gain {
+    let feeds: Vec<f64> = (0..reduced.states.len()).map(|i| reduced.feeds[(i, input)]).collect();
+    let rises = parts.iter().map(|part| part.largest_rise(duration, &feeds));
+    let lasting = rises.fold(0.0, f64::max);
+    let at_once = feeds.iter().zip(&reduced.capacity).map(|(feed, c)| feed / c).fold(0.0, f64::max);
     Gain { lasting, at_once }
 }

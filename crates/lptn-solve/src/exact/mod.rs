@@ -6,13 +6,20 @@
 //! straight inputs are integrated in closed form, others through series of Legendre polynomials
 //! against the exact kernel. No step depends on the one before but through rounding, and no
 //! tolerance is passed on. Nothing is shared with `lptn-assembly` and `lptn-integrate`.
+//!
+//! States that streams of constant capacity rates join have modes that may coincide (a chain of
+//! equal cells has only one): these go on by the exponential of their matrix (`chain.rs`).
 
+mod carried;
+mod chain;
 mod inputs;
 mod legendre;
 mod march;
+mod modal;
 mod periodic;
 mod reduced;
 mod spectrum;
+mod taylor;
 
 use lptn_network::{InputError, Network, NodeId};
 use lptn_units::{Class, EvalError, Problem};
@@ -20,6 +27,7 @@ use lptn_units::{Class, EvalError, Problem};
 use crate::events::EventKind;
 use crate::solution::Solution;
 use crate::times::{Segment, segments};
+pub(crate) use chain::{Chain, Wanted};
 use inputs::Inputs;
 use march::March;
 pub(crate) use periodic::ExactCycle;
@@ -34,6 +42,7 @@ pub struct ExactSolution {
     temperatures: Vec<f64>,
     nodes: usize,
     states: usize,
+    carried: usize,
     quadrature: Option<f64>,
     rounding: f64,
 }
@@ -59,7 +68,7 @@ lptn_units::errors! {
 /// Why a network has no exact solution, or no modes.
 #[derive(Clone, Debug)]
 pub enum ExactError {
-    /// More nodes than the dense eigenproblem is for.
+    /// More nodes than dense matrices are for.
     TooLarge { nodes: usize } = "modes::too_large",
         format!("{nodes} nodes are more than the {} that are solved by modes", Reduced::MOST_NODES),
         help "lump nodes until there are at most 2000, or let `lptn run` show how long each node \
@@ -81,6 +90,10 @@ pub enum ExactError {
     /// The conductances of the massless nodes span more than the numbers can hold.
     Singular = "exact::singular",
         "the conductances of the massless nodes span more than the numbers can hold",
+        help MERGE, class Class::Numbers;
+    /// Rates of nodes that streams join span more than the numbers can hold.
+    Rates = "exact::singular",
+        "the rates of the nodes that streams join span more than the numbers can hold",
         help MERGE, class Class::Numbers;
     /// The eigenvalues were not found.
     Modes = "exact::modes", "the eigenvalues of the network were not found", help MERGE,
@@ -110,19 +123,25 @@ impl ExactSolution {
             return Err(ExactError::Switches { name: kind.name(network) });
         }
         let breakpoints = network.breakpoints(start, stop)?;
-        let reduced = Reduced::new(network)?;
-        let islands = islands(&reduced, network.boundaries().len())?;
+        let reduced = Reduced::with_streams(network)?;
         let mut rows = Rows::new(network, &reduced, (start, times))?;
         let inputs = Inputs::new(network, rows.reference);
-        let mut march = March::new(inputs, (&reduced, &islands), &rows.rises, stop - start);
+        let lengths = (usual(start, times), stop - start);
+        let mut march = March::new(inputs, &reduced, &rows.rises, lengths)?;
         rows.start(&march);
         for segment in segments(start, stop, &breakpoints) {
             rows.segment(&mut march, segment)?;
         }
-        let (quadrature, rounding) = (march.series_error(), rows.rounding());
-        let nodes = network.nodes().len();
-        let (states, temperatures) = (reduced.states.len(), rows.temperatures);
-        Ok(Self { times: times.to_vec(), temperatures, nodes, states, quadrature, rounding })
+        let (carried, apart) = march.carried();
+        Ok(Self {
+            times: times.to_vec(),
+            nodes: network.nodes().len(),
+            states: reduced.states.len(),
+            carried,
+            quadrature: march.series_error(),
+            rounding: rows.rounding() + apart,
+            temperatures: rows.temperatures,
+        })
     }
 
     /// The times in s.
@@ -140,9 +159,15 @@ impl ExactSolution {
         (0..self.times.len()).map(|row| self.row(row)[node.index()]).collect()
     }
 
-    /// Number of nodes with capacity, which is the number of modes.
+    /// Number of nodes with capacity, which is the number of modes where no stream flows.
     pub fn states(&self) -> usize {
         self.states
+    }
+
+    /// How many of them streams join: they are solved by the exponential of a matrix, the others by
+    /// modes.
+    pub fn carried(&self) -> usize {
+        self.carried
     }
 
     /// What integrating inputs that are neither constant nor straight may have cost, in K; `None`
@@ -154,7 +179,9 @@ impl ExactSolution {
     /// An estimate of its own error in K: quadrature and rounding. The latter is what the modes
     /// miss of the start, a few units in the last place of a temperature, and what is left over
     /// when the rates of change that the modes give are put into the heat balance of every node at
-    /// some 32 of the rows after the start, taken as heat that lasts for the whole run.
+    /// some 32 of the rows after the start, taken as heat that lasts for the whole run. Where streams
+    /// flow, also how far apart two ways of the matrix exponential come, by steps of a row and of a
+    /// third of it.
     pub fn own_error(&self) -> f64 {
         self.quadrature.unwrap_or(0.0) + self.rounding
     }
@@ -193,6 +220,15 @@ impl Difference {
         }
         Some(found)
     }
+}
+
+/// The most frequent distance of two rows in s: that in the middle, by size.
+fn usual(start: f64, times: &[f64]) -> f64 {
+    let before = std::iter::once(&start).chain(times);
+    let mut distances: Vec<f64> =
+        times.iter().zip(before).map(|(t, before)| t - before).filter(|d| *d > 0.0).collect();
+    distances.sort_by(f64::total_cmp);
+    distances.get(distances.len() / 2).copied().unwrap_or(1.0)
 }
 
 /// Rows, about, at which the modes are put to the test.

@@ -5,7 +5,6 @@ use lptn_network::Network;
 use super::inputs::Inputs;
 use super::march::March;
 use super::reduced::Reduced;
-use super::spectrum::islands;
 use super::{ExactError, segments};
 
 /// The state that a cycle of a linear network leads back to.
@@ -26,21 +25,18 @@ impl ExactCycle {
         let stop = start + period;
         let breakpoints = network.breakpoints(start, stop)?;
         let reduced = Reduced::new(network)?;
-        let islands = islands(&reduced, network.boundaries().len())?;
         let initial = reduced.initial(network)?;
         let reference = initial.first().copied().unwrap_or(lptn_network::ZERO_CELSIUS);
         let rises: Vec<f64> = initial.iter().map(|t| t - reference).collect();
         let inputs = Inputs::new(network, reference);
-        let mut march = March::new(inputs, (&reduced, &islands), &rises, period);
+        let mut march = March::new(inputs, &reduced, &rises, (period, period))?;
         march.forget();
         for segment in segments(start, stop, &breakpoints) {
             march.enter(segment.inside());
             march.advance(segment.from, segment.to)?;
         }
         march.repeat(period);
-        let rates =
-            islands.iter().flat_map(|island| &island.rates).copied().filter(|rate| *rate > 0.0);
-        let slowest = rates.fold(f64::INFINITY, f64::min);
+        let slowest = march.slowest();
         let mut temperatures = vec![f64::NAN; network.nodes().len()];
         for (id, rise) in reduced.states.iter().zip(march.rises()) {
             temperatures[id.index()] = reference + rise;

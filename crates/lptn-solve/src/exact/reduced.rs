@@ -6,11 +6,12 @@
 //! the conductances between two vertices, the balance of the massless nodes is
 //! `G_mm T_m = g_mr T_r + g_mu T_u + q_m`. Put into the balances of the others it adds
 //! `g_rm G_mm^-1 g_mr` to the conductances between them: sums and products of numbers that are not
-//! negative, so that nothing cancels.
+//! negative, so that nothing cancels. A stream of constant capacity rate is a conductance that only
+//! the node it flows into feels; with one `G_mm` is not symmetric, and LU takes Cholesky's place.
 
 use faer::Mat;
 use lptn_integrate::dense;
-use lptn_network::{End, Evaluation, Network, NodeId};
+use lptn_network::{ConductorFlow, End, Evaluation, Item, Network, NodeId};
 use lptn_units::EvalError;
 
 use super::ExactError;
@@ -24,6 +25,8 @@ pub(crate) struct Reduced {
     pub(crate) capacity: Vec<f64>,
     /// Conductances in W/K between states, `a < b`, positive.
     pub(crate) links: Vec<(usize, usize, f64)>,
+    /// What flows one way in W/K, beside the links: into the first state, from the second.
+    pub(crate) streams: Vec<(usize, usize, f64)>,
     /// Heat into a state (row) per K of a boundary above it, or its share of a source (columns).
     pub(crate) feeds: Mat<f64>,
     pub(crate) massless: Vec<NodeId>,
@@ -33,24 +36,35 @@ pub(crate) struct Reduced {
 
 /// What the element list holds: conductances, and where the inputs act.
 struct Elements {
-    /// Conductances between nodes, symmetric, zero on the diagonal.
+    /// Heat into a node (row) per K of another; zero on the diagonal, symmetric without streams.
     among: Mat<f64>,
     /// For each node (row) conductances to the boundaries, then 1 for the sources that heat it.
     inputs: Mat<f64>,
     boundaries: usize,
+    /// Whether some stream flows between nodes.
+    streams: bool,
 }
 
 impl Reduced {
     /// The largest number of nodes: eigenvalues of matrices beyond it take minutes.
     pub(crate) const MOST_NODES: usize = 2000;
 
+    /// A network of constant conductances.
     pub(crate) fn new(network: &Network) -> Result<Self, ExactError> {
+        match network.first_nonlinear() {
+            Some(item) => Err(not_linear(network, item)),
+            None => Self::with_streams(network),
+        }
+    }
+
+    /// The same, or one with streams of constant capacity rates too.
+    pub(crate) fn with_streams(network: &Network) -> Result<Self, ExactError> {
         let nodes = network.nodes().len();
         if nodes > Self::MOST_NODES {
             return Err(ExactError::TooLarge { nodes });
         }
-        if let Some(item) = network.first_nonlinear() {
-            return Err(ExactError::NotLinear { name: network.name_of(item).into_owned() });
+        if let Some(item) = first_beyond(network) {
+            return Err(not_linear(network, item));
         }
         let elements = Elements::read(network).map_err(ExactError::Value)?;
         let capacities = capacities(network).map_err(ExactError::Value)?;
@@ -61,8 +75,11 @@ impl Reduced {
         let capacity = states.iter().map(|id| capacities[id.index()]).collect();
         let recovery = elements.recovery(&massless, &states).ok_or(ExactError::Singular)?;
         let (coupling, feeds) = elements.eliminate(&massless, &states, &recovery);
-        let links = links(&coupling);
-        Ok(Self { states, capacity, links, feeds, massless, recovery })
+        let (links, streams) = match elements.streams {
+            true => (links(&coupling, f64::min), streams(&coupling)),
+            false => (links(&coupling, |a, b| 0.5 * (a + b)), Vec::new()),
+        };
+        Ok(Self { states, capacity, links, streams, feeds, massless, recovery })
     }
 
     /// Temperatures of the states at the start in K.
@@ -87,7 +104,23 @@ impl Elements {
         let mut among = Mat::zeros(nodes, nodes);
         let mut inputs = Mat::zeros(nodes, boundaries + network.sources().len());
         let mut scope = network.evaluation();
-        for conductor in network.conductors() {
+        let mut streams = false;
+        for (id, conductor) in network.conductor_ids().zip(network.conductors()) {
+            if let ConductorFlow::Stream(rate) = network.flow(id) {
+                let ends = (conductor.from, conductor.to);
+                let (from, to) = if rate < 0.0 { (ends.1, ends.0) } else { ends };
+                match (from, to) {
+                    (End::Node(from), End::Node(to)) => {
+                        among[(to.index(), from.index())] += rate.abs();
+                        streams = true;
+                    }
+                    (End::Boundary(b), End::Node(to)) => {
+                        inputs[(to.index(), b.index())] += rate.abs();
+                    }
+                    (_, End::Boundary(_)) => {} // what flows away is not missed
+                }
+                continue;
+            }
             let g = conductor.law.conductance_at(&mut scope)?;
             match (conductor.from, conductor.to) {
                 (End::Node(a), End::Node(b)) => {
@@ -106,7 +139,7 @@ impl Elements {
                 .iter()
                 .for_each(|(node, share)| inputs[(node.index(), boundaries + k)] += share);
         }
-        Ok(Self { among, inputs, boundaries })
+        Ok(Self { among, inputs, boundaries, streams })
     }
 
     /// `G_mm^-1` times what the massless nodes (rows) get from each state and input (columns).
@@ -130,7 +163,10 @@ impl Elements {
             let (row, column) = (massless[i].index(), massless[j].index());
             if i == j { total(row) } else { -self.among[(row, column)] }
         });
-        dense::cholesky_solve(own.as_ref(), given.as_ref())
+        match self.streams {
+            true => dense::solve(own.as_ref(), given.as_ref()),
+            false => dense::cholesky_solve(own.as_ref(), given.as_ref()),
+        }
     }
 
     /// Conductances between the states, and what the inputs do to them, with the massless nodes
@@ -172,11 +208,39 @@ fn capacities(network: &Network) -> Result<Vec<f64>, EvalError> {
     Ok(capacity)
 }
 
-fn links(coupling: &Mat<f64>) -> Vec<(usize, usize, f64)> {
+/// Conductances between two states, of what each feels of the other.
+fn links(coupling: &Mat<f64>, both: fn(f64, f64) -> f64) -> Vec<(usize, usize, f64)> {
     let n = coupling.nrows();
     let pairs = (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b)));
     pairs
-        .map(|(a, b)| (a, b, 0.5 * (coupling[(a, b)] + coupling[(b, a)])))
+        .map(|(a, b)| (a, b, both(coupling[(a, b)], coupling[(b, a)])))
         .filter(|link| link.2 > 0.0)
         .collect()
+}
+
+/// What one state feels of another more than that of it.
+fn streams(coupling: &Mat<f64>) -> Vec<(usize, usize, f64)> {
+    let n = coupling.nrows();
+    let pairs = (0..n).flat_map(|to| (0..n).map(move |from| (to, from)));
+    pairs
+        .map(|(to, from)| (to, from, coupling[(to, from)] - coupling[(from, to)]))
+        .filter(|stream| stream.2 > 0.0)
+        .collect()
+}
+
+/// The first item that is more than constant capacities, conductances and capacity rates.
+fn first_beyond(network: &Network) -> Option<Item> {
+    let linear = |id| network.conductance(id).is_some() || is_stream(network, id);
+    let conductor = network.conductor_ids().find(|&id| !linear(id)).map(Item::Conductor);
+    let source = network.source_ids().find(|id| !network.source_variables(*id).is_empty());
+    let node = network.node_ids().find(|id| network.enthalpy(*id).is_some());
+    conductor.or(source.map(Item::Source)).or(node.map(Item::Node))
+}
+
+fn is_stream(network: &Network, id: lptn_network::ConductorId) -> bool {
+    matches!(network.flow(id), ConductorFlow::Stream(_))
+}
+
+fn not_linear(network: &Network, item: Item) -> ExactError {
+    ExactError::NotLinear { name: network.name_of(item).into_owned() }
 }

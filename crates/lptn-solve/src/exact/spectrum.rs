@@ -18,23 +18,37 @@ pub(crate) struct Island {
     pub(crate) shapes: Mat<f64>,
 }
 
-/// The islands of a network in the order of their first states.
+/// The islands of a network without streams, in the order of their first states.
 pub(crate) fn islands(reduced: &Reduced, boundaries: usize) -> Result<Vec<Island>, ExactError> {
     let ties = reduced.ties(boundaries);
+    groups(reduced).into_iter().map(|members| Island::of(reduced, &ties, members)).collect()
+}
+
+impl Island {
+    /// The modes of states that no stream joins; `ties`: [`Reduced::ties`].
+    pub(crate) fn of(
+        reduced: &Reduced,
+        ties: &[f64],
+        members: Vec<usize>,
+    ) -> Result<Self, ExactError> {
+        Part::new(reduced, ties, members).solve()
+    }
+}
+
+/// States that are joined to each other and to no others, ascending, in the order of their first.
+pub(crate) fn groups(reduced: &Reduced) -> Vec<Vec<usize>> {
     let numbers = numbering(reduced);
     let count = numbers.iter().max().map_or(0, |last| last + 1);
-    let island = |number: usize| {
-        let members: Vec<usize> = (0..numbers.len()).filter(|&i| numbers[i] == number).collect();
-        Part::new(reduced, &ties, members).solve()
-    };
-    (0..count).map(island).collect()
+    let mut groups = vec![Vec::new(); count];
+    numbers.into_iter().enumerate().for_each(|(i, number)| groups[number].push(i));
+    groups
 }
 
 /// For each state the number of its island, from 0 in the order of appearance.
 fn numbering(reduced: &Reduced) -> Vec<usize> {
     let n = reduced.states.len();
     let mut neighbours = vec![Vec::new(); n];
-    for &(a, b, _) in &reduced.links {
+    for &(a, b, _) in reduced.links.iter().chain(&reduced.streams) {
         neighbours[a].push(b);
         neighbours[b].push(a);
     }

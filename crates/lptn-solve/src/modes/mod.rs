@@ -72,7 +72,7 @@ pub enum ModesError {
     Defective = "modes::defective",
         "modes coincide: a chain of like cells that a stream passes one way does not forget by \
             exponentials alone",
-        help "let `lptn run` show how long each node takes";
+        help "`lptn impedance` shows how long each node takes";
     /// The eigenvalues were not found.
     NotFound = "modes::not_found", "the time constants of the network were not found",
         help crate::exact::MERGE, class lptn_units::Class::Numbers;

@@ -1,6 +1,8 @@
 //! How a linear network answers one input: swinging at a frequency, or stepping from 0 to 1.
 
+mod carried;
 mod frequency;
+mod settled;
 mod step;
 
 use lptn_assembly::ThermalSystem;
@@ -8,6 +10,7 @@ use lptn_integrate::FactorError;
 use lptn_network::{BoundaryId, InputError, NodeId, SourceId, list_of_names};
 
 pub use frequency::FrequencyResponse;
+pub use settled::settled_rises;
 pub use step::StepAnswer;
 
 use crate::exact::ExactError;
@@ -90,15 +93,16 @@ impl Effect {
         }
         let flow = match drive {
             Drive::Boundary(boundary) if !system.is_linear() => of_boundary(linear, boundary)?,
-            _ => {
-                let mut work = system.workspace();
-                system.apply(&mut work, &heat, &boundaries);
-                let mut flow = vec![0.0; system.unknowns().len()];
-                system.linear_flow(&work, &vec![0.0; flow.len()], &mut flow);
-                flow
-            }
+            _ => handed_on(system, &heat, &boundaries),
         };
         Ok(Self { heat, boundaries, flow })
+    }
+
+    /// Of heat into each node in W.
+    fn of_heat(system: &ThermalSystem, heat: Vec<f64>) -> Self {
+        let boundaries = vec![0.0; system.network().boundaries().len()];
+        let flow = handed_on(system, &heat, &boundaries);
+        Self { heat, boundaries, flow }
     }
 
     /// Temperatures of all nodes that follow from those of the unknowns and `share` of the input.
@@ -109,6 +113,15 @@ impl Effect {
         system.recover(&mut work, unknowns);
         system.node_temperatures(&work).to_vec()
     }
+}
+
+/// Heat into the unknowns, with that of massless nodes handed on.
+fn handed_on(system: &ThermalSystem, heat: &[f64], boundaries: &[f64]) -> Vec<f64> {
+    let mut work = system.workspace();
+    system.apply(&mut work, heat, boundaries);
+    let mut flow = vec![0.0; system.unknowns().len()];
+    system.linear_flow(&work, &vec![0.0; flow.len()], &mut flow);
+    flow
 }
 
 /// Heat into the unknowns per K of a boundary, by a difference to both sides of it.

@@ -52,6 +52,9 @@ impl Question<'_> {
     fn of_modes(&self, step: &StepAnswer) -> Result<Answer, Failure> {
         let node = self.to.index();
         match self.args.chain() {
+            Some(_) if !step.has_terms() => {
+                Err(failed(self.input, &ResponseError::Modes(ModesError::Defective)))
+            }
             Some(asked) => {
                 let spectrum = Spectrum::of(step, (node, self.is_own()))?;
                 Ok(Answer::Chain(spectrum.chain(asked)?))

@@ -7,6 +7,7 @@ use clap::builder::TypedValueParser as _;
 use lptn_reduce::{Definition, Judge};
 use lptn_report::Format;
 
+use crate::operating_point::At;
 use crate::options::{NoFiles, Scale, Source, TEMPLATE, one_of};
 
 const EXAMPLES: &str = "\
@@ -16,6 +17,7 @@ Examples:
   lptn reduce motor.toml --port winding --max-error 20% --for run
   lptn reduce motor.toml --port winding --error 2K --power 60W
   lptn reduce motor.toml --port winding --nodes 3 --format toml > three.toml
+  lptn reduce glowing.toml --port ball --at steady
   lptn reduce motor.toml --keep winding,housing --write kept.toml";
 
 /// Replace a network by one node, and say how wrong that is
@@ -29,7 +31,7 @@ pub(crate) struct ReduceArgs {
     pub(crate) port: Option<String>,
     /// Keep several nodes, and what stands between them: steel,housing
     #[arg(long, value_name = "NODES")]
-    #[arg(conflicts_with_all = ["port", "definition", "bias", "window", "worst"])]
+    #[arg(conflicts_with_all = ["port", "definition", "bias", "window", "worst", "at"])]
     pub(crate) keep: Option<String>,
     /// Write how all temperatures follow from the kept ones
     #[arg(long, value_name = "FILE")]
@@ -64,6 +66,8 @@ pub(crate) struct ReduceArgs {
     /// Fit least_squares over this time after the step, not 5 tau_1
     #[arg(long, value_name = "TIME")]
     pub(crate) window: Option<String>,
+    #[command(flatten)]
+    pub(crate) at: At,
     /// Print a table, csv, json, or the one node as toml
     #[arg(long, value_name = "FORMAT", default_value = "table", hide_possible_values = true)]
     #[arg(value_parser = one_of(&ReduceFormat::ALL, ReduceFormat::key))]

@@ -5,6 +5,7 @@ mod figure;
 mod keep;
 mod keep_page;
 mod loads;
+mod near;
 mod notes;
 mod page;
 mod verdict;
@@ -20,15 +21,18 @@ use lptn_reduce::{
     ReductionOptions, port,
 };
 use lptn_report::{Format, plain, significant};
+use lptn_solve::ResponseError;
 use lptn_units::{Dimension, Problem as _, Type, Unit};
 
 use args::ReduceFormat;
 use loads::{Asked, Loads};
+use near::Near;
 
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{self, Input, quoted};
+use crate::operating_point::place;
 use crate::words::count;
 use crate::{files, written};
 
@@ -43,6 +47,7 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
     let name = args.port.as_deref().ok_or_else(|| no_port(&input))?;
     let unit = input::temperature_unit(args.scale.temperature_unit.as_deref(), &input.netlist)?;
     let limit = Limit::parse("--max-error", &args.max_error)?;
+    near::allowed(args, &limit)?;
     let window = args.window.as_deref().map(window).transpose()?;
     let run = input.netlist.run.clone();
     if run.is_none()
@@ -58,7 +63,15 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
     let run_compared = run.clone().filter(|_| wanted || !system.network().has_events());
     let options =
         ReductionOptions { run: run_compared, window, judge: args.judge, allowed: limit.allowed };
-    let reduction = Reduction::new(&system, port, &options).map_err(explain)?;
+    let near = Near::find(args, &input, console)?;
+    let options = match &near {
+        Some(_) => ReductionOptions { run: None, ..options },
+        None => options,
+    };
+    let (reduction, near) = match near {
+        Some(near) => near.reduce((&system, port), &options).map_err(explain)?,
+        None => (Reduction::new(&system, port, &options).map_err(explain)?, None),
+    };
     let asked = Asked { args, system: &system, run: options.run.as_ref(), allowed: limit.allowed };
     let loads = Loads::new(&asked, &reduction, &explain)?;
     let bias = match &run {
@@ -74,6 +87,7 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
         reduction,
         loads,
         bias,
+        near,
         unit,
         limit,
     };
@@ -92,6 +106,8 @@ pub(crate) struct View<'a> {
     /// What is known of every load.
     pub(crate) loads: Loads,
     pub(crate) bias: Option<Result<Bias, FitError>>,
+    /// The state near which it stands for the network.
+    pub(crate) near: Option<Near>,
     pub(crate) unit: Unit,
     pub(crate) limit: Limit,
 }
@@ -141,8 +157,8 @@ impl View<'_> {
             if self.input.netlist.run.is_some() {
                 console.next(&format!("lptn run {}", quoted(&path.display().to_string())));
             }
-        } else if let (ReduceFormat::Of(Format::Table), Some(file), false) =
-            (self.args.format, self.input.typed(), self.system.network().has_events())
+        } else if let (ReduceFormat::Of(Format::Table), Some(file), false, None) =
+            (self.args.format, self.input.typed(), self.system.network().has_events(), &self.near)
         {
             let port = quoted(self.port);
             console.next(&format!("lptn reduce {file} --port {port} --write {port}.toml"));
@@ -278,12 +294,13 @@ fn no_port(input: &Input) -> Failure {
 /// What is wrong, with its place in the file or on the command line.
 fn failed(input: &Input, port: &str, error: &ReduceError) -> Failure {
     let network = &input.netlist.network;
-    let place = match error {
+    let at = match error {
         ReduceError::BoundaryPort { .. } => {
             network.item(port).ok().and_then(|item| input.netlist.source_map.name(item))
         }
         ReduceError::NoGround { names } => names.first().and_then(|name| input.node_place(name)),
         ReduceError::Input(error) => input.place_of(error),
+        ReduceError::Response(ResponseError::Linearised(error)) => place(input, error),
         _ => None,
     };
     let example = network
@@ -291,5 +308,5 @@ fn failed(input: &Input, port: &str, error: &ReduceError) -> Failure {
         .first()
         .filter(|_| matches!(error, ReduceError::UnknownPort(_)) && error.help().is_none());
     let help = example.map(|node| format!("name a node, for example `{}`", node.name));
-    input.refused(error.class().into(), told(error).at(place, "").help(help))
+    input.refused(error.class().into(), told(error).at(at, "").help(help))
 }

@@ -10,13 +10,19 @@ impl View<'_> {
     /// What has to be known beside the numbers.
     pub(crate) fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
-        if self.input.netlist.network.has_time_dependent_inputs() {
+        if self.near.is_some() {
+            notes.push(
+                "inputs, controls and comparisons are held as they are there; Q_N is the heat of \
+                 the sources there, and T_ref such that the port has its temperature"
+                    .to_owned(),
+            );
+        } else if self.input.netlist.network.has_time_dependent_inputs() {
             notes.push(
                 "the inputs change with time; T_ref and Q_N are those at the start of the run"
                     .to_owned(),
             );
         }
-        notes.extend(self.switched());
+        notes.extend(self.switched().filter(|_| self.near.is_none()));
         notes.extend(self.apart());
         let Some(dynamics) = &self.reduction.dynamics else {
             notes.push(
@@ -26,7 +32,11 @@ impl View<'_> {
         };
         notes.extend(self.elsewhere());
         notes.push(match dynamics.window {
-            Some(window) => fitted(window, dynamics),
+            Some(window) => fitted(window, dynamics, self.near.is_some()),
+            None if self.near.is_some() => "modes swing, coincide or fall at first: R_eq, T_ref, \
+                 Q_N, sum and first_moment are those of the linear network, and no error of a step \
+                 is known"
+                .to_owned(),
             None => "streams go on from node to node: R_eq, T_ref, Q_N, sum and first_moment are \
                      exact, while tau_1, the other definitions and the error of a step would need \
                      modes that may swing"
@@ -122,12 +132,15 @@ impl View<'_> {
 }
 
 /// What least squares fits.
-fn fitted(window: LeastSquaresWindow, dynamics: &Dynamics) -> String {
+fn fitted(window: LeastSquaresWindow, dynamics: &Dynamics, near: bool) -> String {
     let length = duration(window.length(), 4);
     let fits = format!("least_squares fits the response to a step over {length}");
     match window {
         LeastSquaresWindow::Given(_) => fits,
         LeastSquaresWindow::Run(_) => format!("{fits}, as long as the run"),
+        LeastSquaresWindow::TimeConstants(_) if near => {
+            format!("no run is compared near a state; {fits}, five times tau_1")
+        }
         LeastSquaresWindow::TimeConstants(_) if dynamics.tolerance.is_none() => {
             format!("without [run] no run is compared; {fits}, five times tau_1")
         }

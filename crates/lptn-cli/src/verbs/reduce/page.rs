@@ -56,6 +56,7 @@ impl Page for View<'_> {
         let sources = netlist.network.sources().iter().map(|s| s.name());
         self.input.head(json, &[])?;
         json.member("port", self.port)?;
+        json.optional("at", self.near.as_ref().map(super::near::Near::json))?;
         json.member("verdict", &self.verdict_json())?;
         json.member("R_eq", &scalar(norton.resistance, "K/W"))?;
         json.member("T_ref", &scale::temperature(inputs.reference, &self.unit))?;

@@ -5,11 +5,19 @@ use lptn_report::{Standing, Text, duration, significant};
 use serde_json::{Value, json};
 
 use super::View;
+use super::near::Near;
 use super::page::error_json;
 
 impl View<'_> {
     /// "collapses to one node within 0.78 % (0.444 K)".
     pub(super) fn verdict(&self) -> String {
+        match &self.near {
+            Some(near) => format!("near {} it {}", near.name(), self.of_the_linear()),
+            None => self.of_the_linear(),
+        }
+    }
+
+    fn of_the_linear(&self) -> String {
         if let Some(verdict) = self.loads.verdict() {
             return verdict;
         }
@@ -62,6 +70,9 @@ impl View<'_> {
             None => Standing::Open,
         };
         text.section().marked(standing, self.verdict());
+        for note in self.near.iter().flat_map(Near::notes) {
+            text.sentence("", &note);
+        }
         if let Some((judge, error, _)) = judged.filter(|(_, error, _)| !is_exact(error)) {
             text.sentence("", &self.manner(judge, &error));
         }

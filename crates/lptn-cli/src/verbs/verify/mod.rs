@@ -89,14 +89,14 @@ impl View<'_> {
     /// What the runs are compared with.
     fn reference(&self) -> String {
         match &self.verification.reference {
-            Reference::Exact { states, quadrature_error, own_error } => {
+            Reference::Exact { states, carried, quadrature_error, own_error } => {
                 let how = if quadrature_error.is_some() {
                     "inputs in t by quadrature"
                 } else {
                     "all in closed form"
                 };
-                let (modes, error) = (count(*states, "mode"), significant(*own_error, 2));
-                format!("exact solution, {modes}, {how}, itself within {error} K")
+                let (parts, error) = (parts(*states, *carried), significant(*own_error, 2));
+                format!("exact solution, {parts}, {how}, itself within {error} K")
             }
             Reference::FinerRun { tolerance, reason } => {
                 let tolerance = significant(*tolerance, 3);
@@ -150,8 +150,10 @@ impl View<'_> {
     fn reference_json(&self) -> Value {
         let kelvin = |value: f64| SiValue::new(value, "K");
         match &self.verification.reference {
-            Reference::Exact { quadrature_error, own_error, .. } => json!({
+            Reference::Exact { states, carried, quadrature_error, own_error } => json!({
                 "independent": true,
+                "modes": states - carried,
+                "exponential": carried,
                 "text": self.reference(),
                 "own_error": kelvin(*own_error),
                 "quadrature_error": quadrature_error.map(kelvin),
@@ -199,6 +201,16 @@ impl Page for View<'_> {
 
     fn no(&self) -> Option<String> {
         (!self.verification.passes()).then(|| self.verdict())
+    }
+}
+
+/// How many modes an exact solution has, and how many nodes go by the exponential of a matrix.
+fn parts(states: usize, carried: usize) -> String {
+    let exponential = format!("{} by matrix exponential", count(carried, "node"));
+    match (states - carried, carried) {
+        (modes, 0) => count(modes, "mode"),
+        (0, _) => exponential,
+        (modes, _) => format!("{}, {exponential}", count(modes, "mode")),
     }
 }
 

@@ -1,0 +1,77 @@
+//! `lptn reduce --at`, as a user meets it.
+
+mod common;
+
+use common::Folder;
+use serde_json::Value;
+
+const GLOWING: &str = "format = 1\n[node]\nball = { C = \"500 J/K\", T0 = \"900 K\" }\n[boundary]\n\
+    space = { T = \"300 K\" }\n[radiation]\nglow = { from = \"ball\", to = \"space\", \
+    emissivity = 1, area = \"0.05 m^2\" }\n[source]\nheater = { into = \"ball\", P = \"1 kW\" }\n\
+    [run]\nstop = \"1 min\"\n";
+
+/// A body that a heater keeps between 55 and 65 degC; 2 K/W to the air.
+const SWITCHED: &str = "format = 1\n[node]\nbody = { C = \"100 J/K\", T0 = \"60 degC\" }\n\
+    [boundary]\nair = { T = \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", \
+    R = \"2 K/W\" }\n[control]\nheats = { sense = \"body\", on_below = \"55 degC\", \
+    off_above = \"65 degC\", start = \"on\" }\n[source]\nheat = { into = \"body\", P = \"40 [W] * heats\" }\n\
+    [run]\nstop = \"10 s\"\noutput = { every = \"1 s\" }\n";
+
+fn scalar(value: &Value) -> f64 {
+    value["value"].as_f64().unwrap_or_else(|| panic!("{value}"))
+}
+
+/// `P = sigma A (T^4 - T_s^4)`, so `R = 1 / (4 sigma A T^3)`.
+#[test]
+fn a_glowing_ball_is_one_node_near_its_steady_state() {
+    let folder = Folder::with("glow.toml", GLOWING);
+    let refused = folder.run(&["reduce", "glow.toml", "--port", "ball"]).exits(2);
+    refused.says("reduce::not_linear").says("--at steady");
+    let ran = folder.run(&["reduce", "glow.toml", "--port", "ball", "--at", "steady"]).exits(0);
+    let first = ran.out.lines().next();
+    assert_eq!(first, Some("near the steady state it collapses to one node, exactly"));
+    ran.prints("for small disturbances of the steady state: at 10 K to both sides");
+    let json = folder.json("reduce glow.toml --port ball --at steady").exits(0).json();
+    let area = 5.670_374_419e-8 * 0.05;
+    let hot = (300.0_f64.powi(4) + 1000.0 / area).powf(0.25);
+    let resistance = 1.0 / (4.0 * area * hot.powi(3));
+    assert!((scalar(&json["R_eq"]) / resistance - 1.0).abs() < 1e-9, "{}", json["R_eq"]);
+    assert!((scalar(&json["Q_N"]) / 1000.0 - 1.0).abs() < 1e-12);
+    assert!((scalar(&json["at"]["tried"]["disturbance"]) - 10.0).abs() < 1e-12);
+    // what is missed: sigma A ((T + 10)^4 - T^4 - 4 T^3 10)
+    let missed = area * ((hot + 10.0).powi(4) - hot.powi(4) - 40.0 * hot.powi(3));
+    assert!((scalar(&json["at"]["tried"]["heat"]) / missed - 1.0).abs() < 1e-6);
+    let at = folder.run(&["reduce", "glow.toml", "--port", "ball", "--at", "30s"]).exits(0);
+    at.prints("near the state at 30 s it collapses to one node");
+}
+
+#[test]
+fn a_network_that_switches_is_held_as_it_is() {
+    let folder = Folder::with("switched.toml", SWITCHED);
+    let json = folder.json("reduce switched.toml --port body --at 5s").exits(0).json();
+    assert!((scalar(&json["R_eq"]) - 2.0).abs() < 1e-12);
+    let heat = scalar(&json["Q_N"]);
+    assert!(heat.abs() < 1e-12 || (heat - 40.0).abs() < 1e-12, "{heat}");
+    assert!((json["T_ref"]["value"].as_f64().unwrap_or(f64::NAN) - 20.0).abs() < 1e-9);
+}
+
+#[test]
+fn what_is_about_whole_runs_is_refused_near_a_state() {
+    let folder = Folder::with("glow.toml", GLOWING);
+    for more in [
+        &["--write", "one.toml"][..],
+        &["--format", "toml"],
+        &["--bias"],
+        &["--for", "run"],
+        &["--max-error", "1K"],
+    ] {
+        let words = [&["reduce", "glow.toml", "--port", "ball", "--at", "steady"], more].concat();
+        folder.run(&words).exits(2).says("reduce::near").says(more[0]);
+    }
+    folder.run(&["reduce", "glow.toml", "--keep", "ball", "--at", "steady"]).exits(2);
+    folder
+        .run(&["reduce", "glow.toml", "--port", "ball", "--at", "2min"])
+        .exits(2)
+        .says("run::time");
+    assert_eq!(folder.files(), ["glow.toml"]);
+}
