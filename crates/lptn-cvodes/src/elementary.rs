@@ -3,8 +3,10 @@
 //! The C library chooses its `exp` and `pow` by the processor, with or without fused
 //! multiplication, and they differ in the last digit; so would results, and shards of a study from
 //! a mixed cluster would not merge. These definitions take the place of those of the C library in
-//! the whole program, in Rust and in SUNDIALS alike; each is that of the crate `libm`, a port of
-//! musl's, with an error below one unit in the last place.
+//! the whole program, in Rust and in SUNDIALS alike. Those of the crate `pxfm` are correctly rounded
+//! (after CORE-MATH: A. Sibidanov, P. Zimmermann, S. Glondu, ARITH 2022), so there is one answer;
+//! those of `libm`, after FreeBSD's, have an error below one unit in the last place and are the same
+//! arithmetic everywhere.
 //!
 //! It is a feature (`portable`) because a program decides for itself, not a library for the
 //! programs that use it.
@@ -13,43 +15,44 @@
 //! A linker takes the definition of a program before that of a library, so the C library's are not
 //! looked at. The signatures are those of C11 (7.12) and, for `sincos`, of the GNU C library.
 
-/// One function after the other, with its arguments.
+/// One function after the other, with its arguments and where it comes from.
 macro_rules! elementary {
-    ($($name:ident($($x:ident),+);)*) => {$(
+    ($($name:ident($($x:ident),+) = $from:path;)*) => {$(
         #[unsafe(no_mangle)]
         extern "C" fn $name($($x: f64),+) -> f64 {
-            libm::$name($($x),+)
+            $from($($x),+)
         }
     )*};
 }
 
 elementary! {
-    exp(x);
-    exp2(x);
-    expm1(x);
-    log(x);
-    log2(x);
-    log10(x);
-    log1p(x);
-    pow(x, y);
-    sin(x);
-    cos(x);
-    tan(x);
-    asin(x);
-    acos(x);
-    atan(x);
-    atan2(y, x);
-    sinh(x);
-    cosh(x);
-    tanh(x);
-    cbrt(x);
-    hypot(x, y);
+    exp(x) = pxfm::f_exp;
+    exp2(x) = pxfm::f_exp2;
+    expm1(x) = pxfm::f_expm1;
+    log(x) = pxfm::f_log;
+    log2(x) = pxfm::f_log2;
+    log10(x) = pxfm::f_log10;
+    log1p(x) = pxfm::f_log1p;
+    sin(x) = pxfm::f_sin;
+    cos(x) = pxfm::f_cos;
+    tan(x) = pxfm::f_tan;
+    asin(x) = pxfm::f_asin;
+    acos(x) = pxfm::f_acos;
+    atan(x) = pxfm::f_atan;
+    atan2(y, x) = pxfm::f_atan2;
+    sinh(x) = pxfm::f_sinh;
+    cosh(x) = pxfm::f_cosh;
+    tanh(x) = pxfm::f_tanh;
+    cbrt(x) = pxfm::f_cbrt;
+    // the correctly rounded one takes three times as long, and this one knows no other processor
+    pow(x, y) = libm::pow;
+    hypot(x, y) = libm::hypot;
 }
 
 /// Both at once: compilers call it where a program asks for both.
 #[unsafe(no_mangle)]
 unsafe extern "C" fn sincos(x: f64, sine: *mut f64, cosine: *mut f64) {
-    let (s, c) = libm::sincos(x);
+    let (s, c) = pxfm::f_sincos(x);
     // SAFETY: the caller gives two places for a number each, as the GNU C library asks for.
     unsafe {
         sine.write(s);

@@ -17,7 +17,7 @@ Examples:
   lptn reduce motor.toml --port winding --max-error 20% --for run
   lptn reduce motor.toml --port winding --error 2K --power 60W
   lptn reduce motor.toml --port winding --nodes 3 --format toml > three.toml
-  lptn reduce glowing.toml --port ball --at steady
+  lptn reduce motor.toml --port winding --max-error 20% --at steady
   lptn reduce motor.toml --keep winding,housing --write kept.toml";
 
 /// Replace a network by one node, and say how wrong that is
