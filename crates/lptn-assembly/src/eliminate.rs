@@ -41,17 +41,27 @@ pub(crate) struct TooMany {
     pub(crate) neighbours: usize,
 }
 
-/// How many links the elimination may store in all: up to about 50 bytes each, so at most 1 GB.
+/// How many links the elimination may add to those that are given: up to about 50 bytes each, so at
+/// most 1 GB.
 const FILL_LIMIT: usize = 20_000_000;
 
 impl Elimination {
     /// Eliminates the vertices marked in `massless` from `links`; what remains is returned merged
     /// and sorted.
     pub(crate) fn new(links: Vec<Link>, massless: &[bool]) -> Result<(Self, Vec<Link>), TooMany> {
+        Self::within(FILL_LIMIT, links, massless)
+    }
+
+    fn within(
+        limit: usize,
+        links: Vec<Link>,
+        massless: &[bool],
+    ) -> Result<(Self, Vec<Link>), TooMany> {
         let is_massless = |v: u32| massless.get(v as usize).copied().unwrap_or(false);
         let mut graph =
             Graph { stars: BTreeMap::new(), kept: Vec::new(), added: 0, is_massless: &is_massless };
         links.into_iter().for_each(|link| graph.add(link));
+        graph.added = 0;
         let mut stars = Vec::with_capacity(graph.stars.len());
         let mut queue: BinaryHeap<Reverse<(usize, u32)>> =
             graph.stars.iter().map(|(&v, neighbours)| Reverse((neighbours.len(), v))).collect();
@@ -60,7 +70,7 @@ impl Elimination {
             if neighbours.len() != degree {
                 continue; // an entry from before a neighbour went
             }
-            if graph.added + degree * degree.saturating_sub(1) / 2 > FILL_LIMIT {
+            if graph.added + degree * degree.saturating_sub(1) / 2 > limit {
                 return Err(TooMany { vertex, neighbours: degree });
             }
             let star = graph.eliminate(vertex);
@@ -108,7 +118,7 @@ struct Graph<'a> {
     stars: BTreeMap<u32, BTreeMap<u32, f64>>,
     /// Links between vertices that stay.
     kept: Vec<Link>,
-    /// How many links were stored; one between two massless vertices counts twice.
+    /// How many links were added; one between two massless vertices counts twice.
     added: usize,
     is_massless: &'a dyn Fn(u32) -> bool,
 }
@@ -197,6 +207,17 @@ mod tests {
         let mut temperature = [10.0, 0.0, 10.0];
         elimination.recover(&heat, &mut temperature);
         assert!((temperature[1] - 12.0).abs() < 1e-14, "{temperature:?}");
+    }
+
+    #[test]
+    fn links_that_are_given_are_not_counted() {
+        // regression: a face between two bodies of 10^7 cells was refused for its two neighbours
+        let mut links: Vec<Link> = (2..100).map(|a| Link { a, b: a + 1, g: 1.0 }).collect();
+        links.extend([Link { a: 0, b: 1, g: 2.0 }, Link { a: 1, b: 2, g: 2.0 }]);
+        let (_, kept) =
+            Elimination::within(1, links, &[false, true]).ok().expect("one link is added");
+        assert_eq!(kept[0], Link { a: 0, b: 2, g: 1.0 });
+        assert_eq!(kept.len(), 99);
     }
 
     #[test]

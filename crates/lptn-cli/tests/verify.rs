@@ -321,3 +321,23 @@ fn a_network_that_is_not_linear_has_modes_near_a_state() {
     folder.run(&["modes", "glow.toml", "--at", "2min"]).exits(2).says("run::time");
     folder.run(&["modes", "glow.toml", "--at", "10 K"]).exits(2);
 }
+
+#[test]
+fn a_state_is_verified_with_what_its_linear_network_misses() {
+    let networks = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../networks");
+    let verify = |name: &str, code: i32| {
+        let file = networks.join(name);
+        let words = ["verify", file.to_str().unwrap(), "--at", "steady"];
+        Folder::empty().run(&words).exits(code).out
+    };
+    let parts = verify("gearbox_parts.toml", 0);
+    assert!(parts.contains("in turn by +/- 0.1 K"), "{parts}");
+    assert!(parts.trim_end().ends_with("of a disturbance of 10 K, less of smaller ones"));
+    let still = verify("natural_convection.toml", 1);
+    assert!(still.trim_end().ends_with("is missed even of a disturbance of 0.1 K"), "{still}");
+    let linear = verify("gearbox.toml", 0);
+    assert!(linear.trim_end().ends_with("every node is within what runs may be off"));
+    for page in [parts, still, linear] {
+        assert!(page.lines().all(|line| line.chars().count() <= 80), "{page}");
+    }
+}

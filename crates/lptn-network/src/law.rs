@@ -1,6 +1,8 @@
 //! How conductors carry heat and sources put it into nodes: a law with its values, and what it comes
 //! to on numbers or dual numbers.
 
+use std::sync::Arc;
+
 use lptn_laws::{Carries, Formula, Range};
 use lptn_units::{Dimension, EvalError, Scalar, Type};
 
@@ -29,8 +31,8 @@ const NO_FLUID: FluidId = FluidId(u32::MAX);
 #[derive(Clone, Debug)]
 enum Values<V> {
     One([V; 1]),
-    #[allow(clippy::box_collection, reason = "half as large as a vector, in every conductor")]
-    Several(Box<Vec<V>>),
+    /// Shared by the paths of a body, which are alike.
+    Several(Arc<Vec<V>>),
 }
 
 impl<V> Values<V> {
@@ -46,7 +48,7 @@ impl<V> From<Vec<V>> for Values<V> {
     fn from(values: Vec<V>) -> Self {
         match <[V; 1]>::try_from(values) {
             Ok(value) => Self::One(value),
-            Err(values) => Self::Several(Box::new(values)),
+            Err(values) => Self::Several(Arc::new(values)),
         }
     }
 }
@@ -98,13 +100,16 @@ impl<V> Law<V> {
     }
 
     /// The same law with other values.
-    pub fn map<U>(self, mut f: impl FnMut(Field, V) -> U) -> Law<U> {
+    pub fn map<U>(self, mut f: impl FnMut(Field, V) -> U) -> Law<U>
+    where
+        V: Clone,
+    {
         let Self { formula, fluid, values } = self;
         let values = match values {
             Values::One([value]) => Values::One([f(Field::law(formula, 0), value)]),
             Values::Several(values) => {
-                let others = values.into_iter().enumerate();
-                Values::Several(Box::new(
+                let others = Arc::unwrap_or_clone(values).into_iter().enumerate();
+                Values::Several(Arc::new(
                     others.map(|(i, value)| f(Field::law(formula, i), value)).collect(),
                 ))
             }
@@ -114,7 +119,10 @@ impl<V> Law<V> {
 
     /// The same law with another value for the field of this key.
     #[must_use]
-    pub(crate) fn with(self, key: &str, change: impl Fn(V) -> V) -> Self {
+    pub(crate) fn with(self, key: &str, change: impl Fn(V) -> V) -> Self
+    where
+        V: Clone,
+    {
         if self.values().len() != self.formula.declaration().fields.len() {
             return self; // which is told when the path is added
         }

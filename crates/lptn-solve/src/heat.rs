@@ -156,6 +156,25 @@ impl<'a> Heat<'a> {
         Ok((self.unfold.last(), &mut self.work))
     }
 
+    /// Heat that each state receives in W at a state that was reached.
+    pub(crate) fn flow_at(
+        &mut self,
+        time: f64,
+        y: &[f64],
+        flow: &mut [f64],
+    ) -> Result<(), StopReason> {
+        self.arrive(time, y)?;
+        let heat = self.system.flow(&mut self.work, self.unfold.last(), &mut self.flow);
+        heat.map_err(StopReason::Input)?;
+        flow.copy_from_slice(&self.flow[..flow.len()]);
+        Ok(())
+    }
+
+    /// The system.
+    pub(crate) fn system(&self) -> &'a ThermalSystem {
+        self.system
+    }
+
     /// Lets massless nodes leap as they do at `beyond`, and brings them back to `here`; both are a
     /// time and a state. Whether they are on another branch then; if not, nothing has changed.
     pub(crate) fn leap(&mut self, beyond: (f64, &[f64]), here: (f64, &[f64])) -> bool {

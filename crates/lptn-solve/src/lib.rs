@@ -106,7 +106,8 @@ pub use summary::{NodeSummary, Summary};
 pub use table::{Column, LabelColumn, Table, TableOf};
 pub use unsolved::Unsolved;
 pub use verification::{
-    LEAST_TOLERANCE, NoReference, Reference, RunComparison, Verification, allowed_error,
+    Disturbance, DisturbanceShape, LEAST_TOLERANCE, NearError, NearState, NoReference, Reference,
+    RunComparison, Verification, allowed_error,
 };
 
 pub use watch::{Watch, Watched, first_there, top};

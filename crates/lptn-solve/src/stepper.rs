@@ -1,7 +1,7 @@
 //! The integrator of runs: the one-step method where it serves, else CVODES, unless the crate is
 //! built without the feature `cvodes`.
 
-use lptn_integrate::{Integrator, OneStep, Options};
+use lptn_integrate::{Integrator, OdeSystem, OneStep, Options};
 use lptn_network::IntegratorChoice;
 
 use crate::error::TransientError;
@@ -37,17 +37,21 @@ pub(crate) fn stepper<'a>(
 }
 
 #[cfg(feature = "cvodes")]
-fn cvodes<'a>(
-    heat: Heat<'a>,
+pub(crate) fn cvodes<'a, S: OdeSystem + 'a>(
+    system: S,
     (start, state): (f64, &[f64]),
     options: &Options,
-) -> Result<Stepper<'a>, TransientError> {
-    let integrator = lptn_cvodes::Cvodes::new(heat, start, state, options);
+) -> Result<Box<dyn Integrator<S> + 'a>, TransientError> {
+    let integrator = lptn_cvodes::Cvodes::new(system, start, state, options);
     Ok(Box::new(integrator.map_err(TransientError::Integrator)?))
 }
 
 /// There is none.
 #[cfg(not(feature = "cvodes"))]
-fn cvodes<'a>(_: Heat<'a>, _: (f64, &[f64]), _: &Options) -> Result<Stepper<'a>, TransientError> {
+pub(crate) fn cvodes<'a, S: OdeSystem + 'a>(
+    _: S,
+    _: (f64, &[f64]),
+    _: &Options,
+) -> Result<Box<dyn Integrator<S> + 'a>, TransientError> {
     Err(TransientError::Settings(SettingsError::NoIntegrator))
 }

@@ -54,13 +54,12 @@ impl NetworkBuilder {
         if whole {
             self.register(&face_path.name, item);
         }
-        for ((from, to), index) in from.into_iter().zip(to).zip(&indices) {
-            self.conductor(
-                &format!("{}{index}", face_path.name),
-                face_path.kind,
-                (from, to),
-                path.clone(),
-            );
+        if !indices.is_empty() {
+            let law = self.shared_law(&face_path.name, path);
+            for (ends, index) in from.into_iter().zip(to).zip(&indices) {
+                let name = format!("{}{index}", face_path.name);
+                self.alike(&name, face_path.kind, ends, &law);
+            }
         }
         face_path.end = self.next_conductor();
         if whole {

@@ -5,7 +5,8 @@ use lptn_units::{Dimension, Type};
 
 use crate::builder::{NetworkBuilder, Path};
 use crate::error::BuildErrorKind;
-use crate::id::{End, Field, GridId, Item, NodeId};
+use crate::id::{ConductorId, End, Field, GridId, Item, NodeId};
+use crate::law::Law;
 use crate::parts::grid::{Face, Grid, Inner, MOST_CELLS, Substance};
 use crate::value::{Input, Size, Value};
 
@@ -141,6 +142,7 @@ impl NetworkBuilder {
             deviation: None,
             lump: None,
         });
+        self.parts.nodes.reserve(grid.places([0; 3]).count());
         for at in grid.places([0; 3]) {
             let name = format!("{}{}", grid.name, grid.indices(at));
             self.add_node(&name, Some(capacity.clone()), initial.clone(), false);
@@ -152,18 +154,30 @@ impl NetworkBuilder {
     /// The paths between neighbours, axis by axis.
     fn inner_paths(&mut self, grid: &Grid, whole: Item) {
         let first = self.next_conductor();
-        for axis in 0..3 {
-            let path = grid.path(axis, 1.0);
+        for axis in (0..3).filter(|&axis| grid.cells[axis] > 1) {
+            let law = self.shared_law(&grid.name, grid.path(axis, 1.0));
             let mut less = [0; 3];
             less[axis] = 1;
+            self.parts.conductors.reserve(grid.places(less).count());
             for at in grid.places(less) {
                 let name = format!("{}.{}{}", grid.name, LETTERS[axis], grid.indices(at));
                 let next = [0, 1, 2].map(|other| at[other] + less[other]);
                 let ends = [at, next].map(|at| End::Node(NodeId(grid.first + grid.offset(at))));
-                self.conductor(&name, Kind::Conduction, (ends[0], ends[1]), path.clone());
+                self.alike(&name, Kind::Conduction, (ends[0], ends[1]), &law);
             }
         }
         self.inner_conductors(first, whole);
+    }
+
+    /// The law of the next conductors, which are alike and share its values.
+    pub(crate) fn shared_law(&mut self, name: &str, path: Path) -> Law {
+        let item = Item::Conductor(ConductorId(self.next_conductor()));
+        self.law(name, item, path)
+    }
+
+    pub(crate) fn alike(&mut self, name: &str, kind: Kind, ends: (End, End), law: &Law) {
+        let id = self.push_law(name.into(), kind, ends, law.clone());
+        self.register(name, Item::Conductor(id));
     }
 
     /// How many nodes and conductors there are so far.
@@ -205,14 +219,14 @@ impl NetworkBuilder {
         let first =
             u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
         let first_path = self.next_conductor();
-        let path = known.path(face.axis(), 0.5);
+        let law = self.shared_law(&known.name, known.path(face.axis(), 0.5));
         let mut nodes = Vec::with_capacity(known.face_count(face));
         for at in known.face_places(face) {
             let indices = known.face_indices(face, at);
             let surface = self.massless(&format!("{}{indices}", known.face_name(face)));
             let cell = End::Node(NodeId(known.first + known.offset(at)));
             let name = format!("{}.cell{indices}", known.face_name(face));
-            self.conductor(&name, Kind::Conduction, (cell, surface.into()), path.clone());
+            self.alike(&name, Kind::Conduction, (cell, surface.into()), &law);
             nodes.push(surface);
         }
         let end =

@@ -6,6 +6,7 @@ use lptn_units::{Dimension, Type};
 use crate::builder::{NetworkBuilder, Path};
 use crate::error::BuildErrorKind;
 use crate::id::{ConductorId, End, Item, NodeId, SourceId};
+use crate::law::Law;
 use crate::parts::element::{Conductor, Source};
 use crate::parts::label::Label;
 use crate::value::Input;
@@ -45,14 +46,26 @@ impl NetworkBuilder {
         (from, to): (End, End),
         path: Path,
     ) -> ConductorId {
-        let id = ConductorId::from_len(self.parts.conductors.len());
-        let item = Item::Conductor(id);
-        let name = || label.of_conductor();
+        let item = Item::Conductor(ConductorId::from_len(self.parts.conductors.len()));
         let law = match path {
             // what nearly all of a large network are
             path if is_conductance(&path) => path.map(|_, input| input.value),
-            path => self.law(&name(), item, path),
+            path => self.law(&label.of_conductor(), item, path),
         };
+        self.push_law(label, kind, (from, to), law)
+    }
+
+    /// Adds a conductor with a law whose values are of the right types.
+    pub(crate) fn push_law(
+        &mut self,
+        label: Label,
+        kind: Kind,
+        (from, to): (End, End),
+        law: Law,
+    ) -> ConductorId {
+        let id = ConductorId::from_len(self.parts.conductors.len());
+        let item = Item::Conductor(id);
+        let name = || label.of_conductor();
         if !(self.knows(from) && self.knows(to)) {
             self.error(&name(), BuildErrorKind::ForeignId { item });
         }

@@ -201,24 +201,31 @@ impl Difference {
         reference: impl Fn(usize) -> &'a [f64],
     ) -> Option<Self> {
         let nodes: Vec<NodeId> = solution.recorded().to_vec();
-        let time = *solution.times().first()?;
-        let mut found =
-            Self { largest: -1.0, node: *nodes.first()?, time, by_node: vec![0.0; nodes.len()] };
+        let mut found = Self::unseen(*nodes.first()?, *solution.times().first()?, nodes.len());
         for (row, &time) in solution.times().iter().enumerate() {
-            let pairs =
-                solution.row(row).iter().zip(reference(row)).zip(&nodes).zip(&mut found.by_node);
-            for (((a, b), &node), most) in pairs {
-                let difference = (a - b).abs();
-                // in total order a difference that is not a number is larger than any
-                if difference.total_cmp(most).is_gt() {
-                    *most = difference;
-                }
-                if difference.total_cmp(&found.largest).is_gt() {
-                    (found.largest, found.node, found.time) = (difference, node, time);
-                }
+            let pairs = solution.row(row).iter().zip(reference(row)).zip(&nodes);
+            for (place, ((a, b), &node)) in pairs.enumerate() {
+                found.see((place, node), time, (a - b).abs());
             }
         }
         Some(found)
+    }
+
+    /// Nothing seen yet of so many nodes.
+    pub(crate) fn unseen(node: NodeId, time: f64, nodes: usize) -> Self {
+        Self { largest: -1.0, node, time, by_node: vec![0.0; nodes] }
+    }
+
+    /// Takes note of the difference in K of a node, the so manieth of those compared; in total
+    /// order, so that one that is not a number is larger than any.
+    pub(crate) fn see(&mut self, (place, node): (usize, NodeId), time: f64, difference: f64) {
+        let most = &mut self.by_node[place];
+        if difference.total_cmp(most).is_gt() {
+            *most = difference;
+        }
+        if difference.total_cmp(&self.largest).is_gt() {
+            (self.largest, self.node, self.time) = (difference, node, time);
+        }
     }
 }
 

@@ -127,6 +127,16 @@ pub(crate) struct Shapes {
     pub(crate) left: Vec<Vec<Complex>>,
 }
 
+impl Shapes {
+    /// Temperatures of all nodes in the slowest mode, the largest of their size; real parts of one
+    /// that swings.
+    pub(crate) fn slowest(&self) -> Vec<f64> {
+        let modes = self.rates.iter().zip(&self.right);
+        let slowest = modes.min_by(|a, b| a.0.re.total_cmp(&b.0.re));
+        slowest.map_or_else(Vec::new, |(_, shape)| shape.iter().map(|z| z.re).collect())
+    }
+}
+
 /// All modes of a network near a state; those of constants from their own matrices, which keep slow
 /// ones beside much faster ones.
 pub(crate) fn shapes(linear: &Linearised<'_>) -> Result<Shapes, ModesError> {

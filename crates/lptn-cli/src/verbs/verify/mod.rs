@@ -1,6 +1,7 @@
 //! `lptn verify`
 
 mod args;
+mod near;
 
 pub(crate) use args::VerifyArgs;
 
@@ -28,8 +29,13 @@ use crate::words::count;
 /// Letters of a node's name beside the other columns.
 const NODE_WIDTH: usize = 22;
 
+const NOTHING: &str = "not verified: there is nothing to compare";
+
 pub(crate) fn verify(args: &VerifyArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
+    if let Some(point) = args.at.find(&input, console)? {
+        return near::near(&input, &point, &args.printed, console);
+    }
     let netlist = &input.netlist;
     let settings = netlist.run.as_ref().ok_or_else(|| no_run(&input))?;
     let given = args.tolerance.as_deref().map(input::tolerance).transpose()?;
@@ -43,7 +49,11 @@ pub(crate) fn verify(args: &VerifyArgs, console: &Console) -> Result<Exit, Failu
         return Ok(Exit::Interrupted);
     };
     let view = View { input: &input, verification: &verification };
-    console.show(&view, args.printed.format)
+    let exit = console.show(&view, args.printed.format)?;
+    if let (false, Some(file)) = (view.is_independent(), input.typed()) {
+        console.next(&format!("lptn verify {file} --at steady"));
+    }
+    Ok(exit)
 }
 
 /// The verification, with progress on a terminal; `None` after Ctrl-C.
@@ -121,9 +131,7 @@ impl View<'_> {
     fn verdict(&self) -> String {
         let worst = self.verification.comparisons.iter().find(|c| !c.passes());
         match (worst, self.is_independent()) {
-            _ if self.verification.comparisons.is_empty() => {
-                "not verified: there is nothing to compare".into()
-            }
+            _ if self.verification.comparisons.is_empty() => NOTHING.into(),
             (None, true) => "verified: every node at every row is within what is allowed".into(),
             (None, false) => {
                 "consistent, not verified: two tolerances agree within what is allowed".into()

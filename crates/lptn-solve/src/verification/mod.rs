@@ -1,5 +1,12 @@
 //! A run against a solution found another way.
 
+mod disturbed;
+mod error;
+mod near;
+
+pub use error::NearError;
+pub use near::{Disturbance, DisturbanceShape, NearState};
+
 use lptn_assembly::ThermalSystem;
 use lptn_network::Network;
 
