@@ -207,3 +207,39 @@ fn a_chain_is_refused_where_it_says_nothing() {
         .exits(2)
         .says("impedance::at_once");
 }
+
+/// The module of Infineon's AN2008-03 (T. Schuetze, Thermal equivalent circuit models, 2008), whose
+/// table Simscape takes for its Foster block. Curve: the sum of the data sheet, computed in Python.
+#[test]
+fn a_published_table_has_its_published_curve() {
+    let module = "format = 1\n[default]\nT0 = \"80 degC\"\n[boundary]\ncase = { T = \"80 degC\" }\n\
+        [foster]\nchip = { to = \"case\", R = [\"1.6 mK/W\", \"4.3 mK/W\", \"1.3 mK/W\", \"1.4 \
+        mK/W\"], tau = [\"6.8 ms\", \"64 ms\", \"320 ms\", \"2 s\"] }\n[source]\nloss = { into = \
+        \"chip\", P = \"1 kW\" }\n[run]\nstop = \"10 s\"\ntolerance = \"1e-6 K\"\noutput = { \
+        every = \"100 ms\" }\n";
+    let curve = [
+        0.000_290_232_189_799,
+        0.001_901_329_977_41,
+        0.005_415_848_866_51,
+        0.007_693_738_358_62,
+        0.008_590_566_874_2,
+    ];
+    let folder = Folder::with("module.toml", module);
+    let times = "--time=1ms,10ms,100ms,1s,10s";
+    let ask = ["impedance", "module.toml", "--port", "chip", times, "--format=csv"];
+    let (_, rows) = csv(&folder.run(&ask).exits(0).out);
+    for (row, z) in rows.iter().zip(curve) {
+        assert!((row[1] / z - 1.0).abs() < 1e-11, "{row:?} {z}");
+    }
+    let run = ["run", "module.toml", "--no-files", "--format=csv", "--select=chip.T"];
+    let (_, rows) = csv(&folder.run(&run).exits(0).out);
+    for (row, z) in [1, 10, 100].into_iter().map(|row| &rows[row]).zip(&curve[2..]) {
+        assert!((row[1] - 80.0 - 1000.0 * z).abs() < 1e-5, "{row:?} {z}");
+    }
+    let back = ["impedance", "module.toml", "--port", "chip", "--foster", "--format=csv"];
+    let (_, rows) = csv(&folder.run(&back).exits(0).out);
+    let table = [(0.0016, 0.0068), (0.0043, 0.064), (0.0013, 0.32), (0.0014, 2.0)];
+    for (row, (r, tau)) in rows.iter().zip(table) {
+        assert!((row[0] / r - 1.0).abs() < 1e-10 && (row[1] / tau - 1.0).abs() < 1e-10, "{row:?}");
+    }
+}
