@@ -9,9 +9,11 @@ mod kind_page;
 use std::path::{Path, PathBuf};
 
 use kind_page::tables;
+use lptn::assembly::ThermalSystem;
 use lptn::laws::{FieldDeclaration, Formula, Kind, Range};
 use lptn::netlist::Netlist;
 use lptn::network::{ConductorFlow, Item, Network};
+use lptn::solve::{Adjoint, SteadyState};
 use lptn::units::{parse_quantity, suggest};
 
 /// Every kind with each of its laws.
@@ -269,6 +271,54 @@ fn every_law_knows_its_sensitivities() {
             let (up, down) = (moved(1e-4), moved(-1e-4));
             let what = format!("{} by {}", words(of), field.key);
             (0..2).for_each(|end| close(found[end], (up[end] - down[end]) / 2e-4, &what));
+        }
+    }
+}
+
+/// The change of the temperature of `a` in steady state with each value of a law, by one solution of
+/// the adjoint network, against differences of steady states.
+#[test]
+fn every_law_has_its_adjoint() {
+    for of in all() {
+        let counted = |field: &&FieldDeclaration| field.range == Range::Count;
+        for field in of.1.declaration().fields.iter().filter(|field| !counted(field)) {
+            let one = |own: &FieldDeclaration| {
+                if own.key == field.key { times(own, "p") } else { example(own) }
+            };
+            let warm = "R = \"1 K/W\" }\nwarm = { from = \"hall\", to = \"a\", R = \"2 K/W\" }";
+            let hall = "[boundary]\nhall = { T = \"90 degC\" }";
+            let text =
+                netlist(of, one).replace("R = \"1 K/W\" }", warm).replace("[boundary]", hall);
+            let network = read(&text).network;
+            let p = network.parameter_ids().next().unwrap();
+            let node = network.node("a").unwrap();
+            let system = ThermalSystem::assemble(&network).unwrap();
+            let what = format!("{} by {}", words(of), field.key);
+            let steady = SteadyState::solve(&system, 0.0).unwrap_or_else(|e| panic!("{what}: {e}"));
+            let adjoint = Adjoint::of(&system, &steady.state, node).unwrap();
+            let own = adjoint.influences().unwrap().into_iter().filter(|influence| {
+                influence.of == element(&network) && influence.field.key() == field.key
+            });
+            let by_value: f64 = own
+                .map(|influence| {
+                    influence.change * if influence.absolute { influence.value } else { 1.0 }
+                })
+                .sum();
+            let by_parameter = adjoint.by_parameters(&[p]).unwrap().unwrap()[0];
+            let moved = |by: f64| {
+                let mut given = network.given();
+                given.set(p, 1.0 + by);
+                let system = system.with(&given).unwrap();
+                SteadyState::solve(&system, 0.0).unwrap()[node]
+            };
+            // of the fourth order
+            let step = 1e-3;
+            let pair = |step: f64| (moved(step) - moved(-step)) / (2.0 * step);
+            let slope = (4.0 * pair(step) - pair(2.0 * step)) / 3.0;
+            for found in [by_value, by_parameter] {
+                let off = (found - slope).abs();
+                assert!(off <= 1e-6 * slope.abs().max(0.1), "{what}: {found} is not {slope}");
+            }
         }
     }
 }

@@ -272,6 +272,7 @@ fn the_examples_of_the_help_work() {
         &["reduce", "--help"],
         &["check", "--help"],
         &["units", "--help"],
+        &["rank", "--help"],
     ] {
         let help = folder.run(arguments).exits(0).out;
         for example in help.lines().filter(|line| line.starts_with("  lptn ")) {
@@ -282,5 +283,5 @@ fn the_examples_of_the_help_work() {
             count += 1;
         }
     }
-    assert_eq!(count, 23);
+    assert_eq!(count, 26);
 }

@@ -289,12 +289,20 @@ impl<S: Scalar> At<'_, S> {
     /// The conductance of a law that is not a stream, in W/K, where the slots stand.
     pub(crate) fn conductance(&mut self, law: &Law) -> Result<S, (Field, InputProblem)> {
         match law.carries() {
-            Carries::Conductance => self.value(law),
-            Carries::Radiation => {
-                let [from, to] = self.ends();
-                Ok(lptn_laws::radiation_conductance(self.value(law)?, from, to))
+            Carries::Conductance | Carries::Radiation => {
+                let value = self.value(law)?;
+                Ok(self.conductance_of(law, value))
             }
             _ => Ok(S::from_f64(0.0)),
+        }
+    }
+
+    /// The same where the value of the law is known.
+    pub(crate) fn conductance_of(&self, law: &Law, value: S) -> S {
+        let [from, to] = self.ends();
+        match law.carries() {
+            Carries::Radiation => lptn_laws::radiation_conductance(value, from, to),
+            _ => value,
         }
     }
 }

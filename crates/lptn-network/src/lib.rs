@@ -63,6 +63,7 @@ pub use lptn_laws::{Carries, Extent, Formula, Kind as ConductorKind};
 pub use names::{UnknownName, is_name, is_path, list_of, list_of_names};
 pub use network::Network;
 pub use network::body::Surface;
+pub use network::fields::ValueChange;
 pub use parameters::{ParameterError, Parameters};
 pub use parts::control::{Acts, Control, Thermostat};
 pub use parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};

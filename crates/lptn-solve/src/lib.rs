@@ -8,6 +8,7 @@
 //! Units: SI, temperatures in K, heat positive into a node and from `from` to `to`.
 
 mod adiabatic;
+mod adjoint;
 mod balance;
 mod branch;
 mod cells;
@@ -68,6 +69,7 @@ mod verification;
 mod watch;
 mod window;
 
+pub use adjoint::{Adjoint, AdjointError, Influence};
 pub use balance::{Balance, Term};
 pub use conductances::Conductances;
 pub use error::{SteadyError, StopReason, TransientError};
@@ -89,6 +91,7 @@ pub use parallel::{available_threads, in_parallel};
 pub use periodic::{CycleMethod, Periodic, PeriodicError};
 pub use ranges::OutOfRange;
 pub use response::{Drive, FrequencyResponse, ResponseError, StepAnswer, settled_rises};
+pub use runaway::Feedback;
 pub use selection::{RecordedNodes, Selection, name_matches};
 pub use sense::Beyond;
 pub use sensitive_run::{

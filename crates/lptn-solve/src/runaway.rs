@@ -12,6 +12,7 @@ use lptn_network::{Evaluation, NodeId, Positions, SourceId};
 use crate::error::{SteadyError, StopReason};
 use crate::newton::Newton;
 use crate::several::start;
+use crate::snapshot::Snapshot;
 use crate::times::just_after;
 
 /// Parts into which the way to where a network was left is halved.
@@ -35,6 +36,30 @@ pub(crate) struct Runaway {
     pub(crate) from: f64,
 }
 
+/// How much of the heat that sources give off comes back as more heat in a steady state: from 1 on
+/// it is none that lasts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Feedback {
+    /// The part that comes back, the largest eigenvalue of `B A^-1`. Losses whose slopes were larger
+    /// by its inverse would run away.
+    pub gain: f64,
+    /// The source whose heat comes back most.
+    pub source: SourceId,
+    /// The node whose temperature it follows most.
+    pub node: NodeId,
+}
+
+impl Feedback {
+    /// In a state of a system; `None` where no source gives off more heat where it is warmer.
+    pub fn of(system: &ThermalSystem, state: &Snapshot) -> Option<Self> {
+        let mut unknowns = vec![0.0; system.unknowns().len()];
+        system.unknown_temperatures(&state.temperatures, &mut unknowns);
+        let mut search = Search::new(system, state.time, &state.positions)?;
+        let Gain { value, source, unknown } = search.gain(&unknowns)?;
+        Some(Self { gain: value, source, node: system.unknowns()[unknown] })
+    }
+}
+
 /// How much of the heat that sources give off comes back as more heat.
 struct Gain {
     value: f64,
@@ -43,7 +68,7 @@ struct Gain {
 }
 
 /// What one source gives off more for 1 K of each unknown, in W/K.
-struct Feedback {
+struct Answering {
     source: SourceId,
     slopes: Vec<(usize, f64)>,
     shares: Vec<(usize, f64)>,
@@ -152,7 +177,7 @@ impl<'a> Search<'a> {
                 of.shares.iter().for_each(|&(row, share)| warmer[row] += share * heat);
             }
             self.newton.factors.solve_in_place(&mut warmer).ok()?;
-            let back = |of: &Feedback| of.slopes.iter().map(|(i, slope)| slope * warmer[*i]).sum();
+            let back = |of: &Answering| of.slopes.iter().map(|(i, slope)| slope * warmer[*i]).sum();
             heats = feedback.iter().map(back).collect();
             let before = value;
             value = heats.iter().fold(0.0, |most: f64, heat| most.max(*heat));
@@ -170,7 +195,7 @@ impl<'a> Search<'a> {
     }
 
     /// The sources that heat more where something is warmer.
-    fn feedback(&mut self, unknowns: &[f64]) -> Vec<Feedback> {
+    fn feedback(&mut self, unknowns: &[f64]) -> Vec<Answering> {
         let system = self.newton.system;
         let network = system.network();
         system.recover(&mut self.work, unknowns);
@@ -192,7 +217,7 @@ impl<'a> Search<'a> {
             let into = network.sources()[source.index()].into.iter();
             let shares = into.filter_map(|&(node, share)| Some((place(node.index())?, share)));
             if !slopes.is_empty() {
-                found.push(Feedback { source, slopes, shares: shares.collect() });
+                found.push(Answering { source, slopes, shares: shares.collect() });
             }
         }
         found

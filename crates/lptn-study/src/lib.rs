@@ -4,6 +4,8 @@
 //! [`size`](fn@size) finds the value of a parameter that keeps what is required, [`CoolingTask`]
 //! what a cooling has to do when nothing but a power and two temperatures are known.
 //!
+//! [`Ranking`] says which values of a network one of its temperatures answers most.
+//!
 //! A [`Manifest`] lies beside the results of a run and names everything that made them: the hash of
 //! every input, the parameters as they were resolved, versions, tolerance, counters of the solver,
 //! the energy ledger and the hash of every result. What changes from run to run, time and host,
@@ -15,6 +17,7 @@ mod digest;
 mod gears;
 mod manifest;
 mod moment;
+mod rank;
 mod record;
 mod size;
 pub mod uncertainty;
@@ -26,6 +29,7 @@ pub use digest::{Hashing, sha256};
 pub use gears::{GearError, GearPoint, GearState, GearTask, MemberState, PartLoss};
 pub use manifest::{Environment, FileHash, Manifest, ParameterRecord, RunEnd, Sundials};
 pub use moment::utc;
+pub use rank::{RankError, Ranking, effect};
 pub use record::{LedgerRecord, SiValue, StatisticsRecord};
 pub use size::{
     Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask, SizeError, SizeTask, Sizing, Trial,

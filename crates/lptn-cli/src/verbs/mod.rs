@@ -13,6 +13,7 @@ pub(crate) mod materials;
 pub(crate) mod modes;
 pub(crate) mod new;
 pub(crate) mod plot;
+pub(crate) mod rank;
 pub(crate) mod reduce;
 pub(crate) mod report;
 pub(crate) mod run;
@@ -96,6 +97,7 @@ verbs! {
     Verify(verify::VerifyArgs) => verify::verify, drawn |_| false;
     Compare(compare::CompareArgs) => compare::compare, drawn |_| true;
     Size(size::SizeArgs) => size::size, drawn |args| args.file.is_some();
+    Rank(rank::RankArgs) => rank::rank, drawn |_| true;
     Fit(fit::FitArgs) => fit::fit, drawn |_| true;
     Reduce(reduce::ReduceArgs) => reduce::reduce, drawn |_| true;
     Impedance(impedance::ImpedanceArgs) => impedance::impedance, drawn |_| true;

@@ -16,7 +16,7 @@ use crate::slot;
 use crate::value::Value;
 
 /// A problem of one field.
-type Failed = (Field, InputProblem);
+pub(crate) type Failed = (Field, InputProblem);
 
 impl Network {
     /// How a conductor carries heat.
@@ -89,8 +89,18 @@ impl Network {
         temperatures: &[f64],
         slopes: &mut Vec<Received>,
     ) -> Result<Received, InputError> {
+        self.slopes_by((id, self.parts.dependence(id)), scope, temperatures, slopes)
+    }
+
+    /// The same of a conductor whose dependence is given, which may be of any kind.
+    pub(crate) fn slopes_by(
+        &self,
+        (id, dependence): (ConductorId, &Dependence),
+        scope: &mut Evaluation,
+        temperatures: &[f64],
+        slopes: &mut Vec<Received>,
+    ) -> Result<Received, InputError> {
         let conductor = &self.conductors()[id.index()];
-        let dependence = self.parts.dependence(id);
         let count = dependence.vertices.len();
         slopes.clear();
         let mut values = [0.0; 2];
@@ -212,11 +222,23 @@ impl Network {
         from: S,
         to: S,
     ) -> Result<Received<S>, Failed> {
-        if conductor.law.is_stream() {
-            return self.carried(&conductor.law, &mut at, from, to);
+        let value = at.value(&conductor.law)?;
+        self.received_of((&conductor.law, value), at, from, to)
+    }
+
+    /// The same where the value of the law is known.
+    pub(crate) fn received_of<S: Scalar>(
+        &self,
+        (law, value): (&Law, S),
+        mut at: At<'_, S>,
+        from: S,
+        to: S,
+    ) -> Result<Received<S>, Failed> {
+        if law.is_stream() {
+            return self.carried((law, value), &mut at, from, to);
         }
-        let conductance = at.conductance(&conductor.law)?;
-        let field = Field::law(conductor.law.formula(), 0);
+        let conductance = at.conductance_of(law, value);
+        let field = Field::law(law.formula(), 0);
         if conductance.value() < 0.0 {
             return Err((field, InputProblem::NegativeConductance(conductance.value())));
         }
@@ -229,13 +251,12 @@ impl Network {
 
     fn carried<S: Scalar>(
         &self,
-        law: &Law,
+        (law, flow): (&Law, S),
         at: &mut At<'_, S>,
         from: S,
         to: S,
     ) -> Result<Received<S>, Failed> {
         let not_finite = |field, value: f64| (field, InputProblem::NotFinite(value));
-        let flow = at.value(law)?;
         if !flow.is_finite() {
             return Err(not_finite(Field::law(law.formula(), 0), flow.value()));
         }

@@ -2,6 +2,7 @@
 
 pub(crate) mod body;
 pub(crate) mod control;
+pub(crate) mod fields;
 pub(crate) mod flow;
 pub(crate) mod grid;
 mod group;

@@ -221,7 +221,7 @@ fn transient(
 }
 
 /// What has the largest value; of equals the first.
-fn hottest<T>(mut of: impl Iterator<Item = (T, f64)>) -> Option<(T, f64)> {
+pub(crate) fn hottest<T>(mut of: impl Iterator<Item = (T, f64)>) -> Option<(T, f64)> {
     let first = of.next()?;
     Some(
         of.fold(first, |best, other| if other.1.total_cmp(&best.1).is_gt() { other } else { best }),

@@ -5,6 +5,7 @@ mod limits;
 mod rank;
 mod table;
 
+pub(crate) use candidate::hottest;
 pub use candidate::{Candidate, CompareError, Peak};
 pub use limits::LimitResult;
 pub use rank::{SortKey, order};

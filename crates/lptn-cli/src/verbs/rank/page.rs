@@ -1,0 +1,193 @@
+//! What `lptn rank` shows.
+
+use std::io;
+
+use lptn_plot::Figure;
+use lptn_report::{Json, Page, Report, Rows, Text, TextTable, duration, shortened, significant};
+use lptn_solve::{Influence, Table};
+use lptn_study::{SiValue, effect};
+use serde_json::{Value, json};
+
+use super::View;
+use crate::about::{self, Known};
+use crate::words::{MOST_NODES, some_of, spaced};
+
+/// Letters of a name beside the other columns.
+const NAME_WIDTH: usize = 30;
+
+/// A feedback below this is not worth a sentence.
+const WEAK: f64 = 1e-6;
+
+impl View<'_> {
+    /// "steel, 71.9 degC in steady state".
+    fn answering(&self) -> String {
+        let temperature = significant(self.unit.from_si(self.ranking.temperature), 5);
+        let when = match self.ranking.at {
+            None => "in steady state".to_owned(),
+            Some(at) => format!("at most, at {}", duration(at, 4)),
+        };
+        format!("{}: {temperature} {} {when}", self.node(), self.unit.text)
+    }
+
+    fn table(&self, heading: &str, influences: &[Influence]) -> TextTable {
+        let rows: Vec<&Influence> = influences.iter().take(MOST_NODES).collect();
+        TextTable::of(&rows)
+            .left(heading, |i| shortened(&self.name(i), NAME_WIDTH))
+            .right("value", |i| {
+                let (value, unit) = self.value(i);
+                format!("{}{}", significant(value, 5), spaced(&unit))
+            })
+            .left("changed by", |i| change(i).to_owned())
+            .right(format!("{} [K]", shortened(self.node(), NAME_WIDTH)), |i| signed(effect(i)))
+            .into()
+    }
+
+    /// How far the network is from running away.
+    fn comes_back(&self) -> Option<String> {
+        let network = &self.input.netlist.network;
+        let feedback = self.ranking.feedback.as_ref().filter(|f| f.gain > WEAK)?;
+        let source = network.sources()[feedback.source.index()].name();
+        let node = &network.nodes()[feedback.node.index()].name;
+        if feedback.gain >= 1.0 {
+            let times = significant(feedback.gain, 3);
+            return Some(format!(
+                "heat of `{source}` comes back {times} times as `{node}` warms: this state does not \
+                 last"
+            ));
+        }
+        let (share, steeper) =
+            (significant(100.0 * feedback.gain, 3), significant(feedback.gain.recip(), 3));
+        let tau = self.ranking.slowest.map(|rate| {
+            format!("; disturbances die away with {} at the slowest", duration(rate.recip(), 3))
+        });
+        Some(format!(
+            "{share} % of the heat comes back as more heat, most by `{source}`, which grows with \
+             `{node}`: it would run away if losses grew {steeper} times as fast with \
+             temperature{}",
+            tau.unwrap_or_default()
+        ))
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let mut notes: Vec<String> = self.comes_back().into_iter().collect();
+        if let Some(why) = &self.ranking.differences {
+            notes.push(format!("by differences of runs, since {why}"));
+        }
+        if self.ranking.at.is_some() {
+            notes.push(
+                "over a run parameters are ranked; write a value as a parameter to rank it too"
+                    .to_owned(),
+            );
+        }
+        notes
+    }
+
+    fn verdict(&self) -> String {
+        let own = |all: &'_ [Influence]| all.iter().find(|i| !i.absolute).copied();
+        let first = own(&self.ranking.parameters);
+        let element = own(&self.ranking.elements);
+        let size = |i: &Influence| effect(i).abs();
+        let most = match (first, element) {
+            (Some(first), Some(element)) if size(&element) > size(&first) => Some(element),
+            (first, element) => first.or(element),
+        };
+        match most {
+            Some(most) => format!("change first: {}", self.said(&most)),
+            None => format!("{} answers no value", self.node()),
+        }
+    }
+
+    fn said(&self, influence: &Influence) -> String {
+        let warmer = effect(influence);
+        let (more, cooler) = if warmer > 0.0 { ("less", -warmer) } else { ("more", warmer) };
+        let name = self.name(influence);
+        format!("10 % {more} of {name} makes {} {} K colder", self.node(), significant(-cooler, 3))
+    }
+
+    fn all(&self) -> Vec<(&'static str, &Influence)> {
+        let parameters = self.ranking.parameters.iter().map(|i| ("parameter", i));
+        let elements = self.ranking.elements.iter();
+        parameters.chain(elements.map(|i| (kind(i), i))).collect()
+    }
+
+    fn listed(&self) -> Table {
+        let all = self.all();
+        let mut table = Table::of(&all);
+        table.label("name", |(_, i)| self.name(i));
+        table.label("kind", |(kind, _)| (*kind).to_owned());
+        table.label("unit", |(_, i)| self.value(i).1);
+        table.label("changed_by", |(_, i)| change(i).to_owned());
+        table.column("value", "-", |(_, i)| self.value(i).0);
+        table.column("effect", "K", |(_, i)| effect(i));
+        table.done()
+    }
+}
+
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        let mut text = self.input.begun();
+        text.line(self.answering());
+        let ranking = &self.ranking;
+        let how = "--format csv and json have all";
+        for (heading, influences) in
+            [("parameter", &ranking.parameters), ("element", &ranking.elements)]
+        {
+            some_of(&mut text, self.table(heading, influences), (influences.len(), how));
+        }
+        text.notes(self.notes());
+        text.section().sentence("", &self.verdict());
+        text
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        self.listed().into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        vec![self.figure()]
+    }
+
+    fn more(&self) -> Report {
+        about::about(self.input, Known { unit: Some(&self.unit), ..Known::default() })
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let ranking = &self.ranking;
+        self.input.head(json, &[])?;
+        json.member("node", self.node())?;
+        json.member(
+            "temperature",
+            &json!({ "value": self.unit.from_si(ranking.temperature), "unit": self.unit.text }),
+        )?;
+        json.member("at", &ranking.at.map(|at| SiValue::new(at, "s")))?;
+        json.table(&self.listed())?;
+        let network = &self.input.netlist.network;
+        let feedback: Option<Value> = ranking.feedback.as_ref().map(|feedback| {
+            json!({
+                "gain": SiValue::new(feedback.gain, "1"),
+                "source": network.sources()[feedback.source.index()].name(),
+                "node": network.nodes()[feedback.node.index()].name,
+            })
+        });
+        json.member("feedback", &feedback)?;
+        json.member("slowest_rate", &ranking.slowest.map(|rate| SiValue::new(rate, "1/s")))?;
+        json.member("notes", &self.notes())
+    }
+}
+
+fn kind(influence: &Influence) -> &'static str {
+    match influence.of {
+        lptn_network::Item::Boundary(_) => "boundary",
+        lptn_network::Item::Source(_) => "source",
+        _ => "path",
+    }
+}
+
+fn change(influence: &Influence) -> &'static str {
+    if influence.absolute { "+1 K" } else { "+10 %" }
+}
+
+fn signed(value: f64) -> String {
+    let sign = if value > 0.0 { "+" } else { "" };
+    format!("{sign}{}", significant(value, 3))
+}

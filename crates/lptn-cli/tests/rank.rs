@@ -1,0 +1,57 @@
+//! `lptn rank`, as a user meets it.
+
+mod common;
+
+use common::Folder;
+
+/// 100 W over 0.05 K/W and 4 W/K into air of 20 degC: 50 degC.
+const CHAIN: &str = "format = 1\n[param]\nG_skin = \"4 W/K\"\n[default]\nT0 = \"20 degC\"\n[node]\n\
+    core = { C = \"1 kJ/K\" }\nshell = { C = \"1 kJ/K\" }\n[boundary]\nair = { T = \"20 degC\" }\n\
+    [resistor]\nfit = { from = \"core\", to = \"shell\", R = \"0.05 K/W\" }\nskin = { from = \
+    \"shell\", to = \"air\", G = \"G_skin\" }\n[source]\nloss = { into = \"core\", P = \"100 W\" }\n";
+
+#[test]
+fn values_are_ranked_with_their_units() {
+    let folder = Folder::with("chain.toml", CHAIN);
+    let ran = folder.run(&["rank", "chain.toml"]).exits(0);
+    for line in [
+        "core: 50 degC in steady state",
+        "G_skin     4 W/K  +10 %           -2.5",
+        "loss.P       100 W  +10 %             +3",
+        "fit.R     0.05 K/W  +10 %           +0.5",
+        "air.T      20 degC  +1 K              +1",
+        "change first: 10 % less of loss.P makes core 3 K colder",
+    ] {
+        let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(ran.out.lines().any(|shown| words(shown) == words(line)), "{line}\n{}", ran.out);
+    }
+    let ran = folder.run(&["rank", "chain.toml", "--of", "shell", "--set", "G_skin=2W/K"]).exits(0);
+    ran.prints("shell: 70 degC in steady state").prints("-5");
+}
+
+#[test]
+fn rows_are_the_same_in_csv_and_json() {
+    let folder = Folder::with("chain.toml", CHAIN);
+    let ran = folder.run(&["rank", "chain.toml", "--format", "csv"]).exits(0);
+    let lines: Vec<&str> = ran.out.lines().collect();
+    assert_eq!(lines[0], "name,kind,unit,changed_by,value [-],effect [K]");
+    assert_eq!(lines.len(), 6);
+    assert!(lines[1].starts_with("G_skin,parameter,W/K,+10 %,4,-2.5"), "{}", lines[1]);
+    let json = folder.json("rank chain.toml").exits(0).json();
+    assert_eq!(json["node"], "core");
+    assert_eq!(json["rows"].as_array().unwrap().len(), 5);
+    assert!(json["feedback"].is_null() && json["at"].is_null());
+    assert!((json["temperature"]["value"].as_f64().unwrap() - 50.0).abs() < 1e-9);
+}
+
+#[test]
+fn what_cannot_be_ranked_is_said() {
+    let folder = Folder::with("chain.toml", CHAIN);
+    folder.run(&["rank", "chain.toml", "--of", "gear"]).exits(2).says("network::unknown_name");
+    folder.run(&["rank", "chain.toml", "--over", "run"]).exits(2).says("run::no_run");
+    let empty = "format = 1\n[boundary]\nair = { T = \"20 degC\" }\n";
+    Folder::with("empty.toml", empty).run(&["rank", "empty.toml"]).exits(2).says("network::empty");
+    let loose = CHAIN.replace("from = \"shell\", to = \"air\"", "from = \"core\", to = \"shell\"");
+    let ran = Folder::with("loose.toml", &loose).run(&["rank", "loose.toml"]);
+    assert!(ran.exits(2).err.contains("steady::no_boundary"));
+}
