@@ -28,6 +28,6 @@ pub use manifest::{Environment, FileHash, Manifest, ParameterRecord, RunEnd, Sun
 pub use moment::utc;
 pub use record::{LedgerRecord, SiValue, StatisticsRecord};
 pub use size::{
-    Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask, SizeError, SizeTask, Sizing, Trial,
-    Verdict, requirement_margins, size,
+    Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask, Demand, Judged, LoadCase, Moments,
+    RunOf, SizeError, SizeTask, Sizing, Trial, TrialError, Verdict, Watcher, judge, size,
 };

@@ -3,11 +3,11 @@
 mod coolants;
 mod cooling;
 mod error;
+mod judge;
 mod root;
 mod search;
-mod trial;
 
 pub use cooling::{Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask};
-pub use error::SizeError;
-pub use search::{Sizing, Verdict, size};
-pub use trial::{SizeTask, Trial, requirement_margins};
+pub use error::{SizeError, TrialError};
+pub use judge::{Demand, Judged, LoadCase, Moments, RunOf, Watcher, judge};
+pub use search::{SizeTask, Sizing, Trial, Verdict, size};

@@ -52,7 +52,8 @@ impl Answer<'_> {
         let mut trials: Vec<_> = self.sizing.looked_at.iter().collect();
         trials.push(&self.sizing.trial);
         trials.sort_by(|a, b| a.value.total_cmp(&b.value));
-        let points = trials.iter().map(|trial| (self.unit.from_si(trial.value), trial.margins[i]));
+        let points =
+            trials.iter().map(|trial| (self.unit.from_si(trial.value), trial.judged.margins[i]));
         Curve::line(&requirement.text, points.collect())
     }
 }

@@ -4,22 +4,28 @@ mod args;
 mod changing;
 mod cooling;
 mod figure;
+mod moments;
 mod page;
 mod write;
 
 pub(crate) use args::SizeArgs;
+
+use std::sync::{Mutex, PoisonError};
 
 use lptn_netlist::{Diagnostic, Requirement, SizeStudy};
 use lptn_network::ParameterId;
 use lptn_report::Format;
 use lptn_study::{SizeError, SizeTask, Sizing, Verdict};
 use lptn_units::{Problem as _, Unit};
+use moments::demanded;
 
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{Input, Studies, quoted};
+use crate::interrupt::Interrupt;
 use crate::options::Source;
+use crate::progress::ProgressLine;
 
 pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
     let Some(file) = &args.file else { return cooling::cooling(args, console) };
@@ -32,8 +38,9 @@ pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> 
         write::possible(&input, parameter)?;
     }
     console.warn(&input.netlist.files, &input.netlist.warnings);
-    let sizing =
-        solve(&input, study, parameter).map_err(|error| failed(&input, study, &unit, &error))?;
+    moments::check_period(&input, study)?;
+    let sizing = console.phases.timed("size", || solve(&input, study, parameter, console));
+    let sizing = sizing.map_err(|error| failed(&input, study, &unit, &error))?;
     let answer = Answer { input: &input, study, parameter, unit, sizing };
     let exit = console.show(&answer, args.printed.format)?;
     if args.write && exit == Exit::Done {
@@ -62,34 +69,39 @@ fn parameter(input: &Input, study: &SizeStudy) -> Result<ParameterId, Failure> {
     })
 }
 
-fn solve(input: &Input, study: &SizeStudy, parameter: ParameterId) -> Result<Sizing, SizeError> {
-    let network = &input.netlist.network;
-    let range = study.range(network).unwrap_or((f64::NAN, f64::NAN));
-    let task = SizeTask {
-        network,
-        parameters: input.netlist.overrides(),
-        parameter,
-        range,
-        goal: study.goal,
-        requirements: &study.requirements,
-        time: input.netlist.run.as_ref().map_or(0.0, |run| run.start),
+/// It may take a while: a terminal shows how far it is, and Ctrl-C ends it.
+fn solve(
+    input: &Input,
+    study: &SizeStudy,
+    parameter: ParameterId,
+    console: &Console,
+) -> Result<Sizing, SizeError> {
+    let range = study.range(&input.netlist.network).unwrap_or((f64::NAN, f64::NAN));
+    let interrupt = Interrupt::listen();
+    let line = Mutex::new(ProgressLine::new(console.quiet));
+    let locked = || line.lock().unwrap_or_else(PoisonError::into_inner);
+    let watcher = |progress| {
+        locked().update(progress);
+        interrupt.control()
     };
-    lptn_study::size(&task)
+    let sizing = demanded((&input.netlist, study), &watcher, |demand| {
+        lptn_study::size(&SizeTask { demand, parameter, range, goal: study.goal })
+    });
+    locked().clear();
+    sizing
 }
 
 fn failed(input: &Input, study: &SizeStudy, unit: &Unit, error: &SizeError) -> Failure {
-    let at = |value: f64| page::quantity(&study.parameter, value, unit);
     let problem = match error {
         SizeError::Changing(changing) => changing::explained(input, study, (error, changing)),
         _ => told(error).at(study.span.clone(), ""),
     };
     // the library does not know the unit
     let message = match error {
-        SizeError::Network { value, errors } => {
-            format!("there is no network with {}: {errors}", at(*value))
-        }
-        SizeError::Steady { value, error } => {
-            format!("there is no steady state with {}: {error}", at(*value))
+        SizeError::Trial { values, error, .. } => {
+            let at = |value: &f64| page::quantity(&study.parameter, *value, unit);
+            let with: Vec<String> = values.iter().map(at).collect();
+            format!("with {}: {error}", with.join(", "))
         }
         _ => problem.message,
     };

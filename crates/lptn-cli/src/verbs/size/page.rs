@@ -2,9 +2,11 @@
 
 use std::io;
 
-use lptn_netlist::{Goal, Requirement};
+use lptn_netlist::{Goal, Over, Requirement};
 use lptn_plot::Figure;
-use lptn_report::{Json, Page, Report, Rows, Standing, Text, TextTable, plain, significant};
+use lptn_report::{
+    Json, Page, Report, Rows, Standing, Text, TextTable, duration, plain, significant,
+};
 use lptn_solve::Table;
 use lptn_study::{SiValue, Verdict};
 use lptn_units::Unit;
@@ -38,6 +40,9 @@ impl Page for Answer<'_> {
         );
         let mut text = Text::titled(self.input.title());
         text.sentence("", &sought);
+        if let Some(over) = over(self) {
+            text.sentence("", &over);
+        }
         text.section().table(requirements(self));
         text.section();
         for (label, note) in notes(self) {
@@ -53,7 +58,7 @@ impl Page for Answer<'_> {
         let value = self.unit.from_si(self.sizing.trial.value);
         table.column(&self.study.parameter, &self.unit.text, |()| value);
         table.column("feasible", "-", |()| if self.sizing.feasible() { 1.0 } else { 0.0 });
-        for (r, &margin) in self.study.requirements.iter().zip(&self.sizing.trial.margins) {
+        for (r, &margin) in self.study.requirements.iter().zip(&self.sizing.trial.judged.margins) {
             table.column(&r.text, r.ty.dimension.si_unit(), |()| margin);
         }
         table.done().into()
@@ -70,11 +75,13 @@ impl Page for Answer<'_> {
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let (network, sizing) = (&self.input.netlist.network, &self.sizing);
         let si = network.parameters()[self.parameter.index()].ty.dimension.si_unit();
-        let requirement = |(r, &margin): (&Requirement, &f64)| {
+        let requirement = |((r, &margin), at): ((&Requirement, &f64), &Option<f64>)| {
             let margin = SiValue::new(margin, &r.ty.dimension.si_unit());
-            json!({ "requirement": r.text, "margin": margin })
+            let at = at.map(|at| SiValue::new(at, "s"));
+            json!({ "requirement": r.text, "margin": margin, "worst_at": at })
         };
-        let margins = self.study.requirements.iter().zip(&sizing.trial.margins);
+        let judged = &sizing.trial.judged;
+        let margins = self.study.requirements.iter().zip(&judged.margins).zip(&judged.worst_at);
         let scalar = |value: f64| SiValue::new(value, &si);
         let of_margin = |value: f64| SiValue::new(value, &self.closest_unit());
         self.input.head(json, &[])?;
@@ -86,15 +93,36 @@ impl Page for Answer<'_> {
         json.member("binding", &self.binding().map(|requirement| &requirement.text))?;
         json.member("feasible", &sizing.feasible())?;
         json.member("requirements", &margins.map(requirement).collect::<Vec<_>>())?;
+        json.member("over", self.study.over.word())?;
+        json.member("error", &sizing.error.map(scalar))?;
         json.member("sensitivity", &sizing.sensitivity.map(of_margin))?;
         json.member("breaks_again", &sizing.breaks_again.map(scalar))?;
         json.member("first_guess", &sizing.first_guess.map(scalar))?;
-        json.optional("out_of_range", ranges::members(network, &sizing.trial.out_of_range, false))
+        json.optional(
+            "out_of_range",
+            ranges::members(network, &sizing.trial.judged.out_of_range, false),
+        )
     }
 
     fn no(&self) -> Option<String> {
         (!self.sizing.feasible()).then(|| verdict(self))
     }
+}
+
+/// When it has to be kept, where that is not the steady state.
+fn over(answer: &Answer<'_>) -> Option<String> {
+    let netlist = &answer.input.netlist;
+    let lasts = match answer.study.over {
+        Over::Steady => return None,
+        Over::Run => netlist.run.as_ref().map(|run| run.stop - run.start),
+        Over::Periodic => {
+            let given = answer.study.period(&netlist.network).ok().flatten();
+            given.or_else(|| netlist.network.repeat_period().ok().flatten())
+        }
+    };
+    let what = if answer.study.over == Over::Run { "run" } else { "settled cycle" };
+    let lasts = lasts.map_or(String::new(), |lasts| format!(" of {}", duration(lasts, 6)));
+    Some(format!("at every moment of the {what}{lasts}"))
 }
 
 fn goal(goal: Goal) -> &'static str {
@@ -139,19 +167,24 @@ fn requirements(answer: &Answer<'_>) -> TextTable {
     let (study, sizing) = (answer.study, &answer.sizing);
     let margin = |i: usize| {
         let (margin, unit) =
-            (sizing.trial.margins[i], study.requirements[i].ty.dimension.si_unit());
+            (sizing.trial.judged.margins[i], study.requirements[i].ty.dimension.si_unit());
         let margin = if margin.abs() < ZERO { 0.0 } else { margin };
         format!("{}{}", significant(margin, 4), spaced(&unit))
     };
     let word = |i: usize| match sizing.verdict {
-        _ if sizing.trial.margins[i] < 0.0 => "broken",
+        _ if sizing.trial.judged.margins[i] < 0.0 => "broken",
         Verdict::Bound if i == sizing.closest => "binds",
         _ => "kept",
     };
     let rows: Vec<usize> = (0..study.requirements.len()).collect();
-    TextTable::of(&rows)
+    let mut table = TextTable::of(&rows)
         .left("requirement", |&i| plain(&study.requirements[i].text))
-        .right("margin", |&i| margin(i))
+        .right("margin", |&i| margin(i));
+    if study.over != Over::Steady {
+        let at = |i: usize| sizing.trial.judged.worst_at[i];
+        table = table.right("at", |&i| at(i).map_or("-".into(), |at| duration(at, 4)));
+    }
+    table
         .left("", |&i| word(i))
         .judged(|&i| if word(i) == "broken" { Standing::Fails } else { Standing::Holds })
         .into()
@@ -175,9 +208,18 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
         ));
     }
     notes.extend(unverified(&answer.input.netlist.network).map(|unsure| ("note", unsure)));
-    let outside = ranges::warnings(&answer.input.netlist, &sizing.trial.out_of_range, false);
+    let outside = ranges::warnings(&answer.input.netlist, &sizing.trial.judged.out_of_range, false);
     notes.extend(outside.into_iter().map(|warning| ("note", warning.message)));
-    notes.push(("proof", format!("{} steady states of the full network", sizing.solved)));
+    if let Some(error) = sizing.error {
+        let error = format!("{:.0e}{}", error / answer.unit.scale.abs(), spaced(&answer.unit.text));
+        notes.push(("error", format!("{name} is known to {error}")));
+    }
+    let solved = match study.over {
+        Over::Steady => "steady states",
+        Over::Run => "runs",
+        Over::Periodic => "settled cycles",
+    };
+    notes.push(("proof", format!("{} {solved} of the full network", sizing.solved)));
     if let Some(value) = sizing.breaks_again {
         let side = if study.goal == Goal::Minimise { "above" } else { "below" };
         let value = quantity(name, value, &answer.unit);

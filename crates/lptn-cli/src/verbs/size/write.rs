@@ -5,9 +5,11 @@ use std::path::Path;
 use lptn_netlist::{Diagnostic, Goal, Netlist, parse_file};
 use lptn_network::ParameterId;
 use lptn_report::Shortest;
-use lptn_study::requirement_margins;
+use lptn_solve::Proceed;
+use lptn_study::judge;
 
 use super::Answer;
+use super::moments::demanded;
 use super::page::rounded;
 use crate::console::Console;
 use crate::exit::Exit;
@@ -60,7 +62,7 @@ fn keeps(answer: &Answer<'_>, netlist: &Netlist) -> Option<bool> {
     let study = netlist.studies.sizes.iter().find(|study| study.name == answer.study.name)?;
     let (from, to) = study.range(&netlist.network).ok()?;
     let value = netlist.network.parameter_value(netlist.network.parameter(&study.parameter).ok()?);
-    let time = netlist.run.as_ref().map_or(0.0, |run| run.start);
-    let margins = requirement_margins(&netlist.network, &study.requirements, time).ok()?;
-    Some(value >= from && value <= to && margins.iter().all(|margin| *margin >= 0.0))
+    let watcher = |_| Proceed::Continue;
+    let judged = demanded((netlist, study), &watcher, judge).ok()?;
+    Some(value >= from && value <= to && judged.keeps())
 }
