@@ -73,7 +73,7 @@ fn the_fan_is_sized_as_its_case_expects() {
             watcher: &|_| Proceed::Continue,
         },
         parameter: network.parameter("speed").expect("the speed of the air"),
-        range: study.range(network).expect("a range"),
+        range: study.ranges(network).expect("a range")[0].1,
         goal: study.goal,
     };
     let sizing = size(&task).expect("it can be sized");

@@ -28,6 +28,7 @@ pub use manifest::{Environment, FileHash, Manifest, ParameterRecord, RunEnd, Sun
 pub use moment::utc;
 pub use record::{LedgerRecord, SiValue, StatisticsRecord};
 pub use size::{
-    Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask, Demand, Judged, LoadCase, Moments,
-    RunOf, SizeError, SizeTask, Sizing, Trial, TrialError, Verdict, Watcher, judge, size,
+    Aim, Choice, ChoiceTask, Choices, Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask,
+    Demand, Design, Judged, LoadCase, Moments, Parts, RunOf, Several, SeveralTask, SizeError,
+    SizeTask, Sizing, Trial, TrialError, Verdict, Watcher, choose, judge, size, size_several,
 };

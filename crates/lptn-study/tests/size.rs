@@ -48,8 +48,8 @@ fn solve(netlist: &Netlist) -> Result<Sizing, SizeError> {
     let study = &netlist.studies.sizes[0];
     size(&SizeTask {
         demand: demand(netlist),
-        parameter: netlist.network.parameter(&study.parameter).unwrap(),
-        range: study.range(&netlist.network).unwrap(),
+        parameter: study.ranges(&netlist.network).unwrap()[0].0,
+        range: study.ranges(&netlist.network).unwrap()[0].1,
         goal: study.goal,
     })
 }

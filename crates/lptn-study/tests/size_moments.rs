@@ -40,8 +40,8 @@ fn solve(netlist: &Netlist) -> Result<Sizing, SizeError> {
             moments,
             watcher: &|_| Proceed::Continue,
         },
-        parameter: netlist.network.parameter(&study.parameter).unwrap(),
-        range: study.range(&netlist.network).unwrap(),
+        parameter: study.ranges(&netlist.network).unwrap()[0].0,
+        range: study.ranges(&netlist.network).unwrap()[0].1,
         goal: study.goal,
     })
 }

@@ -1,28 +1,41 @@
 //! `[size.NAME]`: a parameter to size, and what has to be kept.
 
+mod catalogue;
 mod read;
 
 use lptn_data::{Diagnostic, Span};
-use lptn_network::{Bound, Evaluation, Limit, LimitSeverity, Network, Value};
+use lptn_network::{Bound, Evaluation, Limit, LimitSeverity, Network, ParameterId, Value};
 use lptn_units::{EvalError, Type};
 
 use crate::format::{Role, SectionDeclaration, key};
+use crate::raw::{RawNetlist, RawValue};
 use crate::setting::Setting;
 use crate::study::{PathFrom, Study};
 use crate::toml_text::{TomlFields, key as toml_key, like, strings};
 use crate::work::Elaboration;
+pub use catalogue::{Catalogue, CatalogueColumn};
 
 const SIZE: SectionDeclaration = SectionDeclaration {
     name: "size",
-    sentence: "A parameter to size: the least or largest value that keeps every requirement.",
+    sentence: "Parameters to size, or parts to choose: the best ones that keep every requirement.",
     role: Role::Study,
     keys: &[
-        key("minimise", "parameter", "whose least value is sought", "\"name of a parameter\""),
-        key("maximise", "parameter", "whose largest value is sought", "\"name of a parameter\""),
+        key(
+            "minimise",
+            "parameter, or expression of parameters",
+            "whose least value is sought",
+            "\"name of a parameter\"",
+        ),
+        key(
+            "maximise",
+            "parameter, or expression of parameters",
+            "whose largest value is sought",
+            "\"name of a parameter\"",
+        ),
         key(
             "vary",
             "table",
-            "its range, `from` and `to`",
+            "of each parameter its range, `from` and `to`",
             "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
         ),
         key(
@@ -40,8 +53,13 @@ const SIZE: SectionDeclaration = SectionDeclaration {
         )
         .or("`\"steady\"`"),
         key("period", "s", "how long a cycle is", "\"10 min\"").or("that of the repeated signals"),
+        key(
+            "catalogue",
+            "file, or a list of files",
+            "parts to choose from, one a row, in place of `vary`",
+            "\"parts.csv\"",
+        ),
     ],
-    later: &["catalogue"],
     example: "{ minimise = \"p\", vary = { p = { from = \"..\", to = \"..\" } }, require = [\"a.T \
         <= 80 [degC]\"] }",
     elsewhere: &[
@@ -50,6 +68,7 @@ const SIZE: SectionDeclaration = SectionDeclaration {
         ("from", "write `vary = { p = { from = \"..\", to = \"..\" } }`"),
         ("to", "write `vary = { p = { from = \"..\", to = \"..\" } }`"),
     ],
+    ..SectionDeclaration::NEW
 };
 
 /// `p = { from = .., to = .. }` in `vary` of a size or fit.
@@ -76,6 +95,31 @@ pub enum Goal {
     Minimise,
     /// The largest one.
     Maximise,
+}
+
+/// What the best design has least or most of.
+#[derive(Clone, Debug)]
+pub struct Objective {
+    /// As it is written: `G_fan`, `P_fan + 2 [W/kg] * m`.
+    pub text: String,
+    /// The value; it reads parameters.
+    pub value: Value,
+    /// Its type.
+    pub ty: Type,
+}
+
+/// A parameter with the least and the largest value that it may take, in SI units.
+pub type RangeOf = (ParameterId, (f64, f64));
+
+/// The range of a parameter.
+#[derive(Clone, Debug)]
+pub struct SizeRange {
+    /// The name of the parameter.
+    pub name: String,
+    from: Value,
+    to: Value,
+    /// Where it is named.
+    pub span: Span,
 }
 
 /// In which results requirements have to be kept.
@@ -148,9 +192,9 @@ impl Requirement {
 pub struct SizeStudy {
     /// Its name.
     pub name: String,
-    /// The name of the parameter whose value is sought.
-    pub parameter: String,
-    /// Which value is the best.
+    /// What the best design has least or most of.
+    pub objective: Objective,
+    /// Which of them.
     pub goal: Goal,
     /// What has to be kept; at least one.
     pub requirements: Vec<Requirement>,
@@ -160,20 +204,75 @@ pub struct SizeStudy {
     pub(crate) period: Option<Setting>,
     /// Where it stands.
     pub span: Span,
-    from: Value,
-    to: Value,
-    range_span: Span,
+    /// The parameters whose values are sought; none where there are catalogues.
+    pub varied: Vec<SizeRange>,
+    /// What is chosen from: of each one part.
+    pub catalogues: Vec<Catalogue>,
 }
 
 impl SizeStudy {
-    /// The least and the largest value the parameter may take, in SI units, for the parameters of
+    /// The parameter of which the least or largest value is sought, where nothing else is varied.
+    pub fn single(&self) -> Option<&SizeRange> {
+        match self.varied.as_slice() {
+            [one] if one.name == self.objective.text => Some(one),
+            _ => None,
+        }
+    }
+
+    /// The least and the largest value each parameter may take, in SI units, for the parameters of
     /// `network`.
     ///
     /// # Errors
     /// What the evaluation of an end reports.
-    pub fn range(&self, network: &Network) -> Result<(f64, f64), EvalError> {
+    pub fn ranges(&self, network: &Network) -> Result<Vec<RangeOf>, EvalError> {
         let mut scope = network.evaluation();
-        Ok((self.from.at(&mut scope)?, self.to.at(&mut scope)?))
+        let known =
+            self.varied.iter().filter_map(|one| Some((one, network.parameter(&one.name).ok()?)));
+        known
+            .map(|(one, id)| Ok((id, (one.from.at(&mut scope)?, one.to.at(&mut scope)?))))
+            .collect()
+    }
+
+    /// What is wrong with a range.
+    fn check_range(&self, network: &Network, range: &SizeRange) -> Option<Diagnostic> {
+        let mut scope = network.evaluation();
+        let (from, to) = (range.from.at(&mut scope), range.to.at(&mut scope));
+        let words = format!("`{}` in `vary` of size `{}`", range.name, self.name);
+        let problem = match (from, to) {
+            (Ok(from), Ok(to)) if from < to => return None,
+            (Ok(_), Ok(_)) => {
+                let message = format!("{words}: `from` has to be less than `to`");
+                let help = "write the least value as `from` and the largest as `to`; `minimise` or \
+                            `maximise` says which of them is the better end";
+                Diagnostic::error("netlist::size_range", message).help(help)
+            }
+            (Err(error), _) | (_, Err(error)) => {
+                Diagnostic::error(error.code(), format!("{words}: {error}"))
+            }
+        };
+        Some(problem.at(range.span.clone(), ""))
+    }
+
+    /// A parameter that is sought has to be one that changes, or to follow from one.
+    fn check_objective(&self, network: &Network) -> Option<Diagnostic> {
+        let sought = &self.objective.text;
+        let id = network.parameter(sought).ok()?;
+        let columns = self.catalogues.iter().flat_map(|one| &one.columns);
+        let mut set = columns.map(|one| &one.name).chain(self.varied.iter().map(|one| &one.name));
+        let follows = !matches!(network.parameters()[id.index()].value, Value::Constant(_));
+        if follows || set.any(|name| name == sought) {
+            return None;
+        }
+        let varied = self.varied.first().map(|one| &one.span);
+        let place = varied.or(self.catalogues.first().map(|one| &one.span))?;
+        let message = format!("size `{}` seeks `{sought}`, which nothing varies", self.name);
+        let help = match self.catalogues.is_empty() {
+            true => format!(
+                "write it like this: `vary = {{ {sought} = {{ from = \"..\", to = \"..\" }} }}`"
+            ),
+            false => format!("give a catalogue a column `{sought}`, or seek one that it has"),
+        };
+        Some(Diagnostic::wrong("netlist::size_vary", message, place, help))
     }
 
     /// The period of the settled cycle in s for the parameters of `network`; `None` where it is that
@@ -203,6 +302,10 @@ impl SizeStudy {
 impl Study for SizeStudy {
     const SECTION: &'static SectionDeclaration = &SIZE;
 
+    fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
+        catalogue::files(raw)
+    }
+
     fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
         work.elements(SIZE.name).iter().filter_map(|entry| work.size_study(entry)).collect()
     }
@@ -212,34 +315,28 @@ impl Study for SizeStudy {
     }
 
     fn check(&self, network: &Network) -> Vec<Diagnostic> {
-        let period = self.check_period(network);
-        let error = match self.range(network) {
-            Ok((from, to)) if from < to => return period.into_iter().collect(),
-            Ok(_) => {
-                let message =
-                    format!("`vary` of size `{}`: `from` has to be less than `to`", self.name);
-                let help = "write the least value as `from` and the largest as `to`; `minimise` or \
-                            `maximise` says which of them is the better end";
-                Diagnostic::error("netlist::size_range", message).help(help)
-            }
-            Err(error) => {
-                Diagnostic::error(error.code(), format!("`vary` of size `{}`: {error}", self.name))
-            }
-        };
-        period.into_iter().chain([error.at(self.range_span.clone(), "")]).collect()
+        let ranges = self.varied.iter().filter_map(|range| self.check_range(network, range));
+        ranges.chain(self.check_period(network)).chain(self.check_objective(network)).collect()
     }
 
-    fn fields(&self, network: &Network, _: &PathFrom<'_>) -> TomlFields {
+    fn fields(&self, network: &Network, path: &PathFrom<'_>) -> TomlFields {
         let mut fields = TomlFields::default();
-        fields.word(
-            if self.goal == Goal::Minimise { "minimise" } else { "maximise" },
-            &self.parameter,
-        );
-        if let Ok(id) = network.parameter(&self.parameter) {
-            let ty = network.parameters()[id.index()].ty;
-            let [from, to] = [&self.from, &self.to].map(|end| like(end, ty));
-            let name = toml_key(&self.parameter);
-            fields.put("vary", format!("{{ {name} = {{ from = {from}, to = {to} }} }}"));
+        let goal = if self.goal == Goal::Minimise { "minimise" } else { "maximise" };
+        fields.word(goal, &self.objective.text);
+        let range = |range: &SizeRange| {
+            let id = network.parameter(&range.name).ok();
+            let ty = id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty);
+            let [from, to] = [&range.from, &range.to].map(|end| like(end, ty));
+            format!("{} = {{ from = {from}, to = {to} }}", toml_key(&range.name))
+        };
+        let ranges: Vec<String> = self.varied.iter().map(range).collect();
+        if !ranges.is_empty() {
+            fields.put("vary", format!("{{ {} }}", ranges.join(", ")));
+        }
+        let catalogues: Vec<String> =
+            self.catalogues.iter().map(|one| path(one.span.file, &one.csv)).collect();
+        if !catalogues.is_empty() {
+            fields.put("catalogue", strings(catalogues.iter().map(String::as_str)));
         }
         fields.put("require", strings(self.requirements.iter().map(|r| r.text.as_str())));
         if self.over != Over::Steady {

@@ -9,7 +9,9 @@ use crate::place::{Given, Place, Text, Wanted};
 use crate::raw::{RawEntry, RawValue};
 use crate::run::RUN;
 use crate::setting::{Setting, TIME};
-use crate::size::{Goal, Over, Requirement, SIZE, SizeStudy, VARY};
+use crate::size::{
+    Catalogue, Goal, Objective, Over, Requirement, SIZE, SizeRange, SizeStudy, VARY,
+};
 use crate::work::Elaboration;
 
 impl<'a> Elaboration<'a> {
@@ -29,22 +31,44 @@ impl<'a> Elaboration<'a> {
         let fields = self.fields(&SIZE, entry)?;
         let over = self.over(&fields);
         let sought = self.goal(&fields);
-        let range = sought.and_then(|(_, parameter)| self.vary(&fields, parameter));
+        let varied = self.varied_or_chosen(&fields);
         let requirements = self.requirements(&fields);
-        let ((goal, parameter), (from, to)) = (sought?, range?);
+        let ((goal, objective), (varied, catalogues)) = (sought?, varied?);
         let (over, period) = over?;
         Some(SizeStudy {
             name: entry.key.clone(),
-            parameter: parameter.to_owned(),
+            objective,
             goal,
             requirements: requirements?,
             over,
             period,
             span: entry.key_span.clone(),
-            from,
-            to,
-            range_span: fields.get("vary")?.span.clone(),
+            varied,
+            catalogues,
         })
+    }
+
+    /// What `vary` gives, or the catalogues: one of them.
+    fn varied_or_chosen(
+        &mut self,
+        fields: &Fields<'a>,
+    ) -> Option<(Vec<SizeRange>, Vec<Catalogue>)> {
+        let Some(catalogue) = fields.key("catalogue") else {
+            return Some((self.size_ranges(fields)?, Vec::new()));
+        };
+        if let Some(vary) = fields.key("vary") {
+            let message = format!("{} has both `vary` and `catalogue`", fields.owner.words());
+            let problem = Diagnostic::error("netlist::size_catalogue", message)
+                .at(catalogue.clone(), "parts to choose")
+                .also(vary.clone(), "values to find");
+            self.report(
+                problem.help(
+                    "choose the parts first; then size with the parameters of the chosen ones",
+                ),
+            );
+            return None;
+        }
+        Some((Vec::new(), self.catalogues(fields)?))
     }
 
     /// The results in which it has to be kept, and the period of a cycle where one is given.
@@ -67,8 +91,8 @@ impl<'a> Elaboration<'a> {
         Some((over, Some(period)))
     }
 
-    /// Which parameter is sought, and in which direction.
-    fn goal(&mut self, fields: &Fields<'a>) -> Option<(Goal, &'a str)> {
+    /// What is sought, and in which direction.
+    fn goal(&mut self, fields: &Fields<'a>) -> Option<(Goal, Objective)> {
         let (goal, key) = match (fields.get("minimise"), fields.get("maximise")) {
             (Some(_), None) => (Goal::Minimise, "minimise"),
             (None, Some(_)) => (Goal::Maximise, "maximise"),
@@ -79,25 +103,50 @@ impl<'a> Elaboration<'a> {
                 return None;
             }
         };
-        let (name, raw) = self.word(fields, key)?;
-        let known = self.is_parameter_here(&fields.owner.field(key), name, &raw.span);
-        (known && !self.names.has_failed(name)).then_some((goal, name))
-    }
-
-    /// The range of the parameter.
-    fn vary(&mut self, fields: &Fields<'a>, parameter: &str) -> Option<(Value, Value)> {
-        let raw = self.require(fields, "vary")?;
-        let table = self.table_of(fields, ("vary", "a table"))?;
-        let [entry] = table.entries.as_slice() else {
-            self.report(one_parameter(fields, raw, parameter));
-            return None;
-        };
-        if entry.key != parameter {
-            self.report(one_parameter(fields, raw, parameter));
+        let (text, raw) = self.word(fields, key)?;
+        let text = text.trim();
+        let parsed = Expression::parse(text).ok();
+        let alone = parsed.is_none_or(|e| e.names().iter().any(|(name, _)| *name == text));
+        if alone {
+            let known = self.is_parameter_here(&fields.owner.field(key), text, &raw.span);
+            if !known || self.names.has_failed(text) {
+                return None;
+            }
+        }
+        let place = Place { owner: &fields.owner, key, raw };
+        let given = self.given(place, Wanted::parameter())?;
+        let ty = given.ty();
+        let value = given.clone().value();
+        if value.slots().is_empty() {
+            let message = format!("{} is a constant", place.words());
+            let help = "name a parameter, or an expression of those that are varied";
+            self.refuse("netlist::size_goal", message, &raw.span, help);
             return None;
         }
-        let range = self.inner(&VARY, fields.owner.inside("vary").inside(parameter), entry)?;
-        let ty = self.builder.scope(Context::Time).symbol(parameter)?.ty;
+        Some((goal, Objective { text: text.to_owned(), value, ty }))
+    }
+
+    /// The ranges of the parameters.
+    fn size_ranges(&mut self, fields: &Fields<'a>) -> Option<Vec<SizeRange>> {
+        let raw = self.require(fields, "vary")?;
+        let table = self.table_of(fields, ("vary", "a table"))?;
+        if table.entries.is_empty() {
+            self.report(fields.wrong_shape("vary", raw, "a table of ranges"));
+            return None;
+        }
+        let all: Vec<_> =
+            table.entries.iter().map(|entry| self.size_range(fields, entry)).collect();
+        all.into_iter().collect()
+    }
+
+    fn size_range(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<SizeRange> {
+        let name = &entry.key;
+        let known = self.is_parameter_here(&fields.owner.field("vary"), name, &entry.key_span);
+        let range = self.inner(&VARY, fields.owner.inside("vary").inside(name), entry)?;
+        if !known || self.names.has_failed(name) {
+            return None;
+        }
+        let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
         let [from, to] = ["from", "to"].map(|key| {
             let end = self.range_end(&range, key, ty);
             if end.is_none() && range.complete {
@@ -107,7 +156,7 @@ impl<'a> Elaboration<'a> {
             }
             end
         });
-        Some((from??, to??))
+        Some(SizeRange { name: name.clone(), from: from??, to: to??, span: entry.key_span.clone() })
     }
 
     /// The requirements of a study: comparisons of results.
@@ -176,20 +225,5 @@ fn one_goal(fields: &Fields<'_>, both: bool) -> Diagnostic {
         fields.place,
         "name one parameter: `minimise = \"p\"` for the least value that does, `maximise` for the \
          largest",
-    )
-}
-
-fn one_parameter(fields: &Fields<'_>, raw: &RawValue, parameter: &str) -> Diagnostic {
-    let message = format!(
-        "{} has to give the range of `{parameter}` and of nothing else",
-        fields.owner.field("vary")
-    );
-    Diagnostic::wrong(
-        "netlist::size_vary",
-        message,
-        &raw.span,
-        format!(
-            "write it like this: `vary = {{ {parameter} = {{ from = \"..\", to = \"..\" }} }}`"
-        ),
     )
 }

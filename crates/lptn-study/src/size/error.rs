@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lptn_assembly::AssemblyError;
-use lptn_network::{BuildErrors, Changing};
+use lptn_network::{BuildErrors, Changing, ParameterId};
 use lptn_solve::{PeriodicError, SteadyError, TransientError};
 use lptn_units::{Class, EvalError, format_six};
 
@@ -24,12 +24,23 @@ pub enum SizeError {
     Changing(inputs: Vec<Changing>) = "size::inputs_change",
         "what is required depends on inputs that change with time, and a steady state knows only \
          one moment of them";
+    /// The catalogues have more combinations than can be judged.
+    TooMany { most: usize } = "size::too_many",
+        format!("the catalogues have more than {most} combinations"),
+        help "choose from one catalogue first, or shorten them";
     /// A design cannot be judged: its values, and the load case, whose name is empty where there is
     /// none.
     Trial { values: Vec<f64>, case: String, error: Box<TrialError> } = error.code(),
         format!("{}: {error}", place(values, case)),
         source error.as_ref(), help error.help(), class error.class();
 }
+}
+
+impl SizeError {
+    pub(crate) fn trial(design: &[(ParameterId, f64)], case: &str, error: TrialError) -> Self {
+        let values = design.iter().map(|(_, value)| *value).collect();
+        Self::Trial { values, case: case.to_owned(), error: Box::new(error) }
+    }
 }
 
 fn place(values: &[f64], case: &str) -> String {
@@ -77,6 +88,12 @@ pub enum TrialError {
         match error {
             Some(error) => format!("`{text}` has no value: {error}"),
             None => format!("`{text}` has no finite value"),
+        };
+    /// What is sought has no value; why not, or `None` if it gave no finite number.
+    Objective(error: Option<EvalError>) = "size::objective",
+        match error {
+            Some(error) => format!("what is sought has no value: {error}"),
+            None => "what is sought has no finite value".to_owned(),
         };
     /// It was interrupted.
     Interrupted = "run::interrupted", "interrupted before there was an answer",

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::Requirement;
-use lptn_network::{Network, OutputTimes, ParameterId, RunSettings};
+use lptn_network::{Network, OutputTimes, ParameterId, RunSettings, Value};
 use lptn_solve::{
     OutOfRange, Periodic, Proceed, Progress, RecordedNodes, RunStatus, Solution, SteadyState,
     Transient,
@@ -150,11 +150,7 @@ impl<'a> Judge<'a> {
         let cases = if self.demand.cases.is_empty() { &as_it_is } else { self.demand.cases };
         let mut all = Judged::default();
         for case in cases {
-            let failed = |error| SizeError::Trial {
-                values: design.iter().map(|(_, value)| *value).collect(),
-                case: case.name.clone(),
-                error: Box::new(error),
-            };
+            let failed = |error| SizeError::trial(design, &case.name, error);
             let one = self.in_case((design, case), care).map_err(failed)?;
             all.margins.extend(one.margins);
             all.worst_at.extend(one.worst_at);
@@ -162,6 +158,25 @@ impl<'a> Judge<'a> {
             all.error = all.error.max(one.error);
         }
         Ok(all)
+    }
+
+    /// A value of the design that follows from parameters, in SI units; of the network as it is,
+    /// without a load case.
+    pub(crate) fn value(
+        &self,
+        design: &[(ParameterId, f64)],
+        value: &Value,
+    ) -> Result<f64, SizeError> {
+        let mut parameters = self.demand.network.given();
+        design.iter().for_each(|(id, value)| parameters.set(*id, *value));
+        let failed = |error| SizeError::trial(design, "", error);
+        let network = self.demand.network.with(&parameters);
+        let network = network.map_err(|errors| failed(TrialError::Network(errors)))?;
+        match value.at(&mut network.evaluation()) {
+            Ok(found) if found.is_finite() => Ok(found),
+            Ok(_) => Err(failed(TrialError::Objective(None))),
+            Err(error) => Err(failed(TrialError::Objective(Some(error)))),
+        }
     }
 
     fn in_case(

@@ -16,7 +16,7 @@ use crate::size::root::{last_kept, norton_guess};
 const POINTS: usize = 25;
 
 /// A range that spans more than this is looked at in equal ratios rather than in equal steps.
-const WIDE: f64 = 10.0;
+pub(crate) const WIDE: f64 = 10.0;
 
 /// Steps of the search for a value that keeps what no place looked at keeps: golden section, 2e-9
 /// of its interval. Half of them, 4e-5, where margins carry the error of a run: at the top they hardly

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lptn_netlist::{Goal, Over, Requirement};
+use lptn_netlist::{Goal, Netlist, Over, Requirement, SizeStudy};
 use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Report, Rows, Standing, Text, TextTable, duration, plain, significant,
@@ -25,22 +25,20 @@ const ZERO: f64 = 1e-9;
 
 impl Page for Answer<'_> {
     fn text(&self) -> Text {
-        let (study, network) = (self.study, &self.input.netlist.network);
-        let (goal, range) =
-            (goal(study.goal), study.range(network).unwrap_or((f64::NAN, f64::NAN)));
+        let (study, range, goal) = (self.study, self.range, goal(self.study.goal));
         let unit = &self.unit;
         let number = |si: f64| significant(unit.from_si(si), DIGITS);
         let sought = format!(
             "size {}: the {goal} {} from {} to {}{}",
             study.name,
-            study.parameter,
+            self.name,
             number(range.0),
             number(range.1),
             spaced(&unit.text)
         );
         let mut text = Text::titled(self.input.title());
         text.sentence("", &sought);
-        if let Some(over) = over(self) {
+        if let Some(over) = over(&self.input.netlist, study) {
             text.sentence("", &over);
         }
         text.section().table(requirements(self));
@@ -56,7 +54,7 @@ impl Page for Answer<'_> {
     fn rows(&self) -> Rows<'_> {
         let mut table = Table::of(&[()]);
         let value = self.unit.from_si(self.sizing.trial.value);
-        table.column(&self.study.parameter, &self.unit.text, |()| value);
+        table.column(self.name, &self.unit.text, |()| value);
         table.column("feasible", "-", |()| if self.sizing.feasible() { 1.0 } else { 0.0 });
         for (r, &margin) in self.study.requirements.iter().zip(&self.sizing.trial.judged.margins) {
             table.column(&r.text, r.ty.dimension.si_unit(), |()| margin);
@@ -85,10 +83,7 @@ impl Page for Answer<'_> {
         let scalar = |value: f64| SiValue::new(value, &si);
         let of_margin = |value: f64| SiValue::new(value, &self.closest_unit());
         self.input.head(json, &[])?;
-        json.member(
-            "values",
-            &json!({ (self.study.parameter.as_str()): scalar(sizing.trial.value) }),
-        )?;
+        json.member("values", &json!({ (self.name): scalar(sizing.trial.value) }))?;
         json.member("margin", &of_margin(sizing.margin()))?;
         json.member("binding", &self.binding().map(|requirement| &requirement.text))?;
         json.member("feasible", &sizing.feasible())?;
@@ -110,22 +105,30 @@ impl Page for Answer<'_> {
 }
 
 /// When it has to be kept, where that is not the steady state.
-fn over(answer: &Answer<'_>) -> Option<String> {
-    let netlist = &answer.input.netlist;
-    let lasts = match answer.study.over {
+pub(super) fn over(netlist: &Netlist, study: &SizeStudy) -> Option<String> {
+    let lasts = match study.over {
         Over::Steady => return None,
         Over::Run => netlist.run.as_ref().map(|run| run.stop - run.start),
         Over::Periodic => {
-            let given = answer.study.period(&netlist.network).ok().flatten();
+            let given = study.period(&netlist.network).ok().flatten();
             given.or_else(|| netlist.network.repeat_period().ok().flatten())
         }
     };
-    let what = if answer.study.over == Over::Run { "run" } else { "settled cycle" };
+    let what = if study.over == Over::Run { "run" } else { "settled cycle" };
     let lasts = lasts.map_or(String::new(), |lasts| format!(" of {}", duration(lasts, 6)));
     Some(format!("at every moment of the {what}{lasts}"))
 }
 
-fn goal(goal: Goal) -> &'static str {
+/// What a network was solved for, in the plural.
+pub(super) fn solved(over: Over) -> &'static str {
+    match over {
+        Over::Steady => "steady states",
+        Over::Run => "runs",
+        Over::Periodic => "settled cycles",
+    }
+}
+
+pub(super) fn goal(goal: Goal) -> &'static str {
     match goal {
         Goal::Minimise => "least",
         Goal::Maximise => "largest",
@@ -145,7 +148,7 @@ fn value(answer: &Answer<'_>) -> String {
     } else {
         significant(value, DIGITS)
     };
-    format!("{} = {shown}{}", answer.study.parameter, spaced(&answer.unit.text))
+    format!("{} = {shown}{}", answer.name, spaced(&answer.unit.text))
 }
 
 /// `value` with so many digits, rounded up or down.
@@ -193,7 +196,7 @@ fn requirements(answer: &Answer<'_>) -> TextTable {
 /// What the table cannot say, each with its label.
 fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
     let (study, sizing) = (answer.study, &answer.sizing);
-    let name = &study.parameter;
+    let name = answer.name;
     let closest = &study.requirements[sizing.closest];
     let unit = closest.ty.dimension.si_unit();
     let mut notes = Vec::new();
@@ -214,11 +217,7 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
         let error = format!("{:.0e}{}", error / answer.unit.scale.abs(), spaced(&answer.unit.text));
         notes.push(("error", format!("{name} is known to {error}")));
     }
-    let solved = match study.over {
-        Over::Steady => "steady states",
-        Over::Run => "runs",
-        Over::Periodic => "settled cycles",
-    };
+    let solved = solved(study.over);
     notes.push(("proof", format!("{} {solved} of the full network", sizing.solved)));
     if let Some(value) = sizing.breaks_again {
         let side = if study.goal == Goal::Minimise { "above" } else { "below" };
@@ -248,7 +247,7 @@ pub(crate) fn verdict(answer: &Answer<'_>) -> String {
         }
         Verdict::Infeasible => {
             let off = significant(-sizing.margin(), 4);
-            let at = quantity(&study.parameter, sizing.trial.value, &answer.unit);
+            let at = quantity(answer.name, sizing.trial.value, &answer.unit);
             let unit = closest.ty.dimension.si_unit();
             let end = end(answer).map_or(String::new(), |end| format!(", the {end} of the range"));
             let text = plain(&closest.text);
@@ -259,7 +258,7 @@ pub(crate) fn verdict(answer: &Answer<'_>) -> String {
 
 /// Whether the value stands at an end of the range.
 fn end(answer: &Answer<'_>) -> Option<&'static str> {
-    let (from, to) = answer.study.range(&answer.input.netlist.network).ok()?;
+    let (from, to) = answer.range;
     let value = answer.sizing.trial.value;
     // in a range over decades the least end is near only for values of its own size
     let size = |end: f64| if end == 0.0 { to - from } else { end.abs().min(to - from) };
