@@ -7,7 +7,8 @@ mod support;
 #[path = "support/validation/mod.rs"]
 mod validation;
 
-use lptn::study::{SizeTask, size};
+use lptn::solve::Proceed;
+use lptn::study::{Demand, Moments, SizeTask, size};
 use support::shipped;
 use validation::{Report, judge_network, own_folder};
 
@@ -64,13 +65,16 @@ fn the_fan_is_sized_as_its_case_expects() {
     let (netlist, _) = shipped("fuel_cell_fan.toml");
     let (network, study) = (&netlist.network, &netlist.studies.sizes[0]);
     let task = SizeTask {
-        network,
-        parameters: network.overrides(),
+        demand: Demand {
+            network,
+            cases: &[],
+            requirements: &study.requirements,
+            moments: Moments::Steady(0.0),
+            watcher: &|_| Proceed::Continue,
+        },
         parameter: network.parameter("speed").expect("the speed of the air"),
-        range: study.range(network).expect("a range"),
+        range: study.ranges(network).expect("a range")[0].1,
         goal: study.goal,
-        requirements: &study.requirements,
-        time: 0.0,
     };
     let sizing = size(&task).expect("it can be sized");
     assert!(sizing.feasible());

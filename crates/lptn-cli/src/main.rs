@@ -25,6 +25,7 @@ mod lumping;
 mod operating_point;
 mod options;
 mod panic_net;
+mod period;
 mod phases;
 mod progress;
 mod ranges;

@@ -46,7 +46,7 @@ fn sizing_refuses_inputs_that_change_with_time_and_says_what_to_write() {
     assert!(ran.err.contains(&format!("a.toml:{line}:")), "{}", ran.err);
     let joined = ran.err.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(joined.contains("`load = \"100 W\"`"), "{joined}");
-    assert!(joined.contains("lptn run a.toml --set \"p=1 W/K\""), "{joined}");
+    assert!(joined.contains("`over = \"run\"`"), "{joined}");
     folder.run(&["size", "a.toml", "--write"]).exits(2);
     // 100 W over 20 K, as the message says
     let constant = CYCLE.lines().next().unwrap().to_owned() + "\nload = \"100 W\"\n" + &study;

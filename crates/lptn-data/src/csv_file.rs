@@ -152,6 +152,44 @@ impl CsvFile {
         if problems.is_empty() { Ok(points) } else { Err(problems) }
     }
 
+    /// The names of the columns with their places, in file order.
+    pub fn names(&self) -> impl Iterator<Item = (String, Span)> + '_ {
+        self.head.columns.iter().map(|header| (header.name.clone(), header.place.clone()))
+    }
+
+    /// The words in a column that names what stands in its rows: there, and each once.
+    ///
+    /// # Errors
+    /// That there is no such column or no row, and every cell that is empty or repeats another.
+    pub fn words(&self, name: &str, ask: &Asked) -> Result<Vec<String>, Vec<Diagnostic>> {
+        let index = self.head.find(name, ask).map_err(|problem| vec![problem])?;
+        let (mut words, mut problems): (Vec<String>, Vec<Diagnostic>) = (Vec::new(), Vec::new());
+        self.visit(|cells| {
+            let row = self.row(cells);
+            let word = row.cell(index).to_owned();
+            let place = || row.place(self.head.file(), index);
+            if word.is_empty() {
+                let message = format!("column `{name}` has no name in this row");
+                let problem = Diagnostic::error("netlist::csv_missing_value", message);
+                problems.push(problem.at(place(), "").help("fill it in, or leave the row out"));
+            } else if words.contains(&word) {
+                let message = format!("column `{name}` has `{word}` twice");
+                let problem = Diagnostic::error("netlist::csv_twice", message).at(place(), "again");
+                problems.push(problem.help("give each row a name of its own"));
+            }
+            words.push(word);
+            (problems.len() >= MOST_WRONG).then_some(())
+        });
+        if words.is_empty() {
+            let problem =
+                Diagnostic::error("netlist::csv_no_rows", "the file has a header and no rows");
+            let problem = problem.at(self.head.place.clone(), "nothing stands below");
+            problems.push(problem.help("write one part a row below the header"));
+        }
+        let problems: Vec<_> = problems.into_iter().map(|problem| ask.also(problem)).collect();
+        if problems.is_empty() { Ok(words) } else { Err(problems) }
+    }
+
     /// The place of the header.
     pub fn header(&self) -> &Span {
         &self.head.place

@@ -101,7 +101,9 @@ pub use netlist::{Netlist, parse, parse_bytes, parse_file, parse_raw, parse_with
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 pub use run_times::RunTime;
 pub use section::{Studies, format};
-pub use size::{Goal, Requirement, SizeStudy};
+pub use size::{
+    Catalogue, CatalogueColumn, Goal, Objective, Over, RangeOf, Requirement, SizeRange, SizeStudy,
+};
 pub use source_map::SourceMap;
 pub use state::{SavedState, StateControl, StateEnd};
 pub use write_back::WrittenNumber;

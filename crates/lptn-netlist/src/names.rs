@@ -134,6 +134,11 @@ impl Names {
         self.values.get(name).map(|(kind, ..)| *kind)
     }
 
+    /// Notes that a study gives a parameter values, which is a use of it.
+    pub(crate) fn use_by_study(&mut self, name: &str) {
+        self.used.insert(name.to_owned());
+    }
+
     pub(crate) fn is_used(&self, name: &str) -> bool {
         self.used.contains(name)
     }

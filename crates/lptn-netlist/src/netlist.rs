@@ -106,6 +106,15 @@ impl Netlist {
         &self.gearboxes
     }
 
+    /// What to simulate with the parameters that `network` has, which is this one with others;
+    /// `None` without `[run]`.
+    ///
+    /// # Errors
+    /// What they break in `[run]`: it ends before it begins, a signal ends earlier.
+    pub fn run_of(&self, network: &Network) -> Result<Option<RunSettings>, Vec<Diagnostic>> {
+        self.plan.as_ref().map(|plan| plan.settings(network)).transpose()
+    }
+
     /// The parameters as they were set, for [`Network::with`] with further ones.
     pub fn overrides(&self) -> Parameters {
         self.assigned.clone()

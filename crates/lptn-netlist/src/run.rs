@@ -77,9 +77,6 @@ const OUTPUT: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-/// The tolerance in K of a run that does not say.
-const USUAL_TOLERANCE: f64 = 1e-5;
-
 const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
 
 /// `[run]` before its expressions are evaluated: `--set` may change what they use.
@@ -207,7 +204,8 @@ impl RunPlan {
                 self.signals.iter().filter_map(|signal| self.short(network, signal, (start, stop)));
             check.problems.extend(short);
         }
-        let tolerance = self.tolerance.as_ref().map_or(USUAL_TOLERANCE, |t| check.positive(t));
+        let tolerance =
+            self.tolerance.as_ref().map_or(RunSettings::USUAL_TOLERANCE, |t| check.positive(t));
         let output = check.output(self.output.as_ref(), (start, stop));
         let windows =
             self.windows.iter().filter_map(|plan| check.window(plan, (start, stop))).collect();

@@ -96,9 +96,9 @@ fn an_expansion_is_the_same_network_and_its_own_expansion() {
                 let texts: Vec<String> = size.requirements.iter().map(|r| r.text.clone()).collect();
                 (
                     size.name.clone(),
-                    size.parameter.clone(),
+                    size.objective.text.clone(),
                     texts,
-                    size.range(&netlist.network).unwrap(),
+                    size.ranges(&netlist.network).unwrap(),
                 )
             };
             netlist.studies.sizes.iter().map(text).collect::<Vec<_>>()

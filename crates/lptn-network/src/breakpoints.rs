@@ -240,7 +240,7 @@ impl Parts {
         let (mut values, mut signals) = (Vec::new(), Vec::new());
         for item in items {
             match *item {
-                Item::Limit(id) => values.push(&self.limits[id.index()].of),
+                Item::Limit(id) => values.extend(self.limits[id.index()].sides()),
                 Item::Report(id) => values.push(&self.reports[id.index()].value),
                 Item::Signal(id) => signals.push(id),
                 _ => {}

@@ -24,6 +24,27 @@ pub struct RunSettings {
     pub held: Vec<Option<f64>>,
 }
 
+impl RunSettings {
+    /// The tolerance in K of a run that does not say.
+    pub const USUAL_TOLERANCE: f64 = 1e-5;
+
+    /// One cycle of `period` in s: from the start of `run`, with its tolerance and integrator and
+    /// from where its controls stand; rows as the usual number of intervals makes them.
+    pub fn cycle(run: Option<&Self>, period: f64) -> Self {
+        let start = run.map_or(0.0, |run| run.start);
+        Self {
+            start,
+            stop: start + period,
+            output: OutputTimes::Every(period / OutputTimes::USUAL_INTERVALS),
+            select: Vec::new(),
+            windows: Vec::new(),
+            tolerance: run.map_or(Self::USUAL_TOLERANCE, |run| run.tolerance),
+            integrator: run.map_or_else(Default::default, |run| run.integrator),
+            held: run.map_or_else(Vec::new, |run| run.held.clone()),
+        }
+    }
+}
+
 /// Which integrator computes a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum IntegratorChoice {

@@ -32,6 +32,7 @@ pub use moment::utc;
 pub use rank::{RankError, Ranking, effect};
 pub use record::{LedgerRecord, SiValue, StatisticsRecord};
 pub use size::{
-    Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask, SizeError, SizeTask, Sizing, Trial,
-    Verdict, requirement_margins, size,
+    Aim, Choice, ChoiceTask, Choices, Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask,
+    Demand, Design, Judged, LoadCase, Moments, Parts, RunOf, Several, SeveralTask, SizeError,
+    SizeTask, Sizing, Trial, TrialError, Verdict, Watcher, choose, judge, size, size_several,
 };

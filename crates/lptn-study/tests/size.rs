@@ -3,8 +3,10 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_netlist::{Netlist, parse};
+use lptn_solve::Proceed;
 use lptn_study::{
-    Coolant, CoolingTask, SizeError, SizeTask, Sizing, Verdict, requirement_margins, size,
+    Coolant, CoolingTask, Demand, Moments, SizeError, SizeTask, Sizing, TrialError, Verdict, judge,
+    size,
 };
 
 /// 100 W into `inner`, over `R_in` into `outer`, over `G` into air of 20 degC.
@@ -32,16 +34,23 @@ fn one_node(resistor: &str, power: &str, study: &str) -> Netlist {
     parse("one_node.toml", &text).unwrap_or_else(|rejected| panic!("{rejected}"))
 }
 
+fn demand(netlist: &Netlist) -> Demand<'_> {
+    Demand {
+        network: &netlist.network,
+        cases: &[],
+        requirements: &netlist.studies.sizes[0].requirements,
+        moments: Moments::Steady(0.0),
+        watcher: &|_| Proceed::Continue,
+    }
+}
+
 fn solve(netlist: &Netlist) -> Result<Sizing, SizeError> {
     let study = &netlist.studies.sizes[0];
     size(&SizeTask {
-        network: &netlist.network,
-        parameters: netlist.overrides(),
-        parameter: netlist.network.parameter(&study.parameter).unwrap(),
-        range: study.range(&netlist.network).unwrap(),
+        demand: demand(netlist),
+        parameter: study.ranges(&netlist.network).unwrap()[0].0,
+        range: study.ranges(&netlist.network).unwrap()[0].1,
         goal: study.goal,
-        requirements: &study.requirements,
-        time: 0.0,
     })
 }
 
@@ -83,7 +92,7 @@ fn two_limits_bind_in_turn() {
         let sizing = solve(&netlist).unwrap();
         near(sizing.trial.value, expected, 1e-11);
         assert_eq!(sizing.closest, binding, "R_in {r_in}");
-        let other = sizing.trial.margins[1 - binding];
+        let other = sizing.trial.judged.margins[1 - binding];
         near(other, f64::abs(10.0 - 100.0 * r_in), 1e-9);
         if f64::abs(r_in - 0.1) > 0.01 {
             // the guess is for the limit that binds, and exact for one path
@@ -172,7 +181,8 @@ fn a_range_without_network_is_an_error_that_says_where() {
         75 [degC]\"]";
     let error = solve(&one_node("G = \"x * 1 [W/K]\"", "100 W", study)).unwrap_err();
     assert_eq!(error.code(), "size::network");
-    assert!(matches!(error, SizeError::Network { value, .. } if value < 0.0), "{error}");
+    let SizeError::Trial { values, error, .. } = error else { panic!("{error}") };
+    assert!(matches!(*error, TrialError::Network(_)) && values[0] < 0.0, "{values:?}");
 }
 
 #[test]
@@ -180,8 +190,7 @@ fn margins_are_those_of_the_network_as_it_is() {
     let study = "minimise = \"G\"\nvary = { G = { from = \"1 W/K\", to = \"9 W/K\" } }\n\
                  require = [\"inner.T <= 80 [degC]\", \"inner.T - outer.T < 6 [K]\"]";
     let netlist = chain("", study);
-    let margins =
-        requirement_margins(&netlist.network, &netlist.studies.sizes[0].requirements, 0.0).unwrap();
+    let margins = judge(demand(&netlist)).unwrap().margins;
     // G = 3 W/K, R_in = 0.05 K/W
     near(margins[0], 80.0 - (20.0 + 100.0 / 3.0 + 5.0), 1e-12);
     near(margins[1], 1.0, 1e-10);

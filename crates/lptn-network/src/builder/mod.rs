@@ -278,6 +278,7 @@ impl NetworkBuilder {
             ty,
             bound,
             value,
+            compares: false,
             severity,
             text,
         });

@@ -25,6 +25,7 @@ use crate::names::UnknownName;
 use crate::numbers::Numbers;
 use crate::parameters::Parameters;
 use crate::parts::Parts;
+use crate::parts::result::Limit;
 use crate::value::Value;
 use lptn_laws::Confidence;
 use lptn_units::Problems;
@@ -158,6 +159,15 @@ impl Network {
         Ok(Self { parts: Arc::clone(&self.parts), numbers: Arc::new(numbers) })
     }
 
+    /// The same network with further limits behind its own: what a study requires is judged as they
+    /// are, at every moment of a run. Their names are for messages; no name leads to them.
+    #[must_use]
+    pub fn requiring(&self, limits: impl IntoIterator<Item = Limit>) -> Self {
+        let mut parts = (*self.parts).clone();
+        parts.limits.extend(limits);
+        Self { parts: Arc::new(parts), numbers: Arc::clone(&self.numbers) }
+    }
+
     /// The same network with signals held at values in SI units, whatever their course is; the
     /// parameters stay as they are given.
     ///
@@ -235,7 +245,7 @@ impl Network {
     /// Whether anything that is evaluated over a run depends on the time by itself: inputs, what
     /// switches, limits, reports.
     pub fn reads_time(&self) -> bool {
-        let limits = self.limits().iter().map(|limit| &limit.of);
+        let limits = self.limits().iter().flat_map(|limit| limit.sides());
         let mut results = limits.chain(self.reports().iter().map(|report| &report.value));
         let timed = !self.signals().is_empty() || results.any(|value| self.depends_on_time(value));
         timed || self.has_events() || self.has_time_dependent_inputs()

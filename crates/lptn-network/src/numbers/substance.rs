@@ -80,7 +80,8 @@ impl<'a> Work<'a> {
 
     /// The values of limits are constant; what they limit is evaluated with results.
     pub(crate) fn check_limits(&mut self) {
-        for (i, limit) in self.parts.limits.iter().enumerate() {
+        let limits = self.parts.limits.iter().enumerate().filter(|(_, limit)| !limit.compares);
+        for (i, limit) in limits {
             let item = Item::Limit(LimitId::from_len(i));
             let range = if limit.ty.absolute { Range::Temperature } else { Range::Finite };
             self.constant(item, limit.bound.field(), &limit.value, range);

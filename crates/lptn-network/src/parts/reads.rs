@@ -58,10 +58,10 @@ impl Parts {
     pub(crate) fn uses_signal(&self, item: Item, signal: SignalId) -> bool {
         let own = self.inputs().filter(|(of, _, _)| *of == item).map(|(_, _, value)| value);
         let limit = match item {
-            Item::Limit(id) => Some(&self.limits[id.index()].of),
+            Item::Limit(id) => Some(self.limits[id.index()].sides()),
             _ => None,
         };
-        self.watched(own.chain(limit).collect(), &[]).signals[signal.index()]
+        self.watched(own.chain(limit.into_iter().flatten()).collect(), &[]).signals[signal.index()]
     }
 
     /// Marks the signals that a value reads itself.

@@ -45,8 +45,11 @@ pub struct Limit {
     pub ty: Type,
     /// The side on which it has to stay.
     pub bound: Bound,
-    /// What it has to stay below or above; constant for one set of parameters.
+    /// What it has to stay below or above; constant for one set of parameters unless `compares`.
     pub value: Value,
+    /// Whether `value` is a result too: what a study requires compares any two. A limit of the
+    /// builder does not.
+    pub compares: bool,
     /// What it means if it is broken.
     pub severity: LimitSeverity,
     /// `of` as it was written.
@@ -54,6 +57,11 @@ pub struct Limit {
 }
 
 impl Limit {
+    /// What is compared: the quantity, and what it has to stay below or above.
+    pub fn sides(&self) -> [&Value; 2] {
+        [&self.of, &self.value]
+    }
+
     /// The type of the limit's margin: like `of`, but for temperatures a difference.
     pub fn margin_type(&self) -> Type {
         Type { absolute: false, ..self.ty }

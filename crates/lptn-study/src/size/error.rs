@@ -1,9 +1,11 @@
 //! Why a parameter cannot be sized.
 
+use std::sync::Arc;
+
 use lptn_assembly::AssemblyError;
-use lptn_network::{BuildErrors, Changing};
-use lptn_solve::SteadyError;
-use lptn_units::{Class, EvalError};
+use lptn_network::{BuildErrors, Changing, ParameterId};
+use lptn_solve::{PeriodicError, SteadyError, TransientError};
+use lptn_units::{Class, EvalError, format_six};
 
 const LEAVE_OUT: &str = "`vary` has to leave this value out: let its range begin or end elsewhere";
 
@@ -22,25 +24,64 @@ pub enum SizeError {
     Changing(inputs: Vec<Changing>) = "size::inputs_change",
         "what is required depends on inputs that change with time, and a steady state knows only \
          one moment of them";
-    /// The network does not exist for a value inside the range.
-    Network { value: f64, errors: BuildErrors } = "size::network",
-        format!("there is no network at {value}: {errors}"),
+    /// The catalogues have more combinations than can be judged.
+    TooMany { most: usize } = "size::too_many",
+        format!("the catalogues have more than {most} combinations"),
+        help "choose from one catalogue first, or shorten them";
+    /// A design cannot be judged: its values, and the load case, whose name is empty where there is
+    /// none.
+    Trial { values: Vec<f64>, case: String, error: Box<TrialError> } = error.code(),
+        format!("{}: {error}", place(values, case)),
+        source error.as_ref(), help error.help(), class error.class();
+}
+}
+
+impl SizeError {
+    pub(crate) fn trial(design: &[(ParameterId, f64)], case: &str, error: TrialError) -> Self {
+        let values = design.iter().map(|(_, value)| *value).collect();
+        Self::Trial { values, case: case.to_owned(), error: Box::new(error) }
+    }
+}
+
+fn place(values: &[f64], case: &str) -> String {
+    let values: Vec<String> = values.iter().map(|value| format_six(*value)).collect();
+    let of_case = if case.is_empty() { String::new() } else { format!(" in case `{case}`") };
+    format!("at {}{of_case}", values.join(", "))
+}
+
+lptn_units::errors! {
+/// Why a design cannot be judged.
+#[derive(Clone, Debug)]
+pub enum TrialError {
+    /// The network does not exist for values inside the ranges.
+    Network(errors: BuildErrors) = "size::network", format!("there is no network: {errors}"),
         source errors, help LEAVE_OUT;
     /// The network cannot be assembled.
     Assembly => AssemblyError;
-    /// The network has no steady state for a value inside the range.
-    Steady { value: f64, error: SteadyError } = error.code(),
-        format!("there is no steady state at {value}: {error}"),
+    /// The network has no steady state.
+    Steady(error: SteadyError) = error.code(), format!("there is no steady state: {error}"),
         source error,
         help match error {
             SteadyError::BelowAbsoluteZero { .. } | SteadyError::Cycles { .. } => {
                 Some(LEAVE_OUT.to_owned())
             }
             error => error.help(),
-        }, class match error.class() {
-            Class::No => Class::Input,
-            class => class,
-        };
+        }, class not_an_answer(error.class());
+    /// The run does not exist for these values.
+    Settings(says: String) = "size::run", format!("there is no run: {says}"), help LEAVE_OUT;
+    /// Its run failed.
+    Run(error: Arc<TransientError>) = error.code(), format!("the run failed: {error}"),
+        source error.as_ref(), help error.help(), class not_an_answer(error.class());
+    /// It has no settled cycle.
+    Periodic(error: Arc<PeriodicError>) = error.code(),
+        format!("there is no settled cycle: {error}"),
+        source error.as_ref(), help error.help(), class not_an_answer(error.class());
+    /// The books of the run do not close: relative residual, and what is allowed.
+    Ledger(residual: f64, bound: f64) = "run::ledger",
+        format!(
+            "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than \
+             the {bound:.1e} allowed"
+        ), class Class::Numbers;
     /// A requirement, as it was written, has no value; why not, or `None` if it gave no finite
     /// number.
     Requirement { text: String, error: Option<EvalError> } = "size::requirement",
@@ -48,5 +89,37 @@ pub enum SizeError {
             Some(error) => format!("`{text}` has no value: {error}"),
             None => format!("`{text}` has no finite value"),
         };
+    /// What is sought has no value; why not, or `None` if it gave no finite number.
+    Objective(error: Option<EvalError>) = "size::objective",
+        match error {
+            Some(error) => format!("what is sought has no value: {error}"),
+            None => "what is sought has no finite value".to_owned(),
+        };
+    /// It was interrupted.
+    Interrupted = "run::interrupted", "interrupted before there was an answer",
+        class Class::Interrupted;
 }
+}
+
+impl From<Arc<TransientError>> for TrialError {
+    fn from(error: Arc<TransientError>) -> Self {
+        Self::Run(error)
+    }
+}
+
+impl From<Arc<PeriodicError>> for TrialError {
+    fn from(error: Arc<PeriodicError>) -> Self {
+        match error.as_ref() {
+            PeriodicError::Interrupted { .. } => Self::Interrupted,
+            _ => Self::Periodic(error),
+        }
+    }
+}
+
+/// A network without an answer is no answer of its own.
+fn not_an_answer(class: Class) -> Class {
+    match class {
+        Class::No => Class::Input,
+        class => class,
+    }
 }

@@ -1,13 +1,21 @@
-//! Sizing: what a cooling has to do, and the value of a parameter that keeps what is required.
+//! Sizing: what a cooling has to do, the value of a parameter that keeps what is required, and
+//! the best of several parameters and of parts.
 
+mod choice;
 mod coolants;
 mod cooling;
+mod design;
 mod error;
+mod judge;
 mod root;
 mod search;
-mod trial;
+mod several;
+mod smooth;
 
+pub use choice::{Choice, ChoiceTask, Choices, Parts, choose};
 pub use cooling::{Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask};
-pub use error::SizeError;
-pub use search::{Sizing, Verdict, size};
-pub use trial::{SizeTask, Trial, requirement_margins};
+pub use design::{Aim, Design};
+pub use error::{SizeError, TrialError};
+pub use judge::{Demand, Judged, LoadCase, Moments, RunOf, Watcher, judge};
+pub use search::{SizeTask, Sizing, Trial, Verdict, size};
+pub use several::{Several, SeveralTask, size_several};

@@ -8,7 +8,8 @@ const MOST_STEPS: usize = 3000;
 pub(crate) type Point = (f64, f64);
 
 /// Narrows a bracket between a point where `f` is not negative and one where it is, to neighbouring
-/// numbers, and gives the point of the first kind: the last one at which everything is kept.
+/// numbers or to a share of their size, and gives the point of the first kind: the last one at
+/// which everything is kept.
 ///
 /// Brent's method: R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 4:
 /// inverse quadratic interpolation or the secant where they make progress, bisection where they do
@@ -19,9 +20,9 @@ pub(crate) type Point = (f64, f64);
 pub(crate) fn last_kept<E>(
     kept: Point,
     broken: Point,
-    f: &mut dyn FnMut(f64) -> Result<f64, E>,
+    (share, f): (f64, &mut dyn FnMut(f64) -> Result<f64, E>),
 ) -> Result<Point, E> {
-    let mut bracket = Bracket::new(broken, kept);
+    let mut bracket = Bracket::new(broken, kept, share);
     for _ in 0..MOST_STEPS {
         bracket.arrange();
         if bracket.is_closed() {
@@ -40,6 +41,8 @@ struct Bracket {
     c: Point,
     step: f64,
     step_before: f64,
+    /// The share of a number that counts.
+    share: f64,
 }
 
 fn same_side(a: Point, b: Point) -> bool {
@@ -47,8 +50,9 @@ fn same_side(a: Point, b: Point) -> bool {
 }
 
 impl Bracket {
-    fn new(a: Point, b: Point) -> Self {
-        Self { a, b, c: a, step: b.0 - a.0, step_before: b.0 - a.0 }
+    fn new(a: Point, b: Point, share: f64) -> Self {
+        let share = share.max(2.0 * f64::EPSILON);
+        Self { a, b, c: a, step: b.0 - a.0, step_before: b.0 - a.0, share }
     }
 
     /// Keeps the sign change between `b` and `c`, and the smaller value at `b`.
@@ -65,9 +69,9 @@ impl Bracket {
         }
     }
 
-    /// The smallest step that still changes a number of this size.
+    /// The smallest step that counts for a number of this size.
     fn least(&self) -> f64 {
-        (2.0 * f64::EPSILON * self.b.0.abs()).max(f64::MIN_POSITIVE)
+        (self.share * self.b.0.abs()).max(f64::MIN_POSITIVE)
     }
 
     fn is_closed(&self) -> bool {
@@ -146,7 +150,7 @@ mod tests {
             calls += 1;
             Ok::<f64, Infallible>(f(x))
         };
-        let (x, y) = last_kept((kept, f(kept)), (broken, f(broken)), &mut counted).unwrap();
+        let (x, y) = last_kept((kept, f(kept)), (broken, f(broken)), (0.0, &mut counted)).unwrap();
         assert!(y >= 0.0, "{x} is not kept: {y}");
         (x, calls)
     }

@@ -5,25 +5,51 @@
 //! nearest to the best end is narrowed to neighbouring numbers, with the full network at every
 //! step.
 
-use lptn_netlist::{Goal, Requirement};
-use lptn_network::Value;
+use lptn_netlist::Goal;
+use lptn_network::ParameterId;
 
 use crate::size::error::SizeError;
+use crate::size::judge::{Care, Demand, Judge, Judged, Moments};
 use crate::size::root::{last_kept, norton_guess};
-use crate::size::trial::{SizeTask, Trial, Trials};
 
 /// Places at which the range is looked at.
 const POINTS: usize = 25;
 
 /// A range that spans more than this is looked at in equal ratios rather than in equal steps.
-const WIDE: f64 = 10.0;
+pub(crate) const WIDE: f64 = 10.0;
 
 /// Steps of the search for a value that keeps what no place looked at keeps: golden section, 2e-9
-/// of its interval.
+/// of its interval. Half of them, 4e-5, where margins carry the error of a run: at the top they hardly
+/// change.
 const GOLDEN_STEPS: usize = 42;
+
+/// Where margins carry the error of a run, values that differ by this share are not told apart.
+const RESOLUTION: f64 = 1e-12;
 
 /// Relative change of the parameter for its sensitivity.
 const NUDGE: f64 = 1e-4;
+
+/// What is to be sized.
+#[derive(Clone, Debug)]
+pub struct SizeTask<'a> {
+    /// What has to be kept.
+    pub demand: Demand<'a>,
+    /// The parameter whose value is sought.
+    pub parameter: ParameterId,
+    /// The least and the largest value it may take, in SI units.
+    pub range: (f64, f64),
+    /// Which of several values that do is the best.
+    pub goal: Goal,
+}
+
+/// The network at one value of the parameter.
+#[derive(Clone, Debug)]
+pub struct Trial {
+    /// The value in SI units.
+    pub value: f64,
+    /// What came of it.
+    pub judged: Judged,
+}
 
 /// How an answer came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,9 +78,14 @@ pub struct Sizing {
     /// Change of the closest requirement's margin, in SI units, for 1 % more of the parameter;
     /// `None` for a temperature, of which there is no percentage, and for zero.
     pub sensitivity: Option<f64>,
-    /// The value that the Norton equivalent seen from the changed path predicted, in SI units.
+    /// By how much the value may be off, in SI units, since runs are computed to a tolerance: their
+    /// error over what the closest margin changes with the value. `None` in steady state, where
+    /// margins are exact to rounding, where nothing binds, and where that change is not known.
+    pub error: Option<f64>,
+    /// The value that the Norton equivalent seen from the changed path predicted, in SI units; only
+    /// in steady state.
     pub first_guess: Option<f64>,
-    /// How many steady states were solved.
+    /// How many networks were solved.
     pub solved: usize,
     /// The places over the whole range that were looked at first, the best end of it first.
     pub looked_at: Vec<Trial>,
@@ -68,7 +99,7 @@ impl Sizing {
 
     /// The margin of the closest requirement in SI units; negative by as much as it is broken.
     pub fn margin(&self) -> f64 {
-        self.trial.margins[self.closest]
+        self.trial.judged.margins[self.closest]
     }
 }
 
@@ -82,22 +113,17 @@ pub fn size(task: &SizeTask<'_>) -> Result<Sizing, SizeError> {
     if !(from.is_finite() && to.is_finite() && from < to) {
         return Err(SizeError::Range { from, to });
     }
-    if task.requirements.is_empty() {
-        return Err(SizeError::NoRequirement);
-    }
-    let required: Vec<&Value> = task.requirements.iter().flat_map(Requirement::sides).collect();
-    let changing = task.network.changing_inputs_of(&required);
-    if !changing.is_empty() {
-        return Err(SizeError::Changing(changing));
-    }
-    let trials = Trials::new(task);
-    let scan = places(task).map(|value| trials.at(value)).collect::<Result<Vec<_>, _>>()?;
+    let judge = Judge::new(task.demand)?;
+    let trials = Trials { task, judge };
+    let scan = places(task).map(|value| trials.look(value)).collect::<Result<Vec<_>, _>>()?;
     let search = Search { scale: scales(&scan), trials, scan };
     let found = search.best()?;
     let closest = search.closest(&found.trial);
     let sensitivity = search.sensitivity(task, &found.trial, closest);
     let Found { verdict, trial, breaks_again, first_guess } = found;
-    let solved = search.trials.count();
+    let error = sensitivity.filter(|_| verdict == Verdict::Bound && trial.judged.error > 0.0);
+    let error = error.map(|slope| 0.01 * trial.value.abs() * trial.judged.error / slope.abs());
+    let solved = search.trials.judge.count();
     let looked_at = search.scan;
     Ok(Sizing {
         verdict,
@@ -105,6 +131,7 @@ pub fn size(task: &SizeTask<'_>) -> Result<Sizing, SizeError> {
         closest,
         breaks_again,
         sensitivity,
+        error,
         first_guess,
         solved,
         looked_at,
@@ -133,9 +160,44 @@ fn places(task: &SizeTask<'_>) -> impl Iterator<Item = f64> + use<> {
 
 /// The largest size of each margin: requirements of different units are compared in shares of it.
 fn scales(scan: &[Trial]) -> Vec<f64> {
-    let count = scan.first().map_or(0, |trial| trial.margins.len());
-    let largest = |i: usize| scan.iter().map(|trial| trial.margins[i].abs()).fold(0.0, f64::max);
+    let count = scan.first().map_or(0, |trial| trial.judged.margins.len());
+    let largest =
+        |i: usize| scan.iter().map(|trial| trial.judged.margins[i].abs()).fold(0.0, f64::max);
     (0..count).map(largest).map(|scale| if scale > 0.0 { scale } else { 1.0 }).collect()
+}
+
+/// Solves the network again and again.
+struct Trials<'a> {
+    task: &'a SizeTask<'a>,
+    judge: Judge<'a>,
+}
+
+impl Trials<'_> {
+    fn with(&self, value: f64, care: Care) -> Result<Trial, SizeError> {
+        let judged = self.judge.judge(&[(self.task.parameter, value)], care)?;
+        Ok(Trial { value, judged })
+    }
+
+    /// A look at a value.
+    fn look(&self, value: f64) -> Result<Trial, SizeError> {
+        self.with(value, Care::Look)
+    }
+
+    /// As well as it can be known.
+    fn at(&self, value: f64) -> Result<Trial, SizeError> {
+        self.with(value, Care::Proof)
+    }
+
+    /// Whether margins are exact to rounding.
+    fn exact(&self) -> bool {
+        matches!(self.task.demand.moments, Moments::Steady(_))
+    }
+
+    /// The value at which a margin is zero, by the Norton equivalent through three trials: steady
+    /// states only, for peaks follow no such law.
+    fn guess(&self, margins: [(f64, f64); 3]) -> Option<f64> {
+        if self.exact() { norton_guess(margins) } else { None }
+    }
 }
 
 struct Search<'a> {
@@ -153,7 +215,7 @@ struct Found {
 
 impl Search<'_> {
     fn shares(&self, trial: &Trial) -> impl Iterator<Item = f64> {
-        trial.margins.iter().zip(&self.scale).map(|(margin, scale)| margin / scale)
+        trial.judged.margins.iter().zip(&self.scale).map(|(margin, scale)| margin / scale)
     }
 
     /// The least margin as a share of its scale: not negative where everything is kept.
@@ -170,20 +232,49 @@ impl Search<'_> {
         self.worst(trial) >= 0.0
     }
 
+    /// The trial at a place, as well as it can be known.
+    fn proven(&self, place: usize) -> Result<Trial, SizeError> {
+        let trial = &self.scan[place];
+        if self.trials.exact() { Ok(trial.clone()) } else { self.trials.at(trial.value) }
+    }
+
     fn best(&self) -> Result<Found, SizeError> {
-        match self.scan.iter().position(|trial| self.keeps(trial)) {
-            Some(0) => {
-                let trial = self.scan[0].clone();
-                let breaks_again = self.breaks_after(0)?;
-                Ok(Found { verdict: Verdict::BestEnd, trial, breaks_again, first_guess: None })
+        let first = self.scan.iter().position(|trial| self.keeps(trial));
+        let Some((k, broken, kept)) = first.map_or(Ok(None), |k| self.bracket(k))? else {
+            return self.between_the_places();
+        };
+        let (verdict, trial, first_guess) = match broken {
+            None => (Verdict::BestEnd, kept, None),
+            Some(broken) => {
+                let (trial, guess) = self.border(&broken, &kept)?;
+                (Verdict::Bound, trial, guess)
             }
-            Some(k) => {
-                let (trial, first_guess) = self.border(&self.scan[k - 1], &self.scan[k])?;
-                let breaks_again = self.breaks_after(k)?;
-                Ok(Found { verdict: Verdict::Bound, trial, breaks_again, first_guess })
+        };
+        let breaks_again = self.breaks_after(k)?;
+        Ok(Found { verdict, trial, breaks_again, first_guess })
+    }
+
+    /// The first place at which everything is kept, from place `k` on, which a look holds to be it;
+    /// what is broken at the one before it, unless it is the best end. A look may mistake a place
+    /// that is nearer to the border than its error.
+    fn bracket(&self, mut k: usize) -> Result<Option<(usize, Option<Trial>, Trial)>, SizeError> {
+        let mut kept = self.proven(k)?;
+        while !self.keeps(&kept) {
+            k += 1;
+            if k == self.scan.len() {
+                return Ok(None);
             }
-            None => self.between_the_places(),
+            kept = self.proven(k)?;
         }
+        while k > 0 {
+            let before = self.proven(k - 1)?;
+            if !self.keeps(&before) {
+                return Ok(Some((k, Some(before), kept)));
+            }
+            kept = before;
+            k -= 1;
+        }
+        Ok(Some((0, None, kept)))
     }
 
     /// The last trial on the way from `kept` to `broken` that keeps everything, and the first guess
@@ -192,8 +283,8 @@ impl Search<'_> {
         let (mut broken, mut kept) = (broken.clone(), kept.clone());
         let middle = self.trials.at(0.5 * (broken.value + kept.value))?;
         let binding = self.closest(&broken);
-        let margin = |trial: &Trial| (trial.value, trial.margins[binding]);
-        let guess = norton_guess([margin(&broken), margin(&middle), margin(&kept)]);
+        let margin = |trial: &Trial| (trial.value, trial.judged.margins[binding]);
+        let guess = self.trials.guess([margin(&broken), margin(&middle), margin(&kept)]);
         let guessed = guess.map(|value| self.trials.at(value)).transpose()?;
         for trial in [Some(middle), guessed].into_iter().flatten() {
             let inside = (trial.value - broken.value) * (trial.value - kept.value) < 0.0;
@@ -205,7 +296,8 @@ impl Search<'_> {
         }
         let point = |trial: &Trial| (trial.value, self.worst(trial));
         let mut worst = |value| self.trials.at(value).map(|trial| self.worst(&trial));
-        let (value, _) = last_kept(point(&kept), point(&broken), &mut worst)?;
+        let resolution = if self.trials.exact() { 0.0 } else { RESOLUTION };
+        let (value, _) = last_kept(point(&kept), point(&broken), (resolution, &mut worst))?;
         Ok((self.trials.at(value)?, guess))
     }
 
@@ -215,7 +307,13 @@ impl Search<'_> {
         let Some((at, _)) = behind.into_iter().find(|(_, trial)| !self.keeps(trial)) else {
             return Ok(None);
         };
-        self.border(&self.scan[at], &self.scan[at - 1]).map(|(trial, _)| Some(trial.value))
+        let (kept, broken) = (self.proven(at - 1)?, self.proven(at)?);
+        match (self.keeps(&kept), self.keeps(&broken)) {
+            (true, false) => self.border(&broken, &kept).map(|(trial, _)| Some(trial.value)),
+            // the border is there, as nearly as a look can tell
+            (false, _) => Ok(Some(kept.value)),
+            (true, true) => Ok(Some(broken.value)),
+        }
     }
 
     /// No place keeps everything: perhaps a value between them does. Golden section around the best
@@ -226,9 +324,10 @@ impl Search<'_> {
         };
         // of equals the first, which is nearer to the best end
         let best = (0..self.scan.len()).rev().max_by(by_worst).unwrap_or(0);
-        let low = &self.scan[best.saturating_sub(1)];
-        let high = &self.scan[(best + 1).min(self.scan.len() - 1)];
-        let top = self.top((low.value, high.value), self.scan[best].clone())?;
+        let near = [best.saturating_sub(1), best, (best + 1).min(self.scan.len() - 1)];
+        let [low, middle, high] = near.map(|place| self.proven(place));
+        let (low, high) = (&low?, &high?);
+        let top = self.top((low.value, high.value), middle?)?;
         if !self.keeps(&top) {
             let (verdict, breaks_again, first_guess) = (Verdict::Infeasible, None, None);
             return Ok(Found { verdict, trial: top, breaks_again, first_guess });
@@ -245,7 +344,8 @@ impl Search<'_> {
         let golden = 0.5 * (5_f64.sqrt() - 1.0);
         let inner = |from: f64, to: f64| self.trials.at(to - golden * (to - from));
         let (mut left, mut right) = (inner(a, b)?, inner(b, a)?);
-        for _ in 0..GOLDEN_STEPS {
+        let steps = if self.trials.exact() { GOLDEN_STEPS } else { GOLDEN_STEPS / 2 };
+        for _ in 0..steps {
             for trial in [&left, &right] {
                 if self.worst(trial) > self.worst(&best) {
                     best = trial.clone();
@@ -269,12 +369,13 @@ impl Search<'_> {
 
     /// Change of a margin for 1 % more of the parameter, by a central difference.
     fn sensitivity(&self, task: &SizeTask<'_>, trial: &Trial, closest: usize) -> Option<f64> {
-        let ty = task.network.parameters()[task.parameter.index()].ty;
+        let ty = task.demand.network.parameters()[task.parameter.index()].ty;
         if ty.absolute || trial.value == 0.0 {
             return None;
         }
-        let margin =
-            |share: f64| self.trials.at(trial.value * share).ok().map(|t| t.margins[closest]);
+        let margin = |share: f64| {
+            self.trials.at(trial.value * share).ok().map(|t| t.judged.margins[closest])
+        };
         Some((margin(1.0 + NUDGE)? - margin(1.0 - NUDGE)?) / (2.0 * NUDGE) * 0.01)
     }
 }

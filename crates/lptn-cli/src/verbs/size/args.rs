@@ -12,7 +12,7 @@ Examples:
   lptn size fan.toml
   lptn size fan.toml fan --write";
 
-/// Find the cooling, or the value of a parameter, that keeps a limit
+/// Find the cooling, the values of parameters, or the parts that keep a limit
 #[derive(Debug, Arguments)]
 #[command(before_help = EXAMPLES, help_template = TEMPLATE)]
 pub(crate) struct SizeArgs {
@@ -28,6 +28,9 @@ pub(crate) struct SizeArgs {
     /// Write the value into the netlist; comments and order stay
     #[arg(long, conflicts_with_all = ["set", "power"])]
     pub(crate) write: bool,
+    /// Use so many threads, not all of the machine; the result is the same
+    #[arg(long, value_name = "N", conflicts_with = "power")]
+    pub(crate) threads: Option<usize>,
     #[command(flatten)]
     pub(crate) printed: Printed,
     #[command(flatten)]

@@ -6,9 +6,11 @@ use lptn_network::{Changing, Course, Item, Network, SignalId, list_of};
 use lptn_report::significant;
 use lptn_study::SizeError;
 
-use super::page::quantity;
 use crate::input::Input;
 use crate::words::spaced;
+
+const OVER: &str = "size over all moments with `over = \"run\"`, or `over = \"periodic\"` for a \
+                    cycle to which the network settles";
 
 /// The error with the place of everything that changes.
 pub(crate) fn explained(
@@ -38,7 +40,7 @@ pub(crate) fn explained(
     if known.is_empty() {
         problem = problem.at(study.span.clone(), "");
     }
-    problem.help(format!("{}; or {}", constant(network, changing), candidates(input, study)))
+    problem.help(format!("{OVER}; or {}", constant(network, changing)))
 }
 
 fn place(input: &Input, change: &Changing) -> Option<lptn_netlist::Span> {
@@ -79,18 +81,4 @@ fn largest(network: &Network, id: SignalId) -> Option<String> {
     let most = values.iter().copied().reduce(f64::max)?;
     let unit = spaced(&signal.ty.dimension.si_unit());
     Some(format!("`{} = \"{}{unit}\"`", signal.name, significant(most, 6)))
-}
-
-/// The run that looks at one value of the parameter over time.
-fn candidates(input: &Input, study: &SizeStudy) -> String {
-    let network = &input.netlist.network;
-    let file = input.typed().unwrap_or_else(|| "FILE".into());
-    let value = study.range(network).ok().zip(network.parameter(&study.parameter).ok());
-    let set = value.map(|((from, _), parameter)| {
-        let set =
-            quantity(&study.parameter, from, &input.unit_of(parameter)).replacen(" = ", "=", 1);
-        format!(" --set \"{set}\"")
-    });
-    let set = set.unwrap_or_default();
-    format!("look at each value of `{}` over time: lptn run {file}{set}", study.parameter)
 }

@@ -2,9 +2,10 @@
 
 use lptn_netlist::Requirement;
 use lptn_plot::Figure;
-use lptn_plot::figure::{Axis, Curve, Level, Moment, Panel};
+use lptn_plot::figure::{Axis, Curve, Level, Look, Moment, Panel};
+use lptn_study::Design;
 
-use super::Answer;
+use super::{Answer, Asked};
 
 /// A range that spans more than this is shown by its logarithms.
 const WIDE: f64 = 10.0;
@@ -40,7 +41,7 @@ impl Answer<'_> {
     fn across(&self) -> Axis {
         let values = self.sizing.looked_at.iter().map(|trial| self.unit.from_si(trial.value));
         let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(l, h), v| (l.min(v), h.max(v)));
-        let (name, unit) = (&self.study.parameter, &self.unit.text);
+        let (name, unit) = (self.name, &self.unit.text);
         if low > 0.0 && high / low > WIDE {
             Axis::log(name, unit)
         } else {
@@ -52,7 +53,36 @@ impl Answer<'_> {
         let mut trials: Vec<_> = self.sizing.looked_at.iter().collect();
         trials.push(&self.sizing.trial);
         trials.sort_by(|a, b| a.value.total_cmp(&b.value));
-        let points = trials.iter().map(|trial| (self.unit.from_si(trial.value), trial.margins[i]));
+        let points =
+            trials.iter().map(|trial| (self.unit.from_si(trial.value), trial.judged.margins[i]));
         Curve::line(&requirement.text, points.collect())
     }
+}
+
+/// What designs leave of every requirement over what is sought, a panel for each unit; the answer is
+/// marked.
+pub(super) fn designs(asked: &Asked<'_>, all: &[&Design], answer: Option<&Design>) -> Figure {
+    let objective = &asked.study.objective;
+    let across = || Axis::linear(&objective.text, objective.ty.dimension.si_unit());
+    let mut panels: Vec<Panel> = Vec::new();
+    for (i, requirement) in asked.study.requirements.iter().enumerate() {
+        let axis = Axis::linear("margin", requirement.ty.dimension.si_unit());
+        let points = all.iter().map(|design| (design.objective, design.judged.margins[i]));
+        let curve = Curve::line(&requirement.text, points.collect()).looks(Look::Dots);
+        match panels.iter_mut().find(|panel| panel.y == axis) {
+            Some(panel) => panel.curves.push(curve),
+            None => {
+                let mut panel = Panel::new(across(), axis);
+                panel.curves.push(curve);
+                panels.push(panel);
+            }
+        }
+    }
+    for panel in &mut panels {
+        panel.limits.push(Level { name: "margin 0: broken below it".into(), value: 0.0 });
+        let at = answer.map(|design| design.objective);
+        panel.moments.extend(at.map(|at| Moment { name: "the answer".into(), at }));
+    }
+    let title = format!("{}: size {}", asked.input.title(), asked.study.name);
+    Figure { title, note: String::new(), panels }
 }

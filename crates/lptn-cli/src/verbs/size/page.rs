@@ -2,9 +2,11 @@
 
 use std::io;
 
-use lptn_netlist::{Goal, Requirement};
+use lptn_netlist::{Goal, Netlist, Over, Requirement, SizeStudy};
 use lptn_plot::Figure;
-use lptn_report::{Json, Page, Report, Rows, Standing, Text, TextTable, plain, significant};
+use lptn_report::{
+    Json, Page, Report, Rows, Standing, Text, TextTable, duration, plain, significant,
+};
 use lptn_solve::Table;
 use lptn_study::{SiValue, Verdict};
 use lptn_units::Unit;
@@ -23,21 +25,22 @@ const ZERO: f64 = 1e-9;
 
 impl Page for Answer<'_> {
     fn text(&self) -> Text {
-        let (study, network) = (self.study, &self.input.netlist.network);
-        let (goal, range) =
-            (goal(study.goal), study.range(network).unwrap_or((f64::NAN, f64::NAN)));
+        let (study, range, goal) = (self.study, self.range, goal(self.study.goal));
         let unit = &self.unit;
         let number = |si: f64| significant(unit.from_si(si), DIGITS);
         let sought = format!(
             "size {}: the {goal} {} from {} to {}{}",
             study.name,
-            study.parameter,
+            self.name,
             number(range.0),
             number(range.1),
             spaced(&unit.text)
         );
         let mut text = Text::titled(self.input.title());
         text.sentence("", &sought);
+        if let Some(over) = over(&self.input.netlist, study) {
+            text.sentence("", &over);
+        }
         text.section().table(requirements(self));
         text.section();
         for (label, note) in notes(self) {
@@ -51,9 +54,9 @@ impl Page for Answer<'_> {
     fn rows(&self) -> Rows<'_> {
         let mut table = Table::of(&[()]);
         let value = self.unit.from_si(self.sizing.trial.value);
-        table.column(&self.study.parameter, &self.unit.text, |()| value);
+        table.column(self.name, &self.unit.text, |()| value);
         table.column("feasible", "-", |()| if self.sizing.feasible() { 1.0 } else { 0.0 });
-        for (r, &margin) in self.study.requirements.iter().zip(&self.sizing.trial.margins) {
+        for (r, &margin) in self.study.requirements.iter().zip(&self.sizing.trial.judged.margins) {
             table.column(&r.text, r.ty.dimension.si_unit(), |()| margin);
         }
         table.done().into()
@@ -70,26 +73,30 @@ impl Page for Answer<'_> {
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let (network, sizing) = (&self.input.netlist.network, &self.sizing);
         let si = network.parameters()[self.parameter.index()].ty.dimension.si_unit();
-        let requirement = |(r, &margin): (&Requirement, &f64)| {
+        let requirement = |((r, &margin), at): ((&Requirement, &f64), &Option<f64>)| {
             let margin = SiValue::new(margin, &r.ty.dimension.si_unit());
-            json!({ "requirement": r.text, "margin": margin })
+            let at = at.map(|at| SiValue::new(at, "s"));
+            json!({ "requirement": r.text, "margin": margin, "worst_at": at })
         };
-        let margins = self.study.requirements.iter().zip(&sizing.trial.margins);
+        let judged = &sizing.trial.judged;
+        let margins = self.study.requirements.iter().zip(&judged.margins).zip(&judged.worst_at);
         let scalar = |value: f64| SiValue::new(value, &si);
         let of_margin = |value: f64| SiValue::new(value, &self.closest_unit());
         self.input.head(json, &[])?;
-        json.member(
-            "values",
-            &json!({ (self.study.parameter.as_str()): scalar(sizing.trial.value) }),
-        )?;
+        json.member("values", &json!({ (self.name): scalar(sizing.trial.value) }))?;
         json.member("margin", &of_margin(sizing.margin()))?;
         json.member("binding", &self.binding().map(|requirement| &requirement.text))?;
         json.member("feasible", &sizing.feasible())?;
         json.member("requirements", &margins.map(requirement).collect::<Vec<_>>())?;
+        json.member("over", self.study.over.word())?;
+        json.member("error", &sizing.error.map(scalar))?;
         json.member("sensitivity", &sizing.sensitivity.map(of_margin))?;
         json.member("breaks_again", &sizing.breaks_again.map(scalar))?;
         json.member("first_guess", &sizing.first_guess.map(scalar))?;
-        json.optional("out_of_range", ranges::members(network, &sizing.trial.out_of_range, false))
+        json.optional(
+            "out_of_range",
+            ranges::members(network, &sizing.trial.judged.out_of_range, false),
+        )
     }
 
     fn no(&self) -> Option<String> {
@@ -97,7 +104,31 @@ impl Page for Answer<'_> {
     }
 }
 
-fn goal(goal: Goal) -> &'static str {
+/// When it has to be kept, where that is not the steady state.
+pub(super) fn over(netlist: &Netlist, study: &SizeStudy) -> Option<String> {
+    let lasts = match study.over {
+        Over::Steady => return None,
+        Over::Run => netlist.run.as_ref().map(|run| run.stop - run.start),
+        Over::Periodic => {
+            let given = study.period(&netlist.network).ok().flatten();
+            given.or_else(|| netlist.network.repeat_period().ok().flatten())
+        }
+    };
+    let what = if study.over == Over::Run { "run" } else { "settled cycle" };
+    let lasts = lasts.map_or(String::new(), |lasts| format!(" of {}", duration(lasts, 6)));
+    Some(format!("at every moment of the {what}{lasts}"))
+}
+
+/// What a network was solved for, in the plural.
+pub(super) fn solved(over: Over) -> &'static str {
+    match over {
+        Over::Steady => "steady states",
+        Over::Run => "runs",
+        Over::Periodic => "settled cycles",
+    }
+}
+
+pub(super) fn goal(goal: Goal) -> &'static str {
     match goal {
         Goal::Minimise => "least",
         Goal::Maximise => "largest",
@@ -117,7 +148,7 @@ fn value(answer: &Answer<'_>) -> String {
     } else {
         significant(value, DIGITS)
     };
-    format!("{} = {shown}{}", answer.study.parameter, spaced(&answer.unit.text))
+    format!("{} = {shown}{}", answer.name, spaced(&answer.unit.text))
 }
 
 /// `value` with so many digits, rounded up or down.
@@ -139,19 +170,24 @@ fn requirements(answer: &Answer<'_>) -> TextTable {
     let (study, sizing) = (answer.study, &answer.sizing);
     let margin = |i: usize| {
         let (margin, unit) =
-            (sizing.trial.margins[i], study.requirements[i].ty.dimension.si_unit());
+            (sizing.trial.judged.margins[i], study.requirements[i].ty.dimension.si_unit());
         let margin = if margin.abs() < ZERO { 0.0 } else { margin };
         format!("{}{}", significant(margin, 4), spaced(&unit))
     };
     let word = |i: usize| match sizing.verdict {
-        _ if sizing.trial.margins[i] < 0.0 => "broken",
+        _ if sizing.trial.judged.margins[i] < 0.0 => "broken",
         Verdict::Bound if i == sizing.closest => "binds",
         _ => "kept",
     };
     let rows: Vec<usize> = (0..study.requirements.len()).collect();
-    TextTable::of(&rows)
+    let mut table = TextTable::of(&rows)
         .left("requirement", |&i| plain(&study.requirements[i].text))
-        .right("margin", |&i| margin(i))
+        .right("margin", |&i| margin(i));
+    if study.over != Over::Steady {
+        let at = |i: usize| sizing.trial.judged.worst_at[i];
+        table = table.right("at", |&i| at(i).map_or("-".into(), |at| duration(at, 4)));
+    }
+    table
         .left("", |&i| word(i))
         .judged(|&i| if word(i) == "broken" { Standing::Fails } else { Standing::Holds })
         .into()
@@ -160,7 +196,7 @@ fn requirements(answer: &Answer<'_>) -> TextTable {
 /// What the table cannot say, each with its label.
 fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
     let (study, sizing) = (answer.study, &answer.sizing);
-    let name = &study.parameter;
+    let name = answer.name;
     let closest = &study.requirements[sizing.closest];
     let unit = closest.ty.dimension.si_unit();
     let mut notes = Vec::new();
@@ -175,9 +211,14 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
         ));
     }
     notes.extend(unverified(&answer.input.netlist.network).map(|unsure| ("note", unsure)));
-    let outside = ranges::warnings(&answer.input.netlist, &sizing.trial.out_of_range, false);
+    let outside = ranges::warnings(&answer.input.netlist, &sizing.trial.judged.out_of_range, false);
     notes.extend(outside.into_iter().map(|warning| ("note", warning.message)));
-    notes.push(("proof", format!("{} steady states of the full network", sizing.solved)));
+    if let Some(error) = sizing.error {
+        let error = format!("{:.0e}{}", error / answer.unit.scale.abs(), spaced(&answer.unit.text));
+        notes.push(("error", format!("{name} is known to {error}")));
+    }
+    let solved = solved(study.over);
+    notes.push(("proof", format!("{} {solved} of the full network", sizing.solved)));
     if let Some(value) = sizing.breaks_again {
         let side = if study.goal == Goal::Minimise { "above" } else { "below" };
         let value = quantity(name, value, &answer.unit);
@@ -206,7 +247,7 @@ pub(crate) fn verdict(answer: &Answer<'_>) -> String {
         }
         Verdict::Infeasible => {
             let off = significant(-sizing.margin(), 4);
-            let at = quantity(&study.parameter, sizing.trial.value, &answer.unit);
+            let at = quantity(answer.name, sizing.trial.value, &answer.unit);
             let unit = closest.ty.dimension.si_unit();
             let end = end(answer).map_or(String::new(), |end| format!(", the {end} of the range"));
             let text = plain(&closest.text);
@@ -217,7 +258,7 @@ pub(crate) fn verdict(answer: &Answer<'_>) -> String {
 
 /// Whether the value stands at an end of the range.
 fn end(answer: &Answer<'_>) -> Option<&'static str> {
-    let (from, to) = answer.study.range(&answer.input.netlist.network).ok()?;
+    let (from, to) = answer.range;
     let value = answer.sizing.trial.value;
     // in a range over decades the least end is near only for values of its own size
     let size = |end: f64| if end == 0.0 { to - from } else { end.abs().min(to - from) };

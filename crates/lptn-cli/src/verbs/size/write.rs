@@ -2,18 +2,20 @@
 
 use std::path::Path;
 
-use lptn_netlist::{Diagnostic, Goal, Netlist, parse_file};
+use lptn_netlist::{Diagnostic, Goal, Netlist, SizeStudy, parse_file};
 use lptn_network::ParameterId;
 use lptn_report::Shortest;
-use lptn_study::requirement_margins;
+use lptn_solve::Proceed;
+use lptn_study::judge;
 
 use super::Answer;
+use super::moments::demanded;
 use super::page::rounded;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::words::spaced;
+use crate::words::{count, spaced};
 use crate::written::{can_be_written, put, with_numbers};
 
 /// Digits that are tried, the fewest first.
@@ -32,11 +34,37 @@ pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Resu
     };
     put(file, &with_numbers(answer.input, &[(answer.parameter, number.clone())])?)?;
     let unit = spaced(&answer.unit.text);
-    console.note(&format!(
-        "wrote  {}: {} = {number}{unit}",
-        file.display(),
-        answer.study.parameter
-    ));
+    console.note(&format!("wrote  {}: {} = {number}{unit}", file.display(), answer.name));
+    Ok(())
+}
+
+/// Writes several values, with as few digits as keep everything, and the exact ones of parts.
+pub(super) fn write_all(
+    (input, study): (&Input, &SizeStudy),
+    values: &[(ParameterId, f64)],
+    (file, console): (&Path, &Console),
+) -> Result<(), Failure> {
+    let numbers = |digits: usize| -> Vec<(ParameterId, String)> {
+        let number = |&(id, value): &(ParameterId, f64)| {
+            let shown = input.unit_of(id).from_si(value);
+            let text = format!("{shown:.*e}", digits - 1);
+            let number = text.parse().unwrap_or(shown);
+            (id, Shortest::new().text(number).to_owned())
+        };
+        values.iter().map(number).collect()
+    };
+    let proven = DIGITS.into_iter().find_map(|digits| {
+        let text = with_numbers(input, &numbers(digits)).ok()?;
+        let again = parse_file(Path::new(&input.text.name), text.as_bytes()).ok()?;
+        keeps(&study.name, &again)?.then_some(text)
+    });
+    let Some(text) = proven else {
+        let problem =
+            Diagnostic::error("size::write", "no numbers of 17 digits keep what is required");
+        return Err(Failure::new(Exit::Failed, problem));
+    };
+    put(file, &text)?;
+    console.note(&format!("wrote  {}: {}", file.display(), count(values.len(), "parameter")));
     Ok(())
 }
 
@@ -51,16 +79,18 @@ fn proven(answer: &Answer<'_>) -> Option<String> {
         let number = Shortest::new().text(rounded(value, digits, up)).to_owned();
         let text = netlist.text_with_number(&written, &number);
         let again = parse_file(Path::new(&answer.input.text.name), text.as_bytes()).ok()?;
-        keeps(answer, &again)?.then_some(number)
+        keeps(&answer.study.name, &again)?.then_some(number)
     })
 }
 
-/// Whether a netlist stays inside the range of its study and keeps everything.
-fn keeps(answer: &Answer<'_>, netlist: &Netlist) -> Option<bool> {
-    let study = netlist.studies.sizes.iter().find(|study| study.name == answer.study.name)?;
-    let (from, to) = study.range(&netlist.network).ok()?;
-    let value = netlist.network.parameter_value(netlist.network.parameter(&study.parameter).ok()?);
-    let time = netlist.run.as_ref().map_or(0.0, |run| run.start);
-    let margins = requirement_margins(&netlist.network, &study.requirements, time).ok()?;
-    Some(value >= from && value <= to && margins.iter().all(|margin| *margin >= 0.0))
+/// Whether a netlist stays inside the ranges of a study and keeps everything.
+fn keeps(name: &str, netlist: &Netlist) -> Option<bool> {
+    let study = netlist.studies.sizes.iter().find(|study| study.name == name)?;
+    let within = |&(id, (from, to)): &(ParameterId, (f64, f64))| {
+        (from..=to).contains(&netlist.network.parameter_value(id))
+    };
+    let inside = study.ranges(&netlist.network).ok()?.iter().all(within);
+    let watcher = |_| Proceed::Continue;
+    let judged = demanded((netlist, study), &watcher, judge).ok()?;
+    Some(inside && judged.keeps())
 }

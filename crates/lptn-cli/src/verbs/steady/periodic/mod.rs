@@ -5,14 +5,14 @@ mod page;
 use std::time::Instant;
 
 use lptn_assembly::ThermalSystem;
-use lptn_netlist::{Diagnostic, RunSettings};
+use lptn_netlist::RunSettings;
 use lptn_network::{Item, OutputTimes};
-use lptn_report::{Clock, duration};
+use lptn_report::Clock;
 use lptn_solve::{
     CycleMethod, Lumping, Periodic, PeriodicError, Table, Transient, Window, WindowSeen,
 };
 use lptn_study::SiValue;
-use lptn_units::{Dimension, Problem as _, Type};
+use lptn_units::{Problem as _, Type};
 use serde_json::{Map, Value, json};
 
 use super::SteadyArgs;
@@ -26,13 +26,10 @@ use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
 use crate::verbs::run::job::{Job, NoSteady, explain, record};
 use crate::verbs::run::outcome::Outcome;
-use crate::{balance, scale, select, sense};
+use crate::{balance, period, scale, select, sense};
 
 /// The name of the window over the cycle.
 const CYCLE: &str = "cycle";
-
-/// The tolerance in K where there is no `[run]`.
-const TOLERANCE: f64 = 1e-5;
 
 /// A row is written at least so often in a cycle.
 const LEAST_ROWS: f64 = 20.0;
@@ -94,67 +91,19 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
 /// Those of the cycle.
 fn settings(args: &SteadyArgs, input: &Input) -> Result<RunSettings, Failure> {
     let run = input.netlist.run.as_ref();
-    let start = run.map_or(0.0, |run| run.start);
-    let period = period(args, input)?;
+    let period = period::of_cycle(input, args.cycle.period.as_deref())?;
+    let cycle = RunSettings::cycle(run, period);
     let output = match run.map(|run| &run.output) {
         Some(OutputTimes::Every(every)) if *every <= period / LEAST_ROWS => {
             OutputTimes::Every(*every)
         }
-        _ => OutputTimes::Every(period / OutputTimes::USUAL_INTERVALS),
+        _ => cycle.output.clone(),
     };
     let tolerance = match &args.cycle.tolerance {
         Some(text) => input::tolerance(text)?,
-        None => run.map_or(TOLERANCE, |run| run.tolerance),
+        None => cycle.tolerance,
     };
-    let (select, windows) = (Vec::new(), Vec::new());
-    let integrator = run.map_or_else(Default::default, |run| run.integrator);
-    let held = run.map_or_else(Vec::new, |run| run.held.clone());
-    Ok(RunSettings {
-        start,
-        stop: start + period,
-        output,
-        select,
-        windows,
-        tolerance,
-        integrator,
-        held,
-    })
-}
-
-/// The period that was given, or that of the repeated signals, in s.
-fn period(args: &SteadyArgs, input: &Input) -> Result<f64, Failure> {
-    let Some(text) = &args.cycle.period else { return period_of_signals(input) };
-    let what = (Dimension::TIME, "periodic::period", "\"10 min\"");
-    Ok(input::positive("--period", text, what)?.value)
-}
-
-fn period_of_signals(input: &Input) -> Result<f64, Failure> {
-    const HELP: &str = "say after which time all inputs repeat themselves: --period \"10 min\"";
-    let network = &input.netlist.network;
-    let problem = match network.repeat_period() {
-        Ok(Some(period)) => return Ok(period),
-        Ok(None) if network.has_time_dependent_inputs() => Diagnostic::error(
-            "periodic::no_period",
-            "no signal is repeated, so the period is not known",
-        )
-        .help(HELP),
-        Ok(None) => {
-            Diagnostic::error("periodic::no_period", "nothing changes with time: there is no cycle")
-                .help("leave --periodic out")
-        }
-        Err(none) => {
-            let [first, second] = &none.names;
-            let [a, b] = none.periods.map(|period| duration(period, 6));
-            let message = format!(
-                "`{second}` repeats itself every {b} and `{first}` every {a}: they have no period \
-                 in common"
-            );
-            let problem = Diagnostic::error("periodic::no_common_period", message);
-            let place = input.netlist.source_map.name(Item::Signal(none.signals[1]));
-            problem.help("change one of the periods, or look at `lptn run`").at(place, "")
-        }
-    };
-    Err(input.refused(Exit::Input, problem))
+    Ok(RunSettings { output, tolerance, ..cycle })
 }
 
 fn find(job: &Job<'_>, system: &ThermalSystem, console: &Console) -> Result<Periodic, Failure> {

@@ -1,0 +1,247 @@
+//! `lptn size` with several parameters.
+
+use std::io;
+
+use lptn_netlist::Requirement;
+use lptn_network::ParameterId;
+use lptn_plot::Figure;
+use lptn_report::{
+    Json, Page, Report, Rows, Standing, Text, TextTable, duration, plain, significant,
+};
+use lptn_solve::{Table, available_threads};
+use lptn_study::{Aim, Design, Several, SeveralTask, SiValue, size_several};
+use lptn_units::Unit;
+use serde_json::{Map, Value, json};
+
+use super::{Asked, failed, figure, page, write};
+use crate::about::{self, Known};
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::ranges;
+use crate::words::{spaced, unverified};
+
+/// Digits of a value that is shown.
+const DIGITS: usize = 6;
+
+/// Margins below this share of a unit are rounding.
+const ZERO: f64 = 1e-9;
+
+/// A value nearer to an end of its range than this share of it stands there.
+const AT_END: f64 = 1e-6;
+
+pub(super) fn several(asked: &Asked<'_>) -> Result<Exit, Failure> {
+    let &Asked { input, study, .. } = asked;
+    let varied = study.ranges(&input.netlist.network).unwrap_or_default();
+    let aim = Aim { value: &study.objective.value, goal: study.goal };
+    let threads = asked.args.threads.unwrap_or_else(available_threads);
+    let ranges = varied.clone();
+    let found = asked.demand(|demand| size_several(&SeveralTask { demand, aim, varied, threads }));
+    let found = found.map_err(|error| failed(input, study, &error))?;
+    let units = ranges.iter().map(|(id, _)| input.unit_of(*id)).collect();
+    let answer = Answer { asked, found, ranges, units };
+    asked.show(&answer, || answer.write())
+}
+
+struct Answer<'a> {
+    asked: &'a Asked<'a>,
+    found: Several,
+    ranges: Vec<(ParameterId, (f64, f64))>,
+    units: Vec<Unit>,
+}
+
+impl Answer<'_> {
+    fn requirements(&self) -> &[Requirement] {
+        &self.asked.study.requirements
+    }
+
+    fn name(&self, i: usize) -> &str {
+        &self.asked.study.varied[i].name
+    }
+
+    fn parameters(&self) -> TextTable {
+        let places: Vec<usize> = (0..self.ranges.len()).collect();
+        let number = |i: usize, si: f64| significant(self.units[i].from_si(si), DIGITS);
+        let range = |&i: &usize| {
+            let (from, to) = self.ranges[i].1;
+            format!("{} .. {}", number(i, from), number(i, to))
+        };
+        let end = |&i: &usize| {
+            let ((from, to), value) = (self.ranges[i].1, self.found.design.values[i]);
+            match (value - from, to - value) {
+                (low, _) if low <= AT_END * (to - from) => "the least of its range",
+                (_, high) if high <= AT_END * (to - from) => "the largest of its range",
+                _ => "",
+            }
+        };
+        TextTable::of(&places)
+            .left("parameter", |&i| self.name(i).to_owned())
+            .right("value", |&i| number(i, self.found.design.values[i]))
+            .left("", |&i| self.units[i].text.clone())
+            .left("range", range)
+            .left("", end)
+            .into()
+    }
+
+    fn requirement_table(&self) -> TextTable {
+        let judged = &self.found.design.judged;
+        let all: Vec<usize> = (0..judged.margins.len()).collect();
+        let margin = |i: usize| {
+            let unit = self.requirements()[i].ty.dimension.si_unit();
+            let margin = judged.margins[i];
+            let margin = if margin.abs() < ZERO { 0.0 } else { margin };
+            format!("{}{}", significant(margin, 4), spaced(&unit))
+        };
+        let word = |i: usize| match judged.margins[i] {
+            margin if margin < 0.0 => "broken",
+            _ if self.found.binding.contains(&i) => "binds",
+            _ => "kept",
+        };
+        let mut table = TextTable::of(&all)
+            .left("requirement", |&i| plain(&self.requirements()[i].text))
+            .right("margin", |&i| margin(i));
+        if judged.worst_at.iter().any(Option::is_some) {
+            let at = |&i: &usize| judged.worst_at[i].map_or("-".into(), |at| duration(at, 4));
+            table = table.right("at", at);
+        }
+        table
+            .left("", |&i| word(i))
+            .judged(|&i| if word(i) == "broken" { Standing::Fails } else { Standing::Holds })
+            .into()
+    }
+
+    fn objective(&self) -> String {
+        let unit = self.asked.study.objective.ty.dimension.si_unit();
+        format!(
+            "{} = {}{}",
+            plain(&self.asked.study.objective.text),
+            significant(self.found.design.objective, DIGITS),
+            spaced(&unit)
+        )
+    }
+
+    fn worst(&self) -> Option<usize> {
+        let judged = &self.found.design.judged;
+        let margins = judged.margins.iter().enumerate();
+        margins.min_by(|a, b| a.1.total_cmp(b.1)).map(|(i, _)| i)
+    }
+
+    fn verdict(&self) -> String {
+        if self.found.feasible {
+            let goal = page::goal(self.asked.study.goal);
+            return format!(
+                "{}, the {goal} that was found, keeps every requirement",
+                self.objective()
+            );
+        }
+        let broken = self.worst().map_or_else(String::new, |i| {
+            let unit = self.requirements()[i].ty.dimension.si_unit();
+            let off = significant(-self.found.design.judged.margins[i], 4);
+            format!("`{}` is broken by {off}{}", plain(&self.requirements()[i].text), spaced(&unit))
+        });
+        format!("infeasible: where the search came closest {broken}")
+    }
+
+    fn values(&self) -> Map<String, Value> {
+        let parameters = self.asked.input.netlist.network.parameters();
+        let of = self.ranges.iter().zip(&self.found.design.values);
+        of.map(|((id, _), &value)| {
+            let parameter = &parameters[id.index()];
+            let value = SiValue::new(value, &parameter.ty.dimension.si_unit());
+            (parameter.name.clone(), json!(value))
+        })
+        .collect()
+    }
+
+    fn write(&self) -> Result<(), Failure> {
+        let of = self.ranges.iter().zip(&self.found.design.values);
+        let values: Vec<_> = of.map(|((id, _), value)| (*id, *value)).collect();
+        let &Asked { input, study, file, console, .. } = self.asked;
+        write::write_all((input, study), &values, (file, console))
+    }
+}
+
+impl Page for Answer<'_> {
+    fn text(&self) -> Text {
+        let (input, study) = (self.asked.input, self.asked.study);
+        let goal = page::goal(study.goal);
+        let mut text = Text::titled(input.title());
+        let sought = plain(&study.objective.text);
+        text.sentence("", &format!("size {}: the {goal} {sought}", study.name));
+        if let Some(over) = page::over(&input.netlist, study) {
+            text.sentence("", &over);
+        }
+        text.section().table(self.parameters());
+        text.section().table(self.requirement_table());
+        text.section();
+        if let Some(unsure) = unverified(&input.netlist.network) {
+            text.sentence("note   ", &unsure);
+        }
+        let outside = &self.found.design.judged.out_of_range;
+        for warning in ranges::warnings(&input.netlist, outside, false) {
+            text.sentence("note   ", &warning.message);
+        }
+        let proof = format!(
+            "{} {} of the full network; none of the {} places looked at is better",
+            self.found.solved,
+            page::solved(study.over),
+            self.found.looked_at.len()
+        );
+        text.sentence("proof  ", &proof);
+        text.section().sentence("", &self.verdict());
+        text
+    }
+
+    /// One row: the values in their units, what is sought and the margins in SI units.
+    fn rows(&self) -> Rows<'_> {
+        let mut table = Table::of(&[()]);
+        for (i, unit) in self.units.iter().enumerate() {
+            let value = unit.from_si(self.found.design.values[i]);
+            table.column(self.name(i), &unit.text, |()| value);
+        }
+        let objective = &self.asked.study.objective;
+        let value = self.found.design.objective;
+        table.column(&objective.text, objective.ty.dimension.si_unit(), |()| value);
+        table.column("feasible", "-", |()| if self.found.feasible { 1.0 } else { 0.0 });
+        for (r, &margin) in self.requirements().iter().zip(&self.found.design.judged.margins) {
+            table.column(&r.text, r.ty.dimension.si_unit(), |()| margin);
+        }
+        table.done().into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        let all: Vec<&Design> = self.found.looked_at.iter().chain([&self.found.design]).collect();
+        let answer = Some(&self.found.design).filter(|_| self.found.feasible);
+        vec![figure::designs(self.asked, &all, answer)]
+    }
+
+    fn more(&self) -> Report {
+        about::about(self.asked.input, Known::default())
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let (judged, worst) = (&self.found.design.judged, self.worst());
+        let unit = |i: usize| self.requirements()[i].ty.dimension.si_unit();
+        let requirement = |(i, r): (usize, &Requirement)| {
+            let margin = SiValue::new(judged.margins[i], &unit(i));
+            let at = judged.worst_at[i].map(|at| SiValue::new(at, "s"));
+            let binds = self.found.binding.contains(&i);
+            json!({ "requirement": r.text, "margin": margin, "worst_at": at, "binds": binds })
+        };
+        let requirements = self.requirements().iter().enumerate().map(requirement);
+        let objective = &self.asked.study.objective;
+        let value = SiValue::new(self.found.design.objective, &objective.ty.dimension.si_unit());
+        let binding = self.found.binding.first().map(|&i| &self.requirements()[i].text);
+        self.asked.input.head(json, &[])?;
+        json.member("values", &self.values())?;
+        json.member("margin", &worst.map(|i| SiValue::new(judged.margins[i], &unit(i))))?;
+        json.member("binding", &binding)?;
+        json.member("feasible", &self.found.feasible)?;
+        json.member("over", self.asked.study.over.word())?;
+        json.member("objective", &json!({ "text": objective.text, "value": value }))?;
+        json.member("requirements", &requirements.collect::<Vec<_>>())
+    }
+
+    fn no(&self) -> Option<String> {
+        (!self.found.feasible).then(|| self.verdict())
+    }
+}

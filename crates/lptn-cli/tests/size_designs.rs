@@ -1,0 +1,112 @@
+//! `lptn size` with several parameters and with catalogues.
+
+mod common;
+
+use common::Folder;
+
+/// T = 20 degC + 30 W (R + 1 / g).
+const PARTS: &str = "format = 1
+[param]
+R = \"1 K/W\"       # of the sink
+g = \"1 W/K\"
+price_sink = 0
+price_fan = 0
+[node]
+chip = { C = \"600 J/K\", T0 = \"20 degC\" }
+sink = { C = \"60 J/K\", T0 = \"20 degC\" }
+[boundary]
+air = { T = \"20 degC\" }
+[resistor]
+pad = { from = \"chip\", to = \"sink\", R = \"R\" }
+fan = { from = \"sink\", to = \"air\", G = \"g\" }
+[source]
+heat = { into = \"chip\", P = \"30 W\" }
+[size.parts]
+minimise = \"price_sink + price_fan\"
+catalogue = [\"sinks.csv\", \"fans.csv\"]
+require = [\"chip.T <= 60 [degC]\"]
+";
+
+fn folder(netlist: &str) -> Folder {
+    let folder = Folder::with("a.toml", netlist);
+    folder.write("sinks.csv", "part,R [K/W],price_sink [-]\ns1,0.9,4\ns2,0.6,6\ns3,0.45,9\n");
+    folder.write(
+        "fans.csv",
+        "part,g [mW/K],price_fan [-],note\nf0,100,0,none\nf1,900,3,small\n\
+                              f2,2500,5,large\n",
+    );
+    folder
+}
+
+/// s1 with f2 is 20 + 39 K for 9, s2 with f1 is 20 + 51.3 K for 9, s2 with f2 is 20 + 30 K for 11.
+#[test]
+fn the_cheapest_parts_are_named_with_what_fails_and_what_comes_next() {
+    let folder = folder(PARTS);
+    let ran = folder.run(&["size", "a.toml"]).exits(0);
+    assert!(!ran.err.contains("unused"), "{}", ran.err);
+    ran.prints("s1 with f2 keeps every requirement, price_sink + price_fan = 9");
+    let json = folder.run(&["size", "a.toml", "--format", "json"]).exits(0).json();
+    assert_eq!(json["feasible"], true);
+    assert!((json["values"]["g"]["value"].as_f64().unwrap_or(0.0) - 2.5).abs() < 1e-12);
+    assert!((json["margin"]["value"].as_f64().unwrap_or(0.0) - 1.0).abs() < 1e-9);
+    let choices = json["choices"].as_array().map_or(0, Vec::len);
+    assert_eq!((choices, &json["count"]), (9, &9.into()));
+    let csv = folder.run(&["size", "a.toml", "--format", "csv"]).exits(0);
+    assert!(csv.out.starts_with("sinks.csv,fans.csv,price_sink + price_fan [-],R [K/W]"));
+    assert_eq!(csv.out.lines().count(), 10);
+    folder.run(&["size", "a.toml", "--plot", "a.svg"]).exits(0);
+    assert!(folder.read("a.svg").contains("the answer"));
+}
+
+#[test]
+fn what_no_part_keeps_ends_with_1_and_says_by_how_much() {
+    let folder = folder(&PARTS.replace("<= 60", "<= 40"));
+    // s3 with f2: 20 + 25.5 K
+    folder
+        .run(&["size", "a.toml"])
+        .exits(1)
+        .prints("infeasible: none of 9 choices keeps every requirement")
+        .prints("s3 with f2");
+    let before = folder.read("a.toml");
+    folder.run(&["size", "a.toml", "--write"]).exits(1);
+    assert_eq!(folder.read("a.toml"), before);
+}
+
+#[test]
+fn the_parts_are_written_with_their_own_numbers() {
+    let folder = folder(PARTS);
+    folder.run(&["size", "a.toml", "--write"]).exits(0);
+    let text = folder.read("a.toml");
+    assert!(text.contains("R = \"0.9 K/W\"       # of the sink"), "{text}");
+    assert!(text.contains("g = \"2.5 W/K\"") && text.contains("price_fan = 5"), "{text}");
+}
+
+/// A part that no network can have is an error that names its values.
+#[test]
+fn a_part_that_cannot_be_is_refused() {
+    let folder = folder(PARTS);
+    folder.write("sinks.csv", "part,R [K/W],price_sink [-]\ns1,-0.9,4\n");
+    folder.run(&["size", "a.toml"]).exits(2).says("size::network").says("R = -0.9 K/W");
+}
+
+#[test]
+fn several_parameters_are_sized_and_written() {
+    let text = PARTS.replace(
+        "minimise = \"price_sink + price_fan\"\ncatalogue = [\"sinks.csv\", \"fans.csv\"]",
+        "minimise = \"g * 1 [K/W] + 4 [K/W] / R\"\nvary = { R = { from = \"0.1 K/W\", to = \"2 K/W\" }, \
+         g = { from = \"0.5 W/K\", to = \"50 W/K\" } }",
+    );
+    let folder = folder(&text);
+    let json = folder.run(&["size", "a.toml", "--format", "json"]).exits(0).json();
+    // R + 1/g = 4/3; g + 4 / (4/3 - 1/g) is least at g = 9/4: there 9/4 + 4 / (8/9) = 6.75
+    let value = |of: &serde_json::Value| of["value"].as_f64().unwrap_or(0.0);
+    assert!((value(&json["objective"]["value"]) - 6.75).abs() < 1e-7, "{json}");
+    assert!((value(&json["values"]["g"]) - 2.25).abs() < 1e-4, "{json}");
+    assert_eq!(json["requirements"][0]["binds"], true);
+    folder.run(&["size", "a.toml", "--write"]).exits(0).says("2 parameters");
+    let limited =
+        folder.read("a.toml") + "[limit]\nhot = { of = \"chip.T\", below = \"60 degC\" }\n";
+    folder.write("b.toml", &limited);
+    folder.run(&["steady", "b.toml"]).exits(0);
+    folder.run(&["size", "a.toml", "--plot", "a.svg"]).exits(0);
+}

@@ -1,0 +1,350 @@
+//! `[size.NAME]`: a parameter to size, and what has to be kept.
+
+mod catalogue;
+mod read;
+
+use lptn_data::{Diagnostic, Span};
+use lptn_network::{Bound, Evaluation, Limit, LimitSeverity, Network, ParameterId, Value};
+use lptn_units::{EvalError, Type};
+
+use crate::format::{Role, SectionDeclaration, key};
+use crate::raw::{RawNetlist, RawValue};
+use crate::setting::Setting;
+use crate::study::{PathFrom, Study};
+use crate::toml_text::{TomlFields, key as toml_key, like, strings};
+use crate::work::Elaboration;
+pub use catalogue::{Catalogue, CatalogueColumn};
+
+const SIZE: SectionDeclaration = SectionDeclaration {
+    name: "size",
+    sentence: "Parameters to size, or parts to choose: the best ones that keep every requirement.",
+    role: Role::Study,
+    keys: &[
+        key(
+            "minimise",
+            "parameter, or expression of parameters",
+            "whose least value is sought",
+            "\"name of a parameter\"",
+        ),
+        key(
+            "maximise",
+            "parameter, or expression of parameters",
+            "whose largest value is sought",
+            "\"name of a parameter\"",
+        ),
+        key(
+            "vary",
+            "table",
+            "of each parameter its range, `from` and `to`",
+            "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
+        ),
+        key(
+            "require",
+            "list of comparisons of results",
+            "what has to be kept",
+            "[\"steel.T <= 80 [degC]\"]",
+        ),
+        key(
+            "over",
+            "`\"steady\"`, `\"run\"`, `\"periodic\"`",
+            "when it has to be kept: in steady state, at every moment of [run], in the settled \
+             cycle",
+            "\"run\"",
+        )
+        .or("`\"steady\"`"),
+        key("period", "s", "how long a cycle is", "\"10 min\"").or("that of the repeated signals"),
+        key(
+            "catalogue",
+            "file, or a list of files",
+            "parts to choose from, one a row, in place of `vary`",
+            "\"parts.csv\"",
+        ),
+    ],
+    example: "{ minimise = \"p\", vary = { p = { from = \"..\", to = \"..\" } }, require = [\"a.T \
+        <= 80 [degC]\"] }",
+    elsewhere: &[
+        ("minimize", "did you mean `minimise`?"),
+        ("maximize", "did you mean `maximise`?"),
+        ("from", "write `vary = { p = { from = \"..\", to = \"..\" } }`"),
+        ("to", "write `vary = { p = { from = \"..\", to = \"..\" } }`"),
+    ],
+    ..SectionDeclaration::NEW
+};
+
+/// `p = { from = .., to = .. }` in `vary` of a size or fit.
+pub(crate) const VARY: SectionDeclaration = SectionDeclaration {
+    name: "vary",
+    keys: &[
+        key("from", "as the parameter", "the least value", "\"1 W/K\""),
+        key("to", "as the parameter", "the largest value", "\"10 W/K\""),
+    ],
+    example: "{ from = \"1 W/K\", to = \"10 W/K\" }",
+    elsewhere: &[
+        ("min", "the least value is `from`"),
+        ("lower", "the least value is `from`"),
+        ("max", "the largest value is `to`"),
+        ("upper", "the largest value is `to`"),
+    ],
+    ..SectionDeclaration::NEW
+};
+
+/// Which of several values that keep every requirement is the best.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Goal {
+    /// The least one.
+    Minimise,
+    /// The largest one.
+    Maximise,
+}
+
+/// What the best design has least or most of.
+#[derive(Clone, Debug)]
+pub struct Objective {
+    /// As it is written: `G_fan`, `P_fan + 2 [W/kg] * m`.
+    pub text: String,
+    /// The value; it reads parameters.
+    pub value: Value,
+    /// Its type.
+    pub ty: Type,
+}
+
+/// A parameter with the least and the largest value that it may take, in SI units.
+pub type RangeOf = (ParameterId, (f64, f64));
+
+/// The range of a parameter.
+#[derive(Clone, Debug)]
+pub struct SizeRange {
+    /// The name of the parameter.
+    pub name: String,
+    from: Value,
+    to: Value,
+    /// Where it is named.
+    pub span: Span,
+}
+
+/// In which results requirements have to be kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Over {
+    /// In steady state.
+    #[default]
+    Steady,
+    /// At every moment of the `[run]`.
+    Run,
+    /// At every moment of the cycle to which the network settles.
+    Periodic,
+}
+
+impl Over {
+    /// The words for them, the usual one first.
+    pub const WORDS: [(&str, Self); 3] =
+        [("steady", Self::Steady), ("run", Self::Run), ("periodic", Self::Periodic)];
+
+    /// The word for it.
+    pub fn word(self) -> &'static str {
+        Self::WORDS.into_iter().find(|(_, over)| *over == self).map_or("", |(word, _)| word)
+    }
+}
+
+/// Something that has to be kept: one expression is not to exceed another.
+#[derive(Clone, Debug)]
+pub struct Requirement {
+    /// As it was written, for example `steel.T <= 80 [degC]`.
+    pub text: String,
+    /// The type of both sides.
+    pub ty: Type,
+    low: Value,
+    high: Value,
+}
+
+impl Requirement {
+    /// How far it is from being broken where `scope` stands: positive while it is kept, in SI
+    /// units, a difference in K for temperatures. `scope` needs the temperatures, see
+    /// [`Evaluation::set_temperatures`].
+    ///
+    /// # Errors
+    /// What the evaluation of a side reports.
+    pub fn margin(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
+        Ok(self.high.at(scope)? - self.low.at(scope)?)
+    }
+
+    /// Both sides.
+    pub fn sides(&self) -> [&Value; 2] {
+        [&self.low, &self.high]
+    }
+
+    /// The same as a limit, for [`Network::requiring`].
+    pub fn limit(&self) -> Limit {
+        Limit {
+            name: self.text.clone(),
+            of: self.low.clone(),
+            ty: self.ty,
+            bound: Bound::Below,
+            value: self.high.clone(),
+            compares: true,
+            severity: LimitSeverity::Error,
+            text: self.text.clone(),
+        }
+    }
+}
+
+/// One `[size.NAME]`.
+#[derive(Clone, Debug)]
+pub struct SizeStudy {
+    /// Its name.
+    pub name: String,
+    /// What the best design has least or most of.
+    pub objective: Objective,
+    /// Which of them.
+    pub goal: Goal,
+    /// What has to be kept; at least one.
+    pub requirements: Vec<Requirement>,
+    /// In which results.
+    pub over: Over,
+    /// The period of the cycle, where it is given.
+    pub(crate) period: Option<Setting>,
+    /// Where it stands.
+    pub span: Span,
+    /// The parameters whose values are sought; none where there are catalogues.
+    pub varied: Vec<SizeRange>,
+    /// What is chosen from: of each one part.
+    pub catalogues: Vec<Catalogue>,
+}
+
+impl SizeStudy {
+    /// The parameter of which the least or largest value is sought, where nothing else is varied.
+    pub fn single(&self) -> Option<&SizeRange> {
+        match self.varied.as_slice() {
+            [one] if one.name == self.objective.text => Some(one),
+            _ => None,
+        }
+    }
+
+    /// The least and the largest value each parameter may take, in SI units, for the parameters of
+    /// `network`.
+    ///
+    /// # Errors
+    /// What the evaluation of an end reports.
+    pub fn ranges(&self, network: &Network) -> Result<Vec<RangeOf>, EvalError> {
+        let mut scope = network.evaluation();
+        let known =
+            self.varied.iter().filter_map(|one| Some((one, network.parameter(&one.name).ok()?)));
+        known
+            .map(|(one, id)| Ok((id, (one.from.at(&mut scope)?, one.to.at(&mut scope)?))))
+            .collect()
+    }
+
+    /// What is wrong with a range.
+    fn check_range(&self, network: &Network, range: &SizeRange) -> Option<Diagnostic> {
+        let mut scope = network.evaluation();
+        let (from, to) = (range.from.at(&mut scope), range.to.at(&mut scope));
+        let words = format!("`{}` in `vary` of size `{}`", range.name, self.name);
+        let problem = match (from, to) {
+            (Ok(from), Ok(to)) if from < to => return None,
+            (Ok(_), Ok(_)) => {
+                let message = format!("{words}: `from` has to be less than `to`");
+                let help = "write the least value as `from` and the largest as `to`; `minimise` or \
+                            `maximise` says which of them is the better end";
+                Diagnostic::error("netlist::size_range", message).help(help)
+            }
+            (Err(error), _) | (_, Err(error)) => {
+                Diagnostic::error(error.code(), format!("{words}: {error}"))
+            }
+        };
+        Some(problem.at(range.span.clone(), ""))
+    }
+
+    /// A parameter that is sought has to be one that changes, or to follow from one.
+    fn check_objective(&self, network: &Network) -> Option<Diagnostic> {
+        let sought = &self.objective.text;
+        let id = network.parameter(sought).ok()?;
+        let columns = self.catalogues.iter().flat_map(|one| &one.columns);
+        let mut set = columns.map(|one| &one.name).chain(self.varied.iter().map(|one| &one.name));
+        let follows = !matches!(network.parameters()[id.index()].value, Value::Constant(_));
+        if follows || set.any(|name| name == sought) {
+            return None;
+        }
+        let varied = self.varied.first().map(|one| &one.span);
+        let place = varied.or(self.catalogues.first().map(|one| &one.span))?;
+        let message = format!("size `{}` seeks `{sought}`, which nothing varies", self.name);
+        let help = match self.catalogues.is_empty() {
+            true => format!(
+                "write it like this: `vary = {{ {sought} = {{ from = \"..\", to = \"..\" }} }}`"
+            ),
+            false => format!("give a catalogue a column `{sought}`, or seek one that it has"),
+        };
+        Some(Diagnostic::wrong("netlist::size_vary", message, place, help))
+    }
+
+    /// The period of the settled cycle in s for the parameters of `network`; `None` where it is that
+    /// of the repeated signals.
+    ///
+    /// # Errors
+    /// What its evaluation reports.
+    pub fn period(&self, network: &Network) -> Result<Option<f64>, EvalError> {
+        let mut scope = network.evaluation();
+        self.period.as_ref().map(|period| period.value.at(&mut scope)).transpose()
+    }
+
+    fn check_period(&self, network: &Network) -> Option<Diagnostic> {
+        let setting = self.period.as_ref()?;
+        let problem = match self.period(network) {
+            Ok(Some(period)) if !(period.is_finite() && period > 0.0) => {
+                let message = format!("{} must be more than zero, got {period} s", setting.words);
+                Diagnostic::error("netlist::run_not_positive", message).help(&setting.help)
+            }
+            Ok(_) => return None,
+            Err(error) => Diagnostic::error(error.code(), format!("{}: {error}", setting.words)),
+        };
+        Some(problem.at(setting.span.clone(), ""))
+    }
+}
+
+impl Study for SizeStudy {
+    const SECTION: &'static SectionDeclaration = &SIZE;
+
+    fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
+        catalogue::files(raw)
+    }
+
+    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
+        work.elements(SIZE.name).iter().filter_map(|entry| work.size_study(entry)).collect()
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn check(&self, network: &Network) -> Vec<Diagnostic> {
+        let ranges = self.varied.iter().filter_map(|range| self.check_range(network, range));
+        ranges.chain(self.check_period(network)).chain(self.check_objective(network)).collect()
+    }
+
+    fn fields(&self, network: &Network, path: &PathFrom<'_>) -> TomlFields {
+        let mut fields = TomlFields::default();
+        let goal = if self.goal == Goal::Minimise { "minimise" } else { "maximise" };
+        fields.word(goal, &self.objective.text);
+        let range = |range: &SizeRange| {
+            let id = network.parameter(&range.name).ok();
+            let ty = id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty);
+            let [from, to] = [&range.from, &range.to].map(|end| like(end, ty));
+            format!("{} = {{ from = {from}, to = {to} }}", toml_key(&range.name))
+        };
+        let ranges: Vec<String> = self.varied.iter().map(range).collect();
+        if !ranges.is_empty() {
+            fields.put("vary", format!("{{ {} }}", ranges.join(", ")));
+        }
+        let catalogues: Vec<String> =
+            self.catalogues.iter().map(|one| path(one.span.file, &one.csv)).collect();
+        if !catalogues.is_empty() {
+            fields.put("catalogue", strings(catalogues.iter().map(String::as_str)));
+        }
+        fields.put("require", strings(self.requirements.iter().map(|r| r.text.as_str())));
+        if self.over != Over::Steady {
+            fields.word("over", self.over.word());
+        }
+        if let Some(period) = &self.period {
+            fields.put("period", period.written());
+        }
+        fields
+    }
+}

@@ -1,0 +1,229 @@
+//! Reads `[size.NAME]`.
+
+use lptn_data::Diagnostic;
+use lptn_network::{Context, Value};
+use lptn_units::{Comparison, Expression, Scope as _, Type};
+
+use crate::fields::{Fields, Owner};
+use crate::place::{Given, Place, Text, Wanted};
+use crate::raw::{RawEntry, RawValue};
+use crate::run::RUN;
+use crate::setting::{Setting, TIME};
+use crate::size::{
+    Catalogue, Goal, Objective, Over, Requirement, SIZE, SizeRange, SizeStudy, VARY,
+};
+use crate::work::Elaboration;
+
+impl<'a> Elaboration<'a> {
+    /// An end of the range of a parameter of this type: `None` if it is not there, `Some(None)` if
+    /// it is wrong.
+    pub(crate) fn range_end(
+        &mut self,
+        range: &Fields<'a>,
+        key: &str,
+        ty: Type,
+    ) -> Option<Option<Value>> {
+        let given = self.given_inside(&range.owner, (key, range.get(key)?), Wanted::like(ty));
+        Some(given.map(Given::value))
+    }
+
+    pub(super) fn size_study(&mut self, entry: &'a RawEntry) -> Option<SizeStudy> {
+        let fields = self.fields(&SIZE, entry)?;
+        let over = self.over(&fields);
+        let sought = self.goal(&fields);
+        let varied = self.varied_or_chosen(&fields);
+        let requirements = self.requirements(&fields);
+        let ((goal, objective), (varied, catalogues)) = (sought?, varied?);
+        let (over, period) = over?;
+        Some(SizeStudy {
+            name: entry.key.clone(),
+            objective,
+            goal,
+            requirements: requirements?,
+            over,
+            period,
+            span: entry.key_span.clone(),
+            varied,
+            catalogues,
+        })
+    }
+
+    /// What `vary` gives, or the catalogues: one of them.
+    fn varied_or_chosen(
+        &mut self,
+        fields: &Fields<'a>,
+    ) -> Option<(Vec<SizeRange>, Vec<Catalogue>)> {
+        let Some(catalogue) = fields.key("catalogue") else {
+            return Some((self.size_ranges(fields)?, Vec::new()));
+        };
+        if let Some(vary) = fields.key("vary") {
+            let message = format!("{} has both `vary` and `catalogue`", fields.owner.words());
+            let problem = Diagnostic::error("netlist::size_catalogue", message)
+                .at(catalogue.clone(), "parts to choose")
+                .also(vary.clone(), "values to find");
+            self.report(
+                problem.help(
+                    "choose the parts first; then size with the parameters of the chosen ones",
+                ),
+            );
+            return None;
+        }
+        Some((Vec::new(), self.catalogues(fields)?))
+    }
+
+    /// The results in which it has to be kept, and the period of a cycle where one is given.
+    fn over(&mut self, fields: &Fields<'a>) -> Option<(Over, Option<Setting>)> {
+        let over = self.choice(fields, "over", &Over::WORDS)?;
+        if over == Over::Run && self.raw.top.get(RUN.name).is_none() {
+            let message = format!("{} = \"run\" needs a [run]", fields.owner.field("over"));
+            let help = "say how long it lasts:\n\n[run]\nstop = \"25 min\"";
+            self.refuse("netlist::size_over", message, &fields.get("over")?.span, help);
+            return None;
+        }
+        let Some(period) = fields.get("period") else { return Some((over, None)) };
+        if over != Over::Periodic {
+            let message = format!("{} belongs to a settled cycle", fields.owner.field("period"));
+            let help = "write `over = \"periodic\"` beside it, or leave it out";
+            self.refuse("netlist::size_over", message, &period.span, help);
+            return None;
+        }
+        let period = self.setting(&fields.owner, ("period", period), TIME)?;
+        Some((over, Some(period)))
+    }
+
+    /// What is sought, and in which direction.
+    fn goal(&mut self, fields: &Fields<'a>) -> Option<(Goal, Objective)> {
+        let (goal, key) = match (fields.get("minimise"), fields.get("maximise")) {
+            (Some(_), None) => (Goal::Minimise, "minimise"),
+            (None, Some(_)) => (Goal::Maximise, "maximise"),
+            (both, _) => {
+                if fields.complete {
+                    self.report(one_goal(fields, both.is_some()));
+                }
+                return None;
+            }
+        };
+        let (text, raw) = self.word(fields, key)?;
+        let text = text.trim();
+        let parsed = Expression::parse(text).ok();
+        let alone = parsed.is_none_or(|e| e.names().iter().any(|(name, _)| *name == text));
+        if alone {
+            let known = self.is_parameter_here(&fields.owner.field(key), text, &raw.span);
+            if !known || self.names.has_failed(text) {
+                return None;
+            }
+        }
+        let place = Place { owner: &fields.owner, key, raw };
+        let given = self.given(place, Wanted::parameter())?;
+        let ty = given.ty();
+        let value = given.clone().value();
+        if value.slots().is_empty() {
+            let message = format!("{} is a constant", place.words());
+            let help = "name a parameter, or an expression of those that are varied";
+            self.refuse("netlist::size_goal", message, &raw.span, help);
+            return None;
+        }
+        Some((goal, Objective { text: text.to_owned(), value, ty }))
+    }
+
+    /// The ranges of the parameters.
+    fn size_ranges(&mut self, fields: &Fields<'a>) -> Option<Vec<SizeRange>> {
+        let raw = self.require(fields, "vary")?;
+        let table = self.table_of(fields, ("vary", "a table"))?;
+        if table.entries.is_empty() {
+            self.report(fields.wrong_shape("vary", raw, "a table of ranges"));
+            return None;
+        }
+        let all: Vec<_> =
+            table.entries.iter().map(|entry| self.size_range(fields, entry)).collect();
+        all.into_iter().collect()
+    }
+
+    fn size_range(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<SizeRange> {
+        let name = &entry.key;
+        let known = self.is_parameter_here(&fields.owner.field("vary"), name, &entry.key_span);
+        let range = self.inner(&VARY, fields.owner.inside("vary").inside(name), entry)?;
+        if !known || self.names.has_failed(name) {
+            return None;
+        }
+        let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
+        let [from, to] = ["from", "to"].map(|key| {
+            let end = self.range_end(&range, key, ty);
+            if end.is_none() && range.complete {
+                let message = format!("{} has no `{key}`", range.owner.words());
+                let help = format!("write it like this: `{}`", fields.sample("vary"));
+                self.report(range.missing(key, message).help(help));
+            }
+            end
+        });
+        Some(SizeRange { name: name.clone(), from: from??, to: to??, span: entry.key_span.clone() })
+    }
+
+    /// The requirements of a study: comparisons of results.
+    pub(crate) fn requirements(&mut self, fields: &Fields<'a>) -> Option<Vec<Requirement>> {
+        let raw = self.require(fields, "require")?;
+        let list = self.list(fields, ("require", "a list of requirements"))?;
+        if list.is_empty() {
+            self.report(fields.wrong_shape("require", raw, "a list of requirements"));
+            return None;
+        }
+        let all: Vec<_> = list.iter().map(|raw| self.requirement(&fields.owner, raw)).collect();
+        all.into_iter().collect()
+    }
+
+    fn requirement(&mut self, owner: &Owner, raw: &'a RawValue) -> Option<Requirement> {
+        let place = Place { owner, key: "require", raw };
+        let text = self.names.text(place, None);
+        let Text::Expression(expression) = self.kept(text)? else {
+            return self.no_comparison(place);
+        };
+        let Some((left, comparison, right)) = expression.split_comparison() else {
+            return self.no_comparison(place);
+        };
+        let (left, right) = self.sides(place, left, right)?;
+        let ty = left.ty();
+        let (left, right) = (left.value(), right.value());
+        let (low, high) = match comparison {
+            Comparison::Less | Comparison::LessEqual => (left, right),
+            Comparison::Greater | Comparison::GreaterEqual => (right, left),
+            Comparison::Equal | Comparison::NotEqual => return self.no_comparison(place),
+        };
+        Some(Requirement { text: expression.text().trim().to_owned(), ty, low, high })
+    }
+
+    /// Both sides, of one type.
+    fn sides(
+        &mut self,
+        place: Place<'_>,
+        left: Expression,
+        right: Expression,
+    ) -> Option<(Given, Given)> {
+        let left = self.resolve(place, Text::Expression(left), Wanted::of_results());
+        let ty = left.as_ref().map(Given::ty);
+        let wanted = Wanted { ty, ..Wanted::of_results() };
+        let right = self.resolve(place, Text::Expression(right), wanted);
+        Some((left?, right?))
+    }
+
+    fn no_comparison(&mut self, place: Place<'_>) -> Option<Requirement> {
+        let message = format!("{} has to compare two values with `<=` or `>=`", place.words());
+        let help = format!("write it like this: `{}`", place.owner.sample("require"));
+        self.refuse("netlist::size_require", message, &place.raw.span, help);
+        None
+    }
+}
+
+fn one_goal(fields: &Fields<'_>, both: bool) -> Diagnostic {
+    let has = if both {
+        "has both `minimise` and `maximise`"
+    } else {
+        "says neither `minimise` nor `maximise`"
+    };
+    Diagnostic::wrong(
+        "netlist::size_goal",
+        format!("{} {has}", fields.owner.words()),
+        fields.place,
+        "name one parameter: `minimise = \"p\"` for the least value that does, `maximise` for the \
+         largest",
+    )
+}

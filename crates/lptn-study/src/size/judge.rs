@@ -1,0 +1,279 @@
+//! How far requirements are from being broken: in steady state, or at every moment of a run or of a
+//! settled cycle, in every load case.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use lptn_assembly::ThermalSystem;
+use lptn_netlist::Requirement;
+use lptn_network::{Network, OutputTimes, ParameterId, RunSettings, Value};
+use lptn_solve::{
+    OutOfRange, Periodic, Proceed, Progress, RecordedNodes, RunStatus, Solution, SteadyState,
+    Transient,
+};
+
+use crate::size::error::{SizeError, TrialError};
+
+/// The finest tolerance in K of runs that are judged, if the run itself asks for no finer one. Of a
+/// rise of 1 K ten times this is a part in 1e8.
+const FINE: f64 = 1e-9;
+
+/// How well a design is judged; steady states are always refined to rounding.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Care {
+    /// To the tolerance of the run.
+    Look,
+    /// As well as a run can be.
+    Proof,
+}
+
+/// The error of a run is so many tolerances.
+const ERROR: f64 = 10.0;
+
+/// The settings of a run, or of a cycle, for the parameters of a network; a sentence where there
+/// are none.
+pub type RunOf<'a> = dyn Fn(&Network) -> Result<RunSettings, String> + Sync + 'a;
+
+/// What watches runs and may interrupt them.
+pub type Watcher<'a> = dyn Fn(Progress) -> Proceed + Sync + 'a;
+
+/// In which results requirements are judged.
+#[derive(Clone, Copy)]
+pub enum Moments<'a> {
+    /// In steady state, with inputs as they are at this time in s.
+    Steady(f64),
+    /// At every moment of the run.
+    Run(&'a RunOf<'a>),
+    /// At every moment of the settled cycle that lasts from start to stop.
+    Periodic(&'a RunOf<'a>),
+}
+
+/// Parameters that are set together: a hot day, a cold start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LoadCase {
+    /// Its name.
+    pub name: String,
+    /// The parameters with their values in SI units.
+    pub set: Vec<(ParameterId, f64)>,
+}
+
+/// What has to be kept, by which network, and when.
+#[derive(Clone, Copy)]
+pub struct Demand<'a> {
+    /// The network with every parameter at its own value.
+    pub network: &'a Network,
+    /// The cases in each of which everything has to be kept; the network as it is where there is
+    /// none.
+    pub cases: &'a [LoadCase],
+    /// What has to be kept.
+    pub requirements: &'a [Requirement],
+    /// When.
+    pub moments: Moments<'a>,
+    /// What watches the runs.
+    pub watcher: &'a Watcher<'a>,
+}
+
+impl std::fmt::Debug for Demand<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let (cases, requirements) = (self.cases, self.requirements);
+        f.debug_struct("Demand")
+            .field("cases", &cases)
+            .field("requirements", &requirements)
+            .finish()
+    }
+}
+
+/// What came of one design.
+#[derive(Clone, Debug, Default)]
+pub struct Judged {
+    /// How far each requirement is from being broken, in SI units, positive while it is kept: those
+    /// of the first load case, then those of the next.
+    pub margins: Vec<f64>,
+    /// When that is, in s; `None` in steady state.
+    pub worst_at: Vec<Option<f64>>,
+    /// The laws that are outside the ranges in which they are known.
+    pub out_of_range: Vec<OutOfRange>,
+    /// By how much in K its temperatures may be off; 0 in steady state, which is refined to rounding.
+    pub error: f64,
+}
+
+impl Judged {
+    /// Whether everything is kept.
+    pub fn keeps(&self) -> bool {
+        self.margins.iter().all(|margin| *margin >= 0.0)
+    }
+}
+
+/// Judges designs: networks that differ by parameters. Nothing is parsed, the structure is shared.
+pub(crate) struct Judge<'a> {
+    demand: Demand<'a>,
+    base: Network,
+    count: AtomicUsize,
+}
+
+impl<'a> Judge<'a> {
+    /// # Errors
+    /// [`SizeError`] if nothing is required, or what cannot be judged in steady state.
+    pub(crate) fn new(demand: Demand<'a>) -> Result<Self, SizeError> {
+        if demand.requirements.is_empty() {
+            return Err(SizeError::NoRequirement);
+        }
+        let limits = demand.requirements.iter().map(Requirement::limit);
+        let base = match demand.moments {
+            Moments::Steady(_) => {
+                let required: Vec<_> =
+                    demand.requirements.iter().flat_map(Requirement::sides).collect();
+                let changing = demand.network.changing_inputs_of(&required);
+                if !changing.is_empty() {
+                    return Err(SizeError::Changing(changing));
+                }
+                demand.network.clone()
+            }
+            // limits are looked at between rows and steps
+            _ => demand.network.requiring(limits),
+        };
+        Ok(Self { demand, base, count: AtomicUsize::new(0) })
+    }
+
+    /// How many networks were solved.
+    pub(crate) fn count(&self) -> usize {
+        self.count.load(Ordering::Relaxed)
+    }
+
+    /// Judges the design with these values of parameters, in SI units, in every load case.
+    pub(crate) fn judge(
+        &self,
+        design: &[(ParameterId, f64)],
+        care: Care,
+    ) -> Result<Judged, SizeError> {
+        let as_it_is = [LoadCase { name: String::new(), set: Vec::new() }];
+        let cases = if self.demand.cases.is_empty() { &as_it_is } else { self.demand.cases };
+        let mut all = Judged::default();
+        for case in cases {
+            let failed = |error| SizeError::trial(design, &case.name, error);
+            let one = self.in_case((design, case), care).map_err(failed)?;
+            all.margins.extend(one.margins);
+            all.worst_at.extend(one.worst_at);
+            all.out_of_range.extend(one.out_of_range);
+            all.error = all.error.max(one.error);
+        }
+        Ok(all)
+    }
+
+    /// A value of the design that follows from parameters, in SI units; of the network as it is,
+    /// without a load case.
+    pub(crate) fn value(
+        &self,
+        design: &[(ParameterId, f64)],
+        value: &Value,
+    ) -> Result<f64, SizeError> {
+        let mut parameters = self.demand.network.given();
+        design.iter().for_each(|(id, value)| parameters.set(*id, *value));
+        let failed = |error| SizeError::trial(design, "", error);
+        let network = self.demand.network.with(&parameters);
+        let network = network.map_err(|errors| failed(TrialError::Network(errors)))?;
+        match value.at(&mut network.evaluation()) {
+            Ok(found) if found.is_finite() => Ok(found),
+            Ok(_) => Err(failed(TrialError::Objective(None))),
+            Err(error) => Err(failed(TrialError::Objective(Some(error)))),
+        }
+    }
+
+    fn in_case(
+        &self,
+        (design, case): (&[(ParameterId, f64)], &LoadCase),
+        care: Care,
+    ) -> Result<Judged, TrialError> {
+        let mut parameters = self.base.given();
+        case.set.iter().chain(design).for_each(|(id, value)| parameters.set(*id, *value));
+        let network = self.base.with(&parameters).map_err(TrialError::Network)?;
+        self.count.fetch_add(1, Ordering::Relaxed);
+        let settings = |of: &RunOf<'_>| {
+            let run = of(&network).map_err(TrialError::Settings)?;
+            let tolerance =
+                if care == Care::Proof { run.tolerance.min(FINE) } else { run.tolerance };
+            Ok::<_, TrialError>(RunSettings { tolerance, ..run })
+        };
+        match self.demand.moments {
+            Moments::Steady(time) => steady(&network, self.demand.requirements, time),
+            Moments::Run(of) => self.run(&network, &settings(of)?),
+            Moments::Periodic(of) => self.cycle(&network, &settings(of)?),
+        }
+    }
+
+    fn run(&self, network: &Network, run: &RunSettings) -> Result<Judged, TrialError> {
+        let system = ThermalSystem::assemble(network)?;
+        let transient = transient(&system, run);
+        let watcher = &mut |progress| (self.demand.watcher)(progress);
+        let solution = transient.solve_observed(&system, watcher).map_err(Arc::new)?;
+        self.seen(&solution, ERROR * transient.tolerance)
+    }
+
+    fn cycle(&self, network: &Network, run: &RunSettings) -> Result<Judged, TrialError> {
+        let system = ThermalSystem::assemble(network)?;
+        let transient = transient(&system, run);
+        let watcher = &mut |progress| (self.demand.watcher)(progress);
+        let found = Periodic::find_observed(&system, &transient, watcher).map_err(Arc::new)?;
+        self.seen(&found.solution, ERROR * transient.tolerance + found.error)
+    }
+
+    /// What is said of the requirements, whose limits stand behind those of the network.
+    fn seen(&self, solution: &Solution, error: f64) -> Result<Judged, TrialError> {
+        if let RunStatus::Interrupted(_) = solution.end() {
+            return Err(TrialError::Interrupted);
+        }
+        let ledger = solution.ledger();
+        if let Some(residual) = ledger.relative_residual().filter(|_| !ledger.closes()) {
+            return Err(TrialError::Ledger(residual.abs(), ledger.bound));
+        }
+        let own = solution.limits().len().saturating_sub(self.demand.requirements.len());
+        let seen = &solution.limits()[own..];
+        Ok(Judged {
+            margins: seen.iter().map(|seen| seen.margin).collect(),
+            worst_at: seen.iter().map(|seen| Some(seen.worst_at)).collect(),
+            out_of_range: solution.out_of_range().to_vec(),
+            error,
+        })
+    }
+}
+
+/// The run without its rows, between which limits are looked at anyway. A network without states
+/// takes no steps: it is looked at between rows only.
+fn transient(system: &ThermalSystem, run: &RunSettings) -> Transient {
+    let transient = Transient::of(system.network(), run);
+    let output = match system.states().is_empty() {
+        true => transient.output.clone(),
+        false => OutputTimes::At(Vec::new()),
+    };
+    let record = RecordedNodes::Nodes(Vec::new());
+    Transient { output, record, ..transient }
+}
+
+fn steady(
+    network: &Network,
+    requirements: &[Requirement],
+    time: f64,
+) -> Result<Judged, TrialError> {
+    let system = ThermalSystem::assemble(network)?;
+    let steady = SteadyState::solve(&system, time).map_err(TrialError::Steady)?;
+    let mut scope = steady.evaluation(network);
+    let margin = |requirement: &Requirement| {
+        let failed = |error| TrialError::Requirement { text: requirement.text.clone(), error };
+        let margin = requirement.margin(&mut scope).map_err(|error| failed(Some(error)))?;
+        if margin.is_finite() { Ok(margin) } else { Err(failed(None)) }
+    };
+    Ok(Judged {
+        margins: requirements.iter().map(margin).collect::<Result<_, _>>()?,
+        worst_at: vec![None; requirements.len()],
+        out_of_range: OutOfRange::of_steady(network, &steady).unwrap_or_default(),
+        error: 0.0,
+    })
+}
+
+/// What is left of every requirement in the network as it is.
+///
+/// # Errors
+/// [`SizeError`] if it cannot be solved or a requirement has no value.
+pub fn judge(demand: Demand<'_>) -> Result<Judged, SizeError> {
+    Judge::new(demand)?.judge(&[], Care::Proof)
+}
