@@ -152,6 +152,11 @@ impl CsvFile {
         if problems.is_empty() { Ok(points) } else { Err(problems) }
     }
 
+    /// The names of its columns, each with its place.
+    pub fn names(&self) -> impl Iterator<Item = (&str, &Span)> {
+        self.head.columns.iter().map(|column| (column.name.as_str(), &column.place))
+    }
+
     /// The place of the header.
     pub fn header(&self) -> &Span {
         &self.head.place

@@ -26,7 +26,7 @@ fn parse(path: &Path) -> Result<Netlist, Rejected> {
     match std::str::from_utf8(&bytes) {
         // the CSV files and states of a case, and what it includes, stand beside it
         Ok(text)
-            if ["csv = ", "data = ", "initial = ", "[import]", ".inc\""]
+            if ["csv = ", "data = ", "file = ", "initial = ", "[import]", ".inc\""]
                 .iter()
                 .any(|key| text.contains(key)) =>
         {

@@ -85,7 +85,7 @@ pub use lptn_network::OutputTimes;
 pub use lumping::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
 pub use method::Method;
 pub use modes::{Mode, Modes, ModesError};
-pub use parallel::{available_threads, in_parallel};
+pub use parallel::{available_threads, in_order, in_parallel};
 pub use periodic::{CycleMethod, Periodic, PeriodicError};
 pub use ranges::OutOfRange;
 pub use response::{Drive, FrequencyResponse, ResponseError, StepAnswer, settled_rises};

@@ -17,6 +17,7 @@ mod manifest;
 mod moment;
 mod record;
 mod size;
+pub mod sweep;
 pub mod uncertainty;
 
 pub use compare::{

@@ -18,6 +18,7 @@ pub(crate) mod report;
 pub(crate) mod run;
 pub(crate) mod size;
 pub(crate) mod steady;
+pub(crate) mod sweep;
 pub(crate) mod units;
 pub(crate) mod verify;
 
@@ -96,6 +97,7 @@ verbs! {
     Verify(verify::VerifyArgs) => verify::verify, drawn |_| false;
     Compare(compare::CompareArgs) => compare::compare, drawn |_| true;
     Size(size::SizeArgs) => size::size, drawn |args| args.file.is_some();
+    Sweep(sweep::SweepArgs) => sweep::sweep, drawn |args| args.verb.is_none();
     Fit(fit::FitArgs) => fit::fit, drawn |_| true;
     Reduce(reduce::ReduceArgs) => reduce::reduce, drawn |_| true;
     Impedance(impedance::ImpedanceArgs) => impedance::impedance, drawn |_| true;
