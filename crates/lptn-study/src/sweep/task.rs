@@ -20,7 +20,7 @@ const TOLERANCE: f64 = 1e-5;
 const NOT_FINITE: &str = "sweep::not_finite";
 
 /// What came of a candidate.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Candidate {
     /// The values of the axes, in SI units.
     pub values: Vec<f64>,
@@ -120,7 +120,13 @@ impl<'a> SweepTask<'a> {
         &self.network
     }
 
-    fn start(&self) -> f64 {
+    /// The netlist.
+    pub(super) fn netlist(&self) -> &'a Netlist {
+        self.netlist
+    }
+
+    /// The time in s at which steady states read their inputs.
+    pub(super) fn start(&self) -> f64 {
         self.netlist.run.as_ref().map_or(0.0, |run| run.start)
     }
 
@@ -261,7 +267,7 @@ impl<'a> SweepTask<'a> {
                     let column = seen.next().ok_or(Lost::Failed(NOT_FINITE))?;
                     let life = measure.life.as_ref().map(|life| life.at(&mut scope));
                     let life = life.transpose().map_err(failed)?;
-                    taken(functional, column, (length, life))
+                    taken(functional, &of_column(column), (length, life))
                 }
             };
             reports.push(number + 0.0); // no `-0` in columns
@@ -270,16 +276,36 @@ impl<'a> SweepTask<'a> {
     }
 }
 
-/// What a functional takes of a column; `life` is that at the reference in s.
-fn taken(functional: Functional, column: &ColumnSeen, (length, life): (f64, Option<f64>)) -> f64 {
+/// What was seen of a quantity over a run.
+pub(super) struct Seen {
+    pub(super) last: f64,
+    pub(super) min: f64,
+    pub(super) max: f64,
+    pub(super) mean: f64,
+    /// For how long it was above zero, in s.
+    pub(super) positive: f64,
+}
+
+fn of_column(column: &ColumnSeen) -> Seen {
+    let ColumnSeen { last, min, max, mean, positive, .. } = *column;
+    Seen { last, min: min.0, max: max.0, mean, positive }
+}
+
+/// What a functional takes of what was seen over a run of this length in s; `life` is that at the
+/// reference in s.
+pub(super) fn taken(
+    functional: Functional,
+    seen: &Seen,
+    (length, life): (f64, Option<f64>),
+) -> f64 {
     match functional {
-        Functional::Value | Functional::Last => column.last,
-        Functional::Max => column.max.0,
-        Functional::Min => column.min.0,
-        Functional::Mean => column.mean,
-        Functional::Integral => column.mean * length,
-        Functional::TimeOver | Functional::TimeUnder => column.positive,
-        Functional::Life => life.unwrap_or(f64::NAN) / column.mean,
+        Functional::Value | Functional::Last => seen.last,
+        Functional::Max => seen.max,
+        Functional::Min => seen.min,
+        Functional::Mean => seen.mean,
+        Functional::Integral => seen.mean * length,
+        Functional::TimeOver | Functional::TimeUnder => seen.positive,
+        Functional::Life => life.unwrap_or(f64::NAN) / seen.mean,
     }
 }
 

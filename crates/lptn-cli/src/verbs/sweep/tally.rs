@@ -6,13 +6,28 @@ use std::collections::BTreeMap;
 pub(crate) const MOST_POINTS: u64 = 2000;
 
 /// One row: the case, counted from 0, and its numbers as they are shown, axes first.
-#[derive(Clone, Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Row {
     pub(crate) case: u64,
     pub(crate) numbers: Vec<f64>,
     pub(crate) outside: u64,
     /// Empty unless it failed.
     pub(crate) failed: String,
+}
+
+impl Clone for Row {
+    fn clone(&self) -> Self {
+        let mut new = Self::default();
+        new.clone_from(self);
+        new
+    }
+
+    /// Into the room that is there.
+    fn clone_from(&mut self, other: &Self) {
+        (self.case, self.outside) = (other.case, other.outside);
+        self.numbers.clone_from(&other.numbers);
+        self.failed.clone_from(&other.failed);
+    }
 }
 
 /// The least and the largest value of a report, each with its row.
@@ -80,14 +95,12 @@ impl Tally {
         let reports = row.numbers.get(self.axes..).unwrap_or_default();
         for (place, (span, value)) in self.spans.iter_mut().zip(reports).enumerate() {
             let at = self.axes + place;
-            let before = |known: &Option<Row>, sign: f64| {
-                known.as_ref().is_none_or(|known| sign * value > sign * known.numbers[at])
-            };
-            if before(&span.least, -1.0) {
-                span.least = Some(row.clone());
-            }
-            if before(&span.largest, 1.0) {
-                span.largest = Some(row.clone());
+            for (known, sign) in [(&mut span.least, -1.0), (&mut span.largest, 1.0)] {
+                match known {
+                    Some(known) if sign * value <= sign * known.numbers[at] => {}
+                    Some(known) => known.clone_from(row),
+                    None => *known = Some(row.clone()),
+                }
             }
         }
     }

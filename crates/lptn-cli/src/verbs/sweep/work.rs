@@ -6,7 +6,7 @@ use std::time::Instant;
 use lptn_netlist::SweepOver;
 use lptn_report::CsvLines;
 use lptn_solve::{Proceed, in_order};
-use lptn_study::sweep::Candidate;
+use lptn_study::sweep::{Candidate, LinearSweep};
 
 use super::asked::Asked;
 use super::tally::{Row, Tally};
@@ -15,7 +15,9 @@ use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
 
-/// Rows that a thread solves at a time: those of runs are handed on one by one.
+/// Rows that a thread solves at a time: of small linear networks, and of steady states. Those of
+/// other runs are handed on one by one.
+const LINEAR: u64 = 1024;
 const STEADY: u64 = 16;
 
 /// Some rows in order.
@@ -63,23 +65,33 @@ pub(crate) fn solve(
 }
 
 fn size(asked: &Asked<'_>) -> u64 {
-    if asked.study().over == SweepOver::Steady { STEADY } else { 1 }
+    match asked.study().over {
+        _ if LinearSweep::new(&asked.task).is_some() => LINEAR,
+        SweepOver::Steady => STEADY,
+        SweepOver::Run | SweepOver::Periodic => 1,
+    }
 }
 
 impl Asked<'_> {
     fn chunk(&self, cases: Range<u64>, tally: Tally, interrupt: &Interrupt) -> Chunk {
         let mut chunk = Chunk { text: Vec::new(), tally, interrupted: false };
         let mut lines = CsvLines::new();
+        let mut linear = LinearSweep::new(&self.task);
+        let (mut candidate, mut row) = (Candidate::default(), Row::default());
         for case in cases {
-            let solved = match interrupt.control() {
-                Proceed::Continue => self.task.candidate(case, &|| interrupt.control()),
-                Proceed::Interrupt => None,
-            };
-            let Some(candidate) = solved else {
+            if interrupt.control() == Proceed::Interrupt {
                 chunk.interrupted = true;
                 break;
-            };
-            let row = self.row(case, &candidate);
+            }
+            let solved = linear.as_mut().is_some_and(|linear| linear.solve(case, &mut candidate));
+            if !solved {
+                let Some(found) = self.task.candidate(case, &|| interrupt.control()) else {
+                    chunk.interrupted = true;
+                    break;
+                };
+                candidate = found;
+            }
+            self.row(case, &candidate, &mut row);
             self.write(&row, &mut lines);
             chunk.tally.row(&row);
         }
@@ -88,14 +100,14 @@ impl Asked<'_> {
     }
 
     /// A candidate in the units that are shown.
-    fn row(&self, case: u64, candidate: &Candidate) -> Row {
+    fn row(&self, case: u64, candidate: &Candidate, row: &mut Row) {
         let si = candidate.values.iter().chain(&candidate.reports);
-        Row {
-            case,
-            numbers: self.columns.iter().zip(si).map(|(c, si)| c.unit.from_si(*si)).collect(),
-            outside: candidate.outside as u64,
-            failed: candidate.failed.unwrap_or_default().to_owned(),
-        }
+        row.case = case;
+        row.numbers.clear();
+        row.numbers.extend(self.columns.iter().zip(si).map(|(c, si)| c.unit.from_si(*si)));
+        row.outside = candidate.outside as u64;
+        row.failed.clear();
+        row.failed.push_str(candidate.failed.unwrap_or_default());
     }
 
     fn write(&self, row: &Row, lines: &mut CsvLines) {
