@@ -19,7 +19,7 @@ pub(crate) fn answer_shell(command: fn() -> Command) {
 
 /// The same command, of which some options know what they take.
 fn with_names(command: Command) -> Command {
-    let materials = command.get_name() == "materials";
+    let (materials, sweep) = (command.get_name() == "materials", command.get_name() == "sweep");
     let command = command.mut_args(|arg| {
         let found: Option<fn() -> Vec<String>> = match arg.get_id().as_str() {
             "set" => Some(parameters),
@@ -27,6 +27,7 @@ fn with_names(command: Command) -> Command {
             "answering" | "balance" | "keep" | "port" => Some(nodes),
             "gearbox" => Some(gearboxes),
             "name" if materials => Some(substances),
+            "name" if sweep => Some(sweeps),
             _ => None,
         };
         match found {
@@ -66,6 +67,11 @@ fn nodes() -> Vec<String> {
 fn gearboxes() -> Vec<String> {
     let gearboxes = netlist().map(|netlist| netlist.gearboxes().to_vec());
     gearboxes.unwrap_or_default().into_iter().map(|gearbox| gearbox.name).collect()
+}
+
+fn sweeps() -> Vec<String> {
+    let sweeps = netlist().map(|netlist| netlist.studies.sweeps).unwrap_or_default();
+    sweeps.into_iter().map(|study| study.name).collect()
 }
 
 fn substances() -> Vec<String> {

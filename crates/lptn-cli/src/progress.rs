@@ -39,6 +39,21 @@ impl ProgressLine {
         self.show(|| format!("{which}: {}", run(progress)));
     }
 
+    /// Shows how many of several things are done, how fast they come, and how long the rest will
+    /// take. `before` were there when it began, at `begun`.
+    pub(crate) fn update_count(
+        &mut self,
+        (done, of, noun): (u64, u64, &str),
+        (before, begun): (u64, Instant),
+    ) {
+        self.show(|| {
+            let rate = (done - before) as f64 / begun.elapsed().as_secs_f64().max(1e-3);
+            let left = duration((of - done) as f64 / rate.max(1e-9), 2);
+            let share = 100.0 * done as f64 / of.max(1) as f64;
+            format!("{share:5.1} %  {done} of {of} {noun}, {rate:.0} a second, {left} left")
+        });
+    }
+
     fn show(&mut self, text: impl FnOnce() -> String) {
         if !self.wanted || Instant::now() < self.due {
             return;

@@ -152,9 +152,9 @@ impl CsvFile {
         if problems.is_empty() { Ok(points) } else { Err(problems) }
     }
 
-    /// The names of the columns with their places, in file order.
-    pub fn names(&self) -> impl Iterator<Item = (String, Span)> + '_ {
-        self.head.columns.iter().map(|header| (header.name.clone(), header.place.clone()))
+    /// The names of its columns, each with its place.
+    pub fn names(&self) -> impl Iterator<Item = (&str, &Span)> {
+        self.head.columns.iter().map(|column| (column.name.as_str(), &column.place))
     }
 
     /// The words in a column that names what stands in its rows: there, and each once.

@@ -9,6 +9,7 @@ use lptn_network::{
 };
 use lptn_units::{Expression, UnitErrorKind};
 
+use crate::RunSettings;
 use crate::describe::describe;
 use crate::gearbox;
 use crate::netlist::Netlist;
@@ -49,6 +50,17 @@ impl Netlist {
             }
             Err(diagnostics) => Err(Rejected::arranged(files, diagnostics, 0)),
         }
+    }
+
+    /// What `[run]` says for a network with other parameters, if it is one that `--set` would take:
+    /// for loops over candidates.
+    ///
+    /// # Errors
+    /// What the values break in `[run]` or in a gearbox.
+    pub fn settings_of(&self, network: &Network) -> Result<Option<RunSettings>, Vec<Diagnostic>> {
+        let run = self.plan.as_ref().map(|plan| plan.settings(network)).transpose()?;
+        let gears = gearbox::check(&self.gearboxes, network);
+        if gears.is_empty() { Ok(run) } else { Err(gears) }
     }
 
     fn assign(
@@ -185,7 +197,7 @@ impl Netlist {
         &self,
         new: &Parameters,
         done: &[Assignment],
-    ) -> Result<(Network, Option<crate::RunSettings>), Vec<Diagnostic>> {
+    ) -> Result<(Network, Option<RunSettings>), Vec<Diagnostic>> {
         let network = self.network.with(new).map_err(|errors| {
             errors.0.iter().map(|error| self.blame(error, done)).collect::<Vec<_>>()
         })?;

@@ -74,6 +74,7 @@ mod source_map;
 mod state;
 mod streams;
 mod study;
+mod sweep;
 mod syntax;
 mod syntax_error;
 mod template;
@@ -106,4 +107,8 @@ pub use size::{
 };
 pub use source_map::SourceMap;
 pub use state::{SavedState, StateControl, StateEnd};
+pub use sweep::{
+    AxisNumbers, Functional, MOST_CASES, Measure, SweepAxis, SweepMethod, SweepOver, SweepPlan,
+    SweepStudy,
+};
 pub use write_back::WrittenNumber;

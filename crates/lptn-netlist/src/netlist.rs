@@ -9,7 +9,7 @@ use lptn_data::{
     Diagnostic, FileId, Files, ReadError, Rejected, Severity, Span, arrange, read_bytes,
     read_named, shorten,
 };
-use lptn_network::{Network, Parameters, RunSettings};
+use lptn_network::{Network, Parameters, RunSettings, Value};
 use lptn_units::Unit;
 
 use crate::csv_files::CsvFiles;
@@ -99,6 +99,11 @@ impl Netlist {
     /// The state that runs start from, where `initial` of `[run]` names one.
     pub fn initial(&self) -> Option<&InitialState> {
         self.initial.as_ref()
+    }
+
+    /// Everything that `[run]` evaluates.
+    pub fn run_values(&self) -> impl Iterator<Item = &Value> {
+        self.plan.iter().flat_map(RunPlan::values)
     }
 
     /// The stages of gears, those that are driven behind those that drive them.

@@ -2,7 +2,8 @@
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{
-    AfterEnd, Evaluation, IntegratorChoice, Network, OutputTimes, RunSettings, WindowSettings,
+    AfterEnd, Evaluation, IntegratorChoice, Network, OutputTimes, RunSettings, Value,
+    WindowSettings,
 };
 use lptn_units::{Dimension, Type};
 
@@ -220,6 +221,18 @@ impl RunPlan {
 }
 
 impl RunPlan {
+    /// Everything that it evaluates.
+    pub(crate) fn values(&self) -> impl Iterator<Item = &Value> {
+        let output: &[Setting] = match &self.output {
+            None => &[],
+            Some(OutputPlan::Every(every)) => std::slice::from_ref(every),
+            Some(OutputPlan::At(times)) => times,
+        };
+        let windows = self.windows.iter().flat_map(WindowPlan::ends);
+        let own = self.start.iter().chain([&self.stop]).chain(&self.tolerance);
+        own.chain(output).chain(windows).map(|setting| &setting.value)
+    }
+
     /// Where `start` is written, if it is.
     pub(crate) fn start_place(&self) -> Option<&Span> {
         self.start.as_ref().map(|start| &start.span)

@@ -26,9 +26,17 @@ fn parse(path: &Path) -> Result<Netlist, Rejected> {
     match std::str::from_utf8(&bytes) {
         // the CSV files and states of a case, and what it includes, stand beside it
         Ok(text)
-            if ["csv = ", "catalogue = ", "data = ", "initial = ", "[import]", ".inc\""]
-                .iter()
-                .any(|key| text.contains(key)) =>
+            if [
+                "csv = ",
+                "catalogue = ",
+                "data = ",
+                "file = ",
+                "initial = ",
+                "[import]",
+                ".inc\"",
+            ]
+            .iter()
+            .any(|key| text.contains(key)) =>
         {
             parse_with(name, text, &mut |path| std::fs::read(folder().join(path)))
         }

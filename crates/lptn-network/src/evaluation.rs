@@ -6,7 +6,7 @@ use lptn_units::{Dual, EvalError, Program};
 
 use crate::id::SignalId;
 use crate::input_error::InputProblem;
-use crate::parts::layout::Layout;
+use crate::parts::layout::{Followed, Layout};
 use crate::slot;
 use crate::value::Value;
 
@@ -67,6 +67,15 @@ impl Evaluation {
         for (slot, value) in self.layout.grid_temperatures(nodes) {
             self.slots[slot as usize] = value;
         }
+    }
+
+    /// Sets one temperature in K or heat flow in W, for an expression that goes with it.
+    pub fn follow(&mut self, followed: Followed, value: f64) {
+        let slot = match followed {
+            Followed::Temperature(end) => Some(self.layout.temperature(end)),
+            Followed::Heat(heat) => self.layout.heat(heat),
+        };
+        slot.into_iter().for_each(|slot| self.slots[slot as usize] = value);
     }
 
     /// Sets the heat flows that expressions of results name, in W, in the order of

@@ -39,6 +39,7 @@ mod stream;
 mod tangent;
 mod typed;
 mod value;
+mod variant;
 
 pub use breakpoints::same_time;
 pub use build_error::{BuildError, BuildErrors};
@@ -70,6 +71,7 @@ pub use parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source
 pub use parts::grid::{Face, FacePath, Grid, GridFace, MOST_CELLS, Substance, Terminal};
 pub use parts::grid_value::GridValue;
 pub use parts::heat::HeatOf;
+pub use parts::layout::Followed;
 pub use parts::result::{Bound, Limit, LimitSeverity, Report};
 pub use parts::signal::{AfterEnd, Course, Join, Signal};
 pub use parts::substance::{Fluid, Material, Melting};
@@ -85,3 +87,4 @@ pub use typed::{
     ZERO_CELSIUS,
 };
 pub use value::{Input, Lump, Size, Value};
+pub use variant::Variants;

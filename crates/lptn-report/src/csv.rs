@@ -29,10 +29,9 @@ pub fn write_csv(table: &Table, out: impl io::Write) -> io::Result<()> {
     table.labels().iter().for_each(|label| lines.word(&label.name));
     table.columns().iter().for_each(|column| lines.word(&Column::header(column)));
     lines.end()?;
-    let mut number = Shortest::new();
     for row in 0..table.rows() {
         table.labels().iter().for_each(|label| lines.word(&label.cells[row]));
-        table.row(row).for_each(|value| lines.cell(number.text(value)));
+        table.row(row).for_each(|value| lines.number(value));
         lines.end()?;
     }
     lines.finish()
@@ -51,21 +50,23 @@ pub fn write_rows(rows: &[Vec<String>], out: impl io::Write) -> io::Result<()> {
     lines.finish()
 }
 
-/// Lines of cells on their way to a stream.
-struct Lines<W> {
-    out: W,
+/// Lines of cells as text, for rows that are made one by one.
+#[derive(Default)]
+pub struct CsvLines {
     text: Vec<u8>,
     /// Where the present line begins in `text`.
     begin: usize,
+    number: Shortest,
 }
 
-impl<W: io::Write> Lines<W> {
-    fn new(out: W) -> Self {
-        Self { out, text: Vec::with_capacity(CHUNK + CHUNK / 8), begin: 0 }
+impl CsvLines {
+    /// No line yet.
+    pub fn new() -> Self {
+        Self::default()
     }
 
     /// A cell of any text.
-    fn word(&mut self, text: &str) {
+    pub fn word(&mut self, text: &str) {
         self.cell(&quoted(text));
     }
 
@@ -75,23 +76,77 @@ impl<W: io::Write> Lines<W> {
         self.text.push(b',');
     }
 
+    /// A number that reads back as the same `f64`.
+    pub fn number(&mut self, value: f64) {
+        self.text.extend_from_slice(self.number.text(value).as_bytes());
+        self.text.push(b',');
+    }
+
+    /// A whole number, never with an exponent.
+    pub fn whole(&mut self, value: u64) {
+        const DIGITS: usize = 20;
+        let (mut digits, mut at, mut left) = ([b'0'; DIGITS], DIGITS - 1, value);
+        loop {
+            digits[at] += (left % 10) as u8;
+            left /= 10;
+            if left == 0 {
+                break;
+            }
+            at -= 1;
+        }
+        self.text.extend_from_slice(&digits[at..]);
+        self.text.push(b',');
+    }
+
     /// Ends the line; one without any character would be no row to a reader.
-    fn end(&mut self) -> io::Result<()> {
+    pub fn end(&mut self) {
         self.text.pop();
         if self.text.len() == self.begin {
             self.text.extend_from_slice(b"\"\"");
         }
         self.text.push(b'\n');
-        if self.text.len() >= CHUNK {
-            self.out.write_all(&self.text)?;
-            self.text.clear();
-        }
         self.begin = self.text.len();
+    }
+
+    /// Every line that was ended.
+    pub fn into_bytes(self) -> Vec<u8> {
+        self.text
+    }
+}
+
+/// Lines of cells on their way to a stream.
+struct Lines<W> {
+    out: W,
+    lines: CsvLines,
+}
+
+impl<W: io::Write> Lines<W> {
+    fn new(out: W) -> Self {
+        let text = Vec::with_capacity(CHUNK + CHUNK / 8);
+        Self { out, lines: CsvLines { text, ..CsvLines::default() } }
+    }
+
+    fn word(&mut self, text: &str) {
+        self.lines.word(text);
+    }
+
+    fn number(&mut self, value: f64) {
+        self.lines.number(value);
+    }
+
+    /// Ends the line, and hands on what there is where it is much.
+    fn end(&mut self) -> io::Result<()> {
+        self.lines.end();
+        if self.lines.text.len() >= CHUNK {
+            self.out.write_all(&self.lines.text)?;
+            self.lines.text.clear();
+            self.lines.begin = 0;
+        }
         Ok(())
     }
 
     fn finish(mut self) -> io::Result<()> {
-        self.out.write_all(&self.text)?;
+        self.out.write_all(&self.lines.text)?;
         self.out.flush()
     }
 }

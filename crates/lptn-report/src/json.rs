@@ -73,6 +73,20 @@ impl<W: Write> JsonWriter<W> {
         })
     }
 
+    /// Writes a list whose items are texts of JSON already, one a line: it may be longer than the
+    /// memory.
+    ///
+    /// # Errors
+    /// What the items or the stream report.
+    pub fn texts(
+        &mut self,
+        name: &str,
+        items: impl Iterator<Item = io::Result<String>>,
+    ) -> io::Result<()> {
+        self.key(name)?;
+        self.lines(items, |out, item| out.write_all(item?.as_bytes()))
+    }
+
     /// Ends the object and hands the stream back, flushed.
     ///
     /// # Errors

@@ -28,7 +28,7 @@ mod text;
 pub use clock::{Clock, TimeUnit};
 pub use colour::{Look, WIDTH};
 pub use columns::{MOST_CURVES, TEMPERATURE, panels};
-pub use csv::{write_csv, write_rows};
+pub use csv::{CsvLines, write_csv, write_rows};
 pub use format::{Format, write};
 pub use heat::{Flow, balance};
 pub use json::{Json, JsonWriter};

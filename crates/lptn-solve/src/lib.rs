@@ -65,6 +65,7 @@ mod tracked;
 mod transient;
 mod unfold;
 mod unsolved;
+mod variants;
 mod verification;
 mod watch;
 mod window;
@@ -87,7 +88,7 @@ pub use lptn_network::OutputTimes;
 pub use lumping::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
 pub use method::Method;
 pub use modes::{Mode, Modes, ModesError};
-pub use parallel::{available_threads, in_parallel};
+pub use parallel::{available_threads, in_order, in_parallel};
 pub use periodic::{CycleMethod, Periodic, PeriodicError};
 pub use ranges::OutOfRange;
 pub use response::{Drive, FrequencyResponse, ResponseError, StepAnswer, settled_rises};
@@ -108,6 +109,7 @@ pub use stiffness::Stiffness;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, LabelColumn, Table, TableOf};
 pub use unsolved::Unsolved;
+pub use variants::{CourseSeen, LinearVariants, Quantity as FollowedQuantity};
 pub use verification::{
     Disturbance, DisturbanceShape, LEAST_TOLERANCE, NearError, NearState, NoReference, Reference,
     RunComparison, Verification, allowed_error,

@@ -1,6 +1,6 @@
 //! Which columns a table has, and what a run keeps for them.
 
-use lptn_network::{Item, Network, NodeId};
+use lptn_network::{Item, Network, NodeId, ReportId};
 
 use crate::quantity::Quantity;
 
@@ -47,6 +47,11 @@ impl Selection {
     /// The columns of some items; `of` tells which.
     pub fn of(network: &Network, of: impl Fn(Item) -> bool) -> Self {
         Self { quantities: Quantity::all(network).filter(|quantity| of(quantity.item())).collect() }
+    }
+
+    /// The columns of these reports.
+    pub fn of_reports(reports: &[ReportId]) -> Self {
+        Self { quantities: reports.iter().map(|id| Quantity::Report(*id)).collect() }
     }
 
     /// The columns that match any of `patterns`, in the order of the network.

@@ -22,6 +22,7 @@ pub(crate) struct Tracked {
     sums: Quadrature,
     min: Vec<(f64, f64)>,
     max: Vec<(f64, f64)>,
+    positive: Vec<f64>,
     first: Vec<f64>,
     last: Vec<f64>,
 }
@@ -39,6 +40,7 @@ impl Tracked {
             window,
             min: vec![(f64::INFINITY, f64::NAN); count],
             max: vec![(f64::NEG_INFINITY, f64::NAN); count],
+            positive: vec![0.0; count],
             first: Vec::new(),
             last: Vec::new(),
         }
@@ -59,7 +61,7 @@ impl Tracked {
         if from >= to {
             return Ok(());
         }
-        let Self { window, sums, min, max, first, last, .. } = self;
+        let Self { window, sums, min, max, positive, first, last, .. } = self;
         let mut at = |time: f64| {
             let mut values = Vec::with_capacity(window.of.quantities().len());
             columns(time, &window.of, &mut values).map(|()| values)
@@ -70,6 +72,9 @@ impl Tracked {
             }
             last.clone_from(&interval.values[POINTS - 1]);
             look(interval, smooth, min, max);
+            for (column, sum) in positive.iter_mut().enumerate() {
+                *sum += above_zero(interval, smooth, column);
+            }
         })?;
         self.reached = to;
         Ok(())
@@ -89,7 +94,9 @@ impl Tracked {
             let mean = self.sums.integral[i] / length;
             let name = quantity.name(network);
             let shown = Shown::of(*quantity, network);
-            ColumnSeen { name, ty, mean, min: settle(self.min[i]), max: settle(self.max[i]), shown }
+            let (min, max) = (settle(self.min[i]), settle(self.max[i]));
+            let (last, positive) = (self.last[i], self.positive[i]);
+            ColumnSeen { name, ty, mean, min, max, last, positive, shown }
         };
         (length > 0.0).then(|| WindowSeen {
             name: self.window.name.clone(),
@@ -131,6 +138,72 @@ fn look(interval: &Interval, smooth: bool, min: &mut [(f64, f64)], max: &mut [(f
             of.extreme(-1.0, low, min);
         }
     }
+}
+
+/// Parts of the gap between two points in which the sign of a curve near zero is looked at.
+const PARTS: u32 = 8;
+
+/// Halvings of a part in which a curve passes zero: to the rounding of its length.
+const HALVINGS: usize = 53;
+
+/// For how long a column is above zero in an interval.
+fn above_zero(interval: &Interval, smooth: bool, column: usize) -> f64 {
+    let values: [f64; POINTS] = std::array::from_fn(|point| interval.values[point][column]);
+    let range = |(low, high): (f64, f64), value: f64| (low.min(value), high.max(value));
+    let (low, high) = values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), range);
+    let length = interval.time(POINTS - 1) - interval.time(0);
+    // no curve that its points tell leaves their range by as much again
+    if low - (high - low) > 0.0 {
+        return length;
+    } else if high + (high - low) < 0.0 {
+        return 0.0;
+    }
+    let at = |time: f64| interval.interpolated(column, time);
+    let mut sum = 0.0;
+    for point in 1..POINTS {
+        let ends = [point - 1, point].map(|point| (interval.time(point), values[point]));
+        sum += match smooth {
+            true => above_on_the_curve(ends, &at),
+            false => above_on_the_chord(ends),
+        };
+    }
+    sum
+}
+
+fn above_on_the_chord([(from, first), (to, last)]: [(f64, f64); 2]) -> f64 {
+    match (first > 0.0, last > 0.0) {
+        (true, true) => to - from,
+        (false, false) => 0.0,
+        _ => (to - from) * first.max(last) / (first - last).abs(),
+    }
+}
+
+fn above_on_the_curve([begin, end]: [(f64, f64); 2], at: &dyn Fn(f64) -> f64) -> f64 {
+    let (mut from, mut sum) = (begin, 0.0);
+    for part in 1..=PARTS {
+        let time = begin.0 + (end.0 - begin.0) * f64::from(part) / f64::from(PARTS);
+        let to = if part == PARTS { end } else { (time, at(time)) };
+        sum += match (from.1 > 0.0, to.1 > 0.0) {
+            (true, true) => to.0 - from.0,
+            (false, false) => 0.0,
+            (true, false) => zero((from.0, to.0), true, at) - from.0,
+            (false, true) => to.0 - zero((from.0, to.0), false, at),
+        };
+        from = to;
+    }
+    sum
+}
+
+/// Where a curve passes zero that begins above or below it.
+fn zero((mut from, mut to): (f64, f64), above: bool, at: &dyn Fn(f64) -> f64) -> f64 {
+    for _ in 0..HALVINGS {
+        let middle = from + 0.5 * (to - from);
+        match (at(middle) > 0.0) == above {
+            true => from = middle,
+            false => to = middle,
+        }
+    }
+    to
 }
 
 /// A column over an interval.

@@ -31,6 +31,10 @@ pub struct ColumnSeen {
     pub min: (f64, f64),
     /// The largest value and when it was first there, in s.
     pub max: (f64, f64),
+    /// The value at the end of the window.
+    pub last: f64,
+    /// For how long it is above zero, in s.
+    pub positive: f64,
     pub(crate) shown: Shown,
 }
 

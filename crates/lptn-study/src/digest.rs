@@ -21,6 +21,16 @@ impl<W: Write> Hashing<W> {
         Self { inner, hash: Sha256::new() }
     }
 
+    /// The stream.
+    pub fn inner(&mut self) -> &mut W {
+        &mut self.inner
+    }
+
+    /// Hashes bytes that the stream holds already.
+    pub fn holds(&mut self, bytes: &[u8]) {
+        self.hash.update(bytes);
+    }
+
     /// The stream, and the SHA-256 of everything written.
     pub fn finish(self) -> (W, String) {
         (self.inner, hexadecimal(&self.hash.finalize()))

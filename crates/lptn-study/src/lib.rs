@@ -20,6 +20,7 @@ mod moment;
 mod rank;
 mod record;
 mod size;
+pub mod sweep;
 pub mod uncertainty;
 
 pub use compare::{

@@ -85,9 +85,8 @@ made_of! {
     lptn_solve::SettingsError, lptn_solve::SolutionError, lptn_solve::SteadyError,
     lptn_solve::TransientError, lptn_solve::Unsolved,
     lptn_study::CompareError, lptn_study::CoolingError, lptn_study::GearError, lptn_study::RankError,
-    lptn_study::SizeError,
-    lptn_study::TrialError,
-    lptn_study::uncertainty::UncertaintyError,
+    lptn_study::SizeError, lptn_study::TrialError,
+    lptn_study::sweep::SweepError, lptn_study::uncertainty::UncertaintyError,
     lptn_units::EvalError, lptn_units::Problems<lptn_units::UnitError>, lptn_units::TableError,
     lptn_units::UnitError,
     std::io::Error

@@ -12,7 +12,12 @@ pub(crate) const POWER: &str = "figure_9_power.csv";
 pub(crate) const LAWS: &str = "laws.csv";
 pub(crate) const RESIDUALS: &str = "residuals.csv";
 pub(crate) const FIT: &str = "fit.json";
+pub(crate) const SWEEP: &str = "sweep.csv";
 pub(crate) const MANIFEST: &str = "manifest.json";
+
+/// The rows of a sweep as far as it has come, and what they belong to.
+pub(crate) const UNFINISHED: &str = "sweep.csv.part";
+pub(crate) const BEGUN: &str = "sweep.json";
 
 /// The record of results that are whole and about to take their places.
 pub(super) const COMMIT: &str = ".commit.json";
@@ -20,7 +25,7 @@ pub(super) const COMMIT: &str = ".commit.json";
 /// The file whose lock says that somebody writes here.
 pub(super) const LOCK: &str = ".lptn.lock";
 
-const RESULTS: [&str; 13] = [
+const RESULTS: [&str; 15] = [
     RESULT,
     STATE,
     EVENTS,
@@ -33,6 +38,8 @@ const RESULTS: [&str; 13] = [
     LAWS,
     RESIDUALS,
     FIT,
+    SWEEP,
+    BEGUN,
     MANIFEST,
 ];
 

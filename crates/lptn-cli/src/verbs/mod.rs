@@ -19,6 +19,7 @@ pub(crate) mod report;
 pub(crate) mod run;
 pub(crate) mod size;
 pub(crate) mod steady;
+pub(crate) mod sweep;
 pub(crate) mod units;
 pub(crate) mod verify;
 
@@ -98,6 +99,7 @@ verbs! {
     Compare(compare::CompareArgs) => compare::compare, drawn |_| true;
     Size(size::SizeArgs) => size::size, drawn |args| args.file.is_some();
     Rank(rank::RankArgs) => rank::rank, drawn |_| true;
+    Sweep(sweep::SweepArgs) => sweep::sweep, drawn |args| args.verb.is_none();
     Fit(fit::FitArgs) => fit::fit, drawn |_| true;
     Reduce(reduce::ReduceArgs) => reduce::reduce, drawn |_| true;
     Impedance(impedance::ImpedanceArgs) => impedance::impedance, drawn |_| true;

@@ -20,7 +20,7 @@ use super::path_section::PATHS;
 use super::signal::SIGNAL;
 use super::table::TABLE;
 use crate::fit::FitStudy;
-use crate::format::{NetlistFormat, Role, SectionDeclaration};
+use crate::format::{NetlistFormat, SectionDeclaration};
 use crate::foster::FOSTER;
 use crate::gearbox::GEARBOX;
 use crate::import::IMPORT;
@@ -29,6 +29,7 @@ use crate::raw::{RawNetlist, RawValue};
 use crate::run::RUN;
 use crate::size::SizeStudy;
 use crate::study::{PathFrom, Study};
+use crate::sweep::SweepStudy;
 use crate::template::{TEMPLATE, USE};
 use crate::toml_text::TomlFields;
 use crate::work::Elaboration;
@@ -84,15 +85,12 @@ studies! {
     sizes: SizeStudy,
     /// What to find from records, in file order.
     fits: FitStudy,
+    /// Over what to sweep, in file order.
+    sweeps: SweepStudy,
 }
 
-/// What the format has for later.
-static LATER: [&SectionDeclaration; 1] = [&SectionDeclaration {
-    name: "sweep",
-    sentence: "Runs over values of parameters.",
-    role: Role::Study,
-    ..SectionDeclaration::NEW
-}];
+/// What the format has for later: nothing.
+static LATER: [&SectionDeclaration; 0] = [];
 
 static FORMAT: LazyLock<NetlistFormat> = LazyLock::new(|| {
     let paths = PATHS.iter().map(|path| &path.section);

@@ -100,7 +100,8 @@ impl<'a> Elaboration<'a> {
                 None
             }
         };
-        let names: Vec<(String, Span)> = file.names().collect();
+        let names: Vec<(String, Span)> =
+            file.names().map(|(name, place)| (name.to_owned(), place.clone())).collect();
         let of_numbers =
             names.iter().filter(|(name, _)| name != PART && !FOR_PEOPLE.contains(&name.as_str()));
         let columns: Vec<_> = of_numbers

@@ -1,5 +1,7 @@
 //! Limits and reports, where temperatures and heat flows are known.
 
+use std::sync::Arc;
+
 use lptn_units::{Degree, Type};
 
 use crate::evaluation::Evaluation;
@@ -8,7 +10,7 @@ use crate::input_error::{InputError, InputProblem};
 use crate::network::Network;
 use crate::parts::heat::HeatOf;
 use crate::parts::layout::Holds;
-use crate::parts::result::Bound;
+use crate::parts::result::{Bound, Report};
 use crate::scope::{Context, NetworkScope};
 use crate::value::Value;
 
@@ -66,6 +68,16 @@ impl Network {
 }
 
 impl Network {
+    /// The same network with further reports, of which only the caller knows, and their ids. What
+    /// they read was compiled for this network.
+    pub fn reporting(&self, further: Vec<Report>) -> (Self, Vec<ReportId>) {
+        let mut parts = (*self.parts).clone();
+        let first = parts.reports.len();
+        parts.reports.extend(further);
+        let ids = (first..parts.reports.len()).map(ReportId::from_len).collect();
+        (Self { parts: Arc::new(parts), numbers: Arc::clone(&self.numbers) }, ids)
+    }
+
     /// The value of a report in SI units where `scope` stands, which needs temperatures and heat
     /// flows: see [`Evaluation::set_temperatures`] and [`Evaluation::set_heats`].
     ///

@@ -91,7 +91,7 @@ impl Work<'_> {
     }
 
     /// Pairs of values of which one has to be smaller, where both are constant.
-    fn check_order(&mut self, item: Item, law: &Law) {
+    pub(crate) fn check_order(&mut self, item: Item, law: &Law) {
         for keys in law.formula().declaration().ordered {
             let [inner, outer] = keys.map(|key| {
                 let value = law.value(key).filter(|value| self.parts.reads(value).is_constant())?;

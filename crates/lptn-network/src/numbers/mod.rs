@@ -273,7 +273,13 @@ impl Work<'_> {
         self.evaluate(item, field, value, range)
     }
 
-    fn evaluate(&mut self, item: Item, field: Field, value: &Value, range: Range) -> f64 {
+    pub(crate) fn evaluate(
+        &mut self,
+        item: Item,
+        field: Field,
+        value: &Value,
+        range: Range,
+    ) -> f64 {
         match value.at(&mut self.scope) {
             Ok(number) => self.in_range(item, field, number, range),
             Err(error) => {
@@ -314,6 +320,6 @@ impl Work<'_> {
     }
 }
 
-fn range_of(parameter: &Parameter) -> Range {
+pub(crate) fn range_of(parameter: &Parameter) -> Range {
     if parameter.ty.absolute { Range::Temperature } else { Range::Finite }
 }

@@ -36,6 +36,15 @@ pub(crate) enum Holds {
     Grid(GridValue),
 }
 
+/// What a value goes with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Followed {
+    /// The temperature of a node or boundary.
+    Temperature(End),
+    /// A heat flow.
+    Heat(HeatOf),
+}
+
 /// The slots of a network.
 #[derive(Clone, Debug)]
 pub(crate) struct Layout {

@@ -13,7 +13,7 @@ mod estimate;
 mod input;
 mod linear;
 mod normal;
-mod points;
+pub(crate) mod points;
 mod result;
 mod sample;
 mod sobol;

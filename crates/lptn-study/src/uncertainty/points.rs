@@ -11,14 +11,18 @@ pub(crate) const LEAST: usize = 64;
 /// The longest sequence.
 pub(crate) const MOST_POINTS: usize = 1 << 16;
 
-/// One coordinate of one point of an Owen-scrambled Sobol sequence, as a normal number: the crate's
-/// numbers are multiples of 2^-24 from 0, and the middle of each cell is taken, so that nothing
-/// lies beyond 5.5 standard deviations.
-pub(crate) fn normal(index: usize, dimension: usize, seed: u32) -> f64 {
+/// One coordinate of one point of an Owen-scrambled Sobol sequence, between 0 and 1: the crate's
+/// numbers are multiples of 2^-24 from 0, and the middle of each cell is taken.
+pub(crate) fn uniform(index: usize, dimension: usize, seed: u32) -> f64 {
     const HALF_CELL: f64 = 1.0 / (1_u64 << 25) as f64;
     #[expect(clippy::cast_possible_truncation, reason = "both are below 2^16")]
     let uniform = sobol_burley::sample(index as u32, dimension as u32, seed);
-    quantile(f64::from(uniform) + HALF_CELL)
+    f64::from(uniform) + HALF_CELL
+}
+
+/// The same as a normal number: nothing lies beyond 5.5 standard deviations.
+pub(crate) fn normal(index: usize, dimension: usize, seed: u32) -> f64 {
+    quantile(uniform(index, dimension, seed))
 }
 
 #[cfg(test)]

@@ -127,6 +127,14 @@ impl Expression {
         called.collect()
     }
 
+    /// Everything that is called, functions and tables, with the number of its arguments.
+    pub fn called(&self) -> impl Iterator<Item = (&str, usize)> {
+        self.tree.nodes().filter_map(|(node, _)| match node {
+            Node::Call { function, arguments, .. } => Some((function.as_str(), arguments.len())),
+            _ => None,
+        })
+    }
+
     /// The comparisons by `==` or `!=` in which this name occurs: where it is a time, they hold, or
     /// fail to, for a moment that has no length.
     pub fn equalities(&self, name: &str) -> Vec<Range<usize>> {
@@ -164,13 +172,28 @@ impl Expression {
         let Node::Compare(comparison, left, right) = self.tree.node(self.tree.root()) else {
             return None;
         };
-        let side = |tree: Tree| Expression {
+        let (left, right) = (self.tree.subtree(0, *left), self.tree.subtree(left + 1, *right));
+        Some((self.part(left), *comparison, self.part(right)))
+    }
+
+    /// For `f(a, b)`: what is called, and its arguments as expressions. `None` if the expression as
+    /// a whole is not a call. Spans still count from the start of the original text.
+    pub fn split_call(&self) -> Option<(&str, Vec<Expression>)> {
+        let Node::Call { function, arguments, .. } = self.tree.node(self.tree.root()) else {
+            return None;
+        };
+        let firsts = std::iter::once(0).chain(arguments.iter().map(|root| root + 1));
+        let parts = firsts.zip(arguments).map(|(first, root)| self.tree.subtree(first, *root));
+        Some((function, parts.map(|tree| self.part(tree)).collect()))
+    }
+
+    /// A part of this expression, which is one by itself.
+    fn part(&self, tree: Tree) -> Self {
+        Self {
             part: tree.span(tree.root()),
             text: self.text.clone(),
             tree,
             renamed: self.renamed.clone(),
-        };
-        let (left, right) = (self.tree.subtree(0, *left), self.tree.subtree(left + 1, *right));
-        Some((side(left), *comparison, side(right)))
+        }
     }
 }

@@ -1,0 +1,184 @@
+//! What is swept: the study with its columns, and what determines its rows.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use lptn_netlist::{Diagnostic, SweepStudy};
+use lptn_network::Item;
+use lptn_study::sweep::{Cases, SweepError, SweepTask};
+use lptn_study::{FileHash, SiValue};
+use lptn_units::{Problem as _, Type, Unit};
+use serde_json::{Value, json};
+
+use super::args::SweepArgs;
+use super::shard::Shard;
+use crate::about;
+use crate::exit::Exit;
+use crate::failure::{Failure, told};
+use crate::input::{self, Input, Studies};
+
+const STUDIES: Studies = Studies {
+    section: "sweep",
+    codes: ["sweep::no_study", "sweep::which_study"],
+    question: "what is to be swept?",
+    example: "[sweep.fans]\nmethod = \"grid\"\naxes = { G = { from = \"1 W/K\", to = \"10 W/K\", \
+              points = 10 } }\nreport = { T = \"steel.T\" }",
+};
+
+/// A column of numbers: how it is called, and the unit of its cells.
+pub(crate) struct Column {
+    pub(crate) name: String,
+    pub(crate) unit: Unit,
+}
+
+impl Column {
+    pub(crate) fn header(&self) -> String {
+        let unit = if self.unit.text == "1" { "-" } else { &self.unit.text };
+        format!("{} [{unit}]", self.name)
+    }
+}
+
+/// A sweep that is about to begin.
+pub(crate) struct Asked<'a> {
+    pub(crate) input: &'a Input,
+    pub(crate) task: SweepTask<'a>,
+    /// The axes, then the reports.
+    pub(crate) columns: Vec<Column>,
+    pub(crate) shard: Option<Shard>,
+    /// The cases that are solved, counted from 0.
+    pub(crate) range: Range<u64>,
+    /// Whether some law may be outside of the range in which it is known.
+    pub(crate) ranged: bool,
+}
+
+/// The study of this name, or the only one.
+pub(crate) fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a SweepStudy, Failure> {
+    let sweeps = &input.netlist.studies.sweeps;
+    STUDIES.find(input, (sweeps, |study| &study.name), name)
+}
+
+/// Where its files go unless something else is said.
+pub(crate) fn folder(input: &Input, study: &SweepStudy) -> PathBuf {
+    PathBuf::from("out").join(&input.text.stem).join(&study.name)
+}
+
+impl<'a> Asked<'a> {
+    pub(crate) fn new(args: &SweepArgs, input: &'a Input) -> Result<Self, Failure> {
+        let netlist = &input.netlist;
+        let study = study(input, args.name.as_deref())?;
+        let unit = input::temperature_unit(args.scale.temperature_unit.as_deref(), netlist)?;
+        let plan = study.plan(&netlist.network).map_err(|diagnostics| Failure {
+            exit: Exit::Input,
+            files: netlist.files.clone(),
+            diagnostics,
+        })?;
+        let cases = Cases::new(plan);
+        let range = args.shard.map_or(0..cases.count(), |shard| shard.range(cases.count()));
+        let axes = cases.parameters().map(|id| Column {
+            name: netlist.network.parameters()[id.index()].name.clone(),
+            unit: input.unit_of(id),
+        });
+        let reports = study
+            .reports
+            .iter()
+            .map(|report| Column { name: report.name.clone(), unit: unit_of(report.ty, &unit) });
+        let columns = axes.chain(reports).collect();
+        let task =
+            SweepTask::new(netlist, study, cases).map_err(|error| refused(input, study, &error))?;
+        let ranged = !netlist.network.ranged().is_empty();
+        Ok(Self { input, task, columns, shard: args.shard, range, ranged })
+    }
+
+    pub(crate) fn study(&self) -> &'a SweepStudy {
+        self.task.study()
+    }
+
+    pub(crate) fn axes(&self) -> usize {
+        self.task.cases().parameters().len()
+    }
+
+    /// The folder of the files: that of the part, where it is one.
+    pub(crate) fn folder(&self, output: Option<PathBuf>) -> PathBuf {
+        let whole = output.unwrap_or_else(|| folder(self.input, self.study()));
+        self.shard.map_or(whole.clone(), |shard| whole.join(shard.folder()))
+    }
+
+    /// The first line of the file.
+    pub(crate) fn header(&self) -> Vec<String> {
+        let mut header = vec!["case [-]".to_owned()];
+        header.extend(self.columns.iter().map(Column::header));
+        header.extend(self.ranged.then(|| "outside [-]".to_owned()));
+        header.push("failed".into());
+        header
+    }
+
+    /// Everything that determines a row: two sweeps that agree in it have the same rows.
+    pub(crate) fn identity(&self) -> String {
+        let hashes: Vec<String> =
+            about::hashes(&self.input.netlist).into_iter().map(|file| file.sha256).collect();
+        let network = &self.input.netlist.network;
+        let values: Vec<String> = network
+            .parameter_ids()
+            .map(|id| format!("{:016x}", network.parameter_value(id).to_bits()))
+            .collect();
+        let all = json!({
+            "lptn": env!("CARGO_PKG_VERSION"),
+            "inputs": hashes,
+            "parameters": values,
+            "sweep": self.study().name,
+            "header": self.header(),
+        });
+        lptn_study::sha256(all.to_string().as_bytes())
+    }
+
+    pub(crate) fn inputs(&self) -> Vec<FileHash> {
+        about::hashes(&self.input.netlist)
+    }
+
+    /// What the manifest says of the sweep.
+    pub(crate) fn record(&self) -> Value {
+        let (study, plan) = (self.study(), self.task.cases().plan());
+        json!({
+            "name": study.name,
+            "method": study.method.word(),
+            "over": study.over.word(),
+            "seed": study.method.is_sampled().then_some(plan.seed),
+            "period": plan.period.map(|period| SiValue::new(period, "s")),
+            "cases": plan.cases,
+            "first": self.range.start + 1,
+            "last": self.range.end,
+            "shard": self.shard.map(|shard| shard.to_string()),
+            "identity": self.identity(),
+        })
+    }
+}
+
+/// The unit of a report's cells: temperatures on their scale, all else in SI.
+fn unit_of(ty: Type, temperature: &Unit) -> Unit {
+    match ty.absolute {
+        true => temperature.clone(),
+        false => Unit { text: ty.dimension.si_unit(), scale: 1.0, offset: 0.0, ty },
+    }
+}
+
+fn refused(input: &Input, study: &SweepStudy, error: &SweepError) -> Failure {
+    let problem = told(error);
+    let problem = match error {
+        SweepError::Changing(changing) => {
+            let map = &input.netlist.source_map;
+            let places = changing.iter().filter_map(|change| match (change.signal, change.input) {
+                (Some(signal), _) => map.name(Item::Signal(signal)),
+                (None, Some((item, field))) => map.get(item, field).or_else(|| map.name(item)),
+                (None, None) => None,
+            });
+            let first = Diagnostic {
+                message: format!("sweep `{}`: {}", study.name, problem.message),
+                ..problem
+            }
+            .at(study.span.clone(), "");
+            places.fold(first, |problem, place| problem.also(place, "changes with time"))
+        }
+        _ => problem.at(study.span.clone(), ""),
+    };
+    input.refused(error.class().into(), problem)
+}

@@ -1,0 +1,82 @@
+//! A sweep as a picture: reports over the parameter, or one report over another.
+
+use lptn_plot::Figure;
+use lptn_plot::figure::{Axis, Curve, Look, Panel};
+
+use super::asked::Column;
+use super::page::View;
+use super::tally::{MOST_POINTS, Row};
+
+/// A range that spans more than this is shown by its logarithms.
+const WIDE: f64 = 10.0;
+
+impl View<'_> {
+    /// One parameter: every report over it, a panel for each unit. Several: every report over the
+    /// first one as dots, one for each candidate, so that the front of what is possible is seen.
+    pub(super) fn figure(&self) -> Figure {
+        let rows: Vec<&Row> =
+            self.tally.points.iter().filter(|row| row.failed.is_empty()).collect();
+        let panels = match (self.axes(), self.reports()) {
+            ([_], _) => self.over_the_axis(&rows),
+            (_, [_, _, ..]) => self.over_the_first(&rows),
+            _ => self.over_the_axis(&rows),
+        };
+        let title = format!("{}: sweep {}", self.asked.input.title(), self.asked.study().name);
+        let note = match self.tally.rows > MOST_POINTS {
+            true => format!("{} of {} candidates are shown", rows.len(), self.tally.rows),
+            false => String::new(),
+        };
+        Figure { title, note, panels }
+    }
+
+    fn over_the_axis(&self, rows: &[&Row]) -> Vec<Panel> {
+        let look = if self.axes().len() == 1 { Look::Line } else { Look::Dots };
+        let across = self.axis(rows, 0);
+        let mut panels: Vec<Panel> = Vec::new();
+        for (place, report) in (self.axes().len()..).zip(self.reports()) {
+            let curve = Curve::line(&report.name, points(rows, (0, place))).looks(look);
+            let upwards = Axis::linear("", &report.unit.text);
+            match panels.iter_mut().find(|panel| panel.y == upwards) {
+                Some(panel) => panel.curves.push(curve),
+                None => {
+                    let mut panel = Panel::new(across.clone(), upwards);
+                    panel.curves.push(curve);
+                    panels.push(panel);
+                }
+            }
+        }
+        panels
+    }
+
+    fn over_the_first(&self, rows: &[&Row]) -> Vec<Panel> {
+        let first = self.axes().len();
+        let across = self.axis(rows, first);
+        let others = (first + 1..).zip(&self.reports()[1..]);
+        let panel = |(place, report): (usize, &Column)| {
+            let mut panel =
+                Panel::new(across.clone(), Axis::linear(&report.name, &report.unit.text));
+            let dots = Curve::line("candidates", points(rows, (first, place)));
+            panel.curves.push(dots.looks(Look::Dots));
+            panel
+        };
+        others.map(panel).collect()
+    }
+
+    fn axis(&self, rows: &[&Row], place: usize) -> Axis {
+        let column = &self.asked.columns[place];
+        let values = rows.iter().map(|row| row.numbers[place]);
+        let (low, high) = values
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)));
+        match low > 0.0 && high / low > WIDE && !column.unit.ty.absolute {
+            true => Axis::log(&column.name, &column.unit.text),
+            false => Axis::linear(&column.name, &column.unit.text),
+        }
+    }
+}
+
+fn points(rows: &[&Row], (x, y): (usize, usize)) -> Vec<(f64, f64)> {
+    let mut points: Vec<(f64, f64)> =
+        rows.iter().map(|row| (row.numbers[x], row.numbers[y])).collect();
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    points
+}

@@ -1,0 +1,247 @@
+//! The file of a sweep while it grows: rows are there as soon as they are known, and a process that
+//! was killed leaves whole rows and at most one that is torn.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufRead as _, BufReader, Read as _, Seek as _, SeekFrom, Write as _};
+use std::path::{Path, PathBuf};
+
+use lptn_netlist::Diagnostic;
+use lptn_report::write_rows;
+use lptn_study::Hashing;
+use serde_json::{Value, json};
+
+use super::asked::Asked;
+use super::tally::{Row, Tally};
+use crate::exit::Exit;
+use crate::failure::{Failure, reason};
+use crate::files::names::{BEGUN, MANIFEST, SWEEP, UNFINISHED};
+use crate::files::{self, Folder};
+
+/// The rows so far, and the hash of the file.
+pub(crate) struct Growing {
+    path: PathBuf,
+    file: Hashing<File>,
+}
+
+/// What there is of a sweep in a folder.
+pub(crate) enum Found {
+    /// Nothing: it begins.
+    Nothing,
+    /// Some rows.
+    Rows,
+    /// All of them.
+    Whole,
+}
+
+impl Found {
+    /// What the folder holds of this sweep.
+    pub(crate) fn of(folder: &Folder, asked: &Asked<'_>, resume: bool) -> Result<Self, Failure> {
+        let (part, whole) = (folder.path().join(UNFINISHED), folder.path().join(SWEEP));
+        if part.exists() {
+            if !resume {
+                let message = format!("{} holds a sweep that was stopped", folder.path().display());
+                let help = "add --resume to go on with it, remove sweep.csv.part to begin anew, or \
+                            choose another folder with -o DIR";
+                return Err(refused("sweep::unfinished", message, help));
+            }
+            same(asked, &folder.path().join(BEGUN), |begun| begun)?;
+            return Ok(Self::Rows);
+        }
+        if resume && whole.exists() {
+            same(asked, &folder.path().join(MANIFEST), |manifest| &manifest["sweep"])?;
+            return Ok(Self::Whole);
+        }
+        Ok(Self::Nothing)
+    }
+}
+
+/// Refuses rows of another sweep.
+fn same(asked: &Asked<'_>, file: &Path, of: fn(&Value) -> &Value) -> Result<(), Failure> {
+    let text = fs::read_to_string(file).unwrap_or_default();
+    let known: Value = serde_json::from_str(&text).unwrap_or_default();
+    let (known, now) = (of(&known), asked.record());
+    let same = ["identity", "first", "last"].iter().all(|key| known[key] == now[key]);
+    if same {
+        return Ok(());
+    }
+    let folder = file.parent().unwrap_or(Path::new(".")).display();
+    let message = format!(
+        "{folder} holds rows of another sweep: the netlist, its files, the parameters that are \
+         set, the version of lptn or the part differ"
+    );
+    let help = "choose another folder with -o DIR, or remove that one";
+    Err(refused("sweep::other_inputs", message, help))
+}
+
+fn refused(code: &'static str, message: String, help: &str) -> Failure {
+    Failure::new(Exit::Input, Diagnostic::error(code, message).help(help))
+}
+
+fn cannot_write(path: &Path, error: &io::Error) -> Failure {
+    let message = format!("cannot write {}: {}", path.display(), reason(error));
+    let help = "the rows that are there are kept: make room and add --resume, or choose another \
+                folder with -o DIR";
+    Failure::new(Exit::Failed, Diagnostic::error("output::cannot_write", message).help(help))
+}
+
+impl Growing {
+    /// Begins with the heading.
+    pub(crate) fn begin(folder: &Folder, asked: &Asked<'_>) -> Result<Self, Failure> {
+        let mut batch = folder.batch();
+        let text = format!("{:#}\n", asked.record());
+        batch.write(BEGUN, |out| out.write_all(text.as_bytes()))?;
+        batch.commit(&[])?;
+        let path = folder.path().join(UNFINISHED);
+        let file = File::create(&path).map_err(|error| cannot_write(&path, &error))?;
+        let mut growing = Self { path, file: Hashing::new(file) };
+        growing.write(&heading(asked))?;
+        Ok(growing)
+    }
+
+    /// Goes on behind the last whole row, which `tally` takes in with all before it; the number of
+    /// the case that comes next.
+    pub(crate) fn go_on(
+        folder: &Folder,
+        asked: &Asked<'_>,
+        tally: &mut Tally,
+    ) -> Result<(Self, u64), Failure> {
+        let path = folder.path().join(UNFINISHED);
+        let open = || OpenOptions::new().read(true).write(true).open(&path);
+        let file = open().map_err(|error| cannot_write(&path, &error))?;
+        let mut growing = Self { file: Hashing::new(file), path };
+        let mut next = asked.range.start;
+        let mut length = 0;
+        let mut lines = Lines::open(&growing.path)?;
+        if let Some(first) = lines.next()? {
+            if first != heading(asked) {
+                return Err(damaged(&growing.path, 1));
+            }
+            growing.file.holds(&first);
+            length += first.len() as u64;
+        }
+        let columns = asked.header().len();
+        while let Some(line) = lines.next()? {
+            let row = read_row(&line, columns, asked.ranged).filter(|row| row.case == next);
+            let row = row.ok_or_else(|| damaged(&growing.path, next - asked.range.start + 2))?;
+            tally.row(&row);
+            growing.file.holds(&line);
+            length += line.len() as u64;
+            next += 1;
+        }
+        growing.cut(length)?;
+        if length == 0 {
+            growing.write(&heading(asked))?;
+        }
+        Ok((growing, next))
+    }
+
+    /// Cuts off what is behind so many bytes.
+    fn cut(&mut self, length: u64) -> Result<(), Failure> {
+        let file = self.file.inner();
+        let cut = file.set_len(length).and_then(|()| file.seek(SeekFrom::Start(length)));
+        cut.map(drop).map_err(|error| cannot_write(&self.path, &error))
+    }
+
+    /// Adds rows.
+    pub(crate) fn write(&mut self, rows: &[u8]) -> Result<(), Failure> {
+        self.file.write_all(rows).map_err(|error| cannot_write(&self.path, &error))
+    }
+
+    /// Puts the file in its place, with its manifest. One who is killed on the way finds all rows
+    /// still under the name of those that are unfinished, or in place.
+    pub(crate) fn finish(
+        self,
+        folder: &Folder,
+        asked: &Asked<'_>,
+        wall_time: f64,
+    ) -> Result<(), Failure> {
+        let (file, sha256) = self.file.finish();
+        drop(file);
+        let results = [lptn_study::FileHash { name: SWEEP.to_owned(), sha256 }];
+        let mut manifest = files::manifest(&asked.inputs(), &results, wall_time);
+        manifest["sweep"] = asked.record();
+        write_manifest(folder, &manifest)?;
+        let place = folder.path().join(SWEEP);
+        fs::rename(&self.path, &place).map_err(|error| cannot_write(&place, &error))?;
+        drop(fs::remove_file(folder.path().join(BEGUN)));
+        Ok(())
+    }
+}
+
+/// Writes the manifest at once and whole.
+pub(crate) fn write_manifest(folder: &Folder, manifest: &Value) -> Result<(), Failure> {
+    let mut batch = folder.batch();
+    let text = format!("{manifest:#}\n");
+    batch.write(MANIFEST, |out| out.write_all(text.as_bytes()))?;
+    batch.commit(&[])
+}
+
+/// The first line with its end.
+pub(crate) fn heading(asked: &Asked<'_>) -> Vec<u8> {
+    let mut line = Vec::new();
+    // a vector takes everything
+    drop(write_rows(&[asked.header()], &mut line));
+    line
+}
+
+fn damaged(path: &Path, line: u64) -> Failure {
+    let message = format!("line {line} of {} is no row of this sweep", path.display());
+    refused("sweep::damaged", message, "remove the file and begin anew")
+}
+
+/// No row is as long: what is that holds none.
+const LONGEST: u64 = 1 << 20;
+
+/// The whole lines of a file, with their ends; a last line without one is left out.
+pub(crate) struct Lines {
+    path: PathBuf,
+    reader: BufReader<File>,
+}
+
+impl Lines {
+    pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
+        let file = File::open(path);
+        let file = file.map_err(|error| Failure::cannot_read(path.display(), &error, None))?;
+        Ok(Self { path: path.to_owned(), reader: BufReader::with_capacity(1 << 16, file) })
+    }
+
+    pub(crate) fn next(&mut self) -> Result<Option<Vec<u8>>, Failure> {
+        let mut line = Vec::new();
+        let read = self.reader.by_ref().take(LONGEST).read_until(b'\n', &mut line);
+        read.map_err(|error| Failure::cannot_read(self.path.display(), &error, None))?;
+        Ok(line.ends_with(b"\n").then_some(line))
+    }
+}
+
+/// The row that a line holds.
+pub(crate) fn read_row(line: &[u8], columns: usize, ranged: bool) -> Option<Row> {
+    let text = std::str::from_utf8(line).ok()?.strip_suffix('\n')?;
+    let cells: Vec<&str> = text.split(',').collect();
+    let [case, numbers @ .., failed] = cells.as_slice() else { return None };
+    let (numbers, outside) = match (ranged, numbers) {
+        (true, [numbers @ .., outside]) => (numbers, *outside),
+        _ => (numbers, ""),
+    };
+    let number = |cell: &&str| match *cell {
+        "" => Some(f64::NAN),
+        cell => cell.parse().ok(),
+    };
+    let numbers: Option<Vec<f64>> = numbers.iter().map(number).collect();
+    let outside = if outside.is_empty() { Some(0) } else { outside.parse().ok() };
+    let case = case.parse::<u64>().ok()?.checked_sub(1)?;
+    let whole = cells.len() == columns;
+    Some(Row { case, numbers: numbers?, outside: outside?, failed: (*failed).to_owned() })
+        .filter(|_| whole)
+}
+
+/// The row of a line as JSON: numbers, `null` for none, the code last.
+pub(crate) fn json_row(line: &[u8], columns: usize, ranged: bool) -> Option<String> {
+    let row = read_row(line, columns, ranged)?;
+    let mut cells = vec![json!(row.case + 1)];
+    cells.extend(row.numbers.iter().map(|number| json!(number)));
+    cells.extend(
+        ranged.then(|| if row.failed.is_empty() { json!(row.outside) } else { Value::Null }),
+    );
+    cells.push(if row.failed.is_empty() { Value::Null } else { json!(row.failed) });
+    Some(Value::Array(cells).to_string())
+}

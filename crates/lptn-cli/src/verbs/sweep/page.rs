@@ -1,0 +1,282 @@
+//! What `lptn sweep` shows.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use lptn_netlist::{Functional, SweepMethod, SweepOver};
+use lptn_plot::Figure;
+use lptn_report::{Json, Page, Report, Standing, Text, TextTable, plain, significant};
+use serde_json::{Map, Value, json};
+
+use super::asked::{Asked, Column};
+use super::growing::{Lines, heading, json_row, read_row};
+use super::tally::{Count, Row, Tally};
+use crate::about::{self, Known};
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::words::{count, spaced};
+
+/// Digits of a value that is shown.
+const DIGITS: usize = 5;
+
+/// So many candidates are listed one by one.
+const FEW: u64 = 20;
+
+/// Where the rows are.
+pub(crate) enum Rows {
+    /// In a file.
+    In(PathBuf),
+    /// In memory, without the heading.
+    Kept(Vec<u8>),
+}
+
+/// A sweep that is done.
+pub(crate) struct View<'a> {
+    pub(crate) asked: &'a Asked<'a>,
+    pub(crate) tally: &'a Tally,
+    pub(crate) rows: &'a Rows,
+}
+
+/// Takes in the rows of a file that is whole.
+pub(crate) fn read(asked: &Asked<'_>, path: &Path, tally: &mut Tally) -> Result<(), Failure> {
+    let mut lines = Lines::open(path)?;
+    let columns = asked.header().len();
+    lines.next()?;
+    while let Some(line) = lines.next()? {
+        read_row(&line, columns, asked.ranged).iter().for_each(|row| tally.row(row));
+    }
+    Ok(())
+}
+
+impl View<'_> {
+    pub(super) fn axes(&self) -> &[Column] {
+        &self.asked.columns[..self.asked.axes()]
+    }
+
+    pub(super) fn reports(&self) -> &[Column] {
+        &self.asked.columns[self.asked.axes()..]
+    }
+
+    /// What the sweep is, in one sentence.
+    fn sentence(&self) -> String {
+        let study = self.asked.study();
+        let names: Vec<&str> = self.axes().iter().map(|axis| axis.name.as_str()).collect();
+        let how = match study.method {
+            SweepMethod::Grid => "on a grid of",
+            SweepMethod::List => "of lists of",
+            SweepMethod::Csv => "of a file, with",
+            SweepMethod::LatinHypercube => "of a Latin hypercube over",
+            SweepMethod::Sobol => "of a Sobol sequence over",
+        };
+        let over = match study.over {
+            SweepOver::Steady => "in steady state",
+            SweepOver::Run => "over the run",
+            SweepOver::Periodic => "over the settled cycle",
+        };
+        let part = self.asked.shard.map_or(String::new(), |shard| format!(", part {shard}"));
+        let rows = usize::try_from(self.tally.rows).unwrap_or(usize::MAX);
+        format!(
+            "sweep {}: {} {how} {}, {over}{part}",
+            study.name,
+            count(rows, "candidate"),
+            names.join(", ")
+        )
+    }
+
+    /// The least and the largest value of each report.
+    fn extremes(&self) -> TextTable {
+        let mut rows: Vec<(usize, &str, &Row)> = Vec::new();
+        for (place, span) in self.tally.spans.iter().enumerate() {
+            let at = self.axes().len() + place;
+            let (Some(least), Some(largest)) = (&span.least, &span.largest) else { continue };
+            if least.numbers[at] < largest.numbers[at] {
+                rows.extend([(place, "least", least), (place, "largest", largest)]);
+            } else {
+                rows.push((place, "always", least));
+            }
+        }
+        let (reports, axes) = (self.reports(), self.axes());
+        let value = |column: &Column, number: f64| {
+            format!("{}{}", significant(number, DIGITS), spaced(&column.unit.text))
+        };
+        let mut table = TextTable::of(&rows)
+            .left("report", |(place, _, _)| plain(&reports[*place].name))
+            .left("", |(_, which, _)| (*which).to_owned())
+            .right("", |(place, _, row)| value(&reports[*place], row.numbers[axes.len() + place]))
+            .right("case", |(_, _, row)| (row.case + 1).to_string());
+        for (axis, column) in axes.iter().enumerate() {
+            table = table
+                .right(plain(&column.name), move |(_, _, row)| value(column, row.numbers[axis]))
+                .optional();
+        }
+        table.into()
+    }
+
+    /// Every candidate, where there are few.
+    fn list(&self) -> TextTable {
+        let rows = &self.tally.points;
+        let number = |row: &Row, place: usize| match row.numbers[place] {
+            number if number.is_finite() => significant(number, DIGITS),
+            _ => "-".to_owned(),
+        };
+        let mut table = TextTable::of(rows).right("case", |row| (row.case + 1).to_string());
+        for (place, column) in self.asked.columns.iter().enumerate() {
+            let title = plain(&column.header());
+            table = table.right(title, move |row| number(row, place));
+        }
+        table = match self.tally.failed.is_empty() {
+            true => table,
+            false => table.left("", |row| row.failed.clone()).judged(|row| {
+                if row.failed.is_empty() { Standing::Holds } else { Standing::Fails }
+            }),
+        };
+        table.into()
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        for (code, Count { count: n, first }) in &self.tally.failed {
+            notes.push(format!(
+                "{} failed with {code}, the first is case {}: `lptn explain {code}`",
+                candidates(*n),
+                first + 1
+            ));
+        }
+        let Count { count: n, first } = self.tally.outside;
+        if n > 0 {
+            notes.push(format!(
+                "in {} a law was outside of the range in which it is known, the first is case {}",
+                candidates(n),
+                first + 1
+            ));
+        }
+        if let Some(life) =
+            self.asked.study().reports.iter().find(|r| r.functional == Functional::Life)
+        {
+            notes.push(format!(
+                "`{}` takes the course that was computed to go on for ever",
+                life.name
+            ));
+        }
+        notes
+    }
+
+    /// How the command ends.
+    pub(crate) fn exit(&self, console: &Console) -> Exit {
+        match self.tally.rows > 0 && self.tally.lost() == self.tally.rows {
+            true => {
+                console.message("every candidate failed");
+                Exit::Failed
+            }
+            false => Exit::Done,
+        }
+    }
+
+    /// Draws where that was asked, beside a format that is written by itself.
+    pub(crate) fn pictures(&self, console: &Console) -> Result<(), Failure> {
+        if console.reports() {
+            console.add_report(lptn_report::report_of(self));
+        }
+        let drawing = console.plot.clone();
+        drawing.map_or(Ok(()), |drawing| console.draw(&self.figures(), &drawing))
+    }
+
+    fn span(&self, row: Option<&Row>, place: usize) -> Value {
+        let axes = self.axes();
+        row.map_or(Value::Null, |row| {
+            let column = &self.reports()[place];
+            let unit = if column.unit.text.is_empty() { "1" } else { &column.unit.text };
+            json!({
+                "value": row.numbers[axes.len() + place],
+                "unit": unit,
+                "case": row.case + 1,
+            })
+        })
+    }
+
+    fn write_rows(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let (columns, ranged) = (self.asked.header().len(), self.asked.ranged);
+        let damaged = || io::Error::new(io::ErrorKind::InvalidData, "a row is damaged");
+        let row = |line: &[u8]| json_row(line, columns, ranged).ok_or_else(damaged);
+        match self.rows {
+            Rows::Kept(bytes) => {
+                json.texts("rows", bytes.split_inclusive(|byte| *byte == b'\n').map(row))
+            }
+            Rows::In(path) => {
+                let mut lines = Lines::open(path).map_err(|_| io::ErrorKind::NotFound)?;
+                let skipped = heading(self.asked);
+                let next = || loop {
+                    match lines.next() {
+                        Ok(Some(line)) if line == skipped => {}
+                        Ok(Some(line)) => break Some(row(&line)),
+                        Ok(None) => break None,
+                        Err(_) => break Some(Err(damaged())),
+                    }
+                };
+                json.texts("rows", std::iter::from_fn(next))
+            }
+        }
+    }
+}
+
+fn candidates(n: u64) -> String {
+    count(usize::try_from(n).unwrap_or(usize::MAX), "candidate")
+}
+
+impl Page for View<'_> {
+    fn text(&self) -> Text {
+        let mut text = Text::titled(self.asked.input.title());
+        text.sentence("", &self.sentence());
+        if self.tally.rows <= FEW {
+            text.section().table(self.list());
+        }
+        if self.tally.rows > 1 && self.tally.lost() < self.tally.rows {
+            text.section().table(self.extremes());
+        }
+        text.section().notes(self.notes());
+        text
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let study = self.asked.study();
+        self.asked.input.head(json, &[])?;
+        json.member("sweep", &self.asked.record())?;
+        let failed: Map<String, Value> =
+            self.tally.failed.iter().map(|(code, of)| (code.clone(), json!(of.count))).collect();
+        json.member("failed", &failed)?;
+        let spans = study.reports.iter().zip(&self.tally.spans).enumerate();
+        let spans: Map<String, Value> = spans
+            .map(|(place, (report, span))| {
+                let least = self.span(span.least.as_ref(), place);
+                let largest = self.span(span.largest.as_ref(), place);
+                (report.name.clone(), json!({ "least": least, "largest": largest }))
+            })
+            .collect();
+        json.member("extremes", &spans)?;
+        json.member("columns", &self.columns())?;
+        self.write_rows(json)
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        vec![self.figure()]
+    }
+
+    fn more(&self) -> Report {
+        about::about(self.asked.input, Known::default())
+    }
+}
+
+impl View<'_> {
+    fn columns(&self) -> Vec<Value> {
+        let one = |name: &str, unit: Option<&str>| json!({ "name": name, "unit": unit });
+        let mut columns = vec![one("case", Some("1"))];
+        columns.extend(self.asked.columns.iter().map(|column| {
+            let unit = if column.unit.text.is_empty() { "1" } else { &column.unit.text };
+            one(&column.name, Some(unit))
+        }));
+        columns.extend(self.asked.ranged.then(|| one("outside", Some("1"))));
+        columns.push(one("failed", None));
+        columns
+    }
+}

@@ -1,0 +1,86 @@
+//! `lptn sweep plan`: the job that a scheduler runs.
+
+use lptn_netlist::SweepStudy;
+
+use super::args::PlanArgs;
+use super::asked;
+use crate::console::Console;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::{Input, quoted};
+use crate::options::Source;
+
+pub(crate) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, Failure> {
+    let source = Source { file: args.file.clone(), set: args.set.clone() };
+    let input = Input::load(&source)?;
+    let study = asked::study(&input, args.name.as_deref())?;
+    let cases = study.plan(&input.netlist.network).map(|plan| plan.cases).unwrap_or(0);
+    let job = Job::of(args, &input, (study, cases));
+    console.print(&if args.slurm { job.slurm() } else { job.hyperqueue() })
+}
+
+/// What both kinds of script say.
+struct Job {
+    name: String,
+    cases: u64,
+    shards: u64,
+    cores: u64,
+    /// The command of a part, but for which one it is.
+    sweep: String,
+    merge: String,
+    folder: String,
+}
+
+impl Job {
+    fn of(args: &PlanArgs, input: &Input, (study, cases): (&SweepStudy, u64)) -> Self {
+        let folder = args.output.clone().unwrap_or_else(|| asked::folder(input, study));
+        let folder = quoted(&folder.display().to_string());
+        let file = quoted(&args.file.display().to_string());
+        let set: Vec<String> =
+            args.set.iter().map(|set| format!(" --set {}", quoted(set))).collect();
+        let name = &study.name;
+        // a part without a candidate would have nothing to do
+        let shards = args.shards.min(cases.max(1));
+        let sweep = format!(
+            "lptn sweep {file} {name}{} -o {folder} --resume --threads {} --quiet",
+            set.concat(),
+            args.cores
+        );
+        let merge = format!("lptn sweep merge {folder}");
+        Self { name: name.clone(), cases, shards, cores: args.cores, sweep, merge, folder }
+    }
+
+    /// A job array, to be sent with `sbatch`; what has failed or was killed goes on when the same
+    /// script is sent again.
+    fn slurm(&self) -> String {
+        let Self { name, cases, shards, cores, sweep, merge, folder } = self;
+        format!(
+            "#!/bin/sh\n\
+             # {cases} candidates in {shards} parts. Send it: sbatch --parsable FILE\n\
+             # and then: sbatch --dependency=afterok:JOB --wrap \"{merge}\"\n\
+             # A part that failed goes on where it stopped when the job is sent again.\n\
+             #SBATCH --job-name={name}\n\
+             #SBATCH --array=1-{shards}\n\
+             #SBATCH --cpus-per-task={cores}\n\
+             #SBATCH --output=%x-%a.log\n\
+             mkdir -p {folder}\n\
+             {sweep} --shard auto\n"
+        )
+    }
+
+    /// A task array that waits for its end and joins the parts.
+    fn hyperqueue(&self) -> String {
+        let Self { name, cases, shards, cores, sweep, merge, folder } = self;
+        format!(
+            "#!/bin/sh\n\
+             # {cases} candidates in {shards} parts; a server and workers of HyperQueue are running.\n\
+             # A part that failed goes on where it stopped when this is started again.\n\
+             set -eu\n\
+             mkdir -p {folder}\n\
+             hq submit --wait --name {name} --array 1-{shards} --cpus {cores} -- \\\n\
+             \x20   sh -c '{} --shard \"$HQ_TASK_ID/{shards}\"'\n\
+             {merge}\n",
+            sweep.replace('\'', "'\\''")
+        )
+    }
+}

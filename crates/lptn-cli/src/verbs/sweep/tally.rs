@@ -1,0 +1,149 @@
+//! What is kept of all rows, however many there are.
+
+use std::collections::BTreeMap;
+
+/// Rows that are kept for a table or a picture, at most.
+pub(crate) const MOST_POINTS: u64 = 2000;
+
+/// One row: the case, counted from 0, and its numbers as they are shown, axes first.
+#[derive(Debug, Default)]
+pub(crate) struct Row {
+    pub(crate) case: u64,
+    pub(crate) numbers: Vec<f64>,
+    pub(crate) outside: u64,
+    /// Empty unless it failed.
+    pub(crate) failed: String,
+}
+
+impl Clone for Row {
+    fn clone(&self) -> Self {
+        let mut new = Self::default();
+        new.clone_from(self);
+        new
+    }
+
+    /// Into the room that is there.
+    fn clone_from(&mut self, other: &Self) {
+        (self.case, self.outside) = (other.case, other.outside);
+        self.numbers.clone_from(&other.numbers);
+        self.failed.clone_from(&other.failed);
+    }
+}
+
+/// The least and the largest value of a report, each with its row.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Span {
+    pub(crate) least: Option<Row>,
+    pub(crate) largest: Option<Row>,
+}
+
+/// How many there were, and the first of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Count {
+    pub(crate) count: u64,
+    pub(crate) first: u64,
+}
+
+impl Count {
+    fn add(&mut self, count: u64, first: u64) {
+        if self.count == 0 {
+            self.first = first;
+        }
+        self.count += count;
+    }
+}
+
+/// What is kept of the rows so far.
+#[derive(Clone, Debug)]
+pub(crate) struct Tally {
+    axes: usize,
+    /// Every so manieth row is kept.
+    stride: u64,
+    pub(crate) rows: u64,
+    pub(crate) failed: BTreeMap<String, Count>,
+    pub(crate) outside: Count,
+    pub(crate) spans: Vec<Span>,
+    pub(crate) points: Vec<Row>,
+}
+
+impl Tally {
+    pub(crate) fn new((axes, reports): (usize, usize), cases: u64) -> Self {
+        Self {
+            axes,
+            stride: cases.div_ceil(MOST_POINTS).max(1),
+            rows: 0,
+            failed: BTreeMap::new(),
+            outside: Count::default(),
+            spans: vec![Span::default(); reports],
+            points: Vec::new(),
+        }
+    }
+
+    /// Takes in the next row.
+    pub(crate) fn row(&mut self, row: &Row) {
+        self.rows += 1;
+        if row.case.is_multiple_of(self.stride) {
+            self.points.push(row.clone());
+        }
+        if !row.failed.is_empty() {
+            self.failed.entry(row.failed.clone()).or_default().add(1, row.case);
+            return;
+        }
+        if row.outside > 0 {
+            self.outside.add(1, row.case);
+        }
+        let reports = row.numbers.get(self.axes..).unwrap_or_default();
+        for (place, (span, value)) in self.spans.iter_mut().zip(reports).enumerate() {
+            let at = self.axes + place;
+            for (known, sign) in [(&mut span.least, -1.0), (&mut span.largest, 1.0)] {
+                match known {
+                    Some(known) if sign * value <= sign * known.numbers[at] => {}
+                    Some(known) => known.clone_from(row),
+                    None => *known = Some(row.clone()),
+                }
+            }
+        }
+    }
+
+    /// Takes in what was kept of the rows that follow.
+    pub(crate) fn append(&mut self, later: Self) {
+        self.rows += later.rows;
+        self.points.extend(later.points);
+        for (code, count) in later.failed {
+            self.failed.entry(code).or_default().add(count.count, count.first);
+        }
+        if later.outside.count > 0 {
+            self.outside.add(later.outside.count, later.outside.first);
+        }
+        let axes = self.axes;
+        for (place, (span, new)) in self.spans.iter_mut().zip(later.spans).enumerate() {
+            let value = |row: &Row| row.numbers[axes + place];
+            let better = |known: &Option<Row>, row: &Row, sign: f64| {
+                known.as_ref().is_none_or(|known| sign * value(row) > sign * value(known))
+            };
+            if let Some(row) = new.least.filter(|row| better(&span.least, row, -1.0)) {
+                span.least = Some(row);
+            }
+            if let Some(row) = new.largest.filter(|row| better(&span.largest, row, 1.0)) {
+                span.largest = Some(row);
+            }
+        }
+    }
+
+    /// An empty one, for a part of the rows.
+    pub(crate) fn part(&self) -> Self {
+        Self {
+            rows: 0,
+            failed: BTreeMap::new(),
+            outside: Count::default(),
+            spans: vec![Span::default(); self.spans.len()],
+            points: Vec::new(),
+            ..*self
+        }
+    }
+
+    /// How many have failed.
+    pub(crate) fn lost(&self) -> u64 {
+        self.failed.values().map(|count| count.count).sum()
+    }
+}

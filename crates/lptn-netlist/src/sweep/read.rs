@@ -1,0 +1,234 @@
+//! Reads `[sweep.NAME]`.
+
+use std::sync::Arc;
+
+use lptn_data::{Asked, CsvFile, Diagnostic, Span, list};
+use lptn_network::Value;
+use lptn_units::{Dimension, Type};
+
+use crate::fields::Fields;
+use crate::place::Wanted;
+use crate::raw::{RawEntry, RawKind};
+use crate::sweep::axis::AxisValues;
+use crate::sweep::declaration::SWEEP;
+use crate::sweep::{Measure, SweepAxis, SweepMethod, SweepOver, SweepStudy};
+use crate::work::Elaboration;
+
+impl<'a> Elaboration<'a> {
+    pub(super) fn sweeps(&mut self) -> Vec<SweepStudy> {
+        let entries = self.elements(SWEEP.name);
+        if let Some(first) = entries.iter().find(|entry| SWEEP.key(&entry.key).is_some()) {
+            let message = format!("`{}` belongs to a sweep with a name", first.key);
+            let problem = Diagnostic::error("netlist::sweep_without_name", message);
+            let problem = problem.at(first.key_span.clone(), "below [sweep]");
+            self.report(problem.help("give it one in its heading, for example `[sweep.fans]`"));
+            return Vec::new();
+        }
+        entries.iter().filter_map(|entry| self.sweep_study(entry)).collect()
+    }
+
+    fn sweep_study(&mut self, entry: &'a RawEntry) -> Option<SweepStudy> {
+        let fields = self.fields(&SWEEP, entry)?;
+        self.sweep_says_all(&fields)?;
+        let over = self.choice(&fields, "over", &SweepOver::WORDS);
+        let reports = self.measures(&fields, over.unwrap_or(SweepOver::Run));
+        self.require(&fields, "method")?;
+        let method = self.choice(&fields, "method", &SweepMethod::WORDS)?;
+        let sampling = self.sampling(&fields, method);
+        let file =
+            self.word(&fields, "file").map(|(text, raw)| (text.to_owned(), raw.span.clone()));
+        let axes = match method {
+            SweepMethod::Csv => self.csv_axes(&fields),
+            _ => {
+                self.refuse_keys(&fields, &["file"], "is for `method = \"csv\"`");
+                self.sweep_axes(&fields, method)
+            }
+        };
+        let period = self.sweep_period(&fields, over);
+        self.report_of_axis(&reports, axes.as_deref().unwrap_or_default());
+        self.run_for(over?, &fields)?;
+        let (samples, seed) = sampling?;
+        Some(SweepStudy {
+            name: entry.key.clone(),
+            span: entry.key_span.clone(),
+            method,
+            axes: axes?,
+            samples,
+            seed,
+            over: over?,
+            period: period?,
+            reports: reports.filter(|reports| !reports.is_empty())?,
+            file,
+        })
+    }
+
+    /// Whether it says how candidates are chosen and what is reported; all that is missing is one
+    /// problem, for it has one place.
+    fn sweep_says_all(&mut self, fields: &Fields<'a>) -> Option<()> {
+        let missing: Vec<&str> =
+            ["method", "report"].into_iter().filter(|key| fields.get(key).is_none()).collect();
+        if missing.len() < 2 || !fields.complete {
+            return Some(());
+        }
+        let message = format!("{} has no {}", fields.owner.words(), list(&missing));
+        let lines: Vec<String> = ["method", "axes", "report"].map(|key| fields.sample(key)).into();
+        let help = format!("add for example:\n\n{}", lines.join("\n"));
+        self.refuse("netlist::missing_field", message, fields.place, help);
+        None
+    }
+
+    /// How many samples, and their seed.
+    fn sampling(&mut self, fields: &Fields<'a>, method: SweepMethod) -> Option<(u64, u32)> {
+        if !method.is_sampled() {
+            let why = format!("is for samples, and `{}` takes none", method.word());
+            self.refuse_keys(fields, &["samples", "seed"], &why);
+            return Some((0, 0));
+        }
+        self.require(fields, "samples")?;
+        let samples = self.whole(fields, "samples", 1);
+        let seed = match fields.get("seed") {
+            None => Some(1),
+            Some(_) => self.whole(fields, "seed", 0).and_then(|seed| self.seed(fields, seed)),
+        };
+        Some((samples?, seed?))
+    }
+
+    fn seed(&mut self, fields: &Fields<'a>, seed: u64) -> Option<u32> {
+        let found = u32::try_from(seed).ok();
+        if let (None, Some(raw)) = (found, fields.get("seed")) {
+            let message = format!("{} has to be below 2^32", fields.owner.field("seed"));
+            self.refuse("netlist::sweep_count", message, &raw.span, "write for example `seed = 7`");
+        }
+        found
+    }
+
+    /// The period that is given: `Some(None)` if none is.
+    fn sweep_period(
+        &mut self,
+        fields: &Fields<'a>,
+        over: Option<SweepOver>,
+    ) -> Option<Option<Value>> {
+        let Some(raw) = fields.get("period") else { return Some(None) };
+        if over.is_some_and(|over| over != SweepOver::Periodic) {
+            self.refuse_keys(fields, &["period"], "is for `over = \"periodic\"`");
+            return None;
+        }
+        let wanted = Wanted::constant(Type::of(Dimension::TIME));
+        Some(Some(self.given_inside(&fields.owner, ("period", raw), wanted)?.value()))
+    }
+
+    fn run_for(&mut self, over: SweepOver, fields: &Fields<'a>) -> Option<()> {
+        if over != SweepOver::Run || self.raw.top.get("run").is_some() {
+            return Some(());
+        }
+        let message = format!("{} is over a run, and there is no [run]", fields.owner.words());
+        let place = fields.get("over").map_or(fields.place, |raw| &raw.span);
+        let help = "add these lines, or report `over = \"steady\"`:\n\n[run]\nstop = \"25 min\"";
+        self.refuse("netlist::sweep_no_run", message, place, help);
+        None
+    }
+
+    fn measures(&mut self, fields: &Fields<'a>, over: SweepOver) -> Option<Vec<Measure>> {
+        let raw = self.require(fields, "report")?;
+        let RawKind::Table(table) = &raw.kind else {
+            self.report(fields.wrong_shape("report", raw, "a table of expressions of results"));
+            return None;
+        };
+        if table.entries.is_empty() {
+            let message = format!("{} is empty: nothing is asked", fields.owner.field("report"));
+            let help = format!("write it like this: `{}`", fields.sample("report"));
+            self.refuse("netlist::sweep_empty", message, &raw.span, help);
+            return None;
+        }
+        let all: Vec<_> = table.entries.iter().map(|entry| self.measure(entry, over)).collect();
+        all.into_iter().collect()
+    }
+
+    /// A report and a parameter would be two columns of one name.
+    fn report_of_axis(&mut self, reports: &Option<Vec<Measure>>, axes: &[SweepAxis]) {
+        for measure in reports.iter().flatten() {
+            let Some(axis) = axes.iter().find(|axis| axis.name == measure.name) else { continue };
+            let message = format!("report `{}` has the name of a parameter that varies", axis.name);
+            let problem = Diagnostic::error("netlist::report_name", message)
+                .at(measure.span.clone(), "")
+                .also(axis.span.clone(), "varies");
+            self.report(problem.help("give the report another name"));
+        }
+    }
+
+    /// The columns of the file, or those that `axes` lists.
+    fn csv_axes(&mut self, fields: &Fields<'a>) -> Option<Vec<SweepAxis>> {
+        let file = self.candidates(fields)?;
+        let wanted: Vec<(String, Span)> = match fields.get("axes") {
+            None => self.all_columns(fields, &file)?,
+            Some(_) => self.axis_names(fields)?,
+        };
+        let axes: Vec<_> = wanted
+            .into_iter()
+            .map(|(name, span)| self.csv_axis(fields, &file, (name, span)))
+            .collect();
+        axes.into_iter().collect()
+    }
+
+    /// Every column of the file; each has to be a parameter.
+    fn all_columns(&mut self, fields: &Fields<'a>, file: &CsvFile) -> Option<Vec<(String, Span)>> {
+        let all: Vec<(String, Span)> =
+            file.names().map(|(name, place)| (name.to_owned(), place.clone())).collect();
+        let (known, others): (Vec<_>, Vec<_>) =
+            all.into_iter().partition(|(name, _)| self.names.is_parameter(name));
+        let named: Vec<String> = known.iter().map(|(name, _)| format!("\"{name}\"")).collect();
+        for (name, place) in &others {
+            let message = format!(
+                "column `{name}` of the candidates of {} is no parameter",
+                fields.owner.words()
+            );
+            let help = match named.is_empty() {
+                true => "give the value a name in [param] and use it in the element".to_owned(),
+                false => format!(
+                    "name the columns to read, `axes = [{}]`, or add `{name}` to [param]",
+                    named.join(", ")
+                ),
+            };
+            self.refuse("netlist::unknown_parameter", message, place, help);
+        }
+        others.is_empty().then_some(known)
+    }
+
+    fn candidates(&mut self, fields: &Fields<'a>) -> Option<Arc<CsvFile>> {
+        let raw = self.require(fields, "file")?;
+        fields.text("file", raw, &mut self.problems)?;
+        let csv: &'a crate::csv_files::CsvFiles = self.csv;
+        let text = self.kept(csv.text(raw)?.map_err(Diagnostic::clone))?;
+        self.kept(CsvFile::open(text, &raw.span)).map(Arc::new)
+    }
+
+    fn axis_names(&mut self, fields: &Fields<'a>) -> Option<Vec<(String, Span)>> {
+        let items = self.list(fields, ("axes", "a list of parameters: the columns to read"))?;
+        let mut names = Vec::new();
+        for item in items {
+            let name = fields.text("axes", item, &mut self.problems)?;
+            names.push((name.to_owned(), item.span.clone()));
+        }
+        Some(names)
+    }
+
+    fn csv_axis(
+        &mut self,
+        fields: &Fields<'a>,
+        file: &Arc<CsvFile>,
+        (name, span): (String, Span),
+    ) -> Option<SweepAxis> {
+        let ty = self.axis_type(fields, &name, &span)?;
+        let words = format!("`{name}` of {}", fields.owner.words());
+        let asked = Asked { words, span: Some(span.clone()) };
+        let column = file.column(&name, Some(ty), &asked);
+        let column = column.map_err(|problems| self.problems.extend(problems)).ok()?;
+        if column.numbers.is_empty() {
+            let message = format!("{} has a header and no rows", fields.owner.field("file"));
+            let help = "write one candidate a line below the header";
+            self.refuse("netlist::sweep_empty", message, &column.whole, help);
+            return None;
+        }
+        Some(SweepAxis { name, span, values: AxisValues::Column(column) })
+    }
+}

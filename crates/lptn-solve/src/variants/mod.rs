@@ -1,0 +1,180 @@
+//! Many candidates of one small linear network, without a system for each: steady states by
+//! elimination, runs by modes in closed form.
+//!
+//! Plain loops over small dense matrices, in one order: nothing here depends on the processor.
+
+mod course;
+mod modes;
+mod run;
+mod star;
+mod symmetric;
+
+use lptn_network::{End, Followed, HeatOf, Network, ParameterId, Value, Variants};
+
+use crate::times::{Segment, segments};
+use course::Course;
+pub use course::CourseSeen;
+use modes::Modes;
+use star::Star;
+
+/// Nodes beyond which dense matrices cost more than sparse ones.
+const MOST_NODES: usize = 48;
+
+/// The candidates of a linear network, one after the other.
+pub struct LinearVariants<'a> {
+    variants: Variants<'a>,
+    network: &'a Network,
+    /// Whether inputs change with time.
+    timed: bool,
+    star: Star,
+    modes: Modes,
+    boundaries: Vec<f64>,
+    powers: Vec<f64>,
+    /// Temperatures of the nodes in K.
+    temperatures: Vec<f64>,
+    /// What expressions of results name.
+    heats: Vec<HeatOf>,
+    named: Vec<f64>,
+    march: March,
+}
+
+/// A quantity whose course is followed: an expression that goes in a straight line with one
+/// temperature or heat flow.
+#[derive(Clone, Copy, Debug)]
+pub struct Quantity<'a> {
+    /// The expression.
+    pub value: &'a Value,
+    /// What it goes with, [`Network::follows`].
+    pub with: Followed,
+}
+
+/// What goes on from segment to segment of a run.
+#[derive(Clone, Debug, Default)]
+struct March {
+    /// Amplitude of each mode.
+    amplitudes: Vec<f64>,
+    /// The straight line that each mode tends to, and what is left of the way to it.
+    level: Vec<f64>,
+    slope: Vec<f64>,
+    left: Vec<f64>,
+    /// What is left at the end of the segment, as a share.
+    ends: Vec<f64>,
+    /// Inputs at the ends of the segment.
+    first: (Vec<f64>, Vec<f64>),
+    /// Heat into each node at the start of the segment in W, and how fast it grows.
+    heat: Vec<f64>,
+    growth: Vec<f64>,
+    /// Shares of the modes in a quantity.
+    parts: Vec<f64>,
+    /// A quantity as a sum over nodes and boundaries.
+    nodes: Vec<(usize, f64)>,
+    boundaries: Vec<(usize, f64)>,
+}
+
+impl<'a> LinearVariants<'a> {
+    /// For candidates in which these parameters differ; `None` for a network that this is not for.
+    pub fn new(network: &'a Network, changed: &[ParameterId]) -> Option<Self> {
+        let variants = network.variants(changed)?;
+        let heats: Vec<HeatOf> = network.named_heats().collect();
+        let plain = |heat: &HeatOf| {
+            matches!(heat, HeatOf::Conductor(_) | HeatOf::Source(_) | HeatOf::Boundary(_))
+        };
+        let (nodes, boundaries) = (network.nodes().len(), network.boundaries().len());
+        if nodes > MOST_NODES || nodes == 0 || boundaries == 0 || !heats.iter().all(plain) {
+            return None;
+        }
+        Some(Self {
+            star: Star::new(nodes),
+            timed: network.has_time_dependent_inputs(),
+            modes: Modes::default(),
+            march: March::default(),
+            boundaries: vec![0.0; boundaries],
+            powers: vec![0.0; network.sources().len()],
+            temperatures: vec![0.0; nodes],
+            named: vec![0.0; heats.len()],
+            heats,
+            variants,
+            network,
+        })
+    }
+
+    /// Gives the parameters these values in SI units: `false` where the network refuses them.
+    pub fn set(&mut self, values: &[f64]) -> bool {
+        self.variants.set(values)
+    }
+
+    /// Where expressions of results find what was computed last.
+    pub fn scope(&mut self) -> &mut lptn_network::Evaluation {
+        self.variants.scope()
+    }
+
+    /// Solves the steady state with inputs as they are at `time` in s, for [`LinearVariants::scope`].
+    /// `None` where a number fails or a node leads to no boundary.
+    pub fn steady(&mut self, time: f64) -> Option<()> {
+        self.inputs(time, time)?;
+        let reference = self.boundaries[0];
+        self.star.clear();
+        let conductors = self.network.conductors().iter().zip(&self.variants.conductance);
+        for (conductor, &g) in conductors {
+            match (conductor.from, conductor.to) {
+                (End::Node(a), End::Node(b)) => self.star.join(a.index(), b.index(), g),
+                (End::Node(a), End::Boundary(b)) | (End::Boundary(b), End::Node(a)) => {
+                    self.star.ground(a.index(), g, self.boundaries[b.index()] - reference);
+                }
+                (End::Boundary(_), End::Boundary(_)) => {}
+            }
+        }
+        for (source, power) in self.network.sources().iter().zip(&self.powers) {
+            for (node, share) in &source.into {
+                self.star.heat(node.index(), share * power);
+            }
+        }
+        self.star.solve(&mut self.temperatures)?;
+        self.temperatures.iter_mut().for_each(|t| *t += reference);
+        self.temperatures.iter().all(|t| *t >= 0.0 && t.is_finite()).then(|| self.place())
+    }
+
+    /// Reads the inputs at a time in s, comparisons at one inside the segment.
+    fn inputs(&mut self, time: f64, inside: f64) -> Option<()> {
+        let scope = self.variants.scope();
+        scope.set_time(time, inside);
+        self.network.boundary_temperatures(scope, &mut self.boundaries).ok()?;
+        self.network.source_powers(scope, &mut self.powers).ok()
+    }
+
+    /// Puts temperatures and heat flows where expressions read them.
+    fn place(&mut self) {
+        for named in 0..self.heats.len() {
+            self.named[named] = match self.heats[named] {
+                HeatOf::Conductor(id) => self.flow(id.index()),
+                HeatOf::Source(id) => self.powers[id.index()],
+                HeatOf::Boundary(id) => self.given(End::Boundary(id)),
+                // there are no others: `new` has looked
+                _ => f64::NAN,
+            };
+        }
+        let scope = self.variants.scope();
+        scope.set_temperatures(&self.temperatures, &self.boundaries);
+        scope.set_heats(&self.named);
+    }
+
+    /// Heat that a boundary gives in W.
+    fn given(&self, at: End) -> f64 {
+        let conductors = self.network.conductors().iter().enumerate();
+        conductors.fold(0.0, |sum, (i, conductor)| match (conductor.from, conductor.to) {
+            (from, _) if from == at => sum + self.flow(i),
+            (_, to) if to == at => sum - self.flow(i),
+            _ => sum,
+        })
+    }
+
+    /// Heat from `from` to `to` of a conductor in W.
+    fn flow(&self, conductor: usize) -> f64 {
+        let of = &self.network.conductors()[conductor];
+        let at = |end: End| match end {
+            End::Node(id) => self.temperatures[id.index()],
+            End::Boundary(id) => self.boundaries[id.index()],
+        };
+        self.variants.conductance[conductor] * (at(of.from) - at(of.to))
+    }
+}

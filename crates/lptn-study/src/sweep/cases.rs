@@ -1,0 +1,71 @@
+//! The values of each candidate: what case `k` is follows from the study and `k` alone.
+
+use lptn_netlist::{AxisNumbers, SweepMethod, SweepPlan};
+use lptn_network::{ParameterId, Parameters};
+
+use crate::sweep::latin;
+use crate::uncertainty::points;
+
+/// The candidates of a sweep.
+#[derive(Clone, Debug)]
+pub struct Cases {
+    plan: SweepPlan,
+    /// For each axis how many candidates have one value before the next one, in a grid.
+    strides: Vec<u64>,
+}
+
+impl Cases {
+    /// Those of a plan.
+    pub fn new(plan: SweepPlan) -> Self {
+        let mut strides = vec![1; plan.axes.len()];
+        for axis in (1..plan.axes.len()).rev() {
+            strides[axis - 1] = strides[axis] * plan.axes[axis].1.count();
+        }
+        Self { plan, strides }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> u64 {
+        self.plan.cases
+    }
+
+    /// The plan they follow.
+    pub fn plan(&self) -> &SweepPlan {
+        &self.plan
+    }
+
+    /// The parameters that differ, in the order of the axes.
+    pub fn parameters(&self) -> impl ExactSizeIterator<Item = ParameterId> + '_ {
+        self.plan.axes.iter().map(|(id, _)| *id)
+    }
+
+    /// The value of each axis for a candidate, in SI units; candidates are counted from 0.
+    pub fn values(&self, case: u64, out: &mut [f64]) {
+        for (axis, value) in out.iter_mut().enumerate().take(self.plan.axes.len()) {
+            *value = self.value(case, axis);
+        }
+    }
+
+    fn value(&self, case: u64, axis: usize) -> f64 {
+        let numbers: &AxisNumbers = &self.plan.axes[axis].1;
+        match self.plan.method {
+            SweepMethod::Grid => numbers.value(case / self.strides[axis] % numbers.count()),
+            SweepMethod::List | SweepMethod::Csv => numbers.value(case),
+            SweepMethod::LatinHypercube => {
+                numbers.at(latin::sample(case, self.plan.cases, axis, self.plan.seed))
+            }
+            SweepMethod::Sobol => {
+                // there are never more than 2^16 points
+                let index = usize::try_from(case).unwrap_or(0);
+                numbers.at(points::uniform(index, axis, self.plan.seed))
+            }
+        }
+    }
+
+    /// Gives the parameters the values of a candidate.
+    pub fn set(&self, case: u64, parameters: &mut Parameters) {
+        for (axis, id) in self.parameters().enumerate() {
+            parameters.set(id, self.value(case, axis));
+        }
+    }
+}

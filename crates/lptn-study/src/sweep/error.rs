@@ -1,0 +1,23 @@
+//! Why nothing is swept.
+
+use lptn_network::Changing;
+use lptn_solve::PeriodicError;
+
+lptn_units::errors! {
+/// Why nothing is swept. That a candidate fails is an answer and not an error.
+#[derive(Debug)]
+pub enum SweepError {
+    /// What is reported of a steady state depends on inputs that change with time. At least one.
+    Changing(inputs: Vec<Changing>) = "sweep::inputs_change",
+        "what is reported depends on inputs that change with time, and a steady state knows only \
+         one moment of them",
+        help "write `over = \"run\"` or `over = \"periodic\"`, with a functional such as `max(..)` \
+              in every report";
+    /// The length of the cycle is not known.
+    NoPeriod = "sweep::no_period",
+        "no signal is repeated, so the length of the cycle is not known",
+        help "say after which time all inputs repeat themselves: `period = \"10 min\"`";
+    /// The cycle is none at the netlist's own values.
+    Periodic => PeriodicError;
+}
+}

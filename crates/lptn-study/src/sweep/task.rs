@@ -1,0 +1,314 @@
+//! One candidate after the other: values in, numbers out.
+
+use std::cell::RefCell;
+
+use lptn_assembly::ThermalSystem;
+use lptn_netlist::{Functional, Measure, Netlist, SweepOver, SweepStudy};
+use lptn_network::{Network, OutputTimes, Parameters, Report, ReportId, RunSettings};
+use lptn_solve::{
+    ColumnSeen, OutOfRange, Periodic, Proceed, RecordedNodes, RunStatus, Selection, Solution,
+    SteadyState, Transient, Window,
+};
+
+use crate::sweep::cases::Cases;
+use crate::sweep::error::SweepError;
+
+/// The tolerance in K of cycles where there is no `[run]`.
+const TOLERANCE: f64 = 1e-5;
+
+/// The code where a report is no number.
+const NOT_FINITE: &str = "sweep::not_finite";
+
+/// What came of a candidate.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Candidate {
+    /// The values of the axes, in SI units.
+    pub values: Vec<f64>,
+    /// What is reported, in SI units and in the order of the study; NaN where it failed.
+    pub reports: Vec<f64>,
+    /// How many laws were outside of the ranges in which they are known.
+    pub outside: usize,
+    /// The code of the error that it failed with.
+    pub failed: Option<&'static str>,
+}
+
+/// Why a candidate has no numbers.
+enum Lost {
+    Failed(&'static str),
+    Interrupted,
+}
+
+/// A sweep that is about to begin: everything that all candidates share.
+#[derive(Debug)]
+pub struct SweepTask<'a> {
+    netlist: &'a Netlist,
+    study: &'a SweepStudy,
+    cases: Cases,
+    /// The network with what is reported as its further reports.
+    network: Network,
+    reports: Vec<ReportId>,
+    /// The columns of those that are taken over time.
+    columns: Selection,
+    parameters: Parameters,
+}
+
+impl<'a> SweepTask<'a> {
+    /// Looks at what can be known before any candidate is solved.
+    ///
+    /// # Errors
+    /// [`SweepError`].
+    pub fn new(
+        netlist: &'a Netlist,
+        study: &'a SweepStudy,
+        cases: Cases,
+    ) -> Result<Self, SweepError> {
+        let report = |measure: &Measure| Report {
+            name: measure.name.clone(),
+            value: measure.of.clone(),
+            ty: measure.of_ty,
+            text: measure.text.clone(),
+        };
+        let (network, reports) =
+            netlist.network.reporting(study.reports.iter().map(report).collect());
+        let timed: Vec<ReportId> = study
+            .reports
+            .iter()
+            .zip(&reports)
+            .filter(|(measure, _)| measure.functional != Functional::Value)
+            .map(|(_, id)| *id)
+            .collect();
+        let columns = Selection::of_reports(&timed);
+        let parameters = network.given();
+        let task = Self { netlist, study, cases, network, reports, columns, parameters };
+        task.check()?;
+        Ok(task)
+    }
+
+    fn check(&self) -> Result<(), SweepError> {
+        match self.study.over {
+            SweepOver::Run => Ok(()),
+            SweepOver::Periodic => self.check_period(),
+            SweepOver::Steady => {
+                let values: Vec<_> = self.study.reports.iter().map(|report| &report.of).collect();
+                let changing = self.network.changing_inputs_of(&values);
+                if changing.is_empty() { Ok(()) } else { Err(SweepError::Changing(changing)) }
+            }
+        }
+    }
+
+    fn check_period(&self) -> Result<(), SweepError> {
+        let (start, period) = (self.start(), self.period(&self.network));
+        let period = period.ok_or(SweepError::NoPeriod)?;
+        let repeats = self.network.check_period(start, period);
+        let repeats = repeats.map_err(|error| SweepError::Periodic(error.into()))?;
+        let not = lptn_solve::PeriodicError::NotPeriodic;
+        repeats.map_err(|found| SweepError::Periodic(not(found)))
+    }
+
+    /// The candidates.
+    pub fn cases(&self) -> &Cases {
+        &self.cases
+    }
+
+    /// The study.
+    pub fn study(&self) -> &'a SweepStudy {
+        self.study
+    }
+
+    /// The network with the netlist's own values and what is reported.
+    pub fn network(&self) -> &Network {
+        &self.network
+    }
+
+    /// The netlist.
+    pub(super) fn netlist(&self) -> &'a Netlist {
+        self.netlist
+    }
+
+    /// The time in s at which steady states read their inputs.
+    pub(super) fn start(&self) -> f64 {
+        self.netlist.run.as_ref().map_or(0.0, |run| run.start)
+    }
+
+    /// The length of the cycle in s.
+    fn period(&self, network: &Network) -> Option<f64> {
+        self.cases.plan().period.or_else(|| network.repeat_period().ok().flatten())
+    }
+
+    /// Solves one candidate; `None` where `control` interrupted it.
+    pub fn candidate(&self, case: u64, control: &dyn Fn() -> Proceed) -> Option<Candidate> {
+        let mut values = vec![0.0; self.cases.parameters().len()];
+        self.cases.values(case, &mut values);
+        let found = self.solved(&values, control);
+        let none = || vec![f64::NAN; self.study.reports.len()];
+        match found {
+            Ok((reports, outside)) => Some(Candidate { values, reports, outside, failed: None }),
+            Err(Lost::Failed(code)) => {
+                Some(Candidate { values, reports: none(), outside: 0, failed: Some(code) })
+            }
+            Err(Lost::Interrupted) => None,
+        }
+    }
+
+    fn solved(
+        &self,
+        values: &[f64],
+        control: &dyn Fn() -> Proceed,
+    ) -> Result<(Vec<f64>, usize), Lost> {
+        let mut parameters = self.parameters.clone();
+        for (id, &value) in self.cases.parameters().zip(values) {
+            parameters.set(id, value);
+        }
+        let network = self.network.with(&parameters).map_err(|errors| {
+            Lost::Failed(errors.0.first().map_or(NOT_FINITE, |first| first.code()))
+        })?;
+        let settings = self.netlist.settings_of(&network).map_err(|problems| {
+            Lost::Failed(problems.first().map_or(NOT_FINITE, |first| first.code))
+        })?;
+        let system = ThermalSystem::assemble(&network).map_err(failed)?;
+        let (reports, outside) = match self.study.over {
+            SweepOver::Steady => self.steady(&system)?,
+            SweepOver::Run => self.run(&system, settings.as_ref(), control)?,
+            SweepOver::Periodic => self.cycle(&system, settings.as_ref(), control)?,
+        };
+        match reports.iter().all(|number| number.is_finite()) {
+            true => Ok((reports, outside)),
+            false => Err(Lost::Failed(NOT_FINITE)),
+        }
+    }
+
+    fn steady(&self, system: &ThermalSystem) -> Result<(Vec<f64>, usize), Lost> {
+        let network = system.network();
+        let steady = SteadyState::solve(system, self.start()).map_err(failed)?;
+        let mut scope = steady.evaluation(network);
+        let reports: Result<Vec<f64>, Lost> = self
+            .reports
+            .iter()
+            .map(|id| network.report_value(*id, &mut scope).map_err(failed))
+            .collect();
+        let outside = OutOfRange::of_steady(network, &steady).map_err(failed)?;
+        Ok((reports?, outside.len()))
+    }
+
+    fn run(
+        &self,
+        system: &ThermalSystem,
+        settings: Option<&RunSettings>,
+        control: &dyn Fn() -> Proceed,
+    ) -> Result<(Vec<f64>, usize), Lost> {
+        let settings = settings.ok_or(Lost::Failed("run::no_run"))?;
+        let transient = self.transient(system.network(), settings);
+        let solution = transient.solve_observed(system, &mut |_| control()).map_err(failed)?;
+        self.of_solution(&solution)
+    }
+
+    fn cycle(
+        &self,
+        system: &ThermalSystem,
+        settings: Option<&RunSettings>,
+        control: &dyn Fn() -> Proceed,
+    ) -> Result<(Vec<f64>, usize), Lost> {
+        let network = system.network();
+        let period = self.period(network).ok_or(Lost::Failed("sweep::no_period"))?;
+        let start = settings.map_or(0.0, |run| run.start);
+        let settings = RunSettings {
+            start,
+            stop: start + period,
+            output: OutputTimes::Every(period / OutputTimes::USUAL_INTERVALS),
+            select: Vec::new(),
+            windows: Vec::new(),
+            tolerance: settings.map_or(TOLERANCE, |run| run.tolerance),
+            integrator: settings.map_or_else(Default::default, |run| run.integrator),
+            held: settings.map_or_else(Vec::new, |run| run.held.clone()),
+        };
+        let transient = self.transient(network, &settings);
+        let interrupted = RefCell::new(false);
+        let found = Periodic::find_observed(system, &transient, &mut |_| {
+            let proceed = control();
+            *interrupted.borrow_mut() |= proceed == Proceed::Interrupt;
+            proceed
+        });
+        if interrupted.into_inner() {
+            return Err(Lost::Interrupted);
+        }
+        self.of_solution(&found.map_err(failed)?.solution)
+    }
+
+    /// A run that looks at what is reported over the whole of it, and keeps nothing else.
+    fn transient(&self, network: &Network, settings: &RunSettings) -> Transient {
+        let window = Window {
+            name: self.study.name.clone(),
+            from: settings.start,
+            to: settings.stop,
+            of: self.columns.clone(),
+        };
+        Transient {
+            record: RecordedNodes::Nodes(Vec::new()),
+            windows: if self.columns.is_empty() { Vec::new() } else { vec![window] },
+            ..Transient::of(network, settings)
+        }
+    }
+
+    fn of_solution(&self, solution: &Solution) -> Result<(Vec<f64>, usize), Lost> {
+        match solution.end() {
+            RunStatus::Interrupted(_) => return Err(Lost::Interrupted),
+            _ if !solution.ledger().closes() => return Err(Lost::Failed("run::ledger")),
+            _ => {}
+        }
+        let seen = solution.windows().iter().flat_map(|window| &window.columns);
+        let length = solution.windows().first().map_or(0.0, |window| window.to - window.from);
+        let mut scope = solution.network().evaluation();
+        let mut seen = seen.peekable();
+        let mut reports = Vec::with_capacity(self.study.reports.len());
+        for measure in &self.study.reports {
+            let number = match measure.functional {
+                Functional::Value => measure.of.at(&mut scope).map_err(failed)?,
+                functional => {
+                    let column = seen.next().ok_or(Lost::Failed(NOT_FINITE))?;
+                    let life = measure.life.as_ref().map(|life| life.at(&mut scope));
+                    let life = life.transpose().map_err(failed)?;
+                    taken(functional, &of_column(column), (length, life))
+                }
+            };
+            reports.push(number + 0.0); // no `-0` in columns
+        }
+        Ok((reports, solution.out_of_range().len()))
+    }
+}
+
+/// What was seen of a quantity over a run.
+pub(super) struct Seen {
+    pub(super) last: f64,
+    pub(super) min: f64,
+    pub(super) max: f64,
+    pub(super) mean: f64,
+    /// For how long it was above zero, in s.
+    pub(super) positive: f64,
+}
+
+fn of_column(column: &ColumnSeen) -> Seen {
+    let ColumnSeen { last, min, max, mean, positive, .. } = *column;
+    Seen { last, min: min.0, max: max.0, mean, positive }
+}
+
+/// What a functional takes of what was seen over a run of this length in s; `life` is that at the
+/// reference in s.
+pub(super) fn taken(
+    functional: Functional,
+    seen: &Seen,
+    (length, life): (f64, Option<f64>),
+) -> f64 {
+    match functional {
+        Functional::Value | Functional::Last => seen.last,
+        Functional::Max => seen.max,
+        Functional::Min => seen.min,
+        Functional::Mean => seen.mean,
+        Functional::Integral => seen.mean * length,
+        Functional::TimeOver | Functional::TimeUnder => seen.positive,
+        Functional::Life => life.unwrap_or(f64::NAN) / seen.mean,
+    }
+}
+
+fn failed(error: impl lptn_units::Problem) -> Lost {
+    Lost::Failed(error.code())
+}
