@@ -47,6 +47,13 @@ pub(crate) const SWEEP: SectionDeclaration = SectionDeclaration {
             "what is reported of each candidate",
             "{ T_max = \"max(steel.T)\" }",
         ),
+        key(
+            "front",
+            "list of two reports",
+            "of which two the best candidates are told: those that none betters in both, less being \
+             better",
+            "[\"mass\", \"T_max\"]",
+        ),
     ],
     example: "{ method = \"grid\", axes = { p = { from = \"..\", to = \"..\", points = 10 } }, \
               report = { T = \"a.T\" } }",
@@ -58,6 +65,7 @@ pub(crate) const SWEEP: SectionDeclaration = SectionDeclaration {
         ("data", "the file of the candidates is `file`"),
         ("reports", "what is reported is `report`"),
         ("n", "the number of candidates is `samples`"),
+        ("pareto", "the two reports of a front are `front`"),
     ],
     ..SectionDeclaration::NEW
 };

@@ -111,6 +111,8 @@ pub struct SweepStudy {
     pub period: Option<Value>,
     /// What is reported; at least one.
     pub reports: Vec<Measure>,
+    /// The places of two reports among them: candidates that none betters in both are told.
+    pub front: Option<[usize; 2]>,
     /// The file of the candidates as it was written, and its place.
     file: Option<(String, Span)>,
 }

@@ -8,7 +8,7 @@ use lptn_units::{Dimension, Type};
 
 use crate::fields::Fields;
 use crate::place::Wanted;
-use crate::raw::{RawEntry, RawKind};
+use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::sweep::axis::AxisValues;
 use crate::sweep::declaration::SWEEP;
 use crate::sweep::{Measure, SweepAxis, SweepMethod, SweepOver, SweepStudy};
@@ -48,6 +48,8 @@ impl<'a> Elaboration<'a> {
         self.report_of_axis(&reports, axes.as_deref().unwrap_or_default());
         self.run_for(over?, &fields)?;
         let (samples, seed) = sampling?;
+        let reports = reports.filter(|reports| !reports.is_empty())?;
+        let front = self.front(&fields, &reports)?;
         Some(SweepStudy {
             name: entry.key.clone(),
             span: entry.key_span.clone(),
@@ -57,7 +59,8 @@ impl<'a> Elaboration<'a> {
             seed,
             over: over?,
             period: period?,
-            reports: reports.filter(|reports| !reports.is_empty())?,
+            reports,
+            front,
             file,
         })
     }
@@ -142,6 +145,30 @@ impl<'a> Elaboration<'a> {
         }
         let all: Vec<_> = table.entries.iter().map(|entry| self.measure(entry, over)).collect();
         all.into_iter().collect()
+    }
+
+    /// The two reports of a front: `Some(None)` if none is asked for.
+    fn front(&mut self, fields: &Fields<'a>, reports: &[Measure]) -> Option<Option<[usize; 2]>> {
+        let Some(raw) = fields.get("front") else { return Some(None) };
+        let items = self.list(fields, ("front", "a list of two reports"))?;
+        let place = |item: &'a RawValue| match &item.kind {
+            RawKind::String { text, .. } => reports.iter().position(|report| report.name == *text),
+            _ => None,
+        };
+        if let [one, other] = items
+            && let (Some(one), Some(other)) = (place(one), place(other))
+            && one != other
+        {
+            return Some(Some([one, other]));
+        }
+        let names: Vec<&str> = reports.iter().map(|report| report.name.as_str()).collect();
+        let message = format!("{} has to name two of the reports", fields.owner.field("front"));
+        let help = match names.len() {
+            1 => "a front weighs two reports: add another to `report`".to_owned(),
+            _ => format!("the reports are {}", list(&names)),
+        };
+        self.refuse("netlist::sweep_front", message, &raw.span, help);
+        None
     }
 
     /// A report and a parameter would be two columns of one name.

@@ -34,6 +34,12 @@ impl SweepStudy {
             }
         }
         fields.put("report", reports.inline());
+        if let Some(front) = self.front {
+            fields.put(
+                "front",
+                strings(front.iter().map(|&place| self.reports[place].name.as_str())),
+            );
+        }
         fields
     }
 

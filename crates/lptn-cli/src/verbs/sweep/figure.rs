@@ -17,6 +17,7 @@ impl View<'_> {
         let rows: Vec<&Row> =
             self.tally.points.iter().filter(|row| row.failed.is_empty()).collect();
         let panels = match (self.axes(), self.reports()) {
+            _ if self.tally.front.places().is_some() => self.over_the_other(&rows),
             ([_], _) => self.over_the_axis(&rows),
             (_, [_, _, ..]) => self.over_the_first(&rows),
             _ => self.over_the_axis(&rows),
@@ -60,6 +61,18 @@ impl View<'_> {
             panel
         };
         others.map(panel).collect()
+    }
+
+    /// One report of a front over the other, and the front.
+    fn over_the_other(&self, rows: &[&Row]) -> Vec<Panel> {
+        let front: Vec<&Row> = self.tally.front.rows().iter().collect();
+        let [x, y] = self.tally.front.places().unwrap_or_default();
+        let upwards = &self.asked.columns[y];
+        let upwards = Axis::linear(&upwards.name, &upwards.unit.text);
+        let mut panel = Panel::new(self.axis(rows, x), upwards);
+        panel.curves.push(Curve::line("candidates", points(rows, (x, y))).looks(Look::Dots));
+        panel.curves.push(Curve::line("front", points(&front, (x, y))).looks(Look::Line));
+        vec![panel]
     }
 
     fn axis(&self, rows: &[&Row], place: usize) -> Axis {

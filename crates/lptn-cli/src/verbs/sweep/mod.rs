@@ -3,6 +3,7 @@
 mod args;
 mod asked;
 mod figure;
+mod front;
 mod growing;
 mod merge;
 mod page;
@@ -69,7 +70,8 @@ struct Outcome {
 
 fn tally_of(asked: &Asked<'_>) -> Tally {
     let axes = asked.axes();
-    Tally::new((axes, asked.columns.len() - axes), asked.range.end - asked.range.start)
+    let (reports, front) = (asked.columns.len() - axes, asked.study().front);
+    Tally::new((axes, reports), front, asked.range.end - asked.range.start)
 }
 
 fn into_folder(

@@ -15,7 +15,7 @@ use crate::about::{self, Known};
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::words::{count, spaced};
+use crate::words::{MOST_NODES, count, some_of, spaced};
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 5;
@@ -109,6 +109,27 @@ impl View<'_> {
             table = table
                 .right(plain(&column.name), move |(_, _, row)| value(column, row.numbers[axis]))
                 .optional();
+        }
+        table.into()
+    }
+
+    /// The candidates that none betters in both reports of a front, some of many evenly.
+    fn front(&self) -> TextTable {
+        let all = self.tally.front.rows();
+        let stride = all.len().div_ceil(MOST_NODES).max(1);
+        let last = all.last().filter(|_| all.len() % stride != 1 && stride > 1);
+        let mut rows: Vec<&Row> = all.iter().step_by(stride).collect();
+        rows.extend(last);
+        let (axes, columns) = (self.axes().len(), &self.asked.columns);
+        let number = |row: &Row, place: usize| significant(row.numbers[place], DIGITS);
+        let [first, second] = self.tally.front.places().unwrap_or_default();
+        let mut table = TextTable::of(&rows).right("front", |row| (row.case + 1).to_string());
+        for place in [first, second] {
+            table = table.right(plain(&columns[place].header()), move |row| number(row, place));
+        }
+        for place in 0..axes {
+            let title = plain(&columns[place].header());
+            table = table.right(title, move |row| number(row, place)).optional();
         }
         table.into()
     }
@@ -234,6 +255,7 @@ impl Page for View<'_> {
         if self.tally.rows > 1 && self.tally.lost() < self.tally.rows {
             text.section().table(self.extremes());
         }
+        some_of(&mut text, self.front(), (self.tally.front.rows().len(), "JSON has all"));
         text.section().notes(self.notes());
         text
     }
@@ -254,6 +276,10 @@ impl Page for View<'_> {
             })
             .collect();
         json.member("extremes", &spans)?;
+        if self.tally.front.places().is_some() {
+            let cases = self.tally.front.rows().iter().map(|row| row.case + 1);
+            json.member("front", &cases.collect::<Vec<u64>>())?;
+        }
         json.member("columns", &self.columns())?;
         self.write_rows(json)
     }

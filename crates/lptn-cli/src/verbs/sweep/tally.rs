@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::front::Front;
+
 /// Rows that are kept for a table or a picture, at most.
 pub(crate) const MOST_POINTS: u64 = 2000;
 
@@ -64,10 +66,16 @@ pub(crate) struct Tally {
     pub(crate) outside: Count,
     pub(crate) spans: Vec<Span>,
     pub(crate) points: Vec<Row>,
+    pub(crate) front: Front,
 }
 
 impl Tally {
-    pub(crate) fn new((axes, reports): (usize, usize), cases: u64) -> Self {
+    /// Of so many axes and reports, of two of which the front is asked for.
+    pub(crate) fn new(
+        (axes, reports): (usize, usize),
+        front: Option<[usize; 2]>,
+        cases: u64,
+    ) -> Self {
         Self {
             axes,
             stride: cases.div_ceil(MOST_POINTS).max(1),
@@ -76,6 +84,7 @@ impl Tally {
             outside: Count::default(),
             spans: vec![Span::default(); reports],
             points: Vec::new(),
+            front: Front::new(front.map(|places| places.map(|place| axes + place))),
         }
     }
 
@@ -92,6 +101,7 @@ impl Tally {
         if row.outside > 0 {
             self.outside.add(1, row.case);
         }
+        self.front.add(row);
         let reports = row.numbers.get(self.axes..).unwrap_or_default();
         for (place, (span, value)) in self.spans.iter_mut().zip(reports).enumerate() {
             let at = self.axes + place;
@@ -109,6 +119,7 @@ impl Tally {
     pub(crate) fn append(&mut self, later: Self) {
         self.rows += later.rows;
         self.points.extend(later.points);
+        self.front.append(&later.front);
         for (code, count) in later.failed {
             self.failed.entry(code).or_default().add(count.count, count.first);
         }
@@ -138,6 +149,7 @@ impl Tally {
             outside: Count::default(),
             spans: vec![Span::default(); self.spans.len()],
             points: Vec::new(),
+            front: self.front.part(),
             ..*self
         }
     }
