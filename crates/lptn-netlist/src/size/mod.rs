@@ -59,6 +59,7 @@ const SIZE: SectionDeclaration = SectionDeclaration {
             "parts to choose from, one a row, in place of `vary`",
             "\"parts.csv\"",
         ),
+        key("cases", "list of names", "the load cases that count", "[\"hot\"]").or("all of [case]"),
     ],
     example: "{ minimise = \"p\", vary = { p = { from = \"..\", to = \"..\" } }, require = [\"a.T \
         <= 80 [degC]\"] }",
@@ -206,6 +207,8 @@ pub struct SizeStudy {
     pub span: Span,
     /// The parameters whose values are sought; none where there are catalogues.
     pub varied: Vec<SizeRange>,
+    /// The load cases in each of which everything has to be kept; `None` for all that there are.
+    pub cases: Option<Vec<String>>,
     /// What is chosen from: of each one part.
     pub catalogues: Vec<Catalogue>,
 }
@@ -341,6 +344,9 @@ impl Study for SizeStudy {
         fields.put("require", strings(self.requirements.iter().map(|r| r.text.as_str())));
         if self.over != Over::Steady {
             fields.word("over", self.over.word());
+        }
+        if let Some(cases) = &self.cases {
+            fields.put("cases", strings(cases.iter().map(String::as_str)));
         }
         if let Some(period) = &self.period {
             fields.put("period", period.written());

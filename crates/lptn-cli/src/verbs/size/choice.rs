@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lptn_netlist::{Catalogue, Goal, Requirement};
+use lptn_netlist::{Catalogue, Goal};
 use lptn_network::ParameterId;
 use lptn_plot::Figure;
 use lptn_report::{
@@ -12,6 +12,7 @@ use lptn_solve::{Table, available_threads};
 use lptn_study::{Aim, Choice, ChoiceTask, Choices, Design, Parts, SiValue, choose};
 use serde_json::{Map, Value, json};
 
+use super::kept::Kept;
 use super::{Asked, failed, figure, page, write};
 use crate::about::{self, Known};
 use crate::exit::Exit;
@@ -21,9 +22,6 @@ use crate::words::{count, spaced, unverified};
 /// Rows of the table for people: what is cheaper and fails, and what is dearer and works.
 const MOST_CHEAPER: usize = 12;
 const MOST_DEARER: usize = 4;
-
-/// Margins below this share of a unit are rounding.
-const ZERO: f64 = 1e-9;
 
 pub(super) fn choice(asked: &Asked<'_>) -> Result<Exit, Failure> {
     let &Asked { input, study, .. } = asked;
@@ -59,8 +57,8 @@ impl Answer<'_> {
         &self.asked.study.catalogues
     }
 
-    fn requirements(&self) -> &[Requirement] {
-        &self.asked.study.requirements
+    fn kept(&self) -> &Kept<'_> {
+        &self.asked.kept
     }
 
     fn best(&self) -> Option<&Choice> {
@@ -93,10 +91,7 @@ impl Answer<'_> {
     }
 
     fn margin(&self, choice: &Choice, i: usize) -> String {
-        let unit = self.requirements()[i].ty.dimension.si_unit();
-        let margin = choice.design.judged.margins[i];
-        let margin = if margin.abs() < ZERO { 0.0 } else { margin };
-        format!("{}{}", significant(margin, 4), spaced(&unit))
+        self.kept().margin(i, choice.design.judged.margins[i])
     }
 
     /// Those that are shown to people: the last that are better by what is sought and fail, the
@@ -132,8 +127,8 @@ impl Answer<'_> {
         let mut table = TextTable::of(&shown)
             .left("parts", |choice| self.parts(choice))
             .right("sought", |choice| self.objective(choice));
-        if self.requirements().len() > 1 {
-            let closest = |choice: &Choice| plain(&self.requirements()[self.worst(choice)].text);
+        if self.kept().all().len() > 1 {
+            let closest = |choice: &Choice| self.kept().text(self.worst(choice));
             table = table.left("closest", move |choice| closest(choice));
         }
         table = table.right("margin", |choice| self.margin(choice, self.worst(choice)));
@@ -160,7 +155,7 @@ impl Answer<'_> {
                      `{}` by {}",
                     count(self.choices.count, "choice"),
                     self.parts(choice),
-                    plain(&self.requirements()[i].text),
+                    self.kept().text(i),
                     self.margin(choice, i).trim_start_matches('-')
                 )
             });
@@ -193,18 +188,13 @@ impl Answer<'_> {
         let names =
             self.catalogues().iter().zip(&choice.parts).map(|(one, &part)| &one.parts[part]);
         let judged = &choice.design.judged;
-        let requirement = |(i, r): (usize, &Requirement)| {
-            let margin = SiValue::new(judged.margins[i], &r.ty.dimension.si_unit());
-            let at = judged.worst_at[i].map(|at| SiValue::new(at, "s"));
-            json!({ "requirement": r.text, "margin": margin, "worst_at": at })
-        };
         let unit = self.asked.study.objective.ty.dimension.si_unit();
         json!({
             "parts": names.collect::<Vec<_>>(),
             "objective": SiValue::new(choice.design.objective, &unit),
             "feasible": judged.keeps(),
             "values": self.values(choice),
-            "requirements": self.requirements().iter().enumerate().map(requirement).collect::<Vec<_>>(),
+            "requirements": self.kept().members(judged),
         })
     }
 
@@ -233,11 +223,9 @@ impl Page for Answer<'_> {
             ),
         );
         text.sentence("", &format!("one part of {}", files.join(", one of ")));
-        let kept: Vec<String> = self.requirements().iter().map(|r| plain(&r.text)).collect();
+        let kept: Vec<String> = study.requirements.iter().map(|r| plain(&r.text)).collect();
         text.sentence("", &format!("that keeps {}", kept.join(", ")));
-        if let Some(over) = page::over(&input.netlist, study) {
-            text.sentence("", &over);
-        }
+        page::when(&mut text, &input.netlist, (study, self.kept()));
         text.section().table(self.table());
         text.section();
         if let Some(unsure) = unverified(&input.netlist.network) {
@@ -271,9 +259,9 @@ impl Page for Answer<'_> {
         }
         let feasible = |choice: &Choice| if choice.design.judged.keeps() { 1.0 } else { 0.0 };
         table.column("feasible", "-", feasible);
-        for (i, r) in self.requirements().iter().enumerate() {
-            table
-                .column(&r.text, r.ty.dimension.si_unit(), |c: &Choice| c.design.judged.margins[i]);
+        for i in self.kept().all() {
+            let margin = |choice: &Choice| choice.design.judged.margins[i];
+            table.column(self.kept().text(i), self.kept().unit(i), margin);
         }
         table.done().into()
     }
@@ -291,14 +279,13 @@ impl Page for Answer<'_> {
         let best = self.best();
         let shown = best.or_else(|| self.shown().first().copied());
         let worst = shown.map(|choice| self.worst(choice));
-        let unit = |i: usize| self.requirements()[i].ty.dimension.si_unit();
         let margin = shown
             .zip(worst)
-            .map(|(choice, i)| SiValue::new(choice.design.judged.margins[i], &unit(i)));
+            .map(|(choice, i)| SiValue::new(choice.design.judged.margins[i], &self.kept().unit(i)));
         self.asked.input.head(json, &[])?;
         json.member("values", &shown.map(|choice| self.values(choice)))?;
         json.member("margin", &margin)?;
-        json.member("binding", &worst.map(|i| &self.requirements()[i].text))?;
+        json.member("binding", &worst.map(|i| &self.kept().requirement(i).text))?;
         json.member("feasible", &best.is_some())?;
         json.member("over", self.asked.study.over.word())?;
         json.member("objective", &self.asked.study.objective.text)?;
