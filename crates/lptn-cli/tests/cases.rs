@@ -108,3 +108,21 @@ fn variants_and_cases_are_compared() {
     let many = format!("G={}", vec!["1W/K"; 1001].join(","));
     folder.run(&["compare", "a.toml", "--set", &many]).exits(2).says("compare::too_many");
 }
+
+/// G = (100 W + 1.645 x 5 W) / 60 K for P = 100 ± 5 W, as for the library.
+#[test]
+fn a_probability_is_kept_and_said() {
+    let text = BLOCK.split("[case.summer]").next().unwrap().replace("100 W", "100 ± 5 W")
+        + "[size.fan]\nminimise = \"G\"\nvary = { G = { from = \"0.5 W/K\", to = \"50 W/K\" } }\n\
+           require = [\"block.T <= 80 [degC]\"]\nprobability = 0.95\n";
+    let folder = Folder::with("a.toml", &text);
+    folder
+        .run(&["size", "a.toml"])
+        .exits(0)
+        .prints("each with a probability of 95 %")
+        .prints("scatter")
+        .prints("G = 1.80374 W/K keeps every requirement");
+    let json = folder.run(&["size", "a.toml", "--format", "json"]).exits(0).json();
+    assert!((value(&json["requirements"][0]["deviation"]) - 5.0 / 1.803_737_8).abs() < 1e-6);
+    folder.run(&["size", "a.toml", "--write"]).exits(0);
+}

@@ -229,7 +229,11 @@ impl Page for Answer<'_> {
         text.section().table(self.table());
         text.section();
         if let Some(unsure) = unverified(&input.netlist.network) {
-            text.sentence("note   ", &unsure);
+            text.sentence("note     ", &unsure);
+        }
+        let best = self.best().and_then(|best| self.kept().doubt(&best.design.judged));
+        if let Some(doubt) = best {
+            text.sentence("scatter  ", &doubt);
         }
         let solved = page::solved(study.over);
         let left = self.choices.count - self.choices.judged.len();
@@ -238,7 +242,7 @@ impl Page for Answer<'_> {
             left => format!("; {} with more to lose were not looked at", count(left, "choice")),
         };
         let proof = format!("{} {solved} of the full network{rest}", self.choices.solved);
-        text.sentence("proof  ", &proof);
+        text.sentence("proof    ", &proof);
         text.section().sentence("", &self.verdict());
         text
     }

@@ -60,12 +60,36 @@ impl<'a> Kept<'a> {
                 "margin": SiValue::new(judged.margins[i], &self.unit(i)),
                 "worst_at": at,
             });
+            if let (Some(deviation), Some(left_out)) =
+                (judged.deviations.get(i), judged.left_out.get(i))
+            {
+                member["deviation"] = json!(SiValue::new(*deviation, &self.unit(i)));
+                member["left_out"] = json!(SiValue::new(*left_out, &self.unit(i)));
+            }
             if let Some(case) = self.case(i) {
                 member["case"] = case.into();
             }
             member
         };
         self.all().into_iter().map(one).collect()
+    }
+
+    /// How margins scatter, and what the first order leaves out, where a probability is asked for.
+    pub(super) fn doubt(&self, judged: &Judged) -> Option<String> {
+        let most = |list: &[f64]| {
+            let sizes = list.iter().enumerate().map(|(i, value)| (i, value.abs()));
+            sizes.max_by(|a, b| a.1.total_cmp(&b.1))
+        };
+        let (i, deviation) = most(&judged.deviations)?;
+        let (k, left_out) = most(&judged.left_out)?;
+        let said =
+            |i: usize, value: f64| format!("{}{}", significant(value, 2), spaced(&self.unit(i)));
+        Some(format!(
+            "by the ± of parameters margins scatter by up to {}, to first order; the second would move \
+             them by up to {}",
+            said(i, deviation),
+            said(k, left_out)
+        ))
     }
 
     /// "0.4 K".

@@ -43,6 +43,7 @@ pub(super) fn demanded<T>(
         cases: &cases,
         requirements: &study.requirements,
         moments,
+        probability: study.probability(&netlist.network).ok().flatten(),
         watcher,
     })
 }

@@ -99,6 +99,10 @@ pub(super) fn when(text: &mut Text, netlist: &Netlist, (study, kept): (&SizeStud
     if let Some(over) = over(netlist, study) {
         text.sentence("", &over);
     }
+    if let Some(probability) = study.probability(&netlist.network).ok().flatten() {
+        let percent = significant(100.0 * probability, 6);
+        text.sentence("", &format!("each with a probability of {percent} %"));
+    }
     match kept.cases() {
         [] => {}
         [one] => {
@@ -204,6 +208,7 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
         let change = significant(sensitivity, 3);
         notes.push(("sensitivity", format!("{change} {unit} of margin for 1 % more {name}")));
     }
+    notes.extend(answer.kept.doubt(&sizing.trial.judged).map(|doubt| ("scatter", doubt)));
     if let Some(guess) = sizing.first_guess {
         notes.push((
             "first guess",

@@ -163,11 +163,14 @@ impl Page for Answer<'_> {
         text.section().table(self.requirement_table());
         text.section();
         if let Some(unsure) = unverified(&input.netlist.network) {
-            text.sentence("note   ", &unsure);
+            text.sentence("note     ", &unsure);
+        }
+        if let Some(doubt) = self.kept().doubt(&self.found.design.judged) {
+            text.sentence("scatter  ", &doubt);
         }
         let outside = &self.found.design.judged.out_of_range;
         for warning in ranges::warnings(&input.netlist, outside, false) {
-            text.sentence("note   ", &warning.message);
+            text.sentence("note     ", &warning.message);
         }
         let proof = format!(
             "{} {} of the full network; none of the {} places looked at is better",
@@ -175,7 +178,7 @@ impl Page for Answer<'_> {
             page::solved(study.over),
             self.found.looked_at.len()
         );
-        text.sentence("proof  ", &proof);
+        text.sentence("proof    ", &proof);
         text.section().sentence("", &self.verdict());
         text
     }
