@@ -41,7 +41,8 @@ pub(super) fn choice(asked: &Asked<'_>) -> Result<Exit, Failure> {
         .demand(|demand| choose(&ChoiceTask { demand, aim, catalogues: &catalogues, threads }));
     let choices = choices.map_err(|error| failed(input, study, &error))?;
     let ids = catalogues.iter().flat_map(|parts| parts.parameters.iter().copied()).collect();
-    let answer = Answer { asked, choices, ids };
+    let scale = scale(&choices);
+    let answer = Answer { asked, choices, ids, scale };
     asked.show(&answer, || answer.write())
 }
 
@@ -50,6 +51,21 @@ struct Answer<'a> {
     choices: Choices,
     /// The parameters in the order in which designs have them.
     ids: Vec<ParameterId>,
+    /// The largest size of each margin.
+    scale: Vec<f64>,
+}
+
+fn scale(choices: &Choices) -> Vec<f64> {
+    let mut scale = vec![f64::MIN_POSITIVE; choices.judged.first().map_or(0, count_of)];
+    for choice in &choices.judged {
+        let sizes = choice.design.judged.margins.iter().map(|margin| margin.abs());
+        scale.iter_mut().zip(sizes).for_each(|(most, size)| *most = most.max(size));
+    }
+    scale
+}
+
+fn count_of(choice: &Choice) -> usize {
+    choice.design.judged.margins.len()
 }
 
 impl Answer<'_> {
@@ -80,14 +96,9 @@ impl Answer<'_> {
     /// The requirement that is broken by most, in shares of the largest margin that it has anywhere;
     /// where all are kept the one that comes closest.
     fn worst(&self, choice: &Choice) -> usize {
-        let scale = |i: usize| {
-            let sizes =
-                self.choices.judged.iter().map(|other| other.design.judged.margins[i].abs());
-            sizes.fold(f64::MIN_POSITIVE, f64::max)
-        };
         let shares =
-            choice.design.judged.margins.iter().enumerate().map(|(i, m)| (i, m / scale(i)));
-        shares.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i)
+            choice.design.judged.margins.iter().zip(&self.scale).map(|(m, scale)| m / scale);
+        shares.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i)
     }
 
     fn margin(&self, choice: &Choice, i: usize) -> String {
@@ -112,8 +123,7 @@ impl Answer<'_> {
     /// The margin of the worst requirement as a share of its size.
     fn share(&self, choice: &Choice) -> f64 {
         let i = self.worst(choice);
-        let sizes = self.choices.judged.iter().map(|other| other.design.judged.margins[i].abs());
-        choice.design.judged.margins[i] / sizes.fold(f64::MIN_POSITIVE, f64::max)
+        choice.design.judged.margins[i] / self.scale[i]
     }
 
     fn table(&self) -> TextTable {
