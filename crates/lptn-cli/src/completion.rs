@@ -23,6 +23,7 @@ fn with_names(command: Command) -> Command {
     let command = command.mut_args(|arg| {
         let found: Option<fn() -> Vec<String>> = match arg.get_id().as_str() {
             "set" => Some(parameters),
+            "case" => Some(cases),
             "select" => Some(columns),
             "answering" | "balance" | "keep" | "port" => Some(nodes),
             "gearbox" => Some(gearboxes),
@@ -47,12 +48,17 @@ fn completed(arg: Arg, names: fn() -> Vec<String>) -> Arg {
 fn netlist() -> Option<Netlist> {
     let mut words = std::env::args_os().map(PathBuf::from);
     let file = words.find(|word| word.extension().is_some_and(|end| end == "toml"))?;
-    Some(Input::load(&Source { file, set: Vec::new() }).ok()?.netlist)
+    Some(Input::load(&Source::of(file)).ok()?.netlist)
 }
 
 fn parameters() -> Vec<String> {
     let parameters = netlist().map(|netlist| netlist.network.parameters().to_vec());
     parameters.unwrap_or_default().into_iter().map(|p| format!("{}=", p.name)).collect()
+}
+
+fn cases() -> Vec<String> {
+    let cases = netlist().map(|netlist| netlist.studies.cases);
+    cases.unwrap_or_default().into_iter().map(|case| case.name).collect()
 }
 
 fn columns() -> Vec<String> {

@@ -91,15 +91,61 @@ fn example(folder: &Path) -> Option<String> {
 pub(crate) struct Input {
     pub(crate) text: Given,
     pub(crate) netlist: Netlist,
+    /// Everything that was set in it, by the load case and then by itself.
+    pub(crate) set: Vec<String>,
+}
+
+/// Changes in a netlist what the command line does: the load case first, `--set` behind it.
+pub(crate) fn apply(
+    netlist: &mut Netlist,
+    text: &Given,
+    source: &Source,
+) -> Result<Vec<String>, Failure> {
+    let mut set = Vec::new();
+    if let Some(name) = &source.case {
+        let cases = &netlist.studies.cases;
+        let Some(case) = cases.iter().find(|case| case.name == *name) else {
+            return Err(no_case(netlist, text, name));
+        };
+        let failed = |error: lptn_units::EvalError| {
+            let problem = Diagnostic::error(error.code(), format!("case `{name}`: {error}"));
+            let problem = problem.at(case.span.clone(), "");
+            Failure::at(Exit::Input, netlist.files.clone(), problem)
+        };
+        set = case.assignments(&netlist.network).map_err(failed)?;
+        netlist.set(&set)?;
+    }
+    netlist.set(&source.set)?;
+    set.extend_from_slice(&source.set);
+    Ok(set)
+}
+
+fn no_case(netlist: &Netlist, text: &Given, name: &str) -> Failure {
+    let cases = &netlist.studies.cases;
+    let names = || cases.iter().map(|case| case.name.as_str());
+    let message = format!("{} has no [case.{name}]", text.name);
+    let problem = Diagnostic::error("input::no_case", message);
+    let problem = match cases.is_empty() {
+        true => problem.help(format!("add for example:\n\n[case.{name}]\nset = {{ p = \"..\" }}")),
+        false => problem.did_you_mean(name, names(), || {
+            let list: Vec<String> = names().map(|name| format!("`{name}`")).collect();
+            format!("the cases are {}", list.join(", "))
+        }),
+    };
+    Failure::new(Exit::Input, problem)
 }
 
 impl Input {
     /// Reads the netlist, or says everything that is wrong with it.
     pub(crate) fn load(source: &Source) -> Result<Self, Failure> {
-        let text = read(&source.file)?;
+        let mut text = read(&source.file)?;
         let mut netlist = parse(&text)?;
-        netlist.set(&source.set)?;
-        Ok(Self { text, netlist })
+        let set = apply(&mut netlist, &text, source)?;
+        if let Some(case) = &source.case {
+            // beside the results of the others
+            text.stem = folder_name(format!("{}_{case}", text.stem).replace(['/', '\\'], "_"));
+        }
+        Ok(Self { text, netlist, set })
     }
 
     /// Gives the run other times.

@@ -55,6 +55,16 @@ pub(crate) struct Source {
     /// Give a parameter a value; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub(crate) set: Vec<String>,
+    /// Take the parameters of a load case, [case.NAME]; --set goes before it
+    #[arg(long, value_name = "NAME")]
+    pub(crate) case: Option<String>,
+}
+
+impl Source {
+    /// A netlist as it is.
+    pub(crate) fn of(file: PathBuf) -> Self {
+        Self { file, set: Vec::new(), case: None }
+    }
 }
 
 /// Times of the run in place of those of the netlist.

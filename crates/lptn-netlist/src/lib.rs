@@ -30,6 +30,7 @@
 
 mod adrift;
 mod assign;
+mod case;
 mod csv_files;
 mod describe;
 mod duplicate;
@@ -85,6 +86,7 @@ mod value_help;
 mod work;
 mod write_back;
 
+pub use case::CaseStudy;
 pub use expand::{Derived, WrittenError, prove};
 pub use fit::{FitPlan, FitRecord, FitStudy, Observed, VariedName};
 pub use format::{KeyDeclaration, NetlistFormat, Role, SectionDeclaration};

@@ -40,6 +40,7 @@ fn demand(netlist: &Netlist) -> Demand<'_> {
         cases: &[],
         requirements: &netlist.studies.sizes[0].requirements,
         moments: Moments::Steady(0.0),
+        probability: netlist.studies.sizes[0].probability(&netlist.network).unwrap(),
         watcher: &|_| Proceed::Continue,
     }
 }
@@ -195,6 +196,36 @@ fn margins_are_those_of_the_network_as_it_is() {
     near(margins[0], 80.0 - (20.0 + 100.0 / 3.0 + 5.0), 1e-12);
     near(margins[1], 1.0, 1e-10);
 }
+
+/// What is kept with a probability of 95 % is kept by 1.6449 standard deviations: with P = 100 ± 5 W
+/// the margin 60 K - P / G has one of 5 W / G; with air of 20 ± 2 degC beside it one of
+/// sqrt(25 / G^2 + 4), by Newton's method in 30 digits (mpmath).
+#[test]
+fn a_probability_takes_what_deviations_may_take() {
+    let text = |air: &str| {
+        format!(
+            "format = 1\n[param]\nG = \"1 W/K\"\nP = \"100 ± 5 W\"\nT_air = \"{air}\"\n[node]\n\
+             block = {{ C = \"1 kJ/K\", T0 = \"20 degC\" }}\n[boundary]\nair = {{ T = \"T_air\" }}\n\
+             [resistor]\nskin = {{ from = \"block\", to = \"air\", G = \"G\" }}\n[source]\n\
+             loss = {{ into = \"block\", P = \"P\" }}\n[size.s]\nminimise = \"G\"\n\
+             vary = {{ G = {{ from = \"0.5 W/K\", to = \"50 W/K\" }} }}\n\
+             require = [\"block.T <= 80 [degC]\"]\nprobability = \"95 %\"\n"
+        )
+    };
+    let solved = |air: &str| {
+        let netlist = parse("a.toml", &text(air)).unwrap_or_else(|rejected| panic!("{rejected}"));
+        solve(&netlist).unwrap()
+    };
+    let one = solved("20 degC");
+    near(one.trial.value, 1.803_737_802_245_956, 1e-9);
+    near(one.trial.judged.deviations[0], 5.0 / one.trial.value, 1e-9);
+    // straight in P, so nothing is left out
+    assert!(one.trial.judged.left_out[0].abs() < 1e-9);
+    let two = solved("20 ± 2 degC");
+    near(two.trial.value, TWO_DEVIATIONS, 1e-9);
+}
+
+const TWO_DEVIATIONS: f64 = 1.836_755_734_099_352_6;
 
 /// P = m cp rise, m = rho V, R = (limit - ambient) / P.
 #[test]

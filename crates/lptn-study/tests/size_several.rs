@@ -14,6 +14,7 @@ fn demand(netlist: &Netlist) -> Demand<'_> {
         cases: &[],
         requirements: &netlist.studies.sizes[0].requirements,
         moments: Moments::Steady(0.0),
+        probability: None,
         watcher: &|_| Proceed::Continue,
     }
 }

@@ -6,7 +6,7 @@ use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, nearest, read_text}
 use lptn_network::{Context, Value};
 use lptn_units::Scope as _;
 
-use crate::fields::{Fields, wrong_shape};
+use crate::fields::{Fields, Owner, wrong_shape};
 use crate::fit::read::Column;
 use crate::fit::{FIT, FitRecord, VariedName};
 use crate::place::Wanted;
@@ -103,7 +103,10 @@ impl<'a> Elaboration<'a> {
             for entry in &table.entries {
                 sound &= match entry.key.as_str() {
                     "csv" => true,
-                    "set" => self.record_set(fields, entry, &mut set),
+                    "set" => {
+                        let owner = fields.owner.inside("data").inside("set");
+                        self.parameters_set(&owner, entry, &mut set)
+                    }
                     key => {
                         self.report(unknown_key(fields, entry, key));
                         false
@@ -135,14 +138,14 @@ impl<'a> Elaboration<'a> {
         Some(Arc::new(record))
     }
 
-    /// `set = { omega = "1000 rpm" }`.
-    fn record_set(
+    /// `set = { omega = "1000 rpm" }`: the parameters with their values; false if something is wrong,
+    /// which is then reported.
+    pub(crate) fn parameters_set(
         &mut self,
-        fields: &Fields<'a>,
+        owner: &Owner,
         entry: &'a RawEntry,
         set: &mut Vec<(String, Value)>,
     ) -> bool {
-        let owner = fields.owner.inside("data").inside("set");
         let RawKind::Table(table) = &entry.value.kind else {
             let sample = "set = { omega = \"1000 rpm\" }";
             self.report(wrong_shape(owner.words(), &entry.value, "a table of parameters", sample));
@@ -156,7 +159,7 @@ impl<'a> Elaboration<'a> {
                 continue;
             }
             let value = self.builder.scope(Context::Time).symbol(name).and_then(|symbol| {
-                self.given_inside(&owner, (name, &entry.value), Wanted::like(symbol.ty))
+                self.given_inside(owner, (name, &entry.value), Wanted::like(symbol.ty))
             });
             match value {
                 Some(value) => set.push((name.clone(), value.value())),

@@ -19,6 +19,7 @@ use super::node::NODE;
 use super::path_section::PATHS;
 use super::signal::SIGNAL;
 use super::table::TABLE;
+use crate::case::CaseStudy;
 use crate::fit::FitStudy;
 use crate::format::{NetlistFormat, SectionDeclaration};
 use crate::foster::FOSTER;
@@ -81,6 +82,8 @@ macro_rules! studies {
 }
 
 studies! {
+    /// Load cases, in file order.
+    cases: CaseStudy,
     /// What to size, in file order.
     sizes: SizeStudy,
     /// What to find from records, in file order.

@@ -1,6 +1,7 @@
 //! `[size.NAME]`: a parameter to size, and what has to be kept.
 
 mod catalogue;
+mod check;
 mod read;
 
 use lptn_data::{Diagnostic, Span};
@@ -59,6 +60,13 @@ const SIZE: SectionDeclaration = SectionDeclaration {
             "parts to choose from, one a row, in place of `vary`",
             "\"parts.csv\"",
         ),
+        key(
+            "probability",
+            "number",
+            "how likely each requirement has to be kept, by the `±` of parameters",
+            "\"95 %\"",
+        ),
+        key("cases", "list of names", "the load cases that count", "[\"hot\"]").or("all of [case]"),
     ],
     example: "{ minimise = \"p\", vary = { p = { from = \"..\", to = \"..\" } }, require = [\"a.T \
         <= 80 [degC]\"] }",
@@ -202,10 +210,14 @@ pub struct SizeStudy {
     pub over: Over,
     /// The period of the cycle, where it is given.
     pub(crate) period: Option<Setting>,
+    /// How likely requirements have to be kept, where it is given.
+    pub(crate) probability: Option<Setting>,
     /// Where it stands.
     pub span: Span,
     /// The parameters whose values are sought; none where there are catalogues.
     pub varied: Vec<SizeRange>,
+    /// The load cases in each of which everything has to be kept; `None` for all that there are.
+    pub cases: Option<Vec<String>>,
     /// What is chosen from: of each one part.
     pub catalogues: Vec<Catalogue>,
 }
@@ -233,48 +245,6 @@ impl SizeStudy {
             .collect()
     }
 
-    /// What is wrong with a range.
-    fn check_range(&self, network: &Network, range: &SizeRange) -> Option<Diagnostic> {
-        let mut scope = network.evaluation();
-        let (from, to) = (range.from.at(&mut scope), range.to.at(&mut scope));
-        let words = format!("`{}` in `vary` of size `{}`", range.name, self.name);
-        let problem = match (from, to) {
-            (Ok(from), Ok(to)) if from < to => return None,
-            (Ok(_), Ok(_)) => {
-                let message = format!("{words}: `from` has to be less than `to`");
-                let help = "write the least value as `from` and the largest as `to`; `minimise` or \
-                            `maximise` says which of them is the better end";
-                Diagnostic::error("netlist::size_range", message).help(help)
-            }
-            (Err(error), _) | (_, Err(error)) => {
-                Diagnostic::error(error.code(), format!("{words}: {error}"))
-            }
-        };
-        Some(problem.at(range.span.clone(), ""))
-    }
-
-    /// A parameter that is sought has to be one that changes, or to follow from one.
-    fn check_objective(&self, network: &Network) -> Option<Diagnostic> {
-        let sought = &self.objective.text;
-        let id = network.parameter(sought).ok()?;
-        let columns = self.catalogues.iter().flat_map(|one| &one.columns);
-        let mut set = columns.map(|one| &one.name).chain(self.varied.iter().map(|one| &one.name));
-        let follows = !matches!(network.parameters()[id.index()].value, Value::Constant(_));
-        if follows || set.any(|name| name == sought) {
-            return None;
-        }
-        let varied = self.varied.first().map(|one| &one.span);
-        let place = varied.or(self.catalogues.first().map(|one| &one.span))?;
-        let message = format!("size `{}` seeks `{sought}`, which nothing varies", self.name);
-        let help = match self.catalogues.is_empty() {
-            true => format!(
-                "write it like this: `vary = {{ {sought} = {{ from = \"..\", to = \"..\" }} }}`"
-            ),
-            false => format!("give a catalogue a column `{sought}`, or seek one that it has"),
-        };
-        Some(Diagnostic::wrong("netlist::size_vary", message, place, help))
-    }
-
     /// The period of the settled cycle in s for the parameters of `network`; `None` where it is that
     /// of the repeated signals.
     ///
@@ -285,17 +255,13 @@ impl SizeStudy {
         self.period.as_ref().map(|period| period.value.at(&mut scope)).transpose()
     }
 
-    fn check_period(&self, network: &Network) -> Option<Diagnostic> {
-        let setting = self.period.as_ref()?;
-        let problem = match self.period(network) {
-            Ok(Some(period)) if !(period.is_finite() && period > 0.0) => {
-                let message = format!("{} must be more than zero, got {period} s", setting.words);
-                Diagnostic::error("netlist::run_not_positive", message).help(&setting.help)
-            }
-            Ok(_) => return None,
-            Err(error) => Diagnostic::error(error.code(), format!("{}: {error}", setting.words)),
-        };
-        Some(problem.at(setting.span.clone(), ""))
+    /// How likely each requirement has to be kept; `None` where `±` does not count.
+    ///
+    /// # Errors
+    /// What its evaluation reports.
+    pub fn probability(&self, network: &Network) -> Result<Option<f64>, EvalError> {
+        let mut scope = network.evaluation();
+        self.probability.as_ref().map(|setting| setting.value.at(&mut scope)).transpose()
     }
 }
 
@@ -316,7 +282,8 @@ impl Study for SizeStudy {
 
     fn check(&self, network: &Network) -> Vec<Diagnostic> {
         let ranges = self.varied.iter().filter_map(|range| self.check_range(network, range));
-        ranges.chain(self.check_period(network)).chain(self.check_objective(network)).collect()
+        let settings = [self.check_period(network), self.check_probability(network)];
+        ranges.chain(settings.into_iter().flatten()).chain(self.check_objective(network)).collect()
     }
 
     fn fields(&self, network: &Network, path: &PathFrom<'_>) -> TomlFields {
@@ -341,6 +308,12 @@ impl Study for SizeStudy {
         fields.put("require", strings(self.requirements.iter().map(|r| r.text.as_str())));
         if self.over != Over::Steady {
             fields.word("over", self.over.word());
+        }
+        if let Some(cases) = &self.cases {
+            fields.put("cases", strings(cases.iter().map(String::as_str)));
+        }
+        if let Some(probability) = &self.probability {
+            fields.put("probability", probability.written());
         }
         if let Some(period) = &self.period {
             fields.put("period", period.written());

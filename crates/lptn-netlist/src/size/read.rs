@@ -33,8 +33,17 @@ impl<'a> Elaboration<'a> {
         let sought = self.goal(&fields);
         let varied = self.varied_or_chosen(&fields);
         let requirements = self.requirements(&fields);
+        let cases = self.cases_of(&fields);
+        let probability = fields
+            .get("probability")
+            .map(|raw| self.setting(&fields.owner, ("probability", raw), Type::SCALAR));
         let ((goal, objective), (varied, catalogues)) = (sought?, varied?);
         let (over, period) = over?;
+        let cases = cases?;
+        let probability = probability.map_or(Some(None), |given| given.map(Some))?;
+        let columns = catalogues.iter().flat_map(|one| &one.columns).map(|one| &one.name);
+        let changed: Vec<&String> = varied.iter().map(|one| &one.name).chain(columns).collect();
+        self.set_by_cases((&fields, cases.as_deref()), &changed)?;
         Some(SizeStudy {
             name: entry.key.clone(),
             objective,
@@ -42,8 +51,10 @@ impl<'a> Elaboration<'a> {
             requirements: requirements?,
             over,
             period,
+            probability,
             span: entry.key_span.clone(),
             varied,
+            cases,
             catalogues,
         })
     }

@@ -13,6 +13,7 @@ use lptn_solve::{
 };
 
 use crate::size::error::{SizeError, TrialError};
+use crate::uncertainty::normal::quantile;
 
 /// The finest tolerance in K of runs that are judged, if the run itself asks for no finer one. Of a
 /// rise of 1 K ten times this is a part in 1e8.
@@ -69,6 +70,9 @@ pub struct Demand<'a> {
     pub requirements: &'a [Requirement],
     /// When.
     pub moments: Moments<'a>,
+    /// How likely each requirement has to be kept in each case, by the `±` of parameters, more than
+    /// 0.5 and less than 1; `None` without regard to it.
+    pub probability: Option<f64>,
     /// What watches the runs.
     pub watcher: &'a Watcher<'a>,
 }
@@ -87,8 +91,14 @@ impl std::fmt::Debug for Demand<'_> {
 #[derive(Clone, Debug, Default)]
 pub struct Judged {
     /// How far each requirement is from being broken, in SI units, positive while it is kept: those
-    /// of the first load case, then those of the next.
+    /// of the first load case, then those of the next. Where a probability is asked for, what is left
+    /// with that probability.
     pub margins: Vec<f64>,
+    /// One standard deviation of each, in SI units, to first order in those of the parameters; empty
+    /// where no probability is asked for.
+    pub deviations: Vec<f64>,
+    /// What the first order leaves out of each, in SI units: the shift of its mean to second order.
+    pub left_out: Vec<f64>,
     /// When that is, in s; `None` in steady state.
     pub worst_at: Vec<Option<f64>>,
     /// The laws that are outside the ranges in which they are known.
@@ -151,13 +161,52 @@ impl<'a> Judge<'a> {
         let mut all = Judged::default();
         for case in cases {
             let failed = |error| SizeError::trial(design, &case.name, error);
-            let one = self.in_case((design, case), care).map_err(failed)?;
+            let mut one = self.in_case((design, case), care).map_err(failed)?;
+            if let Some(probability) = self.demand.probability {
+                self.doubt(&mut one, (design, case), (probability, care)).map_err(failed)?;
+            }
             all.margins.extend(one.margins);
+            all.deviations.extend(one.deviations);
+            all.left_out.extend(one.left_out);
             all.worst_at.extend(one.worst_at);
             all.out_of_range.extend(one.out_of_range);
             all.error = all.error.max(one.error);
         }
         Ok(all)
+    }
+
+    /// Takes from every margin what the `±` of parameters may take with a probability: parameters are
+    /// normal and independent, margins straight in them. Each is moved by one standard deviation to
+    /// either side of where the design and the case have it.
+    fn doubt(
+        &self,
+        judged: &mut Judged,
+        (design, case): (&[(ParameterId, f64)], &LoadCase),
+        (probability, care): (f64, Care),
+    ) -> Result<(), TrialError> {
+        let (mut variances, mut left_out) =
+            (vec![0.0; judged.margins.len()], vec![0.0; judged.margins.len()]);
+        let known = self.base.parameter_ids().zip(self.base.parameters());
+        for (id, deviation) in known.filter_map(|(id, p)| Some((id, p.deviation?))) {
+            let set = case.set.iter().chain(design).rev().find(|(other, _)| *other == id);
+            let at = set.map_or(self.base.parameter_value(id), |(_, value)| *value);
+            let moved = |by: f64| {
+                let mut design = design.to_vec();
+                design.push((id, at + by));
+                self.in_case((&design, case), care).map(|judged| judged.margins)
+            };
+            let (low, high) = (moved(-deviation)?, moved(deviation)?);
+            for (i, margin) in judged.margins.iter().enumerate() {
+                variances[i] += (0.5 * (high[i] - low[i])).powi(2);
+                left_out[i] += 0.5 * (high[i] + low[i]) - margin;
+            }
+        }
+        judged.deviations = variances.into_iter().map(f64::sqrt).collect();
+        judged.left_out = left_out;
+        let times = quantile(probability);
+        let margins = judged.margins.iter_mut().zip(&judged.deviations);
+        margins.for_each(|(margin, deviation)| *margin -= times * deviation);
+        Ok(())
     }
 
     /// A value of the design that follows from parameters, in SI units; of the network as it is,
@@ -233,6 +282,7 @@ impl<'a> Judge<'a> {
             worst_at: seen.iter().map(|seen| Some(seen.worst_at)).collect(),
             out_of_range: solution.out_of_range().to_vec(),
             error,
+            ..Judged::default()
         })
     }
 }
@@ -266,7 +316,7 @@ fn steady(
         margins: requirements.iter().map(margin).collect::<Result<_, _>>()?,
         worst_at: vec![None; requirements.len()],
         out_of_range: OutOfRange::of_steady(network, &steady).unwrap_or_default(),
-        error: 0.0,
+        ..Judged::default()
     })
 }
 

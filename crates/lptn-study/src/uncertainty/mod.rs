@@ -12,7 +12,7 @@ mod error;
 mod estimate;
 mod input;
 mod linear;
-mod normal;
+pub(crate) mod normal;
 pub(crate) mod points;
 mod result;
 mod sample;

@@ -21,6 +21,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Given, Input};
 use crate::lumping;
+use crate::options::Source;
 use crate::select;
 use crate::words::{count, counts};
 use crate::written::proven;
@@ -28,9 +29,9 @@ use crate::written::proven;
 pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure> {
     let text = input::read(&args.source.file)?;
     if args.expand {
-        return expand(&text, &args.source.set, console);
+        return expand(&text, &args.source, console);
     }
-    let finding = Finding::of(&text, &args.source.set)?;
+    let finding = Finding::of(&text, &args.source)?;
     console.show(&View { finding: &finding, text: &text, console }, args.format)?;
     let ok = finding.exit() == Exit::Done && args.format == Format::Table;
     if let (true, Some(file)) = (ok, text.typed()) {
@@ -41,12 +42,12 @@ pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure
 }
 
 /// Writes the network as a flat netlist; what is wrong with it goes to stderr.
-fn expand(text: &Given, set: &[String], console: &Console) -> Result<Exit, Failure> {
+fn expand(text: &Given, source: &Source, console: &Console) -> Result<Exit, Failure> {
     let mut netlist = input::parse(text).map_err(|rejected| Failure {
         exit: if rejected.syntax { Exit::Input } else { Exit::No },
         ..rejected.into()
     })?;
-    netlist.set(set)?;
+    input::apply(&mut netlist, text, source)?;
     console.warn(&netlist.files, &netlist.warnings);
     if let Some(problem) = netlist.not_flat() {
         return Err(Failure::at(Exit::No, netlist.files, problem));
@@ -80,8 +81,8 @@ struct Finding {
 
 impl Finding {
     /// # Errors
-    /// What is wrong with `--set`: that is not a property of the netlist.
-    fn of(text: &Given, set: &[String]) -> Result<Self, Failure> {
+    /// What is wrong with `--set` or `--case`: that is not a property of the netlist.
+    fn of(text: &Given, source: &Source) -> Result<Self, Failure> {
         let mut netlist = match input::parse(text) {
             Ok(netlist) => netlist,
             Err(rejected) => {
@@ -98,11 +99,11 @@ impl Finding {
                 });
             }
         };
-        netlist.set(set)?;
+        let set = input::apply(&mut netlist, text, source)?;
         let counts = Some(counts(&netlist.network));
         let (files, mut diagnostics) = (netlist.files.clone(), netlist.warnings.clone());
         let text = Given { bytes: Vec::new(), name: text.name.clone(), stem: text.stem.clone() };
-        let input = Input { text, netlist };
+        let input = Input { text, netlist, set };
         let mut lumping = None;
         match input.assemble() {
             Ok(system) => lumping = lumped(&input.netlist, &system),

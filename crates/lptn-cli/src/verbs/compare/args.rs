@@ -11,6 +11,7 @@ const EXAMPLES: &str = "\
 Examples:
   lptn compare bare.toml finned.toml fan.toml
   lptn compare candidates/ --sort peak
+  lptn compare gearbox.toml --set R_sink=0.55K/W,0.42K/W --cases
   lptn compare candidates/ --set P_loss=80W --format csv > candidates.csv";
 
 /// Put candidate designs side by side: peaks, limits, margins, heat
@@ -20,9 +21,13 @@ pub(crate) struct CompareArgs {
     /// Netlists, or folders of netlists
     #[arg(value_name = "FILE", required = true)]
     pub(crate) files: Vec<PathBuf>,
-    /// Give a parameter a value in every candidate that has it; may be repeated
+    /// Give a parameter a value in every candidate that has it, or several, R=1K/W,2K/W: each
+    /// makes a candidate of its own; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub(crate) set: Vec<String>,
+    /// Take every netlist in each of its load cases, [case.NAME]
+    #[arg(long)]
+    pub(crate) cases: bool,
     #[command(flatten)]
     pub(crate) printed: Printed,
     /// Sort by margin, peak, steady, time, capacity, or keep the order as given

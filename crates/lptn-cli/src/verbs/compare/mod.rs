@@ -3,8 +3,10 @@
 mod args;
 mod figure;
 mod page;
+mod variants;
 
 pub(crate) use args::CompareArgs;
+use variants::Variant;
 
 use std::path::{Path, PathBuf};
 
@@ -31,7 +33,8 @@ use crate::{ranges, sense};
 pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Failure> {
     let files = listed(&args.files)?;
     let threads = args.threads.unwrap_or_else(available_threads);
-    let loaded = in_parallel(&files, threads, |file| load(file, &args.set));
+    let jobs = jobs(args, &files)?;
+    let loaded = in_parallel(&jobs, threads, |(file, variant)| load(file, variant));
     used(args, &loaded)?;
     let done = evaluate_all(&loaded, threads, console);
     let unit = unit(args, &loaded)?;
@@ -45,6 +48,7 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
     let answer = page::answer(&comparison);
     if comparison.rows.iter().filter_map(CompareRow::candidate).count() > 1
         && args.printed.format == Format::Table
+        && jobs.iter().all(|(_, variant)| variant.label.is_empty())
     {
         let read = comparison.rows.iter().filter(|row| row.candidate().is_some());
         let names: Vec<String> = read.map(|row| quoted(&row.file)).collect();
@@ -78,6 +82,20 @@ fn folder(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     Ok(found)
 }
 
+/// Every file with every variant of it.
+fn jobs(args: &CompareArgs, files: &[PathBuf]) -> Result<Vec<(PathBuf, Variant)>, Failure> {
+    let sets = variants::of_sets(&args.set).ok_or_else(|| {
+        let message = format!("`--set` makes more than {} variants", variants::MOST);
+        let problem = Diagnostic::error("compare::too_many", message);
+        Failure::new(Exit::Input, problem.help("give fewer values, or compare in several steps"))
+    })?;
+    let of = |file: &PathBuf| {
+        let all = if args.cases { variants::in_cases(file, &sets) } else { sets.clone() };
+        all.into_iter().map(|variant| (file.clone(), variant)).collect::<Vec<_>>()
+    };
+    Ok(files.iter().flat_map(of).collect())
+}
+
 /// A candidate's file, and its netlist or what is wrong with it.
 struct Loaded {
     file: String,
@@ -86,9 +104,13 @@ struct Loaded {
     has: Vec<bool>,
 }
 
-fn load(file: &Path, set: &[String]) -> Loaded {
-    let source = Source { file: file.to_owned(), set: Vec::new() };
-    let name = file.display().to_string();
+fn load(file: &Path, variant: &Variant) -> Loaded {
+    let (set, case) = (&variant.set, variant.case.clone());
+    let source = Source { case, ..Source::of(file.to_owned()) };
+    let name = match variant.label.as_str() {
+        "" => file.display().to_string(),
+        label => format!("{} ({label})", file.display()),
+    };
     let mut input = match Input::load(&source) {
         Ok(input) => input,
         Err(failure) => {

@@ -55,7 +55,10 @@ impl Source {
         args: &PlotArgs,
         console: &Console,
     ) -> Result<(Self, Exit), Failure> {
-        let source = crate::options::Source { file: path.into(), set: args.set.clone() };
+        let source = crate::options::Source {
+            set: args.set.clone(),
+            ..crate::options::Source::of(path.into())
+        };
         let scale = Scale { temperature_unit: args.scale.temperature_unit.clone() };
         let shown = Shown { format: Format::Csv, select: args.select.clone(), scale };
         let args = RunArgs {

@@ -78,7 +78,7 @@ impl<'a> Job<'a> {
             clock: Clock(args.time_scale.time_unit),
             format,
             balance,
-            set: &args.source.set,
+            set: &input.set,
         })
     }
 

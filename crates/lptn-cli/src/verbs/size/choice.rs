@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lptn_netlist::{Catalogue, Goal, Requirement};
+use lptn_netlist::{Catalogue, Goal};
 use lptn_network::ParameterId;
 use lptn_plot::Figure;
 use lptn_report::{
@@ -12,6 +12,7 @@ use lptn_solve::{Table, available_threads};
 use lptn_study::{Aim, Choice, ChoiceTask, Choices, Design, Parts, SiValue, choose};
 use serde_json::{Map, Value, json};
 
+use super::kept::Kept;
 use super::{Asked, failed, figure, page, write};
 use crate::about::{self, Known};
 use crate::exit::Exit;
@@ -21,9 +22,6 @@ use crate::words::{count, spaced, unverified};
 /// Rows of the table for people: what is cheaper and fails, and what is dearer and works.
 const MOST_CHEAPER: usize = 12;
 const MOST_DEARER: usize = 4;
-
-/// Margins below this share of a unit are rounding.
-const ZERO: f64 = 1e-9;
 
 pub(super) fn choice(asked: &Asked<'_>) -> Result<Exit, Failure> {
     let &Asked { input, study, .. } = asked;
@@ -43,7 +41,8 @@ pub(super) fn choice(asked: &Asked<'_>) -> Result<Exit, Failure> {
         .demand(|demand| choose(&ChoiceTask { demand, aim, catalogues: &catalogues, threads }));
     let choices = choices.map_err(|error| failed(input, study, &error))?;
     let ids = catalogues.iter().flat_map(|parts| parts.parameters.iter().copied()).collect();
-    let answer = Answer { asked, choices, ids };
+    let scale = scale(&choices);
+    let answer = Answer { asked, choices, ids, scale };
     asked.show(&answer, || answer.write())
 }
 
@@ -52,6 +51,21 @@ struct Answer<'a> {
     choices: Choices,
     /// The parameters in the order in which designs have them.
     ids: Vec<ParameterId>,
+    /// The largest size of each margin.
+    scale: Vec<f64>,
+}
+
+fn scale(choices: &Choices) -> Vec<f64> {
+    let mut scale = vec![f64::MIN_POSITIVE; choices.judged.first().map_or(0, count_of)];
+    for choice in &choices.judged {
+        let sizes = choice.design.judged.margins.iter().map(|margin| margin.abs());
+        scale.iter_mut().zip(sizes).for_each(|(most, size)| *most = most.max(size));
+    }
+    scale
+}
+
+fn count_of(choice: &Choice) -> usize {
+    choice.design.judged.margins.len()
 }
 
 impl Answer<'_> {
@@ -59,8 +73,8 @@ impl Answer<'_> {
         &self.asked.study.catalogues
     }
 
-    fn requirements(&self) -> &[Requirement] {
-        &self.asked.study.requirements
+    fn kept(&self) -> &Kept<'_> {
+        &self.asked.kept
     }
 
     fn best(&self) -> Option<&Choice> {
@@ -82,21 +96,13 @@ impl Answer<'_> {
     /// The requirement that is broken by most, in shares of the largest margin that it has anywhere;
     /// where all are kept the one that comes closest.
     fn worst(&self, choice: &Choice) -> usize {
-        let scale = |i: usize| {
-            let sizes =
-                self.choices.judged.iter().map(|other| other.design.judged.margins[i].abs());
-            sizes.fold(f64::MIN_POSITIVE, f64::max)
-        };
         let shares =
-            choice.design.judged.margins.iter().enumerate().map(|(i, m)| (i, m / scale(i)));
-        shares.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i)
+            choice.design.judged.margins.iter().zip(&self.scale).map(|(m, scale)| m / scale);
+        shares.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i)
     }
 
     fn margin(&self, choice: &Choice, i: usize) -> String {
-        let unit = self.requirements()[i].ty.dimension.si_unit();
-        let margin = choice.design.judged.margins[i];
-        let margin = if margin.abs() < ZERO { 0.0 } else { margin };
-        format!("{}{}", significant(margin, 4), spaced(&unit))
+        self.kept().margin(i, choice.design.judged.margins[i])
     }
 
     /// Those that are shown to people: the last that are better by what is sought and fail, the
@@ -117,8 +123,7 @@ impl Answer<'_> {
     /// The margin of the worst requirement as a share of its size.
     fn share(&self, choice: &Choice) -> f64 {
         let i = self.worst(choice);
-        let sizes = self.choices.judged.iter().map(|other| other.design.judged.margins[i].abs());
-        choice.design.judged.margins[i] / sizes.fold(f64::MIN_POSITIVE, f64::max)
+        choice.design.judged.margins[i] / self.scale[i]
     }
 
     fn table(&self) -> TextTable {
@@ -132,8 +137,8 @@ impl Answer<'_> {
         let mut table = TextTable::of(&shown)
             .left("parts", |choice| self.parts(choice))
             .right("sought", |choice| self.objective(choice));
-        if self.requirements().len() > 1 {
-            let closest = |choice: &Choice| plain(&self.requirements()[self.worst(choice)].text);
+        if self.kept().all().len() > 1 {
+            let closest = |choice: &Choice| self.kept().text(self.worst(choice));
             table = table.left("closest", move |choice| closest(choice));
         }
         table = table.right("margin", |choice| self.margin(choice, self.worst(choice)));
@@ -160,7 +165,7 @@ impl Answer<'_> {
                      `{}` by {}",
                     count(self.choices.count, "choice"),
                     self.parts(choice),
-                    plain(&self.requirements()[i].text),
+                    self.kept().text(i),
                     self.margin(choice, i).trim_start_matches('-')
                 )
             });
@@ -193,18 +198,13 @@ impl Answer<'_> {
         let names =
             self.catalogues().iter().zip(&choice.parts).map(|(one, &part)| &one.parts[part]);
         let judged = &choice.design.judged;
-        let requirement = |(i, r): (usize, &Requirement)| {
-            let margin = SiValue::new(judged.margins[i], &r.ty.dimension.si_unit());
-            let at = judged.worst_at[i].map(|at| SiValue::new(at, "s"));
-            json!({ "requirement": r.text, "margin": margin, "worst_at": at })
-        };
         let unit = self.asked.study.objective.ty.dimension.si_unit();
         json!({
             "parts": names.collect::<Vec<_>>(),
             "objective": SiValue::new(choice.design.objective, &unit),
             "feasible": judged.keeps(),
             "values": self.values(choice),
-            "requirements": self.requirements().iter().enumerate().map(requirement).collect::<Vec<_>>(),
+            "requirements": self.kept().members(judged),
         })
     }
 
@@ -233,15 +233,17 @@ impl Page for Answer<'_> {
             ),
         );
         text.sentence("", &format!("one part of {}", files.join(", one of ")));
-        let kept: Vec<String> = self.requirements().iter().map(|r| plain(&r.text)).collect();
+        let kept: Vec<String> = study.requirements.iter().map(|r| plain(&r.text)).collect();
         text.sentence("", &format!("that keeps {}", kept.join(", ")));
-        if let Some(over) = page::over(&input.netlist, study) {
-            text.sentence("", &over);
-        }
+        page::when(&mut text, &input.netlist, (study, self.kept()));
         text.section().table(self.table());
         text.section();
         if let Some(unsure) = unverified(&input.netlist.network) {
-            text.sentence("note   ", &unsure);
+            text.sentence("note     ", &unsure);
+        }
+        let best = self.best().and_then(|best| self.kept().doubt(&best.design.judged));
+        if let Some(doubt) = best {
+            text.sentence("scatter  ", &doubt);
         }
         let solved = page::solved(study.over);
         let left = self.choices.count - self.choices.judged.len();
@@ -250,7 +252,7 @@ impl Page for Answer<'_> {
             left => format!("; {} with more to lose were not looked at", count(left, "choice")),
         };
         let proof = format!("{} {solved} of the full network{rest}", self.choices.solved);
-        text.sentence("proof  ", &proof);
+        text.sentence("proof    ", &proof);
         text.section().sentence("", &self.verdict());
         text
     }
@@ -271,9 +273,9 @@ impl Page for Answer<'_> {
         }
         let feasible = |choice: &Choice| if choice.design.judged.keeps() { 1.0 } else { 0.0 };
         table.column("feasible", "-", feasible);
-        for (i, r) in self.requirements().iter().enumerate() {
-            table
-                .column(&r.text, r.ty.dimension.si_unit(), |c: &Choice| c.design.judged.margins[i]);
+        for i in self.kept().all() {
+            let margin = |choice: &Choice| choice.design.judged.margins[i];
+            table.column(self.kept().text(i), self.kept().unit(i), margin);
         }
         table.done().into()
     }
@@ -291,14 +293,13 @@ impl Page for Answer<'_> {
         let best = self.best();
         let shown = best.or_else(|| self.shown().first().copied());
         let worst = shown.map(|choice| self.worst(choice));
-        let unit = |i: usize| self.requirements()[i].ty.dimension.si_unit();
         let margin = shown
             .zip(worst)
-            .map(|(choice, i)| SiValue::new(choice.design.judged.margins[i], &unit(i)));
+            .map(|(choice, i)| SiValue::new(choice.design.judged.margins[i], &self.kept().unit(i)));
         self.asked.input.head(json, &[])?;
         json.member("values", &shown.map(|choice| self.values(choice)))?;
         json.member("margin", &margin)?;
-        json.member("binding", &worst.map(|i| &self.requirements()[i].text))?;
+        json.member("binding", &worst.map(|i| &self.kept().requirement(i).text))?;
         json.member("feasible", &best.is_some())?;
         json.member("over", self.asked.study.over.word())?;
         json.member("objective", &self.asked.study.objective.text)?;

@@ -1,6 +1,5 @@
 //! Sizing as a picture: what is left to every requirement over the range.
 
-use lptn_netlist::Requirement;
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Level, Look, Moment, Panel};
 use lptn_study::Design;
@@ -15,9 +14,9 @@ impl Answer<'_> {
     pub(super) fn figure(&self) -> Figure {
         let unit = &self.unit;
         let mut panels: Vec<Panel> = Vec::new();
-        for (i, requirement) in self.study.requirements.iter().enumerate() {
-            let axis = Axis::linear("margin", requirement.ty.dimension.si_unit());
-            let curve = self.curve(i, requirement);
+        for i in self.kept.all() {
+            let axis = Axis::linear("margin", self.kept.unit(i));
+            let curve = self.curve(i);
             match panels.iter_mut().find(|panel| panel.y == axis) {
                 Some(panel) => panel.curves.push(curve),
                 None => {
@@ -49,13 +48,13 @@ impl Answer<'_> {
         }
     }
 
-    fn curve(&self, i: usize, requirement: &Requirement) -> Curve {
+    fn curve(&self, i: usize) -> Curve {
         let mut trials: Vec<_> = self.sizing.looked_at.iter().collect();
         trials.push(&self.sizing.trial);
         trials.sort_by(|a, b| a.value.total_cmp(&b.value));
         let points =
             trials.iter().map(|trial| (self.unit.from_si(trial.value), trial.judged.margins[i]));
-        Curve::line(&requirement.text, points.collect())
+        Curve::line(self.kept.text(i), points.collect())
     }
 }
 
@@ -65,10 +64,10 @@ pub(super) fn designs(asked: &Asked<'_>, all: &[&Design], answer: Option<&Design
     let objective = &asked.study.objective;
     let across = || Axis::linear(&objective.text, objective.ty.dimension.si_unit());
     let mut panels: Vec<Panel> = Vec::new();
-    for (i, requirement) in asked.study.requirements.iter().enumerate() {
-        let axis = Axis::linear("margin", requirement.ty.dimension.si_unit());
+    for i in asked.kept.all() {
+        let axis = Axis::linear("margin", asked.kept.unit(i));
         let points = all.iter().map(|design| (design.objective, design.judged.margins[i]));
-        let curve = Curve::line(&requirement.text, points.collect()).looks(Look::Dots);
+        let curve = Curve::line(asked.kept.text(i), points.collect()).looks(Look::Dots);
         match panels.iter_mut().find(|panel| panel.y == axis) {
             Some(panel) => panel.curves.push(curve),
             None => {

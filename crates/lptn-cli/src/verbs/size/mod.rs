@@ -5,6 +5,7 @@ mod changing;
 mod choice;
 mod cooling;
 mod figure;
+mod kept;
 mod moments;
 mod page;
 mod several;
@@ -15,6 +16,7 @@ pub(crate) use args::SizeArgs;
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
 
+use kept::Kept;
 use lptn_netlist::{Diagnostic, Requirement, SizeStudy};
 use lptn_network::ParameterId;
 use lptn_report::{Format, Page};
@@ -32,7 +34,7 @@ use crate::progress::ProgressLine;
 
 pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
     let Some(file) = &args.file else { return cooling::cooling(args, console) };
-    let input = Input::load(&Source { file: file.clone(), set: args.set.clone() })?;
+    let input = Input::load(&Source { set: args.set.clone(), ..Source::of(file.clone()) })?;
     let sizes = &input.netlist.studies.sizes;
     let study = STUDIES.find(&input, (sizes, |study| &study.name), args.name.as_deref())?;
     if args.write {
@@ -42,7 +44,8 @@ pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> 
     }
     console.warn(&input.netlist.files, &input.netlist.warnings);
     moments::check_period(&input, study)?;
-    let asked = Asked { input: &input, study, args, file, console };
+    let kept = Kept::of(&input.netlist, study);
+    let asked = Asked { input: &input, study, kept, args, file, console };
     match study.single() {
         Some(range) => single(&asked, &range.name),
         None if study.catalogues.is_empty() => several::several(&asked),
@@ -54,6 +57,7 @@ pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> 
 pub(crate) struct Asked<'a> {
     pub(crate) input: &'a Input,
     pub(crate) study: &'a SizeStudy,
+    pub(crate) kept: Kept<'a>,
     pub(crate) args: &'a SizeArgs,
     pub(crate) file: &'a Path,
     pub(crate) console: &'a Console,
@@ -112,7 +116,8 @@ fn single(asked: &Asked<'_>, name: &str) -> Result<Exit, Failure> {
     let sizing =
         asked.demand(|demand| lptn_study::size(&SizeTask { demand, parameter, range, goal }));
     let sizing = sizing.map_err(|error| failed(input, study, &error))?;
-    let answer = Answer { input, study, name, parameter, unit, range, sizing };
+    let kept = &asked.kept;
+    let answer = Answer { input, study, kept, name, parameter, unit, range, sizing };
     asked.show(&answer, || write::write(&answer, asked.file, asked.console))
 }
 
@@ -163,6 +168,7 @@ fn failed(input: &Input, study: &SizeStudy, error: &SizeError) -> Failure {
 pub(crate) struct Answer<'a> {
     pub(crate) input: &'a Input,
     pub(crate) study: &'a SizeStudy,
+    pub(crate) kept: &'a Kept<'a>,
     /// The name of the parameter.
     pub(crate) name: &'a str,
     pub(crate) parameter: ParameterId,
@@ -176,11 +182,11 @@ pub(crate) struct Answer<'a> {
 impl Answer<'_> {
     /// The requirement that stops the parameter; `None` where the end of the range does.
     pub(crate) fn binding(&self) -> Option<&Requirement> {
-        let closest = &self.study.requirements[self.sizing.closest];
+        let closest = self.kept.requirement(self.sizing.closest);
         (self.sizing.verdict != Verdict::BestEnd).then_some(closest)
     }
 
     fn closest_unit(&self) -> String {
-        self.study.requirements[self.sizing.closest].ty.dimension.si_unit()
+        self.kept.unit(self.sizing.closest)
     }
 }

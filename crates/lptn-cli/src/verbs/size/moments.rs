@@ -4,6 +4,7 @@ use lptn_netlist::{Netlist, Over, SizeStudy};
 use lptn_network::{Network, RunSettings};
 use lptn_study::{Demand, Moments, Watcher};
 
+use super::kept::cases;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::period;
@@ -36,11 +37,13 @@ pub(super) fn demanded<T>(
         Over::Run => Moments::Run(&run),
         Over::Periodic => Moments::Periodic(&cycle),
     };
+    let cases = cases(netlist, study);
     ask(Demand {
         network: &netlist.network,
-        cases: &[],
+        cases: &cases,
         requirements: &study.requirements,
         moments,
+        probability: study.probability(&netlist.network).ok().flatten(),
         watcher,
     })
 }

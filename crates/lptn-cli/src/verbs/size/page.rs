@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lptn_netlist::{Goal, Netlist, Over, Requirement, SizeStudy};
+use lptn_netlist::{Goal, Netlist, Over, SizeStudy};
 use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Report, Rows, Standing, Text, TextTable, duration, plain, significant,
@@ -13,15 +13,13 @@ use lptn_units::Unit;
 use serde_json::json;
 
 use super::Answer;
+use super::kept::Kept;
 use crate::about::{self, Known};
 use crate::ranges;
 use crate::words::{spaced, unverified};
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;
-
-/// Margins below this share of a unit are rounding.
-const ZERO: f64 = 1e-9;
 
 impl Page for Answer<'_> {
     fn text(&self) -> Text {
@@ -38,9 +36,7 @@ impl Page for Answer<'_> {
         );
         let mut text = Text::titled(self.input.title());
         text.sentence("", &sought);
-        if let Some(over) = over(&self.input.netlist, study) {
-            text.sentence("", &over);
-        }
+        when(&mut text, &self.input.netlist, (study, self.kept));
         text.section().table(requirements(self));
         text.section();
         for (label, note) in notes(self) {
@@ -56,8 +52,8 @@ impl Page for Answer<'_> {
         let value = self.unit.from_si(self.sizing.trial.value);
         table.column(self.name, &self.unit.text, |()| value);
         table.column("feasible", "-", |()| if self.sizing.feasible() { 1.0 } else { 0.0 });
-        for (r, &margin) in self.study.requirements.iter().zip(&self.sizing.trial.judged.margins) {
-            table.column(&r.text, r.ty.dimension.si_unit(), |()| margin);
+        for (i, &margin) in self.sizing.trial.judged.margins.iter().enumerate() {
+            table.column(self.kept.text(i), self.kept.unit(i), |()| margin);
         }
         table.done().into()
     }
@@ -73,13 +69,7 @@ impl Page for Answer<'_> {
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let (network, sizing) = (&self.input.netlist.network, &self.sizing);
         let si = network.parameters()[self.parameter.index()].ty.dimension.si_unit();
-        let requirement = |((r, &margin), at): ((&Requirement, &f64), &Option<f64>)| {
-            let margin = SiValue::new(margin, &r.ty.dimension.si_unit());
-            let at = at.map(|at| SiValue::new(at, "s"));
-            json!({ "requirement": r.text, "margin": margin, "worst_at": at })
-        };
-        let judged = &sizing.trial.judged;
-        let margins = self.study.requirements.iter().zip(&judged.margins).zip(&judged.worst_at);
+        let requirements = self.kept.members(&sizing.trial.judged);
         let scalar = |value: f64| SiValue::new(value, &si);
         let of_margin = |value: f64| SiValue::new(value, &self.closest_unit());
         self.input.head(json, &[])?;
@@ -87,7 +77,7 @@ impl Page for Answer<'_> {
         json.member("margin", &of_margin(sizing.margin()))?;
         json.member("binding", &self.binding().map(|requirement| &requirement.text))?;
         json.member("feasible", &sizing.feasible())?;
-        json.member("requirements", &margins.map(requirement).collect::<Vec<_>>())?;
+        json.member("requirements", &requirements)?;
         json.member("over", self.study.over.word())?;
         json.member("error", &sizing.error.map(scalar))?;
         json.member("sensitivity", &sizing.sensitivity.map(of_margin))?;
@@ -104,8 +94,28 @@ impl Page for Answer<'_> {
     }
 }
 
-/// When it has to be kept, where that is not the steady state.
-pub(super) fn over(netlist: &Netlist, study: &SizeStudy) -> Option<String> {
+/// When it has to be kept: over which moments, and in which load cases.
+pub(super) fn when(text: &mut Text, netlist: &Netlist, (study, kept): (&SizeStudy, &Kept<'_>)) {
+    if let Some(over) = over(netlist, study) {
+        text.sentence("", &over);
+    }
+    if let Some(probability) = study.probability(&netlist.network).ok().flatten() {
+        let percent = significant(100.0 * probability, 6);
+        text.sentence("", &format!("each with a probability of {percent} %"));
+    }
+    match kept.cases() {
+        [] => {}
+        [one] => {
+            text.sentence("", &format!("in case {}", plain(one)));
+        }
+        several => {
+            let names: Vec<String> = several.iter().map(|name| plain(name)).collect();
+            text.sentence("", &format!("in each of the cases {}", names.join(", ")));
+        }
+    }
+}
+
+fn over(netlist: &Netlist, study: &SizeStudy) -> Option<String> {
     let lasts = match study.over {
         Over::Steady => return None,
         Over::Run => netlist.run.as_ref().map(|run| run.stop - run.start),
@@ -168,21 +178,16 @@ pub(crate) fn rounded(value: f64, digits: usize, up: bool) -> f64 {
 
 fn requirements(answer: &Answer<'_>) -> TextTable {
     let (study, sizing) = (answer.study, &answer.sizing);
-    let margin = |i: usize| {
-        let (margin, unit) =
-            (sizing.trial.judged.margins[i], study.requirements[i].ty.dimension.si_unit());
-        let margin = if margin.abs() < ZERO { 0.0 } else { margin };
-        format!("{}{}", significant(margin, 4), spaced(&unit))
-    };
+    let kept = answer.kept;
+    let margin = |i: usize| kept.margin(i, sizing.trial.judged.margins[i]);
     let word = |i: usize| match sizing.verdict {
         _ if sizing.trial.judged.margins[i] < 0.0 => "broken",
         Verdict::Bound if i == sizing.closest => "binds",
         _ => "kept",
     };
-    let rows: Vec<usize> = (0..study.requirements.len()).collect();
-    let mut table = TextTable::of(&rows)
-        .left("requirement", |&i| plain(&study.requirements[i].text))
-        .right("margin", |&i| margin(i));
+    let rows = kept.all();
+    let mut table =
+        TextTable::of(&rows).left("requirement", |&i| kept.text(i)).right("margin", |&i| margin(i));
     if study.over != Over::Steady {
         let at = |i: usize| sizing.trial.judged.worst_at[i];
         table = table.right("at", |&i| at(i).map_or("-".into(), |at| duration(at, 4)));
@@ -197,13 +202,13 @@ fn requirements(answer: &Answer<'_>) -> TextTable {
 fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
     let (study, sizing) = (answer.study, &answer.sizing);
     let name = answer.name;
-    let closest = &study.requirements[sizing.closest];
-    let unit = closest.ty.dimension.si_unit();
+    let unit = answer.kept.unit(sizing.closest);
     let mut notes = Vec::new();
     if let Some(sensitivity) = sizing.sensitivity {
         let change = significant(sensitivity, 3);
         notes.push(("sensitivity", format!("{change} {unit} of margin for 1 % more {name}")));
     }
+    notes.extend(answer.kept.doubt(&sizing.trial.judged).map(|doubt| ("scatter", doubt)));
     if let Some(guess) = sizing.first_guess {
         notes.push((
             "first guess",
@@ -233,7 +238,6 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
 /// One sentence with the answer.
 pub(crate) fn verdict(answer: &Answer<'_>) -> String {
     let (study, sizing) = (answer.study, &answer.sizing);
-    let closest = &study.requirements[sizing.closest];
     match sizing.verdict {
         Verdict::Bound => format!("{} keeps every requirement", value(answer)),
         Verdict::BestEnd => {
@@ -248,9 +252,9 @@ pub(crate) fn verdict(answer: &Answer<'_>) -> String {
         Verdict::Infeasible => {
             let off = significant(-sizing.margin(), 4);
             let at = quantity(answer.name, sizing.trial.value, &answer.unit);
-            let unit = closest.ty.dimension.si_unit();
+            let unit = answer.kept.unit(sizing.closest);
             let end = end(answer).map_or(String::new(), |end| format!(", the {end} of the range"));
-            let text = plain(&closest.text);
+            let text = answer.kept.text(sizing.closest);
             format!("infeasible: at best, with {at}{end}, `{text}` is broken by {off} {unit}")
         }
     }

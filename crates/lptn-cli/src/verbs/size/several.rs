@@ -2,7 +2,6 @@
 
 use std::io;
 
-use lptn_netlist::Requirement;
 use lptn_network::ParameterId;
 use lptn_plot::Figure;
 use lptn_report::{
@@ -13,6 +12,7 @@ use lptn_study::{Aim, Design, Several, SeveralTask, SiValue, size_several};
 use lptn_units::Unit;
 use serde_json::{Map, Value, json};
 
+use super::kept::Kept;
 use super::{Asked, failed, figure, page, write};
 use crate::about::{self, Known};
 use crate::exit::Exit;
@@ -22,9 +22,6 @@ use crate::words::{spaced, unverified};
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;
-
-/// Margins below this share of a unit are rounding.
-const ZERO: f64 = 1e-9;
 
 /// A value nearer to an end of its range than this share of it stands there.
 const AT_END: f64 = 1e-6;
@@ -50,8 +47,8 @@ struct Answer<'a> {
 }
 
 impl Answer<'_> {
-    fn requirements(&self) -> &[Requirement] {
-        &self.asked.study.requirements
+    fn kept(&self) -> &Kept<'_> {
+        &self.asked.kept
     }
 
     fn name(&self, i: usize) -> &str {
@@ -84,20 +81,15 @@ impl Answer<'_> {
 
     fn requirement_table(&self) -> TextTable {
         let judged = &self.found.design.judged;
-        let all: Vec<usize> = (0..judged.margins.len()).collect();
-        let margin = |i: usize| {
-            let unit = self.requirements()[i].ty.dimension.si_unit();
-            let margin = judged.margins[i];
-            let margin = if margin.abs() < ZERO { 0.0 } else { margin };
-            format!("{}{}", significant(margin, 4), spaced(&unit))
-        };
+        let all = self.kept().all();
+        let margin = |i: usize| self.kept().margin(i, judged.margins[i]);
         let word = |i: usize| match judged.margins[i] {
             margin if margin < 0.0 => "broken",
             _ if self.found.binding.contains(&i) => "binds",
             _ => "kept",
         };
         let mut table = TextTable::of(&all)
-            .left("requirement", |&i| plain(&self.requirements()[i].text))
+            .left("requirement", |&i| self.kept().text(i))
             .right("margin", |&i| margin(i));
         if judged.worst_at.iter().any(Option::is_some) {
             let at = |&i: &usize| judged.worst_at[i].map_or("-".into(), |at| duration(at, 4));
@@ -134,9 +126,8 @@ impl Answer<'_> {
             );
         }
         let broken = self.worst().map_or_else(String::new, |i| {
-            let unit = self.requirements()[i].ty.dimension.si_unit();
-            let off = significant(-self.found.design.judged.margins[i], 4);
-            format!("`{}` is broken by {off}{}", plain(&self.requirements()[i].text), spaced(&unit))
+            let off = self.kept().margin(i, -self.found.design.judged.margins[i]);
+            format!("`{}` is broken by {off}", self.kept().text(i))
         });
         format!("infeasible: where the search came closest {broken}")
     }
@@ -167,18 +158,19 @@ impl Page for Answer<'_> {
         let mut text = Text::titled(input.title());
         let sought = plain(&study.objective.text);
         text.sentence("", &format!("size {}: the {goal} {sought}", study.name));
-        if let Some(over) = page::over(&input.netlist, study) {
-            text.sentence("", &over);
-        }
+        page::when(&mut text, &input.netlist, (study, self.kept()));
         text.section().table(self.parameters());
         text.section().table(self.requirement_table());
         text.section();
         if let Some(unsure) = unverified(&input.netlist.network) {
-            text.sentence("note   ", &unsure);
+            text.sentence("note     ", &unsure);
+        }
+        if let Some(doubt) = self.kept().doubt(&self.found.design.judged) {
+            text.sentence("scatter  ", &doubt);
         }
         let outside = &self.found.design.judged.out_of_range;
         for warning in ranges::warnings(&input.netlist, outside, false) {
-            text.sentence("note   ", &warning.message);
+            text.sentence("note     ", &warning.message);
         }
         let proof = format!(
             "{} {} of the full network; none of the {} places looked at is better",
@@ -186,7 +178,7 @@ impl Page for Answer<'_> {
             page::solved(study.over),
             self.found.looked_at.len()
         );
-        text.sentence("proof  ", &proof);
+        text.sentence("proof    ", &proof);
         text.section().sentence("", &self.verdict());
         text
     }
@@ -202,8 +194,8 @@ impl Page for Answer<'_> {
         let value = self.found.design.objective;
         table.column(&objective.text, objective.ty.dimension.si_unit(), |()| value);
         table.column("feasible", "-", |()| if self.found.feasible { 1.0 } else { 0.0 });
-        for (r, &margin) in self.requirements().iter().zip(&self.found.design.judged.margins) {
-            table.column(&r.text, r.ty.dimension.si_unit(), |()| margin);
+        for (i, &margin) in self.found.design.judged.margins.iter().enumerate() {
+            table.column(self.kept().text(i), self.kept().unit(i), |()| margin);
         }
         table.done().into()
     }
@@ -220,25 +212,24 @@ impl Page for Answer<'_> {
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let (judged, worst) = (&self.found.design.judged, self.worst());
-        let unit = |i: usize| self.requirements()[i].ty.dimension.si_unit();
-        let requirement = |(i, r): (usize, &Requirement)| {
-            let margin = SiValue::new(judged.margins[i], &unit(i));
-            let at = judged.worst_at[i].map(|at| SiValue::new(at, "s"));
-            let binds = self.found.binding.contains(&i);
-            json!({ "requirement": r.text, "margin": margin, "worst_at": at, "binds": binds })
-        };
-        let requirements = self.requirements().iter().enumerate().map(requirement);
+        let mut requirements = self.kept().members(judged);
+        for (i, member) in requirements.iter_mut().enumerate() {
+            member["binds"] = self.found.binding.contains(&i).into();
+        }
         let objective = &self.asked.study.objective;
         let value = SiValue::new(self.found.design.objective, &objective.ty.dimension.si_unit());
-        let binding = self.found.binding.first().map(|&i| &self.requirements()[i].text);
+        let binding = self.found.binding.first().map(|&i| &self.kept().requirement(i).text);
         self.asked.input.head(json, &[])?;
         json.member("values", &self.values())?;
-        json.member("margin", &worst.map(|i| SiValue::new(judged.margins[i], &unit(i))))?;
+        json.member(
+            "margin",
+            &worst.map(|i| SiValue::new(judged.margins[i], &self.kept().unit(i))),
+        )?;
         json.member("binding", &binding)?;
         json.member("feasible", &self.found.feasible)?;
         json.member("over", self.asked.study.over.word())?;
         json.member("objective", &json!({ "text": objective.text, "value": value }))?;
-        json.member("requirements", &requirements.collect::<Vec<_>>())
+        json.member("requirements", &requirements)
     }
 
     fn no(&self) -> Option<String> {

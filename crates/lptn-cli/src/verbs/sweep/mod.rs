@@ -45,7 +45,7 @@ pub(crate) fn sweep(args: &SweepArgs, console: &Console) -> Result<Exit, Failure
 fn candidates(args: &SweepArgs, console: &Console) -> Result<Exit, Failure> {
     // without a verb there is a file
     let file = args.file.clone().unwrap_or_default();
-    let source = Source { file, set: args.set.clone() };
+    let source = Source { set: args.set.clone(), ..Source::of(file) };
     let input = console.phases.timed("read", || Input::load(&source))?;
     let asked = Asked::new(args, &input)?;
     let folder = match args.no_files {

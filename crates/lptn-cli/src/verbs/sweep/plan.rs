@@ -11,7 +11,7 @@ use crate::input::{Input, quoted};
 use crate::options::Source;
 
 pub(crate) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, Failure> {
-    let source = Source { file: args.file.clone(), set: args.set.clone() };
+    let source = Source { set: args.set.clone(), ..Source::of(args.file.clone()) };
     let input = Input::load(&source)?;
     let study = asked::study(&input, args.name.as_deref())?;
     let cases = study.plan(&input.netlist.network).map(|plan| plan.cases).unwrap_or(0);

@@ -40,7 +40,7 @@ pub(crate) struct Answer<'a> {
 }
 
 pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Failure> {
-    let input = Input::load(&Source { file: args.file.clone(), set: args.set.clone() })?;
+    let input = Input::load(&Source { set: args.set.clone(), ..Source::of(args.file.clone()) })?;
     let fits = &input.netlist.studies.fits;
     let study = STUDIES.find(&input, (fits, |study| &study.name), args.name.as_deref())?;
     console.warn(&input.netlist.files, &input.netlist.warnings);

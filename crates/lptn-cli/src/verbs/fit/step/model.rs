@@ -34,7 +34,7 @@ impl Model {
     }
 
     fn of(file: &Path, port: &str, (begin, times): (f64, &[f64])) -> Result<Self, Failure> {
-        let input = Input::load(&Source { file: file.to_owned(), set: Vec::new() })?;
+        let input = Input::load(&Source::of(file.to_owned()))?;
         let network = &input.netlist.network;
         let explain = |error: StepError| failed(&input, port, &error);
         let node =

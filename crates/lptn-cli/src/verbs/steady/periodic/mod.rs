@@ -46,7 +46,7 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
         format: args.shown.format,
         balance: balance::end(netlist, args.balance.as_deref(), args.shown.format)?,
         input: &input,
-        set: &args.source.set,
+        set: &input.set,
         at: Vec::new(),
         whole: console.reports(),
     };
