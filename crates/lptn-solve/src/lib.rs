@@ -106,7 +106,7 @@ pub use stiffness::Stiffness;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, LabelColumn, Table, TableOf};
 pub use unsolved::Unsolved;
-pub use variants::{CourseSeen, LinearVariants, Quantity as FollowedQuantity};
+pub use variants::{CourseSeen, LinearVariants, Look, Quantity as FollowedQuantity};
 pub use verification::{
     LEAST_TOLERANCE, NoReference, Reference, RunComparison, Verification, allowed_error,
 };
