@@ -98,6 +98,9 @@ const STEPS: usize = 8;
 /// Of the fastest mode a step is this part of its time constant at first.
 const FIRST: f64 = 0.5;
 
+/// A turn is found to this share of a step: what the value misses is the square of that.
+const TURNED: f64 = 1e-8;
+
 /// Steps towards a zero.
 const MOST_NEWTON: usize = 60;
 
@@ -105,14 +108,16 @@ const MOST_NEWTON: usize = 60;
 type Point = (f64, f64, f64);
 
 impl Course<'_> {
-    fn at(&self, s: f64) -> Point {
-        let (mut value, mut slope) = (self.p + self.q * s, self.q);
+    /// Value, slope and curvature.
+    fn at(&self, s: f64) -> [f64; 3] {
+        let (mut value, mut slope, mut curvature) = (self.p + self.q * s, self.q, 0.0);
         for (e, rate) in self.e.iter().zip(self.rates) {
             let part = e * (-rate * s).exp();
             value += part;
             slope -= rate * part;
+            curvature += rate * rate * part;
         }
-        (s, value, slope)
+        [value, slope, curvature]
     }
 
     /// Whether it does not turn any more, where the modes have come to `parts`. The slope is
@@ -194,16 +199,12 @@ impl Course<'_> {
             seen.positive += self.positive(from, to);
             return;
         }
-        let turn = self.at(self.zero((from.0, to.0), from.2 > 0.0, &|s| {
-            let curvature: f64 = self
-                .e
-                .iter()
-                .zip(self.rates)
-                .map(|(e, rate)| e * rate * rate * (-rate * s).exp())
-                .sum();
-            (self.at(s).2, curvature)
-        }));
-        seen.take_in(turn.1);
+        let ends = (from.0, to.0);
+        let enough = TURNED * (to.0 - from.0);
+        let guess = between(ends, (from.2, to.2));
+        let (at, [value, slope, _]) = self.zero(1, (ends, guess, enough), from.2 > 0.0);
+        let turn = (at, value, slope);
+        seen.take_in(value);
         seen.positive += self.positive(from, turn) + self.positive(turn, to);
     }
 
@@ -214,40 +215,48 @@ impl Course<'_> {
             (true, true) => length,
             (false, false) => 0.0,
             (above, _) => {
-                let zero = self.zero((from.0, to.0), above, &|s| {
-                    let (_, value, slope) = self.at(s);
-                    (value, slope)
-                });
+                let ends = (from.0, to.0);
+                let guess = between(ends, (from.1, to.1));
+                let enough = 4.0 * f64::EPSILON * self.length;
+                let (zero, _) = self.zero(0, (ends, guess, enough), above);
                 if above { zero - from.0 } else { to.0 - zero }
             }
         }
     }
 
-    /// Where a function that begins above zero, or below it, passes it: Newton's method inside an
-    /// interval that shrinks.
+    /// Where the value (`of` 0) or the slope (1) passes zero that begins above it, or below, to
+    /// `enough`: Newton's method inside an interval that shrinks. Also what is there.
     fn zero(
         &self,
-        (mut low, mut high): (f64, f64),
+        of: usize,
+        ((mut low, mut high), guess, enough): ((f64, f64), f64, f64),
         above: bool,
-        of: &dyn Fn(f64) -> (f64, f64),
-    ) -> f64 {
-        let mut s = 0.5 * (low + high);
+    ) -> (f64, [f64; 3]) {
+        let mut s = guess;
+        let mut found = self.at(s);
         for _ in 0..MOST_NEWTON {
-            let (value, slope) = of(s);
-            if (value > 0.0) == above {
+            if (found[of] > 0.0) == above {
                 low = s
             } else {
                 high = s
             }
-            let newton = s - value / slope;
+            let newton = s - found[of] / found[of + 1];
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - s).abs() <= 4.0 * f64::EPSILON * self.length {
-                return next;
+            if (next - s).abs() <= enough {
+                return (next, found);
             }
             s = next;
+            found = self.at(s);
         }
-        s
+        (s, found)
     }
+}
+
+/// Where the straight line between two values of different sign passes zero.
+fn between((from, to): (f64, f64), (first, last): (f64, f64)) -> f64 {
+    let share = first / (first - last);
+    let share = if share > 0.0 && share < 1.0 { share } else { 0.5 };
+    from + (to - from) * share
 }
 
 #[cfg(test)]
