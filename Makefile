@@ -19,7 +19,7 @@ SUNDIALS ?= system
 export SUNDIALS
 features = $(if $(filter bundled,$(SUNDIALS)),--features lptn-cli/bundled)
 
-.PHONY: demo test build dist book setup setup-tests setup-bench bench bench-all bench-micro audit fuzz mutants check-wasm clean
+.PHONY: demo test test-kills test-slurm build dist book setup setup-tests setup-bench bench bench-all bench-micro audit fuzz mutants check-wasm clean
 
 demo: build
 	./target/release/lptn run networks/gearbox.toml
@@ -32,6 +32,14 @@ dist:
 
 test: setup-tests
 	cargo test --workspace --locked $(features)
+
+# A sweep that is killed fifty times.
+test-kills: setup-tests
+	cargo test --workspace --locked $(features) --test sweep_resume -- --ignored
+
+# A sweep as a job array of a Slurm of its own on this machine; as root.
+test-slurm: build
+	@./.ci/test-slurm
 
 bench: setup-bench build
 	@./benches/run

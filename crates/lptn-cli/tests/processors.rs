@@ -40,3 +40,18 @@ fn results_do_not_depend_on_the_processor() {
         }
     }
 }
+
+/// Closed forms of sweeps have decompositions of their own, which no library chooses by the
+/// processor.
+#[test]
+fn sweeps_do_not_depend_on_the_processor() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/cookbook/candidates.md");
+    let page = std::fs::read_to_string(page).unwrap();
+    let netlist = page.split("```toml motor.toml\n").nth(1).unwrap().split("```").next().unwrap();
+    let file = std::env::temp_dir().join(format!("lptn-processors-{}.toml", std::process::id()));
+    std::fs::write(&file, netlist).unwrap();
+    let sweep: &[&str] = &["sweep", "--no-files", "--format", "csv"];
+    let (here, older) = (printed(sweep, &file, None), printed(sweep, &file, Some(OLDER)));
+    std::fs::remove_file(&file).unwrap();
+    assert!(here.len() > 10_000 && here == older);
+}

@@ -264,3 +264,31 @@ fn inputs_that_change_have_no_steady_state() {
     let folder = Folder::with("node.toml", &text);
     folder.run(&["sweep", "node.toml", "steady"]).exits(2).says("sweep::inputs_change");
 }
+
+/// A power that is on for half of a cycle: with h = (half a cycle) G/C the top of the settled cycle
+/// is T_air + P/G (1 - exp(-h)) / (1 - exp(-2 h)), and the least exp(-h) of that rise.
+#[test]
+fn settled_cycles_of_a_duty() {
+    let text = NODE
+        .replace(r#"P = "P" }"#, r#"P = "P * duty" }"#)
+        .replace("[sweep.steady]", "[sweep.cycle]\nover = \"periodic\"")
+        .replace(
+            r#"report = { T = "block.T", Q = "skin.Q", half = "share * P" }"#,
+            r#"report = { top = "max(block.T)", low = "min(block.T)", mean = "mean(block.T)" }"#,
+        );
+    let duty = "[signal]\nduty = { t = [\"0 s\", \"100 s\", \"200 s\"], v = [1, 0, 1], interp = \"previous\", \
+                after_end = \"repeat\" }\n\n[sweep.cycle]";
+    let folder = Folder::with("node.toml", &text.replacen("[sweep.cycle]", duty, 1));
+    for row in rows(&csv(&folder, "cycle", &[])) {
+        let (p, g) = (row[1], row[2]);
+        let (h, rise) = (0.1 * g, p / g);
+        let top = rise * (1.0 - (-h).exp()) / (1.0 - (-2.0 * h).exp());
+        near(row[3], 20.0 + top, 1e-8);
+        near(row[4], 20.0 + top * (-h).exp(), 1e-8);
+        near(row[5], 20.0 + 0.5 * rise, 1e-8);
+    }
+    let uneven = text.replace("P * duty", "P * t / 1 [s]");
+    folder.write("uneven.toml", &uneven);
+    let ran = folder.run(&["sweep", "uneven.toml", "cycle", "--no-files"]);
+    ran.exits(2).says("sweep::no_period");
+}

@@ -133,23 +133,31 @@ impl CsvFile {
         wanted: Option<Type>,
         ask: &Asked,
     ) -> Result<PlacedNumbers, Vec<Diagnostic>> {
+        let mut found = self.columns(&[(name, wanted, ask)]);
+        found.pop().unwrap_or_else(|| Err(Vec::new()))
+    }
+
+    /// Several columns, for which the file is gone through once.
+    pub fn columns(
+        self: &Arc<Self>,
+        asked: &[(&str, Option<Type>, &Asked)],
+    ) -> Vec<Result<PlacedNumbers, Vec<Diagnostic>>> {
         let head = &self.head;
-        let CsvColumn { index, unit } =
-            head.numbers(name, wanted, ask).map_err(|problem| vec![problem])?;
-        let mut numbers =
-            Vec::with_capacity(self.text.bytes().filter(|&byte| byte == b'\n').count());
-        let mut problems = Vec::new();
+        let mut columns: Vec<Reading<'_>> = asked
+            .iter()
+            .map(|(name, wanted, ask)| Reading {
+                column: head.numbers(name, *wanted, ask).map_err(|problem| vec![problem]),
+                ask,
+                numbers: Vec::new(),
+                problems: Vec::new(),
+            })
+            .collect();
         self.visit(|cells| {
-            match value(cells.get(index).unwrap_or_default().trim(), &unit) {
-                Ok(number) => numbers.push(number),
-                Err(wrong) => problems.push(head.no_number(&self.row(cells), (index, wrong), ask)),
-            }
-            (problems.len() >= MOST_WRONG).then_some(())
+            columns.iter_mut().for_each(|reading| reading.take(self, cells));
+            let wrong: usize = columns.iter().map(|reading| reading.problems.len()).sum();
+            (wrong >= MOST_WRONG).then_some(())
         });
-        let (whole, places) =
-            (head.columns[index].place.clone(), Places::Column(Arc::clone(self), index));
-        let points = PlacedNumbers { numbers, ty: unit.ty, places, whole, unit: Some(unit) };
-        if problems.is_empty() { Ok(points) } else { Err(problems) }
+        columns.into_iter().map(|reading| reading.done(self)).collect()
     }
 
     /// The names of its columns, each with its place.
@@ -193,6 +201,41 @@ impl CsvFile {
     /// The place of the header.
     pub fn header(&self) -> &Span {
         &self.head.place
+    }
+}
+
+/// A column while it is read.
+struct Reading<'a> {
+    column: Result<CsvColumn, Vec<Diagnostic>>,
+    ask: &'a Asked,
+    numbers: Vec<f64>,
+    problems: Vec<Diagnostic>,
+}
+
+impl Reading<'_> {
+    /// Takes in its cell of a row.
+    fn take(&mut self, file: &CsvFile, cells: &csv::StringRecord) {
+        let Ok(CsvColumn { index, unit }) = &self.column else { return };
+        match value(cells.get(*index).unwrap_or_default().trim(), unit) {
+            Ok(number) => self.numbers.push(number),
+            Err(wrong) => {
+                self.problems.push(file.head.no_number(
+                    &file.row(cells),
+                    (*index, wrong),
+                    self.ask,
+                ));
+            }
+        }
+    }
+
+    fn done(self, file: &Arc<CsvFile>) -> Result<PlacedNumbers, Vec<Diagnostic>> {
+        let CsvColumn { index, unit } = self.column?;
+        if !self.problems.is_empty() {
+            return Err(self.problems);
+        }
+        let places = Places::Column(Arc::clone(file), index);
+        let whole = file.head.columns[index].place.clone();
+        Ok(PlacedNumbers { numbers: self.numbers, ty: unit.ty, places, whole, unit: Some(unit) })
     }
 }
 

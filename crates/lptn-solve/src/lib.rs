@@ -109,7 +109,7 @@ pub use stiffness::Stiffness;
 pub use summary::{NodeSummary, Summary};
 pub use table::{Column, LabelColumn, Table, TableOf};
 pub use unsolved::Unsolved;
-pub use variants::{CourseSeen, LinearVariants, Quantity as FollowedQuantity};
+pub use variants::{CourseSeen, LinearVariants, Look, Quantity as FollowedQuantity};
 pub use verification::{
     Disturbance, DisturbanceShape, LEAST_TOLERANCE, NearError, NearState, NoReference, Reference,
     RunComparison, Verification, allowed_error,

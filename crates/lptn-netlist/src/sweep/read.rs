@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lptn_data::{Asked, CsvFile, Diagnostic, Span, list};
+use lptn_data::{Asked, CsvFile, Diagnostic, PlacedNumbers, Span, list};
 use lptn_network::Value;
 use lptn_units::{Dimension, Type};
 
@@ -190,9 +190,23 @@ impl<'a> Elaboration<'a> {
             None => self.all_columns(fields, &file)?,
             Some(_) => self.axis_names(fields)?,
         };
-        let axes: Vec<_> = wanted
+        let known: Vec<_> = wanted
             .into_iter()
-            .map(|(name, span)| self.csv_axis(fields, &file, (name, span)))
+            .map(|(name, span)| {
+                let ty = self.axis_type(fields, &name, &span)?;
+                let words = format!("`{name}` of {}", fields.owner.words());
+                Some((name, ty, Asked { words, span: Some(span) }))
+            })
+            .collect();
+        let known: Option<Vec<_>> = known.into_iter().collect();
+        let known = known?;
+        let asked: Vec<_> =
+            known.iter().map(|(name, ty, asked)| (name.as_str(), Some(*ty), asked)).collect();
+        let columns = file.columns(&asked);
+        let axes: Vec<_> = known
+            .into_iter()
+            .zip(columns)
+            .map(|(axis, column)| self.csv_axis(fields, axis, column))
             .collect();
         axes.into_iter().collect()
     }
@@ -242,13 +256,9 @@ impl<'a> Elaboration<'a> {
     fn csv_axis(
         &mut self,
         fields: &Fields<'a>,
-        file: &Arc<CsvFile>,
-        (name, span): (String, Span),
+        (name, _, asked): (String, Type, Asked),
+        column: Result<PlacedNumbers, Vec<Diagnostic>>,
     ) -> Option<SweepAxis> {
-        let ty = self.axis_type(fields, &name, &span)?;
-        let words = format!("`{name}` of {}", fields.owner.words());
-        let asked = Asked { words, span: Some(span.clone()) };
-        let column = file.column(&name, Some(ty), &asked);
         let column = column.map_err(|problems| self.problems.extend(problems)).ok()?;
         if column.numbers.is_empty() {
             let message = format!("{} has a header and no rows", fields.owner.field("file"));
@@ -256,6 +266,7 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::sweep_empty", message, &column.whole, help);
             return None;
         }
+        let span = asked.span.unwrap_or_else(|| column.whole.clone());
         Some(SweepAxis { name, span, values: AxisValues::Column(column) })
     }
 }

@@ -10,7 +10,7 @@ pub struct CourseSeen {
     pub min: f64,
     /// Its largest value.
     pub max: f64,
-    /// Its integral over time.
+    /// Its integral over time, where that was asked for.
     pub integral: f64,
     /// For how long it was above zero, in s.
     pub positive: f64,
@@ -31,7 +31,18 @@ impl CourseSeen {
     }
 }
 
-/// `p + q s + sum of e_k exp(-r_k s)` for `s` from 0 to `length`.
+/// What is asked of a course; its end is always seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Look {
+    /// Nothing more.
+    End,
+    /// Its integral.
+    Integral,
+    /// Its extremes and for how long it is above zero.
+    Extremes,
+}
+
+/// `p + q s + sum of e_k exp(-r_k s)` for `s` from 0 to `length`, slowest rate first.
 #[derive(Clone, Debug)]
 pub(crate) struct Course<'a> {
     pub(crate) p: f64,
@@ -41,11 +52,54 @@ pub(crate) struct Course<'a> {
     pub(crate) length: f64,
 }
 
-/// Steps of one length: behind so many of them a mode that is faster than they are is gone.
-const STEPS: usize = 12;
+/// What all courses of a stretch share.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Stretch {
+    /// What is left of each mode at its end.
+    pub(crate) ends: Vec<f64>,
+    /// The integral of what it loses, in s.
+    pub(crate) lost: Vec<f64>,
+    /// What a step of each length leaves of each mode, as far as such steps were taken.
+    factors: Vec<f64>,
+}
+
+impl Stretch {
+    /// Begins with a stretch of this length in s.
+    /// `integrated` is whether integrals are asked for.
+    pub(crate) fn begin(&mut self, rates: &[f64], length: f64, integrated: bool) {
+        self.factors.clear();
+        self.ends.clear();
+        self.ends.extend(rates.iter().map(|rate| (-rate * length).exp()));
+        self.lost.clear();
+        match integrated {
+            true => self.lost.extend(rates.iter().map(|rate| -(-rate * length).exp_m1() / rate)),
+            false => self.lost.resize(rates.len(), 0.0),
+        }
+    }
+
+    /// What steps of the `level`-th length leave of the modes; `doubled` is whether they are twice
+    /// as long as those before them.
+    fn factors(&mut self, level: usize, (rates, step): (&[f64], f64), doubled: bool) -> &[f64] {
+        let (place, n) = (level * rates.len(), rates.len());
+        if self.factors.len() <= place && doubled {
+            // ten doublings cost 1000 roundings: nothing beside what is looked for
+            self.factors.extend_from_within(place - n..place);
+            self.factors[place..].iter_mut().for_each(|factor| *factor *= *factor);
+        } else if self.factors.len() <= place {
+            self.factors.extend(rates.iter().map(|rate| (-rate * step).exp()));
+        }
+        &self.factors[place..place + n]
+    }
+}
+
+/// Steps of one length.
+const STEPS: usize = 8;
 
 /// Of the fastest mode a step is this part of its time constant at first.
 const FIRST: f64 = 0.5;
+
+/// A turn is found to this share of a step: what the value misses is the square of that.
+const TURNED: f64 = 1e-8;
 
 /// Steps towards a zero.
 const MOST_NEWTON: usize = 60;
@@ -54,62 +108,76 @@ const MOST_NEWTON: usize = 60;
 type Point = (f64, f64, f64);
 
 impl Course<'_> {
-    fn at(&self, s: f64) -> Point {
-        let (mut value, mut slope) = (self.p + self.q * s, self.q);
+    /// Value, slope and curvature.
+    fn at(&self, s: f64) -> [f64; 3] {
+        let (mut value, mut slope, mut curvature) = (self.p + self.q * s, self.q, 0.0);
         for (e, rate) in self.e.iter().zip(self.rates) {
             let part = e * (-rate * s).exp();
             value += part;
             slope -= rate * part;
+            curvature += rate * rate * part;
         }
-        (s, value, slope)
+        [value, slope, curvature]
     }
 
-    /// Whether it never turns: every part of the slope has one sign.
-    fn is_monotonic(&self) -> bool {
-        let up = |x: f64| x >= 0.0;
-        let down = |x: f64| x <= 0.0;
-        (up(self.q) && self.e.iter().all(|e| down(*e)))
-            || (down(self.q) && self.e.iter().all(|e| up(*e)))
+    /// Whether it does not turn any more, where the modes have come to `parts`. The slope is
+    /// `q - sum of r_k e_k exp(-r_k s)`: with its sums from the slowest part on, it is a sum of those
+    /// times differences of exponentials that are not negative (Abel's summation), so it keeps its
+    /// sign if they all have one.
+    fn is_monotonic(&self, parts: &[f64]) -> bool {
+        let (mut sum, mut least, mut most) = (self.q, self.q, self.q);
+        for (part, rate) in parts.iter().zip(self.rates) {
+            sum -= rate * part;
+            (least, most) = (least.min(sum), most.max(sum));
+        }
+        least >= 0.0 || most <= 0.0
     }
 
-    /// Takes the stretch in. `ends` are the exponentials at its end.
-    pub(crate) fn see(&self, ends: &[f64], seen: &mut CourseSeen) {
-        let sum = |of: &dyn Fn(usize) -> f64| -> f64 { (0..self.e.len()).map(of).sum() };
-        let first = self.p + sum(&|k| self.e[k]);
-        let slope = self.q - sum(&|k| self.e[k] * self.rates[k]);
-        let value = self.p + self.q * self.length + sum(&|k| self.e[k] * ends[k]);
-        let end = self.q - sum(&|k| self.e[k] * self.rates[k] * ends[k]);
-        let decays = sum(&|k| -self.e[k] * (-self.rates[k] * self.length).exp_m1() / self.rates[k]);
-        seen.integral += self.p * self.length + 0.5 * self.q * self.length * self.length + decays;
+    /// Takes the stretch in.
+    pub(crate) fn see(&self, stretch: &mut Stretch, look: Look, seen: &mut CourseSeen) {
+        let (mut first, mut slope) = (self.p, self.q);
+        let (mut value, mut end_slope) = (self.p + self.q * self.length, self.q);
+        let mut integral = self.p * self.length + 0.5 * self.q * self.length * self.length;
+        for (k, &e) in self.e.iter().enumerate() {
+            first += e;
+            slope -= e * self.rates[k];
+            value += e * stretch.ends[k];
+            end_slope -= e * self.rates[k] * stretch.ends[k];
+            integral += e * stretch.lost[k];
+        }
+        seen.integral += integral;
         seen.last = value;
         seen.take_in(first);
         seen.take_in(value);
-        let (begin, end) = ((0.0, first, slope), (self.length, value, end));
-        if self.is_monotonic() {
-            seen.positive += self.positive(begin, end);
-        } else {
-            self.step_by_step(begin, end, seen);
+        if look == Look::Extremes {
+            let (begin, end) = ((0.0, first, slope), (self.length, value, end_slope));
+            match self.is_monotonic(self.e) {
+                true => seen.positive += self.positive(begin, end),
+                false => self.step_by_step((begin, end), stretch, seen),
+            }
         }
     }
 
-    /// Looks at steps that grow with the time constants of what is left.
-    fn step_by_step(&self, begin: Point, end: Point, seen: &mut CourseSeen) {
-        let fastest = self.rates.iter().copied().fold(0.0, f64::max);
+    /// Looks at steps that grow with the time constants of what is left, until it turns no more.
+    fn step_by_step(
+        &self,
+        (begin, end): (Point, Point),
+        stretch: &mut Stretch,
+        seen: &mut CourseSeen,
+    ) {
+        let fastest = self.rates.last().copied().unwrap_or(1.0);
         let mut step = (FIRST / fastest).min(self.length / STEPS as f64);
-        let mut decay: Vec<f64> = self.e.to_vec();
-        let mut factors = vec![0.0; decay.len()];
-        let (mut from, mut at) = (begin, 0.0);
-        while at + step < self.length {
-            for (factor, rate) in factors.iter_mut().zip(self.rates) {
-                *factor = (-rate * step).exp();
-            }
+        let mut parts: Vec<f64> = self.e.to_vec();
+        let (mut from, mut at, mut level, mut doubled) = (begin, 0.0, 0, false);
+        while at + step < self.length && !self.is_monotonic(&parts) {
+            let factors = stretch.factors(level, (self.rates, step), doubled);
             for _ in 0..STEPS {
                 if at + step >= self.length {
                     break;
                 }
                 at += step;
                 let (mut value, mut slope) = (self.p + self.q * at, self.q);
-                for ((part, factor), rate) in decay.iter_mut().zip(&factors).zip(self.rates) {
+                for ((part, factor), rate) in parts.iter_mut().zip(factors).zip(self.rates) {
                     *part *= factor;
                     value += *part;
                     slope -= rate * *part;
@@ -117,7 +185,9 @@ impl Course<'_> {
                 self.piece(from, (at, value, slope), seen);
                 from = (at, value, slope);
             }
+            doubled = 2.0 * step <= self.length / STEPS as f64;
             step = (2.0 * step).min(self.length / STEPS as f64);
+            level += 1;
         }
         self.piece(from, end, seen);
     }
@@ -129,16 +199,12 @@ impl Course<'_> {
             seen.positive += self.positive(from, to);
             return;
         }
-        let turn = self.at(self.zero((from.0, to.0), from.2 > 0.0, &|s| {
-            let curvature: f64 = self
-                .e
-                .iter()
-                .zip(self.rates)
-                .map(|(e, rate)| e * rate * rate * (-rate * s).exp())
-                .sum();
-            (self.at(s).2, curvature)
-        }));
-        seen.take_in(turn.1);
+        let ends = (from.0, to.0);
+        let enough = TURNED * (to.0 - from.0);
+        let guess = between(ends, (from.2, to.2));
+        let (at, [value, slope, _]) = self.zero(1, (ends, guess, enough), from.2 > 0.0);
+        let turn = (at, value, slope);
+        seen.take_in(value);
         seen.positive += self.positive(from, turn) + self.positive(turn, to);
     }
 
@@ -149,45 +215,53 @@ impl Course<'_> {
             (true, true) => length,
             (false, false) => 0.0,
             (above, _) => {
-                let zero = self.zero((from.0, to.0), above, &|s| {
-                    let (_, value, slope) = self.at(s);
-                    (value, slope)
-                });
+                let ends = (from.0, to.0);
+                let guess = between(ends, (from.1, to.1));
+                let enough = 4.0 * f64::EPSILON * self.length;
+                let (zero, _) = self.zero(0, (ends, guess, enough), above);
                 if above { zero - from.0 } else { to.0 - zero }
             }
         }
     }
 
-    /// Where a function that begins above zero, or below it, passes it: Newton's method inside an
-    /// interval that shrinks.
+    /// Where the value (`of` 0) or the slope (1) passes zero that begins above it, or below, to
+    /// `enough`: Newton's method inside an interval that shrinks. Also what is there.
     fn zero(
         &self,
-        (mut low, mut high): (f64, f64),
+        of: usize,
+        ((mut low, mut high), guess, enough): ((f64, f64), f64, f64),
         above: bool,
-        of: &dyn Fn(f64) -> (f64, f64),
-    ) -> f64 {
-        let mut s = 0.5 * (low + high);
+    ) -> (f64, [f64; 3]) {
+        let mut s = guess;
+        let mut found = self.at(s);
         for _ in 0..MOST_NEWTON {
-            let (value, slope) = of(s);
-            if (value > 0.0) == above {
+            if (found[of] > 0.0) == above {
                 low = s
             } else {
                 high = s
             }
-            let newton = s - value / slope;
+            let newton = s - found[of] / found[of + 1];
             let next = if newton > low && newton < high { newton } else { 0.5 * (low + high) };
-            if (next - s).abs() <= 4.0 * f64::EPSILON * self.length {
-                return next;
+            if (next - s).abs() <= enough {
+                return (next, found);
             }
             s = next;
+            found = self.at(s);
         }
-        s
+        (s, found)
     }
+}
+
+/// Where the straight line between two values of different sign passes zero.
+fn between((from, to): (f64, f64), (first, last): (f64, f64)) -> f64 {
+    let share = first / (first - last);
+    let share = if share > 0.0 && share < 1.0 { share } else { 0.5 };
+    from + (to - from) * share
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Course, CourseSeen};
+    use super::{Course, CourseSeen, Look, Stretch};
 
     /// exp(-s) - exp(-10 s) has its top at ln(10)/9; with -0.3 it is above zero between two roots
     /// (mpmath: findroot to 30 digits).
@@ -195,13 +269,14 @@ mod tests {
     fn a_pulse_that_rises_and_falls() {
         let (e, rates) = ([1.0, -1.0], [1.0, 10.0]);
         let course = Course { p: -0.3, q: 0.0, e: &e, rates: &rates, length: 5.0 };
-        let ends = rates.map(|rate: f64| (-rate * 5.0).exp());
+        let mut stretch = Stretch::default();
+        stretch.begin(&rates, 5.0, true);
         let mut seen = CourseSeen::NOTHING;
-        course.see(&ends, &mut seen);
+        course.see(&mut stretch, Look::Extremes, &mut seen);
         let top = 10.0_f64.ln() / 9.0;
         assert!((seen.max - ((-top).exp() - (-10.0 * top).exp() - 0.3)).abs() < 1e-15);
         assert!((seen.min - -0.3).abs() < 1e-15);
-        let integral = -1.5 + (1.0 - ends[0]) - 0.1 * (1.0 - ends[1]);
+        let integral = -1.5 + (1.0 - (-5.0_f64).exp()) - 0.1 * (1.0 - (-50.0_f64).exp());
         assert!((seen.integral - integral).abs() < 1e-14);
         assert!((seen.positive - 1.162_277_366_333_314).abs() < 1e-14);
     }

@@ -12,8 +12,8 @@ mod symmetric;
 use lptn_network::{End, Followed, HeatOf, Network, ParameterId, Value, Variants};
 
 use crate::times::{Segment, segments};
-use course::Course;
-pub use course::CourseSeen;
+use course::{Course, Stretch};
+pub use course::{CourseSeen, Look};
 use modes::Modes;
 use star::Star;
 
@@ -46,6 +46,8 @@ pub struct Quantity<'a> {
     pub value: &'a Value,
     /// What it goes with, [`Network::follows`].
     pub with: Followed,
+    /// What is asked of it.
+    pub look: Look,
 }
 
 /// What goes on from segment to segment of a run.
@@ -57,8 +59,7 @@ struct March {
     level: Vec<f64>,
     slope: Vec<f64>,
     left: Vec<f64>,
-    /// What is left at the end of the segment, as a share.
-    ends: Vec<f64>,
+    stretch: Stretch,
     /// Inputs at the ends of the segment.
     first: (Vec<f64>, Vec<f64>),
     /// Heat into each node at the start of the segment in W, and how fast it grows.

@@ -4,7 +4,7 @@ use lptn_network::{End, Network, Variants};
 
 use super::symmetric::Symmetric;
 
-/// Rates, shapes and capacities: the amplitudes of modes are `sum of C x (T - reference)`.
+/// Rates and shapes, slowest first: the amplitudes of modes are `sum of C x (T - reference)`.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Modes {
     room: Symmetric,
@@ -13,6 +13,7 @@ pub(crate) struct Modes {
     /// Temperature of each node in each mode, mode by mode, such that the sum of `C x^2` is 1 J K.
     pub(crate) shapes: Vec<f64>,
     root: Vec<f64>,
+    order: Vec<usize>,
 }
 
 impl Modes {
@@ -37,9 +38,15 @@ impl Modes {
             }
         }
         self.room.solve()?;
+        let values = &self.room.values;
+        self.order.clear();
+        self.order.extend(0..n);
+        self.order.sort_unstable_by(|a, b| values[*a].total_cmp(&values[*b]));
         self.shapes.clear();
-        let vectors = self.room.vectors.chunks_exact(n);
-        self.shapes.extend(vectors.flat_map(|v| v.iter().zip(root).map(|(x, root)| x / root)));
+        for &k in &self.order {
+            let vector = &self.room.vectors[k * n..(k + 1) * n];
+            self.shapes.extend(vector.iter().zip(root).map(|(x, root)| x / root));
+        }
         self.rates.clear();
         self.rates.extend(self.shapes.chunks_exact(n).map(|x| rate(network, variants, x)));
         self.rates.iter().all(|rate| rate.is_finite() && *rate > 0.0).then_some(())

@@ -2,7 +2,7 @@
 
 use lptn_network::{End, Followed, HeatOf};
 
-use super::{Course, CourseSeen, LinearVariants, Quantity, Segment, segments};
+use super::{Course, CourseSeen, LinearVariants, Look, Quantity, Segment, segments};
 
 /// The slowest mode has to lose this share of itself over a run: a straight line that it does not
 /// come near is a difference of large numbers.
@@ -34,9 +34,10 @@ impl LinearVariants<'_> {
             return None;
         }
         self.begin()?;
+        let integrated = quantities.iter().any(|quantity| quantity.look == Look::Integral);
         let mut seen = vec![CourseSeen::NOTHING; quantities.len()];
         for segment in segments(start, stop, breakpoints) {
-            self.segment(segment)?;
+            self.segment(segment, integrated)?;
             for (quantity, seen) in quantities.iter().zip(&mut seen) {
                 self.see(quantity, segment.to - segment.from, seen)?;
             }
@@ -67,7 +68,7 @@ impl LinearVariants<'_> {
     }
 
     /// Reads the inputs of a segment, and what they do to every mode.
-    fn segment(&mut self, segment: Segment) -> Option<()> {
+    fn segment(&mut self, segment: Segment, integrated: bool) -> Option<()> {
         let (n, inside) = (self.temperatures.len(), segment.inside());
         let length = segment.to - segment.from;
         self.inputs(segment.from, inside)?;
@@ -81,7 +82,7 @@ impl LinearVariants<'_> {
         march.level.clear();
         march.slope.clear();
         march.left.clear();
-        march.ends.clear();
+        march.stretch.begin(&self.modes.rates, length, integrated);
         for ((x, rate), y) in
             self.modes.shapes.chunks_exact(n).zip(&self.modes.rates).zip(&march.amplitudes)
         {
@@ -91,7 +92,6 @@ impl LinearVariants<'_> {
             march.slope.push(slope);
             march.level.push(level);
             march.left.push(y - level);
-            march.ends.push((-rate * length).exp());
         }
         Some(())
     }
@@ -141,7 +141,7 @@ impl LinearVariants<'_> {
         }
         let (p, q) = (at_zero + gain * p, gain * q);
         let course = Course { p, q, e: &march.parts, rates: &self.modes.rates, length };
-        course.see(&march.ends, seen);
+        course.see(&mut march.stretch, quantity.look, seen);
         Some(())
     }
 
@@ -214,7 +214,7 @@ impl LinearVariants<'_> {
         let march = &mut self.march;
         self.temperatures.fill(reference);
         for (k, y) in march.amplitudes.iter_mut().enumerate() {
-            *y = march.level[k] + march.slope[k] * length + march.left[k] * march.ends[k];
+            *y = march.level[k] + march.slope[k] * length + march.left[k] * march.stretch.ends[k];
             let shape = &self.modes.shapes[k * n..(k + 1) * n];
             self.temperatures.iter_mut().zip(shape).for_each(|(t, x)| *t += *y * x);
         }

@@ -165,33 +165,34 @@ impl Symmetric {
 
 /// A similarity transformation by the Householder vector that stands in `d`.
 fn reflect((n, i, h): (usize, usize, f64), v: &mut [f64], (d, e): (&mut [f64], &mut [f64])) {
-    e[..i].fill(0.0);
-    for j in 0..i {
-        let f = d[j];
-        v[i * n + j] = f;
-        let column = &v[j * n..j * n + i];
-        let mut g = e[j] + column[j] * f;
-        for k in j + 1..i {
-            g += column[k] * d[k];
-            e[k] += column[k] * f;
+    let (d, e) = (&mut d[..i], &mut e[..i]);
+    let (rows, mirror) = v.split_at_mut(i * n);
+    mirror[..i].copy_from_slice(d);
+    e.fill(0.0);
+    for (j, row) in rows.chunks_exact(n).enumerate() {
+        let (f, column) = (d[j], &row[j..i]);
+        let mut g = column[0] * f;
+        for ((x, d), e) in column[1..].iter().zip(&d[j + 1..]).zip(&mut e[j + 1..]) {
+            g += x * d;
+            *e += x * f;
         }
-        e[j] = g;
+        e[j] += g;
     }
     let mut f = 0.0;
-    for j in 0..i {
-        e[j] /= h;
-        f += e[j] * d[j];
+    for (e, d) in e.iter_mut().zip(&*d) {
+        *e /= h;
+        f += *e * d;
     }
     let half = f / (h + h);
-    e[..i].iter_mut().zip(&d[..i]).for_each(|(e, d)| *e -= half * d);
-    for j in 0..i {
+    e.iter_mut().zip(&*d).for_each(|(e, d)| *e -= half * d);
+    for (j, row) in rows.chunks_exact_mut(n).enumerate() {
         let (f, g) = (d[j], e[j]);
-        let column = &mut v[j * n..j * n + i];
-        for k in j..i {
-            column[k] -= f * e[k] + g * d[k];
+        let column = &mut row[j..i];
+        for ((x, e), d) in column.iter_mut().zip(&e[j..]).zip(&d[j..]) {
+            *x -= f * e + g * d;
         }
-        d[j] = column[i - 1];
-        v[j * n + i] = 0.0;
+        d[j] = row[i - 1];
+        row[i] = 0.0;
     }
 }
 

@@ -2,7 +2,7 @@
 
 use lptn_netlist::{Functional, SweepOver};
 use lptn_network::{IntegratorChoice, ParameterId};
-use lptn_solve::{CourseSeen, FollowedQuantity, LinearVariants};
+use lptn_solve::{CourseSeen, FollowedQuantity, LinearVariants, Look};
 
 use crate::sweep::task::{Candidate, Seen, SweepTask, taken};
 
@@ -88,8 +88,13 @@ fn followed<'a>(task: &'a SweepTask<'a>) -> Option<Vec<FollowedQuantity<'a>>> {
     timed
         .map(|measure| {
             let with = task.network().follows(&measure.of)?;
-            let life = measure.functional == Functional::Life;
-            (!life).then_some(FollowedQuantity { value: &measure.of, with })
+            let look = match measure.functional {
+                Functional::Life => return None,
+                Functional::Last | Functional::Value => Look::End,
+                Functional::Mean | Functional::Integral => Look::Integral,
+                _ => Look::Extremes,
+            };
+            Some(FollowedQuantity { value: &measure.of, with, look })
         })
         .collect()
 }

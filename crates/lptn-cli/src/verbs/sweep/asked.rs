@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use lptn_netlist::{Diagnostic, SweepStudy};
 use lptn_network::Item;
+use lptn_solve::PeriodicError;
 use lptn_study::sweep::{Cases, SweepError, SweepTask};
 use lptn_study::{FileHash, SiValue};
 use lptn_units::{Problem as _, Type, Unit};
@@ -177,6 +178,12 @@ fn refused(input: &Input, study: &SweepStudy, error: &SweepError) -> Failure {
             }
             .at(study.span.clone(), "");
             places.fold(first, |problem, place| problem.also(place, "changes with time"))
+        }
+        SweepError::Periodic(PeriodicError::NotPeriodic(_)) => {
+            problem.at(study.span.clone(), "").help(
+                "let signals go on with `after_end = \"repeat\"`, or say after which time all \
+                   inputs repeat themselves: `period = \"10 min\"`",
+            )
         }
         _ => problem.at(study.span.clone(), ""),
     };
