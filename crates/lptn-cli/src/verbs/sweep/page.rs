@@ -127,8 +127,8 @@ impl View<'_> {
         for place in [first, second] {
             table = table.right(plain(&columns[place].header()), move |row| number(row, place));
         }
-        for place in 0..axes {
-            let title = plain(&columns[place].header());
+        for (place, axis) in columns.iter().enumerate().take(axes) {
+            let title = plain(&axis.header());
             table = table.right(title, move |row| number(row, place)).optional();
         }
         table.into()
