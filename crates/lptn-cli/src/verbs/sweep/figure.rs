@@ -5,7 +5,8 @@ use lptn_plot::figure::{Axis, Curve, Look, Panel};
 
 use super::asked::Column;
 use super::page::View;
-use super::tally::{MOST_POINTS, Row};
+use super::row::Row;
+use super::tally::MOST_POINTS;
 
 /// A range that spans more than this is shown by its logarithms.
 const WIDE: f64 = 10.0;

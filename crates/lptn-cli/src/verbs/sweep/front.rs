@@ -1,6 +1,6 @@
 //! The candidates that no other betters in two reports.
 
-use super::tally::Row;
+use super::row::Row;
 
 /// Those of the rows so far, by the first report upwards, the second falling; of equals the first.
 #[derive(Clone, Debug, Default)]

@@ -11,7 +11,8 @@ use lptn_study::Hashing;
 use serde_json::{Value, json};
 
 use super::asked::Asked;
-use super::tally::{Row, Tally};
+use super::row::Row;
+use super::tally::Tally;
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
 use crate::files::names::{BEGUN, MANIFEST, SWEEP, UNFINISHED};

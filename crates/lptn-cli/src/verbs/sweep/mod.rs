@@ -8,6 +8,7 @@ mod growing;
 mod merge;
 mod page;
 mod plan;
+mod row;
 mod shard;
 mod tally;
 mod work;

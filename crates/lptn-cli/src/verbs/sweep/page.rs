@@ -10,7 +10,8 @@ use serde_json::{Map, Value, json};
 
 use super::asked::{Asked, Column};
 use super::growing::{Lines, heading, json_row, read_row};
-use super::tally::{Count, Row, Tally};
+use super::row::Row;
+use super::tally::{Count, Tally};
 use crate::about::{self, Known};
 use crate::console::Console;
 use crate::exit::Exit;

@@ -9,7 +9,8 @@ use lptn_solve::{Proceed, in_order};
 use lptn_study::sweep::{Candidate, LinearSweep};
 
 use super::asked::Asked;
-use super::tally::{Row, Tally};
+use super::row::Row;
+use super::tally::Tally;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::interrupt::Interrupt;
