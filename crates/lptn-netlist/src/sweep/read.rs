@@ -220,7 +220,7 @@ impl<'a> Elaboration<'a> {
         let named: Vec<String> = known.iter().map(|(name, _)| format!("\"{name}\"")).collect();
         for (name, place) in &others {
             let message = format!(
-                "column `{name}` of the candidates of {} is no parameter",
+                "column `{name}` of the candidates of {} is not a parameter",
                 fields.owner.words()
             );
             let help = match named.is_empty() {

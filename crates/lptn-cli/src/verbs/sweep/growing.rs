@@ -186,7 +186,7 @@ pub(crate) fn heading(asked: &Asked<'_>) -> Vec<u8> {
 }
 
 fn damaged(path: &Path, line: u64) -> Failure {
-    let message = format!("line {line} of {} is no row of this sweep", path.display());
+    let message = format!("line {line} of {} is not a row of this sweep", path.display());
     refused("sweep::damaged", message, "remove the file and begin anew")
 }
 

@@ -89,7 +89,7 @@ impl Part {
         let manifest: Value = serde_json::from_str(&manifest).unwrap_or_default();
         let hash = manifest["results"][0]["sha256"].as_str().map(str::to_owned);
         let (Some(sha256), true) = (hash, manifest["sweep"].is_object()) else {
-            let message = format!("{name} is no part of a sweep: its manifest is another one");
+            let message = format!("{name} is not a part of a sweep: its manifest is another one");
             return Err(refused("sweep::no_parts", message, "remove the folder, or name another"));
         };
         let (sweep, inputs) = (manifest["sweep"].clone(), manifest["inputs"].clone());
