@@ -117,10 +117,15 @@ fn what_is_interrupted_is_one_object() {
         assert_eq!(codes(list(&value, "warnings")), ["netlist::unused_template"]);
     }
     let run = ["run", "a.toml", "--no-files", "--format", "json"];
-    let value = interrupt::interrupted(&folder, &run).exits(130).json();
-    assert_eq!((&value["ok"], &value["exit"]), (&false.into(), &130.into()));
-    assert_eq!(codes(list(&value, "errors")), ["run::interrupted"]);
-    assert!(list(&value, "rows").len() > 1 && value["end"]["status"] == "interrupted");
+    // on a busy machine Ctrl-C may come before the second row
+    let has_rows = (0..10).any(|_| {
+        let value = interrupt::interrupted(&folder, &run).exits(130).json();
+        assert_eq!((&value["ok"], &value["exit"]), (&false.into(), &130.into()));
+        assert_eq!(codes(list(&value, "errors")), ["run::interrupted"]);
+        assert_eq!(value["end"]["status"], "interrupted");
+        list(&value, "rows").len() > 1
+    });
+    assert!(has_rows);
 }
 
 fn project() -> PathBuf {
