@@ -304,7 +304,7 @@ fn every_law_has_its_adjoint() {
                     influence.change * if influence.absolute { influence.value } else { 1.0 }
                 })
                 .sum();
-            let by_parameter = adjoint.by_parameters(&[p]).unwrap().unwrap()[0];
+            let by_parameter = adjoint.by_parameters(&[p]).unwrap()[0];
             let moved = |by: f64| {
                 let mut given = network.given();
                 given.set(p, 1.0 + by);

@@ -55,3 +55,13 @@ fn what_cannot_be_ranked_is_said() {
     let ran = Folder::with("loose.toml", &loose).run(&["rank", "loose.toml"]);
     assert!(ran.exits(2).err.contains("steady::no_boundary"));
 }
+
+/// Where something switches there are no derivatives by parameters, which is said.
+#[test]
+fn parameters_that_are_not_ranked_are_told() {
+    let fan =
+        "[control]\nfan = { sense = \"core\", on_above = \"80 degC\", off_below = \"70 degC\" }\n";
+    let text = format!("{}{fan}", CHAIN.replace("G = \"G_skin\"", "G = \"G_skin * (1 + fan)\""));
+    let ran = Folder::with("fan.toml", &text).run(&["rank", "fan.toml"]).exits(0);
+    ran.prints("parameters are not ranked").prints("loss.P");
+}

@@ -8,7 +8,8 @@ use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::{FactorError, Pattern, linear};
 use lptn_laws::Range;
 use lptn_network::{
-    End, Evaluation, Field, InputError, Item, Law, NodeId, ParameterId, Source, ValueChange,
+    End, Evaluation, Field, InputError, Item, Law, NoTangents, NodeId, ParameterId, Source,
+    ValueChange,
 };
 
 use lptn_units::Type;
@@ -25,6 +26,17 @@ pub enum AdjointError {
     /// The transposed network cannot be solved.
     Factorization(error: FactorError) = "solve::singular", error, source error,
         class lptn_units::Class::Numbers;
+}
+}
+
+lptn_units::errors! {
+/// Why there are no derivatives by parameters.
+#[derive(Clone, Debug)]
+pub enum ParameterSlopes {
+    /// The network has none.
+    None => NoTangents;
+    /// A value has no finite one here.
+    Input => InputError;
 }
 }
 
@@ -51,6 +63,8 @@ pub struct Influence {
 pub struct Adjoint<'a> {
     system: &'a ThermalSystem,
     state: &'a Snapshot,
+    /// Of all vertices in K: nodes, then boundaries.
+    temperatures: Vec<f64>,
     /// Rise of the temperature in K for 1 W into each node.
     rise: Vec<f64>,
 }
@@ -88,7 +102,9 @@ impl<'a> Adjoint<'a> {
         let mut work = system.workspace();
         put(system, &mut work, node);
         system.recover(&mut work, &rise);
-        Ok(Self { system, state, rise: system.node_temperatures(&work).to_vec() })
+        let rise = system.node_temperatures(&work).to_vec();
+        let temperatures = [&*state.temperatures, &*state.boundary_temperatures].concat();
+        Ok(Self { system, state, temperatures, rise })
     }
 
     /// By how much 1 W into each node warms the one that answers, in K/W.
@@ -106,11 +122,10 @@ impl<'a> Adjoint<'a> {
     pub fn influences(&self) -> Result<Vec<Influence>, InputError> {
         let network = self.system.network();
         let mut scope = self.state.evaluation(network);
-        let state = self.state;
-        let temperatures = [&*state.temperatures, &*state.boundary_temperatures].concat();
+        let temperatures = &self.temperatures;
         let (mut found, mut parts) = (Vec::new(), Vec::new());
         for (id, conductor) in network.conductor_ids().zip(network.conductors()) {
-            let changes = network.exchange_by_values(id, &mut scope, &temperatures)?;
+            let changes = network.exchange_by_values(id, &mut scope, temperatures)?;
             let warms = [conductor.from, conductor.to].map(|end| self.warms(end));
             let changes = changes.iter().map(|ValueChange { value, heat: [from, to] }| {
                 (*value, from * warms[0] + to * warms[1])
@@ -124,35 +139,29 @@ impl<'a> Adjoint<'a> {
         }
         found.extend(wholes(parts));
         for (id, source) in network.source_ids().zip(network.sources()) {
-            let changes = network.source_by_values(id, &mut scope, &temperatures)?;
+            let changes = network.source_by_values(id, &mut scope, temperatures)?;
             let rise = self.warms_by(source);
             let changes = changes.iter().map(|change| (change.value, change.heat * rise));
             found.extend(influences(Item::Source(id), &source.law, changes));
         }
-        found.extend(self.boundaries(&mut scope, &temperatures)?);
+        found.extend(self.boundaries(&mut scope)?);
         Ok(found)
     }
 
     /// By how much the temperature changes with each parameter, in all that reads it, in K per SI
-    /// unit; `None` where the network has no derivative by one of them.
+    /// unit.
     ///
     /// # Errors
-    /// [`InputError`] for a value that has no finite derivative here.
-    pub fn by_parameters(
-        &self,
-        parameters: &[ParameterId],
-    ) -> Result<Option<Vec<f64>>, InputError> {
-        let network = self.system.network();
-        let Ok(mut tangents) = network.tangents(parameters) else { return Ok(None) };
+    /// [`ParameterSlopes`]
+    pub fn by_parameters(&self, parameters: &[ParameterId]) -> Result<Vec<f64>, ParameterSlopes> {
+        let (network, vertices) = (self.system.network(), self.temperatures.len());
+        let mut tangents = network.tangents(parameters)?;
         let scope = self.state.evaluation(network);
-        let state = self.state;
-        let temperatures = [&*state.temperatures, &*state.boundary_temperatures].concat();
-        let mut heat = vec![0.0; temperatures.len() * parameters.len()];
-        tangents.heat(network, &scope, &temperatures, &mut heat)?;
-        let blocks = heat.chunks(temperatures.len().max(1)).take(parameters.len());
+        let mut heat = vec![0.0; vertices * parameters.len()];
+        tangents.heat(network, &scope, &self.temperatures, &mut heat)?;
         let slope =
             |heat: &[f64]| heat.iter().zip(&self.rise).map(|(heat, rise)| heat * rise).sum();
-        Ok(Some(blocks.map(slope).collect()))
+        Ok(heat.chunks(vertices.max(1)).map(slope).collect())
     }
 
     fn warms(&self, end: End) -> f64 {
@@ -166,12 +175,8 @@ impl<'a> Adjoint<'a> {
         source.into.iter().map(|(node, share)| share * self.rise[node.index()]).sum()
     }
 
-    fn boundaries(
-        &self,
-        scope: &mut Evaluation,
-        temperatures: &[f64],
-    ) -> Result<Vec<Influence>, InputError> {
-        let network = self.system.network();
+    fn boundaries(&self, scope: &mut Evaluation) -> Result<Vec<Influence>, InputError> {
+        let (network, temperatures) = (self.system.network(), &self.temperatures);
         let mut change = vec![0.0; temperatures.len()];
         for (id, conductor) in network.conductor_ids().zip(network.conductors()) {
             let warms = [conductor.from, conductor.to].map(|end| self.warms(end));

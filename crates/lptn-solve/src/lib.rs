@@ -70,7 +70,7 @@ mod verification;
 mod watch;
 mod window;
 
-pub use adjoint::{Adjoint, AdjointError, Influence};
+pub use adjoint::{Adjoint, AdjointError, Influence, ParameterSlopes};
 pub use balance::{Balance, Term};
 pub use conductances::Conductances;
 pub use error::{SteadyError, StopReason, TransientError};

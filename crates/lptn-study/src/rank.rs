@@ -3,9 +3,9 @@
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Field, InputError, Item, Network, NodeId, OutputTimes, ParameterId, Value};
 use lptn_solve::{
-    Adjoint, AdjointError, Feedback, Gradient, Influence, Modes, Proceed, Progress, RecordedNodes,
-    RunStatus, SensitiveError, SteadyError, SteadyState, Transient, TransientError, Watch,
-    sensitive_run_observed,
+    Adjoint, AdjointError, Feedback, Gradient, Influence, Modes, ParameterSlopes, Proceed,
+    Progress, RecordedNodes, RunStatus, SensitiveError, SteadyError, SteadyState, Transient,
+    TransientError, Watch, sensitive_run_observed,
 };
 
 use crate::compare::hottest;
@@ -45,8 +45,10 @@ pub struct Ranking {
     pub temperature: f64,
     /// When it is highest in a run, in s.
     pub at: Option<f64>,
-    /// What parameters do, the most first; none where the network has no derivatives by them.
+    /// What parameters do, the most first.
     pub parameters: Vec<Influence>,
+    /// Why parameters are not ranked, where the network has no derivatives by them.
+    pub not_ranked: Option<String>,
     /// What values of elements and boundaries do, the most first; of steady states only.
     pub elements: Vec<Influence>,
     /// How much of the heat of sources comes back as more heat, if any does.
@@ -75,8 +77,12 @@ impl Ranking {
         let node = node.ok_or(RankError::NoNode)?;
         let adjoint = Adjoint::of(system, state, node)?;
         let ids = free(network);
-        let slopes = adjoint.by_parameters(&ids)?;
-        let known = slopes.iter().flatten().zip(&ids);
+        let (slopes, not_ranked) = match adjoint.by_parameters(&ids) {
+            Ok(slopes) => (slopes, None),
+            Err(ParameterSlopes::Input(error)) => return Err(error.into()),
+            Err(ParameterSlopes::None(why)) => (Vec::new(), Some(why.to_string())),
+        };
+        let known = slopes.iter().zip(&ids);
         let parameters = known.map(|(&slope, &id)| of_parameter(network, id, slope)).collect();
         let temperature = state.temperatures[node.index()];
         let feedback = Feedback::of(system, state);
@@ -87,6 +93,7 @@ impl Ranking {
             temperature,
             at: None,
             parameters: sorted(parameters, temperature),
+            not_ranked,
             elements: sorted(adjoint.influences()?, temperature),
             feedback,
             slowest,
@@ -151,6 +158,7 @@ impl Ranking {
             temperature,
             at: Some(at),
             parameters,
+            not_ranked: None,
             elements: Vec::new(),
             feedback: None,
             slowest: None,

@@ -194,12 +194,11 @@ impl Beside<'_> {
 
     /// The same of the full network.
     fn run(&self, start: &[f64], tolerance: f64) -> Result<Vec<Vec<f64>>, NearError> {
-        let (disturbed, y) = Disturbed::new(self.system, self.state, start)?;
+        let (disturbed, mut state) = Disturbed::new(self.system, self.state, start)?;
         let options = Options { tolerance, ..Options::default() };
         let mut integrator =
-            crate::stepper::cvodes(disturbed, (0.0, &y), &options).map_err(NearError::Run)?;
+            crate::stepper::cvodes(disturbed, (0.0, &state), &options).map_err(NearError::Run)?;
         let mut rows = Vec::new();
-        let mut state = y.clone();
         integrator.set_stop(self.moments.last().copied().unwrap_or(0.0));
         while rows.len() < self.moments.len() {
             let failed = |error| NearError::Run(TransientError::Integrator(error));

@@ -70,6 +70,9 @@ impl View<'_> {
 
     fn notes(&self) -> Vec<String> {
         let mut notes: Vec<String> = self.comes_back().into_iter().collect();
+        if let Some(why) = &self.ranking.not_ranked {
+            notes.push(format!("parameters are not ranked: {why}"));
+        }
         if let Some(why) = &self.ranking.differences {
             notes.push(format!("by differences of runs, since {why}"));
         }
