@@ -1,9 +1,10 @@
-//! Many candidates of one small linear network, without a system for each: steady states by
-//! elimination, runs by modes in closed form.
+//! Many candidates of one linear network, without a system for each: steady states by elimination,
+//! runs in closed form by all modes of small networks and by as many vectors as it takes of others.
 //!
 //! Plain loops over small dense matrices, in one order: nothing here depends on the processor.
 
 mod course;
+mod krylov;
 mod modes;
 mod run;
 mod star;
@@ -14,11 +15,15 @@ use lptn_network::{End, Followed, HeatOf, Network, ParameterId, Value, Variants}
 use crate::times::{Segment, segments};
 use course::{Course, Stretch};
 pub use course::{CourseSeen, Look};
+use krylov::Krylov;
 use modes::Modes;
-use star::Star;
+use star::{Link, Plan, Star};
 
-/// Nodes beyond which dense matrices cost more than sparse ones.
-const MOST_NODES: usize = 48;
+/// Nodes with capacity beyond which not all modes are looked for.
+const MOST_MODES: usize = 48;
+
+/// Nodes beyond which candidates are assembled one by one.
+const MOST_NODES: usize = 2000;
 
 /// The candidates of a linear network, one after the other.
 pub struct LinearVariants<'a> {
@@ -26,7 +31,10 @@ pub struct LinearVariants<'a> {
     network: &'a Network,
     /// Whether inputs change with time.
     timed: bool,
+    plan: Plan,
     star: Star,
+    /// For networks of more than a few nodes.
+    krylov: Option<Krylov>,
     modes: Modes,
     boundaries: Vec<f64>,
     powers: Vec<f64>,
@@ -53,18 +61,17 @@ pub struct Quantity<'a> {
 /// What goes on from segment to segment of a run.
 #[derive(Clone, Debug, Default)]
 struct March {
-    /// Amplitude of each mode.
-    amplitudes: Vec<f64>,
-    /// The straight line that each mode tends to, and what is left of the way to it.
+    /// Rise of each node over the reference in K.
+    state: Vec<f64>,
+    /// The straight line that each node tends to, in K and K/s.
     level: Vec<f64>,
     slope: Vec<f64>,
+    /// What is left of the way to it, and that as a sum of modes.
+    rest: Vec<f64>,
     left: Vec<f64>,
     stretch: Stretch,
     /// Inputs at the ends of the segment.
     first: (Vec<f64>, Vec<f64>),
-    /// Heat into each node at the start of the segment in W, and how fast it grows.
-    heat: Vec<f64>,
-    growth: Vec<f64>,
     /// Shares of the modes in a quantity.
     parts: Vec<f64>,
     /// A quantity as a sum over nodes and boundaries.
@@ -84,8 +91,13 @@ impl<'a> LinearVariants<'a> {
         if nodes > MOST_NODES || nodes == 0 || boundaries == 0 || !heats.iter().all(plain) {
             return None;
         }
+        let massless: Vec<bool> = network.nodes().iter().map(|node| node.massless).collect();
+        let plan = Plan::new(&massless, network.conductors())?;
+        let small = nodes - plan.massless <= MOST_MODES;
         Some(Self {
-            star: Star::new(nodes),
+            star: Star::new(&plan),
+            krylov: (!small).then(|| Krylov::new(&plan)),
+            plan,
             timed: network.has_time_dependent_inputs(),
             modes: Modes::default(),
             march: March::default(),
@@ -114,25 +126,28 @@ impl<'a> LinearVariants<'a> {
     pub fn steady(&mut self, time: f64) -> Option<()> {
         self.inputs(time, time)?;
         let reference = self.boundaries[0];
-        self.star.clear();
-        let conductors = self.network.conductors().iter().zip(&self.variants.conductance);
-        for (conductor, &g) in conductors {
-            match (conductor.from, conductor.to) {
-                (End::Node(a), End::Node(b)) => self.star.join(a.index(), b.index(), g),
-                (End::Node(a), End::Boundary(b)) | (End::Boundary(b), End::Node(a)) => {
-                    self.star.ground(a.index(), g, self.boundaries[b.index()] - reference);
-                }
-                (End::Boundary(_), End::Boundary(_)) => {}
-            }
-        }
-        for (source, power) in self.network.sources().iter().zip(&self.powers) {
-            for (node, share) in &source.into {
-                self.star.heat(node.index(), share * power);
-            }
-        }
-        self.star.solve(&mut self.temperatures)?;
+        self.star.begin(&self.plan, &self.variants.conductance);
+        self.star.eliminate(&self.plan, 0..self.plan.order.len())?;
+        let mut heat = std::mem::take(&mut self.temperatures);
+        self.heat(|b| self.boundaries[b] - reference, |s| self.powers[s], &mut heat);
+        self.star.solve(&self.plan, &mut heat);
+        self.temperatures = heat;
         self.temperatures.iter_mut().for_each(|t| *t += reference);
         self.temperatures.iter().all(|t| *t >= 0.0 && t.is_finite()).then(|| self.place())
+    }
+
+    /// Heat into each node in W from surroundings with these rises and from sources of these powers.
+    fn heat(&self, rise: impl Fn(usize) -> f64, power: impl Fn(usize) -> f64, into: &mut [f64]) {
+        into.fill(0.0);
+        for (link, &g) in self.plan.links.iter().zip(&self.variants.conductance) {
+            if let Link::Boundary(place, boundary) = *link {
+                into[self.plan.order[place]] += g * rise(boundary);
+            }
+        }
+        for (i, source) in self.network.sources().iter().enumerate() {
+            let power = power(i);
+            source.into.iter().for_each(|(node, share)| into[node.index()] += share * power);
+        }
     }
 
     /// Reads the inputs at a time in s, comparisons at one inside the segment.

@@ -1,14 +1,13 @@
 //! The modes of one candidate after the other.
 
-use lptn_network::{End, Network, Variants};
-
+use super::star::{Plan, Star};
 use super::symmetric::Symmetric;
 
-/// Rates and shapes, slowest first: the amplitudes of modes are `sum of C x (T - reference)`.
+/// Rates and shapes: the rise of a network without heat is a sum of shapes that decay at them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Modes {
     room: Symmetric,
-    /// Rate of each mode in 1/s.
+    /// Rate of each mode in 1/s, slowest first.
     pub(crate) rates: Vec<f64>,
     /// Temperature of each node in each mode, mode by mode, such that the sum of `C x^2` is 1 J K.
     pub(crate) shapes: Vec<f64>,
@@ -17,39 +16,55 @@ pub(crate) struct Modes {
 }
 
 impl Modes {
-    /// The modes of a candidate whose nodes all store heat; `None` where the numbers fail.
-    pub(crate) fn find(&mut self, network: &Network, variants: &Variants<'_>) -> Option<()> {
-        let n = variants.capacity.len();
+    /// All modes of a candidate whose nodes without capacity are taken out; `None` where the numbers
+    /// fail.
+    pub(crate) fn find(&mut self, plan: &Plan, star: &Star, capacity: &[f64]) -> Option<()> {
+        let massless = plan.massless;
+        let count = plan.order.len() - massless;
         self.root.clear();
-        self.root.extend(variants.capacity.iter().map(|c| c.sqrt()));
-        self.room.begin(n);
+        self.root.extend(plan.order[massless..].iter().map(|&node| capacity[node].sqrt()));
+        self.room.begin(count);
         let root = &self.root;
-        for (conductor, &g) in network.conductors().iter().zip(&variants.conductance) {
-            let (from, to) = (conductor.from, conductor.to);
-            for end in [from, to] {
-                if let End::Node(a) = end {
-                    let a = a.index();
-                    self.room.add(a, a, g / (root[a] * root[a]));
-                }
-            }
-            if let (End::Node(a), End::Node(b)) = (from, to) {
-                let (a, b) = (a.index(), b.index());
-                self.room.add(a, b, -g / (root[a] * root[b]));
-            }
+        for (a, g) in star.ground[massless..].iter().enumerate() {
+            self.room.add(a, a, g / (root[a] * root[a]));
+        }
+        for (a, b, slot) in plan.between_all(massless) {
+            let (a, b, g) = (a - massless, b - massless, star.among[slot]);
+            self.room.add(a, a, g / (root[a] * root[a]));
+            self.room.add(b, b, g / (root[b] * root[b]));
+            self.room.add(a, b, -g / (root[a] * root[b]));
         }
         self.room.solve()?;
+        self.sort();
+        self.take(plan, star);
+        self.rates.iter().all(|rate| rate.is_finite() && *rate > 0.0).then_some(())
+    }
+
+    fn sort(&mut self) {
         let values = &self.room.values;
         self.order.clear();
-        self.order.extend(0..n);
+        self.order.extend(0..values.len());
         self.order.sort_unstable_by(|a, b| values[*a].total_cmp(&values[*b]));
-        self.shapes.clear();
-        for &k in &self.order {
-            let vector = &self.room.vectors[k * n..(k + 1) * n];
-            self.shapes.extend(vector.iter().zip(root).map(|(x, root)| x / root));
-        }
+    }
+
+    /// Shapes with all nodes, and their rates.
+    fn take(&mut self, plan: &Plan, star: &Star) {
+        let (n, massless) = (plan.order.len(), plan.massless);
         self.rates.clear();
-        self.rates.extend(self.shapes.chunks_exact(n).map(|x| rate(network, variants, x)));
-        self.rates.iter().all(|rate| rate.is_finite() && *rate > 0.0).then_some(())
+        self.shapes.resize(n * self.order.len(), 0.0);
+        for (&k, shape) in self.order.iter().zip(self.shapes.chunks_exact_mut(n)) {
+            let vector = self.room.vector(k);
+            let parts = plan.order[massless..].iter().zip(vector).zip(&self.root);
+            parts.for_each(|((&node, x), root)| shape[node] = x / root);
+            self.rates.push(rate(plan, star, shape) / vector.iter().map(|x| x * x).sum::<f64>());
+            star.recover(plan, shape);
+        }
+    }
+
+    /// Keeps none.
+    pub(crate) fn forget(&mut self) {
+        self.rates.clear();
+        self.shapes.clear();
     }
 
     /// The slowest and the fastest rate in 1/s.
@@ -59,17 +74,14 @@ impl Modes {
     }
 }
 
-/// Rayleigh's quotient as a sum of the heat of every path: positive terms, so that slow modes keep
-/// their digits beside fast ones, which the eigenvalues of a dense solver do not.
-fn rate(network: &Network, variants: &Variants<'_>, x: &[f64]) -> f64 {
-    let at = |end: End| if let End::Node(id) = end { x[id.index()] } else { 0.0 };
-    let conductors = network.conductors().iter().zip(&variants.conductance);
-    let heat: f64 = conductors
-        .map(|(conductor, g)| {
-            let difference = at(conductor.from) - at(conductor.to);
-            g * difference * difference
-        })
-        .sum();
-    let norm: f64 = x.iter().zip(&variants.capacity).map(|(x, c)| c * x * x).sum();
-    heat / norm
+/// Rayleigh's quotient, but for its norm, as a sum of the heat of every path: positive terms, so that
+/// slow modes keep their digits beside fast ones, which the eigenvalues of a dense solver do not.
+fn rate(plan: &Plan, star: &Star, shape: &[f64]) -> f64 {
+    let massful = plan.massless..plan.order.len();
+    let ground = massful.map(|k| star.ground[k] * shape[plan.order[k]] * shape[plan.order[k]]);
+    let among = plan.between_all(plan.massless).map(|(a, b, slot)| {
+        let difference = shape[plan.order[a]] - shape[plan.order[b]];
+        star.among[slot] * difference * difference
+    });
+    ground.sum::<f64>() + among.sum::<f64>()
 }

@@ -4,44 +4,43 @@ use lptn_network::{End, Followed, HeatOf};
 
 use super::{Course, CourseSeen, LinearVariants, Look, Quantity, Segment, segments};
 
-/// The slowest mode has to lose this share of itself over a run: a straight line that it does not
-/// come near is a difference of large numbers.
-const LEAST_DECAY: f64 = 1e-3;
-
 /// Vectors of a dense solver are right to rounding of the fastest rate over the slowest, of
 /// temperatures of about this size in K.
 const SIZE: f64 = 1e3;
 
+/// Roundings of a straight line that nodes do not come near, which is a difference of large numbers.
+const LARGE: f64 = 8.0;
+
 impl LinearVariants<'_> {
     /// Whether runs of this network can be followed in closed form at all.
     pub fn runs(&self) -> bool {
-        self.network.inputs_are_straight() && self.network.nodes().iter().all(|n| !n.massless)
+        self.network.inputs_are_straight() && self.plan.massless < self.plan.order.len()
     }
 
     /// Follows quantities over the run from `start` to `stop` in s, whose inputs bend at
     /// `breakpoints` alone: [`Network::breakpoints`](lptn_network::Network::breakpoints). `None`
-    /// where a number fails or rounding may cost more than a tenth of `tolerance` in K.
+    /// where a number fails or temperatures may be wrong by more than a tenth of `tolerance` in K.
     pub fn run(
         &mut self,
         (start, stop): (f64, f64),
         breakpoints: &[f64],
         (quantities, tolerance): (&[Quantity<'_>], f64),
     ) -> Option<Vec<CourseSeen>> {
-        self.modes.find(self.network, &self.variants)?;
-        let (slowest, fastest) = self.modes.span();
-        let lost = f64::EPSILON * SIZE * fastest / slowest;
-        if slowest * (stop - start) < LEAST_DECAY || lost > 0.1 * tolerance {
-            return None;
-        }
-        self.begin()?;
+        let segments = segments(start, stop, breakpoints);
+        let longest = segments.iter().fold(0.0, |most: f64, s| most.max(s.to - s.from));
+        // without heat no error grows, so those of all segments add up at worst
+        let allowed = 0.1 * tolerance / segments.len() as f64;
+        self.begin(longest, allowed)?;
         let integrated = quantities.iter().any(|quantity| quantity.look == Look::Integral);
         let mut seen = vec![CourseSeen::NOTHING; quantities.len()];
-        for segment in segments(start, stop, breakpoints) {
-            self.segment(segment, integrated)?;
+        for segment in segments {
+            let length = segment.to - segment.from;
+            self.segment(segment, allowed)?;
+            self.march.stretch.begin(&self.modes.rates, length, integrated);
             for (quantity, seen) in quantities.iter().zip(&mut seen) {
-                self.see(quantity, segment.to - segment.from, seen)?;
+                self.see(quantity, length, seen)?;
             }
-            self.advance(segment.to - segment.from)?;
+            self.advance(length)?;
         }
         let whole =
             |seen: &CourseSeen| [seen.last, seen.min, seen.max, seen.integral, seen.positive];
@@ -50,79 +49,121 @@ impl LinearVariants<'_> {
 
     /// The temperature in K from which rises are counted.
     fn reference(&self) -> f64 {
-        self.variants.initial[0]
+        self.variants.initial[self.plan.order[self.plan.massless]]
     }
 
-    /// The amplitudes at the start.
-    fn begin(&mut self) -> Option<()> {
-        let n = self.temperatures.len();
+    /// Takes the network apart, and puts the start into the march.
+    fn begin(&mut self, longest: f64, allowed: f64) -> Option<()> {
+        let (plan, star) = (&self.plan, &mut self.star);
+        let (conductance, capacity) = (&self.variants.conductance, &self.variants.capacity);
+        let n = plan.order.len();
+        star.begin(plan, conductance);
+        star.eliminate(plan, 0..plan.massless)?;
+        match &mut self.krylov {
+            Some(krylov) => {
+                self.modes.forget();
+                krylov.begin(plan, (conductance, capacity), longest)?;
+            }
+            None => {
+                self.modes.find(plan, star, capacity)?;
+                let (slowest, fastest) = self.modes.span();
+                if f64::EPSILON * SIZE * fastest / slowest > allowed {
+                    return None;
+                }
+            }
+        }
+        star.eliminate(plan, plan.massless..n)?;
         let reference = self.reference();
-        let (initial, capacity) = (&self.variants.initial, &self.variants.capacity);
-        let amplitude = |x: &[f64]| -> f64 {
-            let parts = x.iter().zip(capacity).zip(initial);
-            parts.map(|((x, c), t)| c * x * (t - reference)).sum()
-        };
-        self.march.amplitudes.clear();
-        self.march.amplitudes.extend(self.modes.shapes.chunks_exact(n).map(amplitude));
-        self.march.amplitudes.iter().all(|y| y.is_finite()).then_some(())
+        let march = &mut self.march;
+        march.state.clear();
+        march.state.extend(self.variants.initial.iter().map(|t| t - reference));
+        for numbers in [&mut march.level, &mut march.slope] {
+            numbers.resize(n, 0.0);
+        }
+        Some(())
     }
 
-    /// Reads the inputs of a segment, and what they do to every mode.
-    fn segment(&mut self, segment: Segment, integrated: bool) -> Option<()> {
-        let (n, inside) = (self.temperatures.len(), segment.inside());
-        let length = segment.to - segment.from;
+    /// Reads the inputs of a segment, and what they do to every node.
+    fn segment(&mut self, segment: Segment, allowed: f64) -> Option<()> {
+        let (inside, length) = (segment.inside(), segment.to - segment.from);
         self.inputs(segment.from, inside)?;
         self.march.first.0.clone_from(&self.boundaries);
         self.march.first.1.clone_from(&self.powers);
         if self.timed {
             self.inputs(segment.to, inside)?;
         }
-        self.heats_of_segment(length);
-        let march = &mut self.march;
-        march.level.clear();
-        march.slope.clear();
-        march.left.clear();
-        march.stretch.begin(&self.modes.rates, length, integrated);
-        for ((x, rate), y) in
-            self.modes.shapes.chunks_exact(n).zip(&self.modes.rates).zip(&march.amplitudes)
-        {
-            let of = |heat: &[f64]| -> f64 { x.iter().zip(heat).map(|(x, q)| x * q).sum() };
-            let slope = of(&march.growth) / rate;
-            let level = (of(&march.heat) - slope) / rate;
-            march.slope.push(slope);
-            march.level.push(level);
-            march.left.push(y - level);
+        let size = self.line(length);
+        if f64::EPSILON * LARGE * size > allowed {
+            return None;
         }
-        Some(())
+        self.rest();
+        self.project();
+        match self.krylov.is_some() {
+            true => self.span(length, allowed),
+            false => Some(()),
+        }
     }
 
-    /// Heat into each node at the start, from surroundings that are warmer than the reference too,
-    /// and how fast it grows.
-    fn heats_of_segment(&mut self, length: f64) {
+    /// The straight line that nodes tend to, and the size of its numbers in K.
+    fn line(&mut self, length: f64) -> f64 {
         let reference = self.reference();
+        let mut march = std::mem::take(&mut self.march);
+        let (boundaries, powers) = &march.first;
+        let rise = |b: usize| boundaries[b] - reference;
+        self.heat(rise, |s| powers[s], &mut march.level);
+        march.slope.fill(0.0);
+        if self.timed {
+            let rise = |b: usize| (self.boundaries[b] - boundaries[b]) / length;
+            self.heat(rise, |s| (self.powers[s] - powers[s]) / length, &mut march.slope);
+        }
+        if march.slope.iter().any(|slope| *slope != 0.0) {
+            self.star.solve(&self.plan, &mut march.slope);
+            let stored = self.variants.capacity.iter().zip(&march.slope);
+            march.level.iter_mut().zip(stored).for_each(|(heat, (c, slope))| *heat -= c * slope);
+        }
+        self.star.solve(&self.plan, &mut march.level);
+        let sizes = march.level.iter().zip(&march.slope);
+        let size =
+            sizes.map(|(level, slope)| level.abs() + length * slope.abs()).fold(0.0, f64::max);
+        self.march = march;
+        size
+    }
+
+    /// What is left of the way to it.
+    fn rest(&mut self) {
         let march = &mut self.march;
-        for heat in [&mut march.heat, &mut march.growth] {
-            heat.clear();
-            heat.resize(self.temperatures.len(), 0.0);
+        march.rest.clear();
+        march.rest.extend(march.state.iter().zip(&march.level).map(|(state, level)| state - level));
+        self.star.recover(&self.plan, &mut march.rest);
+    }
+
+    /// That as a sum of modes.
+    fn project(&mut self) {
+        let (march, capacity) = (&mut self.march, &self.variants.capacity);
+        let part = |shape: &[f64]| -> f64 {
+            let parts = shape.iter().zip(capacity).zip(&march.rest);
+            parts.map(|((x, c), rest)| c * x * rest).sum()
+        };
+        march.left.clear();
+        march.left.extend(self.modes.shapes.chunks_exact(capacity.len()).map(part));
+    }
+
+    /// Finds modes that hold what is left, unless those of the segment before do.
+    fn span(&mut self, length: f64, allowed: f64) -> Option<()> {
+        let krylov = self.krylov.as_mut()?;
+        let march = &self.march;
+        let mut missed = march.rest.clone();
+        for (left, shape) in march.left.iter().zip(self.modes.shapes.chunks_exact(missed.len())) {
+            missed.iter_mut().zip(shape).for_each(|(missed, x)| *missed -= left * x);
         }
-        let conductors = self.network.conductors().iter().zip(&self.variants.conductance);
-        for (conductor, g) in conductors {
-            let ((End::Node(a), End::Boundary(b)) | (End::Boundary(b), End::Node(a))) =
-                (conductor.from, conductor.to)
-            else {
-                continue;
-            };
-            let (first, last) = (march.first.0[b.index()], self.boundaries[b.index()]);
-            march.heat[a.index()] += g * (first - reference);
-            march.growth[a.index()] += g * (last - first) / length;
+        let missed = missed.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
+        let error = krylov.error(&self.modes.rates, &march.left, length);
+        if missed + error <= allowed {
+            return Some(());
         }
-        let powers = march.first.1.iter().zip(&self.powers);
-        for (source, (first, last)) in self.network.sources().iter().zip(powers) {
-            for (node, share) in &source.into {
-                march.heat[node.index()] += share * first;
-                march.growth[node.index()] += share * (last - first) / length;
-            }
-        }
+        krylov.span(&self.plan, &march.rest, (length, allowed), &mut self.modes)?;
+        self.project();
+        Some(())
     }
 
     /// Takes a segment of a quantity in.
@@ -132,11 +173,13 @@ impl LinearVariants<'_> {
         let n = self.temperatures.len();
         let march = &mut self.march;
         let (mut p, mut q) = (constant, growth);
+        for &(i, c) in &march.nodes {
+            p += c * march.level[i];
+            q += c * march.slope[i];
+        }
         march.parts.clear();
         for (k, x) in self.modes.shapes.chunks_exact(n).enumerate() {
             let share: f64 = march.nodes.iter().map(|&(i, c)| c * x[i]).sum();
-            p += share * march.level[k];
-            q += share * march.slope[k];
             march.parts.push(gain * share * march.left[k]);
         }
         let (p, q) = (at_zero + gain * p, gain * q);
@@ -209,14 +252,21 @@ impl LinearVariants<'_> {
 
     /// Goes to the end of the segment.
     fn advance(&mut self, length: f64) -> Option<()> {
-        let n = self.temperatures.len();
         let reference = self.reference();
         let march = &mut self.march;
-        self.temperatures.fill(reference);
-        for (k, y) in march.amplitudes.iter_mut().enumerate() {
-            *y = march.level[k] + march.slope[k] * length + march.left[k] * march.stretch.ends[k];
-            let shape = &self.modes.shapes[k * n..(k + 1) * n];
-            self.temperatures.iter_mut().zip(shape).for_each(|(t, x)| *t += *y * x);
+        let line = march.level.iter().zip(&march.slope);
+        march
+            .state
+            .iter_mut()
+            .zip(line)
+            .for_each(|(t, (level, slope))| *t = level + slope * length);
+        let parts = march.left.iter().zip(&march.stretch.ends);
+        for ((left, end), shape) in parts.zip(self.modes.shapes.chunks_exact(march.state.len())) {
+            let amplitude = left * end;
+            march.state.iter_mut().zip(shape).for_each(|(t, x)| *t += amplitude * x);
+        }
+        for (t, rise) in self.temperatures.iter_mut().zip(&march.state) {
+            *t = reference + rise;
         }
         // what is colder than that is for the integrator to refuse
         self.temperatures.iter().all(|t| *t >= 0.0 && t.is_finite()).then_some(())

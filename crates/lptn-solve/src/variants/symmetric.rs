@@ -3,6 +3,8 @@
 //! al., Matrix Eigensystem Routines, 1976; in the form of JAMA, which NIST put in the public
 //! domain). A library would choose its kernels by the processor, and with them the last digits.
 
+use pulp::Arch;
+
 /// Rotations that an eigenvalue may take.
 const MOST_ITERATIONS: usize = 60;
 
@@ -38,9 +40,36 @@ impl Symmetric {
 
     /// Finds values and vectors; `None` where that does not come to an end.
     pub(crate) fn solve(&mut self) -> Option<()> {
-        self.reduce();
-        self.accumulate();
-        self.beside.rotate_left(1);
+        // wider vectors where the processor has them: the same sums in the same order
+        Arch::new().dispatch(|| {
+            self.reduce();
+            self.accumulate();
+            self.beside.rotate_left(1);
+            self.diagonalise()
+        })
+    }
+
+    /// Finds those of a tridiagonal matrix; what is `beside` the last element does not belong to it.
+    pub(crate) fn tridiagonal(&mut self, diagonal: &[f64], beside: &[f64]) -> Option<()> {
+        self.begin(diagonal.len());
+        self.values.copy_from_slice(diagonal);
+        self.beside.copy_from_slice(beside);
+        for vector in self.vectors.chunks_exact_mut(self.n + 1) {
+            vector[0] = 1.0;
+        }
+        if let Some(last) = self.vectors.last_mut() {
+            *last = 1.0;
+        }
+        Arch::new().dispatch(|| self.diagonalise())
+    }
+
+    /// The vector of a value.
+    pub(crate) fn vector(&self, k: usize) -> &[f64] {
+        &self.vectors[k * self.n..(k + 1) * self.n]
+    }
+
+    #[inline(always)]
+    fn diagonalise(&mut self) -> Option<()> {
         self.beside[self.n - 1] = 0.0;
         let (mut shift, mut size) = (0.0, 0.0_f64);
         for l in 0..self.n {
@@ -52,67 +81,56 @@ impl Symmetric {
         Some(())
     }
 
-    /// To a tridiagonal matrix, from the last row on.
+    /// To a tridiagonal matrix, from the last row on: each row is taken to two elements by a mirror,
+    /// whose vector stays in the row with half its square in `values`.
+    #[inline(always)]
     fn reduce(&mut self) {
         let n = self.n;
         let Self { vectors: v, values: d, beside: e, .. } = self;
-        for (j, d) in d.iter_mut().enumerate() {
-            *d = v[j * n + n - 1];
-        }
         for i in (1..n).rev() {
-            let scale: f64 = d[..i].iter().map(|x| x.abs()).sum();
-            let mut h = 0.0;
-            if scale == 0.0 {
-                e[i] = d[i - 1];
-                for j in 0..i {
-                    d[j] = v[j * n + i - 1];
-                    v[j * n + i] = 0.0;
-                    v[i * n + j] = 0.0;
-                }
-            } else {
-                for x in &mut d[..i] {
-                    *x /= scale;
-                    h += *x * *x;
-                }
-                let f = d[i - 1];
-                let g = if f > 0.0 { -h.sqrt() } else { h.sqrt() };
-                e[i] = scale * g;
-                h -= f * g;
-                d[i - 1] = f - g;
-                reflect((n, i, h), v, (d, e));
+            let (rows, row) = v.split_at_mut(i * n);
+            let row = &mut row[..i];
+            let scale: f64 = row.iter().map(|x| x.abs()).sum();
+            if scale == 0.0 || i == 1 {
+                e[i] = row[i - 1];
+                d[i] = 0.0;
+                continue;
             }
-            d[i] = h;
+            row.iter_mut().for_each(|x| *x /= scale);
+            let square: f64 = row.iter().map(|x| x * x).sum();
+            let f = row[i - 1];
+            let g = if f > 0.0 { -square.sqrt() } else { square.sqrt() };
+            e[i] = scale * g;
+            d[i] = square - f * g;
+            row[i - 1] = f - g;
+            reflect(rows, (n, d[i]), row, &mut e[..i]);
         }
     }
 
-    /// The product of all reflections.
+    /// The product of all mirrors, a row for each vector.
+    #[inline(always)]
     fn accumulate(&mut self) {
         let n = self.n;
         let Self { vectors: v, values: d, .. } = self;
-        for i in 0..n - 1 {
-            v[i * n + n - 1] = v[i * n + i];
-            v[i * n + i] = 1.0;
-            let h = d[i + 1];
-            let (before, rest) = v.split_at_mut((i + 1) * n);
-            let mirror = &mut rest[..=i];
+        for i in 0..n {
+            let (before, rest) = v.split_at_mut(i * n);
+            let h = std::mem::replace(&mut d[i], rest[i]);
+            let mirror = &mut rest[..i];
             if h != 0.0 {
-                d[..=i].iter_mut().zip(&*mirror).for_each(|(d, x)| *d = x / h);
                 for row in before.chunks_exact_mut(n) {
-                    let row = &mut row[..=i];
-                    let g: f64 = row.iter().zip(&*mirror).map(|(a, b)| a * b).sum();
-                    row.iter_mut().zip(&d[..=i]).for_each(|(x, d)| *x -= g * d);
+                    let row = &mut row[..i];
+                    let share = dot(row, mirror) / h;
+                    row.iter_mut().zip(&*mirror).for_each(|(x, u)| *x -= share * u);
                 }
             }
             mirror.fill(0.0);
+            rest[i] = 1.0;
+            before.chunks_exact_mut(n).for_each(|row| row[i] = 0.0);
         }
-        for j in 0..n {
-            d[j] = v[j * n + n - 1];
-            v[j * n + n - 1] = 0.0;
-        }
-        v[n * n - 1] = 1.0;
     }
 
     /// Rotates until the `l`-th value stands alone.
+    #[inline(always)]
     fn isolate(&mut self, l: usize, size: f64, shift: &mut f64) -> Option<()> {
         let small = f64::EPSILON * size;
         let m = (l..self.n).find(|&m| self.beside[m].abs() <= small)?;
@@ -128,6 +146,7 @@ impl Symmetric {
     }
 
     /// One implicit QL step on the block from `l` to `m`.
+    #[inline(always)]
     fn rotate(&mut self, l: usize, m: usize, shift: &mut f64) {
         let n = self.n;
         let Self { vectors: v, values: d, beside: e, .. } = self;
@@ -163,37 +182,35 @@ impl Symmetric {
     }
 }
 
-/// A similarity transformation by the Householder vector that stands in `d`.
-fn reflect((n, i, h): (usize, usize, f64), v: &mut [f64], (d, e): (&mut [f64], &mut [f64])) {
-    let (d, e) = (&mut d[..i], &mut e[..i]);
-    let (rows, mirror) = v.split_at_mut(i * n);
-    mirror[..i].copy_from_slice(d);
-    e.fill(0.0);
-    for (j, row) in rows.chunks_exact(n).enumerate() {
-        let (f, column) = (d[j], &row[j..i]);
-        let mut g = column[0] * f;
-        for ((x, d), e) in column[1..].iter().zip(&d[j + 1..]).zip(&mut e[j + 1..]) {
-            g += x * d;
-            *e += x * f;
+/// Mirrors the first rows on both sides: `A - u q' - q u'` with `q = p - (u p / 2 h) u` and
+/// `p = A u / h`, in all elements, so that every loop runs along a row.
+#[inline(always)]
+fn reflect(rows: &mut [f64], (n, h): (usize, f64), mirror: &[f64], q: &mut [f64]) {
+    let i = mirror.len();
+    q.fill(0.0);
+    for (row, u) in rows.chunks_exact(n).zip(mirror) {
+        q.iter_mut().zip(&row[..i]).for_each(|(p, x)| *p += x * u);
+    }
+    let half = 0.5 * dot(q, mirror) / (h * h);
+    q.iter_mut().zip(mirror).for_each(|(p, u)| *p = *p / h - half * u);
+    for ((row, u), p) in rows.chunks_exact_mut(n).zip(mirror).zip(&*q) {
+        row[..i].iter_mut().zip(&*q).zip(mirror).for_each(|((x, q), v)| *x -= u * q + p * v);
+    }
+}
+
+/// Sum of `x y`, in four partial sums.
+#[inline(always)]
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    const LANES: usize = 4;
+    let mut lanes = [0.0; LANES];
+    let (xs, x_tail) = x.as_chunks::<LANES>();
+    let (ys, y_tail) = y.as_chunks::<LANES>();
+    for (x, y) in xs.iter().zip(ys) {
+        for k in 0..LANES {
+            lanes[k] += x[k] * y[k];
         }
-        e[j] += g;
     }
-    let mut f = 0.0;
-    for (e, d) in e.iter_mut().zip(&*d) {
-        *e /= h;
-        f += *e * d;
-    }
-    let half = f / (h + h);
-    e.iter_mut().zip(&*d).for_each(|(e, d)| *e -= half * d);
-    for (j, row) in rows.chunks_exact_mut(n).enumerate() {
-        let (f, g) = (d[j], e[j]);
-        let column = &mut row[j..i];
-        for ((x, e), d) in column.iter_mut().zip(&e[j..]).zip(&d[j..]) {
-            *x -= f * e + g * d;
-        }
-        d[j] = row[i - 1];
-        row[i] = 0.0;
-    }
+    lanes.iter().sum::<f64>() + x_tail.iter().zip(y_tail).map(|(x, y)| x * y).sum::<f64>()
 }
 
 #[cfg(test)]

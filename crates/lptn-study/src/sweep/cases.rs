@@ -17,9 +17,10 @@ pub struct Cases {
 impl Cases {
     /// Those of a plan.
     pub fn new(plan: SweepPlan) -> Self {
-        let mut strides = vec![1; plan.axes.len()];
+        let mut strides = vec![1_u64; plan.axes.len()];
         for axis in (1..plan.axes.len()).rev() {
-            strides[axis - 1] = strides[axis] * plan.axes[axis].1.count();
+            // only a grid has strides, and those of one are no more than its cases
+            strides[axis - 1] = strides[axis].saturating_mul(plan.axes[axis].1.count());
         }
         Self { plan, strides }
     }

@@ -21,6 +21,9 @@ use crate::words::{MOST_NODES, count, some_of, spaced};
 /// Digits of a value that is shown.
 const DIGITS: usize = 5;
 
+/// So many parameters are shown; the file has all.
+const MOST_AXES: usize = 12;
+
 /// So many candidates are listed one by one.
 const FEW: u64 = 20;
 
@@ -63,6 +66,10 @@ impl View<'_> {
     fn sentence(&self) -> String {
         let study = self.asked.study();
         let names: Vec<&str> = self.axes().iter().map(|axis| axis.name.as_str()).collect();
+        let what = match names.len() {
+            0..=MOST_AXES => names.join(", "),
+            many => format!("{many} parameters"),
+        };
         let how = match study.method {
             SweepMethod::Grid => "on a grid of",
             SweepMethod::List => "of lists of",
@@ -77,12 +84,7 @@ impl View<'_> {
         };
         let part = self.asked.shard.map_or(String::new(), |shard| format!(", part {shard}"));
         let rows = usize::try_from(self.tally.rows).unwrap_or(usize::MAX);
-        format!(
-            "sweep {}: {} {how} {}, {over}{part}",
-            study.name,
-            count(rows, "candidate"),
-            names.join(", ")
-        )
+        format!("sweep {}: {} {how} {what}, {over}{part}", study.name, count(rows, "candidate"))
     }
 
     /// The least and the largest value of each report.
@@ -106,7 +108,7 @@ impl View<'_> {
             .left("", |(_, which, _)| (*which).to_owned())
             .right("", |(place, _, row)| value(&reports[*place], row.numbers[axes.len() + place]))
             .right("case", |(_, _, row)| (row.case + 1).to_string());
-        for (axis, column) in axes.iter().enumerate() {
+        for (axis, column) in axes.iter().enumerate().take(MOST_AXES) {
             table = table
                 .right(plain(&column.name), move |(_, _, row)| value(column, row.numbers[axis]))
                 .optional();
@@ -128,7 +130,7 @@ impl View<'_> {
         for place in [first, second] {
             table = table.right(plain(&columns[place].header()), move |row| number(row, place));
         }
-        for (place, axis) in columns.iter().enumerate().take(axes) {
+        for (place, axis) in columns.iter().enumerate().take(axes.min(MOST_AXES)) {
             let title = plain(&axis.header());
             table = table.right(title, move |row| number(row, place)).optional();
         }
@@ -143,9 +145,12 @@ impl View<'_> {
             _ => "-".to_owned(),
         };
         let mut table = TextTable::of(rows).right("case", |row| (row.case + 1).to_string());
+        let axes = self.axes().len();
         for (place, column) in self.asked.columns.iter().enumerate() {
-            let title = plain(&column.header());
-            table = table.right(title, move |row| number(row, place));
+            if (MOST_AXES..axes).contains(&place) {
+                continue;
+            }
+            table = table.right(plain(&column.header()), move |row| number(row, place));
         }
         table = match self.tally.failed.is_empty() {
             true => table,
