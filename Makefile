@@ -19,7 +19,7 @@ SUNDIALS ?= system
 export SUNDIALS
 features = $(if $(filter bundled,$(SUNDIALS)),--features lptn-cli/bundled)
 
-.PHONY: demo test test-kills test-slurm build dist book setup setup-tests setup-bench bench bench-all bench-micro audit fuzz mutants check-wasm clean
+.PHONY: demo test test-kills test-slurm test-hyperqueue build dist book setup setup-tests setup-bench bench bench-all bench-micro audit fuzz mutants check-wasm clean
 
 demo: build
 	./target/release/lptn run networks/gearbox.toml
@@ -40,6 +40,9 @@ test-kills: setup-tests
 # A sweep as a job array of a Slurm of its own on this machine; as root.
 test-slurm: build
 	@./.ci/test-slurm
+
+test-hyperqueue: build
+	@./.ci/test-hyperqueue
 
 bench: setup-bench build
 	@./benches/run
