@@ -32,7 +32,7 @@ impl<'a> Batch<'a> {
     pub(crate) fn write(
         &mut self,
         name: &str,
-        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+        content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
     ) -> Result<(), Failure> {
         let place = self.folder.path.join(name);
         if place.is_dir() {
@@ -101,7 +101,7 @@ fn like(old: &Path, new: &Path) -> io::Result<()> {
 /// Writes a file and gives the SHA-256 of its content.
 fn write_hashed(
     file: File,
-    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    content: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
 ) -> io::Result<String> {
     let mut out = Hashing::new(BufWriter::with_capacity(1 << 16, file));
     content(&mut out)?;

@@ -13,6 +13,7 @@ pub(crate) const LAWS: &str = "laws.csv";
 pub(crate) const RESIDUALS: &str = "residuals.csv";
 pub(crate) const FIT: &str = "fit.json";
 pub(crate) const SWEEP: &str = "sweep.csv";
+pub(crate) const PARQUET: &str = "sweep.parquet";
 pub(crate) const MANIFEST: &str = "manifest.json";
 
 /// The rows of a sweep as far as it has come, and what they belong to.
@@ -25,7 +26,7 @@ pub(super) const COMMIT: &str = ".commit.json";
 /// The file whose lock says that somebody writes here.
 pub(super) const LOCK: &str = ".lptn.lock";
 
-const RESULTS: [&str; 15] = [
+const RESULTS: [&str; 16] = [
     RESULT,
     STATE,
     EVENTS,
@@ -39,6 +40,7 @@ const RESULTS: [&str; 15] = [
     RESIDUALS,
     FIT,
     SWEEP,
+    PARQUET,
     BEGUN,
     MANIFEST,
 ];

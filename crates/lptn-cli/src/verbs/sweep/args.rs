@@ -44,6 +44,9 @@ pub(crate) struct SweepArgs {
     /// Write no files
     #[arg(long, conflicts_with_all = ["output", "resume", "shard"])]
     pub(crate) no_files: bool,
+    /// Write sweep.parquet beside sweep.csv
+    #[arg(long, conflicts_with = "no_files")]
+    pub(crate) parquet: bool,
     /// Go on where a sweep that was stopped left off
     #[arg(long)]
     pub(crate) resume: bool,
@@ -100,4 +103,7 @@ pub(crate) struct MergeArgs {
     /// The folder that holds the parts
     #[arg(value_name = "DIR")]
     pub(crate) folder: PathBuf,
+    /// Write sweep.parquet beside sweep.csv
+    #[arg(long)]
+    pub(crate) parquet: bool,
 }

@@ -149,6 +149,7 @@ impl<'a> Asked<'a> {
             "first": self.range.start + 1,
             "last": self.range.end,
             "shard": self.shard.map(|shard| shard.to_string()),
+            "ranged": self.ranged,
             "identity": self.identity(),
         })
     }

@@ -15,7 +15,7 @@ use super::row::Row;
 use super::tally::Tally;
 use crate::exit::Exit;
 use crate::failure::{Failure, reason};
-use crate::files::names::{BEGUN, MANIFEST, SWEEP, UNFINISHED};
+use crate::files::names::{BEGUN, MANIFEST, PARQUET, SWEEP, UNFINISHED};
 use crate::files::{self, Folder};
 
 /// The rows so far, and the hash of the file.
@@ -91,7 +91,8 @@ impl Growing {
         let mut batch = folder.batch();
         let text = format!("{:#}\n", asked.record());
         batch.write(BEGUN, |out| out.write_all(text.as_bytes()))?;
-        batch.commit(&[])?;
+        // what an earlier sweep left is not of these rows
+        batch.commit(&[PARQUET])?;
         let path = folder.path().join(UNFINISHED);
         let file = File::create(&path).map_err(|error| cannot_write(&path, &error))?;
         let mut growing = Self { path, file: Hashing::new(file) };
@@ -185,7 +186,8 @@ pub(crate) fn heading(asked: &Asked<'_>) -> Vec<u8> {
     line
 }
 
-fn damaged(path: &Path, line: u64) -> Failure {
+/// A line that is not a row.
+pub(super) fn damaged(path: &Path, line: u64) -> Failure {
     let message = format!("line {line} of {} is not a row of this sweep", path.display());
     refused("sweep::damaged", message, "remove the file and begin anew")
 }

@@ -10,11 +10,12 @@ use serde_json::Value;
 
 use super::args::MergeArgs;
 use super::growing::{Lines, write_manifest};
+use super::parquet;
 use super::shard::Shard;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files::names::{MANIFEST, SWEEP, UNFINISHED};
+use crate::files::names::{MANIFEST, PARQUET, SWEEP, UNFINISHED};
 use crate::files::{self, Folder};
 
 /// A part that is whole.
@@ -43,9 +44,14 @@ pub(crate) fn merge(args: &MergeArgs, console: &Console) -> Result<Exit, Failure
     manifest["sweep"] = sweep;
     manifest["inputs"] = parts[0].inputs.clone();
     write_manifest(&folder, &manifest)?;
+    drop(fs::remove_file(folder.path().join(PARQUET)));
     let file = args.folder.join(SWEEP);
     console.note(&format!("joined {} parts, {cases} candidates", parts.len()));
     console.note(&format!("wrote  {}", file.display()));
+    if args.parquet {
+        parquet::write(&folder, parts[0].sweep["ranged"] == true)?;
+        console.note(&format!("wrote  {}", args.folder.join(PARQUET).display()));
+    }
     Ok(Exit::Done)
 }
 

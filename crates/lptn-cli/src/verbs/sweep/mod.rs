@@ -7,6 +7,7 @@ mod front;
 mod growing;
 mod merge;
 mod page;
+mod parquet;
 mod plan;
 mod row;
 mod shard;
@@ -31,7 +32,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Folder;
-use crate::files::names::SWEEP;
+use crate::files::names::{PARQUET, SWEEP};
 use crate::input::Input;
 use crate::options::Source;
 
@@ -161,6 +162,10 @@ fn show(
     }
     if let Some(folder) = folder {
         console.note(&format!("wrote  {}", folder.path().join(SWEEP).display()));
+    }
+    if let (Some(folder), true) = (folder, args.parquet) {
+        parquet::write(folder, asked.ranged)?;
+        console.note(&format!("wrote  {}", folder.path().join(PARQUET).display()));
     }
     if asked.shard.is_some() && folder.is_some() {
         let whole = folder.and_then(|folder| folder.path().parent());
