@@ -150,20 +150,26 @@ impl LinearVariants<'_> {
 
     /// Finds modes that hold what is left, unless those of the segment before do.
     fn span(&mut self, length: f64, allowed: f64) -> Option<()> {
+        if self.error(length)? <= allowed {
+            return Some(());
+        }
         let krylov = self.krylov.as_mut()?;
+        krylov.span(&self.plan, &self.march.rest, (length, allowed), &mut self.modes)?;
+        self.project();
+        (self.error(length)? <= allowed).then_some(())
+    }
+
+    /// How far temperatures of the segment may be wrong in K: by what the modes miss of the start,
+    /// and by what they leave of the equation.
+    fn error(&mut self, length: f64) -> Option<f64> {
         let march = &self.march;
         let mut missed = march.rest.clone();
         for (left, shape) in march.left.iter().zip(self.modes.shapes.chunks_exact(missed.len())) {
             missed.iter_mut().zip(shape).for_each(|(missed, x)| *missed -= left * x);
         }
         let missed = missed.iter().fold(0.0, |most: f64, t| most.max(t.abs()));
-        let error = krylov.error(&self.modes.rates, &march.left, length);
-        if missed + error <= allowed {
-            return Some(());
-        }
-        krylov.span(&self.plan, &march.rest, (length, allowed), &mut self.modes)?;
-        self.project();
-        Some(())
+        let left = self.krylov.as_mut()?.error(&self.modes.rates, &march.left, length);
+        Some(missed + left)
     }
 
     /// Takes a segment of a quantity in.
