@@ -24,7 +24,8 @@ pub mod sweep;
 pub mod uncertainty;
 
 pub use compare::{
-    Candidate, CompareError, CompareRow, LimitResult, Peak, SortKey, compare_table, order,
+    Candidate, CompareError, CompareRow, HeatOut, HeatOver, LimitResult, PathShare, Peak, Settled,
+    Share, SortKey, compare_table, order,
 };
 pub use digest::{Hashing, sha256};
 pub use gears::{GearError, GearPoint, GearState, GearTask, MemberState, PartLoss};
