@@ -140,3 +140,20 @@ fn tables_of_parts_are_checked_with_their_lines() {
     }
     folder.run(&["compare", "duty.toml", "--parts", "none.csv"]).exits(2).says("none.csv");
 }
+
+/// Between two points of the lap the speed is a straight line, so the integral of its power of 5/3 is
+/// 3/8 of the difference of the powers of 8/3 over the slope: by mpmath 25 702.143 560 5 J a lap, twenty
+/// of which are the run.
+#[test]
+fn the_alternatives_over_the_lap_turn_over_the_heat_of_the_closed_form() {
+    let lap = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/lap");
+    let (file, parts) = (format!("{lap}/lap.toml"), format!("{lap}/alternatives.csv"));
+    let args = ["compare", &file, "--parts", &parts, "--format", "csv"];
+    let csv = Folder::empty().run(&args).exits(1).out;
+    for row in 0..5 {
+        near(&cell(&csv, row, "heat [J]"), 20.0 * 25_702.143_560_5, 2.0);
+        near(&cell(&csv, row, "period [s]"), 90.0, 0.0);
+        assert_eq!(cell(&csv, row, "status"), if row < 2 { "kept" } else { "broken" });
+    }
+    assert!(cell(&csv, 1, "file").ends_with("(fins and fan)"));
+}

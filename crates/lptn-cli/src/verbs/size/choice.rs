@@ -19,6 +19,9 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::words::{count, spaced, unverified};
 
+/// The name of a part that is left out.
+const NO_PART: &str = "none";
+
 /// Rows of the table for people: what is cheaper and fails, and what is dearer and works.
 const MOST_CHEAPER: usize = 12;
 const MOST_DEARER: usize = 4;
@@ -81,11 +84,14 @@ impl Answer<'_> {
         self.choices.best.map(|best| &self.choices.judged[best])
     }
 
-    /// "HS-120 with F80".
+    /// "HS-120 with F80"; a part called `none` is not told beside others.
     fn parts(&self, choice: &Choice) -> String {
-        let names =
-            self.catalogues().iter().zip(&choice.parts).map(|(one, &part)| &one.parts[part]);
-        names.map(|name| plain(name)).collect::<Vec<_>>().join(" with ")
+        let names = || {
+            let parts = self.catalogues().iter().zip(&choice.parts);
+            parts.map(|(one, &part)| plain(&one.parts[part]))
+        };
+        let told: Vec<String> = names().filter(|name| name != NO_PART).collect();
+        if told.is_empty() { NO_PART.to_owned() } else { told.join(" with ") }
     }
 
     fn objective(&self, choice: &Choice) -> String {
