@@ -72,6 +72,24 @@ fn what_no_part_keeps_ends_with_1_and_says_by_how_much() {
     assert_eq!(folder.read("a.toml"), before);
 }
 
+/// A loss that grows by 0.5 W/K runs away where R + 1 / g is more than 2 K/W: with f0 and with s1 and f1.
+/// s2 with f2, 1 K/W, comes to 20 + 30 / (1 - 0.5) degC.
+#[test]
+fn parts_without_an_answer_are_listed_with_their_codes() {
+    let grows = PARTS.replace("P = \"30 W\"", "P = \"30 [W] + 0.5 [W/K] * (T - 20 [degC])\"");
+    assert_ne!(grows, PARTS);
+    let folder = folder(&grows.replace("<= 60", "<= 100"));
+    let ran = folder.run(&["size", "a.toml"]).exits(0);
+    let ran = ran.prints("steady::runaway").prints("that could not be judged");
+    let answer = ran.out.lines().find(|line| line.contains("the answer")).unwrap_or_default();
+    assert!(answer.starts_with("s2 with f2 ") && answer.contains(" 20 K"), "{}", ran.out);
+    let json = folder.run(&["size", "a.toml", "--format", "json"]).exits(0).json();
+    let first = &json["choices"][0];
+    assert_eq!((&first["failed"], &first["feasible"]), (&"steady::runaway".into(), &false.into()));
+    let csv = folder.run(&["size", "a.toml", "--format", "csv"]).exits(0);
+    assert!(csv.out.lines().next().is_some_and(|head| head.contains("failed")), "{}", csv.out);
+}
+
 #[test]
 fn the_parts_are_written_with_their_own_numbers() {
     let folder = folder(PARTS);
