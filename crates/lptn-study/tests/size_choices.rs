@@ -124,9 +124,7 @@ fn a_part_without_an_answer_is_listed_with_its_error() {
     let found = chosen(&format!("{PARTS}{runaway}"), by_price).unwrap();
     let order: Vec<usize> = found.judged.iter().map(|one| one.parts[0]).collect();
     assert_eq!(order, [0, 4, 1, 2, 3]);
-    let code = |choice: &lptn_study::Choice| {
-        choice.judged.as_ref().err().map(|error| error.code())
-    };
+    let code = |choice: &lptn_study::Choice| choice.judged.as_ref().err().map(|error| error.code());
     assert_eq!(code(&found.judged[1]), Some("steady::runaway"));
     assert!(!found.judged[1].keeps() && found.judged[1].margins().is_empty());
     // at 2 m/s 0.6 and 0.45 K/W become 0.345 and 0.258 K/W
