@@ -70,7 +70,7 @@ fn the_fan_is_sized_as_its_case_expects() {
             cases: &[],
             requirements: &study.requirements,
             moments: Moments::Steady(0.0),
-            probability: None,
+            doubt: None,
             watcher: &|_| Proceed::Continue,
         },
         parameter: network.parameter("speed").expect("the speed of the air"),

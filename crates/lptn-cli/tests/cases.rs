@@ -104,7 +104,8 @@ fn variants_and_cases_are_compared() {
     assert!(csv.out.contains("\"a.toml (overload, G=2W/K)\""), "{}", csv.out);
     // the coolest first: 45 + 25 is below 30 + 37.5 .. by margin
     assert!(rows[1].starts_with("\"a.toml (overload, G=4W/K)\""), "{}", csv.out);
-    folder.run(&["compare", "a.toml", "--set", "G=2W/K,4W/K"]).exits(0).prints("a.toml (G=4W/K)");
+    let ran = folder.run(&["compare", "a.toml", "--set", "G=2W/K,4W/K"]).exits(0);
+    ran.prints("2 candidates of a.toml").prints("\nG=4W/K");
     let many = format!("G={}", vec!["1W/K"; 1001].join(","));
     folder.run(&["compare", "a.toml", "--set", &many]).exits(2).says("compare::too_many");
 }
@@ -125,4 +126,11 @@ fn a_probability_is_kept_and_said() {
     let json = folder.run(&["size", "a.toml", "--format", "json"]).exits(0).json();
     assert!((value(&json["requirements"][0]["deviation"]) - 5.0 / 1.803_737_8).abs() < 1e-6);
     folder.run(&["size", "a.toml", "--write"]).exits(0);
+    // ± from the command line: twice as much, in a file with its own or with none
+    let set = ["size", "a.toml", "--set", "P=100 ± 10 W"];
+    folder.write("a.toml", &text);
+    folder.run(&set).exits(0).prints("G = 1.94081 W/K keeps every requirement");
+    folder.write("a.toml", &text.replace("100 ± 5 W", "100 W"));
+    folder.run(&set).exits(0).prints("G = 1.94081 W/K keeps every requirement");
+    folder.run(&["size", "a.toml"]).exits(2).says("size::no_deviation").says("a.toml:");
 }

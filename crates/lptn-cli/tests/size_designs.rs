@@ -72,6 +72,61 @@ fn what_no_part_keeps_ends_with_1_and_says_by_how_much() {
     assert_eq!(folder.read("a.toml"), before);
 }
 
+/// Straight lines between the points of each curve, held outside: at 0.3, 1.2 and 2.5 m/s the first has
+/// 2.4, 1.78 and 1.2 K/W, the second, in mK/W, 1.7, 1.28 and 0.9; 30 W on them, 35 K to lose.
+#[test]
+fn a_part_has_a_curve_from_a_file() {
+    let curves = "format = 1\n[param]\nsink = 1\nv = '2 m/s'\nprice_sink = 0\nprice_fan = 0\n\
+        [table]\nR_sink = { csv = ['a.csv', 'b.csv'], x = 'v', value = 'R', outside = 'hold' }\n\
+        [node]\nchip = { C = '60 J/K', T0 = '35 degC' }\n[boundary]\nair = { T = '35 degC' }\n\
+        [resistor]\nfins = { from = 'chip', to = 'air', R = 'R_sink(sink, v)' }\n[source]\n\
+        heat = { into = 'chip', P = '30 W' }\n[size.parts]\nminimise = 'price_sink + price_fan'\n\
+        catalogue = ['sinks.csv', 'fans.csv']\nrequire = ['chip.T <= 70 [degC]']\n";
+    let folder = Folder::with("a.toml", curves);
+    folder.write("a.csv", "v [m/s],R [K/W]\n0.5,2.4\n1,1.9\n2,1.3\n4,0.9\n");
+    folder.write("b.csv", "v [m/s],R [mK/W]\n0.5,1700\n1.5,1100\n3,800\n");
+    folder.write("sinks.csv", "part,sink [-],price_sink [-]\na,1,4.20\nb,2,5.90\n");
+    folder.write("fans.csv", "part,v [m/s],price_fan [-]\nf0,0.3,0\nf1,1.2,3.10\nf2,2.5,4.80\n");
+    let json = folder.run(&["size", "a.toml", "--format", "json"]).exits(0).json();
+    let resistance = |parts: &serde_json::Value| match (parts[0].as_str(), parts[1].as_str()) {
+        (Some("a"), Some("f0")) => 2.4,
+        (Some("a"), Some("f1")) => 1.78,
+        (Some("a"), _) => 1.2,
+        (_, Some("f0")) => 1.7,
+        (_, Some("f1")) => 1.28,
+        _ => 0.9,
+    };
+    let choices = json["choices"].as_array().map_or(&[][..], Vec::as_slice);
+    assert_eq!(choices.len(), 6);
+    for choice in choices {
+        let margin = choice["requirements"][0]["margin"]["value"].as_f64().unwrap_or(f64::NAN);
+        assert!((margin - (35.0 - 30.0 * resistance(&choice["parts"]))).abs() < 1e-9, "{choice}");
+    }
+    // what is written out flat is the same network
+    let flat = folder.run(&["check", "a.toml", "--expand"]).exits(0).out;
+    folder.write("flat.toml", &flat);
+    let again = folder.run(&["size", "flat.toml", "--format", "json"]).exits(0).json();
+    assert_eq!(again["choices"], json["choices"]);
+}
+
+/// A loss that grows by 0.5 W/K runs away where R + 1 / g is more than 2 K/W: with f0 and with s1 and f1.
+/// s2 with f2, 1 K/W, comes to 20 + 30 / (1 - 0.5) degC.
+#[test]
+fn parts_without_an_answer_are_listed_with_their_codes() {
+    let grows = PARTS.replace("P = \"30 W\"", "P = \"30 [W] + 0.5 [W/K] * (T - 20 [degC])\"");
+    assert_ne!(grows, PARTS);
+    let folder = folder(&grows.replace("<= 60", "<= 100"));
+    let ran = folder.run(&["size", "a.toml"]).exits(0);
+    let ran = ran.prints("steady::runaway").prints("that could not be judged");
+    let answer = ran.out.lines().find(|line| line.contains("the answer")).unwrap_or_default();
+    assert!(answer.starts_with("s2 with f2 ") && answer.contains(" 20 K"), "{}", ran.out);
+    let json = folder.run(&["size", "a.toml", "--format", "json"]).exits(0).json();
+    let first = &json["choices"][0];
+    assert_eq!((&first["failed"], &first["feasible"]), (&"steady::runaway".into(), &false.into()));
+    let csv = folder.run(&["size", "a.toml", "--format", "csv"]).exits(0);
+    assert!(csv.out.lines().next().is_some_and(|head| head.contains("failed")), "{}", csv.out);
+}
+
 #[test]
 fn the_parts_are_written_with_their_own_numbers() {
     let folder = folder(PARTS);

@@ -78,12 +78,22 @@ impl CsvFiles {
     }
 }
 
+fn text(value: &RawValue) -> Option<(&str, &RawValue)> {
+    match &value.kind {
+        RawKind::String { text, .. } => Some((text, value)),
+        _ => None,
+    }
+}
+
 /// The values of every `csv` below this one.
 fn find<'a>(value: &'a RawValue, named: &mut Vec<(&'a str, &'a RawValue)>) {
     let RawKind::Table(RawTable { entries, .. }) = &value.kind else { return };
     for entry in entries {
         match &entry.value.kind {
             RawKind::String { text, .. } if entry.key == CSV => named.push((text, &entry.value)),
+            RawKind::Array(items) if entry.key == CSV => {
+                named.extend(items.iter().filter_map(text))
+            }
             _ => find(&entry.value, named),
         }
     }

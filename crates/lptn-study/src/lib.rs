@@ -24,7 +24,8 @@ pub mod sweep;
 pub mod uncertainty;
 
 pub use compare::{
-    Candidate, CompareError, CompareRow, LimitResult, Peak, SortKey, compare_table, order,
+    Candidate, CompareError, CompareRow, HeatOut, HeatOver, LimitResult, PathShare, Peak, Settled,
+    Share, SortKey, compare_table, order,
 };
 pub use digest::{Hashing, sha256};
 pub use gears::{GearError, GearPoint, GearState, GearTask, MemberState, PartLoss};
@@ -34,6 +35,7 @@ pub use rank::{RankError, Ranking, effect};
 pub use record::{LedgerRecord, SiValue, StatisticsRecord};
 pub use size::{
     Aim, Choice, ChoiceTask, Choices, Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask,
-    Demand, Design, Judged, LoadCase, Moments, Parts, RunOf, Several, SeveralTask, SizeError,
-    SizeTask, Sizing, Trial, TrialError, Verdict, Watcher, choose, judge, size, size_several,
+    Demand, Design, Doubt, Judged, LoadCase, Moments, Parts, RunOf, Several, SeveralTask,
+    SizeError, SizeTask, Sizing, Trial, TrialError, Verdict, Watcher, choose, judge, size,
+    size_several,
 };

@@ -5,8 +5,8 @@
 use lptn_netlist::{Netlist, parse};
 use lptn_solve::Proceed;
 use lptn_study::{
-    Coolant, CoolingTask, Demand, Moments, SizeError, SizeTask, Sizing, TrialError, Verdict, judge,
-    size,
+    Coolant, CoolingTask, Demand, Doubt, Moments, SizeError, SizeTask, Sizing, TrialError, Verdict,
+    judge, size,
 };
 
 /// 100 W into `inner`, over `R_in` into `outer`, over `G` into air of 20 degC.
@@ -35,12 +35,15 @@ fn one_node(resistor: &str, power: &str, study: &str) -> Netlist {
 }
 
 fn demand(netlist: &Netlist) -> Demand<'_> {
+    let probability = netlist.studies.sizes[0].probability(&netlist.network).unwrap();
+    let all = netlist.network.parameter_ids().zip(netlist.network.parameters());
+    let deviations = all.filter_map(|(id, p)| Some((id, p.deviation?))).collect::<Vec<_>>().leak();
     Demand {
         network: &netlist.network,
         cases: &[],
         requirements: &netlist.studies.sizes[0].requirements,
         moments: Moments::Steady(0.0),
-        probability: netlist.studies.sizes[0].probability(&netlist.network).unwrap(),
+        doubt: probability.map(|probability| Doubt { probability, deviations }),
         watcher: &|_| Proceed::Continue,
     }
 }

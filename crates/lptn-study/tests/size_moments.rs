@@ -38,7 +38,7 @@ fn solve(netlist: &Netlist) -> Result<Sizing, SizeError> {
             cases: &[],
             requirements: &study.requirements,
             moments,
-            probability: None,
+            doubt: None,
             watcher: &|_| Proceed::Continue,
         },
         parameter: study.ranges(&netlist.network).unwrap()[0].0,

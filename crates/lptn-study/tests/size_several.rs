@@ -14,14 +14,15 @@ fn demand(netlist: &Netlist) -> Demand<'_> {
         cases: &[],
         requirements: &netlist.studies.sizes[0].requirements,
         moments: Moments::Steady(0.0),
-        probability: None,
+        doubt: None,
         watcher: &|_| Proceed::Continue,
     }
 }
 
 fn aim(netlist: &Netlist) -> Aim<'_> {
     let study = &netlist.studies.sizes[0];
-    Aim { value: &study.objective.value, goal: study.goal }
+    let of_results = study.objective.of_results;
+    Aim { value: &study.objective.value, goal: study.goal, of_results }
 }
 
 fn several(text: &str, threads: usize) -> Several {
@@ -169,7 +170,7 @@ fn choice(limit: f64, goal: &str, threads: usize) -> Choices {
     };
     let catalogues: Vec<Parts> = netlist.studies.sizes[0].catalogues.iter().map(parts).collect();
     let (demand, aim) = (demand(&netlist), aim(&netlist));
-    choose(&ChoiceTask { demand, aim, catalogues: &catalogues, threads }).unwrap()
+    choose(&ChoiceTask { demand, aim, catalogues: &catalogues, varied: &[], threads }).unwrap()
 }
 
 /// Every combination by T = 20 degC + 30 W (R + 1 / g), the cheapest that keeps the limit.
@@ -194,9 +195,9 @@ fn the_cheapest_parts_that_work_are_those_of_brute_force() {
         for choice in &found.judged {
             let ((r, _), (g, _)) = (sinks[choice.parts[0]], fans[choice.parts[1]]);
             let margin = limit - 20.0 - 30.0 * (r + 1.0 / g);
-            assert!((choice.design.judged.margins[0] - margin).abs() < 1e-9);
+            assert!((choice.margins()[0] - margin).abs() < 1e-9);
         }
-        let prices: Vec<f64> = found.judged.iter().map(|one| one.design.objective).collect();
+        let prices: Vec<f64> = found.judged.iter().map(|one| one.objective).collect();
         assert!(prices.is_sorted());
     }
     // the dearest that works, and the same whatever the number of threads

@@ -11,8 +11,10 @@ use lptn_units::{
 };
 
 use super::Writer;
-use crate::raw::{RawKind, RawTable};
-use crate::toml_text::{TomlFields, celsius, list, list_in, point, quantity, string, value};
+use crate::raw::{RawKind, RawTable, RawValue};
+use crate::toml_text::{
+    TomlFields, celsius, list, list_in, point, quantity, string, strings, value,
+};
 
 const TIME: Type = Type::of(Dimension::TIME);
 
@@ -137,6 +139,14 @@ impl Writer<'_> {
     fn csv_map(&self, raw: &RawTable) -> String {
         let mut fields = TomlFields::default();
         for entry in &raw.entries {
+            if let RawKind::Array(files) = &entry.value.kind {
+                let path = |file: &RawValue| match &file.kind {
+                    RawKind::String { text, .. } => Some(self.path(file.span.file, text)),
+                    _ => None,
+                };
+                let paths: Vec<String> = files.iter().filter_map(path).collect();
+                fields.put(&entry.key, strings(paths.iter().map(String::as_str)));
+            }
             let RawKind::String { text, .. } = &entry.value.kind else { continue };
             if entry.key == "csv" {
                 fields.word(&entry.key, &self.path(entry.value.span.file, text));

@@ -4,6 +4,7 @@ mod boundary;
 mod capacitor;
 mod conductor;
 mod control;
+mod curves;
 mod default;
 mod end;
 mod fan;

@@ -13,7 +13,7 @@ use crate::fields::Fields;
 use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
 use crate::names::ValueKind;
 use crate::points::Axis;
-use crate::raw::{RawEntry, RawKind};
+use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::work::Elaboration;
 
 /// The keys that a table and a signal share.
@@ -36,7 +36,13 @@ pub(crate) const TABLE: SectionDeclaration = SectionDeclaration {
         key("y", "list", "values; of `csv`: a second argument", "[\"0 W\", \"80 W\"]"),
         key("x_unit", "unit", "the unit of plain numbers in `x`", "\"rpm\""),
         key("y_unit", "unit", "the unit of plain numbers in `y`", "\"W\""),
-        CSV,
+        key(
+            "csv",
+            "file, or a list of files",
+            "in place of the lists: a CSV file, and the names of its columns; of several files one \
+             curve each, and its number, from 1, is the first argument",
+            "\"cycle.csv\"",
+        ),
         COLUMN,
         key("interp", "`\"linear\"`, `\"pchip\"`", "what joins the points", "\"linear\"")
             .or("`\"linear\"`"),
@@ -56,10 +62,11 @@ pub(crate) const TABLE: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-const INTERPOLATIONS: [(&str, Interpolation); 2] =
+pub(super) const INTERPOLATIONS: [(&str, Interpolation); 2] =
     [("linear", Interpolation::Linear), ("pchip", Interpolation::Pchip)];
 
-const OUTSIDE: [(&str, Outside); 2] = [("error", Outside::Error), ("hold", Outside::Hold)];
+pub(super) const OUTSIDE: [(&str, Outside); 2] =
+    [("error", Outside::Error), ("hold", Outside::Hold)];
 
 impl<'a> Elaboration<'a> {
     /// Gives all tables to the builder; they hold numbers only, so everything else may use them.
@@ -81,6 +88,10 @@ impl<'a> Elaboration<'a> {
 
     fn table(&mut self, entry: &'a RawEntry) -> Option<TableSymbol> {
         let fields = self.fields(&TABLE, entry)?;
+        let several = |raw: &RawValue| matches!(raw.kind, RawKind::Array(_));
+        if fields.get("csv").is_some_and(several) {
+            return self.curves_of_files(&fields);
+        }
         let map = fields.get("csv").is_some() && fields.get("y").is_some();
         if map { self.map_of_two(&fields) } else { self.tabulated(&fields, (None, None)) }
     }
@@ -116,14 +127,7 @@ impl<'a> Elaboration<'a> {
             &["x_unit", "y_unit"],
             "is for lists, but the points come from a CSV file",
         );
-        let outside = self.choice(fields, "outside", &OUTSIDE);
-        let linear = self.choice(fields, "interp", &INTERPOLATIONS) != Some(Interpolation::Pchip);
-        if let (false, Some(raw)) = (linear, fields.get("interp")) {
-            let message =
-                format!("{} of two arguments is not supported yet", fields.owner.field("interp"));
-            let help = "a table of two arguments is bilinear: leave `interp` out";
-            self.refuse("netlist::not_supported_yet", message, &raw.span, help);
-        }
+        let outside = self.straight(fields);
         let file = self.csv_file(fields);
         let names = ["x", "y", "value"].map(|key| self.column_name(fields, key));
         let file = file?;
@@ -143,7 +147,7 @@ impl<'a> Elaboration<'a> {
         let [xs, ys] = [&x, &y].map(|axis| knots(&axis.numbers));
         let grid = Grid { fields, file_header: file.header(), axes: [&x, &y], knots: [&xs, &ys] };
         let values = self.kept(grid.fill(&value))?;
-        match Table2::new(xs, ys, values, outside.filter(|_| linear)?) {
+        match Table2::new(xs, ys, values, outside?) {
             Ok(table) => {
                 let table = Arc::new(LookupTable::Two(table));
                 let units = units([&x, &y, &value]);
@@ -212,7 +216,7 @@ impl Scope for OfTemperature<'_> {
 }
 
 /// The units that all of them are given in; none where one is not known.
-fn units<const N: usize>(points: [&PlacedNumbers; N]) -> Vec<Unit> {
+pub(super) fn units<const N: usize>(points: [&PlacedNumbers; N]) -> Vec<Unit> {
     let of = |points: &PlacedNumbers| match points.ty.is_scalar() && points.unit.is_none() {
         true => Unit::parse("1").ok(),
         false => points.unit.clone(),

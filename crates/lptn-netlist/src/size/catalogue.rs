@@ -1,17 +1,23 @@
 //! `catalogue` of `[size.NAME]`: real parts, one a row, with the parameters that each sets.
 
-use lptn_data::{Asked, CsvFile, Diagnostic, Span};
+use std::sync::Arc;
+
+use lptn_data::{Asked, CsvFile, CsvText, Diagnostic, PlacedNumbers, Rejected, Span};
 use lptn_network::Context;
-use lptn_units::{Scope as _, Unit, suggest};
+use lptn_units::{Scope as _, Type, Unit, suggest};
 
 use crate::fields::Fields;
 use crate::names::ValueKind;
+use crate::netlist::Netlist;
 use crate::raw::{RawKind, RawNetlist, RawValue};
 use crate::size::SIZE;
 use crate::work::Elaboration;
 
 /// The column of the names of the parts, which has to be there.
 const PART: &str = "part";
+
+/// What the text of `--parts` is called in diagnostics.
+const PARTS: &str = "--parts";
 
 /// Columns that are for people.
 const FOR_PEOPLE: [&str; 4] = ["maker", "source", "note", "url"];
@@ -64,6 +70,114 @@ fn named(value: &RawValue) -> impl Iterator<Item = (&str, &RawValue)> {
     })
 }
 
+/// What a parameter is that a column is named after; the problem where there is none, unless it was
+/// told before.
+type TypeOf<'a> = dyn FnMut(&str, &Span) -> Result<Type, Option<Diagnostic>> + 'a;
+
+impl Catalogue {
+    /// Reads the file that stands at a place.
+    fn read(
+        csv: &str,
+        (text, span): (&CsvText, &Span),
+        ty: &mut TypeOf<'_>,
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let file = Arc::new(CsvFile::open(text, span).map_err(|problem| vec![problem])?);
+        let asked = Asked { words: String::new(), span: Some(span.clone()) };
+        let mut problems = Vec::new();
+        let parts = file.words(PART, &asked);
+        let parts = parts.unwrap_or_else(|found| {
+            problems.extend(found);
+            Vec::new()
+        });
+        let of_numbers =
+            file.names().filter(|(name, _)| *name != PART && !FOR_PEOPLE.contains(name));
+        let (mut columns, mut complete) = (Vec::new(), true);
+        for (name, place) in of_numbers {
+            let read = ty(name, place).map_err(|problem| problem.into_iter().collect());
+            match read.and_then(|ty| file.column(name, Some(ty), &asked)) {
+                Ok(PlacedNumbers { unit: Some(unit), numbers: values, .. }) => {
+                    let (name, span) = (name.to_owned(), place.clone());
+                    columns.push(CatalogueColumn { name, unit, values, span });
+                }
+                Ok(_) => complete = false,
+                Err(found) => {
+                    problems.extend(found);
+                    complete = false;
+                }
+            }
+        }
+        if complete && columns.is_empty() {
+            let message = format!("no column of {csv} is a parameter, so its parts are all alike");
+            let help = "name the columns after the parameters that a part sets: `R_sink [K/W]`";
+            problems.push(Diagnostic::wrong(
+                "netlist::size_catalogue",
+                message,
+                file.header(),
+                help,
+            ));
+        }
+        if !problems.is_empty() || !complete {
+            return Err(problems);
+        }
+        Ok(Self { csv: csv.to_owned(), span: span.clone(), parts, columns })
+    }
+
+    /// What `--set` takes for a part, by its position.
+    pub fn assignments(&self, part: usize) -> Vec<String> {
+        let text = |column: &CatalogueColumn| {
+            let (value, ty) = (column.values[part], column.unit.ty);
+            let unit = ty.dimension.si_unit();
+            match (ty.absolute, unit.as_str()) {
+                (true, _) => format!("{}=absolute({value} [K])", column.name),
+                (false, "1" | "") => format!("{}={value}", column.name),
+                (false, unit) => format!("{}={value} {unit}", column.name),
+            }
+        };
+        self.columns.iter().map(text).collect()
+    }
+}
+
+impl Netlist {
+    /// Parts for this netlist: a table as `catalogue` of `[size.NAME]` names one, whose columns are
+    /// parameters.
+    ///
+    /// # Errors
+    /// [`Rejected`] with everything that is wrong with the table.
+    pub fn parts(&self, name: &str, bytes: &[u8]) -> Result<Catalogue, Rejected> {
+        let mut files = self.files.clone();
+        let option = files.add(PARTS, name);
+        let asked = Span::new(option, 0..name.len());
+        let network = &self.network;
+        let mut ty = |name: &str, place: &Span| {
+            let known = || network.parameters().iter().map(|parameter| parameter.name.as_str());
+            match network.parameter(name) {
+                Ok(id) => Ok(network.parameters()[id.index()].ty),
+                Err(_) => Err(Some(no_parameter((name, place), known()))),
+            }
+        };
+        let read = CsvText::of(&mut files, name.to_owned(), bytes).map_err(|problem| vec![problem]);
+        let read = read.and_then(|text| Catalogue::read(name, (&text, &asked), &mut ty));
+        read.map_err(|problems| Rejected::arranged(files, problems, 0))
+    }
+}
+
+/// A column that is named after none of these parameters.
+fn no_parameter<'n>(
+    (name, place): (&str, &Span),
+    known: impl Iterator<Item = &'n str>,
+) -> Diagnostic {
+    let message = format!("column `{name}` is named after no parameter");
+    let help = match suggest(name, known) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!(
+            "give it a value in [param], `{name} = ..`; columns for people are `part`, `maker`, \
+             `source`, `note` and `url`"
+        ),
+    };
+    let problem = Diagnostic::error("netlist::unknown_parameter", message);
+    problem.at(place.clone(), "unknown parameter").help(help)
+}
+
 impl<'a> Elaboration<'a> {
     /// The catalogues of a study; `None` if something is wrong with one, which is then reported.
     pub(super) fn catalogues(&mut self, fields: &Fields<'a>) -> Option<Vec<Catalogue>> {
@@ -90,42 +204,9 @@ impl<'a> Elaboration<'a> {
     ) -> Option<Catalogue> {
         let files: &'a crate::csv_files::CsvFiles = self.csv;
         let text = self.kept(files.text(raw)?.map_err(Diagnostic::clone))?;
-        let opened = CsvFile::open(text, &raw.span);
-        let file = std::sync::Arc::new(self.kept(opened)?);
-        let asked = Asked { words: String::new(), span: Some(raw.span.clone()) };
-        let parts = match file.words(PART, &asked) {
-            Ok(parts) => Some(parts),
-            Err(problems) => {
-                self.problems.extend(problems);
-                None
-            }
-        };
-        let names: Vec<(String, Span)> =
-            file.names().map(|(name, place)| (name.to_owned(), place.clone())).collect();
-        let of_numbers =
-            names.iter().filter(|(name, _)| name != PART && !FOR_PEOPLE.contains(&name.as_str()));
-        let columns: Vec<_> = of_numbers
-            .map(|(name, place)| {
-                let ty = self.set_by_part(fields, name, place)?;
-                let read = file.column(name, Some(ty), &asked);
-                let numbers = read.map_err(|problems| self.problems.extend(problems)).ok()?;
-                let unit = numbers.unit?;
-                Some(CatalogueColumn {
-                    name: name.clone(),
-                    unit,
-                    values: numbers.numbers,
-                    span: place.clone(),
-                })
-            })
-            .collect();
-        let columns: Vec<CatalogueColumn> = columns.into_iter().collect::<Option<_>>()?;
-        if columns.is_empty() {
-            let message = format!("no column of {csv} is a parameter, so its parts are all alike");
-            let help = "name the columns after the parameters that a part sets: `R_sink [K/W]`";
-            self.refuse("netlist::size_catalogue", message, file.header(), help);
-            return None;
-        }
-        Some(Catalogue { csv: csv.to_owned(), span: raw.span.clone(), parts: parts?, columns })
+        let mut ty = |name: &str, place: &Span| self.set_by_part(fields, name, place);
+        let read = Catalogue::read(csv, (text, &raw.span), &mut ty);
+        read.map_err(|problems| self.problems.extend(problems)).ok()
     }
 
     /// The type of the parameter that a column is named after.
@@ -134,28 +215,17 @@ impl<'a> Elaboration<'a> {
         fields: &Fields<'_>,
         name: &str,
         place: &Span,
-    ) -> Option<lptn_units::Type> {
+    ) -> Result<Type, Option<Diagnostic>> {
         if self.names.is_parameter(name) {
             self.names.use_by_study(name);
             let known = self.builder.scope(Context::Time).symbol(name).map(|symbol| symbol.ty);
-            return known.filter(|_| !self.names.has_failed(name));
+            return known.filter(|_| !self.names.has_failed(name)).ok_or(None);
         }
-        let message = format!("column `{name}` is named after no parameter");
         let section = ValueKind::Parameter.section();
-        let near = suggest(name, self.elements(section).iter().map(|entry| entry.key.as_str()));
-        let help = match near {
-            Some(near) => format!("did you mean `{near}`?"),
-            None => format!(
-                "give it a value in [param], `{name} = ..`; columns for people are `part`, \
-                 `maker`, `source`, `note` and `url`"
-            ),
-        };
-        let problem = Diagnostic::error("netlist::unknown_parameter", message);
+        let known = self.elements(section);
+        let problem = no_parameter((name, place), known.iter().map(|entry| entry.key.as_str()));
         let named = fields.get("catalogue").map(|raw| raw.span.clone());
-        self.report(
-            problem.at(place.clone(), "unknown parameter").also(named, "read here").help(help),
-        );
-        None
+        Err(Some(problem.also(named, "read here")))
     }
 
     /// Two catalogues cannot set one parameter.

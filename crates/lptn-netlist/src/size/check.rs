@@ -53,15 +53,10 @@ impl SizeStudy {
         let wrong = |message: String, help: &str| {
             Diagnostic::wrong("netlist::size_probability", message, &setting.span, help)
         };
-        let scatters = network.parameters().iter().any(|p| p.deviation.is_some_and(|d| d > 0.0));
         match self.probability(network) {
             Ok(Some(p)) if !(p > 0.5 && p < 1.0) => Some(wrong(
                 format!("{} has to be more than 0.5 and less than 1, got {p}", setting.words),
                 &setting.help,
-            )),
-            Ok(_) if !scatters => Some(wrong(
-                format!("{} counts the `±` of parameters, and none has any", setting.words),
-                "say how well a parameter is known: `P = \"100 ± 5 W\"`",
             )),
             Ok(_) => None,
             Err(error) => {

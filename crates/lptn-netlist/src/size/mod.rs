@@ -23,13 +23,13 @@ const SIZE: SectionDeclaration = SectionDeclaration {
     keys: &[
         key(
             "minimise",
-            "parameter, or expression of parameters",
+            "parameter, or expression of parameters and results",
             "whose least value is sought",
             "\"name of a parameter\"",
         ),
         key(
             "maximise",
-            "parameter, or expression of parameters",
+            "parameter, or expression of parameters and results",
             "whose largest value is sought",
             "\"name of a parameter\"",
         ),
@@ -57,7 +57,7 @@ const SIZE: SectionDeclaration = SectionDeclaration {
         key(
             "catalogue",
             "file, or a list of files",
-            "parts to choose from, one a row, in place of `vary`",
+            "parts to choose from, one a row, in place of `vary` or beside it",
             "\"parts.csv\"",
         ),
         key(
@@ -110,8 +110,10 @@ pub enum Goal {
 pub struct Objective {
     /// As it is written: `G_fan`, `P_fan + 2 [W/kg] * m`.
     pub text: String,
-    /// The value; it reads parameters.
+    /// The value; it reads parameters, and results where `of_results` says so.
     pub value: Value,
+    /// Whether it reads temperatures or heat flows, those of the steady state.
+    pub of_results: bool,
     /// Its type.
     pub ty: Type,
 }
@@ -214,7 +216,7 @@ pub struct SizeStudy {
     pub(crate) probability: Option<Setting>,
     /// Where it stands.
     pub span: Span,
-    /// The parameters whose values are sought; none where there are catalogues.
+    /// The parameters whose values are sought; where there are catalogues, for each choice of parts.
     pub varied: Vec<SizeRange>,
     /// The load cases in each of which everything has to be kept; `None` for all that there are.
     pub cases: Option<Vec<String>>,
@@ -223,10 +225,11 @@ pub struct SizeStudy {
 }
 
 impl SizeStudy {
-    /// The parameter of which the least or largest value is sought, where nothing else is varied.
+    /// The parameter of which the least or largest value is sought, where nothing else is varied or
+    /// chosen.
     pub fn single(&self) -> Option<&SizeRange> {
         match self.varied.as_slice() {
-            [one] if one.name == self.objective.text => Some(one),
+            [one] if self.catalogues.is_empty() && one.name == self.objective.text => Some(one),
             _ => None,
         }
     }

@@ -30,7 +30,8 @@ impl<'a> Elaboration<'a> {
     pub(super) fn size_study(&mut self, entry: &'a RawEntry) -> Option<SizeStudy> {
         let fields = self.fields(&SIZE, entry)?;
         let over = self.over(&fields);
-        let sought = self.goal(&fields);
+        let steady = over.as_ref().is_none_or(|(over, _)| *over == Over::Steady);
+        let sought = self.goal(&fields, steady);
         let varied = self.varied_or_chosen(&fields);
         let requirements = self.requirements(&fields);
         let cases = self.cases_of(&fields);
@@ -59,27 +60,31 @@ impl<'a> Elaboration<'a> {
         })
     }
 
-    /// What `vary` gives, or the catalogues: one of them.
+    /// What `vary` gives, the catalogues, or both.
     fn varied_or_chosen(
         &mut self,
         fields: &Fields<'a>,
     ) -> Option<(Vec<SizeRange>, Vec<Catalogue>)> {
-        let Some(catalogue) = fields.key("catalogue") else {
+        if fields.key("catalogue").is_none() {
             return Some((self.size_ranges(fields)?, Vec::new()));
-        };
-        if let Some(vary) = fields.key("vary") {
-            let message = format!("{} has both `vary` and `catalogue`", fields.owner.words());
-            let problem = Diagnostic::error("netlist::size_catalogue", message)
-                .at(catalogue.clone(), "parts to choose")
-                .also(vary.clone(), "values to find");
-            self.report(
-                problem.help(
-                    "choose the parts first; then size with the parameters of the chosen ones",
-                ),
-            );
-            return None;
         }
-        Some((Vec::new(), self.catalogues(fields)?))
+        let varied = match fields.key("vary") {
+            Some(_) => self.size_ranges(fields),
+            None => Some(Vec::new()),
+        };
+        let (catalogues, varied) = (self.catalogues(fields)?, varied?);
+        for column in catalogues.iter().flat_map(|one| &one.columns) {
+            if let Some(range) = varied.iter().find(|range| range.name == column.name) {
+                let words = fields.owner.words();
+                let message = format!("{words}: `{}` is varied and set by a part", column.name);
+                let problem = Diagnostic::error("netlist::size_catalogue", message)
+                    .at(range.span.clone(), "varied")
+                    .also(column.span.clone(), "set by every part");
+                self.report(problem.help("leave it out of `vary`, or the column out of the file"));
+                return None;
+            }
+        }
+        Some((varied, catalogues))
     }
 
     /// The results in which it has to be kept, and the period of a cycle where one is given.
@@ -102,8 +107,8 @@ impl<'a> Elaboration<'a> {
         Some((over, Some(period)))
     }
 
-    /// What is sought, and in which direction.
-    fn goal(&mut self, fields: &Fields<'a>) -> Option<(Goal, Objective)> {
+    /// What is sought, and in which direction; results have one value in steady state only.
+    fn goal(&mut self, fields: &Fields<'a>, steady: bool) -> Option<(Goal, Objective)> {
         let (goal, key) = match (fields.get("minimise"), fields.get("maximise")) {
             (Some(_), None) => (Goal::Minimise, "minimise"),
             (None, Some(_)) => (Goal::Maximise, "maximise"),
@@ -117,15 +122,27 @@ impl<'a> Elaboration<'a> {
         let (text, raw) = self.word(fields, key)?;
         let text = text.trim();
         let parsed = Expression::parse(text).ok();
+        let of_results = parsed.as_ref().is_some_and(|e| self.reads_results(e));
+        if of_results && !steady {
+            let message = format!(
+                "{} reads results, which have no one value over time",
+                fields.owner.field(key)
+            );
+            let help = "minimise an expression of parameters, or size in steady state; what has to \
+                        be kept over time is `require`";
+            self.refuse("netlist::size_goal", message, &raw.span, help);
+            return None;
+        }
         let alone = parsed.is_none_or(|e| e.names().iter().any(|(name, _)| *name == text));
-        if alone {
+        if alone && !of_results {
             let known = self.is_parameter_here(&fields.owner.field(key), text, &raw.span);
             if !known || self.names.has_failed(text) {
                 return None;
             }
         }
         let place = Place { owner: &fields.owner, key, raw };
-        let given = self.given(place, Wanted::parameter())?;
+        let wanted = if of_results { Wanted::of_results() } else { Wanted::parameter() };
+        let given = self.given(place, wanted)?;
         let ty = given.ty();
         let value = given.clone().value();
         if value.slots().is_empty() {
@@ -134,7 +151,14 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::size_goal", message, &raw.span, help);
             return None;
         }
-        Some((goal, Objective { text: text.to_owned(), value, ty }))
+        Some((goal, Objective { text: text.to_owned(), value, of_results, ty }))
+    }
+
+    /// Whether an expression names a result, `NAME.T` or `NAME.Q`, and not only parameters of parts,
+    /// whose names have a point too.
+    fn reads_results(&self, expression: &Expression) -> bool {
+        let names = expression.names();
+        names.iter().any(|(name, _)| name.contains('.') && !self.names.is_parameter(name))
     }
 
     /// The ranges of the parameters.

@@ -1,12 +1,20 @@
 //! Comparison of candidate designs: what an engineer asks of each, side by side.
 
 mod candidate;
+mod error;
+mod heat;
 mod limits;
+mod peak;
 mod rank;
+mod settled;
 mod table;
 
-pub(crate) use candidate::hottest;
-pub use candidate::{Candidate, CompareError, Peak};
+pub use candidate::Candidate;
+pub use error::CompareError;
+pub use heat::{HeatOut, HeatOver, PathShare, Share};
 pub use limits::LimitResult;
+pub use peak::Peak;
+pub(crate) use peak::hottest;
 pub use rank::{SortKey, order};
+pub use settled::Settled;
 pub use table::{CompareRow, compare_table};

@@ -5,7 +5,9 @@ use lptn_solve::{Table, TableOf};
 use lptn_units::Unit;
 
 use crate::compare::candidate::Candidate;
+use crate::compare::heat::{HeatOut, HeatOver, PathShare};
 use crate::compare::limits::LimitResult;
+use crate::compare::settled::Settled;
 
 /// A candidate with what it is called.
 #[derive(Debug)]
@@ -48,9 +50,22 @@ impl CompareRow {
         self.candidate()?.limits.iter().find(|limit| limit.name == name)
     }
 
-    /// The share of the boundary of this name, if it has one.
+    /// The share that the boundary or path of this name takes of the heat, if it has one.
     pub fn share(&self, name: &str) -> Option<f64> {
-        self.candidate()?.shares.iter().find(|(boundary, _)| boundary == name)?.1
+        let heat = &self.candidate()?.heat;
+        let boundary = heat.boundaries.iter().find(|(boundary, _)| boundary == name);
+        let path = || heat.paths.iter().find(|path| path.name == name);
+        boundary.map_or_else(|| path()?.share, |(_, share)| *share)
+    }
+
+    /// Its settled cycle, if it has one.
+    pub fn settled(&self) -> Option<&Settled> {
+        self.candidate()?.settled.as_ref()?.as_ref().ok()
+    }
+
+    /// Its result for the limit of this name over the settled cycle, if it has one.
+    pub fn settled_limit(&self, name: &str) -> Option<&LimitResult> {
+        self.settled()?.limits.iter().find(|limit| limit.name == name)
     }
 }
 
@@ -76,7 +91,25 @@ impl CompareRow {
 
     /// The names of all boundaries of some rows.
     pub fn boundary_names(rows: &[Self]) -> Vec<&str> {
-        union(rows, |candidate| candidate.shares.iter().map(|(name, _)| name.as_str()).collect())
+        union(rows, |candidate| {
+            candidate.heat.boundaries.iter().map(|(name, _)| name.as_str()).collect()
+        })
+    }
+
+    /// The names of the paths of some rows to boundaries of which one has several in any row: where
+    /// all have one, its share is that of the boundary.
+    pub fn path_names(rows: &[Self]) -> Vec<&str> {
+        let paths = rows.iter().filter_map(Self::candidate).map(|c| c.heat.paths.as_slice());
+        let shared: Vec<&str> = paths
+            .flat_map(|paths| {
+                let again = |(i, path): (usize, &'_ PathShare)| {
+                    paths[..i].iter().any(|other| other.to == path.to)
+                };
+                paths.iter().enumerate().filter(move |one| again(*one)).map(|(_, p)| p.to.as_str())
+            })
+            .collect();
+        let counts = |path: &&PathShare| shared.contains(&path.to.as_str());
+        union(rows, |c| c.heat.paths.iter().filter(counts).map(|p| p.name.as_str()).collect())
     }
 }
 
@@ -88,17 +121,25 @@ pub fn compare_table(rows: &[CompareRow], unit: &Unit) -> Table {
     let worst = |row: &CompareRow| {
         row.candidate().and_then(Candidate::worst).map_or(String::new(), |limit| limit.name.clone())
     };
+    let cycles = rows.iter().any(|row| row.settled().is_some());
     let mut table = Table::of(rows);
     table.label("file", |row| row.file.clone());
     table.label("title", |row| row.title.clone());
     table.label("status", |row| row.status().to_owned());
     table.label("hottest", hottest);
     table.label("worst_limit", worst);
+    if cycles {
+        let node = |row: &CompareRow| row.settled().and_then(|s| s.hottest.clone());
+        table.label("settled_hottest", move |row| node(row).unwrap_or_default());
+    }
     general(rows, unit, &mut table);
     for name in CompareRow::limit_names(rows) {
         of_limit(rows, name, &mut table);
     }
-    for name in CompareRow::boundary_names(rows) {
+    of_heat(rows, &mut table);
+    let named = CompareRow::boundary_names(rows);
+    let paths = CompareRow::path_names(rows).into_iter().filter(|path| !named.contains(path));
+    for name in named.iter().copied().chain(paths.collect::<Vec<_>>()) {
         table.column(format!("{name}.share"), "-", |row| row.share(name).unwrap_or(f64::NAN));
     }
     table.done()
@@ -113,10 +154,28 @@ fn general(rows: &[CompareRow], unit: &Unit, table: &mut TableOf<'_, CompareRow>
     of("peak", &unit.text, &|c| c.peak.map(|peak| unit.from_si(peak.temperature)));
     of("peak_at", "s", &|c| c.peak?.at);
     of("steady", &unit.text, &|c| c.steady.map(|kelvin| unit.from_si(kelvin)));
+    if rows.iter().any(|row| row.settled().is_some()) {
+        let settled = |c: &Candidate| c.settled.as_ref()?.as_ref().ok().cloned();
+        of("settled", &unit.text, &|c| Some(unit.from_si(settled(c)?.peak?.temperature)));
+        of("settled_at", "s", &|c| settled(c)?.peak?.at);
+        of("period", "s", &|c| settled(c).map(|settled| settled.period));
+    }
     of("time_to_95", "s", &|c| c.time_to_95);
     of("capacity", "J/K", &|c| Some(c.capacity));
     if rows.iter().filter_map(CompareRow::candidate).any(|candidate| candidate.mass.is_some()) {
         of("mass", "kg", &|c| c.mass);
+    }
+}
+
+/// What is known of the heat as a whole.
+fn of_heat(rows: &[CompareRow], table: &mut TableOf<'_, CompareRow>) {
+    fn heat(row: &CompareRow) -> Option<&HeatOut> {
+        row.candidate().map(|c| &c.heat).filter(|heat| heat.over != HeatOver::Steady)
+    }
+    if rows.iter().any(|row| heat(row).is_some()) {
+        table.column("heat", "J", |row| heat(row).map_or(f64::NAN, |heat| heat.all));
+        let stored = |row: &CompareRow| heat(row).and_then(|heat| heat.stored);
+        table.column("stored", "-", |row| stored(row).unwrap_or(f64::NAN));
     }
 }
 
@@ -135,6 +194,13 @@ fn of_limit(rows: &[CompareRow], name: &str, table: &mut TableOf<'_, CompareRow>
             row.limit(name).filter(|l| unit(l) == *of).map_or(f64::NAN, |l| l.margin)
         };
         table.column(format!("{name}.margin"), of, own);
+    }
+    for of in units.iter().filter(|_| rows.iter().any(|row| row.settled_limit(name).is_some())) {
+        let margin = |row: &CompareRow| {
+            let own = row.settled_limit(name).filter(|l| unit(l) == *of);
+            own.map_or(f64::NAN, |l| l.margin)
+        };
+        table.column(format!("{name}.settled_margin"), of, margin);
     }
     let broken =
         |row: &CompareRow| row.limit(name).and_then(|limit| limit.broken_at).unwrap_or(f64::NAN);

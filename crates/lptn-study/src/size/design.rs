@@ -1,19 +1,10 @@
 //! Designs: values of several parameters, and what the best one has least or most of.
 
-use lptn_netlist::Goal;
-use lptn_network::{ParameterId, Value};
+use lptn_network::{Network, ParameterId};
 
+use crate::size::aim::Aim;
 use crate::size::error::SizeError;
 use crate::size::judge::{Care, Demand, Judge, Judged};
-
-/// What the best design has least or most of.
-#[derive(Clone, Copy, Debug)]
-pub struct Aim<'a> {
-    /// The quantity: an expression of parameters.
-    pub value: &'a Value,
-    /// Whether the best design has least or most of it.
-    pub goal: Goal,
-}
 
 /// Values of several parameters, and what came of them.
 #[derive(Clone, Debug)]
@@ -39,7 +30,8 @@ impl<'a> Designs<'a> {
         aim: Aim<'a>,
         parameters: Vec<ParameterId>,
     ) -> Result<Self, SizeError> {
-        Ok(Self { judge: Judge::new(demand)?, aim, parameters })
+        let judge = Judge::seeking(demand, Some(aim).filter(|aim| aim.of_results))?;
+        Ok(Self { judge, aim, parameters })
     }
 
     fn with_values(&self, values: &[f64]) -> Vec<(ParameterId, f64)> {
@@ -48,19 +40,25 @@ impl<'a> Designs<'a> {
 
     pub(crate) fn judge(&self, values: &[f64], care: Care) -> Result<Design, SizeError> {
         let judged = self.judge.judge(&self.with_values(values), care)?;
-        Ok(Design { values: values.to_vec(), objective: self.objective(values)?, judged })
+        let objective = match judged.objective {
+            Some(objective) => objective,
+            None => self.objective(values)?,
+        };
+        Ok(Design { values: values.to_vec(), objective, judged })
     }
 
-    /// What is sought, without a look at what has to be kept.
+    /// The network with these values.
+    pub(crate) fn network(&self, values: &[f64]) -> Result<Network, SizeError> {
+        self.judge.network(&self.with_values(values))
+    }
+
+    /// What is sought where it follows from parameters, without a look at what has to be kept.
     pub(crate) fn objective(&self, values: &[f64]) -> Result<f64, SizeError> {
         self.judge.value(&self.with_values(values), self.aim.value)
     }
 
     /// What is sought as something of which less is better.
     pub(crate) fn cost(&self, objective: f64) -> f64 {
-        match self.aim.goal {
-            Goal::Minimise => objective,
-            Goal::Maximise => -objective,
-        }
+        self.aim.cost(objective)
     }
 }

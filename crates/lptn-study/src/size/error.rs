@@ -19,6 +19,10 @@ pub enum SizeError {
         format!("the range has to begin before it ends, got {from} to {to}");
     /// Nothing is required.
     NoRequirement = "size::no_requirement", "nothing is required, so nothing can be sized";
+    /// A probability is asked for, and no parameter has a `±`.
+    NoDeviation = "size::no_deviation",
+        "`probability` counts the `±` of parameters, and none has any",
+        help "say how well a parameter is known: `P = \"100 ± 5 W\"`, or with `--set`";
     /// What is required depends on inputs that change with time: there is no one steady state to
     /// judge. At least one.
     Changing(inputs: Vec<Changing>) = "size::inputs_change",

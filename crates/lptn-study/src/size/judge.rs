@@ -11,7 +11,9 @@ use lptn_solve::{
     OutOfRange, Periodic, Proceed, Progress, RecordedNodes, RunStatus, Solution, SteadyState,
     Transient,
 };
+use lptn_units::EvalError;
 
+use crate::size::aim::Aim;
 use crate::size::error::{SizeError, TrialError};
 use crate::uncertainty::normal::quantile;
 
@@ -58,6 +60,15 @@ pub struct LoadCase {
     pub set: Vec<(ParameterId, f64)>,
 }
 
+/// How likely something has to be kept, by the `±` of parameters.
+#[derive(Clone, Copy, Debug)]
+pub struct Doubt<'a> {
+    /// The probability, more than 0.5 and less than 1.
+    pub probability: f64,
+    /// One standard deviation in SI units of each parameter that has one; at least one.
+    pub deviations: &'a [(ParameterId, f64)],
+}
+
 /// What has to be kept, by which network, and when.
 #[derive(Clone, Copy)]
 pub struct Demand<'a> {
@@ -70,9 +81,8 @@ pub struct Demand<'a> {
     pub requirements: &'a [Requirement],
     /// When.
     pub moments: Moments<'a>,
-    /// How likely each requirement has to be kept in each case, by the `±` of parameters, more than
-    /// 0.5 and less than 1; `None` without regard to it.
-    pub probability: Option<f64>,
+    /// How likely each requirement has to be kept in each case; `None` where `±` does not count.
+    pub doubt: Option<Doubt<'a>>,
     /// What watches the runs.
     pub watcher: &'a Watcher<'a>,
 }
@@ -103,6 +113,8 @@ pub struct Judged {
     pub worst_at: Vec<Option<f64>>,
     /// The laws that are outside the ranges in which they are known.
     pub out_of_range: Vec<OutOfRange>,
+    /// What is sought where it reads results, in SI units: of several load cases the worst.
+    pub objective: Option<f64>,
     /// By how much in K its temperatures may be off; 0 in steady state, which is refined to rounding.
     pub error: f64,
 }
@@ -117,6 +129,8 @@ impl Judged {
 /// Judges designs: networks that differ by parameters. Nothing is parsed, the structure is shared.
 pub(crate) struct Judge<'a> {
     demand: Demand<'a>,
+    /// What is sought, where it reads results.
+    sought: Option<Aim<'a>>,
     base: Network,
     count: AtomicUsize,
 }
@@ -125,14 +139,22 @@ impl<'a> Judge<'a> {
     /// # Errors
     /// [`SizeError`] if nothing is required, or what cannot be judged in steady state.
     pub(crate) fn new(demand: Demand<'a>) -> Result<Self, SizeError> {
+        Self::seeking(demand, None)
+    }
+
+    /// The same; what is sought is read from each steady state.
+    pub(crate) fn seeking(demand: Demand<'a>, sought: Option<Aim<'a>>) -> Result<Self, SizeError> {
         if demand.requirements.is_empty() {
             return Err(SizeError::NoRequirement);
+        }
+        if demand.doubt.is_some_and(|doubt| doubt.deviations.is_empty()) {
+            return Err(SizeError::NoDeviation);
         }
         let limits = demand.requirements.iter().map(Requirement::limit);
         let base = match demand.moments {
             Moments::Steady(_) => {
-                let required: Vec<_> =
-                    demand.requirements.iter().flat_map(Requirement::sides).collect();
+                let required = demand.requirements.iter().flat_map(Requirement::sides);
+                let required: Vec<_> = required.chain(sought.map(|aim| aim.value)).collect();
                 let changing = demand.network.changing_inputs_of(&required);
                 if !changing.is_empty() {
                     return Err(SizeError::Changing(changing));
@@ -142,7 +164,7 @@ impl<'a> Judge<'a> {
             // limits are looked at between rows and steps
             _ => demand.network.requiring(limits),
         };
-        Ok(Self { demand, base, count: AtomicUsize::new(0) })
+        Ok(Self { demand, sought, base, count: AtomicUsize::new(0) })
     }
 
     /// How many networks were solved.
@@ -162,8 +184,8 @@ impl<'a> Judge<'a> {
         for case in cases {
             let failed = |error| SizeError::trial(design, &case.name, error);
             let mut one = self.in_case((design, case), care).map_err(failed)?;
-            if let Some(probability) = self.demand.probability {
-                self.doubt(&mut one, (design, case), (probability, care)).map_err(failed)?;
+            if let Some(doubt) = self.demand.doubt {
+                self.doubt(&mut one, (design, case), (doubt, care)).map_err(failed)?;
             }
             all.margins.extend(one.margins);
             all.deviations.extend(one.deviations);
@@ -171,6 +193,10 @@ impl<'a> Judge<'a> {
             all.worst_at.extend(one.worst_at);
             all.out_of_range.extend(one.out_of_range);
             all.error = all.error.max(one.error);
+            all.objective = match (all.objective, one.objective, self.sought) {
+                (Some(a), Some(b), Some(aim)) => Some(aim.worse(a, b)),
+                (a, b, _) => a.or(b),
+            };
         }
         Ok(all)
     }
@@ -182,12 +208,11 @@ impl<'a> Judge<'a> {
         &self,
         judged: &mut Judged,
         (design, case): (&[(ParameterId, f64)], &LoadCase),
-        (probability, care): (f64, Care),
+        (doubt, care): (Doubt<'_>, Care),
     ) -> Result<(), TrialError> {
         let (mut variances, mut left_out) =
             (vec![0.0; judged.margins.len()], vec![0.0; judged.margins.len()]);
-        let known = self.base.parameter_ids().zip(self.base.parameters());
-        for (id, deviation) in known.filter_map(|(id, p)| Some((id, p.deviation?))) {
+        for &(id, deviation) in doubt.deviations {
             let set = case.set.iter().chain(design).rev().find(|(other, _)| *other == id);
             let at = set.map_or(self.base.parameter_value(id), |(_, value)| *value);
             let moved = |by: f64| {
@@ -203,10 +228,18 @@ impl<'a> Judge<'a> {
         }
         judged.deviations = variances.into_iter().map(f64::sqrt).collect();
         judged.left_out = left_out;
-        let times = quantile(probability);
+        let times = quantile(doubt.probability);
         let margins = judged.margins.iter_mut().zip(&judged.deviations);
         margins.for_each(|(margin, deviation)| *margin -= times * deviation);
         Ok(())
+    }
+
+    /// The network as it is with the values of a design, without a load case.
+    pub(crate) fn network(&self, design: &[(ParameterId, f64)]) -> Result<Network, SizeError> {
+        let mut parameters = self.demand.network.given();
+        design.iter().for_each(|(id, value)| parameters.set(*id, *value));
+        let network = self.demand.network.with(&parameters);
+        network.map_err(|errors| SizeError::trial(design, "", TrialError::Network(errors)))
     }
 
     /// A value of the design that follows from parameters, in SI units; of the network as it is,
@@ -216,16 +249,10 @@ impl<'a> Judge<'a> {
         design: &[(ParameterId, f64)],
         value: &Value,
     ) -> Result<f64, SizeError> {
-        let mut parameters = self.demand.network.given();
-        design.iter().for_each(|(id, value)| parameters.set(*id, *value));
+        let network = self.network(design)?;
         let failed = |error| SizeError::trial(design, "", error);
-        let network = self.demand.network.with(&parameters);
-        let network = network.map_err(|errors| failed(TrialError::Network(errors)))?;
-        match value.at(&mut network.evaluation()) {
-            Ok(found) if found.is_finite() => Ok(found),
-            Ok(_) => Err(failed(TrialError::Objective(None))),
-            Err(error) => Err(failed(TrialError::Objective(Some(error)))),
-        }
+        let found = finite(value.at(&mut network.evaluation()));
+        found.map_err(|error| failed(TrialError::Objective(error)))
     }
 
     fn in_case(
@@ -244,10 +271,31 @@ impl<'a> Judge<'a> {
             Ok::<_, TrialError>(RunSettings { tolerance, ..run })
         };
         match self.demand.moments {
-            Moments::Steady(time) => steady(&network, self.demand.requirements, time),
+            Moments::Steady(time) => self.steady(&network, time),
             Moments::Run(of) => self.run(&network, &settings(of)?),
             Moments::Periodic(of) => self.cycle(&network, &settings(of)?),
         }
+    }
+
+    fn steady(&self, network: &Network, time: f64) -> Result<Judged, TrialError> {
+        let system = ThermalSystem::assemble(network)?;
+        let steady = SteadyState::solve(&system, time).map_err(TrialError::Steady)?;
+        let mut scope = steady.evaluation(network);
+        let margin = |requirement: &Requirement| {
+            let failed = |error| TrialError::Requirement { text: requirement.text.clone(), error };
+            let margin = requirement.margin(&mut scope).map_err(|error| failed(Some(error)))?;
+            if margin.is_finite() { Ok(margin) } else { Err(failed(None)) }
+        };
+        let requirements = self.demand.requirements;
+        let margins = requirements.iter().map(margin).collect::<Result<_, _>>()?;
+        let sought = self.sought.map(|aim| finite(aim.value.at(&mut scope))).transpose();
+        Ok(Judged {
+            margins,
+            worst_at: vec![None; requirements.len()],
+            out_of_range: OutOfRange::of_steady(network, &steady).unwrap_or_default(),
+            objective: sought.map_err(TrialError::Objective)?,
+            ..Judged::default()
+        })
     }
 
     fn run(&self, network: &Network, run: &RunSettings) -> Result<Judged, TrialError> {
@@ -287,6 +335,15 @@ impl<'a> Judge<'a> {
     }
 }
 
+/// A number, or why there is none.
+fn finite(found: Result<f64, EvalError>) -> Result<f64, Option<EvalError>> {
+    match found {
+        Ok(found) if found.is_finite() => Ok(found),
+        Ok(_) => Err(None),
+        Err(error) => Err(Some(error)),
+    }
+}
+
 /// The run without its rows, between which limits are looked at anyway. A network without states
 /// takes no steps: it is looked at between rows only.
 fn transient(system: &ThermalSystem, run: &RunSettings) -> Transient {
@@ -297,27 +354,6 @@ fn transient(system: &ThermalSystem, run: &RunSettings) -> Transient {
     };
     let record = RecordedNodes::Nodes(Vec::new());
     Transient { output, record, ..transient }
-}
-
-fn steady(
-    network: &Network,
-    requirements: &[Requirement],
-    time: f64,
-) -> Result<Judged, TrialError> {
-    let system = ThermalSystem::assemble(network)?;
-    let steady = SteadyState::solve(&system, time).map_err(TrialError::Steady)?;
-    let mut scope = steady.evaluation(network);
-    let margin = |requirement: &Requirement| {
-        let failed = |error| TrialError::Requirement { text: requirement.text.clone(), error };
-        let margin = requirement.margin(&mut scope).map_err(|error| failed(Some(error)))?;
-        if margin.is_finite() { Ok(margin) } else { Err(failed(None)) }
-    };
-    Ok(Judged {
-        margins: requirements.iter().map(margin).collect::<Result<_, _>>()?,
-        worst_at: vec![None; requirements.len()],
-        out_of_range: OutOfRange::of_steady(network, &steady).unwrap_or_default(),
-        ..Judged::default()
-    })
 }
 
 /// What is left of every requirement in the network as it is.

@@ -1,6 +1,7 @@
 //! Sizing: what a cooling has to do, the value of a parameter that keeps what is required, and
 //! the best of several parameters and of parts.
 
+mod aim;
 mod choice;
 mod coolants;
 mod cooling;
@@ -12,10 +13,11 @@ mod search;
 mod several;
 mod smooth;
 
+pub use aim::Aim;
 pub use choice::{Choice, ChoiceTask, Choices, Parts, choose};
 pub use cooling::{Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask};
-pub use design::{Aim, Design};
+pub use design::Design;
 pub use error::{SizeError, TrialError};
-pub use judge::{Demand, Judged, LoadCase, Moments, RunOf, Watcher, judge};
+pub use judge::{Demand, Doubt, Judged, LoadCase, Moments, RunOf, Watcher, judge};
 pub use search::{SizeTask, Sizing, Trial, Verdict, size};
 pub use several::{Several, SeveralTask, size_several};

@@ -7,7 +7,8 @@
 use lptn_network::ParameterId;
 use lptn_solve::in_parallel;
 
-use crate::size::design::{Aim, Design, Designs};
+use crate::size::aim::Aim;
+use crate::size::design::{Design, Designs};
 use crate::size::error::SizeError;
 use crate::size::judge::{Care, Demand};
 use crate::size::root::last_kept;

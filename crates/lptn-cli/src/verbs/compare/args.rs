@@ -12,6 +12,7 @@ Examples:
   lptn compare bare.toml finned.toml fan.toml
   lptn compare candidates/ --sort peak
   lptn compare gearbox.toml --set R_sink=0.55K/W,0.42K/W --cases
+  lptn compare gearbox.toml --parts sinks.csv
   lptn compare candidates/ --set P_loss=80W --format csv > candidates.csv";
 
 /// Put candidate designs side by side: peaks, limits, margins, heat
@@ -25,6 +26,10 @@ pub(crate) struct CompareArgs {
     /// makes a candidate of its own; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub(crate) set: Vec<String>,
+    /// Make a candidate of every part in a CSV file, with its name as `part` and a column for each
+    /// parameter that a part sets, as R_sink [K/W]; may be repeated
+    #[arg(long, value_name = "FILE.csv")]
+    pub(crate) parts: Vec<PathBuf>,
     /// Take every netlist in each of its load cases, [case.NAME]
     #[arg(long)]
     pub(crate) cases: bool,

@@ -2,7 +2,7 @@
 
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Moment, Panel};
-use lptn_study::{Candidate, CompareRow, LimitResult};
+use lptn_study::{Candidate, CompareRow, HeatOver, LimitResult};
 
 use super::{Comparison, page};
 use crate::words::count;
@@ -18,7 +18,10 @@ impl Comparison {
             self.points(&|row| row.candidate().and_then(of).map(|kelvin| unit.from_si(kelvin)))
         };
         let peaks = kelvin(&|candidate| candidate.peak.map(|peak| peak.temperature));
-        let named = [("peak", peaks), ("steady", kelvin(&|candidate| candidate.steady))];
+        // without a run the peak is that of the cycle
+        let beside = |c: &Candidate| page::settled(c).filter(|_| c.heat.over == HeatOver::Run);
+        let steady = kelvin(&|candidate| candidate.steady);
+        let named = [("peak", peaks), ("steady", steady), ("settled", kelvin(&beside))];
         hot.curves = named.into_iter().filter_map(|(name, points)| dots(name, points)).collect();
         let mut margins = Panel::new(Axis::linear("margin", "K"), candidates());
         for name in CompareRow::limit_names(&self.rows) {

@@ -84,16 +84,21 @@ fn folder(path: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 /// Every file with every variant of it.
 fn jobs(args: &CompareArgs, files: &[PathBuf]) -> Result<Vec<(PathBuf, Variant)>, Failure> {
-    let sets = variants::of_sets(&args.set).ok_or_else(|| {
-        let message = format!("`--set` makes more than {} variants", variants::MOST);
-        let problem = Diagnostic::error("compare::too_many", message);
-        Failure::new(Exit::Input, problem.help("give fewer values, or compare in several steps"))
-    })?;
-    let of = |file: &PathBuf| {
-        let all = if args.cases { variants::in_cases(file, &sets) } else { sets.clone() };
-        all.into_iter().map(|variant| (file.clone(), variant)).collect::<Vec<_>>()
-    };
-    Ok(files.iter().flat_map(of).collect())
+    let sets = variants::of_sets(&args.set).ok_or_else(|| too_many("--set"))?;
+    let mut jobs = Vec::new();
+    for file in files {
+        let all = variants::with_parts(file, &args.parts, &sets)?;
+        let all = all.ok_or_else(|| too_many("--parts"))?;
+        let all = if args.cases { variants::in_cases(file, &all) } else { all };
+        jobs.extend(all.into_iter().map(|variant| (file.clone(), variant)));
+    }
+    Ok(jobs)
+}
+
+fn too_many(option: &str) -> Failure {
+    let message = format!("`{option}` makes more than {} variants", variants::MOST);
+    let problem = Diagnostic::error("compare::too_many", message);
+    Failure::new(Exit::Input, problem.help("give fewer values, or compare in several steps"))
 }
 
 /// A candidate's file, and its netlist or what is wrong with it.
@@ -126,7 +131,6 @@ fn load(file: &Path, variant: &Variant) -> Loaded {
     let own: Vec<String> =
         set.iter().zip(&has).filter(|(_, has)| **has).map(|(text, _)| text.clone()).collect();
     let outcome = input.netlist.set(&own);
-    input.netlist.warnings.extend(inputs_vary(&input.netlist, &name));
     Loaded { file: name, input: outcome.map(|()| input).map_err(Failure::from), has }
 }
 
@@ -145,6 +149,13 @@ fn inputs_vary(netlist: &Netlist, name: &str) -> Option<Diagnostic> {
     vary.then(|| {
         Diagnostic::warning("steady::inputs_vary", message).help("add a [run] to compare over time")
     })
+}
+
+/// Why a candidate whose signals repeat themselves has no settled cycle.
+fn unsettled(file: &str, found: &Candidate) -> Option<Diagnostic> {
+    let reason = found.settled.as_ref()?.as_ref().err()?;
+    let message = format!("{file}: the column `settled` is empty: {reason}");
+    Some(Diagnostic::warning(reason.code(), message).help(reason.help()))
 }
 
 /// A `--set` that no candidate can use is a mistake, unless a candidate that could not be read may
@@ -268,12 +279,21 @@ impl Comparison {
                     message: format!("{file}: {}", warning.message),
                     ..warning
                 });
+                let has_cycle = found.is_some_and(|found| matches!(found.settled, Some(Ok(_))));
+                let vary = inputs_vary(&input.netlist, &file).filter(|_| !has_cycle);
+                let no_cycle = found.and_then(|found| unsettled(&file, found));
                 let unsure = unverified(&input.netlist.network).map(|text| {
                     let message = format!("{file}: {text}");
                     Diagnostic::warning("network::unverified_constants", message)
                 });
                 let own = input.netlist.warnings.into_iter();
-                let warnings = own.chain(beyond).chain(several).chain(unsure).collect();
+                let warnings = own
+                    .chain(vary)
+                    .chain(beyond)
+                    .chain(several)
+                    .chain(no_cycle)
+                    .chain(unsure)
+                    .collect();
                 self.warnings.push((input.netlist.files, warnings));
             }
             Err(not_read) => failure = Some(not_read),

@@ -7,9 +7,9 @@ use lptn_network::LimitSeverity;
 use lptn_plot::Figure;
 use lptn_report::{
     Align, Column, Json, Page, Report, Rows, Standing, Text, TextTable, WIDTH, decimals, duration,
-    fixed, plain, significant, stacked,
+    fixed, plain, prefix, significant, stacked,
 };
-use lptn_study::{Candidate, CompareRow, LimitResult, compare_table};
+use lptn_study::{Candidate, CompareRow, HeatOut, HeatOver, LimitResult, compare_table};
 use serde_json::Value;
 
 use super::Comparison;
@@ -25,9 +25,16 @@ const NOTHING: &str = "-";
 impl Page for Comparison {
     fn text(&self) -> Text {
         let rows = &self.rows;
-        let mut text = Text::titled(count(rows.len(), "candidate"));
+        let of = only_file(rows).map_or(String::new(), |file| format!(" of {}", plain(file)));
+        let mut text = Text::titled(format!("{}{of}", count(rows.len(), "candidate")));
         text.section().table(overview(self));
-        for (title, columns) in [("margin to", margins(rows)), ("heat out", heat(rows))] {
+        let sections = [
+            ("margin to", margins(rows, (&CompareRow::limit, margin))),
+            ("settled margin to", settled_margins(rows)),
+            (heat_over(rows), heat(rows)),
+            ("heat by path", shares(rows, &CompareRow::path_names(rows))),
+        ];
+        for (title, columns) in sections.into_iter().filter(|(_, columns)| !columns.is_empty()) {
             for table in tables(title, rows, columns) {
                 text.section().table(table);
             }
@@ -67,9 +74,22 @@ impl Page for Comparison {
     }
 }
 
-/// The names of the candidates: their files without folder and ending, unless two would be the
-/// same.
+/// The file of which all candidates are variants.
+fn only_file(rows: &[CompareRow]) -> Option<&str> {
+    let file =
+        |row: &'_ CompareRow| row.file.strip_suffix(')')?.split_once(" (").map(|(f, _)| f.len());
+    let length = file(rows.first()?)?;
+    let first = &rows[0].file[..length + 2];
+    rows.iter().all(|row| row.file.starts_with(first)).then(|| &rows[0].file[..length])
+}
+
+/// The names of the candidates: what tells variants of one file apart, else their files without folder
+/// and ending, unless two would be the same.
 pub(super) fn names(rows: &[CompareRow]) -> Vec<String> {
+    if let Some(file) = only_file(rows) {
+        let label = |row: &CompareRow| plain(&row.file[file.len() + 2..row.file.len() - 1]);
+        return rows.iter().map(label).collect();
+    }
     let stem = |row: &CompareRow| {
         let stem = Path::new(&row.file).file_stem();
         plain(&stem.map_or_else(|| row.file.clone().into(), |stem| stem.to_string_lossy()))
@@ -85,7 +105,7 @@ pub(super) fn names(rows: &[CompareRow]) -> Vec<String> {
 fn overview(comparison: &Comparison) -> TextTable {
     let (rows, unit) = (&comparison.rows, &comparison.unit);
     let candidates = rows.iter().filter_map(CompareRow::candidate);
-    let shown = |c: &Candidate| [c.peak.map(|peak| peak.temperature), c.steady];
+    let shown = |c: &Candidate| [c.peak.map(|peak| peak.temperature), c.steady, settled(c)];
     let temperatures: Vec<f64> = candidates.flat_map(shown).flatten().collect();
     let low = temperatures.iter().copied().fold(f64::INFINITY, f64::min);
     let high = temperatures.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -99,12 +119,28 @@ fn overview(comparison: &Comparison) -> TextTable {
         .names()
         .right("peak", cell(|c| c.peak.map(|peak| number(peak.temperature))))
         .right("at", cell(|c| c.peak?.at.map(|time| duration(time, 3))))
-        .optional()
-        .right("steady", cell(|c| c.steady.map(number)))
-        .right("95 % after", cell(|c| c.time_to_95.map(|time| duration(time, 3))))
-        .right("C [J/K]", cell(|c| Some(significant(c.capacity, 4))))
         .optional();
-    if rows.iter().filter_map(CompareRow::candidate).any(|candidate| candidate.mass.is_some()) {
+    let any =
+        |what: &dyn Fn(&Candidate) -> bool| rows.iter().filter_map(CompareRow::candidate).any(what);
+    let cycles = any(&|candidate| settled(candidate).is_some());
+    // inputs that repeat themselves have a settled cycle, and no steady state
+    if !cycles || any(&|candidate| candidate.steady.is_some()) {
+        table = table
+            .right("steady", cell(|c| c.steady.map(number)))
+            .right("95 % after", cell(|c| c.time_to_95.map(|time| duration(time, 3))));
+    }
+    if any(&|candidate| settled(candidate).is_some() && candidate.heat.over == HeatOver::Run) {
+        let other = |c: &Candidate| {
+            let node = c.settled.as_ref()?.as_ref().ok()?.hottest.clone()?;
+            (c.hottest.as_ref() != Some(&node)).then(|| format!(" ({node})"))
+        };
+        let text = |c: &Candidate| {
+            Some(format!("{}{}", number(settled(c)?), other(c).unwrap_or_default()))
+        };
+        table = table.right("settled", cell(text));
+    }
+    table = table.right("C [J/K]", cell(|c| Some(significant(c.capacity, 4)))).optional();
+    if any(&|candidate| candidate.mass.is_some()) {
         table = table.right("m [kg]", cell(|c| c.mass.map(|mass| significant(mass, 4)))).optional();
     }
     table
@@ -115,6 +151,11 @@ fn overview(comparison: &Comparison) -> TextTable {
             _ => Standing::Fails,
         })
         .into()
+}
+
+/// The peak of its settled cycle in K.
+pub(super) fn settled(candidate: &Candidate) -> Option<f64> {
+    Some(candidate.settled.as_ref()?.as_ref().ok()?.peak?.temperature)
 }
 
 /// What a text says of a candidate that was evaluated.
@@ -131,16 +172,39 @@ fn verdict(row: &CompareRow, end: Exit) -> &str {
     }
 }
 
+type OfRow<'a> = dyn Fn(&'a CompareRow, &str) -> Option<&'a LimitResult>;
+
 /// A column for each limit: its margin, and when it breaks.
-fn margins(rows: &[CompareRow]) -> Vec<Column> {
+fn margins<'a>(
+    rows: &'a [CompareRow],
+    (limit, said): (&OfRow<'a>, fn(&LimitResult) -> String),
+) -> Vec<Column> {
     let column = |name: &&str| {
-        let cell = |row: &CompareRow| row.limit(name).map_or_else(|| NOTHING.to_owned(), margin);
+        let cell = |row| limit(row, name).map_or_else(|| NOTHING.to_owned(), said);
         Column::new(*name, Align::Right, rows.iter().map(cell).collect())
     };
     CompareRow::limit_names(rows).iter().map(column).collect()
 }
 
+/// The same over the settled cycle; none where no candidate has one beside its run.
+fn settled_margins(rows: &[CompareRow]) -> Vec<Column> {
+    let of_run = |row: &CompareRow| row.candidate().is_some_and(|c| c.heat.over == HeatOver::Run);
+    match rows.iter().any(|row| row.settled().is_some() && of_run(row)) {
+        true => margins(rows, (&CompareRow::settled_limit, least)),
+        false => Vec::new(),
+    }
+}
+
+/// The margin, and from when on it is broken.
 fn margin(limit: &LimitResult) -> String {
+    let least = least(limit);
+    match limit.broken_at.filter(|_| !limit.is_open()) {
+        Some(time) => format!("{least} from {}", duration(time, 3)),
+        None => least,
+    }
+}
+
+fn least(limit: &LimitResult) -> String {
     if limit.is_open() {
         return NOTHING.into();
     }
@@ -150,23 +214,55 @@ fn margin(limit: &LimitResult) -> String {
     } else {
         significant(limit.margin, 3)
     };
-    match limit.broken_at {
-        Some(time) => format!("{number}{unit} from {}", duration(time, 3)),
-        None => format!("{number}{unit}"),
+    format!("{number}{unit}")
+}
+
+/// In which results heat is looked at: those of the candidates, which differ only where some have a
+/// run and others have none.
+fn heat_over(rows: &[CompareRow]) -> &'static str {
+    let all = || rows.iter().filter_map(CompareRow::candidate).map(|c| c.heat.over);
+    match (all().any(|over| over == HeatOver::Run), all().any(|over| over == HeatOver::Cycle)) {
+        (true, _) => "heat over the run",
+        (_, true) => "heat over the cycle",
+        _ => "heat out",
     }
 }
 
-/// A column for each boundary: its share of the heat that boundaries take at the end.
+/// All heat that leaves or is stored, what is stored of it, and the share of each boundary.
 fn heat(rows: &[CompareRow]) -> Vec<Column> {
+    let column = |title: &str, cell: &dyn Fn(&Candidate) -> Option<String>| {
+        let cell = |row: &CompareRow| row.candidate().and_then(cell);
+        let cells = rows.iter().map(|row| cell(row).unwrap_or_else(|| NOTHING.to_owned()));
+        Column::new(title, Align::Right, cells.collect())
+    };
+    let all = |candidate: &Candidate| {
+        let HeatOut { all, over, .. } = candidate.heat;
+        let unit = if over == HeatOver::Steady { "W" } else { "J" };
+        let (scale, letter) = prefix(all);
+        let number = fixed(all / scale, decimals(all / scale, 4, 0));
+        (all > 0.0).then(|| format!("{number} {letter}{unit}"))
+    };
+    let mut columns = vec![column("all", &all)];
+    if rows.iter().filter_map(CompareRow::candidate).any(|c| c.heat.stored.is_some()) {
+        columns.push(column("stored", &|candidate| candidate.heat.stored.map(percent)));
+    }
+    columns.extend(shares(rows, &CompareRow::boundary_names(rows)));
+    columns
+}
+
+/// A column for each of these boundaries or paths: its share of all heat.
+fn shares(rows: &[CompareRow], names: &[&str]) -> Vec<Column> {
     let column = |name: &&str| {
-        let share = |row: &CompareRow| {
-            row.share(name).map(|share| format!("{} %", fixed(100.0 * share, 1)))
-        };
+        let share = |row: &CompareRow| row.share(name).map(percent);
         let cells =
             rows.iter().map(|row| share(row).unwrap_or_else(|| NOTHING.to_owned())).collect();
         Column::new(*name, Align::Right, cells)
     };
-    CompareRow::boundary_names(rows).iter().map(column).collect()
+    names.iter().map(column).collect()
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", fixed(100.0 * share, 1))
 }
 
 /// As many tables as it takes to show every column within the width; a row with nothing in it is

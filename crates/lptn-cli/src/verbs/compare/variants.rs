@@ -1,7 +1,12 @@
-//! The variants of a comparison: `--set R=1K/W,2K/W`, and the load cases of every netlist.
+//! The variants of a comparison: `--set R=1K/W,2K/W`, parts from tables, and the load cases of every
+//! netlist.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use lptn_netlist::{Catalogue, Diagnostic};
+
+use crate::exit::Exit;
+use crate::failure::Failure;
 use crate::input::Input;
 use crate::options::Source;
 
@@ -40,6 +45,48 @@ pub(super) fn of_sets(set: &[String]) -> Option<Vec<Variant>> {
             all.iter().flat_map(|variant| values.iter().map(|value| one(variant, value))).collect();
     }
     Some(all)
+}
+
+/// One part of each table with every variant, the parts of the last table changing fastest; nothing is
+/// changed for a netlist that cannot be read. `None` where there are too many.
+///
+/// # Errors
+/// What is wrong with a table, for this netlist.
+pub(super) fn with_parts(
+    file: &Path,
+    tables: &[PathBuf],
+    variants: &[Variant],
+) -> Result<Option<Vec<Variant>>, Failure> {
+    let mut all = variants.to_vec();
+    if tables.is_empty() {
+        return Ok(Some(all));
+    }
+    let Ok(input) = Input::load(&Source::of(file.to_owned())) else { return Ok(Some(all)) };
+    for table in tables {
+        let name = table.display().to_string();
+        let bytes = std::fs::read(table).map_err(|error| {
+            let message = format!("cannot read {name}: {error}");
+            Failure::new(Exit::Input, Diagnostic::error("input::cannot_read", message))
+        })?;
+        let parts = input.netlist.parts(&name, &bytes)?;
+        if all.len() * parts.parts.len() > MOST {
+            return Ok(None);
+        }
+        all = all
+            .iter()
+            .flat_map(|variant| (0..parts.parts.len()).map(|part| variant.of_part(&parts, part)))
+            .collect();
+    }
+    Ok(Some(all))
+}
+
+impl Variant {
+    /// With the values of a part, after those that are set before.
+    fn of_part(&self, table: &Catalogue, part: usize) -> Self {
+        let set = self.set.iter().cloned().chain(table.assignments(part)).collect();
+        let label = joined(&self.label, &table.parts[part]);
+        Self { set, label, ..self.clone() }
+    }
 }
 
 /// The variants of a netlist in each of its load cases; as they are for one without cases, or one

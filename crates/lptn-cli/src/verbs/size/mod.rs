@@ -20,7 +20,7 @@ use kept::Kept;
 use lptn_netlist::{Diagnostic, Requirement, SizeStudy};
 use lptn_network::ParameterId;
 use lptn_report::{Format, Page};
-use lptn_study::{Demand, SizeError, SizeTask, Sizing, Verdict};
+use lptn_study::{Aim, Demand, SizeError, SizeTask, Sizing, Verdict};
 use lptn_units::{Problem as _, Unit};
 use moments::demanded;
 
@@ -135,6 +135,12 @@ fn parameter(input: &Input, study: &SizeStudy, name: &str) -> Result<ParameterId
         let problem = Diagnostic::error("netlist::unknown_parameter", message);
         input.refused(Exit::Input, problem.at(study.span.clone(), ""))
     })
+}
+
+/// What a study seeks.
+fn aim(study: &SizeStudy) -> Aim<'_> {
+    let objective = &study.objective;
+    Aim { value: &objective.value, goal: study.goal, of_results: objective.of_results }
 }
 
 /// The parameters that a study changes, in the order in which designs have them.

@@ -2,7 +2,8 @@
 
 use lptn_netlist::{Netlist, Over, SizeStudy};
 use lptn_network::{Network, RunSettings};
-use lptn_study::{Demand, Moments, Watcher};
+use lptn_study::uncertainty::uncertain;
+use lptn_study::{Demand, Doubt, Moments, Watcher};
 
 use super::kept::cases;
 use crate::failure::Failure;
@@ -38,12 +39,17 @@ pub(super) fn demanded<T>(
         Over::Periodic => Moments::Periodic(&cycle),
     };
     let cases = cases(netlist, study);
+    let deviations: Vec<_> = uncertain(&netlist.network, &netlist.overrides()).map_or_else(
+        |_| Vec::new(),
+        |all| all.iter().map(|u| (u.parameter, u.deviation)).collect(),
+    );
+    let probability = study.probability(&netlist.network).ok().flatten();
     ask(Demand {
         network: &netlist.network,
         cases: &cases,
         requirements: &study.requirements,
         moments,
-        probability: study.probability(&netlist.network).ok().flatten(),
+        doubt: probability.map(|probability| Doubt { probability, deviations: &deviations }),
         watcher,
     })
 }

@@ -12,9 +12,10 @@ use lptn_study::{SiValue, Verdict};
 use lptn_units::Unit;
 use serde_json::json;
 
-use super::Answer;
 use super::kept::Kept;
+use super::{Answer, Asked};
 use crate::about::{self, Known};
+use crate::input;
 use crate::ranges;
 use crate::words::{spaced, unverified};
 
@@ -142,6 +143,16 @@ pub(super) fn goal(goal: Goal) -> &'static str {
     match goal {
         Goal::Minimise => "least",
         Goal::Maximise => "largest",
+    }
+}
+
+/// What is sought as people read it.
+pub(super) fn sought(asked: &Asked<'_>, si: f64) -> String {
+    let ty = asked.study.objective.ty;
+    let degrees = input::temperature_unit(None, &asked.input.netlist).ok().filter(|_| ty.absolute);
+    match degrees {
+        Some(unit) => format!("{}{}", significant(unit.from_si(si), DIGITS), spaced(&unit.text)),
+        None => format!("{}{}", significant(si, DIGITS), spaced(&ty.dimension.si_unit())),
     }
 }
 

@@ -8,17 +8,17 @@ use lptn_report::{
     Json, Page, Report, Rows, Standing, Text, TextTable, duration, plain, significant,
 };
 use lptn_solve::{Table, available_threads};
-use lptn_study::{Aim, Design, Several, SeveralTask, SiValue, size_several};
+use lptn_study::{Design, Several, SeveralTask, SiValue, size_several};
 use lptn_units::Unit;
 use serde_json::{Map, Value, json};
 
 use super::kept::Kept;
-use super::{Asked, failed, figure, page, write};
+use super::{Asked, aim, failed, figure, page, write};
 use crate::about::{self, Known};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::ranges;
-use crate::words::{spaced, unverified};
+use crate::words::unverified;
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;
@@ -29,7 +29,7 @@ const AT_END: f64 = 1e-6;
 pub(super) fn several(asked: &Asked<'_>) -> Result<Exit, Failure> {
     let &Asked { input, study, .. } = asked;
     let varied = study.ranges(&input.netlist.network).unwrap_or_default();
-    let aim = Aim { value: &study.objective.value, goal: study.goal };
+    let aim = aim(study);
     let threads = asked.args.threads.unwrap_or_else(available_threads);
     let ranges = varied.clone();
     let found = asked.demand(|demand| size_several(&SeveralTask { demand, aim, varied, threads }));
@@ -102,13 +102,8 @@ impl Answer<'_> {
     }
 
     fn objective(&self) -> String {
-        let unit = self.asked.study.objective.ty.dimension.si_unit();
-        format!(
-            "{} = {}{}",
-            plain(&self.asked.study.objective.text),
-            significant(self.found.design.objective, DIGITS),
-            spaced(&unit)
-        )
+        let text = plain(&self.asked.study.objective.text);
+        format!("{text} = {}", page::sought(self.asked, self.found.design.objective))
     }
 
     fn worst(&self) -> Option<usize> {

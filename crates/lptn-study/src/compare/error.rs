@@ -1,0 +1,43 @@
+//! Why a candidate has no results.
+
+use lptn_network::InputError;
+use lptn_solve::{SteadyError, TransientError, Unsolved};
+use lptn_units::Class;
+
+lptn_units::errors! {
+/// Why a candidate has no results.
+#[derive(Debug)]
+pub enum CompareError {
+    /// It is not run and has no steady state.
+    Steady => SteadyError as Class::not_an_answer;
+    /// Its run failed.
+    Run => Box<TransientError>;
+    /// A limit, source or boundary has no value.
+    Input => InputError;
+    /// The balances of its massless nodes have no solution at the start.
+    Start => Unsolved as Class::of_numbers;
+    /// Its books do not close: relative residual, and what is allowed.
+    Ledger(residual: f64, bound: f64) = "run::ledger",
+        format!(
+            "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than \
+             the {bound:.1e} allowed"
+        ), class Class::Numbers;
+    /// Its run was interrupted at this time in s: peaks and limits of a part would read like those
+    /// of the whole.
+    Interrupted(time: f64) = "run::interrupted", format!("the run was interrupted at {time} s"),
+        class Class::Interrupted;
+}
+}
+
+impl CompareError {
+    /// The input that has no value, if that is the reason.
+    pub fn input(&self) -> Option<&InputError> {
+        match self {
+            Self::Input(input) => Some(input),
+            Self::Steady(error) => error.input(),
+            Self::Run(error) => error.input(),
+            Self::Start(unsolved) => unsolved.input(),
+            _ => None,
+        }
+    }
+}
