@@ -12,10 +12,10 @@ use serde_json::{Value, json};
 use crate::console::Console;
 use crate::doubts::{adiabatic, inputs_vary, others};
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, told};
 use crate::input::{self, Input};
 use crate::verbs::run::job::{no_run, observed, time_of_run};
-use crate::verbs::run::outcome::{does_not_close, doubts};
+use crate::verbs::run::outcome::doubts;
 use crate::verbs::steady::failed;
 
 /// Where a network that is not linear is taken for a linear one.
@@ -150,8 +150,5 @@ fn check(input: &Input, solution: &Solution, broken: Option<Diagnostic>) -> Resu
         let problem = Diagnostic::error("run::interrupted", message);
         return Err(Failure::new(Exit::Interrupted, problem));
     }
-    match solution.ledger().closes() {
-        true => Ok(()),
-        false => Err(input.refused(Exit::Failed, does_not_close(solution))),
-    }
+    solution.ledger().check().map_err(|open| input.refused(Exit::Failed, told(&open)))
 }

@@ -56,8 +56,35 @@ impl Ledger {
 
     /// Whether the books close as far as they must.
     pub fn closes(&self) -> bool {
-        self.relative_residual().is_none_or(|r| r.abs() <= self.bound)
+        self.check().is_ok()
     }
+
+    /// That the books close as far as they must.
+    ///
+    /// # Errors
+    /// [`LedgerError`]
+    pub fn check(&self) -> Result<(), LedgerError> {
+        let Some(residual) = self.relative_residual().map(f64::abs) else { return Ok(()) };
+        match residual <= self.bound {
+            true => Ok(()),
+            false => Err(LedgerError::Open { residual, bound: self.bound }),
+        }
+    }
+}
+
+lptn_units::errors! {
+/// Why the numbers of a run are not to be used.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LedgerError {
+    /// Its books do not close: the residual over the heat turned over, and what is allowed.
+    Open { residual: f64, bound: f64 } = "run::ledger",
+        format!(
+            "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than \
+             the {bound:.1e} allowed"
+        ),
+        help "this is a bug in lptn or a network of extreme numbers: do not use the result",
+        class lptn_units::Class::Numbers;
+}
 }
 
 /// Number of running integrals a run of `system` needs.

@@ -77,7 +77,7 @@ pub use error::{SteadyError, StopReason, TransientError};
 pub use events::{ControlState, Event, EventKind};
 pub use exact::{Difference, ExactError, ExactSolution};
 pub use last::LastState;
-pub use ledger::Ledger;
+pub use ledger::{Ledger, LedgerError};
 pub use limit::{LimitSeen, limit_margins_at};
 pub use linearised::{Linearised, LinearisedError, Tried};
 #[cfg(feature = "cvodes")]

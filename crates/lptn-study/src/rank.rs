@@ -3,9 +3,9 @@
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Field, InputError, Item, Network, NodeId, OutputTimes, ParameterId, Value};
 use lptn_solve::{
-    Adjoint, AdjointError, Feedback, Gradient, Influence, Modes, ParameterSlopes, Proceed,
-    Progress, RecordedNodes, RunStatus, SensitiveError, SteadyError, SteadyState, Transient,
-    TransientError, Watch, sensitive_run_observed,
+    Adjoint, AdjointError, Feedback, Gradient, Influence, LedgerError, Modes, ParameterSlopes,
+    Proceed, Progress, RecordedNodes, RunStatus, SensitiveError, SteadyError, SteadyState,
+    Transient, TransientError, Watch, sensitive_run_observed,
 };
 
 use crate::compare::hottest;
@@ -30,6 +30,8 @@ pub enum RankError {
     Run => Box<TransientError>;
     /// The run with its sensitivities.
     Sensitive => SensitiveError;
+    /// The books of one of them do not close.
+    Ledger => LedgerError;
     /// There is no node.
     NoNode = "rank::no_node", "the network has no node whose temperature could answer",
         help "add a [node]";
@@ -130,6 +132,7 @@ impl Ranking {
         if let RunStatus::Interrupted(_) = seen.end() {
             return Err(RankError::Sensitive(SensitiveError::Interrupted));
         }
+        seen.ledger().check()?;
         let peaks = nodes.iter().zip(seen.watched().iter().map(|watched| watched.peak));
         let peak = hottest(peaks.map(|(&node, (temperature, at))| ((node, at), temperature)));
         let ((node, at), temperature) = peak.ok_or(RankError::NoNode)?;
@@ -142,6 +145,7 @@ impl Ranking {
         };
         let ids = free(network);
         let run = sensitive_run_observed(network, (&run, &ids), observer)?;
+        run.solution.ledger().check()?;
         let slope = |id: ParameterId| {
             let of_runs = run.peak(id, node);
             let at_peak = || run.sensitivity(id, node).and_then(|row| row.get(place).copied());

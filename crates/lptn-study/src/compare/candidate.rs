@@ -154,10 +154,7 @@ impl Candidate {
         if let RunStatus::Interrupted(time) = solution.end() {
             return Err(CompareError::Interrupted(time));
         }
-        let ledger = solution.ledger();
-        if let Some(residual) = ledger.relative_residual().filter(|_| !ledger.closes()) {
-            return Err(CompareError::Ledger(residual.abs(), ledger.bound));
-        }
+        solution.ledger().check()?;
         let nodes = Summary::new(&solution, steady.as_ref()).nodes;
         let node = hottest(nodes.iter().map(|node| (node, node.peak.0))).map(|(node, _)| node);
         Ok(Self {

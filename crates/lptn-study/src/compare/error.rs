@@ -1,7 +1,7 @@
 //! Why a candidate has no results.
 
 use lptn_network::InputError;
-use lptn_solve::{SteadyError, TransientError, Unsolved};
+use lptn_solve::{LedgerError, SteadyError, TransientError, Unsolved};
 use lptn_units::Class;
 
 lptn_units::errors! {
@@ -16,12 +16,8 @@ pub enum CompareError {
     Input => InputError;
     /// The balances of its massless nodes have no solution at the start.
     Start => Unsolved as Class::of_numbers;
-    /// Its books do not close: relative residual, and what is allowed.
-    Ledger(residual: f64, bound: f64) = "run::ledger",
-        format!(
-            "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than \
-             the {bound:.1e} allowed"
-        ), class Class::Numbers;
+    /// Its books do not close.
+    Ledger => LedgerError;
     /// Its run was interrupted at this time in s: peaks and limits of a part would read like those
     /// of the whole.
     Interrupted(time: f64) = "run::interrupted", format!("the run was interrupted at {time} s"),

@@ -50,14 +50,9 @@ impl Settled {
         let cycle = RunSettings::cycle(run, period);
         match Periodic::find_observed(system, &transient(system, &cycle), observer) {
             Ok(found) => {
-                let ledger = found.solution.ledger();
-                match ledger.relative_residual().filter(|_| !ledger.closes()) {
-                    Some(residual) => Err(CompareError::Ledger(residual.abs(), ledger.bound)),
-                    None => {
-                        let (settled, solution) = (Self::of(&found, &cycle), found.solution);
-                        Ok(Some(Ok(Found { settled, solution })))
-                    }
-                }
+                found.solution.ledger().check()?;
+                let (settled, solution) = (Self::of(&found, &cycle), found.solution);
+                Ok(Some(Ok(Found { settled, solution })))
             }
             Err(PeriodicError::Interrupted { .. }) => Err(CompareError::Interrupted(cycle.start)),
             Err(reason) => Ok(Some(Err(Arc::new(reason)))),

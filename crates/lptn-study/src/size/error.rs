@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use lptn_assembly::AssemblyError;
 use lptn_network::{BuildErrors, Changing, ParameterId};
-use lptn_solve::{PeriodicError, SteadyError, TransientError};
+use lptn_solve::{LedgerError, PeriodicError, SteadyError, TransientError};
 use lptn_units::{Class, EvalError, format_six};
 
 const LEAVE_OUT: &str = "`vary` has to leave this value out: let its range begin or end elsewhere";
@@ -80,12 +80,8 @@ pub enum TrialError {
     Periodic(error: Arc<PeriodicError>) = error.code(),
         format!("there is no settled cycle: {error}"),
         source error.as_ref(), help error.help(), class not_an_answer(error.class());
-    /// The books of the run do not close: relative residual, and what is allowed.
-    Ledger(residual: f64, bound: f64) = "run::ledger",
-        format!(
-            "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than \
-             the {bound:.1e} allowed"
-        ), class Class::Numbers;
+    /// The books of the run do not close.
+    Ledger => LedgerError;
     /// A requirement, as it was written, has no value; why not, or `None` if it gave no finite
     /// number.
     Requirement { text: String, error: Option<EvalError> } = "size::requirement",

@@ -319,10 +319,7 @@ impl<'a> Judge<'a> {
         if let RunStatus::Interrupted(_) = solution.end() {
             return Err(TrialError::Interrupted);
         }
-        let ledger = solution.ledger();
-        if let Some(residual) = ledger.relative_residual().filter(|_| !ledger.closes()) {
-            return Err(TrialError::Ledger(residual.abs(), ledger.bound));
-        }
+        solution.ledger().check()?;
         let own = solution.limits().len().saturating_sub(self.demand.requirements.len());
         let seen = &solution.limits()[own..];
         Ok(Judged {

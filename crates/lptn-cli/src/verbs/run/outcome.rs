@@ -18,7 +18,7 @@ use super::{events, next, state, windows};
 use crate::about;
 use crate::console::{Console, Detail};
 use crate::exit::Exit;
-use crate::failure::Failure;
+use crate::failure::{Failure, told};
 use crate::files::Folder;
 use crate::files::names::{EVENTS, MANIFEST, RANKING, RESULT, STATE, UNCERTAINTY, WINDOWS};
 use crate::input::quoted;
@@ -248,8 +248,8 @@ impl Outcome<'_> {
         if let Some(message) = self.ended_early() {
             return Some(at(Exit::Interrupted, Diagnostic::error("run::interrupted", message)));
         }
-        if !self.solution.ledger().closes() {
-            return Some(at(Exit::Failed, does_not_close(&self.solution)));
+        if let Err(open) = self.solution.ledger().check() {
+            return Some(at(Exit::Failed, told(&open)));
         }
         self.uncertainty.as_ref()?.as_ref().err().cloned()
     }
@@ -300,19 +300,6 @@ pub(crate) fn doubts(solution: &Solution) -> Vec<Diagnostic> {
     let warning = |code, text: Option<String>| text.map(|text| Diagnostic::warning(code, text));
     let bound = warning("run::error_not_bounded", not_bounded(solution));
     bound.into_iter().chain(warning("run::weak_ledger", weak_ledger(solution))).collect()
-}
-
-/// That the books of a run do not close.
-pub(crate) fn does_not_close(solution: &Solution) -> Diagnostic {
-    let ledger = solution.ledger();
-    let residual = ledger.relative_residual().unwrap_or(f64::NAN);
-    let message = format!(
-        "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than the \
-         {:.1e} allowed",
-        ledger.bound
-    );
-    Diagnostic::error("run::ledger", message)
-        .help("this is a bug in lptn or a network of extreme numbers: do not use the result")
 }
 
 /// Errors that add up.
