@@ -40,6 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Ok(MeasuredColumn {
             name: node.into(),
             of,
+            sensor: None,
             sigma: Some(0.1),
             values: times.iter().map(shown).collect(),
         })
@@ -52,6 +53,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let task = NetworkFitTask {
         network,
         parameters: ranges.into_iter().map(varied).collect::<Result<_, _>>()?,
+        sensors: Vec::new(),
         runs: vec![MeasuredRun {
             name: "record".into(),
             parameters: network.overrides(),

@@ -69,6 +69,7 @@ mod run_times;
 mod scales;
 mod scope;
 mod section;
+mod sensor;
 mod setting;
 mod size;
 mod source_map;
@@ -104,6 +105,7 @@ pub use netlist::{Netlist, parse, parse_bytes, parse_file, parse_raw, parse_with
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 pub use run_times::RunTime;
 pub use section::{Studies, format};
+pub use sensor::{Certainty, Sensor, SensorValue};
 pub use size::{
     Catalogue, CatalogueColumn, Goal, Objective, Over, RangeOf, Requirement, SizeRange, SizeStudy,
 };

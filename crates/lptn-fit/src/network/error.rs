@@ -55,8 +55,8 @@ pub enum NetworkFitError {
         format!("column `{column}` measures `{result}`, which is not a temperature of a node or a \
             mean of some"),
         help "write the temperature of a node, `\"steel.T\"`, or a mean, `\"mean(steel.T, \
-            bed.T)\"`; parameters, signals, boundaries, heat flows and `t` cannot stand there, and \
-            an offset of a sensor is not fitted";
+            bed.T)\"`; parameters, signals, boundaries, heat flows and `t` cannot stand there; \
+            what an instrument adds is said in [sensor]";
     /// A number of the study has no value.
     Plan => EvalError;
     /// The sum of squares cannot be minimised.

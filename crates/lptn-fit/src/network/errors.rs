@@ -2,6 +2,7 @@
 
 use crate::Covariance;
 use crate::network::fitted::ColumnMisfit;
+use crate::network::hint::{Hint, Missed};
 use crate::network::identify::Identifiability;
 use crate::network::model::{Block, Evaluated, Model};
 use crate::network::task::NetworkFitTask;
@@ -73,10 +74,17 @@ impl<'a> Errors<'a> {
     }
 
     pub(crate) fn columns(&self) -> Vec<ColumnMisfit> {
-        self.columns.iter().map(|column| self.misfit(column)).collect()
+        let missed = Missed {
+            task: self.task,
+            at_end: self.at_end,
+            blocks: self.columns.iter().map(|column| column.block).collect(),
+            slopes: self.free.iter().map(|&i| self.derivatives(i)).collect(),
+        };
+        let hints = missed.hints();
+        self.columns.iter().map(|column| self.misfit(column, &hints)).collect()
     }
 
-    fn misfit(&self, column: &ColumnNoise<'_>) -> ColumnMisfit {
+    fn misfit(&self, column: &ColumnNoise<'_>, hints: &[Option<Hint>]) -> ColumnMisfit {
         let block = column.block;
         let measured = &self.task.runs[block.run].columns[block.column];
         let residuals = &self.at_end.residuals[block.range.clone()];
@@ -84,15 +92,18 @@ impl<'a> Errors<'a> {
         let mean = |of: &dyn Fn(f64) -> f64| {
             residuals.iter().map(|&r| of(r * measured.weight())).sum::<f64>() / samples as f64
         };
+        let rms = mean(&|residual| residual * residual).sqrt();
+        let modelled = &self.at_end.modelled[block.rows.clone()];
         ColumnMisfit {
             run: block.run,
             column: block.column,
             samples,
             effective: column.noise.effective,
-            rms: mean(&|residual| residual * residual).sqrt(),
+            rms,
             mean: mean(&|residual| residual),
             sigma: measured.sigma,
-            modelled: self.at_end.modelled[block.rows.clone()].to_vec(),
+            hint: hints.get(block.column).copied().flatten(),
+            modelled: modelled.to_vec(),
         }
     }
 

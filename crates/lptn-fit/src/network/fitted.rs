@@ -4,6 +4,7 @@ use lptn_solve::Gradient;
 
 use crate::Covariance;
 use crate::least_squares::{Side, Stop};
+use crate::network::hint::Hint;
 use crate::network::identify::Identifiability;
 use crate::network::search::Starts;
 
@@ -66,6 +67,8 @@ pub struct ColumnMisfit {
     pub mean: f64,
     /// Standard deviation of one value as it was given, in K.
     pub sigma: Option<f64>,
+    /// What the misfit looks like, where it is far more than that.
+    pub hint: Option<Hint>,
     /// What the model says at each time of the record, in K.
     pub modelled: Vec<f64>,
 }

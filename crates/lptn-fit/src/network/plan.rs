@@ -5,7 +5,7 @@ use lptn_network::{End, Network, NodeId, Time};
 use lptn_solve::Transient;
 
 use crate::network::error::NetworkFitError;
-use crate::network::task::{MeasuredColumn, MeasuredRun, NetworkFitTask};
+use crate::network::task::{Instrument, MeasuredColumn, MeasuredRun, NetworkFitTask};
 
 /// Searches that begin between the bounds, where the netlist does not say.
 const MORE_STARTS: usize = 4;
@@ -37,6 +37,16 @@ impl<'a> NetworkFitTask<'a> {
             .map_or_else(|| Transient::until(Time(1.0)), |run| Transient::of(network, run));
         let of: Vec<_> =
             study.observed.iter().map(|o| weights(network, o)).collect::<Result<_, _>>()?;
+        let sensors = &netlist.studies.sensors;
+        let sensor_of = |observed: &Observed| {
+            sensors.iter().position(|sensor| observed.sensor.as_ref() == Some(&sensor.name))
+        };
+        // rounding to steps of q adds a variance of q^2 / 12
+        let step = |observed: &Observed| sensor_of(observed).and_then(|s| sensors[s].resolution);
+        let sigma = |(observed, sigma): (&Observed, &Option<f64>)| {
+            Some(sigma.as_ref()?.hypot(step(observed).unwrap_or(0.0) / 12_f64.sqrt()))
+        };
+        let sigmas: Vec<Option<f64>> = study.observed.iter().zip(&plan.sigmas).map(sigma).collect();
         let mut runs = Vec::with_capacity(study.records.len());
         for (record, parameters) in study.records.iter().zip(plan.parameters) {
             let column = |(i, observed): (usize, &Observed)| {
@@ -47,7 +57,8 @@ impl<'a> NetworkFitTask<'a> {
                 MeasuredColumn {
                     name: observed.column.clone(),
                     of: of[i].clone(),
-                    sigma: plan.sigmas[i],
+                    sensor: sensor_of(observed),
+                    sigma: sigmas[i],
                     values,
                 }
             };
@@ -59,7 +70,9 @@ impl<'a> NetworkFitTask<'a> {
                 columns: study.observed.iter().enumerate().map(column).collect(),
             });
         }
-        Ok(Self { network, parameters: plan.varied, runs, more_starts: MORE_STARTS, threads })
+        let sensors = sensors.iter().map(Instrument::from).collect();
+        let parameters = plan.varied;
+        Ok(Self { network, parameters, sensors, runs, more_starts: MORE_STARTS, threads })
     }
 }
 

@@ -59,9 +59,13 @@ const FIT_COLUMN: SectionDeclaration = SectionDeclaration {
     keys: &[
         key("of", "expression of results", "what the column measures", "\"steel.T\""),
         key("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\""),
+        key("sensor", "name of a sensor", "the instrument that gave it", "\"tc1\""),
     ],
     example: "{ of = \"steel.T\", sigma = \"0.2 K\" }",
-    elsewhere: &[("unit", "the unit stands in the header of the file: `ring [degC]`")],
+    elsewhere: &[
+        ("offset", "what an instrument adds stands in [sensor]: `tc1 = { offset = \"0 ± 3 K\" }`"),
+        ("unit", "the unit stands in the header of the file: `ring [degC]`"),
+    ],
     ..SectionDeclaration::NEW
 };
 
@@ -112,6 +116,8 @@ pub struct Observed {
     pub ty: Type,
     /// The standard deviation of one sample, where it is given.
     pub(crate) sigma: Option<Value>,
+    /// The instrument, by its name, where one is named.
+    pub sensor: Option<String>,
     /// Where it stands.
     pub span: Span,
 }
@@ -281,12 +287,16 @@ impl Study for FitStudy {
         }
         let column = |observed: &Observed| {
             let (name, of) = (toml_key(&observed.column), string(&observed.text));
-            match &observed.sigma {
-                None => format!("{name} = {of}"),
-                Some(sigma) => {
-                    let sigma = value(sigma, Type::of(observed.ty.dimension));
-                    format!("{name} = {{ of = {of}, sigma = {sigma} }}")
-                }
+            let mut more = String::new();
+            if let Some(sigma) = &observed.sigma {
+                more += &format!(", sigma = {}", value(sigma, Type::of(observed.ty.dimension)));
+            }
+            if let Some(sensor) = &observed.sensor {
+                more += &format!(", sensor = {}", string(sensor));
+            }
+            match more.is_empty() {
+                true => format!("{name} = {of}"),
+                false => format!("{name} = {{ of = {of}{more} }}"),
             }
         };
         let columns: Vec<String> = self.observed.iter().map(column).collect();
