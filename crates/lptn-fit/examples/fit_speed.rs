@@ -57,6 +57,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         runs: vec![MeasuredRun {
             name: "record".into(),
             parameters: network.overrides(),
+            signals: Vec::new(),
+            initial: Vec::new(),
             settings: Transient::until(Time(1500.0)),
             columns: vec![column("steel", 1.7)?, column("alum", 0.0)?],
             times: times.clone(),

@@ -72,6 +72,8 @@ fn record(netlist: &Netlist, (node, values): (&str, &[f64]), set: &[(&str, &str)
     MeasuredRun {
         name: format!("record {set:?}"),
         parameters,
+        signals: Vec::new(),
+        initial: Vec::new(),
         settings: Transient::until(Time(1.0)),
         times: every_50_s(values.len()),
         columns: vec![MeasuredColumn {

@@ -89,7 +89,7 @@ mod write_back;
 
 pub use case::CaseStudy;
 pub use expand::{Derived, WrittenError, prove};
-pub use fit::{FitPlan, FitRecord, FitStudy, Observed, VariedName};
+pub use fit::{FitInitial, FitPlan, FitRecord, FitSignal, FitStudy, Observed, VariedName};
 pub use format::{KeyDeclaration, NetlistFormat, Role, SectionDeclaration};
 pub use gearbox::{Arrangement, Gearbox, GearboxPart, Member};
 pub use include::Loader;

@@ -79,6 +79,8 @@ fn measured(case: &Case, calibration: &Calibration, model: &Model) -> Result<Mea
     Ok(MeasuredRun {
         name: calibration.data.clone(),
         parameters: model.system.network().overrides(),
+        signals: Vec::new(),
+        initial: Vec::new(),
         settings: Transient::until(Time(1.0)),
         times: column(&calibration.time_column)?,
         columns: calibration.observations.iter().map(observe).collect::<Result<_, _>>()?,

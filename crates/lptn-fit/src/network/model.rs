@@ -199,7 +199,11 @@ impl NetworkFitTask<'_> {
             .iter()
             .zip(values)
             .for_each(|(varied, &value)| parameters.set(varied.parameter, value));
-        Ok(self.network.with(&parameters).map_err(ChangeError::from)?)
+        let network = self.network.with(&parameters).map_err(ChangeError::from)?;
+        if run.signals.is_empty() && run.initial.is_empty() {
+            return Ok(network);
+        }
+        Ok(network.recorded(&run.signals, &run.initial).map_err(ChangeError::from)?)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::fmt;
 
 use lptn_netlist::{Sensor, SensorValue};
-use lptn_network::{Network, NodeId, Parameters, Varied};
+use lptn_network::{Course, Network, NodeId, Parameters, SignalId, Varied};
 use lptn_solve::{Proceed, Progress, Transient};
 
 /// A fit of parameters of a network to records of its temperatures.
@@ -55,6 +55,10 @@ pub struct MeasuredRun {
     /// The values that the parameters have in this run, but for the varied ones; see
     /// [`Network::overrides`].
     pub parameters: Parameters,
+    /// The courses of signals that the record has measured.
+    pub signals: Vec<(SignalId, Course)>,
+    /// Nodes that begin at another temperature than the network says, in K.
+    pub initial: Vec<(NodeId, f64)>,
     /// Start and controls of the run; its stop, rows and tolerance follow from the record.
     pub settings: Transient,
     /// The times of the rows in s, ascending, on the clock of the run: none before its start, at

@@ -12,7 +12,7 @@ use lptn_units::{
 
 use super::Writer;
 use crate::raw::{RawKind, RawTable};
-use crate::toml_text::{TomlFields, celsius, list, list_in, point, quantity, string, value};
+use crate::toml_text::{TomlFields, celsius, like, list, list_in, point, quantity, string};
 
 const TIME: Type = Type::of(Dimension::TIME);
 
@@ -209,7 +209,8 @@ fn joined(fields: &mut TomlFields, table: &Table1) {
 
 fn course(signal: &Signal) -> String {
     let (times, values, interpolation) = match &signal.course {
-        Course::Expression(expression) => return value(expression, signal.ty),
+        // alone, `K` would be a difference
+        Course::Expression(expression) => return like(expression, signal.ty),
         Course::Steps { times, values, .. } => {
             (times.as_slice(), values.as_slice(), Some("previous"))
         }

@@ -2,6 +2,7 @@
 
 mod data;
 mod read;
+mod recorded;
 
 use std::sync::Arc;
 
@@ -14,6 +15,8 @@ use crate::raw::{RawNetlist, RawValue};
 use crate::study::{PathFrom, Study};
 use crate::toml_text::{TomlFields, key as toml_key, like, string, value};
 use crate::work::Elaboration;
+
+pub use recorded::{FitInitial, FitSignal};
 
 const FIT: SectionDeclaration = SectionDeclaration {
     name: "fit",
@@ -36,6 +39,20 @@ const FIT: SectionDeclaration = SectionDeclaration {
             "the parameters to find",
             "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
         ),
+        key(
+            "signal",
+            "table of columns",
+            "signals that follow a column of the record",
+            "{ speed = \"omega\" }",
+        )
+        .or("their own courses"),
+        key(
+            "initial",
+            "`\"record\"`, or s",
+            "where measured nodes begin: at the first row, or the mean of so long",
+            "\"record\"",
+        )
+        .or("`T0`"),
     ],
     example: "{ data = \"record.csv\", column = { ring = \"steel.T\" }, vary = [\"R\"] }",
     elsewhere: &[
@@ -82,6 +99,10 @@ pub struct FitStudy {
     pub observed: Vec<Observed>,
     /// The names of the parameters to find, in file order; at least one, none twice.
     pub varied: Vec<VariedName>,
+    /// The signals that follow columns of the records.
+    pub signals: Vec<FitSignal>,
+    /// Where the measured nodes begin.
+    pub initial: FitInitial,
     /// The column of the times, where it is named.
     pub(crate) time: Option<String>,
 }
@@ -317,6 +338,7 @@ impl Study for FitStudy {
         };
         let varied: Vec<String> = self.varied.iter().map(varied).collect();
         fields.put("vary", format!("{{ {} }}", varied.join(", ")));
+        self.put_recorded(&mut fields);
         fields
     }
 }

@@ -37,8 +37,10 @@ impl<'a> Elaboration<'a> {
         let columns = self.observed(&fields);
         let time =
             fields.get("time").map(|raw| (fields.text("time", raw, &mut self.problems), raw));
-        let records =
-            self.fit_records(&fields, &columns, time.map(|(text, raw)| (text.unwrap_or("t"), raw)));
+        let (signals, initial) = (self.fit_signals(&fields), self.fit_initial(&fields));
+        let time_name = time.map(|(text, raw)| (text.unwrap_or("t"), raw));
+        let followed = signals.as_deref().unwrap_or_default();
+        let records = self.fit_records(&fields, (&columns, followed), time_name);
         let records = records?;
         self.set_and_varied(&fields, &records, varied.as_deref().unwrap_or_default());
         let observed: Option<Vec<Observed>> =
@@ -50,6 +52,8 @@ impl<'a> Elaboration<'a> {
             records,
             observed,
             varied: varied?,
+            signals: signals?,
+            initial: initial?,
             time: time.and_then(|(text, _)| text).map(str::to_owned),
         })
     }

@@ -123,12 +123,14 @@ fn failed(input: &Input, study: &FitStudy, error: &NetworkFitError) -> Failure {
         NetworkFitError::StartOutside { parameter } => {
             study.varied.get(*parameter).map(|varied| &varied.span)
         }
-        NetworkFitError::Observed { column, .. } => study
+        NetworkFitError::Observed { column, .. } | NetworkFitError::Initial { column, .. } => study
             .observed
             .iter()
             .find(|observed| observed.column == *column)
             .map(|observed| &observed.span),
-        NetworkFitError::Times { record, .. } | NetworkFitError::Start { record, .. } => {
+        NetworkFitError::Times { record, .. }
+        | NetworkFitError::Start { record, .. }
+        | NetworkFitError::Signal { record, .. } => {
             study.records.iter().find(|own| own.csv == *record).map(|own| &own.span)
         }
         _ => None,
