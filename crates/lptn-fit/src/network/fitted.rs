@@ -44,6 +44,10 @@ pub struct FittedParameter {
     /// Its standard error; `None` on a bound, where the records do not determine it and where
     /// nothing tells it.
     pub standard_error: Option<f64>,
+    /// Half the width of its 95 % interval: its standard error times the quantile of Student's t.
+    pub half_width: Option<f64>,
+    /// The degrees of freedom of that quantile; infinite where the error is known.
+    pub degrees_of_freedom: Option<f64>,
     /// Its value before.
     pub start: f64,
     /// The bound that it sits on.

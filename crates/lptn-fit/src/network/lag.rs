@@ -111,13 +111,14 @@ mod tests {
         let times = [0.0, 0.1, 5.0, 5.5, 40.0, 41.0, 90.0];
         let x: Vec<f64> = times.iter().map(|t| 20.0 + 0.5 * t).collect();
         let found = follow(&times, &x, 10.0);
+        let expected = |t: f64| 20.0 + 0.5 * (t - 10.0 * (1.0 - f64::exp(-t / 10.0)));
         for (t, y) in times.iter().zip(&found.course) {
-            let expected = 20.0 + 0.5 * (t - 10.0 * (1.0 - f64::exp(-t / 10.0)));
-            assert!((y - expected).abs() < 1e-12, "{t}: {y}");
+            assert!((y - expected(*t)).abs() < 1e-12, "{t}: {y}");
         }
         for few in 1..4 {
             let found = follow(&times[..few], &x[..few], 10.0);
-            assert!((found.course[few - 1] - 20.0).abs() < 0.5, "{few}");
+            let (t, y) = (times[few - 1], found.course[few - 1]);
+            assert!((y - expected(t)).abs() < 1e-12, "{few}: {y}");
         }
     }
 }

@@ -96,11 +96,17 @@ pub fn fit_network_observed(
         let determined = identifiability.as_ref().is_some_and(|known| known.determines(i));
         if determined { covariance.as_ref()?.standard_error(i) } else { None }
     };
-    let parameter = |i: usize| FittedParameter {
-        value: values[i],
-        standard_error: standard_error(i),
-        start: own[i],
-        on_bound: estimate.on_bound[i],
+    let parameter = |i: usize| {
+        let standard_error = standard_error(i);
+        let interval = standard_error.and(covariance.as_ref()).and_then(|c| errors.interval(c, i));
+        FittedParameter {
+            value: values[i],
+            standard_error,
+            half_width: interval.map(|(half, _)| half),
+            degrees_of_freedom: interval.map(|(_, degrees)| degrees),
+            start: own[i],
+            on_bound: estimate.on_bound[i],
+        }
     };
     let columns = errors.columns();
     Ok(NetworkFit {

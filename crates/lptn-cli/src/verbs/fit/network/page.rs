@@ -60,6 +60,10 @@ impl Page for Answer<'_> {
         table.label("state", |&i| state(self, i).to_owned());
         table.column("value", "unit", |&i| self.shown(i, parameter(i).value));
         table.column("standard_error", "unit", |&i| error(i));
+        let half = |i: usize| {
+            parameter(i).half_width.map_or(f64::NAN, |half| self.shown_difference(i, half))
+        };
+        table.column("half_width_95", "unit", |&i| half(i));
         table.column("start", "unit", |&i| self.shown(i, parameter(i).start));
         table.done().into()
     }
@@ -155,6 +159,12 @@ fn cells(answer: &Answer<'_>, i: usize) -> (String, String) {
     with_error(answer.shown(i, parameter.value), error)
 }
 
+/// Half the width of the 95 % interval.
+fn half_width(answer: &Answer<'_>, i: usize) -> String {
+    let half = answer.fit.parameters[i].half_width;
+    half.map_or_else(String::new, |half| significant(answer.shown_difference(i, half), 2))
+}
+
 /// What became of it, where that is worth a word.
 fn remark(answer: &Answer<'_>, i: usize) -> &'static str {
     Some(state(answer, i)).filter(|state| *state != "free").unwrap_or_default()
@@ -170,6 +180,7 @@ fn values(answer: &Answer<'_>, all: &[usize]) -> TextTable {
         .names()
         .right("value", |&i| cells(answer, i).0)
         .right("std. error", |&i| cells(answer, i).1)
+        .right("95 % ±", |&i| half_width(answer, i))
         .left("unit", |&i| symbol(&answer.units[i].text))
         .right("start", |&i| significant(answer.shown(i, answer.fit.parameters[i].start), 4))
         .right("from", |&i| bound(i, answer.unknowns[i].bounds.0))
@@ -194,6 +205,7 @@ fn sensors(answer: &Answer<'_>, all: &[usize]) -> TextTable {
         .names()
         .right("value", |&i| cells(answer, i).0)
         .right("std. error", |&i| cells(answer, i).1)
+        .right("95 % ±", |&i| half_width(answer, i))
         .left("unit", |&i| symbol(&answer.units[i].text))
         .left("known before", |&i| before(i))
         .left("", |&i| remark(answer, i))
@@ -294,6 +306,8 @@ fn parameter(answer: &Answer<'_>, i: usize) -> Value {
         "value": fitted.value,
         "unit": unit,
         "standard_error": fitted.standard_error,
+        "interval_95": fitted.half_width.map(|half| [fitted.value - half, fitted.value + half]),
+        "degrees_of_freedom": fitted.degrees_of_freedom.filter(|degrees| degrees.is_finite()),
         "start": fitted.start,
         "from": finite(varied.bounds.0),
         "to": finite(varied.bounds.1),
