@@ -26,8 +26,12 @@ fn main() {
         ..paper
     }));
     cases.push(Truth { samples: 50, spacing: 30.0, rho: 0.5, ..paper });
-    let head =
-        "samples  L/t_RC    rho   sd [K]  step [K] |   T_i   T_f  t_RC [%] | coarse  second [%]";
+    let drifts = [(0.1, 300.0), (0.3, 300.0), (0.1, 100.0), (0.1, 30.0), (0.05, 1000.0)];
+    cases.extend(drifts.map(|drift| Truth { drift, ..paper }));
+    cases.push(Truth { tails: 3.0, ..paper });
+    cases.push(Truth { samples: 30, spacing: 50.0, rho: 0.0, step: 0.0, ..paper });
+    cases.push(Truth { samples: 30, spacing: 50.0, rho: 0.5, ..paper });
+    let head = "samples  L/t_RC    rho   sd [K]  step [K]  drift [K, s]   |   T_i   T_f  t_RC [%] | coarse  second [%]";
     println!("{head}");
     for truth in cases {
         let fits = truth.fits(count);
@@ -37,12 +41,14 @@ fn main() {
         };
         let length = truth.samples as f64 * truth.spacing / truth.curve[2];
         println!(
-            "{:7} {length:7.2} {:6} {:8} {:9} | {initial:5.1} {settled:5.1} {tau:5.1}    | {:6.0} \
+            "{:7} {length:7.2} {:6} {:8} {:9} {:6} {:6} | {initial:5.1} {settled:5.1} {tau:5.1}    | {:6.0} \
              {:8.1}",
             truth.samples,
             truth.rho,
             truth.deviation,
             truth.step,
+            truth.drift.0,
+            truth.drift.1,
             part(|fit| fit.coarse),
             part(|fit| fit.second.offer.is_some()),
         );

@@ -40,6 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Ok(MeasuredColumn {
             name: node.into(),
             of,
+            sensor: None,
             sigma: Some(0.1),
             values: times.iter().map(shown).collect(),
         })
@@ -52,9 +53,12 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let task = NetworkFitTask {
         network,
         parameters: ranges.into_iter().map(varied).collect::<Result<_, _>>()?,
+        sensors: Vec::new(),
         runs: vec![MeasuredRun {
             name: "record".into(),
             parameters: network.overrides(),
+            signals: Vec::new(),
+            initial: Vec::new(),
             settings: Transient::until(Time(1500.0)),
             columns: vec![column("steel", 1.7)?, column("alum", 0.0)?],
             times: times.clone(),

@@ -72,11 +72,14 @@ fn record(netlist: &Netlist, (node, values): (&str, &[f64]), set: &[(&str, &str)
     MeasuredRun {
         name: format!("record {set:?}"),
         parameters,
+        signals: Vec::new(),
+        initial: Vec::new(),
         settings: Transient::until(Time(1.0)),
         times: every_50_s(values.len()),
         columns: vec![MeasuredColumn {
             name: node.to_owned(),
             of: vec![(netlist.network.node(node).unwrap(), 1.0)],
+            sensor: None,
             sigma: None,
             values: values.iter().map(|t| t + CELSIUS).collect(),
         }],
@@ -84,7 +87,14 @@ fn record(netlist: &Netlist, (node, values): (&str, &[f64]), set: &[(&str, &str)
 }
 
 fn task(netlist: &Netlist, parameters: Vec<Varied>, runs: Vec<MeasuredRun>) -> NetworkFitTask<'_> {
-    NetworkFitTask { network: &netlist.network, parameters, runs, more_starts: 4, threads: 2 }
+    NetworkFitTask {
+        network: &netlist.network,
+        parameters,
+        sensors: Vec::new(),
+        runs,
+        more_starts: 4,
+        threads: 2,
+    }
 }
 
 #[track_caller]

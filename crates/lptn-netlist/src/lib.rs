@@ -69,6 +69,7 @@ mod run_times;
 mod scales;
 mod scope;
 mod section;
+mod sensor;
 mod setting;
 mod size;
 mod source_map;
@@ -88,7 +89,7 @@ mod write_back;
 
 pub use case::CaseStudy;
 pub use expand::{Derived, WrittenError, prove};
-pub use fit::{FitPlan, FitRecord, FitStudy, Observed, VariedName};
+pub use fit::{FitInitial, FitPlan, FitRecord, FitSignal, FitStudy, Observed, VariedName};
 pub use format::{KeyDeclaration, NetlistFormat, Role, SectionDeclaration};
 pub use gearbox::{Arrangement, Gearbox, GearboxPart, Member};
 pub use include::Loader;
@@ -104,6 +105,7 @@ pub use netlist::{Netlist, parse, parse_bytes, parse_file, parse_raw, parse_with
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 pub use run_times::RunTime;
 pub use section::{Studies, format};
+pub use sensor::{Certainty, Sensor, SensorValue};
 pub use size::{
     Catalogue, CatalogueColumn, Goal, Objective, Over, RangeOf, Requirement, SizeRange, SizeStudy,
 };

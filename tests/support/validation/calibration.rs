@@ -31,6 +31,7 @@ pub fn fit(case: &Case) -> Result<NetworkFit, Trouble> {
     let fit = fit_network(&NetworkFitTask {
         network,
         parameters,
+        sensors: Vec::new(),
         runs: vec![run],
         more_starts: 0,
         threads,
@@ -70,6 +71,7 @@ fn measured(case: &Case, calibration: &Calibration, model: &Model) -> Result<Mea
         Ok(MeasuredColumn {
             name: observation.column.clone(),
             of: vec![(*node, 1.0)],
+            sensor: None,
             sigma: None,
             values,
         })
@@ -77,6 +79,8 @@ fn measured(case: &Case, calibration: &Calibration, model: &Model) -> Result<Mea
     Ok(MeasuredRun {
         name: calibration.data.clone(),
         parameters: model.system.network().overrides(),
+        signals: Vec::new(),
+        initial: Vec::new(),
         settings: Transient::until(Time(1.0)),
         times: column(&calibration.time_column)?,
         columns: calibration.observations.iter().map(observe).collect::<Result<_, _>>()?,

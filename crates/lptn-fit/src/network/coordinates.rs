@@ -1,8 +1,8 @@
 //! The coordinates in which a search moves.
 
-use lptn_network::Varied;
+use crate::network::unknown::Unknown;
 
-/// For each varied parameter whether the search moves in its logarithm.
+/// For each unknown whether the search moves in its logarithm.
 pub(crate) struct Coordinates {
     logarithmic: Vec<bool>,
     bounds: Vec<(f64, f64)>,
@@ -11,10 +11,10 @@ pub(crate) struct Coordinates {
 impl Coordinates {
     /// Logarithms where the bounds are positive: what is constant for products of powers then is a
     /// straight line. Without a least value the sign of a parameter is open.
-    pub(crate) fn new(varied: &[Varied], absolute: &[bool]) -> Self {
-        let logarithm = |(v, &absolute): (&Varied, &bool)| !absolute && v.bounds.0 > 0.0;
-        let logarithmic = varied.iter().zip(absolute).map(logarithm).collect();
-        let bounds = varied.iter().map(|v| v.bounds).collect();
+    pub(crate) fn new(unknowns: &[Unknown]) -> Self {
+        let logarithm = |unknown: &Unknown| !unknown.is_shift() && unknown.bounds.0 > 0.0;
+        let logarithmic = unknowns.iter().map(logarithm).collect();
+        let bounds = unknowns.iter().map(|unknown| unknown.bounds).collect();
         Self { logarithmic, bounds }
     }
 

@@ -55,8 +55,18 @@ pub enum NetworkFitError {
         format!("column `{column}` measures `{result}`, which is not a temperature of a node or a \
             mean of some"),
         help "write the temperature of a node, `\"steel.T\"`, or a mean, `\"mean(steel.T, \
-            bed.T)\"`; parameters, signals, boundaries, heat flows and `t` cannot stand there, and \
-            an offset of a sensor is not fitted";
+            bed.T)\"`; parameters, signals, boundaries, heat flows and `t` cannot stand there; \
+            what an instrument adds is said in [sensor]";
+    /// A column of a record, which a signal is to follow, has fewer than two values.
+    Signal { record: String, column: String } = "fit::signal",
+        format!("{record}: a signal follows column `{column}`, which has fewer than two values"),
+        help "take the record out, or the signal out of `signal`";
+    /// A node is to begin at what a sensor reads that is itself sought.
+    Initial { column: String, sensor: String } = "fit::initial",
+        format!("the start is read from column `{column}`, but what sensor `{sensor}` reads too much is \
+            sought"),
+        help "leave `initial` out and say in `T0` where the network begins, or write what the sensor \
+            reads too much as a plain value";
     /// A number of the study has no value.
     Plan => EvalError;
     /// The sum of squares cannot be minimised.

@@ -2,10 +2,11 @@
 
 use crate::Covariance;
 use crate::network::fitted::ColumnMisfit;
+use crate::network::hint::{Hint, Missed};
 use crate::network::identify::Identifiability;
 use crate::network::model::{Block, Evaluated, Model};
 use crate::network::task::NetworkFitTask;
-use crate::noise::Noise;
+use crate::noise::{Middle, Noise, student_95};
 
 /// With fewer values than this left over, residuals alone do not tell the noise.
 const FEW: usize = 10;
@@ -26,7 +27,7 @@ struct ColumnNoise<'a> {
     block: &'a Block,
     noise: Noise,
     /// `J^T Omega J` of the free parameters.
-    middle: Vec<f64>,
+    middle: Middle,
 }
 
 impl<'a> Errors<'a> {
@@ -62,7 +63,7 @@ impl<'a> Errors<'a> {
             .flat_map(|&i| self.derivatives(i)[block.range.clone()].iter().copied())
             .collect();
         let noise = Noise::estimate(&times, &self.at_end.residuals[block.range.clone()], &slopes);
-        let middle = noise.middle(&times, &slopes).values;
+        let middle = noise.middle(&times, &slopes);
         ColumnNoise { block, noise, middle }
     }
 
@@ -73,10 +74,17 @@ impl<'a> Errors<'a> {
     }
 
     pub(crate) fn columns(&self) -> Vec<ColumnMisfit> {
-        self.columns.iter().map(|column| self.misfit(column)).collect()
+        let missed = Missed {
+            task: self.task,
+            at_end: self.at_end,
+            blocks: self.columns.iter().map(|column| column.block).collect(),
+            slopes: self.free.iter().map(|&i| self.derivatives(i)).collect(),
+        };
+        let hints = missed.hints();
+        self.columns.iter().map(|column| self.misfit(column, &hints)).collect()
     }
 
-    fn misfit(&self, column: &ColumnNoise<'_>) -> ColumnMisfit {
+    fn misfit(&self, column: &ColumnNoise<'_>, hints: &[Option<Hint>]) -> ColumnMisfit {
         let block = column.block;
         let measured = &self.task.runs[block.run].columns[block.column];
         let residuals = &self.at_end.residuals[block.range.clone()];
@@ -84,15 +92,18 @@ impl<'a> Errors<'a> {
         let mean = |of: &dyn Fn(f64) -> f64| {
             residuals.iter().map(|&r| of(r * measured.weight())).sum::<f64>() / samples as f64
         };
+        let rms = mean(&|residual| residual * residual).sqrt();
+        let modelled = &self.at_end.modelled[block.rows.clone()];
         ColumnMisfit {
             run: block.run,
             column: block.column,
             samples,
             effective: column.noise.effective,
-            rms: mean(&|residual| residual * residual).sqrt(),
+            rms,
             mean: mean(&|residual| residual),
             sigma: measured.sigma,
-            modelled: self.at_end.modelled[block.rows.clone()].to_vec(),
+            hint: hints.get(block.column).copied().flatten(),
+            modelled: modelled.to_vec(),
         }
     }
 
@@ -120,6 +131,28 @@ impl<'a> Errors<'a> {
         }
     }
 
+    /// Half the width of the 95 % interval of a free parameter, and the degrees of freedom of the
+    /// quantile of Student's t that it takes: each column tells the variance that it brings in with
+    /// those of its own noise, and what is known beforehand is known (F. E. Satterthwaite,
+    /// Biometrics Bulletin 2 (1946) 110).
+    pub(crate) fn interval(&self, covariance: &Covariance, parameter: usize) -> Option<(f64, f64)> {
+        let error = covariance.standard_error(parameter)?;
+        let inverse =
+            Covariance::inverse(&self.at_end.jacobian, self.at_end.residuals.len(), &self.free)?;
+        if self.left_over() == 0 {
+            return Some((student_95(f64::INFINITY) * error, f64::INFINITY));
+        }
+        let count = self.at_end.jacobian.len() / self.at_end.residuals.len();
+        let gradient: Vec<f64> = (0..count).map(|i| f64::from(u8::from(i == parameter))).collect();
+        let parts = self.columns.iter().map(|c| c.middle.variance(&inverse, &gradient));
+        let uncertain: f64 = parts.map(|(variance, degrees)| variance * variance / degrees).sum();
+        let found = inverse.sandwich(&self.middle()).standard_error(parameter)?;
+        let degrees = found.powi(4) / uncertain;
+        // where few values are left over, the errors that `sigma` says are known
+        let half = (student_95(degrees) * found).max(student_95(f64::INFINITY) * error);
+        Some((half, degrees))
+    }
+
     fn sigma(&self, column: &ColumnNoise<'_>) -> Option<f64> {
         self.task.runs[column.block.run].columns[column.block.column].sigma
     }
@@ -132,7 +165,7 @@ impl<'a> Errors<'a> {
             |at: usize| prior(at / n).iter().zip(prior(at % n)).map(|(a, b)| a * b).sum::<f64>();
         let mut middle: Vec<f64> = (0..n * n).map(dot).collect();
         for column in &self.columns {
-            middle.iter_mut().zip(&column.middle).for_each(|(sum, part)| *sum += part);
+            middle.iter_mut().zip(&column.middle.values).for_each(|(sum, part)| *sum += part);
         }
         middle
     }

@@ -4,6 +4,7 @@ use lptn_solve::Gradient;
 
 use crate::Covariance;
 use crate::least_squares::{Side, Stop};
+use crate::network::hint::Hint;
 use crate::network::identify::Identifiability;
 use crate::network::search::Starts;
 
@@ -43,6 +44,10 @@ pub struct FittedParameter {
     /// Its standard error; `None` on a bound, where the records do not determine it and where
     /// nothing tells it.
     pub standard_error: Option<f64>,
+    /// Half the width of its 95 % interval: its standard error times the quantile of Student's t.
+    pub half_width: Option<f64>,
+    /// The degrees of freedom of that quantile; infinite where the error is known.
+    pub degrees_of_freedom: Option<f64>,
     /// Its value before.
     pub start: f64,
     /// The bound that it sits on.
@@ -66,6 +71,8 @@ pub struct ColumnMisfit {
     pub mean: f64,
     /// Standard deviation of one value as it was given, in K.
     pub sigma: Option<f64>,
+    /// What the misfit looks like, where it is far more than that.
+    pub hint: Option<Hint>,
     /// What the model says at each time of the record, in K.
     pub modelled: Vec<f64>,
 }

@@ -16,21 +16,28 @@ mod coordinates;
 mod error;
 mod errors;
 mod fitted;
+mod hint;
 mod identify;
+mod lag;
 mod model;
 mod plan;
+mod readings;
 mod search;
 mod task;
 mod undetermined;
+mod unknown;
 
 pub use combination::CombinationKind;
 pub use error::NetworkFitError;
 pub use fitted::{ColumnMisfit, FittedParameter, NetworkFit};
+pub use hint::{FAR, Hint};
 pub use identify::Identifiability;
+pub use lptn_netlist::{Certainty, SensorValue};
 pub use lptn_network::Varied;
 pub use search::Starts;
-pub use task::{FitObserver, FitStage, MeasuredColumn, MeasuredRun, NetworkFitTask};
+pub use task::{FitObserver, FitStage, Instrument, MeasuredColumn, MeasuredRun, NetworkFitTask};
 pub use undetermined::{Combination, Unseparated};
+pub use unknown::{Unknown, UnknownOf};
 
 use lptn_solve::{Gradient, Proceed};
 
@@ -69,19 +76,17 @@ pub fn fit_network_observed(
     task: &NetworkFitTask<'_>,
     observer: &FitObserver<'_>,
 ) -> Result<NetworkFit, NetworkFitError> {
-    check(task)?;
-    let own: Vec<f64> =
-        task.parameters.iter().map(|v| task.network.parameter_value(v.parameter)).collect();
-    let absolute: Vec<bool> = task.parameters.iter().map(|v| is_temperature(task, *v)).collect();
-    let sizes = sizes(task, &own);
-    let coordinates = Coordinates::new(&task.parameters, &absolute);
+    let unknowns = task.unknowns();
+    check(task, &unknowns)?;
+    let own: Vec<f64> = unknowns.iter().map(|unknown| unknown.own).collect();
+    let coordinates = Coordinates::new(&unknowns);
     let Found { estimate, outcome, starts, gradient, mut model, searches } =
-        search((task, observer), &coordinates, &own)?;
+        search((task, observer), (&unknowns, &coordinates), &own)?;
     let (values, _) = coordinates.values(&estimate.parameters);
     let Ok(at_end) = model.at(&values).cloned() else {
         return Err(NetworkFitError::NoData); // the search ends where there are runs
     };
-    let identifiability = told_apart(task, (&at_end, &sizes), &mut model, &gradient);
+    let identifiability = told_apart(&unknowns, &at_end, &mut model, &gradient);
     if model.interrupted {
         return Err(model.broken_off());
     }
@@ -91,11 +96,17 @@ pub fn fit_network_observed(
         let determined = identifiability.as_ref().is_some_and(|known| known.determines(i));
         if determined { covariance.as_ref()?.standard_error(i) } else { None }
     };
-    let parameter = |i: usize| FittedParameter {
-        value: values[i],
-        standard_error: standard_error(i),
-        start: own[i],
-        on_bound: estimate.on_bound[i],
+    let parameter = |i: usize| {
+        let standard_error = standard_error(i);
+        let interval = standard_error.and(covariance.as_ref()).and_then(|c| errors.interval(c, i));
+        FittedParameter {
+            value: values[i],
+            standard_error,
+            half_width: interval.map(|(half, _)| half),
+            degrees_of_freedom: interval.map(|(_, degrees)| degrees),
+            start: own[i],
+            on_bound: estimate.on_bound[i],
+        }
     };
     let columns = errors.columns();
     Ok(NetworkFit {
@@ -112,25 +123,18 @@ pub fn fit_network_observed(
     })
 }
 
-fn is_temperature(task: &NetworkFitTask<'_>, varied: Varied) -> bool {
-    task.network.parameters()[varied.parameter.index()].ty.absolute
+/// What counts as the size of an unknown, in SI units.
+fn size(unknown: &Unknown) -> f64 {
+    if unknown.ty.absolute {
+        return TEMPERATURE;
+    }
+    let (low, high) = unknown.bounds;
+    let all = [unknown.own.abs(), unknown.prior.unwrap_or(0.0), high - low];
+    all.into_iter().find(|size| size.is_finite() && *size > 0.0).unwrap_or(1.0)
 }
 
-/// What counts as the size of each parameter, in SI units.
-fn sizes(task: &NetworkFitTask<'_>, own: &[f64]) -> Vec<f64> {
-    let size = |(varied, own): (&Varied, &f64)| {
-        if is_temperature(task, *varied) {
-            return TEMPERATURE;
-        }
-        let (low, high) = varied.bounds;
-        let all = [own.abs(), varied.prior.unwrap_or(0.0), high - low];
-        all.into_iter().find(|size| size.is_finite() && *size > 0.0).unwrap_or(1.0)
-    };
-    task.parameters.iter().zip(own).map(size).collect()
-}
-
-fn check(task: &NetworkFitTask<'_>) -> Result<(), NetworkFitError> {
-    if task.parameters.is_empty() {
+fn check(task: &NetworkFitTask<'_>, unknowns: &[Unknown]) -> Result<(), NetworkFitError> {
+    if unknowns.is_empty() {
         return Err(NetworkFitError::NoParameter);
     }
     for run in &task.runs {
@@ -148,18 +152,13 @@ fn check(task: &NetworkFitTask<'_>) -> Result<(), NetworkFitError> {
     if values == 0 {
         return Err(NetworkFitError::NoData);
     }
-    let priors = task.parameters.iter().filter(|varied| varied.prior.is_some()).count();
-    if values + priors < task.parameters.len() {
-        return Err(NetworkFitError::TooFew {
-            values: values + priors,
-            parameters: task.parameters.len(),
-        });
+    let priors = unknowns.iter().filter(|unknown| unknown.prior.is_some()).count();
+    if values + priors < unknowns.len() {
+        let parameters = unknowns.len();
+        return Err(NetworkFitError::TooFew { values: values + priors, parameters });
     }
-    let outside = |varied: &Varied| {
-        let own = task.network.parameter_value(varied.parameter);
-        !(varied.bounds.0 <= own && own <= varied.bounds.1)
-    };
-    match task.parameters.iter().position(outside) {
+    let outside = |u: &Unknown| !(u.bounds.0 <= u.own && u.own <= u.bounds.1);
+    match unknowns.iter().position(outside) {
         Some(parameter) => Err(NetworkFitError::StartOutside { parameter }),
         None => Ok(()),
     }
@@ -167,27 +166,25 @@ fn check(task: &NetworkFitTask<'_>) -> Result<(), NetworkFitError> {
 
 /// What the residuals and their derivatives where the search ended tell of the parameters.
 fn told_apart(
-    task: &NetworkFitTask<'_>,
-    (at_end, sizes): (&Evaluated, &[f64]),
+    unknowns: &[Unknown],
+    at_end: &Evaluated,
     model: &mut Model<'_>,
     gradient: &Gradient,
 ) -> Option<Identifiability> {
-    let types: Vec<_> =
-        task.parameters.iter().map(|v| task.network.parameters()[v.parameter.index()].ty).collect();
     // in units of its own value a parameter is seen as its logarithm, unless it drifted to nearly
     // nothing
-    let scale = |i: usize| match at_end.values[i].abs() {
-        size if size > SMALL * sizes[i] && !types[i].absolute => size,
-        _ if types[i].absolute => sizes[i],
-        _ => SMALL * sizes[i],
+    let scale = |(unknown, value): (&Unknown, &f64)| match (size(unknown), value.abs()) {
+        (size, _) if unknown.is_shift() => size,
+        (size, value) if value > SMALL * size => value,
+        (size, _) => SMALL * size,
     };
-    let scales: Vec<f64> = (0..types.len()).map(scale).collect();
+    let scales: Vec<f64> = unknowns.iter().zip(&at_end.values).map(scale).collect();
     let place = Place {
         jacobian: &at_end.jacobian,
         values: &at_end.values,
         scales: &scales,
         accuracy: if *gradient == Gradient::Exact { EXACT } else { DIFFERENCES },
-        addable: &|i, j| types[i] == types[j] && !types[i].absolute,
+        addable: &|i, j| unknowns[i].ty == unknowns[j].ty && !unknowns[i].ty.absolute,
     };
     identify(&place, &mut |values| model.at(values).ok().map(|found| found.residuals.clone()))
 }

@@ -3,16 +3,15 @@
 use std::ops::Range;
 
 use lptn_assembly::ChangeError;
-use lptn_network::{Network, OutputTimes, ParameterId, Varied};
-use lptn_solve::{
-    Gradient, RecordedNodes, SensitiveError, SensitiveRun, Transient, in_parallel,
-    sensitive_run_observed,
-};
+use lptn_network::{Network, ParameterId};
+use lptn_solve::{Gradient, SensitiveError, in_parallel, sensitive_run_observed};
 
 use crate::least_squares::{self, LeastSquaresError, Residuals};
 use crate::network::coordinates::Coordinates;
 use crate::network::error::NetworkFitError;
-use crate::network::task::{FitObserver, FitStage, MeasuredColumn, MeasuredRun, NetworkFitTask};
+use crate::network::readings::{Measure, Reader, Rows};
+use crate::network::task::{FitObserver, FitStage, MeasuredRun, NetworkFitTask};
+use crate::network::unknown::Unknown;
 
 /// The residuals of one column of one record.
 #[derive(Clone, Debug)]
@@ -39,9 +38,10 @@ pub(crate) struct Evaluated {
 /// Computes the task's runs at some of the records' rows.
 pub(crate) struct Model<'a> {
     task: &'a NetworkFitTask<'a>,
+    unknowns: &'a [Unknown],
     coordinates: &'a Coordinates,
     /// The rows of each record that count.
-    rows: Vec<Vec<usize>>,
+    rows: Vec<Rows>,
     pub(crate) blocks: Vec<Block>,
     tolerance: f64,
     /// How derivatives are had; known after the first runs.
@@ -63,15 +63,15 @@ impl<'a> Model<'a> {
     /// With at most `most` rows of each record, taken at equal intervals.
     pub(crate) fn new(
         (task, observer): (&'a NetworkFitTask<'a>, &'a FitObserver<'a>),
-        coordinates: &'a Coordinates,
+        (unknowns, coordinates): (&'a [Unknown], &'a Coordinates),
         (most, tolerance): (usize, f64),
     ) -> Self {
-        let rows: Vec<Vec<usize>> =
-            task.runs.iter().map(|run| chosen(run.times.len(), most)).collect();
+        let rows: Vec<Rows> = task.runs.iter().map(|run| Rows::new(task, run, most)).collect();
         let blocks = blocks(task, &rows);
         let stage = FitStage { search: 0, of: 1, evaluations: 0 };
         Self {
             task,
+            unknowns,
             coordinates,
             rows,
             blocks,
@@ -168,10 +168,8 @@ impl<'a> Model<'a> {
 
     /// Place, value and standard deviation of what is known beforehand.
     fn priors(&self) -> Vec<(usize, f64, f64)> {
-        let known = |(i, varied): (usize, &Varied)| {
-            Some((i, self.task.network.parameter_value(varied.parameter), varied.prior?))
-        };
-        self.task.parameters.iter().enumerate().filter_map(known).collect()
+        let known = |(i, unknown): (usize, &Unknown)| Some((i, unknown.own, unknown.prior?));
+        self.unknowns.iter().enumerate().filter_map(known).collect()
     }
 
     /// One record's run.
@@ -180,11 +178,12 @@ impl<'a> Model<'a> {
         let network = self.task.network_of(run, values)?;
         let ids: Vec<ParameterId> =
             self.task.parameters.iter().map(|varied| varied.parameter).collect();
-        let (settings, stage) = (settings(run, rows, self.tolerance), self.stage_now());
+        let (settings, stage) = (rows.settings(run, self.tolerance), self.stage_now());
         let found = sensitive_run_observed(&network, (&settings, &ids), &|step| {
             (self.observer)(stage, step)
         })?;
-        Ok(measure(run, rows, (&found, &ids)))
+        let reader = Reader { task: self.task, run: i, rows, unknowns: self.unknowns, values };
+        Ok(reader.measure(&found))
     }
 }
 
@@ -200,33 +199,22 @@ impl NetworkFitTask<'_> {
             .iter()
             .zip(values)
             .for_each(|(varied, &value)| parameters.set(varied.parameter, value));
-        Ok(self.network.with(&parameters).map_err(ChangeError::from)?)
+        let network = self.network.with(&parameters).map_err(ChangeError::from)?;
+        if run.signals.is_empty() && run.initial.is_empty() {
+            return Ok(network);
+        }
+        Ok(network.recorded(&run.signals, &run.initial).map_err(ChangeError::from)?)
     }
 }
 
-/// The residuals of one record, and their derivatives one parameter after the other.
-struct Measure {
-    modelled: Vec<f64>,
-    residuals: Vec<f64>,
-    jacobian: Vec<f64>,
-    gradient: Gradient,
-}
-
-/// At most `most` of `count` rows, at equal intervals, both ends included.
-fn chosen(count: usize, most: usize) -> Vec<usize> {
-    if count <= most {
-        return (0..count).collect();
-    }
-    (0..most).map(|k| k * (count - 1) / (most - 1)).collect()
-}
-
-fn blocks(task: &NetworkFitTask<'_>, rows: &[Vec<usize>]) -> Vec<Block> {
+fn blocks(task: &NetworkFitTask<'_>, rows: &[Rows]) -> Vec<Block> {
     let mut blocks = Vec::new();
     let (mut from, mut first) = (0, 0);
     for (run, measured) in task.runs.iter().enumerate() {
         for (column, values) in measured.columns.iter().enumerate() {
-            let count = rows[run].iter().filter(|&&row| !values.values[row].is_nan()).count();
-            let all = first..first + rows[run].len();
+            let chosen = &rows[run].chosen;
+            let count = chosen.iter().filter(|&&row| !values.values[row].is_nan()).count();
+            let all = first..first + chosen.len();
             blocks.push(Block { run, column, range: from..from + count, rows: all.clone() });
             (from, first) = (from + count, all.end);
         }
@@ -234,71 +222,9 @@ fn blocks(task: &NetworkFitTask<'_>, rows: &[Vec<usize>]) -> Vec<Block> {
     blocks
 }
 
-/// The run that has a row wherever the record has one.
-fn settings(run: &MeasuredRun, rows: &[usize], tolerance: f64) -> Transient {
-    let start = run.settings.start;
-    let stop = rows.last().map_or(start, |&row| run.times[row]);
-    let between =
-        rows.iter().map(|&row| run.times[row]).filter(|&time| time > start && time < stop);
-    Transient {
-        stop,
-        output: OutputTimes::At(between.collect()),
-        tolerance,
-        record: RecordedNodes::Nodes(run.nodes()),
-        watch: Vec::new(),
-        windows: Vec::new(),
-        balance: None,
-        ..run.settings.clone()
-    }
-}
-
-fn measure(
-    run: &MeasuredRun,
-    rows: &[usize],
-    (found, ids): (&SensitiveRun, &[ParameterId]),
-) -> Measure {
-    let solution = &found.solution;
-    // the run has one more row where the record does not begin at its start
-    let skipped = solution.times().len() - rows.len();
-    let (modelled, residuals, jacobian) = (Vec::new(), Vec::new(), Vec::new());
-    let mut measure = Measure { modelled, residuals, jacobian, gradient: found.gradient };
-    for column in &run.columns {
-        let model = combined(column, |node| solution.temperature(node), skipped);
-        let misses = rows
-            .iter()
-            .zip(&model)
-            .map(|(&row, model)| (model - column.values[row]) / column.weight());
-        measure.residuals.extend(misses.filter(|residual| !residual.is_nan()));
-        measure.modelled.extend_from_slice(&model);
-    }
-    for &id in ids {
-        for column in &run.columns {
-            let slopes = combined(column, |node| found.sensitivity(id, node), skipped);
-            let kept = rows.iter().zip(slopes).filter(|(row, _)| !column.values[**row].is_nan());
-            measure.jacobian.extend(kept.map(|(_, slope)| slope / column.weight()));
-        }
-    }
-    measure
-}
-
-/// The rows of the measured temperature, or of its derivative.
-fn combined(
-    column: &MeasuredColumn,
-    of_node: impl Fn(lptn_network::NodeId) -> Option<Vec<f64>>,
-    skipped: usize,
-) -> Vec<f64> {
-    let mut sum: Vec<f64> = Vec::new();
-    for &(node, factor) in &column.of {
-        let values = of_node(node).unwrap_or_default();
-        sum.resize(values.len(), 0.0);
-        sum.iter_mut().zip(&values).for_each(|(sum, value)| *sum += factor * value);
-    }
-    sum.split_off(skipped.min(sum.len()))
-}
-
 impl Residuals for Model<'_> {
     fn parameters(&self) -> usize {
-        self.task.parameters.len()
+        self.unknowns.len()
     }
 
     /// Derivatives come with the runs at little cost, so they are always computed: the next call

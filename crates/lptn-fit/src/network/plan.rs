@@ -1,11 +1,12 @@
 //! From a `[fit.NAME]` of a netlist to a task.
 
-use lptn_netlist::{FitStudy, Netlist, Observed};
-use lptn_network::{End, Network, NodeId, Time};
+use lptn_netlist::{FitInitial, FitRecord, FitSignal, FitStudy, Netlist, Observed, Sensor};
+use lptn_network::{AfterEnd, Course, End, Network, NodeId, SignalId, Time, ZERO_CELSIUS};
 use lptn_solve::Transient;
+use lptn_units::{Interpolation, Outside, Table1};
 
 use crate::network::error::NetworkFitError;
-use crate::network::task::{MeasuredColumn, MeasuredRun, NetworkFitTask};
+use crate::network::task::{Instrument, MeasuredColumn, MeasuredRun, NetworkFitTask};
 
 /// Searches that begin between the bounds, where the netlist does not say.
 const MORE_STARTS: usize = 4;
@@ -37,6 +38,16 @@ impl<'a> NetworkFitTask<'a> {
             .map_or_else(|| Transient::until(Time(1.0)), |run| Transient::of(network, run));
         let of: Vec<_> =
             study.observed.iter().map(|o| weights(network, o)).collect::<Result<_, _>>()?;
+        let sensors = &netlist.studies.sensors;
+        let sensor_of = |observed: &Observed| {
+            sensors.iter().position(|sensor| observed.sensor.as_ref() == Some(&sensor.name))
+        };
+        // rounding to steps of q adds a variance of q^2 / 12
+        let step = |observed: &Observed| sensor_of(observed).and_then(|s| sensors[s].resolution);
+        let sigma = |(observed, sigma): (&Observed, &Option<f64>)| {
+            Some(sigma.as_ref()?.hypot(step(observed).unwrap_or(0.0) / 12_f64.sqrt()))
+        };
+        let sigmas: Vec<Option<f64>> = study.observed.iter().zip(&plan.sigmas).map(sigma).collect();
         let mut runs = Vec::with_capacity(study.records.len());
         for (record, parameters) in study.records.iter().zip(plan.parameters) {
             let column = |(i, observed): (usize, &Observed)| {
@@ -47,11 +58,15 @@ impl<'a> NetworkFitTask<'a> {
                 MeasuredColumn {
                     name: observed.column.clone(),
                     of: of[i].clone(),
-                    sigma: plan.sigmas[i],
+                    sensor: sensor_of(observed),
+                    sigma: sigmas[i],
                     values,
                 }
             };
+            let begun = Begun { study, record, sensors, start: settings.start };
             runs.push(MeasuredRun {
+                signals: begun.signals(network)?,
+                initial: begun.initial(&of)?,
                 name: record.csv.clone(),
                 parameters,
                 settings: settings.clone(),
@@ -59,7 +74,86 @@ impl<'a> NetworkFitTask<'a> {
                 columns: study.observed.iter().enumerate().map(column).collect(),
             });
         }
-        Ok(Self { network, parameters: plan.varied, runs, more_starts: MORE_STARTS, threads })
+        let sensors = sensors.iter().map(Instrument::from).collect();
+        let parameters = plan.varied;
+        Ok(Self { network, parameters, sensors, runs, more_starts: MORE_STARTS, threads })
+    }
+}
+
+/// One record, with what is known of its instruments.
+struct Begun<'a> {
+    study: &'a FitStudy,
+    record: &'a FitRecord,
+    sensors: &'a [Sensor],
+    /// When its run begins, in s.
+    start: f64,
+}
+
+impl Begun<'_> {
+    /// The courses of the signals that follow its columns: straight lines between its rows, over
+    /// gaps too, and the first and the last value before and behind them.
+    fn signals(&self, network: &Network) -> Result<Vec<(SignalId, Course)>, NetworkFitError> {
+        let (all, times) = (network.signals(), &self.record.record.time);
+        let course = |signal: &FitSignal| {
+            let place = all.iter().position(|own| own.name == signal.name);
+            let id = place.and_then(|place| network.signal_ids().nth(place));
+            let column = self.record.record.column(&signal.column);
+            let (Some(id), Some(column)) = (id, column) else { return Ok(None) };
+            let rows = times.iter().zip(&column.values).filter(|(_, value)| !value.is_nan());
+            let (mut t, mut v): (Vec<f64>, Vec<f64>) = rows.unzip();
+            if t.first().is_some_and(|first| *first > self.start) {
+                t.insert(0, self.start);
+                v.insert(0, v[0]);
+            }
+            let points = Table1::new(t, v, Interpolation::Linear, Outside::Hold);
+            let after = AfterEnd::Hold;
+            match points {
+                Ok(points) => Ok(Some((id, Course::Curve { points, after }))),
+                Err(_) => Err(NetworkFitError::Signal {
+                    record: self.record.csv.clone(),
+                    column: signal.column.clone(),
+                }),
+            }
+        };
+        let courses: Result<Vec<_>, _> = self.study.signals.iter().map(course).collect();
+        Ok(courses?.into_iter().flatten().collect())
+    }
+
+    /// Where the nodes begin whose temperature a column measures.
+    fn initial(&self, of: &[Vec<(NodeId, f64)>]) -> Result<Vec<(NodeId, f64)>, NetworkFitError> {
+        let long = match self.study.initial {
+            FitInitial::Network => return Ok(Vec::new()),
+            FitInitial::First => 0.0,
+            FitInitial::Mean(seconds) => seconds,
+        };
+        let mut found: Vec<(NodeId, f64)> = Vec::new();
+        for (observed, of) in self.study.observed.iter().zip(of) {
+            let [(node, factor)] = of.as_slice() else { continue };
+            let column = self.record.record.column(&observed.column);
+            let (Some(column), true) = (column, (factor - 1.0).abs() < 1e-12) else { continue };
+            let rows = self.record.record.time.iter().zip(&column.values);
+            let mut rows = rows.filter(|(_, value)| !value.is_nan()).peekable();
+            let Some(first) = rows.peek().map(|(time, _)| **time) else { continue };
+            let values: Vec<f64> =
+                rows.take_while(|(time, _)| **time <= first + long).map(|(_, v)| *v).collect();
+            let mean = values.iter().sum::<f64>() / values.len() as f64;
+            if found.iter().all(|(other, _)| other != node) {
+                found.push((*node, self.behind(observed, mean)?));
+            }
+        }
+        Ok(found)
+    }
+
+    /// The temperature of which a column's instrument reads this, in K.
+    fn behind(&self, observed: &Observed, reading: f64) -> Result<f64, NetworkFitError> {
+        let own = |sensor: &&Sensor| observed.sensor.as_ref() == Some(&sensor.name);
+        let Some(sensor) = self.sensors.iter().find(own) else { return Ok(reading) };
+        if sensor.offset.is_sought() || sensor.gain.is_sought() {
+            let (column, sensor) = (observed.column.clone(), sensor.name.clone());
+            return Err(NetworkFitError::Initial { column, sensor });
+        }
+        let over_zero = (reading - ZERO_CELSIUS - sensor.offset.value) / sensor.gain.value;
+        Ok(ZERO_CELSIUS + over_zero)
     }
 }
 

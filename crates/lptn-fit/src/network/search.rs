@@ -7,6 +7,7 @@ use crate::network::coordinates::Coordinates;
 use crate::network::error::NetworkFitError;
 use crate::network::model::Model;
 use crate::network::task::{FitObserver, FitStage, NetworkFitTask};
+use crate::network::unknown::Unknown;
 
 /// Rows of a record that the searches look at before the best of them goes on with all.
 const COARSE_ROWS: usize = 150;
@@ -52,14 +53,17 @@ pub(crate) struct Found<'a> {
 /// Finds the best minimum.
 pub(crate) fn search<'a>(
     (task, observer): (&'a NetworkFitTask<'a>, &'a FitObserver<'a>),
-    coordinates: &'a Coordinates,
+    (unknowns, coordinates): (&'a [Unknown], &'a Coordinates),
     own: &[f64],
 ) -> Result<Found<'a>, NetworkFitError> {
     let tolerance =
         |least: f64| task.runs.iter().fold(least, |t, run| t.min(run.settings.tolerance));
     let starts = starts(task, coordinates, own);
-    let mut coarse =
-        Model::new((task, observer), coordinates, (COARSE_ROWS, tolerance(TOLERANCES[0])));
+    let mut coarse = Model::new(
+        (task, observer),
+        (unknowns, coordinates),
+        (COARSE_ROWS, tolerance(TOLERANCES[0])),
+    );
     coarse.stage = FitStage { search: 1, of: starts.len(), evaluations: 0 };
     if let Err((run, error)) = coarse.at(own) {
         if let SensitiveError::Interrupted = error {
@@ -85,8 +89,11 @@ pub(crate) fn search<'a>(
         ends.push(search.map_err(|error| coarse.ended(error))?);
     }
     let (best, starts) = best(&ends, &coarse, tolerance(TOLERANCES[0]));
-    let mut model =
-        Model::new((task, observer), coordinates, (usize::MAX, tolerance(TOLERANCES[1])));
+    let mut model = Model::new(
+        (task, observer),
+        (unknowns, coordinates),
+        (usize::MAX, tolerance(TOLERANCES[1])),
+    );
     model.best = Some((f64::INFINITY, coordinates.values(&ends[best].parameters).0));
     model.stage = FitStage { search: 0, ..coarse.stage_now() };
     let exact = match gradient {

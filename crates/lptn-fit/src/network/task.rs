@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-use lptn_network::{Network, NodeId, Parameters, Varied};
+use lptn_netlist::{Sensor, SensorValue};
+use lptn_network::{Course, Network, NodeId, Parameters, SignalId, Varied};
 use lptn_solve::{Proceed, Progress, Transient};
 
 /// A fit of parameters of a network to records of its temperatures.
@@ -12,6 +13,8 @@ pub struct NetworkFitTask<'a> {
     pub network: &'a Network,
     /// What is varied; each parameter once.
     pub parameters: Vec<Varied>,
+    /// The instruments that columns name.
+    pub sensors: Vec<Instrument>,
     /// The records, each of a run of its own.
     pub runs: Vec<MeasuredRun>,
     /// How many searches begin elsewhere between the bounds, beside the one from the own values.
@@ -52,6 +55,10 @@ pub struct MeasuredRun {
     /// The values that the parameters have in this run, but for the varied ones; see
     /// [`Network::overrides`].
     pub parameters: Parameters,
+    /// The courses of signals that the record has measured.
+    pub signals: Vec<(SignalId, Course)>,
+    /// Nodes that begin at another temperature than the network says, in K.
+    pub initial: Vec<(NodeId, f64)>,
     /// Start and controls of the run; its stop, rows and tolerance follow from the record.
     pub settings: Transient,
     /// The times of the rows in s, ascending, on the clock of the run: none before its start, at
@@ -61,6 +68,34 @@ pub struct MeasuredRun {
     pub columns: Vec<MeasuredColumn>,
 }
 
+/// What an instrument makes of the temperature x over 0 degC that it measures: `gain y + offset`
+/// over 0 degC, where `lag dy/dt = x - y` from rest at the start of the run. All in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Instrument {
+    /// Its name.
+    pub name: String,
+    /// In K.
+    pub offset: SensorValue,
+    /// A factor.
+    pub gain: SensorValue,
+    /// Its time constant in s; 0 without one.
+    pub lag: SensorValue,
+    /// Whether an offset that is sought is another one in each record.
+    pub per_record: bool,
+}
+
+impl From<&Sensor> for Instrument {
+    fn from(sensor: &Sensor) -> Self {
+        Self {
+            name: sensor.name.clone(),
+            offset: sensor.offset,
+            gain: sensor.gain,
+            lag: sensor.lag,
+            per_record: sensor.per_record,
+        }
+    }
+}
+
 /// A measured column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredColumn {
@@ -68,6 +103,8 @@ pub struct MeasuredColumn {
     pub name: String,
     /// The temperature that was measured: the sum of temperatures of nodes times these factors.
     pub of: Vec<(NodeId, f64)>,
+    /// Place of its instrument among those of the task; an ideal one unless there is one.
+    pub sensor: Option<usize>,
     /// Standard deviation of one value in K; `None` counts as 1 K.
     pub sigma: Option<f64>,
     /// One value in K for each time; NaN where nothing was measured.

@@ -161,8 +161,11 @@ impl Likelihood {
 
     /// The covariance of `ln theta` and the logit at the greatest likelihood: twice the inverse of
     /// the second derivatives of what [`Likelihood::at`] gives. A direction in which it does not
-    /// bend is taken as known: there the noise does not depend on it.
-    pub(crate) fn spread(&self, [time, logit]: [f64; 2]) -> [[f64; 2]; 2] {
+    /// bend is taken as known: there the noise does not depend on it. `None` where the time is known
+    /// to no better than a factor: then the likelihood is no parabola.
+    pub(crate) fn spread(&self, [time, logit]: [f64; 2]) -> Option<[[f64; 2]; 2]> {
+        /// Standard deviation of the logarithm of the time.
+        const WELL: f64 = 0.4;
         const STEP: f64 = 0.1;
         let at = |a: f64, b: f64| {
             self.at(Shape::at([time + a * STEP, logit + b * STEP], self.spacing)).restricted
@@ -173,14 +176,52 @@ impl Likelihood {
         let b =
             (at(1.0, 1.0) - at(1.0, -1.0) - at(-1.0, 1.0) + at(-1.0, -1.0)) / (4.0 * STEP * STEP);
         let determinant = a * d - b * b;
+        let weak = |variance: f64| variance > WELL * WELL;
         if a > 1e-3 && d > 1e-3 && determinant > 1e-3 * a * d {
-            return [
+            let known = [
                 [2.0 * d / determinant, -2.0 * b / determinant],
                 [-2.0 * b / determinant, 2.0 * a / determinant],
             ];
+            return (!weak(known[0][0])).then_some(known);
         }
         let alone = |bend: f64| if bend > 1e-3 { 2.0 / bend } else { 0.0 };
-        [[alone(a), 0.0], [0.0, alone(d)]]
+        (a > 1e-3 && !weak(alone(a))).then(|| [[alone(a), 0.0], [0.0, alone(d)]])
+    }
+}
+
+/// A shape that the samples leave possible.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Possible {
+    /// How likely it is; those of all sum up to 1.
+    pub(crate) weight: f64,
+    pub(crate) shape: Shape,
+    /// Standard deviation of the noise if it is the one.
+    pub(crate) deviation: f64,
+}
+
+impl Likelihood {
+    /// The shapes that the samples leave possible, with as many of them for each factor of the time
+    /// and for each step of the logit: before anything is measured all are equally likely, up to a
+    /// time as long as the record.
+    pub(crate) fn possible(&self) -> Vec<Possible> {
+        const TIMES: i32 = 24;
+        const LOGITS: i32 = 6;
+        let length = (self.times[self.times.len() - 1] - self.times[0]).max(self.spacing);
+        let (least, most) = ((0.3 * self.spacing).ln(), length.ln());
+        let place = |k: i32| least + (most - least) * f64::from(k) / f64::from(TIMES - 1);
+        let places = (0..TIMES).flat_map(|k| (-LOGITS..=LOGITS).map(move |l| (k, l)));
+        let shape = |(k, l): (i32, i32)| Shape::at([place(k), f64::from(l)], self.spacing);
+        let all: Vec<(Shape, Value)> =
+            places.map(shape).map(|shape| (shape, self.at(shape))).collect();
+        let best = all.iter().map(|(_, value)| value.restricted).fold(f64::INFINITY, f64::min);
+        let weight = |value: &Value| (0.5 * (best - value.restricted)).exp();
+        let sum: f64 = all.iter().map(|(_, value)| weight(value)).filter(|w| w.is_finite()).sum();
+        let possible = all.iter().map(|(shape, value)| Possible {
+            weight: weight(value) / sum,
+            shape: *shape,
+            deviation: value.deviation,
+        });
+        possible.filter(|one| one.weight > 1e-4).collect()
     }
 }
 

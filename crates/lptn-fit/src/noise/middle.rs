@@ -1,8 +1,9 @@
 //! What the sandwich holds.
 
-use super::likelihood::Shape;
-use super::{Noise, stretches};
+use super::likelihood::{Possible, Shape};
+use super::{Noise, quantile, stretches, student_95};
 use crate::Covariance;
+use lptn_units::statistics::NORMAL_95;
 
 /// `J^T Omega J` of the samples of one record, and what is known of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,6 +15,8 @@ pub struct Middle {
     spread: [[f64; 2]; 2],
     /// Means less fitted parameters.
     free: f64,
+    /// Where several shapes of the noise are possible: how likely each is, and its values.
+    possible: Vec<(f64, Vec<f64>)>,
 }
 
 impl Middle {
@@ -21,15 +24,19 @@ impl Middle {
         let means = noise.means;
         let columns = stretches::means_of_columns(jacobian, times.len(), noise.stretch);
         let times = stretches::means(times, noise.stretch);
-        let scale = means.deviation * noise.stretch as f64;
-        let scaled = |shape: Shape| -> Vec<f64> {
+        let of = |shape: Shape, deviation: f64| -> Vec<f64> {
+            let scale = deviation * noise.stretch as f64;
             product(&times, &columns, shape).into_iter().map(|x| x * scale * scale).collect()
         };
+        let scaled = |shape: Shape| of(shape, means.deviation);
         let values = scaled(Shape { correlated: means.correlated, time: means.time });
         let free = times.len().saturating_sub(noise.rank).max(1) as f64;
-        if means.time <= 0.0 {
+        let one = |p: &Possible| (p.weight, of(p.shape, p.deviation));
+        let possible: Vec<(f64, Vec<f64>)> = noise.possible.iter().map(one).collect();
+        if means.time <= 0.0 || !possible.is_empty() {
             let none = vec![0.0; values.len()];
-            return Self { values, slopes: [none.clone(), none], spread: noise.spread, free };
+            let slopes = [none.clone(), none];
+            return Self { values, slopes, spread: noise.spread, free, possible };
         }
         let slope = |by: [f64; 2]| {
             const STEP: f64 = 0.05;
@@ -38,12 +45,17 @@ impl Middle {
             to(1.0).iter().zip(to(-1.0)).map(|(a, b)| (a - b) / (2.0 * STEP)).collect()
         };
         let slopes = [slope([1.0, 0.0]), slope([0.0, 1.0])];
-        Self { values, slopes, spread: noise.spread, free }
+        Self { values, slopes, spread: noise.spread, free, possible }
     }
 
     /// The degrees of freedom with which the variance of a quantity is known that has these
     /// derivatives by all parameters of the fit, `inverse` being `(J^T J)^-1`.
     pub fn degrees_of_freedom(&self, inverse: &Covariance, gradient: &[f64]) -> f64 {
+        self.variance(inverse, gradient).1
+    }
+
+    /// That variance too, in front of its degrees of freedom.
+    pub(crate) fn variance(&self, inverse: &Covariance, gradient: &[f64]) -> (f64, f64) {
         let n = inverse.parameters.len();
         let weight = |i: usize| {
             (0..n).map(|j| inverse.values[i * n + j] * gradient[inverse.parameters[j]]).sum()
@@ -53,12 +65,19 @@ impl Middle {
             |m: &[f64]| (0..n * n).map(|at| weights[at / n] * m[at] * weights[at % n]).sum::<f64>();
         let variance = form(&self.values);
         if variance <= 0.0 {
-            return self.free;
+            return (0.0, self.free);
+        }
+        if !self.possible.is_empty() {
+            let one = |(weight, m): &(f64, Vec<f64>)| (*weight, form(m).max(0.0).sqrt());
+            let errors: Vec<(f64, f64)> = self.possible.iter().map(one).collect();
+            let known = student_95(self.free);
+            let half = known / NORMAL_95 * quantile::mixed_95(&errors);
+            return (variance, quantile::degrees_of(half / variance.sqrt()).min(self.free));
         }
         let relative = [form(&self.slopes[0]) / variance, form(&self.slopes[1]) / variance];
         let term = |i: usize, j: usize| relative[i] * self.spread[i][j] * relative[j];
         let uncertain = 2.0 / self.free + term(0, 0) + term(0, 1) + term(1, 0) + term(1, 1);
-        (2.0 / uncertain).clamp(1.0, self.free)
+        (variance, (2.0 / uncertain).clamp(1.0, self.free))
     }
 }
 

@@ -3,7 +3,7 @@
 //! Least squares takes residuals as independent. Those of a thermocouple are not: they drift, and
 //! the rounding of the instrument adds a part that hides the drift from an estimate by the
 //! correlation of neighbours (a plain AR(1) correction). What a fit feels is the slow part of the
-//! noise alone. So it is the means of stretches of the record (some 400 of them) that get a model,
+//! noise alone. So it is the means of stretches of the record (some 100 of them) that get a model,
 //! with a correlated and a white part,
 //!
 //! ```text
@@ -22,7 +22,10 @@
 //! least squares with residuals of covariance Omega. How well the variance itself is known is
 //! counted in degrees of freedom after F. E. Satterthwaite (Biometrics Bulletin 2 (1946) 110), from
 //! the curvature of the restricted likelihood, and gives the quantile of Student's t that an
-//! interval takes.
+//! interval takes. Where the time is not known to better than a factor (slow drift, few samples)
+//! one shape does not stand for what is possible: the interval then holds 95 % of the mixture of
+//! all shapes, each as likely as the restricted likelihood says, up to a time as long as the record,
+//! and the degrees of freedom are those whose quantile is as wide.
 
 mod likelihood;
 mod middle;
@@ -32,10 +35,13 @@ mod simplex;
 pub(crate) mod stretches;
 
 pub(crate) use likelihood::orthonormal;
-use likelihood::{Likelihood, Shape};
+use likelihood::{Likelihood, Possible, Shape};
 pub use middle::Middle;
 pub use quantile::student_95;
 pub use resolution::resolution;
+
+/// So few means do not tell white noise from slow noise.
+const FEW: f64 = 100.0;
 
 /// The random part of a record.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +64,8 @@ pub struct Noise {
     place: [f64; 2],
     spread: [[f64; 2]; 2],
     spacing: f64,
+    /// Where one shape does not stand for what is known: all that are possible.
+    possible: Vec<Possible>,
 }
 
 /// The noise of the means of stretches.
@@ -116,6 +124,7 @@ impl Noise {
             place: [0.0; 2],
             spread: [[0.0; 2]; 2],
             spacing: likelihood.spacing(),
+            possible: Vec::new(),
         };
         if !(white.restricted.is_finite() && likelihood.has_freedom()) {
             // residuals that are all 0, or too few to say more
@@ -139,7 +148,12 @@ impl Noise {
                 time: shape.time,
                 misfit: best.whole,
             };
-            self.spread = likelihood.spread(place);
+            match likelihood.spread(place) {
+                Some(spread) => self.spread = spread,
+                None => self.possible = likelihood.possible(),
+            }
+        } else if likelihood.count() < FEW {
+            self.possible = likelihood.possible();
         }
         let count = likelihood.count();
         let ones = vec![1.0; likelihood.times().len()];

@@ -1,5 +1,7 @@
 //! Quantiles of Student's t.
 
+use std::f64::consts::FRAC_1_SQRT_2;
+
 use lptn_units::statistics::NORMAL_95;
 
 /// The t that a variable of Student's distribution with so many degrees of freedom (at least 1)
@@ -36,4 +38,58 @@ pub fn student_95(degrees: f64) -> f64 {
         y = ((1.0 / inner + 0.5 / (n + 4.0)) * y - 1.0) * (n + 1.0) / (n + 2.0) + 1.0 / y;
     }
     (n * y).sqrt()
+}
+
+/// What a variable exceeds in size with probability 5 % that is normal with one of these standard
+/// deviations, each behind its probability.
+pub(super) fn mixed_95(parts: &[(f64, f64)]) -> f64 {
+    let beyond = |size: f64| -> f64 {
+        let tail = |(weight, deviation): &(f64, f64)| {
+            weight * libm::erfc(size / deviation.max(f64::MIN_POSITIVE) * FRAC_1_SQRT_2)
+        };
+        parts.iter().map(tail).sum()
+    };
+    let widest = parts.iter().fold(0.0, |most: f64, part| most.max(part.1));
+    halved((0.0, 2.0 * widest), |size| beyond(size) > 0.05)
+}
+
+/// The degrees of freedom for which Student's t is exceeded beyond `t` with probability 5 %: 1 for
+/// 12.7 and more, infinite for 1.96 and less.
+pub(super) fn degrees_of(t: f64) -> f64 {
+    if t <= NORMAL_95 {
+        return f64::INFINITY;
+    }
+    halved((0.0, 20.0), |logarithm: f64| student_95(logarithm.exp()) > t).exp()
+}
+
+/// Where something that holds below ends to hold.
+fn halved((mut low, mut high): (f64, f64), holds: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        if holds(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{degrees_of, mixed_95};
+
+    /// The mixture by bisection on the `erfc` of Python, the quantile of t from tables.
+    #[test]
+    fn quantiles_are_those_of_tables() {
+        let near = |found: f64, expected: f64| {
+            assert!((found / expected - 1.0).abs() < 1e-3, "{found} is not {expected}");
+        };
+        near(mixed_95(&[(1.0, 2.0)]), 3.919_928);
+        near(mixed_95(&[(0.8, 1.0), (0.2, 5.0)]), MIXED);
+        near(degrees_of(2.228_139), 10.0);
+        assert!(degrees_of(1.9).is_infinite());
+    }
+
+    const MIXED: f64 = 5.751_747;
 }

@@ -2,8 +2,12 @@
 
 use crate::noise::likelihood::orthonormal;
 
-/// A longer record is cut into at least so many stretches.
-const STRETCHES: usize = 400;
+/// A record of fewer samples is not cut.
+const LONG: usize = 400;
+
+/// A longer one is cut into at least so many stretches: more would follow the fast noise, which no
+/// fit feels, and the slow one would be taken for faster than it is.
+const STRETCHES: usize = 100;
 
 /// The part of the derivatives' squares that the means have to keep.
 const KEPT: f64 = 0.9995;
@@ -12,7 +16,7 @@ const KEPT: f64 = 0.9995;
 /// the derivatives hardly change inside one.
 pub(super) fn size(rows: usize, jacobian: &[f64]) -> usize {
     let basis = orthonormal(jacobian, rows);
-    let mut size = (rows / STRETCHES).max(1);
+    let mut size = if rows < LONG { 1 } else { rows / STRETCHES };
     while size > 1 && !basis.iter().all(|column| keeps(column, size)) {
         size /= 2;
     }

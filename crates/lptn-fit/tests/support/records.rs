@@ -16,6 +16,10 @@ pub(crate) struct Truth {
     /// Correlation of the noise from sample to sample (AR(1)), and its standard deviation in K.
     pub(crate) rho: f64,
     pub(crate) deviation: f64,
+    /// Standard deviation in K and correlation time in s of a slow drift beside it.
+    pub(crate) drift: (f64, f64),
+    /// Degrees of freedom of Student's t of what drives the fast noise; infinite for a normal one.
+    pub(crate) tails: f64,
     /// Step of the logger in K; 0 for none.
     pub(crate) step: f64,
     /// Amplitude in K and time constant in s of a second exponential.
@@ -30,6 +34,8 @@ impl Truth {
         spacing: 0.2,
         rho: 0.9,
         deviation: 0.1,
+        drift: (0.0, 1.0),
+        tails: f64::INFINITY,
         step: 0.1,
         second: (0.0, 1.0),
     };
@@ -40,13 +46,26 @@ impl Truth {
             Pcg64::new(0xcafe_f00d_d15e_a5e5 + seed, 0x0a02_bdbf_7bb3_c0a7_ac28_fa16_a64a_bf96);
         let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
         let mut noise = self.deviation * normal();
+        let mut drift = self.drift.0 * normal();
+        let kept = (-self.spacing / self.drift.1).exp();
         let times: Vec<f64> = (0..self.samples).map(|i| i as f64 * self.spacing).collect();
         let [initial, settled, tau] = self.curve;
         let mut value = |t: &f64| {
             let slow = (initial - settled - self.second.0) * (-t / tau).exp();
-            let exact = settled + slow + self.second.0 * (-t / self.second.1).exp() + noise;
-            noise =
-                self.rho * noise + (1.0 - self.rho * self.rho).sqrt() * self.deviation * normal();
+            let exact = settled + slow + self.second.0 * (-t / self.second.1).exp() + noise + drift;
+            let driven = match self.tails.is_finite() {
+                // of variance 1
+                true => {
+                    let n = self.tails.round();
+                    let squares: f64 = (0..n as u32).map(|_| normal().powi(2)).sum();
+                    normal() * ((n - 2.0) / squares).sqrt()
+                }
+                false => normal(),
+            };
+            noise = self.rho * noise + (1.0 - self.rho * self.rho).sqrt() * self.deviation * driven;
+            if self.drift.0 > 0.0 {
+                drift = kept * drift + (1.0 - kept * kept).sqrt() * self.drift.0 * normal();
+            }
             if self.step > 0.0 { (exact / self.step).round() * self.step } else { exact }
         };
         let values = times.iter().map(&mut value).collect();

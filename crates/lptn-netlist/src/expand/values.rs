@@ -13,7 +13,7 @@ use lptn_units::{
 use super::Writer;
 use crate::raw::{RawKind, RawTable, RawValue};
 use crate::toml_text::{
-    TomlFields, celsius, list, list_in, point, quantity, string, strings, value,
+    TomlFields, celsius, like, list, list_in, point, quantity, string, strings,
 };
 
 const TIME: Type = Type::of(Dimension::TIME);
@@ -219,7 +219,8 @@ fn joined(fields: &mut TomlFields, table: &Table1) {
 
 fn course(signal: &Signal) -> String {
     let (times, values, interpolation) = match &signal.course {
-        Course::Expression(expression) => return value(expression, signal.ty),
+        // alone, `K` would be a difference
+        Course::Expression(expression) => return like(expression, signal.ty),
         Course::Steps { times, values, .. } => {
             (times.as_slice(), values.as_slice(), Some("previous"))
         }

@@ -8,7 +8,7 @@ use lptn_units::Scope as _;
 
 use crate::fields::{Fields, Owner, wrong_shape};
 use crate::fit::read::Column;
-use crate::fit::{FIT, FitRecord, VariedName};
+use crate::fit::{FIT, FitRecord, FitSignal, VariedName};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::work::Elaboration;
@@ -51,7 +51,7 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn fit_records(
         &mut self,
         fields: &Fields<'a>,
-        columns: &[Column<'a>],
+        (columns, signals): (&[Column<'a>], &[FitSignal]),
         time: Option<(&str, &RawValue)>,
     ) -> Option<Vec<FitRecord>> {
         let raw = self.require(fields, "data")?;
@@ -72,7 +72,12 @@ impl<'a> Elaboration<'a> {
             span: Some(raw.span.clone()),
             ..RecordName::new(name)
         });
-        let columns = columns.iter().map(name).collect();
+        let followed = |signal: &FitSignal| RecordName {
+            name: signal.column.clone(),
+            ty: Some(signal.ty),
+            span: Some(signal.span.clone()),
+        };
+        let columns = columns.iter().map(name).chain(signals.iter().map(followed)).collect();
         let query = RecordQuery { time, columns, ..RecordQuery::default() };
         let mut records: Vec<FitRecord> = Vec::new();
         let mut complete = true;

@@ -2,6 +2,7 @@
 
 mod data;
 mod read;
+mod recorded;
 
 use std::sync::Arc;
 
@@ -14,6 +15,8 @@ use crate::raw::{RawNetlist, RawValue};
 use crate::study::{PathFrom, Study};
 use crate::toml_text::{TomlFields, key as toml_key, like, string, value};
 use crate::work::Elaboration;
+
+pub use recorded::{FitInitial, FitSignal};
 
 const FIT: SectionDeclaration = SectionDeclaration {
     name: "fit",
@@ -36,6 +39,20 @@ const FIT: SectionDeclaration = SectionDeclaration {
             "the parameters to find",
             "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
         ),
+        key(
+            "signal",
+            "table of columns",
+            "signals that follow a column of the record",
+            "{ speed = \"omega\" }",
+        )
+        .or("their own courses"),
+        key(
+            "initial",
+            "`\"record\"`, or s",
+            "where measured nodes begin: at the first row, or the mean of so long",
+            "\"record\"",
+        )
+        .or("`T0`"),
     ],
     example: "{ data = \"record.csv\", column = { ring = \"steel.T\" }, vary = [\"R\"] }",
     elsewhere: &[
@@ -59,9 +76,13 @@ const FIT_COLUMN: SectionDeclaration = SectionDeclaration {
     keys: &[
         key("of", "expression of results", "what the column measures", "\"steel.T\""),
         key("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\""),
+        key("sensor", "name of a sensor", "the instrument that gave it", "\"tc1\""),
     ],
     example: "{ of = \"steel.T\", sigma = \"0.2 K\" }",
-    elsewhere: &[("unit", "the unit stands in the header of the file: `ring [degC]`")],
+    elsewhere: &[
+        ("offset", "what an instrument adds stands in [sensor]: `tc1 = { offset = \"0 ± 3 K\" }`"),
+        ("unit", "the unit stands in the header of the file: `ring [degC]`"),
+    ],
     ..SectionDeclaration::NEW
 };
 
@@ -78,6 +99,10 @@ pub struct FitStudy {
     pub observed: Vec<Observed>,
     /// The names of the parameters to find, in file order; at least one, none twice.
     pub varied: Vec<VariedName>,
+    /// The signals that follow columns of the records.
+    pub signals: Vec<FitSignal>,
+    /// Where the measured nodes begin.
+    pub initial: FitInitial,
     /// The column of the times, where it is named.
     pub(crate) time: Option<String>,
 }
@@ -112,6 +137,8 @@ pub struct Observed {
     pub ty: Type,
     /// The standard deviation of one sample, where it is given.
     pub(crate) sigma: Option<Value>,
+    /// The instrument, by its name, where one is named.
+    pub sensor: Option<String>,
     /// Where it stands.
     pub span: Span,
 }
@@ -281,12 +308,16 @@ impl Study for FitStudy {
         }
         let column = |observed: &Observed| {
             let (name, of) = (toml_key(&observed.column), string(&observed.text));
-            match &observed.sigma {
-                None => format!("{name} = {of}"),
-                Some(sigma) => {
-                    let sigma = value(sigma, Type::of(observed.ty.dimension));
-                    format!("{name} = {{ of = {of}, sigma = {sigma} }}")
-                }
+            let mut more = String::new();
+            if let Some(sigma) = &observed.sigma {
+                more += &format!(", sigma = {}", value(sigma, Type::of(observed.ty.dimension)));
+            }
+            if let Some(sensor) = &observed.sensor {
+                more += &format!(", sensor = {}", string(sensor));
+            }
+            match more.is_empty() {
+                true => format!("{name} = {of}"),
+                false => format!("{name} = {{ of = {of}{more} }}"),
             }
         };
         let columns: Vec<String> = self.observed.iter().map(column).collect();
@@ -307,6 +338,7 @@ impl Study for FitStudy {
         };
         let varied: Vec<String> = self.varied.iter().map(varied).collect();
         fields.put("vary", format!("{{ {} }}", varied.join(", ")));
+        self.put_recorded(&mut fields);
         fields
     }
 }

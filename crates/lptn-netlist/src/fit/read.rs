@@ -1,6 +1,6 @@
 //! Reads `[fit.NAME]`: what is varied and what is observed.
 
-use lptn_data::{Diagnostic, Span, list};
+use lptn_data::{Diagnostic, Span, list, nearest};
 use lptn_network::Context;
 use lptn_units::{Scope as _, Type};
 
@@ -37,8 +37,10 @@ impl<'a> Elaboration<'a> {
         let columns = self.observed(&fields);
         let time =
             fields.get("time").map(|raw| (fields.text("time", raw, &mut self.problems), raw));
-        let records =
-            self.fit_records(&fields, &columns, time.map(|(text, raw)| (text.unwrap_or("t"), raw)));
+        let (signals, initial) = (self.fit_signals(&fields), self.fit_initial(&fields));
+        let time_name = time.map(|(text, raw)| (text.unwrap_or("t"), raw));
+        let followed = signals.as_deref().unwrap_or_default();
+        let records = self.fit_records(&fields, (&columns, followed), time_name);
         let records = records?;
         self.set_and_varied(&fields, &records, varied.as_deref().unwrap_or_default());
         let observed: Option<Vec<Observed>> =
@@ -50,6 +52,8 @@ impl<'a> Elaboration<'a> {
             records,
             observed,
             varied: varied?,
+            signals: signals?,
+            initial: initial?,
             time: time.and_then(|(text, _)| text).map(str::to_owned),
         })
     }
@@ -159,12 +163,12 @@ impl<'a> Elaboration<'a> {
 
     fn observed_column(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<Observed> {
         let owner = fields.owner.inside("column").inside(&entry.key);
-        let (of, own) = match &entry.value.kind {
+        let (of, own, sensor) = match &entry.value.kind {
             RawKind::Table(_) => {
                 let inner = self.inner(&FIT_COLUMN, owner.clone(), entry)?;
-                (self.require(&inner, "of")?, inner.get("sigma"))
+                (self.require(&inner, "of")?, inner.get("sigma"), self.sensor_of(&inner)?)
             }
-            _ => (&entry.value, None),
+            _ => (&entry.value, None, None),
         };
         let RawKind::String { text, .. } = &of.kind else {
             self.report(wrong_shape(owner.words(), of, "the name of a result", "\"steel.T\""));
@@ -172,6 +176,12 @@ impl<'a> Elaboration<'a> {
         };
         let given = self.given(Place { owner: &owner, key: "", raw: of }, Wanted::of_results())?;
         let ty = given.ty();
+        if let (Some((_, raw)), false) = (sensor, ty.absolute) {
+            let message = format!("{} has a sensor, but is no temperature", owner.words());
+            let help = "sensors belong to columns of temperatures: remove it";
+            self.refuse("netlist::fit_sensor", message, &raw.span, help);
+            return None;
+        }
         let sigma = match own.or_else(|| fields.get("sigma")) {
             None => None,
             // a difference where a temperature is measured
@@ -184,6 +194,26 @@ impl<'a> Elaboration<'a> {
         let end = text.strip_suffix(".T").and_then(|name| self.builder.end(name));
         let column = entry.key.clone();
         let span = entry.key_span.clone();
-        Some(Observed { column, text: text.to_owned(), end, value: given.value(), ty, sigma, span })
+        let sensor = sensor.map(|(name, _)| name.to_owned());
+        let (value, text) = (given.value(), text.to_owned());
+        Some(Observed { column, text, end, value, ty, sigma, sensor, span })
+    }
+
+    /// `sensor = "tc1"`; nothing inside where there is none.
+    fn sensor_of(&mut self, fields: &Fields<'a>) -> Option<Option<(&'a str, &'a RawValue)>> {
+        let Some(raw) = fields.get("sensor") else { return Some(None) };
+        let name = fields.text("sensor", raw, &mut self.problems)?;
+        let known = self.elements("sensor").iter().map(|entry| entry.key.as_str());
+        let known: Vec<&str> = known.collect();
+        if known.contains(&name) {
+            return Some(Some((name, raw)));
+        }
+        let message = format!("{}: there is no sensor `{name}`", fields.owner.words());
+        let help = match known.is_empty() {
+            true => format!("write what it is: `[sensor.{name}]` with `offset = \"0 ± 3 K\"`"),
+            false => nearest(name, known.iter().copied(), "the sensors are"),
+        };
+        self.refuse("netlist::fit_sensor", message, &raw.span, help);
+        None
     }
 }

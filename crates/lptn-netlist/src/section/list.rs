@@ -28,6 +28,7 @@ use crate::import::IMPORT;
 use crate::parameters::PARAM;
 use crate::raw::{RawNetlist, RawValue};
 use crate::run::RUN;
+use crate::sensor::Sensor;
 use crate::size::SizeStudy;
 use crate::study::{PathFrom, Study};
 use crate::sweep::SweepStudy;
@@ -86,6 +87,8 @@ studies! {
     cases: CaseStudy,
     /// What to size, in file order.
     sizes: SizeStudy,
+    /// The instruments of records, in file order.
+    sensors: Sensor,
     /// What to find from records, in file order.
     fits: FitStudy,
     /// Over what to sweep, in file order.

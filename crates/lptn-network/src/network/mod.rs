@@ -26,6 +26,7 @@ use crate::numbers::Numbers;
 use crate::parameters::Parameters;
 use crate::parts::Parts;
 use crate::parts::result::Limit;
+use crate::parts::signal::Course;
 use crate::value::Value;
 use lptn_laws::Confidence;
 use lptn_units::Problems;
@@ -176,7 +177,33 @@ impl Network {
     pub fn held(&self, signals: &[(SignalId, f64)]) -> Result<Self, BuildErrors> {
         let mut parts = (*self.parts).clone();
         let layout = Arc::make_mut(&mut parts.layout);
-        signals.iter().for_each(|(id, value)| layout.hold(*id, *value));
+        let held = |value: f64| Course::Expression(Value::Constant(value));
+        signals.iter().for_each(|(id, value)| layout.set_course(*id, held(*value)));
+        self.of_parts(parts)
+    }
+
+    /// The same network with other courses of signals and other temperatures in K at the start, as
+    /// they were measured; the parameters stay as they are given. Nodes without a capacity begin
+    /// nowhere.
+    ///
+    /// # Errors
+    /// What the new numbers break.
+    pub fn recorded(
+        &self,
+        signals: &[(SignalId, Course)],
+        initial: &[(NodeId, f64)],
+    ) -> Result<Self, BuildErrors> {
+        let mut parts = (*self.parts).clone();
+        let layout = Arc::make_mut(&mut parts.layout);
+        signals.iter().for_each(|(id, course)| layout.set_course(*id, course.clone()));
+        for (id, kelvin) in initial {
+            parts.nodes[id.index()].initial = Some(Value::Constant(*kelvin));
+        }
+        self.of_parts(parts)
+    }
+
+    /// With the parameters that are given here.
+    fn of_parts(&self, parts: Parts) -> Result<Self, BuildErrors> {
         let given = self
             .parameter_ids()
             .map(|id| self.numbers.given[id.index()].then(|| self.parameter_value(id)));

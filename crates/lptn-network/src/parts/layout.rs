@@ -5,7 +5,6 @@ use crate::parts::grid_value::GridValue;
 use crate::parts::heat::HeatOf;
 use crate::parts::signal::{Course, Signal};
 use crate::slot;
-use crate::value::Value;
 
 /// What a slot holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -116,10 +115,10 @@ impl Layout {
         }
     }
 
-    /// Gives a signal one value for ever.
-    pub(crate) fn hold(&mut self, id: SignalId, value: f64) {
+    /// Gives a signal another course.
+    pub(crate) fn set_course(&mut self, id: SignalId, course: Course) {
         if let Some(signal) = self.signals.get_mut(id.index()) {
-            signal.course = Course::Expression(Value::Constant(value));
+            signal.course = course;
         }
     }
 

@@ -13,10 +13,13 @@ pub(crate) use args::NetworkArgs;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use lptn_fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network_observed};
-use lptn_netlist::{Diagnostic, FitStudy};
+use lptn_fit::network::{
+    NetworkFit, NetworkFitError, NetworkFitTask, Unknown, fit_network_observed,
+};
+use lptn_netlist::{Diagnostic, FitStudy, Span};
+use lptn_report::differing;
 use lptn_solve::available_threads;
-use lptn_units::Unit;
+use lptn_units::{Type, Unit};
 
 use crate::console::Console;
 use crate::exit::Exit;
@@ -32,7 +35,10 @@ pub(crate) struct Answer<'a> {
     pub(crate) input: &'a Input,
     pub(crate) study: &'a FitStudy,
     pub(crate) task: NetworkFitTask<'a>,
-    /// In which each parameter is shown.
+    /// What was sought: parameters, then values of sensors.
+    pub(crate) unknowns: Vec<Unknown>,
+    /// What each is called and in which unit it is shown.
+    pub(crate) names: Vec<String>,
     pub(crate) units: Vec<Unit>,
     pub(crate) fit: NetworkFit,
     /// Where a parameter sits on a bound, and what else is doubtful.
@@ -65,8 +71,7 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
             `from` and `to`";
         return Err(input.refused(Exit::Failed, problem.help(help)));
     }
-    let units = task.parameters.iter().map(|varied| input.unit_of(varied.parameter)).collect();
-    let mut answer = Answer { input: &input, study, task, units, fit, doubts: Vec::new() };
+    let mut answer = Answer::new((&input, study), task, fit);
     answer.doubts = words::doubts(&answer);
     console.warn(&input.netlist.files, &answer.doubts);
     if let Some(folder) = &folder {
@@ -118,17 +123,43 @@ fn failed(input: &Input, study: &FitStudy, error: &NetworkFitError) -> Failure {
         NetworkFitError::StartOutside { parameter } => {
             study.varied.get(*parameter).map(|varied| &varied.span)
         }
-        NetworkFitError::Observed { column, .. } => study
+        NetworkFitError::Observed { column, .. } | NetworkFitError::Initial { column, .. } => study
             .observed
             .iter()
             .find(|observed| observed.column == *column)
             .map(|observed| &observed.span),
-        NetworkFitError::Times { record, .. } | NetworkFitError::Start { record, .. } => {
+        NetworkFitError::Times { record, .. }
+        | NetworkFitError::Start { record, .. }
+        | NetworkFitError::Signal { record, .. } => {
             study.records.iter().find(|own| own.csv == *record).map(|own| &own.span)
         }
         _ => None,
     };
     input.failure(error, Some(span.unwrap_or(&study.span).clone()))
+}
+
+impl<'a> Answer<'a> {
+    fn new(
+        (input, study): (&'a Input, &'a FitStudy),
+        task: NetworkFitTask<'a>,
+        fit: NetworkFit,
+    ) -> Self {
+        let unknowns = task.unknowns();
+        let records: Vec<String> = task.runs.iter().map(|run| run.name.clone()).collect();
+        let records = differing(&records);
+        let name = |unknown: &Unknown| match unknown.run() {
+            Some(run) => format!("{} ({})", unknown.name, records[run]),
+            None => unknown.name.clone(),
+        };
+        let si = |ty: Type| Unit { text: ty.dimension.si_unit(), scale: 1.0, offset: 0.0, ty };
+        let unit = |unknown: &Unknown| match unknown.parameter() {
+            Some(parameter) => input.unit_of(parameter),
+            None => si(unknown.ty),
+        };
+        let names = unknowns.iter().map(name).collect();
+        let units = unknowns.iter().map(unit).collect();
+        Self { input, study, task, unknowns, names, units, fit, doubts: Vec::new() }
+    }
 }
 
 impl Answer<'_> {
@@ -138,7 +169,20 @@ impl Answer<'_> {
     }
 
     pub(crate) fn name(&self, i: usize) -> &str {
-        &self.task.network.parameters()[self.task.parameters[i].parameter.index()].name
+        &self.names[i]
+    }
+
+    /// Places of the parameters of the network among what was sought, and of the values of sensors.
+    pub(crate) fn sought(&self) -> (Vec<usize>, Vec<usize>) {
+        (0..self.unknowns.len()).partition(|&i| self.unknowns[i].parameter().is_some())
+    }
+
+    /// Where it stands what is sought.
+    pub(crate) fn place(&self, i: usize) -> &Span {
+        let sensors = &self.input.netlist.studies.sensors;
+        let sensor = self.unknowns[i].sensor().and_then(|sensor| sensors.get(sensor));
+        let varied = || self.study.varied.get(i).map(|varied| &varied.span);
+        sensor.map(|sensor| &sensor.span).or_else(varied).unwrap_or(&self.study.span)
     }
 
     /// A parameter's value in its unit.

@@ -14,7 +14,7 @@ use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
 use super::Answer;
-use super::words::{combination, state, type_of, verdict};
+use super::words::{combination, sought, state, type_of, verdict};
 use crate::about::{self, Known};
 use crate::diagnostics;
 use crate::words::{count, symbol, unverified};
@@ -26,11 +26,15 @@ impl Page for Answer<'_> {
         text.line(format!(
             "fit {}: {} to {} of {}",
             self.study.name,
-            count(fit.parameters.len(), "parameter"),
+            sought(self),
             count(fit.samples(), "value"),
             count(self.task.runs.len(), "record")
         ));
-        text.section().table(parameters(self));
+        let (parameters, of_sensors) = self.sought();
+        text.section().table(values(self, &parameters));
+        if !of_sensors.is_empty() {
+            text.section().table(sensors(self, &of_sensors));
+        }
         text.section().table(misfits(self));
         if let Some(table) = correlations(self) {
             text.section().table(table);
@@ -56,6 +60,10 @@ impl Page for Answer<'_> {
         table.label("state", |&i| state(self, i).to_owned());
         table.column("value", "unit", |&i| self.shown(i, parameter(i).value));
         table.column("standard_error", "unit", |&i| error(i));
+        let half = |i: usize| {
+            parameter(i).half_width.map_or(f64::NAN, |half| self.shown_difference(i, half))
+        };
+        table.column("half_width_95", "unit", |&i| half(i));
         table.column("start", "unit", |&i| self.shown(i, parameter(i).start));
         table.done().into()
     }
@@ -72,8 +80,10 @@ impl Page for Answer<'_> {
         let (netlist, fit) = (&self.input.netlist, &self.fit);
         let warnings = [netlist.warnings.as_slice(), &self.doubts].concat();
         let all = 0..fit.parameters.len();
-        let parameters: Map<String, Value> =
-            all.clone().map(|i| (self.name(i).to_owned(), parameter(self, i))).collect();
+        let (parameters, of_sensors) = self.sought();
+        let values = |of: &[usize]| -> Map<String, Value> {
+            of.iter().map(|&i| (self.name(i).to_owned(), parameter(self, i))).collect()
+        };
         let row = |i: usize| -> Map<String, Value> {
             all.clone().map(|j| (self.name(j).to_owned(), json!(fit.correlation(i, j)))).collect()
         };
@@ -85,7 +95,10 @@ impl Page for Answer<'_> {
         json.member("network", &self.input.text.stem)?;
         json.member("study", &self.study.name)?;
         json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
-        json.member("parameters", &parameters)?;
+        json.member("parameters", &values(&parameters))?;
+        if !of_sensors.is_empty() {
+            json.member("sensors", &values(&of_sensors))?;
+        }
         json.member("rms", &SiValue::new(fit.rms, "K"))?;
         json.member("samples", &fit.samples())?;
         json.member("columns", &columns(self))?;
@@ -140,29 +153,62 @@ fn with_error(value: f64, error: Option<f64>) -> (String, String) {
     }
 }
 
-fn parameters(answer: &Answer<'_>) -> TextTable {
-    let all: Vec<usize> = (0..answer.fit.parameters.len()).collect();
-    let cells = |i: usize| {
-        let parameter = &answer.fit.parameters[i];
-        let error = parameter.standard_error.map(|error| answer.shown_difference(i, error));
-        with_error(answer.shown(i, parameter.value), error)
-    };
+fn cells(answer: &Answer<'_>, i: usize) -> (String, String) {
+    let parameter = &answer.fit.parameters[i];
+    let error = parameter.standard_error.map(|error| answer.shown_difference(i, error));
+    with_error(answer.shown(i, parameter.value), error)
+}
+
+/// Half the width of the 95 % interval.
+fn half_width(answer: &Answer<'_>, i: usize) -> String {
+    let half = answer.fit.parameters[i].half_width;
+    half.map_or_else(String::new, |half| significant(answer.shown_difference(i, half), 2))
+}
+
+/// What became of it, where that is worth a word.
+fn remark(answer: &Answer<'_>, i: usize) -> &'static str {
+    Some(state(answer, i)).filter(|state| *state != "free").unwrap_or_default()
+}
+
+fn values(answer: &Answer<'_>, all: &[usize]) -> TextTable {
     let bound = |i: usize, si: f64| match si.is_finite() {
         true => significant(answer.shown(i, si), 4),
         false => String::new(),
     };
-    TextTable::of(&all)
+    TextTable::of(all)
         .left("parameter", |&i| answer.name(i))
         .names()
-        .right("value", |&i| cells(i).0)
-        .right("std. error", |&i| cells(i).1)
+        .right("value", |&i| cells(answer, i).0)
+        .right("std. error", |&i| cells(answer, i).1)
+        .right("95 % ±", |&i| half_width(answer, i))
         .left("unit", |&i| symbol(&answer.units[i].text))
         .right("start", |&i| significant(answer.shown(i, answer.fit.parameters[i].start), 4))
-        .right("from", |&i| bound(i, answer.task.parameters[i].bounds.0))
+        .right("from", |&i| bound(i, answer.unknowns[i].bounds.0))
         .optional()
-        .right("to", |&i| bound(i, answer.task.parameters[i].bounds.1))
+        .right("to", |&i| bound(i, answer.unknowns[i].bounds.1))
         .optional()
-        .left("", |&i| Some(state(answer, i)).filter(|state| *state != "free").unwrap_or_default())
+        .left("", |&i| remark(answer, i))
+        .into()
+}
+
+fn sensors(answer: &Answer<'_>, all: &[usize]) -> TextTable {
+    let before = |i: usize| {
+        let unknown = &answer.unknowns[i];
+        let own = significant(answer.shown(i, unknown.own), 4);
+        match unknown.prior {
+            Some(prior) => format!("{own} ± {}", significant(answer.shown_difference(i, prior), 3)),
+            None => "nothing".to_owned(),
+        }
+    };
+    TextTable::of(all)
+        .left("sensor", |&i| answer.name(i))
+        .names()
+        .right("value", |&i| cells(answer, i).0)
+        .right("std. error", |&i| cells(answer, i).1)
+        .right("95 % ±", |&i| half_width(answer, i))
+        .left("unit", |&i| symbol(&answer.units[i].text))
+        .left("known before", |&i| before(i))
+        .left("", |&i| remark(answer, i))
         .into()
 }
 
@@ -189,9 +235,13 @@ fn misfits(answer: &Answer<'_>) -> TextTable {
 const MOST: usize = 7;
 
 fn correlations(answer: &Answer<'_>) -> Option<TextTable> {
-    let known: Vec<usize> = (0..answer.fit.parameters.len())
+    let mut known: Vec<usize> = (0..answer.fit.parameters.len())
         .filter(|&i| answer.fit.correlation(i, i).is_some())
         .collect();
+    if known.len() > MOST {
+        // those of the network alone may fit
+        known.retain(|&i| answer.unknowns[i].parameter().is_some());
+    }
     if known.len() < 2 || known.len() > MOST {
         return None;
     }
@@ -248,15 +298,16 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
 }
 
 fn parameter(answer: &Answer<'_>, i: usize) -> Value {
-    let (fitted, varied) = (&answer.fit.parameters[i], &answer.task.parameters[i]);
-    let ty = answer.task.network.parameters()[varied.parameter.index()].ty;
-    let unit = ty.dimension.si_unit();
+    let (fitted, varied) = (&answer.fit.parameters[i], &answer.unknowns[i]);
+    let unit = varied.ty.dimension.si_unit();
     let finite = |value: f64| value.is_finite().then_some(value);
     let side = fitted.on_bound.map(|side| if side == Side::Lower { "from" } else { "to" });
     json!({
         "value": fitted.value,
         "unit": unit,
         "standard_error": fitted.standard_error,
+        "interval_95": fitted.half_width.map(|half| [fitted.value - half, fitted.value + half]),
+        "degrees_of_freedom": fitted.degrees_of_freedom.filter(|degrees| degrees.is_finite()),
         "start": fitted.start,
         "from": finite(varied.bounds.0),
         "to": finite(varied.bounds.1),

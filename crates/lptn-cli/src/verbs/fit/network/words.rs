@@ -1,12 +1,13 @@
 //! What a fit of a network says in words.
 
 use lptn_fit::least_squares::Side;
-use lptn_fit::network::{ColumnMisfit, Combination, CombinationKind, Unseparated};
+use lptn_fit::network::{ColumnMisfit, Combination, CombinationKind, FAR, Hint, Unseparated};
 use lptn_netlist::Diagnostic;
 use lptn_report::significant;
 use lptn_units::{Rational, Type, Unit};
 
 use super::Answer;
+use crate::words::count as number;
 
 /// Digits of a value that nothing says the accuracy of.
 const DIGITS: usize = 5;
@@ -36,11 +37,11 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
              others hold only if this value is right",
             answer.name(i)
         );
-        let place = answer.study.varied[i].span.clone();
+        let place = answer.place(i).clone();
         let doubt = Diagnostic::warning("fit::on_bound", message).at(place, "");
         doubts.push(doubt.help("make the range wider, unless the parameter cannot be beyond it"));
     }
-    let priors = answer.task.parameters.iter().any(|varied| varied.prior.is_some());
+    let priors = answer.unknowns.iter().any(|unknown| unknown.prior.is_some());
     let unweighted =
         answer.task.runs.iter().flat_map(|run| &run.columns).any(|column| column.sigma.is_none());
     if priors && unweighted {
@@ -55,12 +56,9 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
     doubts
 }
 
-/// So many standard deviations are no chance.
-const FAR: f64 = 3.0;
-
 /// A value that contradicts what is known of it beforehand, which is its own value.
 fn off_prior(answer: &Answer<'_>, i: usize) -> Option<Diagnostic> {
-    let (fitted, prior) = (&answer.fit.parameters[i], answer.task.parameters[i].prior?);
+    let (fitted, prior) = (&answer.fit.parameters[i], answer.unknowns[i].prior?);
     let off = (fitted.value - fitted.start).abs() / prior;
     let shown = |si: f64| significant(answer.shown(i, si), DIGITS);
     let message = format!(
@@ -71,8 +69,7 @@ fn off_prior(answer: &Answer<'_>, i: usize) -> Option<Diagnostic> {
         significant(off, 2),
         shown(fitted.start)
     );
-    let doubt =
-        Diagnostic::warning("fit::prior", message).at(answer.study.varied[i].span.clone(), "");
+    let doubt = Diagnostic::warning("fit::prior", message).at(answer.place(i).clone(), "");
     (off > FAR).then(|| {
         doubt.help(
             "the record and what `±` says of it contradict each other: one of them is wrong, or \
@@ -116,7 +113,22 @@ fn misfit(answer: &Answer<'_>, worst: &ColumnMisfit, (name, count): (&str, usize
         ),
     };
     let doubt = Diagnostic::warning("fit::misfit", message).at(answer.study.span.clone(), "");
-    doubt.help("look for what the network leaves out, or for a `sigma` that is too small")
+    doubt.help(match worst.hint {
+        Some(Hint::Offset(kelvin)) => format!(
+            "a constant would explain it: does the sensor have an offset of {} K? A `[sensor]` \
+             with `offset = \"0 ± {} K\"`, named by the column, lets the fit find it",
+            significant(kelvin, 2),
+            significant(kelvin.abs().ceil(), 6)
+        ),
+        Some(Hint::Lag(seconds)) => format!(
+            "a delay would explain it: does the sensor have a lag of {0} s? A `[sensor]` \
+             with `lag = \"{0} s\"`, named by the column, follows as slowly",
+            significant(seconds, 2)
+        ),
+        None => {
+            "look for what the network leaves out, or for a `sigma` that is too small".to_owned()
+        }
+    })
 }
 
 /// "`P`, `R` and `C`".
@@ -169,8 +181,7 @@ pub(crate) fn combination(answer: &Answer<'_>, combination: &Combination) -> Str
 
 /// The type of a combination; `None` if its exponents cannot be held.
 pub(crate) fn type_of(answer: &Answer<'_>, combination: &Combination) -> Option<Type> {
-    let own =
-        |i: usize| answer.task.network.parameters()[answer.task.parameters[i].parameter.index()].ty;
+    let own = |i: usize| answer.unknowns[i].ty;
     if combination.kind == CombinationKind::Sum {
         return combination.terms.first().map(|&(i, _)| own(i));
     }
@@ -232,18 +243,28 @@ pub(crate) fn unseparated(answer: &Answer<'_>, group: &Unseparated) -> String {
     }
 }
 
+/// What counts as the size of an unknown beside a change of it, in SI units: the zero of a
+/// temperature or of an offset says nothing.
+fn size(answer: &Answer<'_>, i: usize) -> f64 {
+    const KELVIN: f64 = 100.0;
+    let value = answer.fit.parameters[i].value.abs();
+    if answer.unknowns[i].is_shift() { KELVIN } else { value.max(f64::MIN_POSITIVE) }
+}
+
 /// The largest relative change of a direction, so that divided by it the largest is 1 %.
 fn relative(answer: &Answer<'_>, group: &Unseparated, direction: &[f64]) -> f64 {
-    let size = |i: usize| answer.fit.parameters[i].value.abs().max(f64::MIN_POSITIVE);
-    let all = group.parameters.iter().zip(direction).map(|(&i, d)| d.abs() / size(i));
+    let all = group.parameters.iter().zip(direction).map(|(&i, d)| d.abs() / size(answer, i));
     100.0 * all.fold(0.0, f64::max)
 }
 
+/// "R +1 %", "tc1.offset -0.5 K".
 fn percent(answer: &Answer<'_>, i: usize, change: f64) -> String {
-    let value = answer.fit.parameters[i].value;
-    let part = 100.0 * change / value.abs().max(f64::MIN_POSITIVE);
-    let sign = if part < 0.0 { "" } else { "+" };
-    format!("{} {sign}{} %", answer.name(i), significant(part, 3))
+    let sign = if change < 0.0 { "" } else { "+" };
+    if answer.unknowns[i].is_shift() {
+        return format!("{} {sign}{} K", answer.name(i), significant(change, 3));
+    }
+    let part = significant(100.0 * change / size(answer, i), 3);
+    format!("{} {sign}{part} %", answer.name(i))
 }
 
 /// The last line: what the fit determined.
@@ -260,17 +281,28 @@ pub(crate) fn verdict(answer: &Answer<'_>) -> String {
         return format!("not determined: {}", parts.join("; "));
     }
     let count = answer.fit.parameters.len();
-    let by = if answer.task.parameters.iter().any(|varied| varied.prior.is_some()) {
+    let by = if answer.unknowns.iter().any(|unknown| unknown.prior.is_some()) {
         "the records and what is known beforehand (±)"
     } else {
         "the records"
     };
     let text = match answer.fit.parameters.iter().filter(|p| p.on_bound.is_some()).count() {
         0 if count == 1 => format!("{by} determine the parameter"),
-        0 => format!("{by} determine the {count} parameters"),
+        0 => format!("{by} determine the {}", sought(answer)),
         on => format!("{} of {count} parameters determined, {on} on a bound", count - on),
     };
     text + unchecked(answer)
+}
+
+/// "6 parameters and 3 values of sensors".
+pub(crate) fn sought(answer: &Answer<'_>) -> String {
+    let (parameters, of_sensors) = answer.sought();
+    let parameters = number(parameters.len(), "parameter");
+    match of_sensors.len() {
+        0 => parameters,
+        1 => format!("{parameters} and 1 value of a sensor"),
+        n => format!("{parameters} and {n} values of sensors"),
+    }
 }
 
 /// What there is to say of errors where the records have no value beyond those that the parameters

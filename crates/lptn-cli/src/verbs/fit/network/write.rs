@@ -24,7 +24,7 @@ pub(crate) fn possible(input: &Input, task: &NetworkFitTask<'_>) -> Result<(), F
 
 pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Result<(), Failure> {
     let netlist = &answer.input.netlist;
-    let numbers: Vec<(ParameterId, String)> = (0..answer.units.len())
+    let numbers: Vec<(ParameterId, String)> = (0..answer.task.parameters.len())
         .filter_map(|i| {
             let parameter = answer.task.parameters[i].parameter;
             netlist.written_number(parameter)?;

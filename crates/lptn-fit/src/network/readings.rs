@@ -1,0 +1,195 @@
+//! What the instruments of one record read in its run.
+
+use lptn_network::{NodeId, OutputTimes, ZERO_CELSIUS};
+use lptn_solve::{Gradient, RecordedNodes, SensitiveRun, Transient};
+
+use crate::network::lag::{Followed, follow, refined};
+use crate::network::task::{MeasuredColumn, MeasuredRun, NetworkFitTask};
+use crate::network::unknown::{Unknown, UnknownOf};
+
+/// The rows of a record that count, and those of its run.
+pub(crate) struct Rows {
+    /// Places of the rows of the record.
+    pub(crate) chosen: Vec<usize>,
+    /// The times of the run's rows: the start first.
+    times: Vec<f64>,
+    /// Where those of the record stand among them.
+    places: Vec<usize>,
+}
+
+impl Rows {
+    /// At most `most` rows of a record. Where an instrument follows slowly, its run has more.
+    pub(crate) fn new(task: &NetworkFitTask<'_>, run: &MeasuredRun, most: usize) -> Self {
+        let chosen = chosen(run.times.len(), most);
+        let mut times: Vec<f64> = chosen.iter().map(|&row| run.times[row]).collect();
+        if times.first().is_some_and(|first| *first > run.settings.start) {
+            times.insert(0, run.settings.start);
+        }
+        let lags = run.columns.iter().filter_map(|column| Some(task.sensors[column.sensor?].lag));
+        let least = lags.map(|lag| lag.value).filter(|lag| *lag > 0.0).fold(f64::NAN, f64::min);
+        if !least.is_nan() {
+            times = refined(&times, least);
+        }
+        let mut places = Vec::with_capacity(chosen.len());
+        for &row in &chosen {
+            let from = places.last().map_or(0, |place| place + 1);
+            let ahead = times[from..].iter().position(|time| *time >= run.times[row]);
+            places.push(from + ahead.unwrap_or(0));
+        }
+        Self { chosen, times, places }
+    }
+
+    /// The run that has these rows.
+    pub(crate) fn settings(&self, run: &MeasuredRun, tolerance: f64) -> Transient {
+        let (start, stop) = (run.settings.start, self.times.last().copied());
+        let stop = stop.unwrap_or(start);
+        let between = self.times.iter().copied().filter(|&time| time > start && time < stop);
+        Transient {
+            stop,
+            output: OutputTimes::At(between.collect()),
+            tolerance,
+            record: RecordedNodes::Nodes(run.nodes()),
+            watch: Vec::new(),
+            windows: Vec::new(),
+            balance: None,
+            ..run.settings.clone()
+        }
+    }
+}
+
+/// At most `most` of `count` rows, at equal intervals, both ends included.
+fn chosen(count: usize, most: usize) -> Vec<usize> {
+    if count <= most {
+        return (0..count).collect();
+    }
+    (0..most).map(|k| k * (count - 1) / (most - 1)).collect()
+}
+
+/// The residuals of one record, and their derivatives one unknown after the other.
+pub(crate) struct Measure {
+    pub(crate) modelled: Vec<f64>,
+    pub(crate) residuals: Vec<f64>,
+    pub(crate) jacobian: Vec<f64>,
+    pub(crate) gradient: Gradient,
+}
+
+/// One record with the values of what is sought.
+pub(crate) struct Reader<'a> {
+    pub(crate) task: &'a NetworkFitTask<'a>,
+    /// Place of the record.
+    pub(crate) run: usize,
+    pub(crate) rows: &'a Rows,
+    pub(crate) unknowns: &'a [Unknown],
+    pub(crate) values: &'a [f64],
+}
+
+/// What an instrument is held to be: with an offset of 0, a gain of 1 and no lag it is ideal.
+#[derive(Clone, Copy)]
+struct Held {
+    offset: f64,
+    gain: f64,
+    lag: f64,
+}
+
+impl Reader<'_> {
+    /// Compares the run with the record.
+    pub(crate) fn measure(&self, found: &SensitiveRun) -> Measure {
+        let run = &self.task.runs[self.run];
+        let (modelled, residuals, jacobian) = (Vec::new(), Vec::new(), Vec::new());
+        let mut measure = Measure { modelled, residuals, jacobian, gradient: found.gradient };
+        // one column after the other, each with all unknowns
+        let mut slopes: Vec<Vec<f64>> = vec![Vec::new(); self.unknowns.len()];
+        for column in &run.columns {
+            let held = self.held(column);
+            let ideal = combined(column, |node| found.solution.temperature(node));
+            let over_zero = ideal.iter().map(|t| t - ZERO_CELSIUS).collect();
+            let followed = self.followed(over_zero, held);
+            let read = |y: &f64| ZERO_CELSIUS + held.gain * y + held.offset;
+            let model: Vec<f64> = self.picked(&followed.course).iter().map(read).collect();
+            let missed = self.rows.chosen.iter().zip(&model);
+            let missed = missed.map(|(&row, model)| (model - column.values[row]) / column.weight());
+            measure.residuals.extend(missed.filter(|residual| !residual.is_nan()));
+            measure.modelled.extend_from_slice(&model);
+            for (unknown, all) in self.unknowns.iter().zip(&mut slopes) {
+                let slope = self.slope((unknown, column), (held, &followed), found);
+                let kept = self.rows.chosen.iter().zip(slope);
+                let kept = kept.filter(|(row, _)| !column.values[**row].is_nan());
+                all.extend(kept.map(|(_, slope)| slope / column.weight()));
+            }
+        }
+        measure.jacobian = slopes.concat();
+        measure
+    }
+
+    /// Of the reading in the rows of the record, by one unknown.
+    fn slope(
+        &self,
+        (unknown, column): (&Unknown, &MeasuredColumn),
+        (held, followed): (Held, &Followed),
+        found: &SensitiveRun,
+    ) -> Vec<f64> {
+        let own = |sensor: usize| column.sensor == Some(sensor);
+        let scaled = |values: &[f64], factor: f64| -> Vec<f64> {
+            self.picked(values).iter().map(|value| factor * value).collect()
+        };
+        match unknown.of {
+            UnknownOf::Parameter(id) => {
+                let slopes = combined(column, |node| found.sensitivity(id, node));
+                scaled(&self.followed(slopes, held).course, held.gain)
+            }
+            UnknownOf::Offset { sensor, run }
+                if own(sensor) && run.is_none_or(|run| run == self.run) =>
+            {
+                vec![1.0; self.rows.chosen.len()]
+            }
+            UnknownOf::Gain { sensor } if own(sensor) => scaled(&followed.course, 1.0),
+            UnknownOf::Lag { sensor } if own(sensor) => scaled(&followed.by_lag, held.gain),
+            _ => vec![0.0; self.rows.chosen.len()],
+        }
+    }
+
+    fn held(&self, column: &MeasuredColumn) -> Held {
+        let Some(sensor) = column.sensor else { return Held { offset: 0.0, gain: 1.0, lag: 0.0 } };
+        let instrument = &self.task.sensors[sensor];
+        let [offset, gain, lag] =
+            [instrument.offset, instrument.gain, instrument.lag].map(|value| value.value);
+        let mut held = Held { offset, gain, lag };
+        for (unknown, &value) in self.unknowns.iter().zip(self.values) {
+            match unknown.of {
+                UnknownOf::Offset { sensor: of, run }
+                    if of == sensor && run.is_none_or(|run| run == self.run) =>
+                {
+                    held.offset = value;
+                }
+                UnknownOf::Gain { sensor: of } if of == sensor => held.gain = value,
+                UnknownOf::Lag { sensor: of } if of == sensor => held.lag = value,
+                _ => {}
+            }
+        }
+        held
+    }
+
+    fn followed(&self, course: Vec<f64>, held: Held) -> Followed {
+        match held.lag > 0.0 {
+            true => follow(&self.rows.times, &course, held.lag),
+            false => Followed { course, by_lag: Vec::new() },
+        }
+    }
+
+    /// In the rows of the record.
+    fn picked(&self, values: &[f64]) -> Vec<f64> {
+        let at = |&place: &usize| values.get(place).copied().unwrap_or(f64::NAN);
+        self.rows.places.iter().map(at).collect()
+    }
+}
+
+/// The rows of the measured temperature, or of its derivative.
+fn combined(column: &MeasuredColumn, of_node: impl Fn(NodeId) -> Option<Vec<f64>>) -> Vec<f64> {
+    let mut sum: Vec<f64> = Vec::new();
+    for &(node, factor) in &column.of {
+        let values = of_node(node).unwrap_or_default();
+        sum.resize(values.len(), 0.0);
+        sum.iter_mut().zip(&values).for_each(|(sum, value)| *sum += factor * value);
+    }
+    sum
+}

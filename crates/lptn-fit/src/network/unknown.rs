@@ -1,0 +1,147 @@
+//! Everything that a fit finds: parameters of the network and values of sensors.
+
+use lptn_netlist::Certainty;
+use lptn_network::ParameterId;
+use lptn_units::{Dimension, Type};
+
+use crate::network::task::{Instrument, NetworkFitTask};
+
+/// What an unknown is a value of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum UnknownOf {
+    /// A parameter of the network.
+    Parameter(ParameterId),
+    /// The offset of a sensor, by its place in the task: of all records, or of one.
+    Offset {
+        /// Place of the sensor.
+        sensor: usize,
+        /// Place of the record.
+        run: Option<usize>,
+    },
+    /// The gain of a sensor.
+    Gain {
+        /// Place of the sensor.
+        sensor: usize,
+    },
+    /// The time constant of a sensor.
+    Lag {
+        /// Place of the sensor.
+        sensor: usize,
+    },
+}
+
+/// A number to find, in SI units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unknown {
+    /// What it is a value of.
+    pub of: UnknownOf,
+    /// Its name: a parameter's, or `tc1.offset`.
+    pub name: String,
+    /// Its own value, where a search begins and what is known of it beforehand.
+    pub own: f64,
+    /// Its least and its greatest value.
+    pub bounds: (f64, f64),
+    /// Standard deviation of what is known beforehand.
+    pub prior: Option<f64>,
+    /// Its type.
+    pub ty: Type,
+}
+
+impl Unknown {
+    /// The parameter of the network, if it is one.
+    pub fn parameter(&self) -> Option<ParameterId> {
+        match self.of {
+            UnknownOf::Parameter(id) => Some(id),
+            _ => None,
+        }
+    }
+
+    /// The record that it alone concerns.
+    pub fn run(&self) -> Option<usize> {
+        match self.of {
+            UnknownOf::Offset { run, .. } => run,
+            _ => None,
+        }
+    }
+
+    /// The place of the sensor, if it is a value of one.
+    pub fn sensor(&self) -> Option<usize> {
+        match self.of {
+            UnknownOf::Parameter(_) => None,
+            UnknownOf::Offset { sensor, .. }
+            | UnknownOf::Gain { sensor }
+            | UnknownOf::Lag { sensor } => Some(sensor),
+        }
+    }
+
+    /// Whether its zero says nothing, so that it is never seen as a logarithm.
+    pub fn is_shift(&self) -> bool {
+        self.ty.absolute || matches!(self.of, UnknownOf::Offset { .. })
+    }
+}
+
+impl NetworkFitTask<'_> {
+    /// What the fit finds: the varied parameters, then what is not known of the sensors that its
+    /// columns name, sensor by sensor.
+    pub fn unknowns(&self) -> Vec<Unknown> {
+        let parameter = |varied: &lptn_network::Varied| {
+            let parameter = &self.network.parameters()[varied.parameter.index()];
+            Unknown {
+                of: UnknownOf::Parameter(varied.parameter),
+                name: parameter.name.clone(),
+                own: self.network.parameter_value(varied.parameter),
+                bounds: varied.bounds,
+                prior: varied.prior,
+                ty: parameter.ty,
+            }
+        };
+        let mut all: Vec<Unknown> = self.parameters.iter().map(parameter).collect();
+        let used = |sensor: usize| {
+            let mut columns = self.runs.iter().flat_map(|run| &run.columns);
+            columns.any(|column| column.sensor == Some(sensor))
+        };
+        for (i, sensor) in self.sensors.iter().enumerate().filter(|(i, _)| used(*i)) {
+            all.extend(self.unknowns_of(i, sensor));
+        }
+        all
+    }
+
+    fn unknowns_of(&self, sensor: usize, instrument: &Instrument) -> Vec<Unknown> {
+        const ABOVE: (f64, f64) = (f64::MIN_POSITIVE, f64::INFINITY);
+        const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+        let measures = |run: &usize| {
+            self.runs[*run].columns.iter().any(|column| column.sensor == Some(sensor))
+        };
+        let records: Vec<Option<usize>> = match instrument.per_record {
+            true => (0..self.runs.len()).filter(measures).map(Some).collect(),
+            false => vec![None],
+        };
+        let kelvin = Type::of(Dimension::TEMPERATURE);
+        let offset = |run| (UnknownOf::Offset { sensor, run }, instrument.offset, kelvin);
+        let mut values: Vec<_> = records.into_iter().map(offset).collect();
+        values.push((UnknownOf::Gain { sensor }, instrument.gain, Type::SCALAR));
+        values.push((UnknownOf::Lag { sensor }, instrument.lag, Type::of(Dimension::TIME)));
+        let sought = values.into_iter().filter(|(_, value, _)| value.is_sought());
+        let unknown = |(of, value, ty): (UnknownOf, lptn_netlist::SensorValue, Type)| Unknown {
+            of,
+            name: format!("{}.{}", instrument.name, word(of)),
+            own: value.value,
+            bounds: if matches!(of, UnknownOf::Offset { .. }) { ANY } else { ABOVE },
+            prior: match value.certainty {
+                Certainty::Deviation(deviation) => Some(deviation),
+                Certainty::Exact | Certainty::Free => None,
+            },
+            ty,
+        };
+        sought.map(unknown).collect()
+    }
+}
+
+fn word(of: UnknownOf) -> &'static str {
+    match of {
+        UnknownOf::Parameter(_) => "",
+        UnknownOf::Offset { .. } => "offset",
+        UnknownOf::Gain { .. } => "gain",
+        UnknownOf::Lag { .. } => "lag",
+    }
+}

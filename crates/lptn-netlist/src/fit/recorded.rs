@@ -1,0 +1,124 @@
+//! What a fit takes from each record beside what it compares: courses of signals and the state at
+//! the start.
+
+use lptn_data::{Diagnostic, Span, nearest};
+use lptn_network::Context;
+use lptn_units::{Dimension, Scope as _, Type, parse_quantity};
+
+use crate::fields::{Fields, wrong_shape};
+use crate::fit::FitStudy;
+use crate::names::ValueKind;
+use crate::place::Place;
+use crate::raw::{RawEntry, RawKind};
+use crate::toml_text::{TomlFields, key as toml_key, quantity, string};
+use crate::work::Elaboration;
+
+/// A signal that follows a column of each record.
+#[derive(Clone, Debug)]
+pub struct FitSignal {
+    /// The signal.
+    pub name: String,
+    /// The column.
+    pub column: String,
+    /// Its type.
+    pub ty: Type,
+    /// Where it is named.
+    pub span: Span,
+}
+
+/// Where nodes begin whose temperature is a column.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum FitInitial {
+    /// As the network says.
+    Network,
+    /// At the first value of the record.
+    First,
+    /// At the mean of the values of the first so many s.
+    Mean(f64),
+}
+
+const TIME: Type = Type::of(Dimension::TIME);
+
+impl FitStudy {
+    pub(super) fn put_recorded(&self, fields: &mut TomlFields) {
+        let signal = |s: &FitSignal| format!("{} = {}", toml_key(&s.name), string(&s.column));
+        let signals: Vec<String> = self.signals.iter().map(signal).collect();
+        if !signals.is_empty() {
+            fields.put("signal", format!("{{ {} }}", signals.join(", ")));
+        }
+        match self.initial {
+            FitInitial::Network => {}
+            FitInitial::First => fields.word("initial", "record"),
+            FitInitial::Mean(seconds) => fields.put("initial", quantity(seconds, TIME)),
+        }
+    }
+}
+
+impl<'a> Elaboration<'a> {
+    /// `signal = { speed = "omega" }`; nothing where something is wrong, which is then reported.
+    pub(super) fn fit_signals(&mut self, fields: &Fields<'a>) -> Option<Vec<FitSignal>> {
+        let Some(raw) = fields.get("signal") else { return Some(Vec::new()) };
+        let RawKind::Table(table) = &raw.kind else {
+            self.report(fields.wrong_shape("signal", raw, "a table of signals and columns"));
+            return None;
+        };
+        let all: Vec<_> =
+            table.entries.iter().map(|entry| self.fit_signal(fields, entry)).collect();
+        all.into_iter().collect()
+    }
+
+    fn fit_signal(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<FitSignal> {
+        let owner = fields.owner.inside("signal").inside(&entry.key);
+        let RawKind::String { text, .. } = &entry.value.kind else {
+            let sample = format!("{} = \"omega\"", entry.key);
+            self.report(wrong_shape(owner.words(), &entry.value, "the name of a column", &sample));
+            return None;
+        };
+        let is_signal = |kind: Option<&(ValueKind, Span, usize)>| {
+            kind.is_some_and(|(kind, ..)| *kind == ValueKind::Signal)
+        };
+        if !is_signal(self.names.values.get(&entry.key)) {
+            let words = fields.owner.field("signal");
+            let message = format!("{words} names `{}`, which is no signal", entry.key);
+            let signals = self.elements(ValueKind::Signal.section()).iter();
+            let signals: Vec<&str> = signals.map(|entry| entry.key.as_str()).collect();
+            let help = match signals.is_empty() {
+                true => format!(
+                    "write one to begin with, `[signal]` with `{} = \"25 degC\"`, and use it where \
+                     the record counts: in a boundary or a source",
+                    entry.key
+                ),
+                false => nearest(&entry.key, signals, "the signals are"),
+            };
+            self.refuse("netlist::fit_signal", message, &entry.key_span, help);
+            return None;
+        }
+        let ty = self.builder.scope(Context::Time).symbol(&entry.key)?.ty;
+        let (name, column, span) = (entry.key.clone(), text.clone(), entry.value.span.clone());
+        Some(FitSignal { name, column, ty, span })
+    }
+
+    /// `initial = "record"` or `initial = "10 s"`.
+    pub(super) fn fit_initial(&mut self, fields: &Fields<'a>) -> Option<FitInitial> {
+        let Some(raw) = fields.get("initial") else { return Some(FitInitial::Network) };
+        let text = fields.text("initial", raw, &mut self.problems)?;
+        if text == "record" {
+            return Some(FitInitial::First);
+        }
+        let place = Place { owner: &fields.owner, key: "initial", raw };
+        match parse_quantity(text, Some(TIME)) {
+            Ok(quantity) if quantity.value >= 0.0 => Some(FitInitial::Mean(quantity.value)),
+            Ok(_) => {
+                let message = format!("{} is less than zero", place.words());
+                let help = "write \"record\" for the first row, or how long the mean is, \"10 s\"";
+                self.refuse("netlist::fit_initial", message, &raw.span, help);
+                None
+            }
+            Err(error) => {
+                let problem: Diagnostic = place.unit_error(&error);
+                self.report(problem);
+                None
+            }
+        }
+    }
+}

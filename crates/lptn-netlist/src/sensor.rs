@@ -1,0 +1,284 @@
+//! `[sensor.NAME]`: what an instrument makes of the temperature that it measures.
+//!
+//! No temperature depends on a sensor, so it stands with the studies and not with the elements: only
+//! fits read it, and their columns name it.
+
+use lptn_data::{Diagnostic, Span};
+use lptn_network::Network;
+use lptn_units::{Dimension, Quantity, Type, parse_quantity};
+
+use crate::fields::Fields;
+use crate::format::{Role, SectionDeclaration, key};
+use crate::place::Place;
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
+use crate::study::{PathFrom, Study};
+use crate::toml_text::{TomlFields, string};
+use crate::work::Elaboration;
+
+const SENSOR: SectionDeclaration = SectionDeclaration {
+    name: "sensor",
+    sentence: "An instrument of records: what it adds to a temperature, and how well that is known.",
+    role: Role::Study,
+    keys: &[
+        key("offset", "K, with `±`, or `\"free\"`", "what it reads too much", "\"0 ± 3 K\"")
+            .or("none"),
+        key(
+            "gain",
+            "number, with `±`, or `\"free\"`",
+            "by which a reading in degC is multiplied",
+            "\"1 ± 0.5 %\"",
+        )
+        .or("1"),
+        key("lag", "s, with `±`", "the time constant with which it follows", "\"20 s\"").or("none"),
+        key("resolution", "K", "the step of its numbers", "\"0.1 K\"").or("none"),
+        key("per", "`\"sensor\"`, `\"record\"`", "whose the offset is", "\"record\"")
+            .or("`\"sensor\"`"),
+    ],
+    example: "{ offset = \"0 ± 3 K\" }",
+    elsewhere: &[
+        ("sigma", "how far one sample scatters stands in the fit: `sigma = \"0.2 K\"`"),
+        (
+            "of",
+            "what it measures stands in the fit: `column = { ring = { of = \"steel.T\", sensor = \"tc1\" } }`",
+        ),
+        (
+            "node",
+            "what it measures stands in the fit: `column = { ring = { of = \"steel.T\", sensor = \"tc1\" } }`",
+        ),
+        ("tau", "the time constant is `lag`"),
+    ],
+    ..SectionDeclaration::NEW
+};
+
+/// The word for a value of which nothing is known.
+const FREE: &str = "free";
+
+const PER: [(&str, bool); 2] = [("sensor", false), ("record", true)];
+
+/// How well a value of a sensor is known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Certainty {
+    /// It is what it is said to be.
+    Exact,
+    /// To this standard deviation; a fit finds it.
+    Deviation(f64),
+    /// Not at all; a fit finds it.
+    Free,
+}
+
+/// A value of a sensor in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SensorValue {
+    /// The value, where a search begins.
+    pub value: f64,
+    /// How well it is known.
+    pub certainty: Certainty,
+}
+
+impl SensorValue {
+    /// A value that is known.
+    pub const fn exact(value: f64) -> Self {
+        Self { value, certainty: Certainty::Exact }
+    }
+
+    /// Whether a fit has to find it.
+    pub fn is_sought(&self) -> bool {
+        self.certainty != Certainty::Exact
+    }
+}
+
+/// One `[sensor.NAME]`, in SI units. With x for a temperature over 0 degC, it reads
+/// `gain y + offset` over 0 degC, where `lag dy/dt = x - y`.
+#[derive(Clone, Debug)]
+pub struct Sensor {
+    /// Its name.
+    pub name: String,
+    /// Where it stands.
+    pub span: Span,
+    /// In K.
+    pub offset: SensorValue,
+    /// A factor.
+    pub gain: SensorValue,
+    /// In s; 0 without one.
+    pub lag: SensorValue,
+    /// The step of its numbers in K.
+    pub resolution: Option<f64>,
+    /// Whether an offset that is to be found is another one in each record.
+    pub per_record: bool,
+    /// Its fields as they are written.
+    written: Vec<(&'static str, String)>,
+}
+
+impl Study for Sensor {
+    const SECTION: &'static SectionDeclaration = &SENSOR;
+
+    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
+        let used = in_use(work.raw);
+        let entries = work.elements(SENSOR.name);
+        let found = entries.iter().filter_map(|entry| work.sensor(entry)).collect();
+        for entry in entries.iter().filter(|entry| !used.contains(&entry.key.as_str())) {
+            let message = format!("no column of a fit names sensor `{}`", entry.key);
+            let help = format!(
+                "name it where a column is read, `ring = {{ of = \"steel.T\", sensor = \"{}\" }}`, \
+                 or remove it",
+                entry.key
+            );
+            work.report(Diagnostic::doubt(
+                "netlist::unused_sensor",
+                message,
+                &entry.key_span,
+                help,
+            ));
+        }
+        found
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn check(&self, _: &Network) -> Vec<Diagnostic> {
+        Vec::new()
+    }
+
+    fn fields(&self, _: &Network, _: &PathFrom<'_>) -> TomlFields {
+        let mut fields = TomlFields::default();
+        self.written.iter().for_each(|(key, written)| fields.put(key, written));
+        fields
+    }
+}
+
+/// The names of the sensors that columns of fits name.
+fn in_use(raw: &RawNetlist) -> Vec<&str> {
+    let fits = raw.elements("fit").iter().filter_map(|fit| inside(&fit.value, "column"));
+    let columns = fits.filter_map(|column| match &column.kind {
+        RawKind::Table(table) => Some(&table.entries),
+        _ => None,
+    });
+    let named = columns.flatten().filter_map(|column| inside(&column.value, "sensor"));
+    named
+        .filter_map(|name| match &name.kind {
+            RawKind::String { text, .. } => Some(text.as_str()),
+            _ => None,
+        })
+        .collect()
+}
+
+fn inside<'r>(value: &'r RawValue, key: &str) -> Option<&'r RawValue> {
+    match &value.kind {
+        RawKind::Table(table) => table.get(key).map(|entry| &entry.value),
+        _ => None,
+    }
+}
+
+impl<'a> Elaboration<'a> {
+    fn sensor(&mut self, entry: &'a RawEntry) -> Option<Sensor> {
+        let fields = self.fields(&SENSOR, entry)?;
+        let kelvin = Type::of(Dimension::TEMPERATURE);
+        let offset = self.sensor_value(&fields, "offset", kelvin);
+        let gain = self.sensor_value(&fields, "gain", Type::SCALAR);
+        let lag = self.sensor_value(&fields, "lag", Type::of(Dimension::TIME));
+        let resolution = self.sensor_value(&fields, "resolution", kelvin);
+        let per_record = self.choice(&fields, "per", &PER);
+        let offset = offset?.unwrap_or(SensorValue::exact(0.0));
+        if per_record? && !offset.is_sought() {
+            let why = "has no effect on an offset that is known";
+            self.refuse_keys(&fields, &["per"], why);
+        }
+        let written = SENSOR.keys.iter().filter_map(|key| Some((key.name, fields.get(key.name)?)));
+        Some(Sensor {
+            name: entry.key.clone(),
+            span: entry.key_span.clone(),
+            offset,
+            gain: gain?.unwrap_or(SensorValue::exact(1.0)),
+            lag: lag?.unwrap_or(SensorValue::exact(0.0)),
+            resolution: resolution?.map(|resolution| resolution.value),
+            per_record: per_record?,
+            written: written.map(|(key, raw)| (key, as_written(raw))).collect(),
+        })
+    }
+
+    /// A value in its field; nothing inside where it is left out, nothing at all where it is wrong.
+    fn sensor_value(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &'static str,
+        ty: Type,
+    ) -> Option<Option<SensorValue>> {
+        let Some(raw) = fields.get(key) else { return Some(None) };
+        let text = match &raw.kind {
+            RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => {
+                text.trim()
+            }
+            _ => {
+                self.report(fields.wrong_shape(key, raw, "a quantity"));
+                return None;
+            }
+        };
+        if text == FREE && matches!(key, "offset" | "gain") {
+            let value = if key == "gain" { 1.0 } else { 0.0 };
+            return Some(Some(SensorValue { value, certainty: Certainty::Free }));
+        }
+        if text.starts_with('±') {
+            let (words, neutral) = (fields.owner.field(key), if key == "gain" { "1" } else { "0" });
+            let message = format!("{words} says how well it is known, but not what it is");
+            let help = format!("write `{key} = \"{neutral} {text}\"`");
+            self.refuse("netlist::sensor_prior", message, &raw.span, help);
+            return None;
+        }
+        let quantity = match percent_of(text).map_or_else(|| parse_quantity(text, Some(ty)), Ok) {
+            Ok(quantity) => quantity,
+            Err(error) => {
+                self.report(Place { owner: &fields.owner, key, raw }.unit_error(&error));
+                return None;
+            }
+        };
+        if let Some((code, why, help)) = unsound(key, &quantity) {
+            let message = format!("{} {why}", fields.owner.field(key));
+            self.refuse(code, message, &raw.span, help);
+            return None;
+        }
+        let certainty = quantity.deviation.map_or(Certainty::Exact, Certainty::Deviation);
+        Some(Some(SensorValue { value: quantity.value, certainty }))
+    }
+}
+
+/// Why a quantity cannot be this value of a sensor: code, what is wrong, and help.
+fn unsound(key: &str, quantity: &Quantity) -> Option<(&'static str, &'static str, &'static str)> {
+    let (value, deviation) = (quantity.value, quantity.deviation);
+    match (key, deviation) {
+        ("resolution", Some(_)) => Some((
+            "netlist::sensor_prior",
+            "has a `±`, and no fit finds a step of numbers",
+            "write the step alone: `resolution = \"0.1 K\"`",
+        )),
+        (_, Some(deviation)) if deviation <= 0.0 => Some((
+            "netlist::sensor_prior",
+            "is known to ± 0",
+            "write the value alone where it is known, or how well it is known behind `±`",
+        )),
+        ("gain" | "resolution" | "lag", _) if value <= 0.0 => Some((
+            "netlist::sensor_value",
+            "has to be more than zero",
+            "leave it out where there is none: a gain is near 1, a lag is a time constant, a \
+             resolution a step of numbers",
+        )),
+        _ => None,
+    }
+}
+
+/// `1 ± 0.5 %`, which elsewhere could be percentage points: a gain of one percent there is none.
+fn percent_of(text: &str) -> Option<Quantity> {
+    let quantity = parse_quantity(text.strip_suffix('%')?, Some(Type::SCALAR)).ok()?;
+    let near_one = (0.5..2.0).contains(&quantity.value);
+    let deviation = quantity.deviation.filter(|_| near_one)?;
+    Some(Quantity { deviation: Some(quantity.value * deviation / 100.0), ..quantity })
+}
+
+fn as_written(raw: &RawValue) -> String {
+    match &raw.kind {
+        RawKind::Integer(text) | RawKind::Float(text) => text.clone(),
+        RawKind::String { text, .. } => string(text),
+        _ => String::new(),
+    }
+}
