@@ -134,3 +134,17 @@ fn a_probability_is_kept_and_said() {
     folder.run(&set).exits(0).prints("G = 1.94081 W/K keeps every requirement");
     folder.run(&["size", "a.toml"]).exits(2).says("size::no_deviation").says("a.toml:");
 }
+
+/// In summer the block is at 45 + 100 / x degC, at overload at 30 + 150 / x, with x = G / (W/K). Below
+/// x = 10/3 the latter is hotter, above it the former, and 45 + 100 / x + 2 x is least at x = sqrt(50).
+#[test]
+fn of_results_that_are_sought_the_worst_case_counts() {
+    let text = BLOCK
+        .replace("minimise = \"G\"", "minimise = \"block.T - 20 [degC] + 2 [K^2/W] * G\"")
+        .replace("<= 80", "<= 200");
+    let folder = Folder::with("a.toml", &text);
+    let json = folder.run(&["size", "a.toml", "--format", "json"]).exits(0).json();
+    let least = 25.0 + 4.0 * f64::sqrt(50.0);
+    assert!((value(&json["objective"]["value"]) - least).abs() < 1e-8 * least, "{json}");
+    assert!((value(&json["values"]["G"]) / f64::sqrt(50.0) - 1.0).abs() < 1e-4, "{json}");
+}

@@ -74,6 +74,25 @@ impl Candidate {
         }
     }
 
+    /// Compares a candidate over its settled cycle, although it may have a run, which lends start and
+    /// tolerance; in steady state where its inputs are constant.
+    ///
+    /// # Errors
+    /// [`CompareError`] if there is no settled cycle, or it was interrupted.
+    pub fn settled_observed(
+        system: &ThermalSystem,
+        run: Option<&RunSettings>,
+        observer: &mut dyn FnMut(Progress) -> Proceed,
+    ) -> Result<Self, CompareError> {
+        let network = system.network();
+        match Settled::find(system, run, observer)? {
+            Some(Ok(found)) => Ok(Self::over_a_cycle(network, found)),
+            Some(Err(reason)) => Err(CompareError::Cycle(reason)),
+            None if network.changing_inputs().is_empty() => Self::in_steady_state(system, observer),
+            None => Err(CompareError::NoPeriod),
+        }
+    }
+
     /// The temperature limit with the least margin: of those of severity error, else of the
     /// warnings; `None` without a limit of a temperature.
     pub fn worst(&self) -> Option<&LimitResult> {

@@ -1,7 +1,9 @@
 //! Why a candidate has no results.
 
+use std::sync::Arc;
+
 use lptn_network::InputError;
-use lptn_solve::{LedgerError, SteadyError, TransientError, Unsolved};
+use lptn_solve::{LedgerError, PeriodicError, SteadyError, TransientError, Unsolved};
 use lptn_units::Class;
 
 lptn_units::errors! {
@@ -16,6 +18,14 @@ pub enum CompareError {
     Input => InputError;
     /// The balances of its massless nodes have no solution at the start.
     Start => Unsolved as Class::of_numbers;
+    /// It has no settled cycle, where that is what is asked for.
+    Cycle(error: Arc<PeriodicError>) = error.code(),
+        format!("there is no settled cycle: {error}"),
+        source error.as_ref(), help error.help(), class error.class().not_an_answer();
+    /// Its inputs change with time, and no signal is repeated.
+    NoPeriod = "periodic::no_period",
+        "its inputs change with time and no signal is repeated, so there is no settled cycle",
+        help "let a signal go on for ever: after_end = \"repeat\"";
     /// Its books do not close.
     Ledger => LedgerError;
     /// Its run was interrupted at this time in s: peaks and limits of a part would read like those
@@ -33,6 +43,7 @@ impl CompareError {
             Self::Steady(error) => error.input(),
             Self::Run(error) => error.input(),
             Self::Start(unsolved) => unsolved.input(),
+            Self::Cycle(error) => error.input(),
             _ => None,
         }
     }

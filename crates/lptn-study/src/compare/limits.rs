@@ -16,7 +16,8 @@ pub struct LimitResult {
     /// The least margin, in SI units: positive while the limit is kept; NaN where it is not judged,
     /// since it depends on inputs that change with time and was looked at in steady state only.
     pub margin: f64,
-    /// When it is first broken, in s; `None` if it is kept, or was looked at in steady state only.
+    /// When it is first broken, in s; `None` if it is kept, or was looked at in steady state or over
+    /// the settled cycle.
     pub broken_at: Option<f64>,
 }
 

@@ -67,7 +67,11 @@ impl Settled {
             hottest: node.map(|node| network.nodes()[node.node.index()].name.clone()),
             peak: node.map(|node| peak(node, cycle)),
             period: cycle.stop - cycle.start,
-            limits: limits::over_time(network, solution.limits()),
+            // a cycle has no first time
+            limits: limits::over_time(network, solution.limits())
+                .into_iter()
+                .map(|limit| LimitResult { broken_at: None, ..limit })
+                .collect(),
         }
     }
 }

@@ -33,6 +33,9 @@ pub(crate) struct CompareArgs {
     /// Take every netlist in each of its load cases, [case.NAME]
     #[arg(long)]
     pub(crate) cases: bool,
+    /// Compare over the settled cycle of repeated signals, not over the run
+    #[arg(long)]
+    pub(crate) periodic: bool,
     #[command(flatten)]
     pub(crate) printed: Printed,
     /// Sort by margin, peak, steady, time, capacity, or keep the order as given

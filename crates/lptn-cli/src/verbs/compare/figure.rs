@@ -30,6 +30,11 @@ impl Comparison {
             };
             let points = self.points(&|row| row.limit(name).and_then(margin));
             margins.curves.extend(dots(name, points));
+            let settled = self.points(&|row| {
+                let of_run = row.candidate()?.heat.over == HeatOver::Run;
+                row.settled_limit(name).filter(|_| of_run).and_then(margin)
+            });
+            margins.curves.extend(dots(&format!("{name}, settled"), settled));
         }
         margins.moments.push(Moment { name: "limit".into(), at: 0.0 });
         let panels = [hot, margins].into_iter().filter(|panel| !panel.curves.is_empty());

@@ -36,7 +36,7 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
     let jobs = jobs(args, &files)?;
     let loaded = in_parallel(&jobs, threads, |(file, variant)| load(file, variant));
     used(args, &loaded)?;
-    let done = evaluate_all(&loaded, threads, console);
+    let done = evaluate_all(&loaded, (args.periodic, threads), console);
     let unit = unit(args, &loaded)?;
     let candidates: Vec<_> = done.iter().map(|outcome| outcome.as_ref().ok()).collect();
     let places = order(&candidates, args.sort);
@@ -188,14 +188,15 @@ enum NoResult {
 /// Every candidate, with progress on a terminal; after Ctrl-C those that were finished by then.
 fn evaluate_all(
     loaded: &[Loaded],
-    threads: usize,
+    (periodic, threads): (bool, usize),
     console: &Console,
 ) -> Vec<Result<Candidate, NoResult>> {
     let interrupt = Interrupt::listen();
     let progress = ProgressOfAll::new(console.quiet, loaded.len(), "candidates");
     let numbered: Vec<(usize, &Loaded)> = loaded.iter().enumerate().collect();
     let done = in_parallel(&numbered, threads, |&(number, loaded)| {
-        let outcome = evaluate(loaded, &interrupt, &mut |step| progress.update(number, step));
+        let show = &mut |step| progress.update(number, step);
+        let outcome = evaluate((loaded, periodic), &interrupt, show);
         progress.finished(number);
         outcome
     });
@@ -204,7 +205,7 @@ fn evaluate_all(
 }
 
 fn evaluate(
-    loaded: &Loaded,
+    (loaded, periodic): (&Loaded, bool),
     interrupt: &Interrupt,
     show: &mut dyn FnMut(Progress),
 ) -> Result<Candidate, NoResult> {
@@ -214,10 +215,14 @@ fn evaluate(
     let found = if interrupt.pressed() {
         Err(CompareError::Interrupted(run.map_or(0.0, |run| run.start)))
     } else {
-        Candidate::evaluate_observed(&system, run, &mut |step| {
+        let observer = &mut |step| {
             show(step);
             interrupt.control()
-        })
+        };
+        match periodic {
+            true => Candidate::settled_observed(&system, run, observer),
+            false => Candidate::evaluate_observed(&system, run, observer),
+        }
     };
     found.map_err(|error| {
         let place = error.input().and_then(|error| input.place_of(error));

@@ -29,7 +29,7 @@ impl Page for Comparison {
         let mut text = Text::titled(format!("{}{of}", count(rows.len(), "candidate")));
         text.section().table(overview(self));
         let sections = [
-            ("margin to", margins(rows, (&CompareRow::limit, margin))),
+            ("margin to", margins(rows, &CompareRow::limit)),
             ("settled margin to", settled_margins(rows)),
             (heat_over(rows), heat(rows)),
             ("heat by path", shares(rows, &CompareRow::path_names(rows))),
@@ -175,12 +175,9 @@ fn verdict(row: &CompareRow, end: Exit) -> &str {
 type OfRow<'a> = dyn Fn(&'a CompareRow, &str) -> Option<&'a LimitResult>;
 
 /// A column for each limit: its margin, and when it breaks.
-fn margins<'a>(
-    rows: &'a [CompareRow],
-    (limit, said): (&OfRow<'a>, fn(&LimitResult) -> String),
-) -> Vec<Column> {
+fn margins<'a>(rows: &'a [CompareRow], limit: &OfRow<'a>) -> Vec<Column> {
     let column = |name: &&str| {
-        let cell = |row| limit(row, name).map_or_else(|| NOTHING.to_owned(), said);
+        let cell = |row| limit(row, name).map_or_else(|| NOTHING.to_owned(), margin);
         Column::new(*name, Align::Right, rows.iter().map(cell).collect())
     };
     CompareRow::limit_names(rows).iter().map(column).collect()
@@ -190,21 +187,12 @@ fn margins<'a>(
 fn settled_margins(rows: &[CompareRow]) -> Vec<Column> {
     let of_run = |row: &CompareRow| row.candidate().is_some_and(|c| c.heat.over == HeatOver::Run);
     match rows.iter().any(|row| row.settled().is_some() && of_run(row)) {
-        true => margins(rows, (&CompareRow::settled_limit, least)),
+        true => margins(rows, &CompareRow::settled_limit),
         false => Vec::new(),
     }
 }
 
-/// The margin, and from when on it is broken.
 fn margin(limit: &LimitResult) -> String {
-    let least = least(limit);
-    match limit.broken_at.filter(|_| !limit.is_open()) {
-        Some(time) => format!("{least} from {}", duration(time, 3)),
-        None => least,
-    }
-}
-
-fn least(limit: &LimitResult) -> String {
     if limit.is_open() {
         return NOTHING.into();
     }
@@ -214,7 +202,10 @@ fn least(limit: &LimitResult) -> String {
     } else {
         significant(limit.margin, 3)
     };
-    format!("{number}{unit}")
+    match limit.broken_at {
+        Some(time) => format!("{number}{unit} from {}", duration(time, 3)),
+        None => format!("{number}{unit}"),
+    }
 }
 
 /// In which results heat is looked at: those of the candidates, which differ only where some have a
