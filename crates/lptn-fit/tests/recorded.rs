@@ -13,6 +13,8 @@ struct Run {
     rate: f64,
     power: f64,
     above: f64,
+    /// The row in which a wire is broken.
+    broken: Option<u32>,
 }
 
 const TAU: f64 = 0.3 * 2659.0;
@@ -26,6 +28,8 @@ impl Run {
             let ring = hall - self.rate * TAU * (1.0 - left)
                 + 0.3 * self.power * (1.0 - left)
                 + self.above * left;
+            let broken = self.broken.is_some_and(|row| (t - 25.0 * f64::from(row)).abs() < 1.0);
+            let ring = if broken { 9999.0 } else { ring };
             csv += &format!("{t},{ring},{hall},{}\n", self.power);
         }
         csv
@@ -61,8 +65,8 @@ fn is_truth(fit: &NetworkFit) {
 }
 
 const WARMING: [Run; 2] = [
-    Run { room: 25.0, rate: 4e-3, power: 220.6, above: 0.0 },
-    Run { room: 25.0, rate: -2e-3, power: 100.0, above: 0.0 },
+    Run { room: 25.0, rate: 4e-3, power: 220.6, above: 0.0, broken: None },
+    Run { room: 25.0, rate: -2e-3, power: 100.0, above: 0.0, broken: None },
 ];
 
 #[test]
@@ -72,8 +76,8 @@ fn analytic_signals_follow_the_columns_of_each_record() {
 }
 
 const WARM: [Run; 2] = [
-    Run { room: 20.0, rate: 0.0, power: 220.6, above: 9.0 },
-    Run { room: 27.0, rate: 0.0, power: 0.0, above: 50.0 },
+    Run { room: 20.0, rate: 0.0, power: 220.6, above: 9.0, broken: None },
+    Run { room: 27.0, rate: 0.0, power: 0.0, above: 50.0, broken: None },
 ];
 
 #[test]
@@ -93,4 +97,26 @@ fn a_start_is_not_read_from_a_sensor_that_is_sought() {
     let error = fitted(&netlist(more, &sensor("0 ± 3 K"), &WARM)).unwrap_err();
     assert_eq!(error.code(), "fit::initial");
     is_truth(&fitted(&netlist(more, &sensor("0 K"), &WARM)).unwrap());
+}
+
+/// One value of 9999 degC ruins a fit; it is named, and left out where that is asked.
+#[test]
+fn an_outlier_is_named_and_left_out() {
+    let broken = |row: u32| {
+        [
+            Run { room: 25.0, rate: 0.0, power: 220.6, above: 0.0, broken: Some(row) },
+            Run { room: 25.0, rate: 0.0, power: 100.0, above: 0.0, broken: None },
+        ]
+    };
+    let more = "column = { ring = \"body.T\" }\nsignal = { hall = \"hall\", heat = \"heat\" }";
+    for row in [1, 20, 59] {
+        let kept = netlist(more, "", &broken(row));
+        let named = kept.warnings.iter().find(|warning| warning.code == "record::outlier");
+        assert!(named.is_some_and(|warning| warning.message.contains("9999 degC")), "{row}");
+        let wrong = fitted(&kept).unwrap().parameters[0].value;
+        assert!((wrong / 0.3 - 1.0).abs() > 0.01, "{wrong}");
+        is_truth(
+            &fitted(&netlist(&format!("{more}\noutliers = \"drop\""), "", &broken(row))).unwrap(),
+        );
+    }
 }

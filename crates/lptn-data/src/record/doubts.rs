@@ -2,6 +2,7 @@
 
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
+use crate::record::spikes::spikes;
 use crate::record::{Record, RecordColumn, Saturation};
 use lptn_units::format_short as short;
 
@@ -33,6 +34,47 @@ pub(crate) fn of(
     let saturation = saturation(record, column, &rows);
     warnings.extend(saturation.map(|found| saturated(record, column, (found, &line))));
     (saturation, warnings)
+}
+
+/// The rows of values that no course explains.
+pub(crate) fn outliers(record: &Record, column: &RecordColumn) -> Vec<usize> {
+    let rows: Vec<usize> =
+        (0..record.time.len()).filter(|&row| !column.values[row].is_nan()).collect();
+    let values: Vec<f64> = rows.iter().map(|&row| column.values[row]).collect();
+    spikes(&values).into_iter().map(|place| rows[place]).collect()
+}
+
+/// What there is to say of them.
+pub(crate) fn outlying(
+    record: &Record,
+    column: usize,
+    (rows, dropped): (&[usize], bool),
+    text: &str,
+) -> Option<Diagnostic> {
+    let (first, column) = (*rows.first()?, &record.columns[column]);
+    let near = (first + 1..record.time.len()).find(|row| !rows.contains(row));
+    let near = near.or_else(|| (0..first).next_back());
+    let near = shown(column, column.values[near.unwrap_or(first)]);
+    let more = match rows.len() {
+        1 => String::new(),
+        n => format!("; {} more are as far off", n - 1),
+    };
+    let done = match (dropped, rows.len()) {
+        (false, _) => "",
+        (true, 1) => ": it is left out",
+        (true, _) => ": they are left out",
+    };
+    let message = format!(
+        "column `{}` reads {} at {} s, where {near} is next to it{more}{done}",
+        column.name,
+        shown(column, column.values[first]),
+        short(record.time[first])
+    );
+    let warning = Diagnostic::warning("record::outlier", message)
+        .at(record.line_in(text, first), if rows.len() == 1 { "" } else { "the first" });
+    let help = "a broken wire, or a digit lost? a fit leaves such values out with \
+        `outliers = \"drop\"` in [fit], or `--drop-outliers` of lptn fit step";
+    Some(if dropped { warning } else { warning.help(help) })
 }
 
 /// A value of the column in its own unit.

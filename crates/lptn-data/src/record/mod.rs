@@ -16,6 +16,7 @@
 //! | a value below absolute zero | an error |
 //! | a jump by 273.15 K, or to 1.8 times the value + 32 | a warning: the unit seems to change |
 //! | an extreme value held after a steep rise or fall | a warning: the sensor may be at its end |
+//! | a value far outside of what stands before and behind it | a warning; a gap where that is asked |
 //! | a column that does not change | a warning |
 
 mod cells;
@@ -23,6 +24,7 @@ mod columns;
 mod doubts;
 mod rows;
 mod sheet;
+mod spikes;
 mod times;
 
 pub use sheet::{DataSheet, read_sheet};
@@ -67,6 +69,8 @@ pub struct RecordQuery {
     pub from: Option<f64>,
     /// Rows after this time, in s, are left out.
     pub to: Option<f64>,
+    /// Whether values that no course explains become gaps.
+    pub drop_outliers: bool,
 }
 
 /// Columns of numbers over time.
@@ -169,6 +173,16 @@ pub fn read_text(text: &CsvText, query: &RecordQuery) -> Result<Record, Vec<Diag
     for i in 0..record.columns.len() {
         let (saturation, warnings) = doubts::of(&record, &record.columns[i], text);
         record.columns[i].saturation = saturation;
+        let outliers = doubts::outliers(&record, &record.columns[i]);
+        record.warnings.extend(doubts::outlying(
+            &record,
+            i,
+            (&outliers, query.drop_outliers),
+            text,
+        ));
+        for row in outliers.into_iter().filter(|_| query.drop_outliers) {
+            record.columns[i].values[row] = f64::NAN;
+        }
         record.warnings.extend(warnings);
     }
     debug_assert!(record.warnings.iter().all(|warning| warning.severity == Severity::Warning));

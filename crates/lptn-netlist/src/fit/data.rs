@@ -51,7 +51,7 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn fit_records(
         &mut self,
         fields: &Fields<'a>,
-        (columns, signals): (&[Column<'a>], &[FitSignal]),
+        (columns, signals, drop_outliers): (&[Column<'a>], &[FitSignal], bool),
         time: Option<(&str, &RawValue)>,
     ) -> Option<Vec<FitRecord>> {
         let raw = self.require(fields, "data")?;
@@ -78,7 +78,7 @@ impl<'a> Elaboration<'a> {
             span: Some(signal.span.clone()),
         };
         let columns = columns.iter().map(name).chain(signals.iter().map(followed)).collect();
-        let query = RecordQuery { time, columns, ..RecordQuery::default() };
+        let query = RecordQuery { time, columns, drop_outliers, ..RecordQuery::default() };
         let mut records: Vec<FitRecord> = Vec::new();
         let mut complete = true;
         for item in items {

@@ -40,6 +40,13 @@ const FIT: SectionDeclaration = SectionDeclaration {
             "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
         ),
         key(
+            "outliers",
+            "`\"keep\"`, `\"drop\"`",
+            "values far outside of those before and behind them",
+            "\"drop\"",
+        )
+        .or("`\"keep\"`"),
+        key(
             "signal",
             "table of columns",
             "signals that follow a column of the record",
@@ -101,6 +108,8 @@ pub struct FitStudy {
     pub varied: Vec<VariedName>,
     /// The signals that follow columns of the records.
     pub signals: Vec<FitSignal>,
+    /// Whether values that no course explains were left out.
+    pub drop_outliers: bool,
     /// Where the measured nodes begin.
     pub initial: FitInitial,
     /// The column of the times, where it is named.

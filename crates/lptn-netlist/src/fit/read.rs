@@ -11,6 +11,9 @@ use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::size::VARY;
 use crate::work::Elaboration;
 
+/// What becomes of values that no course explains: whether they are dropped.
+const OUTLIERS: [(&str, bool); 2] = [("keep", false), ("drop", true)];
+
 /// A column whose result could not be read is still looked for in the records.
 pub(crate) struct Column<'a> {
     pub(crate) entry: &'a RawEntry,
@@ -40,7 +43,9 @@ impl<'a> Elaboration<'a> {
         let (signals, initial) = (self.fit_signals(&fields), self.fit_initial(&fields));
         let time_name = time.map(|(text, raw)| (text.unwrap_or("t"), raw));
         let followed = signals.as_deref().unwrap_or_default();
-        let records = self.fit_records(&fields, (&columns, followed), time_name);
+        let drop_outliers = self.choice(&fields, "outliers", &OUTLIERS);
+        let columns_read = (columns.as_slice(), followed, drop_outliers == Some(true));
+        let records = self.fit_records(&fields, columns_read, time_name);
         let records = records?;
         self.set_and_varied(&fields, &records, varied.as_deref().unwrap_or_default());
         let observed: Option<Vec<Observed>> =
@@ -54,6 +59,7 @@ impl<'a> Elaboration<'a> {
             varied: varied?,
             signals: signals?,
             initial: initial?,
+            drop_outliers: drop_outliers?,
             time: time.and_then(|(text, _)| text).map(str::to_owned),
         })
     }

@@ -46,6 +46,9 @@ impl FitStudy {
         if !signals.is_empty() {
             fields.put("signal", format!("{{ {} }}", signals.join(", ")));
         }
+        if self.drop_outliers {
+            fields.word("outliers", "drop");
+        }
         match self.initial {
             FitInitial::Network => {}
             FitInitial::First => fields.word("initial", "record"),

@@ -32,6 +32,9 @@ pub(crate) struct StepArgs {
     /// Leave out what is after
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub(crate) to: Option<String>,
+    /// Leave out values far outside of those before and behind them
+    #[arg(long)]
+    pub(crate) drop_outliers: bool,
     /// Go on to R_eq and P_disp with C_eq, such as "2659 J/K ± 5 %"
     #[arg(long, value_name = "J/K", allow_hyphen_values = true)]
     pub(crate) capacity: Option<String>,

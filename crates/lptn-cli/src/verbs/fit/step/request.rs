@@ -117,6 +117,7 @@ fn query(args: &StepArgs) -> Result<RecordQuery, Failure> {
         columns: names.into_iter().map(temperature).collect(),
         from,
         to,
+        drop_outliers: args.drop_outliers,
     })
 }
 

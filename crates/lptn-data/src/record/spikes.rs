@@ -1,0 +1,116 @@
+//! Values that no course explains: a broken wire, a digit lost on the way.
+//!
+//! A value counts as one where it lies outside of what the values before it and those behind it
+//! say, by far more than they scatter. A step of the power is between both and is none.
+
+/// So many values on each side of one are looked at.
+const SIDE: usize = 7;
+
+/// By so many times of what the values of a column scatter, of the step of the instrument, and of
+/// what those around it spread, one has to be off.
+const SCATTER: f64 = 20.0;
+const STEPS: f64 = 10.0;
+const SPREAD: f64 = 5.0;
+
+/// At an end of the record the neighbour has to be nearer to the others by this factor: what begins
+/// fast is no spike.
+const ALONE: f64 = 0.1;
+
+/// The places of such values, in order; `values` holds no gaps.
+pub(crate) fn spikes(values: &[f64]) -> Vec<usize> {
+    if values.len() < 2 * SIDE {
+        return Vec::new();
+    }
+    let bent = |w: &[f64]| (w[1] - 0.5 * (w[0] + w[2])).abs();
+    let scatter = 1.4826 * median(values.windows(3).map(bent).collect());
+    let least = (SCATTER * scatter).max(STEPS * step(values));
+    // what most are does not need their neighbours to be sorted
+    let is_off = |i: &usize| off(values, *i, 0.0) > least;
+    (0..values.len()).filter(is_off).filter(|&i| off(values, i, SPREAD) > least).collect()
+}
+
+/// By how much a value is outside of what stands before and behind it, less so many times of what
+/// that scatters.
+fn off(values: &[f64], i: usize, times: f64) -> f64 {
+    let before = &values[i.saturating_sub(SIDE)..i];
+    let behind = &values[(i + 1).min(values.len())..(i + 1 + SIDE).min(values.len())];
+    let sides: Vec<f64> = [before, behind]
+        .iter()
+        .filter(|side| !side.is_empty())
+        .map(|s| median(s.to_vec()))
+        .collect();
+    let low = sides.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = sides.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let outside = (values[i] - high).max(low - values[i]);
+    if times <= 0.0 || outside <= 0.0 {
+        return outside;
+    }
+    let neighbour = match (before.last(), behind.first()) {
+        (None, Some(next)) | (Some(next), None) => (next - sides[0]).abs(),
+        _ => 0.0,
+    };
+    if neighbour > ALONE * outside {
+        return 0.0;
+    }
+    let around = [before, behind].concat();
+    let middle = median(around.clone());
+    let scatter = 1.4826 * median(around.iter().map(|v| (v - middle).abs()).collect());
+    if outside > times * scatter { outside } else { 0.0 }
+}
+
+/// The least distance of two values that are not equal, 0 where all are.
+fn step(values: &[f64]) -> f64 {
+    let apart = values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let least = apart.filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
+    if least.is_finite() { least } else { 0.0 }
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    let middle = values.len() / 2;
+    if values.is_empty() {
+        return 0.0;
+    }
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::spikes;
+
+    /// A rise of 60 K in 800 s, every 5 s, rounded to 0.1 K.
+    fn rise() -> Vec<f64> {
+        let value = |k: u32| 25.0 + 60.0 * (1.0 - f64::exp(-f64::from(k) / 160.0));
+        (0..300).map(|k| (10.0 * value(k)).round() / 10.0).collect()
+    }
+
+    #[test]
+    fn what_no_course_explains_is_found_wherever_it_stands() {
+        for places in
+            [vec![0], vec![299], vec![120], vec![40, 41], vec![17, 18, 19, 20], vec![3, 200]]
+        {
+            let mut values = rise();
+            places.iter().for_each(|&i| values[i] = 9999.0);
+            assert_eq!(spikes(&values), places);
+        }
+        let mut values = rise();
+        (values[50], values[99]) = (0.0, values[99] + 8.0);
+        assert_eq!(spikes(&values), [50, 99]);
+    }
+
+    #[test]
+    fn steps_kinks_pulses_and_noise_are_none() {
+        assert!(spikes(&rise()).is_empty());
+        let step: Vec<f64> = (0..100).map(|k| if k < 47 { 20.0 } else { 80.0 }).collect();
+        assert!(spikes(&step).is_empty());
+        let kinks: Vec<f64> = (0..100).map(|k| 20.0 + f64::from((k % 40 - 20i32).abs())).collect();
+        assert!(spikes(&kinks).is_empty());
+        let flicker: Vec<f64> = (0..100).map(|k| if k % 33 == 5 { 20.1 } else { 20.0 }).collect();
+        assert!(spikes(&flicker).is_empty());
+        let pulse: Vec<f64> =
+            (0..100).map(|k| if (40..52).contains(&k) { 900.0 } else { 0.0 }).collect();
+        assert!(spikes(&pulse).is_empty());
+        let fast: Vec<f64> = (0..100).map(|k| 60.0 * f64::exp(-f64::from(k))).collect();
+        assert!(spikes(&fast).is_empty());
+        assert!(spikes(&[1.0, 2.0, 1e6]).is_empty());
+    }
+}
