@@ -131,6 +131,16 @@ fn an_offset_and_a_lag_without_a_sensor_are_guessed() {
     assert!(matches!(found, Some(Hint::Lag(s)) if (s - 60.0).abs() < 15.0), "{found:?}");
 }
 
+/// Three values, far from what two parameters can make of them: nothing is guessed, nothing breaks.
+#[test]
+fn few_values_ask_for_no_sensor() {
+    let rows = [(0.0, 25.0), (100.0, 300.0), (200.0, 20.0)];
+    let netlist = body("{ offset = \"0.1 K\" }", "\"body.T\"", "[\"R\", \"C\"]", &rows);
+    let task = NetworkFitTask::of(&netlist, &netlist.studies.fits[0], 2).unwrap();
+    let hints = fit_network(&task).map(|fit| fit.columns[0].hint);
+    assert_eq!(hints.unwrap_or(None), None);
+}
+
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
