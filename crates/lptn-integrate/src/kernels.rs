@@ -45,6 +45,13 @@ pub fn zip_in_place(z: &mut [f64], y: &[f64], f: impl Fn(f64, f64) -> f64) {
 
 /// Sum of `x[i] y[i]`.
 pub fn dot(x: &[f64], y: &[f64]) -> f64 {
+    dot_in::<LANES>(x, y)
+}
+
+/// The same in so many partial sums: few for short slices. Always inlined, so that callers which are
+/// compiled for the vectors of one processor have it in them.
+#[inline(always)]
+pub fn dot_in<const LANES: usize>(x: &[f64], y: &[f64]) -> f64 {
     let mut lanes = [0.0; LANES];
     let (xs, x_tail) = x.as_chunks::<LANES>();
     let (ys, y_tail) = y.as_chunks::<LANES>();

@@ -3,29 +3,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use lptn_netlist::{Netlist, parse, parse_with};
-use lptn_solve::Proceed;
+mod common;
+
+use common::{aim, demand};
+use lptn_netlist::{parse, parse_with};
 use lptn_study::{
-    Aim, ChoiceTask, Choices, Demand, Moments, Parts, Several, SeveralTask, SizeError, choose,
-    size_several,
+    ChoiceTask, Choices, Parts, Several, SeveralTask, SizeError, choose, size_several,
 };
-
-fn demand(netlist: &Netlist) -> Demand<'_> {
-    Demand {
-        network: &netlist.network,
-        cases: &[],
-        requirements: &netlist.studies.sizes[0].requirements,
-        moments: Moments::Steady(0.0),
-        doubt: None,
-        watcher: &|_| Proceed::Continue,
-    }
-}
-
-fn aim(netlist: &Netlist) -> Aim<'_> {
-    let study = &netlist.studies.sizes[0];
-    let of_results = study.objective.of_results;
-    Aim { value: &study.objective.value, goal: study.goal, of_results }
-}
 
 fn several(study: &str) -> Several {
     let text = format!(

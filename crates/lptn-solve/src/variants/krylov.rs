@@ -79,7 +79,6 @@ impl Krylov {
         longest: f64,
     ) -> Option<()> {
         self.gamma = STEP * longest;
-        self.vectors.clear();
         self.weight.clear();
         self.weight.extend(capacity.iter().map(|c| c / self.gamma));
         self.shifted.begin(plan, conductance);

@@ -3,7 +3,11 @@
 //! al., Matrix Eigensystem Routines, 1976; in the form of JAMA, which NIST put in the public
 //! domain). A library would choose its kernels by the processor, and with them the last digits.
 
+use lptn_integrate::kernels::dot_in;
 use pulp::Arch;
+
+/// Partial sums of products of short rows.
+const LANES: usize = 4;
 
 /// Rotations that an eigenvalue may take.
 const MOST_ITERATIONS: usize = 60;
@@ -119,7 +123,7 @@ impl Symmetric {
             if h != 0.0 {
                 for row in before.chunks_exact_mut(n) {
                     let row = &mut row[..i];
-                    let share = dot(row, mirror) / h;
+                    let share = dot_in::<LANES>(row, mirror) / h;
                     row.iter_mut().zip(&*mirror).for_each(|(x, u)| *x -= share * u);
                 }
             }
@@ -191,26 +195,11 @@ fn reflect(rows: &mut [f64], (n, h): (usize, f64), mirror: &[f64], q: &mut [f64]
     for (row, u) in rows.chunks_exact(n).zip(mirror) {
         q.iter_mut().zip(&row[..i]).for_each(|(p, x)| *p += x * u);
     }
-    let half = 0.5 * dot(q, mirror) / (h * h);
+    let half = 0.5 * dot_in::<LANES>(q, mirror) / (h * h);
     q.iter_mut().zip(mirror).for_each(|(p, u)| *p = *p / h - half * u);
     for ((row, u), p) in rows.chunks_exact_mut(n).zip(mirror).zip(&*q) {
         row[..i].iter_mut().zip(&*q).zip(mirror).for_each(|((x, q), v)| *x -= u * q + p * v);
     }
-}
-
-/// Sum of `x y`, in four partial sums.
-#[inline(always)]
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    const LANES: usize = 4;
-    let mut lanes = [0.0; LANES];
-    let (xs, x_tail) = x.as_chunks::<LANES>();
-    let (ys, y_tail) = y.as_chunks::<LANES>();
-    for (x, y) in xs.iter().zip(ys) {
-        for k in 0..LANES {
-            lanes[k] += x[k] * y[k];
-        }
-    }
-    lanes.iter().sum::<f64>() + x_tail.iter().zip(y_tail).map(|(x, y)| x * y).sum::<f64>()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Networks whose uncertainty has a closed form.
+//! Networks whose uncertainty has a closed form, and what sizes ask of a netlist.
 #![allow(
     dead_code,
     unreachable_pub,
@@ -9,6 +9,26 @@
 use lptn_netlist::{Netlist, parse};
 use lptn_solve::{Proceed, Transient, available_threads};
 use lptn_study::uncertainty::{Estimate, Sobol, Uncertainty, UncertaintyError, UncertaintyTask};
+use lptn_study::{Aim, Demand, Moments};
+
+/// What `[size]` of a netlist demands in steady state.
+pub fn demand(netlist: &Netlist) -> Demand<'_> {
+    Demand {
+        network: &netlist.network,
+        cases: &[],
+        requirements: &netlist.studies.sizes[0].requirements,
+        moments: Moments::Steady(0.0),
+        doubt: None,
+        watcher: &|_| Proceed::Continue,
+    }
+}
+
+/// What it seeks.
+pub fn aim(netlist: &Netlist) -> Aim<'_> {
+    let study = &netlist.studies.sizes[0];
+    let of_results = study.objective.of_results;
+    Aim { value: &study.objective.value, goal: study.goal, of_results }
+}
 
 /// 1000 J/K over `R` (0.5 K/W) towards `T_amb`, heated by `P`, for 1000 s: two time constants.
 pub const ONE_NODE: &str = "[default]\nT0 = \"T_amb\"\n[node]\nblock = { C = \"1 kJ/K\" \
