@@ -1,5 +1,5 @@
 //! How often the 95 % intervals of `fit step` hold the truth, over kinds of noise, steps of the
-//! logger and lengths: `cargo run --release -p lptn-study --example coverage 1000`.
+//! logger and lengths: `cargo run --release -p lptn-fit --example coverage 1000`.
 
 #![allow(clippy::print_stdout)]
 
@@ -26,12 +26,13 @@ fn main() {
         ..paper
     }));
     cases.push(Truth { samples: 50, spacing: 30.0, rho: 0.5, ..paper });
-    let drifts = [(0.1, 300.0), (0.3, 300.0), (0.1, 100.0), (0.1, 30.0), (0.05, 1000.0)];
+    let drifts =
+        [(0.1, 300.0), (0.3, 300.0), (0.1, 100.0), (0.1, 30.0), (0.05, 1000.0), (0.2, 1000.0)];
     cases.extend(drifts.map(|drift| Truth { drift, ..paper }));
     cases.push(Truth { tails: 3.0, ..paper });
     cases.push(Truth { samples: 30, spacing: 50.0, rho: 0.0, step: 0.0, ..paper });
     cases.push(Truth { samples: 30, spacing: 50.0, rho: 0.5, ..paper });
-    let head = "samples  L/t_RC    rho   sd [K]  step [K]  drift [K, s]   |   T_i   T_f  t_RC [%] | coarse  second [%]";
+    let head = "samples  L/t_RC    rho   sd [K]  step [K]  drift [K, s]   |   T_i   T_f  t_RC [%] | coarse  second   drift [%]";
     println!("{head}");
     for truth in cases {
         let fits = truth.fits(count);
@@ -42,7 +43,7 @@ fn main() {
         let length = truth.samples as f64 * truth.spacing / truth.curve[2];
         println!(
             "{:7} {length:7.2} {:6} {:8} {:9} {:6} {:6} | {initial:5.1} {settled:5.1} {tau:5.1}    | {:6.0} \
-             {:8.1}",
+             {:8.1} {:7.0}",
             truth.samples,
             truth.rho,
             truth.deviation,
@@ -51,6 +52,7 @@ fn main() {
             truth.drift.1,
             part(|fit| fit.coarse),
             part(|fit| fit.second.offer.is_some()),
+            part(|fit| fit.noise.drifts()),
         );
     }
 }

@@ -36,7 +36,8 @@ impl Coordinates {
         values.iter().enumerate().map(|(j, &v)| self.one(j, v)).collect()
     }
 
-    fn one(&self, j: usize, value: f64) -> f64 {
+    /// The coordinate of one value.
+    pub(crate) fn one(&self, j: usize, value: f64) -> f64 {
         if self.logarithmic[j] { value.ln() } else { value }
     }
 

@@ -153,6 +153,14 @@ impl<'a> Errors<'a> {
         Some((half, degrees))
     }
 
+    /// The rise of the sum of squares at the end of an interval of this half width: that over the
+    /// error that independent residuals of unit variance would leave, squared.
+    pub(crate) fn rise(&self, parameter: usize, half: f64) -> Option<f64> {
+        let rows = self.at_end.residuals.len();
+        let inverse = Covariance::inverse(&self.at_end.jacobian, rows, &self.free)?;
+        Some((half / inverse.standard_error(parameter)?).powi(2))
+    }
+
     fn sigma(&self, column: &ColumnNoise<'_>) -> Option<f64> {
         self.task.runs[column.block.run].columns[column.block.column].sigma
     }

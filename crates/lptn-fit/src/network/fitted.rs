@@ -6,6 +6,7 @@ use crate::Covariance;
 use crate::least_squares::{Side, Stop};
 use crate::network::hint::Hint;
 use crate::network::identify::Identifiability;
+use crate::network::profile::Profile;
 use crate::network::search::Starts;
 
 /// What came of a fit of a network.
@@ -52,6 +53,9 @@ pub struct FittedParameter {
     pub start: f64,
     /// The bound that it sits on.
     pub on_bound: Option<Side>,
+    /// Its 95 % interval where the value ± `half_width` would hold what cannot be, and that of a
+    /// parameter on a bound.
+    pub profile: Option<Profile>,
 }
 
 /// How the model misses a column.

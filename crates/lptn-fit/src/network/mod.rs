@@ -21,6 +21,7 @@ mod identify;
 mod lag;
 mod model;
 mod plan;
+mod profile;
 mod readings;
 mod search;
 mod task;
@@ -34,6 +35,7 @@ pub use hint::{FAR, Hint};
 pub use identify::Identifiability;
 pub use lptn_netlist::{Certainty, SensorValue};
 pub use lptn_network::Varied;
+pub use profile::Profile;
 pub use search::Starts;
 pub use task::{FitObserver, FitStage, Instrument, MeasuredColumn, MeasuredRun, NetworkFitTask};
 pub use undetermined::{Combination, Unseparated};
@@ -41,10 +43,13 @@ pub use unknown::{Unknown, UnknownOf};
 
 use lptn_solve::{Gradient, Proceed};
 
+use crate::Covariance;
+use crate::least_squares::LeastSquaresFit;
 use crate::network::coordinates::Coordinates;
 use crate::network::errors::Errors;
 use crate::network::identify::identify;
 use crate::network::model::{Evaluated, Model};
+use crate::network::profile::{End, misleads, profile};
 use crate::network::search::{Found, search};
 use crate::network::undetermined::Place;
 
@@ -92,13 +97,55 @@ pub fn fit_network_observed(
     }
     let errors = Errors::new(task, &model, (&at_end, &estimate.free(), identifiability.as_ref()));
     let covariance = errors.covariance();
+    let columns = errors.columns();
+    let known = identifiability.as_ref();
+    let mut parameters =
+        fitted_parameters((&errors, covariance.as_ref(), known), (&values, &own, &estimate));
+    let left_over = errors.left_over();
+    let rises = one_sided(
+        (task, &model, &at_end),
+        (&unknowns, &parameters),
+        (&errors, &estimate.free(), known),
+    );
+    let end = End {
+        coordinates: &coordinates,
+        unknowns: &unknowns,
+        parameters: &estimate.parameters,
+        values: &values,
+        squares: estimate.squares,
+    };
+    for (i, rise) in rises {
+        parameters[i].profile = Some(profile(&mut model, &end, (i, rise)));
+    }
+    if model.interrupted {
+        return Err(model.broken_off());
+    }
+    Ok(NetworkFit {
+        not_converged: outcome.err(),
+        parameters,
+        rms: rms_of(&columns),
+        columns,
+        covariance,
+        left_over,
+        identifiability,
+        starts,
+        gradient,
+        evaluations: searches + model.evaluations,
+    })
+}
+
+/// Values with their errors; `own` are those before the fit.
+fn fitted_parameters(
+    (errors, covariance, known): (&Errors<'_>, Option<&Covariance>, Option<&Identifiability>),
+    (values, own, estimate): (&[f64], &[f64], &LeastSquaresFit),
+) -> Vec<FittedParameter> {
     let standard_error = |i: usize| {
-        let determined = identifiability.as_ref().is_some_and(|known| known.determines(i));
-        if determined { covariance.as_ref()?.standard_error(i) } else { None }
+        let determined = known.is_some_and(|known| known.determines(i));
+        if determined { covariance?.standard_error(i) } else { None }
     };
     let parameter = |i: usize| {
         let standard_error = standard_error(i);
-        let interval = standard_error.and(covariance.as_ref()).and_then(|c| errors.interval(c, i));
+        let interval = standard_error.and(covariance).and_then(|c| errors.interval(c, i));
         FittedParameter {
             value: values[i],
             standard_error,
@@ -106,21 +153,43 @@ pub fn fit_network_observed(
             degrees_of_freedom: interval.map(|(_, degrees)| degrees),
             start: own[i],
             on_bound: estimate.on_bound[i],
+            profile: None,
         }
     };
-    let columns = errors.columns();
-    Ok(NetworkFit {
-        not_converged: outcome.err(),
-        parameters: (0..values.len()).map(parameter).collect(),
-        rms: rms_of(&columns),
-        columns,
-        covariance,
-        left_over: errors.left_over(),
-        identifiability,
-        starts,
-        gradient,
-        evaluations: searches + model.evaluations,
-    })
+    (0..values.len()).map(parameter).collect()
+}
+
+/// The parameters whose interval is no value ± error, with the rise of the sum of squares at its
+/// ends: those for which that would hold what cannot be, and those on a bound.
+fn one_sided(
+    (task, model, at_end): (&NetworkFitTask<'_>, &Model<'_>, &Evaluated),
+    (unknowns, parameters): (&[Unknown], &[FittedParameter]),
+    (errors, free, known): (&Errors<'_>, &[usize], Option<&Identifiability>),
+) -> Vec<(usize, f64)> {
+    if errors.left_over() == 0 {
+        return Vec::new();
+    }
+    let of_free = |i: usize| {
+        let half = parameters[i].half_width?;
+        let misleads = misleads(&unknowns[i], parameters[i].value, half);
+        if misleads { errors.rise(i, half) } else { None }
+    };
+    let on_bound = |i: usize| {
+        if unknowns[i].is_shift() || parameters[i].value <= 0.0 {
+            return None;
+        }
+        let mut with = free.to_vec();
+        with.push(i);
+        with.sort_unstable();
+        let errors = Errors::new(task, model, (at_end, &with, known));
+        let half = errors.interval(&errors.covariance()?, i)?.0;
+        errors.rise(i, half)
+    };
+    let one = |i: usize| match parameters[i].on_bound {
+        Some(_) => on_bound(i),
+        None => of_free(i),
+    };
+    (0..parameters.len()).filter_map(|i| Some((i, one(i)?))).collect()
 }
 
 /// What counts as the size of an unknown, in SI units.

@@ -8,6 +8,10 @@ use super::simplex;
 /// Samples are filtered four series at once.
 const LANES: usize = 4;
 
+/// Times of noise that may be possible, and with their logits.
+const TIMES: i32 = 24;
+const PLACES: f64 = 24.0 * 13.0;
+
 /// What noise is like, its deviation apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shape {
@@ -204,13 +208,36 @@ impl Likelihood {
     /// and for each step of the logit: before anything is measured all are equally likely, up to a
     /// time as long as the record.
     pub(crate) fn possible(&self) -> Vec<Possible> {
-        const TIMES: i32 = 24;
-        const LOGITS: i32 = 6;
-        let length = (self.times[self.times.len() - 1] - self.times[0]).max(self.spacing);
-        let (least, most) = ((0.3 * self.spacing).ln(), length.ln());
-        let place = |k: i32| least + (most - least) * f64::from(k) / f64::from(TIMES - 1);
-        let places = (0..TIMES).flat_map(|k| (-LOGITS..=LOGITS).map(move |l| (k, l)));
-        let shape = |(k, l): (i32, i32)| Shape::at([place(k), f64::from(l)], self.spacing);
+        let (least, most) = ((0.3 * self.spacing).ln(), self.length().ln());
+        let time = |k: i32| least + (most - least) * f64::from(k) / f64::from(TIMES - 1);
+        let places = (0..TIMES).flat_map(|k| (-6..=6).map(move |l| [time(k), f64::from(l)]));
+        self.mixture(places).0
+    }
+
+    /// The same, and white noise, which is `prior` times as likely beforehand as all of them
+    /// together.
+    pub(super) fn white_or_possible(&self, prior: f64) -> Vec<Possible> {
+        let white = self.at(Shape::WHITE);
+        let mut all = self.possible();
+        let Some(first) = all.first() else { return all };
+        // their mean likelihood over that of white noise; weights sum up to 1 over the whole grid
+        let own = self.at(first.shape).restricted;
+        let mean = (-0.5 * (own - white.restricted)).exp() / (first.weight * PLACES);
+        let share = prior / (prior + mean);
+        all.iter_mut().for_each(|one| one.weight *= 1.0 - share);
+        all.push(Possible { weight: share, shape: Shape::WHITE, deviation: white.deviation });
+        all
+    }
+
+    /// From the first time to the last, or the distance of two samples.
+    pub(super) fn length(&self) -> f64 {
+        (self.times[self.times.len() - 1] - self.times[0]).max(self.spacing)
+    }
+
+    /// The shapes of these places (`ln theta` and the logit), all equally likely beforehand, and
+    /// the least of their likelihoods.
+    pub(super) fn mixture(&self, places: impl Iterator<Item = [f64; 2]>) -> (Vec<Possible>, f64) {
+        let shape = |place: [f64; 2]| Shape::at(place, self.spacing);
         let all: Vec<(Shape, Value)> =
             places.map(shape).map(|shape| (shape, self.at(shape))).collect();
         let best = all.iter().map(|(_, value)| value.restricted).fold(f64::INFINITY, f64::min);
@@ -221,7 +248,7 @@ impl Likelihood {
             shape: *shape,
             deviation: value.deviation,
         });
-        possible.filter(|one| one.weight > 1e-4).collect()
+        (possible.filter(|one| one.weight > 1e-4).collect(), best)
     }
 }
 

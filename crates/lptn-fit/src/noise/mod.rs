@@ -32,6 +32,7 @@ mod middle;
 mod quantile;
 mod resolution;
 mod simplex;
+mod slow;
 pub(crate) mod stretches;
 
 pub(crate) use likelihood::orthonormal;
@@ -42,6 +43,10 @@ pub use resolution::resolution;
 
 /// So few means do not tell white noise from slow noise.
 const FEW: f64 = 100.0;
+
+/// How likely white noise is beforehand, against all correlated ones, where a curve that takes up
+/// slow noise goes through few samples.
+const WHITE_OF_FEW: f64 = 0.25;
 
 /// The random part of a record.
 #[derive(Clone, Debug, PartialEq)]
@@ -66,6 +71,12 @@ pub struct Noise {
     spacing: f64,
     /// Where one shape does not stand for what is known: all that are possible.
     possible: Vec<Possible>,
+    /// Whether those are drift as slow as the record.
+    slow: bool,
+    /// Twice the negative logarithm of the restricted likelihood, of white noise and where it is
+    /// greatest.
+    white: f64,
+    likeliest: f64,
 }
 
 /// The noise of the means of stretches.
@@ -94,6 +105,33 @@ impl Noise {
         Self::of_stretches(times, residuals, jacobian, stretches::size(times.len(), jacobian))
     }
 
+    /// As [`Noise::estimate`], for a record that stands alone: where drift as slow as the record is
+    /// as likely as none, intervals hold 95 % of the mixture of all such drifts.
+    pub fn with_drift(times: &[f64], residuals: &[f64], jacobian: &[f64]) -> Self {
+        let stretch = stretches::longest(times.len());
+        let likelihood = of_means(times, residuals, jacobian, stretch);
+        let mut noise = Self::of_likelihood(&likelihood, times.len(), residuals, stretch);
+        if likelihood.count() < FEW {
+            if noise.means.time <= 0.0 && !noise.possible.is_empty() {
+                noise.possible = likelihood.white_or_possible(WHITE_OF_FEW);
+            }
+            return noise;
+        }
+        if likelihood.has_freedom() && noise.deviation > 0.0 {
+            let likeliest = noise.likeliest.min(noise.white);
+            if let Some(slow) = likelihood.slow(noise.white, likeliest) {
+                (noise.possible, noise.slow) = (slow, true);
+                return noise;
+            }
+        }
+        Self::estimate(times, residuals, jacobian)
+    }
+
+    /// Whether drift as slow as the record is as likely as none, and is in the intervals.
+    pub fn drifts(&self) -> bool {
+        self.slow
+    }
+
     /// As [`Noise::estimate`], with stretches of `stretch` samples.
     pub(crate) fn of_stretches(
         times: &[f64],
@@ -101,12 +139,16 @@ impl Noise {
         jacobian: &[f64],
         stretch: usize,
     ) -> Self {
-        let rows = times.len();
-        let likelihood = Likelihood::new(
-            &stretches::means(times, stretch),
-            &stretches::means(residuals, stretch),
-            &stretches::means_of_columns(jacobian, rows, stretch),
-        );
+        let likelihood = of_means(times, residuals, jacobian, stretch);
+        Self::of_likelihood(&likelihood, times.len(), residuals, stretch)
+    }
+
+    fn of_likelihood(
+        likelihood: &Likelihood,
+        rows: usize,
+        residuals: &[f64],
+        stretch: usize,
+    ) -> Self {
         let squares: f64 = residuals.iter().map(|r| r * r).sum();
         let rank = likelihood.rank();
         let deviation = (squares / rows.saturating_sub(rank).max(1) as f64).sqrt();
@@ -125,19 +167,23 @@ impl Noise {
             spread: [[0.0; 2]; 2],
             spacing: likelihood.spacing(),
             possible: Vec::new(),
+            slow: false,
+            white: white.restricted,
+            likeliest: white.restricted,
         };
         if !(white.restricted.is_finite() && likelihood.has_freedom()) {
             // residuals that are all 0, or too few to say more
             noise.means.deviation = deviation / (stretch as f64).sqrt();
             return noise;
         }
-        noise.refine(&likelihood, white.restricted);
+        noise.refine(likelihood, white.restricted);
         noise
     }
 
     /// Takes correlated noise in place of white where it is more likely.
     fn refine(&mut self, likelihood: &Likelihood, white: f64) {
         let (place, best) = likelihood.maximise();
+        self.likeliest = best.restricted;
         let mut shape = Shape::WHITE;
         if best.restricted + 4.0 < white {
             shape = Shape::at(place, self.spacing);
@@ -153,7 +199,7 @@ impl Noise {
                 None => self.possible = likelihood.possible(),
             }
         } else if likelihood.count() < FEW {
-            self.possible = likelihood.possible();
+            self.possible = likelihood.white_or_possible(1.0);
         }
         let count = likelihood.count();
         let ones = vec![1.0; likelihood.times().len()];
@@ -167,4 +213,12 @@ impl Noise {
     pub fn middle(&self, times: &[f64], jacobian: &[f64]) -> Middle {
         Middle::new(self, times, jacobian)
     }
+}
+
+fn of_means(times: &[f64], residuals: &[f64], jacobian: &[f64], stretch: usize) -> Likelihood {
+    Likelihood::new(
+        &stretches::means(times, stretch),
+        &stretches::means(residuals, stretch),
+        &stretches::means_of_columns(jacobian, times.len(), stretch),
+    )
 }

@@ -16,11 +16,17 @@ const KEPT: f64 = 0.9995;
 /// the derivatives hardly change inside one.
 pub(super) fn size(rows: usize, jacobian: &[f64]) -> usize {
     let basis = orthonormal(jacobian, rows);
-    let mut size = if rows < LONG { 1 } else { rows / STRETCHES };
+    let mut size = longest(rows);
     while size > 1 && !basis.iter().all(|column| keeps(column, size)) {
         size /= 2;
     }
     size
+}
+
+/// The number of samples that leaves [`STRETCHES`]: in those the fast noise is white, so that only
+/// slow noise is left to be told.
+pub(super) fn longest(rows: usize) -> usize {
+    if rows < LONG { 1 } else { rows / STRETCHES }
 }
 
 fn keeps(column: &[f64], size: usize) -> bool {

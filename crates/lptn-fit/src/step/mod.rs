@@ -141,7 +141,7 @@ impl StepFit {
             return Err(undetermined(lack));
         }
         let (residuals, jacobian) = curve(&times, &values, [fit.initial, fit.settled, fit.tau]);
-        let noise = Noise::estimate(&times, &residuals, &jacobian);
+        let noise = Noise::with_drift(&times, &residuals, &jacobian);
         let random = Random::new(&times, &jacobian, &noise).ok_or(undetermined(Lack::Alike))?;
         let coarse = step.is_some_and(|step| step / 12_f64.sqrt() > 0.7 * fit.rms);
         let estimated = |j: usize, value: f64| {

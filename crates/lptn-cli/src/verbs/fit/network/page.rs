@@ -3,7 +3,7 @@
 use std::io;
 
 use lptn_fit::least_squares::Side;
-use lptn_fit::network::{ColumnMisfit, Combination, Unseparated};
+use lptn_fit::network::{ColumnMisfit, Combination, FittedParameter, Profile, Unseparated};
 use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Report, Rows, Text, TextTable, decimals, differing, fixed, significant,
@@ -64,6 +64,11 @@ impl Page for Answer<'_> {
             parameter(i).half_width.map_or(f64::NAN, |half| self.shown_difference(i, half))
         };
         table.column("half_width_95", "unit", |&i| half(i));
+        let end = |i: usize, of: fn(Profile) -> Option<f64>| {
+            parameter(i).profile.and_then(of).map_or(f64::NAN, |si| self.shown(i, si))
+        };
+        table.column("low_95", "unit", |&i| end(i, |profile| profile.low));
+        table.column("high_95", "unit", |&i| end(i, |profile| profile.high));
         table.column("start", "unit", |&i| self.shown(i, parameter(i).start));
         table.done().into()
     }
@@ -159,10 +164,24 @@ fn cells(answer: &Answer<'_>, i: usize) -> (String, String) {
     with_error(answer.shown(i, parameter.value), error)
 }
 
-/// Half the width of the 95 % interval.
+/// Half the width of the 95 % interval; the interval where that is not even.
 fn half_width(answer: &Answer<'_>, i: usize) -> String {
+    if let Some(profile) = answer.fit.parameters[i].profile {
+        return one_sided(answer, i, profile);
+    }
     let half = answer.fit.parameters[i].half_width;
     half.map_or_else(String::new, |half| significant(answer.shown_difference(i, half), 2))
+}
+
+/// "below 900", "above 3", "2.1 to 9".
+fn one_sided(answer: &Answer<'_>, i: usize, profile: Profile) -> String {
+    let shown = |si: f64| significant(answer.shown(i, si), 3);
+    match (profile.low, profile.high) {
+        (Some(low), Some(high)) => format!("{} to {}", shown(low), shown(high)),
+        (None, Some(high)) => format!("below {}", shown(high)),
+        (Some(low), None) => format!("above {}", shown(low)),
+        (None, None) => "open".to_owned(),
+    }
 }
 
 /// What became of it, where that is worth a word.
@@ -306,7 +325,7 @@ fn parameter(answer: &Answer<'_>, i: usize) -> Value {
         "value": fitted.value,
         "unit": unit,
         "standard_error": fitted.standard_error,
-        "interval_95": fitted.half_width.map(|half| [fitted.value - half, fitted.value + half]),
+        "interval_95": interval(fitted),
         "degrees_of_freedom": fitted.degrees_of_freedom.filter(|degrees| degrees.is_finite()),
         "start": fitted.start,
         "from": finite(varied.bounds.0),
@@ -314,6 +333,12 @@ fn parameter(answer: &Answer<'_>, i: usize) -> Value {
         "prior": varied.prior,
         "on_bound": side,
     })
+}
+
+/// The two ends in SI units; `null` for one that the records leave open.
+fn interval(fitted: &FittedParameter) -> Option<[Option<f64>; 2]> {
+    let even = fitted.half_width.map(|half| [fitted.value - half, fitted.value + half].map(Some));
+    fitted.profile.map(|profile| [profile.low, profile.high]).or(even)
 }
 
 fn columns(answer: &Answer<'_>) -> Value {

@@ -39,6 +39,10 @@ pub(crate) fn of(request: &Request, column: &Column<'_>) -> Vec<Diagnostic> {
             records with a step of five deviations of slow noise";
         warnings.push(at(Diagnostic::warning("fit::coarse", message)).help(help));
     }
+    // where the noise that is seen is slow itself, its own interval is hardly wider
+    if fit.noise.drifts() && fit.tau.half_width > WIDE * fit.tau.standard_error {
+        warnings.push(at(drifting(name, fit)));
+    }
     let drift = column.power.drift;
     if drift.abs() > 0.05 * column.power.rise.value.abs() {
         let message = format!(
@@ -51,6 +55,21 @@ pub(crate) fn of(request: &Request, column: &Column<'_>) -> Vec<Diagnostic> {
         warnings.push(at(Diagnostic::warning("fit::drift", message)).help(help));
     }
     warnings
+}
+
+/// An interval of more standard errors to each side is worth a word: many samples have two.
+const WIDE: f64 = 2.5;
+
+/// That a drift as slow as the record is in the intervals.
+fn drifting(name: &str, fit: &StepFit) -> Diagnostic {
+    let message = format!(
+        "column `{name}`: a drift as slow as the record is as likely as none: the 95 % \
+         interval of t_RC counts it, and is {} standard errors wide to each side",
+        significant(fit.tau.half_width / fit.tau.standard_error, 2)
+    );
+    let help = "one exponential takes such a drift up, and the record cannot tell it; a sensor \
+        beside it whose temperature stays, or a second record, can";
+    Diagnostic::warning("fit::slow_drift", message).help(help)
 }
 
 /// That the end of the curve is not in the record.

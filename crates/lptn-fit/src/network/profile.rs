@@ -1,0 +1,165 @@
+//! Intervals of parameters that the records bound on one side only.
+//!
+//! A standard error is a slope at the minimum. Where a positive parameter is known to no better
+//! than its own size the sum of squares is no parabola over the interval, and value ± error holds
+//! numbers that cannot be. Here the parameter is held, the others are fitted again, and the
+//! interval ends where the sum of squares S has risen by `q^2` of its own curvature at the minimum
+//!
+//! ```text
+//! S(p) - S_min = (q error)^2 / [(J^T J)^-1]_pp
+//! ```
+//!
+//! (profile likelihood: D. M. Bates, D. G. Watts, Nonlinear Regression Analysis and Its
+//! Applications, Wiley 1988, section 6.1). `error` is the standard error with the correlation of
+//! the residuals in it and `q` the quantile of Student's t, so that for a linear model the interval
+//! is value ± q error exactly.
+
+use crate::least_squares::{Evaluated, LeastSquaresError, Residuals, Settings, minimise};
+use crate::network::coordinates::Coordinates;
+use crate::network::model::Model;
+use crate::network::unknown::Unknown;
+
+/// Logarithm of the factor by which a value is followed.
+const FAR: f64 = 12.0;
+
+/// How near the sum of squares comes to what it shall be, in parts of its rise.
+const NEAR: f64 = 1e-4;
+
+/// The ends of a 95 % interval, in SI units; `None` where the records, and the bounds, leave it
+/// open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Profile {
+    /// The least value that the records leave possible.
+    pub low: Option<f64>,
+    /// The greatest.
+    pub high: Option<f64>,
+}
+
+/// Whether value ± half holds what cannot be: numbers beyond a bound, or below 0 of a positive
+/// parameter.
+pub(crate) fn misleads(unknown: &Unknown, value: f64, half: f64) -> bool {
+    let least = unknown.bounds.0.max(0.0);
+    !unknown.is_shift()
+        && value > 0.0
+        && (value - half <= least || value + half >= unknown.bounds.1)
+}
+
+/// Where the search ended, in its coordinates.
+pub(crate) struct End<'e> {
+    pub(crate) coordinates: &'e Coordinates,
+    pub(crate) unknowns: &'e [Unknown],
+    pub(crate) parameters: &'e [f64],
+    pub(crate) values: &'e [f64],
+    pub(crate) squares: f64,
+}
+
+/// The interval of one parameter, within which the sum of squares rises by `rise`.
+pub(crate) fn profile(
+    model: &mut Model<'_>,
+    end: &End<'_>,
+    (place, rise): (usize, f64),
+) -> Profile {
+    let mut side = |sign: f64| Walk::new(model, end, (place, rise)).end(sign);
+    Profile { low: side(-1.0), high: side(1.0) }
+}
+
+/// One way from the minimum along a parameter.
+struct Walk<'w, 'a, 'e> {
+    model: &'w mut Model<'a>,
+    end: &'w End<'e>,
+    place: usize,
+    rise: f64,
+    /// Where the others stood last.
+    others: Vec<f64>,
+}
+
+impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
+    fn new(model: &'w mut Model<'a>, end: &'w End<'e>, (place, rise): (usize, f64)) -> Self {
+        let mut others = end.parameters.to_vec();
+        others.remove(place);
+        Self { model, end, place, rise, others }
+    }
+
+    /// The value at which the sum of squares has risen, in steps that double and then by false
+    /// position (the Illinois rule). `None` where a bound or [`FAR`] comes first, or no run.
+    fn end(mut self, sign: f64) -> Option<f64> {
+        let value = self.end.values[self.place];
+        let (low, high) = self.end.unknowns[self.place].bounds;
+        let bound = if sign < 0.0 { low } else { high };
+        let most = if bound > 0.0 { (bound / value).ln().abs().min(FAR) } else { FAR };
+        let mut inside = (0.0, -1.0);
+        let mut step: f64 = 0.125;
+        let mut outside = loop {
+            let at = (inside.0 + step).min(most);
+            let excess = self.excess(value * (sign * at).exp())?;
+            if excess > 0.0 {
+                break (at, excess);
+            }
+            if at >= most {
+                return None;
+            }
+            (inside, step) = ((at, excess), 2.0 * step);
+        };
+        for _ in 0..40 {
+            let at = (inside.0 * outside.1 - outside.0 * inside.1) / (outside.1 - inside.1);
+            let excess = self.excess(value * (sign * at).exp())?;
+            if excess.abs() < NEAR || outside.0 - inside.0 < 1e-9 {
+                return Some(value * (sign * at).exp());
+            }
+            if excess > 0.0 {
+                outside = (at, excess);
+                inside.1 *= 0.5;
+            } else {
+                inside = (at, excess);
+                outside.1 *= 0.5;
+            }
+        }
+        Some(value * (sign * outside.0).exp())
+    }
+
+    /// By how much the sum of squares has risen beyond `rise`, in units of it, with the parameter
+    /// held.
+    fn excess(&mut self, value: f64) -> Option<f64> {
+        let mut bounds = self.end.coordinates.bounds();
+        bounds.remove(self.place);
+        let settings =
+            Settings { bounds, gradient: 1e-6, step: 1e-9, iterations: 100, ..Settings::default() };
+        let at = self.end.coordinates.one(self.place, value);
+        let mut held = Held { model: &mut *self.model, place: self.place, at };
+        let squares = if self.others.is_empty() {
+            held.evaluate(&[], false).ok()?.0.iter().map(|r| r * r).sum()
+        } else {
+            let found = minimise(&mut held, &self.others, &settings).ok()?;
+            self.others = found.parameters;
+            found.squares
+        };
+        let excess = (squares - self.end.squares) / self.rise - 1.0;
+        excess.is_finite().then_some(excess)
+    }
+}
+
+/// The same residuals with one parameter held.
+struct Held<'h, 'a> {
+    model: &'h mut Model<'a>,
+    place: usize,
+    /// Its coordinate.
+    at: f64,
+}
+
+impl Residuals for Held<'_, '_> {
+    fn parameters(&self) -> usize {
+        self.model.parameters() - 1
+    }
+
+    fn evaluate(&mut self, p: &[f64], derivatives: bool) -> Evaluated {
+        let mut all = p.to_vec();
+        all.insert(self.place, self.at);
+        let (residuals, mut jacobian): (_, Vec<f64>) =
+            Residuals::evaluate(self.model, &all, derivatives)?;
+        if jacobian.len() < residuals.len() * all.len() {
+            return Err(LeastSquaresError::Interrupted);
+        }
+        jacobian.drain(self.place * residuals.len()..(self.place + 1) * residuals.len());
+        Ok((residuals, jacobian))
+    }
+}

@@ -1,0 +1,35 @@
+//! Drift as slow as the record.
+
+use super::likelihood::{Likelihood, Possible};
+
+/// Times of slow drift, in lengths of the record. Below the first a record tells drift from its
+/// curve; beyond the last drift is a straight line with an offset.
+const TIMES: [f64; 2] = [0.3, 5.0];
+const PLACES: i32 = 12;
+
+/// Logits of the drift's part of the variance: from where it is felt beside white noise.
+const LOGITS: std::ops::RangeInclusive<i32> = 0..=9;
+
+/// How far the likelihood of slow drift may lie behind that of white noise, doubled as all of them:
+/// nearly as likely is likely enough.
+const BEHIND_WHITE: f64 = 0.15;
+
+/// How far the likelihood of slow drift may lie behind that of the likeliest noise.
+const BEHIND: f64 = 4.0;
+
+impl Likelihood {
+    /// All shapes of drift as slow as the record, where that is as likely as white noise and
+    /// not refuted by a faster drift: these are twice the negative logarithms of the likelihoods of
+    /// `white` noise and of the `likeliest`.
+    ///
+    /// A fit takes up most of such drift, so what is left of it is small even where the error that
+    /// it makes is several times that of the noise. A test for it finds half of them at 5 % of
+    /// false alarms; so no test is made: drift counts where it is no less likely than none.
+    pub(super) fn slow(&self, white: f64, likeliest: f64) -> Option<Vec<Possible>> {
+        let [least, most] = TIMES.map(|part| (part * self.length()).ln());
+        let time = |k: i32| least + (most - least) * f64::from(k) / f64::from(PLACES - 1);
+        let places = (0..PLACES).flat_map(|k| LOGITS.map(move |l| [time(k), f64::from(l)]));
+        let (possible, best) = self.mixture(places);
+        (best < white + BEHIND_WHITE && best < likeliest + BEHIND).then_some(possible)
+    }
+}
