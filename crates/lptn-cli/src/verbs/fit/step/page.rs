@@ -338,6 +338,7 @@ fn column(column: &Column<'_>, request: &Request) -> Value {
         "gaps": fit.gaps,
         "effective_samples": fit.noise.effective,
         "resolution": fit.resolution.map(kelvin),
+        "slow_drift": fit.noise.drifts(),
         "time_constants": fit.time_constants(),
         "extrapolated": fit.extrapolates().then(|| kelvin(fit.beyond)),
         "second_exponential": fit.second.offer.as_ref().map(|of| two(of, unit)),
