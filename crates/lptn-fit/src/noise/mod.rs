@@ -31,7 +31,6 @@ mod likelihood;
 mod middle;
 mod quantile;
 mod resolution;
-mod simplex;
 mod slow;
 pub(crate) mod stretches;
 

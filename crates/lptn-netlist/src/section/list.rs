@@ -25,6 +25,7 @@ use crate::format::{NetlistFormat, SectionDeclaration};
 use crate::foster::FOSTER;
 use crate::gearbox::GEARBOX;
 use crate::import::IMPORT;
+use crate::infer::InferStudy;
 use crate::parameters::PARAM;
 use crate::raw::{RawNetlist, RawValue};
 use crate::run::RUN;
@@ -91,6 +92,8 @@ studies! {
     sensors: Sensor,
     /// What to find from records, in file order.
     fits: FitStudy,
+    /// Courses to infer from records, in file order.
+    infers: InferStudy,
     /// Over what to sweep, in file order.
     sweeps: SweepStudy,
 }
