@@ -57,6 +57,8 @@ pub(crate) fn ranking(network: &Network, found: &Uncertainty) -> Table {
     column("share", &|part| Some(part.share.value));
     if matches!(found.method, UncertaintyMethod::Sobol { .. }) {
         column("share_error", &|part| part.share.error);
+    }
+    if matches!(found.method, UncertaintyMethod::Sobol { .. }) && !found.inputs.are_correlated() {
         column("total", &|part| part.total.map(|total| total.value));
         column("total_error", &|part| part.total?.error);
     }
@@ -115,10 +117,25 @@ pub(crate) fn parameters((network, unit): (&Network, &Unit), found: &Uncertainty
     let one = |(i, input): (usize, &lptn_study::uncertainty::Uncertain)| {
         let ty = network.parameters()[input.parameter.index()].ty;
         let sd = scale::scalar(input.deviation, Type::of(ty.dimension), unit);
-        let member = json!({ "value": scale::scalar(input.value, ty, unit), "sd": sd });
+        let member = json!({
+            "value": scale::scalar(input.value, ty, unit),
+            "sd": sd,
+            "distribution": input.distribution.word(),
+        });
         (parameter(network, found, i), member)
     };
     Value::Object(found.inputs.iter().enumerate().map(one).collect())
+}
+
+/// The correlations of each parameter with every other.
+fn correlation(network: &Network, found: &Uncertainty) -> Value {
+    let all = 0..found.inputs.len();
+    let between = |i: usize, j: usize| json!(found.inputs.correlations().between(i, j));
+    let row = |i: usize| -> Map<String, Value> {
+        all.clone().map(|j| (parameter(network, found, j), between(i, j))).collect()
+    };
+    let rows = all.clone().map(|i| (parameter(network, found, i), Value::Object(row(i))));
+    Value::Object(rows.collect())
 }
 
 /// The member `uncertainty` of the results: method, parameters, and by the name of the column or
@@ -127,6 +144,9 @@ pub(crate) fn json(network: &Network, study: &Study, unit: &Unit) -> Value {
     let found = &study.found;
     let mut members = method(found);
     members.insert("parameters".into(), parameters((network, unit), found));
+    if found.inputs.are_correlated() {
+        members.insert("correlation".into(), correlation(network, found));
+    }
     let mut results = Map::new();
     for answer in &found.answers {
         let (name, part) = place(network, answer.of);
