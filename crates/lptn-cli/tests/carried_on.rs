@@ -86,7 +86,9 @@ fn the_table_says_what_is_correlated_and_files_are_the_same_on_any_threads() {
     for name in ["uncertainty.csv", "ranking.csv"] {
         assert_eq!(folder.read(&format!("one/{name}")), folder.read(&format!("three/{name}")));
     }
-    assert!(folder.read("one/manifest.json").contains("posterior.json"));
+    let manifest: Value = serde_json::from_str(&folder.read("one/manifest.json")).unwrap();
+    assert_eq!(manifest["inputs"][2]["name"], "res/posterior.json");
+    assert!(number(&manifest["uncertainty"]["correlation"]["P"]["R"]) < -0.5, "{manifest}");
 }
 
 /// The netlist names the file itself; a fit does not read it.

@@ -26,6 +26,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Folder;
+use crate::files::names::POSTERIOR;
 use crate::input::{Input, Studies, quoted};
 use crate::interrupt::Interrupt;
 use crate::options::Source;
@@ -87,6 +88,11 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
     if let Some(folder) = &folder {
         let path = folder.path().join(&files[0]);
         console.note(&format!("wrote  {}, {}", path.display(), files[1..].join(", ")));
+        if files.iter().any(|file| file == POSTERIOR) && input.netlist.run.is_some() {
+            let file = quoted(&args.file.display().to_string());
+            let posterior = quoted(&folder.path().join(POSTERIOR).display().to_string());
+            console.next(&format!("lptn run {file} --posterior {posterior} --uncertainty linear"));
+        }
     }
     match (args.write, exit) {
         (true, Exit::Done) => {

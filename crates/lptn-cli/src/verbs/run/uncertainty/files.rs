@@ -83,7 +83,7 @@ fn type_of(network: &Network, of: AnswerOf) -> Type {
 }
 
 /// What was done: method, samples, seed, runs without a result.
-pub(crate) fn method(found: &Uncertainty) -> Map<String, Value> {
+fn method(found: &Uncertainty) -> Map<String, Value> {
     let mut members = Map::new();
     let count = |n: usize| json!({ "value": n, "unit": "1" });
     match &found.method {
@@ -112,8 +112,18 @@ fn one_lost(lost: &Lost) -> Value {
     })
 }
 
+/// What was done, and what was known of the parameters.
+pub(crate) fn given((network, unit): (&Network, &Unit), found: &Uncertainty) -> Map<String, Value> {
+    let mut members = method(found);
+    members.insert("parameters".into(), parameters((network, unit), found));
+    if found.inputs.are_correlated() {
+        members.insert("correlation".into(), correlation(network, found));
+    }
+    members
+}
+
 /// The parameters with `±` by name, in SI units but for temperatures.
-pub(crate) fn parameters((network, unit): (&Network, &Unit), found: &Uncertainty) -> Value {
+fn parameters((network, unit): (&Network, &Unit), found: &Uncertainty) -> Value {
     let one = |(i, input): (usize, &lptn_study::uncertainty::Uncertain)| {
         let ty = network.parameters()[input.parameter.index()].ty;
         let sd = scale::scalar(input.deviation, Type::of(ty.dimension), unit);
@@ -142,11 +152,7 @@ fn correlation(network: &Network, found: &Uncertainty) -> Value {
 /// limit what was found.
 pub(crate) fn json(network: &Network, study: &Study, unit: &Unit) -> Value {
     let found = &study.found;
-    let mut members = method(found);
-    members.insert("parameters".into(), parameters((network, unit), found));
-    if found.inputs.are_correlated() {
-        members.insert("correlation".into(), correlation(network, found));
-    }
+    let mut members = given((network, unit), found);
     let mut results = Map::new();
     for answer in &found.answers {
         let (name, part) = place(network, answer.of);
