@@ -35,7 +35,9 @@ fn every_section_and_key_says_what_it_is() {
 fn a_key_that_is_misspelt_is_refused_with_what_there_is() {
     let element = |section: &SectionDeclaration, key: &str| match section.role {
         Role::Default | Role::Import => format!("format = 1\n[{}]\n{key} = 1\n", section.name),
-        _ if section.name == "run" => format!("format = 1\n[run]\n{key} = 1\n"),
+        _ if ["run", "uncertainty"].contains(&section.name) => {
+            format!("format = 1\n[{}]\n{key} = 1\n", section.name)
+        }
         _ => format!("format = 1\n[{}.a]\n{key} = 1\n", section.name),
     };
     let sections =

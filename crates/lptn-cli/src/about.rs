@@ -168,8 +168,9 @@ fn parameters(input: &Input, sensitivities: Option<&Sensitivities>) -> Option<Se
         let unit = input.unit_of(*id);
         let text = unit.text.as_str();
         let text = if of(id).ty.absolute { difference(&unit) } else { text };
-        deviation.map_or(String::new(), |si| {
-            format!("{}{}", significant(si / unit.scale, 3), spaced(text))
+        deviation.map_or(String::new(), |spread| {
+            let sigma = significant(spread.sigma / unit.scale, 3);
+            format!("{sigma}{}{}", spaced(text), spread.suffix())
         })
     };
     let mut table = TextTable::of(&ids)

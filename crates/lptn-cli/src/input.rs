@@ -12,6 +12,7 @@ use lptn_network::{InputError, Item, ParameterId};
 use lptn_report::{Json, Text, plain};
 use lptn_units::{Dimension, Problem, Quantity, Type, Unit, UnitError, parse_quantity};
 
+use crate::belief::Belief;
 use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
@@ -138,8 +139,14 @@ fn no_case(netlist: &Netlist, text: &Given, name: &str) -> Failure {
 impl Input {
     /// Reads the netlist, or says everything that is wrong with it.
     pub(crate) fn load(source: &Source) -> Result<Self, Failure> {
+        Self::load_from(source, &Belief::Named)
+    }
+
+    /// The same with values that a fit found: the load case and `--set` go before them.
+    pub(crate) fn load_from(source: &Source, belief: &Belief<'_>) -> Result<Self, Failure> {
         let mut text = read(&source.file)?;
         let mut netlist = parse(&text)?;
+        belief.take(&mut netlist)?;
         let set = apply(&mut netlist, &text, source)?;
         if let Some(case) = &source.case {
             // beside the results of the others

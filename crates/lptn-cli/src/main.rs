@@ -8,6 +8,7 @@
 mod about;
 mod args;
 mod balance;
+mod belief;
 mod command;
 mod completion;
 mod console;

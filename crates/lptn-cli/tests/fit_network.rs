@@ -294,8 +294,10 @@ fn what_is_wrong_with_the_question() {
 fn residuals_are_written_beside_the_answer() {
     let folder = folder(OWN, "vary = [\"P\", \"C\"]");
     let asked = ["fit", "network", "body.toml", "-o", "found", "--format", "json"];
-    let run =
-        folder.run(&asked).exits(0).says("wrote  found/residuals.csv, fit.json, manifest.json");
+    let run = folder
+        .run(&asked)
+        .exits(0)
+        .says("wrote  found/residuals.csv, fit.json, posterior.json, manifest.json");
     assert_eq!(folder.read("found/fit.json"), run.out);
     let text = folder.read("found/residuals.csv");
     let mut lines = text.lines();
@@ -320,5 +322,5 @@ fn residuals_are_written_beside_the_answer() {
         .map(|i| i["name"].as_str().unwrap())
         .collect();
     assert_eq!(inputs, ["body.toml", "record.csv"]);
-    assert_eq!(manifest["results"].as_array().unwrap().len(), 2);
+    assert_eq!(manifest["results"].as_array().unwrap().len(), 3);
 }

@@ -193,6 +193,14 @@ impl Netlist {
         problem.also(self.source_map.parameter(id), "its value in the netlist")
     }
 
+    /// The network with other parameters, and what it runs.
+    pub(crate) fn evaluated(
+        &self,
+        new: &Parameters,
+    ) -> Result<(Network, Option<RunSettings>), Vec<Diagnostic>> {
+        self.evaluate(new, &[])
+    }
+
     fn evaluate(
         &self,
         new: &Parameters,

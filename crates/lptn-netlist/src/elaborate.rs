@@ -21,6 +21,7 @@ use crate::scales::Scales;
 use crate::section::{self, Studies};
 use crate::source_map::SourceMap;
 use crate::template::Structure;
+use crate::uncertainty::UncertaintyPlan;
 use crate::work::{Elaboration, LeftOut};
 
 /// What a netlist means.
@@ -28,6 +29,7 @@ pub(crate) struct Elaborated {
     pub(crate) network: Network,
     pub(crate) run: Option<RunPlan>,
     pub(crate) studies: Studies,
+    pub(crate) uncertainty: UncertaintyPlan,
     pub(crate) map: SourceMap,
     pub(crate) temperature_unit: Unit,
     pub(crate) structure: Arc<Structure>,
@@ -98,13 +100,14 @@ pub(crate) fn elaborate(
     work.limits();
     let run = work.run();
     let studies = Studies::read(&mut work);
-    work.finish((run, studies), default)
+    let uncertainty = work.uncertainty();
+    work.finish((run, studies, uncertainty), default)
 }
 
 impl<'a> Elaboration<'a> {
     fn finish(
         mut self,
-        (run, studies): (Option<RunPlan>, Studies),
+        (run, studies, uncertainty): (Option<RunPlan>, Studies, UncertaintyPlan),
         default: section::Default<'_>,
     ) -> (Option<Elaborated>, Found) {
         let substances = self.unused_substances();
@@ -143,6 +146,7 @@ impl<'a> Elaboration<'a> {
             network,
             run,
             studies,
+            uncertainty,
             map,
             temperature_unit,
             structure,

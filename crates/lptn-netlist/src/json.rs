@@ -64,6 +64,12 @@ impl<'a> JsonValue<'a> {
         )
     }
 
+    /// Its items, if it is a list.
+    pub(crate) fn items(self) -> Option<Vec<JsonValue<'a>>> {
+        let items: Vec<&'a RawValue> = serde_json::from_str(self.raw.get()).ok()?;
+        Some(items.into_iter().map(|raw| JsonValue { raw, json: self.json }).collect())
+    }
+
     /// Its number, read to the last digit.
     pub(crate) fn number(self) -> Option<f64> {
         let text = self.raw.get();

@@ -30,6 +30,7 @@
 
 mod adrift;
 mod assign;
+mod believe;
 mod case;
 mod csv_files;
 mod describe;
@@ -62,6 +63,7 @@ mod parameters;
 mod place;
 mod plausible;
 mod points;
+mod posterior;
 mod raw;
 mod reading;
 mod result_names;
@@ -83,11 +85,13 @@ mod syntax_error;
 mod template;
 mod toml_1_1;
 mod toml_text;
+mod uncertainty;
 mod value;
 mod value_help;
 mod work;
 mod write_back;
 
+pub use believe::Taken;
 pub use case::CaseStudy;
 pub use expand::{Derived, WrittenError, prove};
 pub use fit::{FitInitial, FitPlan, FitRecord, FitSignal, FitStudy, Observed, VariedName};
@@ -104,6 +108,7 @@ pub use lptn_data::{
 pub use lptn_network::{RunSettings, WindowSettings};
 pub use near_file::similar_file;
 pub use netlist::{Netlist, parse, parse_bytes, parse_file, parse_raw, parse_with, read};
+pub use posterior::{Believed, Posterior, PosteriorOf, PosteriorPrior, PosteriorQuantity};
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 pub use run_times::RunTime;
 pub use section::{Studies, format};

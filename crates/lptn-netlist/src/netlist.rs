@@ -22,6 +22,7 @@ use crate::import;
 use crate::include::{self, Loader, Merged};
 use crate::initial::{self, InitialState, StateFile};
 use crate::plausible;
+use crate::posterior::Believed;
 use crate::raw::RawNetlist;
 use crate::run::{RUN, RunPlan};
 use crate::section::{self, Studies};
@@ -30,6 +31,7 @@ use crate::streams;
 use crate::syntax;
 use crate::syntax_error::NOT_CLOSED;
 use crate::template::{self, Expanded, Structure};
+use crate::uncertainty::{self, UncertaintyPlan};
 
 /// A network as a netlist describes it, with the way back to the text.
 #[derive(Clone, Debug)]
@@ -54,6 +56,10 @@ pub struct Netlist {
     pub(crate) plan: Option<RunPlan>,
     /// The state that runs start from.
     pub(crate) initial: Option<InitialState>,
+    /// What is known of parameters together.
+    pub(crate) uncertainty: UncertaintyPlan,
+    /// What a fit found.
+    pub(crate) believed: Option<Believed>,
     /// Everything that was set so far.
     pub(crate) assigned: Parameters,
     pub(crate) inputs: Vec<FileId>,
@@ -245,6 +251,7 @@ fn included(
     let state =
         initial.map(|named| StateFile::read(&mut files, &named.value, loader.as_deref_mut()));
     let long = import::files(&raw).chain(Studies::files(&raw));
+    let posterior = uncertainty::load(&mut files, &raw, loader.as_deref_mut());
     let csv = CsvFiles::read(&mut files, (&raw, section::format()), long, loader);
     let (done, mut found) = elaborate(&raw, (&structure, &gears), &csv, state.as_ref());
     if include::any_error(&diagnostics) {
@@ -255,27 +262,40 @@ fn included(
     arrange(&files, &mut diagnostics);
     match done {
         Some(done) => {
-            let made = (done, (gears.list, chains), state.map(|file| file.state));
+            let initial = state.map(|file| file.state);
+            let made = Made { done, gearboxes: gears.list, chains, initial, posterior };
             finish(files, made, diagnostics)
         }
         None => Err(Rejected { syntax, ..Rejected::arranged(files, diagnostics, found.dropped) }),
     }
 }
 
+/// Everything that a text and the files it names came to.
+struct Made {
+    done: Elaborated,
+    gearboxes: Vec<Gearbox>,
+    chains: Vec<Chain>,
+    initial: Option<InitialState>,
+    posterior: uncertainty::Found,
+}
+
 fn finish(
     files: Files,
-    (done, (gearboxes, chains), initial): (
-        Elaborated,
-        (Vec<Gearbox>, Vec<Chain>),
-        Option<InitialState>,
-    ),
+    Made { done, gearboxes, chains, initial, posterior }: Made,
     mut diagnostics: Vec<Diagnostic>,
 ) -> Result<Netlist, Rejected> {
-    let Elaborated { network, run: plan, studies, map, temperature_unit, structure } = done;
+    let Elaborated { network, run: plan, studies, uncertainty, map, temperature_unit, structure } =
+        done;
     let run = plan.as_ref().map(|plan| plan.settings(&network)).transpose();
     let mut problems = studies.check(&network);
     problems.extend(gearbox::check(&gearboxes, &network));
     problems.extend(foster::check(&chains, &network, &map));
+    let mut assigned = network.overrides();
+    let believed = uncertainty::known(&uncertainty, &network, posterior, &mut assigned);
+    let believed = believed.unwrap_or_else(|more| {
+        problems.extend(more);
+        None
+    });
     let run = run.unwrap_or_else(|more| {
         problems.extend(more);
         None
@@ -285,7 +305,6 @@ fn finish(
         diagnostics.retain(|d| d.severity == Severity::Error);
         return Err(Rejected::arranged(files, diagnostics, 0));
     }
-    let assigned = network.overrides();
     let inputs = files.ids().collect();
     let mut netlist = Netlist {
         network,
@@ -298,6 +317,8 @@ fn finish(
         temperature_unit,
         plan,
         initial,
+        uncertainty,
+        believed,
         assigned,
         inputs,
         structure,

@@ -5,7 +5,7 @@
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::Network;
-use lptn_units::{Dimension, Quantity, Type, parse_quantity};
+use lptn_units::{Dimension, Quantity, Spread, Type, parse_quantity};
 
 use crate::fields::Fields;
 use crate::format::{Role, SectionDeclaration, key};
@@ -240,14 +240,15 @@ impl<'a> Elaboration<'a> {
             self.refuse(code, message, &raw.span, help);
             return None;
         }
-        let certainty = quantity.deviation.map_or(Certainty::Exact, Certainty::Deviation);
+        let sigma = quantity.deviation.map(|spread| spread.sigma);
+        let certainty = sigma.map_or(Certainty::Exact, Certainty::Deviation);
         Some(Some(SensorValue { value: quantity.value, certainty }))
     }
 }
 
 /// Why a quantity cannot be this value of a sensor: code, what is wrong, and help.
 fn unsound(key: &str, quantity: &Quantity) -> Option<(&'static str, &'static str, &'static str)> {
-    let (value, deviation) = (quantity.value, quantity.deviation);
+    let (value, deviation) = (quantity.value, quantity.deviation.map(|spread| spread.sigma));
     match (key, deviation) {
         ("resolution", Some(_)) => Some((
             "netlist::sensor_prior",
@@ -274,7 +275,8 @@ fn percent_of(text: &str) -> Option<Quantity> {
     let quantity = parse_quantity(text.strip_suffix('%')?, Some(Type::SCALAR)).ok()?;
     let near_one = (0.5..2.0).contains(&quantity.value);
     let deviation = quantity.deviation.filter(|_| near_one)?;
-    Some(Quantity { deviation: Some(quantity.value * deviation / 100.0), ..quantity })
+    let sigma = quantity.value * deviation.sigma / 100.0;
+    Some(Quantity { deviation: Some(Spread { sigma, ..deviation }), ..quantity })
 }
 
 fn as_written(raw: &RawValue) -> String {

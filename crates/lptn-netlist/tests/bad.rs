@@ -32,6 +32,7 @@ fn parse(path: &Path) -> Result<Netlist, Rejected> {
                 "data = ",
                 "file = ",
                 "initial = ",
+                "posterior = ",
                 "[import]",
                 ".inc\"",
             ]

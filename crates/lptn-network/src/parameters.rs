@@ -3,26 +3,48 @@
 use std::sync::Arc;
 
 use lptn_units::{
-    Expression, Quantity, Scope, Symbol, Type, UnitError, kelvin_alone, parse_quantity,
+    Correlations, Expression, Quantity, Scope, Spread, Symbol, Type, UnitError, kelvin_alone,
+    parse_quantity,
 };
 
 use crate::id::ParameterId;
 use crate::names::UnknownName;
 use crate::parts::Parts;
 
-/// New values for some parameters of one network; the others keep theirs.
+/// That two parameters are off together.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Correlation {
+    between: [ParameterId; 2],
+    value: f64,
+}
+
+impl Correlation {
+    /// Whether it is of this parameter.
+    fn is_of(&self, id: ParameterId) -> bool {
+        self.between.contains(&id)
+    }
+}
+
+/// New values for some parameters of one network, and how well they are known; the others keep
+/// theirs.
 #[derive(Clone, Debug)]
 pub struct Parameters {
     parts: Arc<Parts>,
     values: Vec<Option<f64>>,
-    /// One standard deviation in SI units, where the text that set a value gave one.
-    deviations: Vec<Option<f64>>,
+    /// How far a value may be off, where that was given with it.
+    deviations: Vec<Option<Spread>>,
+    correlations: Vec<Correlation>,
 }
 
 impl Parameters {
     pub(crate) fn new(parts: Arc<Parts>) -> Self {
         let count = parts.parameters.len();
-        Self { parts, values: vec![None; count], deviations: vec![None; count] }
+        Self {
+            parts,
+            values: vec![None; count],
+            deviations: vec![None; count],
+            correlations: Vec::new(),
+        }
     }
 
     pub(crate) fn belong_to(&self, parts: &Arc<Parts>) -> bool {
@@ -47,9 +69,47 @@ impl Parameters {
         Ok(self)
     }
 
-    /// One standard deviation in SI units of a parameter that was set by a text with `±`.
-    pub fn deviation(&self, id: ParameterId) -> Option<f64> {
+    /// How far a parameter may be off, where that was given: by a text with `±`, or by
+    /// [`Parameters::set_deviation`].
+    pub fn deviation(&self, id: ParameterId) -> Option<Spread> {
         self.deviations[id.index()]
+    }
+
+    /// Says how far a parameter may be off. What was known of it together with others is forgotten.
+    pub fn set_deviation(&mut self, id: ParameterId, deviation: Spread) {
+        self.deviations[id.index()] = Some(deviation);
+        self.correlations.retain(|correlation| !correlation.is_of(id));
+    }
+
+    /// Says how far two parameters are off together: their correlation, more than -1 and less than
+    /// 1, of a lognormal one that of its logarithm.
+    pub fn correlate(&mut self, between: [ParameterId; 2], value: f64) {
+        let [a, b] = between;
+        self.correlations.retain(|correlation| !(correlation.is_of(a) && correlation.is_of(b)));
+        self.correlations.push(Correlation { between, value });
+    }
+
+    /// The parameters that are not certain, in the order of the network: how far each may be off
+    /// was given here, or follows from its own `±`.
+    pub fn uncertain(&self) -> Vec<(ParameterId, Spread)> {
+        let all = self.parts.parameters.iter().zip(&self.deviations).zip(0..);
+        let found = all.filter_map(|((own, given), i)| {
+            let spread = given.or(own.deviation).filter(|spread| spread.sigma > 0.0)?;
+            Some((ParameterId(i), spread))
+        });
+        found.collect()
+    }
+
+    /// What is known of these parameters together.
+    pub fn correlations_of(&self, ids: &[ParameterId]) -> Correlations {
+        let mut all = Correlations::none(ids.len());
+        for Correlation { between: [a, b], value } in &self.correlations {
+            let place = |id: &ParameterId| ids.iter().position(|other| other == id);
+            if let (Some(i), Some(j)) = (place(a), place(b)) {
+                all.set(i, j, *value);
+            }
+        }
+        all
     }
 
     /// Sets a parameter by name to a written quantity, such as `"5000 rpm"`, whose unit is checked
@@ -72,7 +132,9 @@ impl Parameters {
             error: Box::new(error),
         })?;
         self.set(id, quantity.value);
-        self.deviations[id.index()] = quantity.deviation.or(self.deviations[id.index()]);
+        if let Some(deviation) = quantity.deviation {
+            self.set_deviation(id, deviation);
+        }
         Ok(id)
     }
 }

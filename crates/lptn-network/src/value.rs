@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lptn_units::{EvalError, Program, Quantity, Scalar, Taylor, Type};
+use lptn_units::{EvalError, Program, Quantity, Scalar, Spread, Taylor, Type};
 
 use crate::id::{Field, MaterialId};
 use crate::slot;
@@ -76,7 +76,7 @@ impl Value {
 pub struct Input {
     pub(crate) value: Value,
     pub(crate) ty: Type,
-    pub(crate) deviation: Option<f64>,
+    pub(crate) deviation: Option<Spread>,
     pub(crate) lump: Option<Lump>,
 }
 

@@ -108,7 +108,8 @@ fn step(network: &Network, id: ParameterId) -> f64 {
         return CHANGE_IN_KELVIN;
     }
     let size = network.parameter_value(id).abs();
-    let size = if size > 0.0 { size } else { parameter.deviation.unwrap_or(1.0) };
+    let size =
+        if size > 0.0 { size } else { parameter.deviation.map_or(1.0, |spread| spread.sigma) };
     CHANGE * size
 }
 

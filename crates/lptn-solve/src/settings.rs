@@ -228,6 +228,6 @@ fn scale(network: &Network, id: ParameterId) -> f64 {
         true => USUAL_CHANGE,
         false => network.parameter_value(id).abs(),
     };
-    let usual = [size, parameter.deviation.unwrap_or(0.0)];
+    let usual = [size, parameter.deviation.map_or(0.0, |spread| spread.sigma)];
     usual.into_iter().find(|scale| scale.is_finite() && *scale > 0.0).unwrap_or(1.0)
 }

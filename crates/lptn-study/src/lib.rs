@@ -24,8 +24,8 @@ pub mod sweep;
 pub mod uncertainty;
 
 pub use compare::{
-    Candidate, CompareError, CompareRow, HeatOut, HeatOver, LimitResult, PathShare, Peak, Settled,
-    Share, SortKey, compare_table, order,
+    Above, Candidate, CompareError, CompareRow, HeatOut, HeatOver, LimitResult, PathShare, Peak,
+    Scatter, Settled, Share, SortKey, compare_table, order,
 };
 pub use digest::{Hashing, sha256};
 pub use gears::{GearError, GearPoint, GearState, GearTask, MemberState, PartLoss};

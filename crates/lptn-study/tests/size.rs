@@ -4,6 +4,7 @@
 
 use lptn_netlist::{Netlist, parse};
 use lptn_solve::Proceed;
+use lptn_study::uncertainty::{Inputs, uncertain};
 use lptn_study::{
     Coolant, CoolingTask, Demand, Doubt, Moments, SizeError, SizeTask, Sizing, TrialError, Verdict,
     judge, size,
@@ -36,14 +37,14 @@ fn one_node(resistor: &str, power: &str, study: &str) -> Netlist {
 
 fn demand(netlist: &Netlist) -> Demand<'_> {
     let probability = netlist.studies.sizes[0].probability(&netlist.network).unwrap();
-    let all = netlist.network.parameter_ids().zip(netlist.network.parameters());
-    let deviations = all.filter_map(|(id, p)| Some((id, p.deviation?))).collect::<Vec<_>>().leak();
+    let inputs = uncertain(&netlist.network, &netlist.overrides()).ok();
+    let inputs: Option<&Inputs> = inputs.map(|inputs| &*Box::leak(Box::new(inputs)));
     Demand {
         network: &netlist.network,
         cases: &[],
         requirements: &netlist.studies.sizes[0].requirements,
         moments: Moments::Steady(0.0),
-        doubt: probability.map(|probability| Doubt { probability, deviations }),
+        doubt: probability.map(|probability| Doubt { probability, inputs }),
         watcher: &|_| Proceed::Continue,
     }
 }

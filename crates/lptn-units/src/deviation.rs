@@ -86,7 +86,7 @@ pub(crate) fn trailing(text: &str, at: usize) -> Result<Deviation, UnitError> {
 }
 
 impl Reading<'_> {
-    /// One standard deviation in SI units, for this value in SI units.
+    /// The number behind `±` in SI units, for this value in SI units.
     pub(crate) fn deviation_in_si(&self, value: f64, ty: Type) -> Result<Option<f64>, UnitError> {
         let Some(deviation) = &self.deviation else { return Ok(None) };
         if let Some(kind) = self.doubt(deviation, ty) {

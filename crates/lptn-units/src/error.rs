@@ -8,6 +8,7 @@ use crate::error_words::{
 };
 use crate::errors;
 use crate::format::rounded;
+use crate::spread::Distribution;
 use crate::types::Type;
 
 /// A mistake in a quantity, a unit or an expression, with its place in the text.
@@ -98,6 +99,26 @@ pub enum UnitErrorKind {
     NegativeDeviation { text: String } = "units::negative_deviation",
         format!("negative standard deviation `{text}`"),
         help "the standard deviation after ± is zero or positive";
+    /// A distribution that there is not, or not by this word; the one that is meant.
+    UnknownDistribution { word: String, meant: Option<Distribution> } = "units::distribution",
+        format!("there is no distribution `{word}`"),
+        help match meant {
+            Some(Distribution::Normal) => {
+                "leave it out: a deviation is normal unless it says otherwise".to_owned()
+            }
+            Some(meant) => format!("write `({})`", meant.word()),
+            None => "there are `(rectangle)`, between two limits, `(lognormal)`, a factor, and \
+                `(normal)`, which need not be written"
+                .to_owned(),
+        };
+    /// A distribution behind a value without a deviation.
+    DistributionAlone { word: &'static str } = "units::distribution",
+        format!("`({word})` says how a deviation is distributed, and there is no `±`"),
+        help "write how far the value may be off before it: \"20 W ± 5 % (rectangle)\"";
+    /// A lognormal value that is not more than zero, or an absolute temperature.
+    Lognormal = "units::lognormal",
+        "only a value more than zero that is no temperature can be lognormal",
+        help "leave `(lognormal)` out, or write a factor of its own: \"1 ± 0.2 (lognormal)\"";
     /// `25 ± 5 % degC`: a percentage of an absolute temperature.
     RelativeDeviation { fix: Option<String> } = "units::relative_deviation",
         "percentage of an absolute temperature", help fix.as_deref().map(write);

@@ -21,9 +21,11 @@
 //! ```
 
 mod bracket;
+mod correlations;
 mod declare_errors;
 mod deviation;
 mod dimension;
+mod distribution;
 mod dual;
 mod error;
 mod error_words;
@@ -38,6 +40,7 @@ mod rational;
 mod repair;
 mod scalar;
 mod separators;
+mod spread;
 pub mod statistics;
 mod suggest;
 pub mod table;
@@ -48,6 +51,7 @@ mod unit_parser;
 mod unit_table;
 mod value;
 
+pub use correlations::Correlations;
 pub use declare_errors::Help;
 pub use dimension::Dimension;
 pub use dual::Dual;
@@ -61,6 +65,7 @@ pub use problems::{Class, Problem, Problems};
 pub use quantity::{Quantity, WrittenQuantity, kelvin_alone, parse_quantity, written_quantity};
 pub use rational::Rational;
 pub use scalar::Scalar;
+pub use spread::{Distribution, Spread};
 pub use suggest::suggest;
 pub use table::{
     DoubleLog, Interpolation, LookupTable, Outside, PowerLaw, Table1, Table2, TableError,

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::deviation::{self, Deviation};
 use crate::dimension::Dimension;
+use crate::distribution::{self, Named};
 use crate::error::{UnitError, UnitErrorKind};
 use crate::format::{number, rounded};
 use crate::kinship::{
@@ -11,6 +12,7 @@ use crate::kinship::{
 };
 use crate::number::{self, Number};
 use crate::separators;
+use crate::spread::{Distribution, Spread};
 use crate::types::Type;
 use crate::unit::{self, Unit};
 use crate::unit_parser::ParsedUnit;
@@ -20,10 +22,17 @@ use crate::unit_parser::ParsedUnit;
 pub struct Quantity {
     /// The value in SI units; an absolute temperature in K.
     pub value: f64,
-    /// One standard deviation in SI units, if the text gives one; zero or positive.
-    pub deviation: Option<f64>,
+    /// How far it may be off, if the text says so.
+    pub deviation: Option<Spread>,
     /// Its dimension, and whether it is an absolute temperature.
     pub ty: Type,
+}
+
+impl Quantity {
+    /// One standard deviation in SI units; 0 of a value that is certain.
+    pub fn sigma(&self) -> f64 {
+        self.deviation.map_or(0.0, |spread| spread.sigma)
+    }
 }
 
 /// Reads a quantity: `0.3 K/W`, `87 ± 15 uW/rpm^(5/3)`, `20 W +- 5 %`, `25.5 degC`, `0.7`.
@@ -32,7 +41,8 @@ pub struct Quantity {
 /// or have exactly one radian more (see [`Type::conforms_to`]). `300 K` is an absolute temperature
 /// only where one is expected. The deviation stands after the number (`25 ± 0.5 degC`) or, with a
 /// unit of its own, at the end (`25 degC ± 0.5 K`); behind a unit `± 5 %` is relative to the value.
-/// `50 ± 5 %` is `0.5 ± 0.05`, as for every other unit.
+/// `50 ± 5 %` is `0.5 ± 0.05`, as for every other unit. Last may stand how it is distributed,
+/// `0 ± 3 K (rectangle)`; see [`Distribution`](crate::Distribution).
 ///
 /// # Errors
 ///
@@ -79,34 +89,42 @@ pub(crate) struct Reading<'a> {
     pub(crate) number: Number,
     pub(crate) deviation: Option<Deviation>,
     pub(crate) unit: Option<(ParsedUnit, Range<usize>)>,
+    /// How the deviation is distributed, where that is said.
+    pub(crate) distribution: Option<Named>,
 }
 
 /// Reads the text without a look at the type.
 pub(crate) fn read(text: &str) -> Result<Reading<'_>, UnitError> {
     let start = text.len() - text.trim_start().len();
-    let end = text.trim_end().len();
+    let distribution = distribution::named(text)?;
+    let end = distribution.as_ref().map_or(text.len(), |named| named.span.start);
+    let body = text.get(..end).unwrap_or_default();
+    let end = body.trim_end().len();
     if start >= end {
         return Err(UnitError::new(UnitErrorKind::Empty, 0..text.len()));
     }
     let Some(number) = number::scan(text, start, true)? else {
         return Err(no_number(text, start..end));
     };
+    let bare = |number| Reading { text, number, deviation: None, unit: None, distribution };
     if number.span.end == end {
-        return Ok(Reading { text, number, deviation: None, unit: None });
+        let reading = bare(number);
+        reading.check_deviation()?;
+        return Ok(reading);
     }
     separators::check(text, &number)?;
     separators::check_fraction(text, &number)?;
     let after_number = number.span.end;
-    let (mut deviation, unit_start) = deviation::leading(text, after_number)?;
+    let (mut deviation, unit_start) = deviation::leading(body, after_number)?;
     let mut unit_end = end;
     if deviation.is_none()
-        && let Some(at) = deviation::plus_minus(text, unit_start)
+        && let Some(at) = deviation::plus_minus(body, unit_start)
     {
         unit_end = at.start;
-        deviation = Some(deviation::trailing(text, at.end)?);
+        deviation = Some(deviation::trailing(body, at.end)?);
     }
     let unit = unit_at(text, unit_start..unit_end)?;
-    let reading = Reading { text, number, deviation, unit };
+    let reading = Reading { deviation, unit, ..bare(number) };
     reading.check_deviation()?;
     Ok(reading)
 }
@@ -172,8 +190,27 @@ impl Reading<'_> {
                 let text = self.text.get(span.clone()).unwrap_or_default().to_owned();
                 Err(UnitError::new(UnitErrorKind::NegativeDeviation { text }, span))
             }
-            _ => Ok(()),
+            None => match &self.distribution {
+                Some(named) => Err(self.alone(named)),
+                None => Ok(()),
+            },
+            Some(_) => Ok(()),
         }
+    }
+
+    /// A distribution without a deviation.
+    fn alone(&self, named: &Named) -> UnitError {
+        let word = named.distribution.word();
+        UnitError::new(UnitErrorKind::DistributionAlone { word }, named.span.clone())
+    }
+
+    /// How the value is distributed; only what is more than zero can be so by its logarithm.
+    fn distribution(&self, value: f64, ty: Type) -> Result<Distribution, UnitError> {
+        let Some(named) = &self.distribution else { return Ok(Distribution::Normal) };
+        if named.distribution == Distribution::Lognormal && (ty.absolute || value <= 0.0) {
+            return Err(UnitError::new(UnitErrorKind::Lognormal, named.span.clone()));
+        }
+        Ok(named.distribution)
     }
 
     /// The unit names, as written.
@@ -210,8 +247,10 @@ impl Reading<'_> {
         if ty.absolute {
             value = above_absolute_zero(value, self.number.span.clone())?;
         }
-        let deviation = self.deviation_in_si(value, ty)?;
-        Ok(Quantity { value, deviation, ty })
+        let sigma = self.deviation_in_si(value, ty)?;
+        let distribution = self.distribution(value, ty)?;
+        let spread = |size: f64| Spread { sigma: size / distribution.written(), distribution };
+        Ok(Quantity { value, deviation: sigma.map(spread), ty })
     }
 
     pub(crate) fn scale(&self) -> f64 {
@@ -249,7 +288,7 @@ impl Reading<'_> {
 
     /// Number and deviation as written, without the unit.
     fn amount_text(&self) -> &str {
-        let end = self.unit.as_ref().map_or(self.text.len(), |(_, span)| span.start);
+        let end = self.unit.as_ref().map_or(self.body_end(), |(_, span)| span.start);
         self.text.get(..end).unwrap_or_default().trim().trim_end_matches('*').trim_end()
     }
 
@@ -257,9 +296,15 @@ impl Reading<'_> {
         skip_space(self.text, 0)..self.text.trim_end().len()
     }
 
-    /// What stands behind the unit: a deviation with a unit of its own.
+    /// Where the text ends, but for its distribution and the space before it.
+    fn body_end(&self) -> usize {
+        let end = self.distribution.as_ref().map_or(self.text.len(), |named| named.span.start);
+        self.text.get(..end).unwrap_or_default().trim_end().len()
+    }
+
+    /// What stands behind the unit: a deviation with a unit of its own, its distribution.
     fn tail(&self) -> &str {
-        let end = self.unit.as_ref().map_or(self.text.len(), |(_, span)| span.end);
+        let end = self.unit.as_ref().map_or(self.body_end(), |(_, span)| span.end);
         self.text.get(end..).unwrap_or_default().trim_end()
     }
 
@@ -268,7 +313,10 @@ impl Reading<'_> {
         let kind = if let Some(fix) = self.percent_of_bare_number(wanted) {
             UnitErrorKind::BareNumber { wanted, fix }
         } else if self.unit.is_none() {
-            UnitErrorKind::BareNumber { wanted, fix: format!("{amount} {}", wanted.usual_unit()) }
+            UnitErrorKind::BareNumber {
+                wanted,
+                fix: format!("{amount} {}{tail}", wanted.usual_unit()),
+            }
         } else if wanted.absolute && found.dimension == Dimension::TEMPERATURE {
             UnitErrorKind::AbsoluteWanted { fix: format!("{amount} degC{tail}") }
         } else if found.absolute && wanted.dimension == Dimension::TEMPERATURE {

@@ -27,7 +27,9 @@ impl Scope for NoNames {
 /// helps.
 fn read(text: &str, ty: Type) -> Result<(f64, Option<f64>), Option<String>> {
     match parse_value(text, Some(ty), &|_| false).map_err(|error| error.help())? {
-        Written::Quantity(quantity) => Ok((quantity.value, quantity.deviation)),
+        Written::Quantity(quantity) => {
+            Ok((quantity.value, quantity.deviation.map(|spread| spread.sigma)))
+        }
         Written::Expression(expression) => of_expression(&expression, ty),
     }
 }

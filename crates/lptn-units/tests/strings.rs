@@ -164,7 +164,7 @@ fn deviations() {
     for (text, value, deviation) in table {
         let quantity = parse_quantity(text, None).unwrap_or_else(|e| panic!("{text}: {e}"));
         assert!(close(quantity.value, value), "{text}");
-        assert!(close(quantity.deviation.unwrap(), deviation), "{text}");
+        assert!(close(quantity.deviation.unwrap().sigma, deviation), "{text}");
     }
 }
 
@@ -181,7 +181,7 @@ fn percent_is_a_unit_like_any_other_before_a_deviation_too() {
     for (text, value, deviation) in table {
         let quantity = parse_quantity(text, None).unwrap_or_else(|e| panic!("{text}: {e}"));
         assert!(close(quantity.value, value), "{text}");
-        assert!(close(quantity.deviation.unwrap(), deviation), "{text}");
+        assert!(close(quantity.deviation.unwrap().sigma, deviation), "{text}");
     }
     let code = "units::percent_deviation";
     for text in ["0.8 ± 5 %", "80 % ± 5 %", "20 +- 5 % W", "1.2 ± 5 % mK/W", "0 ± 1 %", "3 ± 10 %"]

@@ -14,6 +14,7 @@ pub(crate) const RESIDUALS: &str = "residuals.csv";
 pub(crate) const FIT: &str = "fit.json";
 pub(crate) const INFERRED: &str = "inferred.csv";
 pub(crate) const INFER: &str = "infer.json";
+pub(crate) const POSTERIOR: &str = "posterior.json";
 pub(crate) const SWEEP: &str = "sweep.csv";
 pub(crate) const PARQUET: &str = "sweep.parquet";
 pub(crate) const MANIFEST: &str = "manifest.json";
@@ -28,7 +29,7 @@ pub(super) const COMMIT: &str = ".commit.json";
 /// The file whose lock says that somebody writes here.
 pub(super) const LOCK: &str = ".lptn.lock";
 
-const RESULTS: [&str; 18] = [
+const RESULTS: [&str; 19] = [
     RESULT,
     STATE,
     EVENTS,
@@ -43,6 +44,7 @@ const RESULTS: [&str; 18] = [
     FIT,
     INFERRED,
     INFER,
+    POSTERIOR,
     SWEEP,
     PARQUET,
     BEGUN,

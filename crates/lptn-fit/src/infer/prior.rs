@@ -79,11 +79,21 @@ impl Begins {
             }
             mean[i] = self.own[i] - start[i];
         }
-        for (k, change) in self.by_parameter.iter().enumerate() {
+        // correlated parameters are sums of others that are not; where they cannot be, as if alone
+        let uncertain = states.uncertain;
+        let factor = task.together.factor().unwrap_or_else(|_| identity(uncertain));
+        for column in 0..uncertain {
+            let share = |k: usize| factor[k * uncertain + column];
             let known = (0..states.bodies).filter(|i| !self.unknown[*i]);
-            let mut entries: Vec<(usize, f64)> = known.map(|i| (i, change[i])).collect();
-            entries.push((states.parameter(k), 1.0));
+            let of = |i: usize| {
+                let changes = self.by_parameter.iter().enumerate();
+                changes.map(|(k, change)| share(k) * change[i]).sum()
+            };
+            let mut entries: Vec<(usize, f64)> = known.map(|i| (i, of(i))).collect();
+            entries.extend((0..uncertain).map(|k| (states.parameter(k), share(k))));
             root(&entries);
+        }
+        for k in 0..uncertain {
             let deviation = task.uncertain[k].1;
             mean[states.parameter(k)] = (own.parameters[k] - reference.parameters[k]) / deviation;
         }
@@ -109,4 +119,8 @@ impl Begins {
         }
         Gaussian { mean, covariance }
     }
+}
+
+fn identity(count: usize) -> Vec<f64> {
+    (0..count * count).map(|at| if at / count == at % count { 1.0 } else { 0.0 }).collect()
 }

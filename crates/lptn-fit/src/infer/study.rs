@@ -1,14 +1,15 @@
 //! From an `[infer.NAME]` of a netlist to a task.
 
 use lptn_netlist::{InferStart, InferStudy, Netlist, SoughtSignal};
-use lptn_network::{Network, ParameterId};
+use lptn_network::ParameterId;
 
 use crate::infer::error::InferError;
 use crate::infer::task::{InferTask, Sought, Start};
 use crate::network::NetworkFitTask;
 
 impl<'a> InferTask<'a> {
-    /// The task of a study. Every parameter with a `±` is uncertain.
+    /// The task of a study. Every parameter with a `±`, its own or that of a posterior, is
+    /// uncertain, with its correlations.
     ///
     /// # Errors
     /// [`InferError`] for a column that does not measure a temperature of a node or a mean of some,
@@ -33,22 +34,11 @@ impl<'a> InferTask<'a> {
             InferStart::Free => Start::Free,
         };
         let run = read.runs.swap_remove(0);
-        Ok(Self {
-            network,
-            run,
-            sensors: read.sensors,
-            sought,
-            uncertain: uncertain(network),
-            start,
-        })
+        let believed = netlist.overrides();
+        let uncertain: Vec<(ParameterId, f64)> =
+            believed.uncertain().into_iter().map(|(id, spread)| (id, spread.sigma)).collect();
+        let ids: Vec<ParameterId> = uncertain.iter().map(|(id, _)| *id).collect();
+        let together = believed.correlations_of(&ids);
+        Ok(Self { network, run, sensors: read.sensors, sought, uncertain, together, start })
     }
-}
-
-/// The parameters with a `±`.
-fn uncertain(network: &Network) -> Vec<(ParameterId, f64)> {
-    let all = network.parameter_ids().filter_map(|id| {
-        let deviation = network.parameters()[id.index()].deviation?;
-        (deviation > 0.0).then_some((id, deviation))
-    });
-    all.collect()
 }

@@ -1,6 +1,7 @@
 //! What is to be inferred from what.
 
 use lptn_network::{Network, ParameterId, SignalId};
+use lptn_units::Correlations;
 
 use crate::network::{Instrument, MeasuredRun};
 
@@ -18,6 +19,8 @@ pub struct InferTask<'a> {
     /// Parameters that are not known exactly, with their standard deviations in SI units. The
     /// record tells of them too.
     pub uncertain: Vec<(ParameterId, f64)>,
+    /// What is known of them together.
+    pub together: Correlations,
     /// What is known of the start.
     pub start: Start,
 }

@@ -18,6 +18,11 @@ impl Coordinates {
         Self { logarithmic, bounds }
     }
 
+    /// Whether the search moves in the logarithm of this one.
+    pub(crate) fn is_logarithmic(&self, j: usize) -> bool {
+        self.logarithmic[j]
+    }
+
     /// Values in SI units, and their derivatives by the coordinates.
     pub(crate) fn values(&self, p: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let value = |(j, &p): (usize, &f64)| {

@@ -21,6 +21,7 @@ mod identify;
 mod lag;
 mod model;
 mod plan;
+mod posterior;
 mod profile;
 mod readings;
 mod search;

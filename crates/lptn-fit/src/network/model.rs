@@ -11,7 +11,7 @@ use crate::network::coordinates::Coordinates;
 use crate::network::error::NetworkFitError;
 use crate::network::readings::{Measure, Reader, Rows};
 use crate::network::task::{FitObserver, FitStage, MeasuredRun, NetworkFitTask};
-use crate::network::unknown::Unknown;
+use crate::network::unknown::{Prior, Unknown};
 
 /// The residuals of one column of one record.
 #[derive(Clone, Debug)]
@@ -153,23 +153,24 @@ impl<'a> Model<'a> {
         let mut residuals: Vec<f64> = Vec::with_capacity(data + priors.len());
         runs.iter().for_each(|run| residuals.extend_from_slice(&run.residuals));
         let modelled = runs.iter().flat_map(|run| &run.modelled).copied().collect();
-        residuals.extend(priors.iter().map(|&(i, known, sigma)| (values[i] - known) / sigma));
+        residuals.extend(priors.iter().map(|prior| prior.residual(values[prior.place]).0));
         let mut jacobian = Vec::with_capacity(residuals.len() * count);
-        for j in 0..count {
+        for (j, &value) in values.iter().enumerate() {
             for run in runs {
                 let rows = run.residuals.len();
                 jacobian.extend_from_slice(&run.jacobian[j * rows..(j + 1) * rows]);
             }
-            jacobian
-                .extend(priors.iter().map(|&(i, _, sigma)| if i == j { 1.0 / sigma } else { 0.0 }));
+            let slope = |prior: &Prior| {
+                if prior.place == j { prior.residual(value).1 } else { 0.0 }
+            };
+            jacobian.extend(priors.iter().map(slope));
         }
         Evaluated { values: values.to_vec(), modelled, residuals, jacobian }
     }
 
-    /// Place, value and standard deviation of what is known beforehand.
-    fn priors(&self) -> Vec<(usize, f64, f64)> {
-        let known = |(i, unknown): (usize, &Unknown)| Some((i, unknown.own, unknown.prior?));
-        self.unknowns.iter().enumerate().filter_map(known).collect()
+    /// What is known beforehand.
+    fn priors(&self) -> Vec<Prior> {
+        self.unknowns.iter().enumerate().filter_map(Prior::of).collect()
     }
 
     /// One record's run.

@@ -2,7 +2,7 @@
 
 use lptn_netlist::Certainty;
 use lptn_network::ParameterId;
-use lptn_units::{Dimension, Type};
+use lptn_units::{Dimension, Distribution, Type};
 
 use crate::network::task::{Instrument, NetworkFitTask};
 
@@ -43,6 +43,8 @@ pub struct Unknown {
     pub bounds: (f64, f64),
     /// Standard deviation of what is known beforehand.
     pub prior: Option<f64>,
+    /// How that is distributed: a rectangle counts as normal with its standard deviation.
+    pub distribution: Distribution,
     /// Its type.
     pub ty: Type,
 }
@@ -80,6 +82,38 @@ impl Unknown {
     }
 }
 
+/// What is known of an unknown beforehand: one more measurement.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Prior {
+    /// Which unknown.
+    pub(crate) place: usize,
+    known: f64,
+    sigma: f64,
+    distribution: Distribution,
+}
+
+impl Prior {
+    /// Of those that have one.
+    pub(crate) fn of((place, unknown): (usize, &Unknown)) -> Option<Self> {
+        let distribution = unknown.distribution;
+        Some(Self { place, known: unknown.own, sigma: unknown.prior?, distribution })
+    }
+
+    /// By how many deviations a value is off, and the derivative of that by the value; of a
+    /// lognormal one in its logarithm.
+    pub(crate) fn residual(&self, value: f64) -> (f64, f64) {
+        match self.distribution {
+            Distribution::Normal | Distribution::Rectangle => {
+                ((value - self.known) / self.sigma, 1.0 / self.sigma)
+            }
+            Distribution::Lognormal => {
+                let sigma = self.sigma / self.known;
+                ((value / self.known).ln() / sigma, 1.0 / (value * sigma))
+            }
+        }
+    }
+}
+
 impl NetworkFitTask<'_> {
     /// What the fit finds: the varied parameters, then what is not known of the sensors that its
     /// columns name, sensor by sensor.
@@ -92,6 +126,7 @@ impl NetworkFitTask<'_> {
                 own: self.network.parameter_value(varied.parameter),
                 bounds: varied.bounds,
                 prior: varied.prior,
+                distribution: parameter.deviation.map_or_else(Default::default, |d| d.distribution),
                 ty: parameter.ty,
             }
         };
@@ -131,6 +166,7 @@ impl NetworkFitTask<'_> {
                 Certainty::Deviation(deviation) => Some(deviation),
                 Certainty::Exact | Certainty::Free => None,
             },
+            distribution: Distribution::Normal,
             ty,
         };
         sought.map(unknown).collect()

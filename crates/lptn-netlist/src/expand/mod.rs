@@ -112,6 +112,7 @@ impl Netlist {
         }
         writer.elements();
         writer.run();
+        writer.uncertainty();
         writer.studies();
         writer.text
     }

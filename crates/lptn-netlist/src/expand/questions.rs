@@ -4,6 +4,7 @@ use super::Writer;
 use crate::run::{OutputPlan, RUN};
 use crate::setting::Setting;
 use crate::toml_text::{TomlFields, quantity, strings};
+use crate::uncertainty::UNCERTAINTY;
 use lptn_network::{IntegratorChoice, OutputTimes, RunSettings};
 use lptn_units::{Dimension, Type};
 
@@ -74,6 +75,13 @@ impl Writer<'_> {
             fields.word("integrator", run.integrator.word());
         }
         self.section(RUN.name, &fields);
+    }
+
+    /// What is known of parameters together.
+    pub(super) fn uncertainty(&mut self) {
+        let path = |place: &lptn_data::Span, path: &str| self.path(place.file, path);
+        let fields = self.origin.uncertainty.fields(&path);
+        self.section(UNCERTAINTY.name, &fields);
     }
 
     /// The studies.

@@ -7,7 +7,8 @@ use lptn_network::{
     AfterEnd, Course, Evaluation, Item, Parameter, ParameterId, Signal, Value, ZERO_CELSIUS,
 };
 use lptn_units::{
-    Dimension, Interpolation, LookupTable, Outside, Table1, TableSymbol, Type, format_number,
+    Dimension, Interpolation, LookupTable, Outside, Spread, Table1, TableSymbol, Type,
+    format_number,
 };
 
 use super::Writer;
@@ -17,6 +18,12 @@ use crate::toml_text::{
 };
 
 const TIME: Type = Type::of(Dimension::TIME);
+
+/// What stands behind `±`, and behind the unit.
+fn behind(spread: Spread) -> (String, String) {
+    let written = format_number(spread.sigma * spread.distribution.written());
+    (written, spread.suffix())
+}
 
 impl Writer<'_> {
     pub(super) fn parameters(&mut self) {
@@ -45,15 +52,17 @@ impl Writer<'_> {
         match (parameter.deviation, parameter.ty.absolute) {
             (None, true) => point(number),
             (None, false) => quantity(number, parameter.ty),
-            (Some(deviation), true) => {
-                format!("\"{} ± {} degC\"", celsius(number), format_number(deviation))
+            (Some(spread), true) => {
+                let (behind, suffix) = behind(spread);
+                format!("\"{} ± {behind} degC{suffix}\"", celsius(number))
             }
-            (Some(deviation), false) => {
+            (Some(spread), false) => {
+                let (behind, suffix) = behind(spread);
                 let unit = match parameter.ty.is_scalar() {
                     true => String::new(),
                     false => format!(" {}", parameter.ty.dimension.si_unit()),
                 };
-                format!("\"{} ± {}{unit}\"", format_number(number), format_number(deviation))
+                format!("\"{} ± {behind}{unit}{suffix}\"", format_number(number))
             }
         }
     }

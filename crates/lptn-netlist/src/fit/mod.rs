@@ -206,7 +206,7 @@ impl FitStudy {
             let from = entry.from.as_ref().map_or(Ok(f64::NEG_INFINITY), &mut at)?;
             let to = entry.to.as_ref().map_or(Ok(f64::INFINITY), &mut at)?;
             let deviation = network.parameters()[parameter.index()].deviation;
-            let prior = deviation.filter(|deviation| *deviation > 0.0);
+            let prior = deviation.map(|spread| spread.sigma).filter(|sigma| *sigma > 0.0);
             varied.push(Varied { parameter, bounds: (from, to), prior });
         }
         let sigmas: Result<_, _> = self

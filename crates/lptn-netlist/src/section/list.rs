@@ -35,6 +35,7 @@ use crate::study::{PathFrom, Study};
 use crate::sweep::SweepStudy;
 use crate::template::{TEMPLATE, USE};
 use crate::toml_text::TomlFields;
+use crate::uncertainty::UNCERTAINTY;
 use crate::work::Elaboration;
 
 /// The sections before and behind those of paths and sources, in the order in which they are named to people.
@@ -42,8 +43,8 @@ static BEFORE: [&SectionDeclaration; 13] = [
     &PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &LUBRICANT, &FAN, &NODE, &GRID,
     &CAPACITOR, &BOUNDARY, &FOSTER,
 ];
-static BEHIND: [&SectionDeclaration; 7] =
-    [&GEARBOX, &CONTROL, &IMPORT, &LIMIT, &TEMPLATE, &USE, &RUN];
+static BEHIND: [&SectionDeclaration; 8] =
+    [&GEARBOX, &CONTROL, &IMPORT, &LIMIT, &TEMPLATE, &USE, &RUN, &UNCERTAINTY];
 
 /// The studies that there are: where a netlist keeps those of a section, and the type of one.
 macro_rules! studies {

@@ -18,7 +18,10 @@ pub(crate) fn seen(network: &Network) -> Vec<(String, Vec<f64>)> {
     }
     for id in network.parameter_ids() {
         let parameter = &network.parameters()[id.index()];
-        let numbers = vec![network.parameter_value(id), parameter.deviation.unwrap_or(0.0)];
+        let numbers = vec![
+            network.parameter_value(id),
+            parameter.deviation.map_or(0.0, |spread| spread.sigma),
+        ];
         seen.push((format!("parameter {} {}", parameter.name, parameter.ty), numbers));
     }
     let count = network.nodes().len() + network.boundaries().len();

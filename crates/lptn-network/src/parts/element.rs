@@ -5,7 +5,7 @@ use std::ops::Deref;
 use std::sync::Arc;
 
 use lptn_laws::{Formula, Kind};
-use lptn_units::Type;
+use lptn_units::{Spread, Type};
 
 use crate::id::{End, NodeId};
 use crate::law::Law;
@@ -21,8 +21,8 @@ pub struct Parameter {
     pub ty: Type,
     /// A constant, or an expression over parameters that were added before it.
     pub value: Value,
-    /// One standard deviation in SI units, where `±` gave one.
-    pub deviation: Option<f64>,
+    /// How far it may be off, where `±` says so.
+    pub deviation: Option<Spread>,
 }
 
 /// A lump with one temperature that is solved for.

@@ -10,6 +10,7 @@ use lptn_solve::{
     RunStatus, SteadyState, Summary, Transient,
 };
 
+use crate::compare::doubt::Scatter;
 use crate::compare::error::CompareError;
 use crate::compare::heat::{self, HeatOut, HeatOver};
 use crate::compare::limits::{self, LimitResult};
@@ -44,6 +45,8 @@ pub struct Candidate {
     pub out_of_range: Vec<OutOfRange>,
     /// Its steady state, where there are others or they cannot be excluded.
     pub several: Option<SteadyState>,
+    /// What the `±` of parameters do to it, where that was asked for: see [`Scatter::of_run`].
+    pub scatter: Option<Scatter>,
 }
 
 impl Candidate {
@@ -137,6 +140,7 @@ impl Candidate {
             beyond: Beyond::of_steady(network, &steady),
             out_of_range: OutOfRange::of_steady(network, &steady).unwrap_or_default(),
             several: Some(steady).filter(is_doubtful),
+            scatter: None,
         })
     }
 
@@ -156,6 +160,7 @@ impl Candidate {
             beyond: Beyond::of_run(&solution),
             out_of_range: solution.out_of_range().to_vec(),
             several: None,
+            scatter: None,
         }
     }
 
@@ -190,6 +195,7 @@ impl Candidate {
             beyond: Beyond::of_run(&solution),
             out_of_range: solution.out_of_range().to_vec(),
             several: steady.filter(is_doubtful),
+            scatter: None,
         })
     }
 }

@@ -1,6 +1,7 @@
 //! Comparison of candidate designs: what an engineer asks of each, side by side.
 
 mod candidate;
+mod doubt;
 mod error;
 mod heat;
 mod limits;
@@ -10,6 +11,7 @@ mod settled;
 mod table;
 
 pub use candidate::Candidate;
+pub use doubt::{Above, Scatter};
 pub use error::CompareError;
 pub use heat::{HeatOut, HeatOver, PathShare, Share};
 pub use limits::LimitResult;

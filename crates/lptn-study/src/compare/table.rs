@@ -5,6 +5,7 @@ use lptn_solve::{Table, TableOf};
 use lptn_units::Unit;
 
 use crate::compare::candidate::Candidate;
+use crate::compare::doubt::Scatter;
 use crate::compare::heat::{HeatOut, HeatOver, PathShare};
 use crate::compare::limits::LimitResult;
 use crate::compare::settled::Settled;
@@ -56,6 +57,18 @@ impl CompareRow {
         let boundary = heat.boundaries.iter().find(|(boundary, _)| boundary == name);
         let path = || heat.paths.iter().find(|path| path.name == name);
         boundary.map_or_else(|| path()?.share, |(_, share)| *share)
+    }
+
+    /// What the `±` of parameters do to it, where that was asked for.
+    pub fn scatter(&self) -> Option<&Scatter> {
+        self.candidate()?.scatter.as_ref()
+    }
+
+    /// One standard deviation of the margin of the limit of this name in SI units, and the
+    /// probability that it is broken.
+    pub fn scatter_of(&self, name: &str) -> Option<(f64, f64)> {
+        let place = self.candidate()?.limits.iter().position(|limit| limit.name == name)?;
+        self.scatter()?.limits.get(place).copied()
     }
 
     /// Its settled cycle, if it has one.
@@ -136,6 +149,7 @@ pub fn compare_table(rows: &[CompareRow], unit: &Unit) -> Table {
     for name in CompareRow::limit_names(rows) {
         of_limit(rows, name, &mut table);
     }
+    scatter(rows, &mut table);
     of_heat(rows, &mut table);
     let named = CompareRow::boundary_names(rows);
     let paths = CompareRow::path_names(rows).into_iter().filter(|path| !named.contains(path));
@@ -164,6 +178,27 @@ fn general(rows: &[CompareRow], unit: &Unit, table: &mut TableOf<'_, CompareRow>
     of("capacity", "J/K", &|c| Some(c.capacity));
     if rows.iter().filter_map(CompareRow::candidate).any(|candidate| candidate.mass.is_some()) {
         of("mass", "kg", &|c| c.mass);
+    }
+}
+
+/// How sure peaks and margins are, and by how much each peak is above that of the first row.
+fn scatter(rows: &[CompareRow], table: &mut TableOf<'_, CompareRow>) {
+    let Some(first) = rows.iter().find_map(CompareRow::scatter) else { return };
+    fn of(row: &CompareRow, value: impl Fn(&Scatter) -> f64) -> f64 {
+        row.scatter().map_or(f64::NAN, value)
+    }
+    table.column("peak_sd", "K", |row| of(row, |scatter| scatter.peak));
+    table.column("above_first", "K", |row| of(row, |scatter| scatter.above(first).by));
+    table.column("above_first_sd", "K", |row| of(row, |s| s.above(first).deviation));
+    table.column("P_above_first", "-", |row| of(row, |s| s.above(first).probability));
+    for name in CompareRow::limit_names(rows) {
+        let judged = |row: &CompareRow| row.scatter_of(name);
+        let unit = rows.iter().find_map(|row| row.limit(name)).map(|l| l.ty.dimension.si_unit());
+        let unit = unit.unwrap_or_default();
+        table.column(format!("{name}.margin_sd"), &unit, |row| {
+            judged(row).map_or(f64::NAN, |j| j.0)
+        });
+        table.column(format!("{name}.P_broken"), "-", |row| judged(row).map_or(f64::NAN, |j| j.1));
     }
 }
 

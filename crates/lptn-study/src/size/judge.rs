@@ -16,6 +16,7 @@ use lptn_units::EvalError;
 use crate::size::aim::Aim;
 use crate::size::error::{SizeError, TrialError};
 use crate::uncertainty::normal::quantile;
+use crate::uncertainty::{Inputs, Uncertain};
 
 /// The finest tolerance in K of runs that are judged, if the run itself asks for no finer one. Of a
 /// rise of 1 K ten times this is a part in 1e8.
@@ -65,8 +66,8 @@ pub struct LoadCase {
 pub struct Doubt<'a> {
     /// The probability, more than 0.5 and less than 1.
     pub probability: f64,
-    /// One standard deviation in SI units of each parameter that has one; at least one.
-    pub deviations: &'a [(ParameterId, f64)],
+    /// The parameters that are not certain; `None` where all are.
+    pub inputs: Option<&'a Inputs>,
 }
 
 /// What has to be kept, by which network, and when.
@@ -147,7 +148,7 @@ impl<'a> Judge<'a> {
         if demand.requirements.is_empty() {
             return Err(SizeError::NoRequirement);
         }
-        if demand.doubt.is_some_and(|doubt| doubt.deviations.is_empty()) {
+        if demand.doubt.is_some_and(|doubt| doubt.inputs.is_none()) {
             return Err(SizeError::NoDeviation);
         }
         let limits = demand.requirements.iter().map(Requirement::limit);
@@ -201,9 +202,9 @@ impl<'a> Judge<'a> {
         Ok(all)
     }
 
-    /// Takes from every margin what the `±` of parameters may take with a probability: parameters are
-    /// normal and independent, margins straight in them. Each is moved by one standard deviation to
-    /// either side of where the design and the case have it.
+    /// Takes from every margin what the `±` of parameters may take with a probability: margins are
+    /// straight in the parameters and normal. Each parameter is moved by one standard deviation to
+    /// either side of where the design and the case have it, with what is correlated with it.
     fn doubt(
         &self,
         judged: &mut Judged,
@@ -212,15 +213,20 @@ impl<'a> Judge<'a> {
     ) -> Result<(), TrialError> {
         let (mut variances, mut left_out) =
             (vec![0.0; judged.margins.len()], vec![0.0; judged.margins.len()]);
-        for &(id, deviation) in doubt.deviations {
+        let value = |id: ParameterId| {
             let set = case.set.iter().chain(design).rev().find(|(other, _)| *other == id);
-            let at = set.map_or(self.base.parameter_value(id), |(_, value)| *value);
-            let moved = |by: f64| {
-                let mut design = design.to_vec();
-                design.push((id, at + by));
+            set.map_or(self.base.parameter_value(id), |(_, value)| *value)
+        };
+        for direction in doubt.inputs.into_iter().flat_map(Inputs::directions) {
+            let moved = |side: f64| {
+                let to = |(input, part): &(Uncertain, f64)| {
+                    (input.parameter, input.moved(value(input.parameter), side * part))
+                };
+                let design: Vec<_> =
+                    design.iter().copied().chain(direction.iter().map(to)).collect();
                 self.in_case((&design, case), care).map(|judged| judged.margins)
             };
-            let (low, high) = (moved(-deviation)?, moved(deviation)?);
+            let (low, high) = (moved(-1.0)?, moved(1.0)?);
             for (i, margin) in judged.margins.iter().enumerate() {
                 variances[i] += (0.5 * (high[i] - low[i])).powi(2);
                 left_out[i] += 0.5 * (high[i] + low[i]) - margin;

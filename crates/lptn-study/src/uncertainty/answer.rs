@@ -37,13 +37,17 @@ pub struct Contribution {
     /// [`Uncertainty::inputs`](crate::uncertainty::Uncertainty::inputs).
     pub input: usize,
     /// What one standard deviation more of the parameter adds to the answer, in its unit: exact for
-    /// a small deviation where the method is linear, the mean slope over the samples else.
+    /// a small deviation where the method is linear, the mean slope over the samples else, the
+    /// others held.
     pub effect: f64,
     /// The share of the answer's variance that this parameter makes by itself, its first-order
-    /// index.
+    /// index. Where parameters are correlated no such share is defined; then it is the effect times
+    /// the covariance of the answer and the parameter (J. W. Pratt, Proc. 2nd Int. Tampere Conf.
+    /// Statistics (1987) 245), which may be negative: shares add up to the part of the variance
+    /// that straight lines tell.
     pub share: Estimate,
     /// The share that it makes by itself and together with others, its total index; `None` where
-    /// the method is linear, which knows no together.
+    /// the method is linear, which knows no together, and where parameters are correlated.
     pub total: Option<Estimate>,
 }
 

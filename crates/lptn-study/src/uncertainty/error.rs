@@ -5,8 +5,8 @@ use lptn_network::{BuildErrors, InputError};
 use lptn_solve::{SensitiveError, TransientError};
 use lptn_units::Class;
 
+use crate::uncertainty::lost::Lost;
 use crate::uncertainty::points::{LEAST, MOST_DIMENSIONS, MOST_POINTS};
-use crate::uncertainty::result::Lost;
 
 lptn_units::errors! {
 /// Why the uncertainty of a run cannot be had.
@@ -15,6 +15,11 @@ pub enum UncertaintyError {
     /// No parameter carries `±`.
     NoDeviation = "uncertainty::no_deviation", "no parameter has a `±`, so nothing is uncertain",
         help "give a parameter its standard deviation: `R_skin = \"0.365 K/W ± 20 %\"` in [param]";
+    /// The parameters are correlated in a way that cannot be.
+    NotDefinite { parameter: String } = "uncertainty::not_definite",
+        format!("correlations that cannot be: those of `{parameter}` with the parameters before it"),
+        help "two values that follow a third one closely follow each other too: the matrix of all \
+            correlations has to be positive definite";
     /// More parameters carry `±` than sampling has directions for.
     TooManyParameters(count: usize) = "uncertainty::too_many_parameters",
         format!("{count} parameters have a `±`, sampling goes up to {}", MOST_DIMENSIONS / 2),

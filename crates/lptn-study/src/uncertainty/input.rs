@@ -1,35 +1,178 @@
-//! The parameters that carry `±`.
+//! The parameters that are not certain, and what is known of them together.
+
+use std::ops::Deref;
 
 use lptn_network::{Network, ParameterId, Parameters};
+use lptn_units::{Correlations, Distribution, Spread};
 
-use crate::uncertainty::UncertaintyError;
+use crate::uncertainty::error::UncertaintyError;
+use crate::uncertainty::normal::share_below;
 
-/// A parameter whose value is known with a standard deviation only.
+/// A parameter whose value is not certain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uncertain {
-    /// Which parameter carries `±`.
+    /// Which parameter it is.
     pub parameter: ParameterId,
-    /// Its value in SI units, absolute temperatures in K: the mean.
+    /// Its value in SI units, absolute temperatures in K: the mean, of a lognormal one the median.
     pub value: f64,
-    /// One standard deviation in SI units, more than 0.
+    /// One standard deviation in SI units, more than 0; of a lognormal one to first order.
     pub deviation: f64,
+    /// How it is distributed.
+    pub distribution: Distribution,
 }
 
-/// The parameters of `network` that carry `±`, in the order of the network; `parameters` are the
-/// values that were set in place of its own, whose `±` counts where it was given.
+impl Uncertain {
+    /// A normal number as what is one standard deviation to first order.
+    pub(crate) fn standard(&self, score: f64) -> f64 {
+        match self.distribution {
+            Distribution::Normal | Distribution::Lognormal => score,
+            Distribution::Rectangle => 3_f64.sqrt() * (2.0 * share_below(score) - 1.0),
+        }
+    }
+
+    /// The value with a normal number in the place of its standard deviations.
+    pub(crate) fn at(&self, score: f64) -> f64 {
+        self.moved(self.value, self.standard(score))
+    }
+
+    /// Another value of the parameter, so many standard deviations off.
+    pub(crate) fn moved(&self, value: f64, deviations: f64) -> f64 {
+        match self.distribution {
+            Distribution::Normal | Distribution::Rectangle => value + deviations * self.deviation,
+            Distribution::Lognormal => value * (deviations * self.of_logarithm()).exp(),
+        }
+    }
+
+    fn of_logarithm(&self) -> f64 {
+        let spread = Spread { sigma: self.deviation, distribution: self.distribution };
+        spread.of_logarithm(self.value)
+    }
+}
+
+/// The parameters of a network that are not certain, in its order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inputs {
+    all: Vec<Uncertain>,
+    correlations: Correlations,
+    /// The lower triangle that makes correlated normal numbers of independent ones, row by row;
+    /// `None` where nothing is correlated.
+    factor: Option<Vec<f64>>,
+}
+
+impl Deref for Inputs {
+    type Target = [Uncertain];
+
+    fn deref(&self) -> &[Uncertain] {
+        &self.all
+    }
+}
+
+impl Inputs {
+    /// Their correlations, of a lognormal one those of its logarithm.
+    pub fn correlations(&self) -> &Correlations {
+        &self.correlations
+    }
+
+    /// Whether any two of them are off together.
+    pub fn are_correlated(&self) -> bool {
+        self.factor.is_some()
+    }
+
+    /// By how much an answer scatters together with each of them, for what one standard deviation
+    /// of each does to it: the covariance of the answer and the parameter, in standard deviations
+    /// of the parameter. The sum of these times the effects is the variance of the answer
+    /// (ISO/IEC Guide 98-3, 5.2.2).
+    pub(crate) fn together(&self, effects: &[f64]) -> Vec<f64> {
+        if !self.are_correlated() {
+            return effects.to_vec();
+        }
+        let with = |i: usize| {
+            let each = effects.iter().enumerate();
+            each.map(|(j, effect)| self.correlations.between(i, j) * effect).sum()
+        };
+        (0..effects.len()).map(with).collect()
+    }
+
+    /// The variance of an answer.
+    pub(crate) fn variance(&self, effects: &[f64]) -> f64 {
+        self.together(effects).iter().zip(effects).map(|(with, effect)| with * effect).sum()
+    }
+
+    /// Independent normal numbers made to be correlated as the parameters are.
+    pub(crate) fn correlated(&self, scores: Vec<f64>) -> Vec<f64> {
+        let Some(factor) = &self.factor else { return scores };
+        let n = scores.len();
+        let one = |i: usize| (0..=i).map(|j| factor[i * n + j] * scores[j]).sum();
+        (0..n).map(one).collect()
+    }
+
+    /// By how many of its standard deviations each parameter moves with the one after the other of
+    /// as many independent numbers: a unit step along each of these gives the variance of an answer
+    /// as the sum of squares.
+    pub(crate) fn directions(&self) -> Vec<Vec<(Uncertain, f64)>> {
+        let n = self.all.len();
+        let triangle = self.correlations.factor().unwrap_or_default();
+        let along = |k: usize| {
+            let part = |i: usize| triangle.get(i * n + k).copied().unwrap_or(0.0);
+            let parts = (k..n).map(|i| (self.all[i], part(i)));
+            parts.filter(|(_, part)| part.abs() > 0.0).collect()
+        };
+        (0..n).map(along).collect()
+    }
+}
+
+/// The parameters of `network` that are not certain, in the order of the network; `parameters` are
+/// the values that were set in place of its own, what was said of them there counts before the `±`
+/// of the network.
 ///
 /// # Errors
-/// [`UncertaintyError::NoDeviation`] if none does.
-pub fn uncertain(
-    network: &Network,
-    parameters: &Parameters,
-) -> Result<Vec<Uncertain>, UncertaintyError> {
-    let one = |parameter: ParameterId| {
-        let own = network.parameters()[parameter.index()].deviation;
-        let deviation =
-            parameters.deviation(parameter).or(own).filter(|deviation| *deviation > 0.0)?;
-        Some(Uncertain { parameter, value: network.parameter_value(parameter), deviation })
+/// [`UncertaintyError::NoDeviation`] if all are certain, [`UncertaintyError::NotDefinite`] if they
+/// are correlated in a way that cannot be.
+pub fn uncertain(network: &Network, parameters: &Parameters) -> Result<Inputs, UncertaintyError> {
+    let known = parameters.uncertain();
+    let one = |&(parameter, Spread { sigma, distribution }): &(ParameterId, Spread)| Uncertain {
+        parameter,
+        value: network.parameter_value(parameter),
+        deviation: sigma,
+        distribution,
     };
-    let found: Vec<Uncertain> = network.parameter_ids().filter_map(one).collect();
-    if found.is_empty() { Err(UncertaintyError::NoDeviation) } else { Ok(found) }
+    let all: Vec<Uncertain> = known.iter().map(one).collect();
+    if all.is_empty() {
+        return Err(UncertaintyError::NoDeviation);
+    }
+    let ids: Vec<ParameterId> = all.iter().map(|input| input.parameter).collect();
+    let distributions: Vec<Distribution> = all.iter().map(|input| input.distribution).collect();
+    let correlations = parameters.correlations_of(&ids);
+    let name = |i: usize| network.parameters()[ids[i].index()].name.clone();
+    let impossible = |i| UncertaintyError::NotDefinite { parameter: name(i) };
+    let scores = correlations.of_scores(&distributions);
+    correlations.factor().map_err(impossible)?;
+    let factor = scores.factor().map_err(impossible)?;
+    let factor = correlations.any().then_some(factor);
+    Ok(Inputs { all, correlations, factor })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn one(distribution: Distribution) -> Uncertain {
+        let mut builder = lptn_network::NetworkBuilder::new();
+        let parameter = builder.parameter("a", lptn_network::Input::number(2.0));
+        Uncertain { parameter, value: 2.0, deviation: 0.5, distribution }
+    }
+
+    /// `scipy.stats.norm.cdf(0.7)` is 0.758036347776927; 2 + 0.5 sqrt(3) (2 x 0.758.. - 1) and
+    /// 2 exp(0.7 x 0.25) by hand (mpmath, 20 digits).
+    #[test]
+    fn a_normal_number_moves_each_as_it_is_distributed() {
+        let at = |distribution| one(distribution).at(0.7);
+        assert!((at(Distribution::Normal) - 2.35).abs() < 1e-15);
+        assert!((at(Distribution::Rectangle) - 2.446_932_064_549_13).abs() < 1e-12);
+        assert!((at(Distribution::Lognormal) - 2.382_492_433_224_716).abs() < 1e-12);
+        // the ends of a rectangle are its limits
+        let ends = [-9.0, 9.0].map(|z| one(Distribution::Rectangle).at(z));
+        assert!((ends[0] - (2.0 - 0.5 * 3_f64.sqrt())).abs() < 1e-15);
+        assert!((ends[1] - (2.0 + 0.5 * 3_f64.sqrt())).abs() < 1e-15);
+    }
 }

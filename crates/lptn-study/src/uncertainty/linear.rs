@@ -9,7 +9,7 @@ use lptn_solve::Proceed;
 use crate::uncertainty::answer::{Answer, AnswerOf, Contribution};
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::estimate::Estimate;
-use crate::uncertainty::input::uncertain;
+use crate::uncertainty::input::{Inputs, uncertain};
 use crate::uncertainty::linear::line::Line;
 use crate::uncertainty::normal::{BAND, share_below};
 use crate::uncertainty::result::{Uncertainty, UncertaintyMethod};
@@ -18,8 +18,9 @@ use crate::uncertainty::task::UncertaintyTask;
 
 impl UncertaintyTask<'_> {
     /// Bands and shares of the variance from `dT/dp`: the variance of a result is the sum of
-    /// `(dT/dp sigma)^2`, its band 1.96 standard deviations to each side of the value (ISO/IEC
-    /// Guide 98-3, 5.1.2). A maximum changes as the temperature does at its time, a margin as it
+    /// `(dT/dp sigma)^2`, with twice the correlation times their product for each pair that is
+    /// correlated, its band 1.96 standard deviations to each side of the value (ISO/IEC Guide 98-3,
+    /// 5.1.2 and 5.2.2). A maximum changes as the temperature does at its time, a margin as it
     /// does when it is least. Where a network has no exact sensitivities they are differences of
     /// runs, and the method says so.
     ///
@@ -39,7 +40,7 @@ impl UncertaintyTask<'_> {
                 AnswerOf::Max(node) => line.effects_on_maximum(node),
                 AnswerOf::Margin(limit) => margins[limit.index()].clone(),
             };
-            answer(of, value, &effects)
+            answer(of, value, (&effects, &inputs))
         };
         Ok(Uncertainty {
             method: UncertaintyMethod::Linear { differences: line.differences() },
@@ -55,17 +56,20 @@ impl UncertaintyTask<'_> {
 const ROUNDING: f64 = 1e-9;
 
 /// A result whose change with one standard deviation more of each parameter is known.
-fn answer(of: AnswerOf, value: f64, effects: &[f64]) -> Answer {
+fn answer(of: AnswerOf, value: f64, (effects, inputs): (&[f64], &Inputs)) -> Answer {
     let least = ROUNDING * value.abs();
     let effects: Vec<f64> =
         effects.iter().map(|e| if e.abs() > least { *e } else { 0.0 }).collect();
-    let variance: f64 = effects.iter().map(|effect| effect * effect).sum();
+    let together = inputs.together(&effects);
+    let variance = inputs.variance(&effects).max(0.0);
     let deviation = variance.sqrt();
-    let share = |effect: f64| if variance > 0.0 { effect * effect / variance } else { 0.0 };
+    let share = |input: usize, effect: f64| {
+        if variance > 0.0 { effect * together[input] / variance } else { 0.0 }
+    };
     let part = |(input, &effect): (usize, &f64)| Contribution {
         input,
         effect,
-        share: Estimate::exact(share(effect)),
+        share: Estimate::exact(share(input, effect)),
         total: None,
     };
     let below_zero =

@@ -1,7 +1,7 @@
 //! What the `±` of parameters do to the results of a run.
 //!
-//! Every parameter with `±` is normal, the number after `±` one standard deviation, and independent
-//! of the others. [`UncertaintyTask::sobol`] runs the network at scrambled Sobol points of the
+//! Every parameter with `±` is normal unless it says otherwise, and independent of those with which
+//! no correlation is known; a posterior of a fit says both. [`UncertaintyTask::sobol`] runs the network at scrambled Sobol points of the
 //! parameters: no assumption about how the results depend on them. [`UncertaintyTask::linear`]
 //! takes the exact sensitivities of one run and assumes that results are straight lines in the
 //! parameters as far as these may be off. [`discrepancies`] says where the two disagree.
@@ -12,6 +12,7 @@ mod error;
 mod estimate;
 mod input;
 mod linear;
+mod lost;
 pub(crate) mod normal;
 pub(crate) mod points;
 mod result;
@@ -23,7 +24,8 @@ pub use answer::{Answer, AnswerOf, Contribution};
 pub use difference::{Discrepancy, discrepancies};
 pub use error::UncertaintyError;
 pub use estimate::Estimate;
-pub use input::{Uncertain, uncertain};
-pub use result::{Bands, Lost, Uncertainty, UncertaintyMethod};
+pub use input::{Inputs, Uncertain, uncertain};
+pub use lost::Lost;
+pub use result::{Bands, Uncertainty, UncertaintyMethod};
 pub use sobol::{GROUPS, Sobol};
 pub use task::UncertaintyTask;

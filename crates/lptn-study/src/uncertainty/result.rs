@@ -1,11 +1,10 @@
 //! What came of it.
 
-use std::fmt;
-
 use lptn_network::NodeId;
 
 use crate::uncertainty::answer::Answer;
-use crate::uncertainty::input::Uncertain;
+use crate::uncertainty::input::Inputs;
+use crate::uncertainty::lost::Lost;
 
 /// How the uncertainty of the results was found.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,7 +16,8 @@ pub enum UncertaintyMethod {
     },
     /// From runs at scrambled Sobol points.
     Sobol {
-        /// Base points: each gives two runs for the bands and one for each parameter.
+        /// Base points: each gives two runs for the bands and, where no parameters are correlated,
+        /// one for each parameter.
         samples: usize,
         /// The seed of the scrambling.
         seed: u32,
@@ -26,28 +26,6 @@ pub enum UncertaintyMethod {
         /// Those without a result: the bands are those of the others.
         lost: Vec<Lost>,
     },
-}
-
-/// Runs without a result, all for the same reason.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Lost {
-    /// How many.
-    pub count: usize,
-    /// Whether the network refused the parameters, such as a resistance below zero; else the run
-    /// failed.
-    pub refused: bool,
-    /// The stable code of the reason.
-    pub code: &'static str,
-    /// What the network or the run said of the first of them.
-    pub message: String,
-}
-
-impl fmt::Display for Lost {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let how = if self.refused { "refused" } else { "failed" };
-        let runs = if self.count == 1 { "run" } else { "runs" };
-        write!(f, "{} {runs} {how} ({}): {}", self.count, self.code, self.message)
-    }
 }
 
 /// The temperature of a node over the rows, in K, with its band of 95 %.
@@ -72,8 +50,8 @@ pub struct Bands {
 pub struct Uncertainty {
     /// How it was found.
     pub method: UncertaintyMethod,
-    /// The parameters that carry `±`, in the order of the network.
-    pub inputs: Vec<Uncertain>,
+    /// The parameters that are not certain, in the order of the network.
+    pub inputs: Inputs,
     /// The time of each row in s.
     pub times: Vec<f64>,
     /// The nodes that were asked for.

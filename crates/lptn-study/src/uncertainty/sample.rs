@@ -3,7 +3,7 @@
 use lptn_assembly::ChangeError;
 use lptn_solve::{Solution, TransientError};
 
-use crate::uncertainty::result::Lost;
+use crate::uncertainty::lost::Lost;
 
 /// What one run gives.
 #[derive(Clone, Debug)]

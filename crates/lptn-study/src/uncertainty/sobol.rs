@@ -1,12 +1,13 @@
 //! Runs at scrambled Sobol points.
 
 mod indices;
+mod regression;
 mod rows;
 
 use lptn_solve::{Proceed, in_parallel};
 
 use crate::uncertainty::error::UncertaintyError;
-use crate::uncertainty::input::{Uncertain, uncertain};
+use crate::uncertainty::input::{Inputs, uncertain};
 use crate::uncertainty::points::{self, LEAST, MOST_DIMENSIONS, MOST_POINTS};
 use crate::uncertainty::result::{Uncertainty, UncertaintyMethod};
 use crate::uncertainty::sample::{NoSample, Sample, count};
@@ -23,7 +24,8 @@ const MOST_BYTES: usize = 1 << 31;
 pub struct Sobol<'a> {
     /// Base points, 64 to 65536, rounded up to a power of two. With d uncertain parameters there
     /// are d + 2 runs for each: two with every parameter sampled, from which bands are taken, and d
-    /// that share all parameters but one with the first of the two.
+    /// that share all parameters but one with the first of the two; these are not made where
+    /// parameters are correlated.
     pub samples: usize,
     /// The seed of the scrambling: the same seed gives the same result to the last digit.
     pub seed: u32,
@@ -41,7 +43,9 @@ impl UncertaintyTask<'_> {
     /// 4), in eight independent scramblings whose spread gives the standard errors.
     ///
     /// Parameters that the network refuses, such as a resistance below zero, are left out and
-    /// counted: the distribution is cut off there.
+    /// counted: the distribution is cut off there. Of correlated parameters the normal numbers are
+    /// made by the lower triangle of their correlations; shares of the variance are then those of
+    /// [`Contribution`](crate::uncertainty::Contribution).
     ///
     /// # Errors
     /// [`UncertaintyError`]; runs that fail are an error only where too few are left.
@@ -70,7 +74,7 @@ impl UncertaintyTask<'_> {
     }
 
     /// The number of samples that is taken, if these can be.
-    fn checked(&self, samples: usize, inputs: &[Uncertain]) -> Result<usize, UncertaintyError> {
+    fn checked(&self, samples: usize, inputs: &Inputs) -> Result<usize, UncertaintyError> {
         if !(LEAST..=MOST_POINTS).contains(&samples) {
             return Err(UncertaintyError::Samples(samples));
         }
@@ -95,7 +99,7 @@ fn nothing(error: &NoSample) -> UncertaintyError {
 /// Where the points of the samples lie.
 struct Design<'a> {
     task: &'a UncertaintyTask<'a>,
-    inputs: &'a [Uncertain],
+    inputs: &'a Inputs,
     per_group: usize,
     seed: u32,
 }
@@ -104,13 +108,27 @@ struct Design<'a> {
 struct Block {
     /// Both with every parameter sampled, independently of each other.
     base: [Result<Sample, NoSample>; 2],
-    /// For each parameter the answers with this one of the second and all others of the first.
+    /// For each parameter the answers with this one of the second and all others of the first;
+    /// none where parameters are correlated.
     mixed: Vec<Result<Vec<f64>, NoSample>>,
 }
 
 impl Design<'_> {
-    /// A parameter in standard deviations: of the first base run from the first half of the
-    /// dimensions, of the second one from the second half.
+    /// The normal numbers behind the parameters of a run whose parameter `i` is that of base run
+    /// `which(i)`.
+    fn scores(&self, number: usize, which: &dyn Fn(usize) -> usize) -> Vec<f64> {
+        let one = |i: usize| self.normal(number, which(i), i);
+        self.inputs.correlated((0..self.inputs.len()).map(one).collect())
+    }
+
+    /// The parameters of a base run in standard deviations.
+    fn standard(&self, number: usize, which: usize) -> Vec<f64> {
+        let scores = self.scores(number, &|_| which);
+        self.inputs.iter().zip(scores).map(|(input, score)| input.standard(score)).collect()
+    }
+
+    /// An independent normal number for a parameter: of the first base run from the first half of
+    /// the dimensions, of the second one from the second half.
     fn normal(&self, number: usize, which: usize, input: usize) -> f64 {
         #[expect(clippy::cast_possible_truncation, reason = "there are eight groups")]
         let group = (number / self.per_group) as u32;
@@ -127,9 +145,8 @@ impl Design<'_> {
         control: &(dyn Fn() -> Proceed + Sync),
     ) -> Result<Sample, NoSample> {
         let mut parameters = self.task.parameters.clone();
-        for (i, input) in self.inputs.iter().enumerate() {
-            let off = self.normal(number, which(i), i) * input.deviation;
-            parameters.set(input.parameter, input.value + off);
+        for (input, score) in self.inputs.iter().zip(self.scores(number, which)) {
+            parameters.set(input.parameter, input.at(score));
         }
         self.task.sample(&parameters, rows, control)
     }
@@ -144,7 +161,9 @@ impl Design<'_> {
             self.run(number, &|i| usize::from(i == input), false, control)
                 .map(|sample| sample.answers)
         };
-        Block { mixed: (0..self.inputs.len()).map(mixed).collect(), base }
+        // shares of correlated parameters are not found by changing one of them alone
+        let changed = if self.inputs.are_correlated() { 0 } else { self.inputs.len() };
+        Block { mixed: (0..changed).map(mixed).collect(), base }
     }
 }
 
@@ -153,7 +172,7 @@ struct Blocks {
     blocks: Vec<Block>,
     per_group: usize,
     runs: usize,
-    lost: Vec<crate::uncertainty::result::Lost>,
+    lost: Vec<crate::uncertainty::lost::Lost>,
 }
 
 impl Blocks {
@@ -178,13 +197,15 @@ impl Blocks {
 
     /// The runs that bands are taken from, each with its group.
     fn base(&self) -> impl Iterator<Item = (usize, &Sample)> {
-        let numbered = self.blocks.iter().enumerate();
-        numbered.flat_map(|(number, block)| {
-            let group = number / self.per_group;
-            block
-                .base
-                .iter()
-                .filter_map(move |base| base.as_ref().ok().map(|sample| (group, sample)))
-        })
+        let run = |(number, which): (usize, usize)| {
+            Some((number / self.per_group, self.blocks[number].base[which].as_ref().ok()?))
+        };
+        self.numbered().filter_map(run)
+    }
+
+    /// The same as base point, and which of its two runs it is.
+    fn numbered(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let both = (0..self.blocks.len()).flat_map(|number| [(number, 0), (number, 1)]);
+        both.filter(|&(number, which)| self.blocks[number].base[which].is_ok())
     }
 }

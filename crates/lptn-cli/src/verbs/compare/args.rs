@@ -26,6 +26,12 @@ pub(crate) struct CompareArgs {
     /// makes a candidate of its own; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub(crate) set: Vec<String>,
+    /// Take values and their covariance from a fit, in every candidate that has the parameters
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) posterior: Option<PathBuf>,
+    /// Say how sure peaks, margins and their order are, from every ±, by straight lines
+    #[arg(long, conflicts_with = "periodic")]
+    pub(crate) uncertainty: bool,
     /// Make a candidate of every part in a CSV file, with its name as `part` and a column for each
     /// parameter that a part sets, as R_sink [K/W]; may be repeated
     #[arg(long, value_name = "FILE.csv")]

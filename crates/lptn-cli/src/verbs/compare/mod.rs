@@ -1,6 +1,7 @@
 //! `lptn compare`
 
 mod args;
+mod doubts;
 mod figure;
 mod page;
 mod variants;
@@ -18,6 +19,7 @@ use lptn_solve::{available_threads, in_parallel};
 use lptn_study::{Candidate, CompareError, CompareRow, order};
 use lptn_units::Unit;
 
+use crate::belief::Belief;
 use crate::console::Console;
 use crate::doubts::others;
 use crate::exit::Exit;
@@ -34,9 +36,12 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
     let files = listed(&args.files)?;
     let threads = args.threads.unwrap_or_else(available_threads);
     let jobs = jobs(args, &files)?;
-    let loaded = in_parallel(&jobs, threads, |(file, variant)| load(file, variant));
+    let belief = args.posterior.as_deref().map_or(Belief::Named, Belief::Shared);
+    let loaded = in_parallel(&jobs, threads, |(file, variant)| load(file, variant, &belief));
     used(args, &loaded)?;
-    let done = evaluate_all(&loaded, (args.periodic, threads), console);
+    believed(args, &loaded)?;
+    let mut done = evaluate_all(&loaded, (args.periodic, threads), console);
+    let unsure = if args.uncertainty { doubtful(&loaded, &mut done, threads) } else { Vec::new() };
     let unit = unit(args, &loaded)?;
     let candidates: Vec<_> = done.iter().map(|outcome| outcome.as_ref().ok()).collect();
     let places = order(&candidates, args.sort);
@@ -44,6 +49,7 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
     let sorted = places.into_iter().filter_map(|place| outcomes[place].take());
     let comparison = Comparison::of(sorted, unit);
     comparison.report(console);
+    console.warn(&Files::new(), &unsure);
     console.show(&comparison, args.printed.format)?;
     let answer = page::answer(&comparison);
     if comparison.rows.iter().filter_map(CompareRow::candidate).count() > 1
@@ -109,14 +115,14 @@ struct Loaded {
     has: Vec<bool>,
 }
 
-fn load(file: &Path, variant: &Variant) -> Loaded {
+fn load(file: &Path, variant: &Variant, belief: &Belief<'_>) -> Loaded {
     let (set, case) = (&variant.set, variant.case.clone());
     let source = Source { case, ..Source::of(file.to_owned()) };
     let name = match variant.label.as_str() {
         "" => file.display().to_string(),
         label => format!("{} ({label})", file.display()),
     };
-    let mut input = match Input::load(&source) {
+    let mut input = match Input::load_from(&source, belief) {
         Ok(input) => input,
         Err(failure) => {
             return Loaded { file: name, input: Err(failure), has: vec![false; set.len()] };
@@ -179,6 +185,19 @@ fn used(args: &CompareArgs, loaded: &[Loaded]) -> Result<(), Failure> {
     Err(Failure::new(Exit::Input, problem))
 }
 
+/// A posterior that no candidate can use is a mistake, unless a candidate that could not be read may
+/// be meant.
+fn believed(args: &CompareArgs, loaded: &[Loaded]) -> Result<(), Failure> {
+    let Some(file) = &args.posterior else { return Ok(()) };
+    let idle = |one: &Loaded| one.input.as_ref().is_ok_and(|i| i.netlist.posterior().is_none());
+    if !loaded.iter().all(idle) {
+        return Ok(());
+    }
+    let message = format!("no candidate has a parameter of {}", file.display());
+    let help = "use the `posterior.json` of a fit that varies parameters of these netlists";
+    Err(Failure::new(Exit::Input, Diagnostic::error("posterior::nothing", message).help(help)))
+}
+
 /// Why a candidate has no results, as far as it was not already known when it was read.
 enum NoResult {
     NotRead,
@@ -228,6 +247,32 @@ fn evaluate(
         let place = error.input().and_then(|error| input.place_of(error));
         NoResult::Failure(input.failure(&error, place))
     })
+}
+
+/// How sure every candidate is, as far as that can be known.
+fn doubtful(
+    loaded: &[Loaded],
+    done: &mut [Result<Candidate, NoResult>],
+    threads: usize,
+) -> Vec<Diagnostic> {
+    let pairs: Vec<(&Loaded, Option<Candidate>)> = loaded
+        .iter()
+        .zip(done.iter())
+        .map(|(one, done)| (one, done.as_ref().ok().cloned()))
+        .collect();
+    let found = in_parallel(&pairs, threads, |(one, candidate)| {
+        let (Ok(input), Some(mut candidate)) = (&one.input, candidate.clone()) else { return None };
+        let warning = doubts::look(input, &mut candidate, &one.file);
+        Some((candidate, warning))
+    });
+    let mut warnings = Vec::new();
+    for (done, found) in done.iter_mut().zip(found) {
+        if let Some((candidate, warning)) = found {
+            *done = Ok(candidate);
+            warnings.extend(warning);
+        }
+    }
+    warnings
 }
 
 /// The unit for temperatures: that of the command line, or of the first candidate that was read.

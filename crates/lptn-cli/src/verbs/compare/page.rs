@@ -12,7 +12,7 @@ use lptn_report::{
 use lptn_study::{Candidate, CompareRow, HeatOut, HeatOver, LimitResult, compare_table};
 use serde_json::Value;
 
-use super::Comparison;
+use super::{Comparison, doubts};
 use crate::about;
 use crate::diagnostics;
 use crate::exit::Exit;
@@ -31,6 +31,7 @@ impl Page for Comparison {
         let sections = [
             ("margin to", margins(rows, &CompareRow::limit)),
             ("settled margin to", settled_margins(rows)),
+            ("standard deviation", doubts::columns(rows, &names(rows))),
             (heat_over(rows), heat(rows)),
             ("heat by path", shares(rows, &CompareRow::path_names(rows))),
         ];

@@ -4,6 +4,7 @@ mod args;
 mod doubts;
 mod figure;
 mod follow;
+mod json;
 mod output;
 mod page;
 

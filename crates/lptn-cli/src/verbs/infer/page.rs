@@ -8,8 +8,7 @@ use lptn_report::{
     Json, Page, Report, Rows, Text, TextTable, decimals, duration, fixed, significant,
 };
 use lptn_solve::Table;
-use lptn_study::SiValue;
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use super::Answer;
 use crate::about::{self, Known as Trust};
@@ -185,14 +184,14 @@ impl Answer<'_> {
     }
 
     /// The last value, with half of what its band is wide in standard deviations.
-    fn at_end(&self, j: usize) -> Known {
+    pub(super) fn at_end(&self, j: usize) -> Known {
         let band = &self.found.courses[j].band;
         let last = band[band.len() - 1];
         let half = 0.5 * (last.ends.1 - last.ends.0);
         Known { value: last.value, deviation: half / lptn_units::statistics::NORMAL_95 }
     }
 
-    fn sensor_name(&self, sensor: &InferredSensor) -> String {
+    pub(super) fn sensor_name(&self, sensor: &InferredSensor) -> String {
         let what = if sensor.gain { "gain" } else { "offset" };
         format!("{}.{what}", self.task.sensors[sensor.sensor].name)
     }
@@ -214,7 +213,7 @@ impl Answer<'_> {
     }
 
     /// The parameters with a `±`, with what was known of them and what is.
-    fn uncertain(&self) -> Vec<(String, lptn_units::Unit, Known, Known)> {
+    pub(super) fn uncertain(&self) -> Vec<(String, lptn_units::Unit, Known, Known)> {
         let network = &self.input.netlist.network;
         let all = self.task.uncertain.iter().zip(&self.found.parameters);
         all.map(|((id, deviation), now)| {
@@ -345,68 +344,5 @@ impl Answer<'_> {
              start or a parameter a smaller `±`, or measure a further node",
             lacking.join(", ")
         )
-    }
-
-    fn courses_json(&self) -> Value {
-        let one = |j: usize| {
-            let (sought, course) = (&self.task.sought[j], &self.found.courses[j]);
-            let unit = self.units[j].ty.dimension.si_unit();
-            let known =
-                |known: Known| json!({ "value": known.value, "sd": known.deviation, "unit": unit });
-            let member = json!({
-                "mean": course.mean.map(known),
-                "end": known(self.at_end(j)),
-                "still": known(course.still.0),
-                "still_log_likelihood": course.still.1,
-                "intensity": course.intensity,
-                "slope_intensity": course.slope_intensity,
-                "positive": sought.positive,
-            });
-            (sought.name.clone(), member)
-        };
-        Value::Object((0..self.task.sought.len()).map(one).collect())
-    }
-
-    fn sensors_json(&self) -> Value {
-        let one = |sensor: &InferredSensor| {
-            let unit = if sensor.gain { "1" } else { "K" };
-            let member = json!({
-                "value": sensor.now.value,
-                "sd": sensor.now.deviation,
-                "unit": unit,
-                "prior": sensor.before.deviation,
-            });
-            (self.sensor_name(sensor), member)
-        };
-        Value::Object(self.found.sensors.iter().map(one).collect())
-    }
-
-    fn parameters_json(&self) -> Value {
-        let one = |(name, unit, before, now): (String, lptn_units::Unit, Known, Known)| {
-            let member = json!({
-                "value": now.value,
-                "sd": now.deviation,
-                "unit": unit.ty.dimension.si_unit(),
-                "prior": before.deviation,
-            });
-            (name, member)
-        };
-        Value::Object(self.uncertain().into_iter().map(one).collect::<Map<String, Value>>())
-    }
-
-    fn columns_json(&self) -> Value {
-        let all = self.task.run.columns.iter().zip(&self.found.columns);
-        let one = |(column, found): (&lptn_fit::network::MeasuredColumn, &InferredColumn)| {
-            json!({
-                "column": column.name,
-                "sigma": SiValue::new(found.sigma, "K"),
-                "samples": found.readings,
-                "surprise_rms": found.rms,
-                "surprise_mean": found.mean,
-                "neighbours": found.neighbours,
-                "drift": found.drift.map(|d| json!({ "value": d.value, "sd": d.deviation, "unit": "K" })),
-            })
-        };
-        all.map(one).collect()
     }
 }

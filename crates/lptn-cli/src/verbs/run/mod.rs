@@ -23,6 +23,7 @@ use lptn_report::Format;
 use lptn_solve::{Lumping, SteadyState, Table};
 use outcome::Outcome;
 
+use crate::belief::Belief;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
@@ -30,7 +31,8 @@ use crate::files::Folder;
 use crate::input::Input;
 
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
-    let mut input = console.phases.timed("read", || Input::load(&args.source))?;
+    let belief = Belief::of(args.uncertainty.posterior.as_deref());
+    let mut input = console.phases.timed("read", || Input::load_from(&args.source, &belief))?;
     input.set_times(&args.times)?;
     let (result, folder) = outcome(args, &input, console)?;
     if let Some(folder) = &folder {

@@ -93,11 +93,8 @@ impl Outcome<'_> {
             unverified_constants: unverified_names(self.solution.network()),
             out_of_range: self.out_of_range(),
             uncertainty: self.uncertainty().map(|study| {
-                let mut members = uncertain::method(&study.found);
                 let of = (self.solution.network(), &scale::kelvin());
-                let parameters = uncertain::parameters(of, &study.found);
-                members.insert("parameters".into(), parameters);
-                Value::Object(members)
+                Value::Object(uncertain::given(of, &study.found))
             }),
             results,
             environment: files::environment(self.wall_time, &self.phases),

@@ -25,6 +25,9 @@ pub(crate) struct SizeArgs {
     /// Give a parameter a value; may be repeated
     #[arg(long, value_name = "NAME=VALUE", conflicts_with = "power")]
     pub(crate) set: Vec<String>,
+    /// Take values and their covariance from a fit, not those of the netlist
+    #[arg(long, value_name = "FILE.json", conflicts_with = "power")]
+    pub(crate) posterior: Option<PathBuf>,
     /// Write the value into the netlist; comments and order stay
     #[arg(long, conflicts_with_all = ["set", "power"])]
     pub(crate) write: bool,

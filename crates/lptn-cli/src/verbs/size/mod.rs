@@ -24,6 +24,7 @@ use lptn_study::{Aim, Demand, SizeError, SizeTask, Sizing, Verdict};
 use lptn_units::{Problem as _, Unit};
 use moments::demanded;
 
+use crate::belief::Belief;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
@@ -34,7 +35,8 @@ use crate::progress::ProgressLine;
 
 pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
     let Some(file) = &args.file else { return cooling::cooling(args, console) };
-    let input = Input::load(&Source { set: args.set.clone(), ..Source::of(file.clone()) })?;
+    let source = Source { set: args.set.clone(), ..Source::of(file.clone()) };
+    let input = Input::load_from(&source, &Belief::of(args.posterior.as_deref()))?;
     let sizes = &input.netlist.studies.sizes;
     let study = STUDIES.find(&input, (sizes, |study| &study.name), args.name.as_deref())?;
     if args.write {

@@ -39,17 +39,14 @@ pub(super) fn demanded<T>(
         Over::Periodic => Moments::Periodic(&cycle),
     };
     let cases = cases(netlist, study);
-    let deviations: Vec<_> = uncertain(&netlist.network, &netlist.overrides()).map_or_else(
-        |_| Vec::new(),
-        |all| all.iter().map(|u| (u.parameter, u.deviation)).collect(),
-    );
+    let inputs = uncertain(&netlist.network, &netlist.overrides()).ok();
     let probability = study.probability(&netlist.network).ok().flatten();
     ask(Demand {
         network: &netlist.network,
         cases: &cases,
         requirements: &study.requirements,
         moments,
-        doubt: probability.map(|probability| Doubt { probability, deviations: &deviations }),
+        doubt: probability.map(|probability| Doubt { probability, inputs: inputs.as_ref() }),
         watcher,
     })
 }

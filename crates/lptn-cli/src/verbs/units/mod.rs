@@ -7,7 +7,7 @@ pub(crate) use args::UnitsArgs;
 
 use conversions::{ABSOLUTE, USUAL};
 use lptn_report::{Format, Text, TextTable, significant};
-use lptn_units::{Dimension, Quantity, Type, Unit, format_number, parse_quantity};
+use lptn_units::{Dimension, Quantity, Spread, Type, Unit, format_number, parse_quantity};
 
 use crate::console::Console;
 use crate::exit::Exit;
@@ -32,19 +32,27 @@ fn describe(given: &str, quantity: &Quantity) -> Text {
     let ty = quantity.ty;
     let si_unit = ty.dimension.si_unit();
     let unit = spaced(&si_unit);
-    let deviation =
-        quantity.deviation.map_or(String::new(), |d| format!(" ± {}", format_number(d)));
+    let deviation = quantity.deviation.map_or(String::new(), |spread| {
+        let behind = spread.sigma * spread.distribution.written();
+        format!(" ± {}", format_number(behind))
+    });
+    let distributed = quantity.deviation.map_or(String::new(), Spread::suffix);
     let name = ty.dimension.quantity_name().filter(|_| !ty.absolute).unwrap_or(unnamed(ty));
     let others = if ty.absolute { ABSOLUTE } else { conversions::of(ty.dimension) };
     let known = |unit: &str| unit == si_unit || given.trim().ends_with(&format!(" {unit}"));
     let others = others.iter().filter(|unit| !known(unit));
     let others: Vec<String> = others.filter_map(|unit| in_unit(quantity.value, unit)).collect();
     let mut text = Text::new();
-    text.line(format!("{} = {}{deviation}{unit}", given.trim(), format_number(quantity.value)));
+    let value = format_number(quantity.value);
+    text.line(format!("{} = {value}{deviation}{unit}{distributed}", given.trim()));
     text.section().line(format!("quantity    {name}"));
     text.line(format!("dimension   {}", ty.dimension));
     if !others.is_empty() {
         text.labelled("also        ", separated(others));
+    }
+    if let Some(spread) = quantity.deviation.filter(|_| !distributed.is_empty()) {
+        let sigma = format_number(spread.sigma);
+        text.line(format!("deviation   one standard deviation is {sigma}{unit}"));
     }
     text.lines(note(given, ty).map(|note| format!("note        {note}")));
     text

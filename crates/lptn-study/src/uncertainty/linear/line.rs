@@ -4,7 +4,7 @@ use lptn_network::{NodeId, OutputTimes, ParameterId};
 use lptn_solve::{Gradient, SensitiveRun, Solution, Transient, sensitive_run};
 
 use crate::uncertainty::error::UncertaintyError;
-use crate::uncertainty::input::Uncertain;
+use crate::uncertainty::input::{Inputs, Uncertain};
 use crate::uncertainty::normal::BAND;
 use crate::uncertainty::result::Bands;
 use crate::uncertainty::task::UncertaintyTask;
@@ -14,7 +14,7 @@ const SAME: f64 = 1e-9;
 
 /// A run with sensitivities by every uncertain parameter.
 pub(super) struct Line<'a> {
-    pub(super) inputs: &'a [Uncertain],
+    pub(super) inputs: &'a Inputs,
     pub(super) run: SensitiveRun,
     /// The rows as places among the times of the run.
     rows: Vec<usize>,
@@ -24,7 +24,7 @@ impl<'a> Line<'a> {
     /// The run at its rows and at the times at which `solution` saw the nodes highest.
     pub(super) fn new(
         task: &UncertaintyTask<'_>,
-        inputs: &'a [Uncertain],
+        inputs: &'a Inputs,
         solution: &Solution,
     ) -> Result<Self, UncertaintyError> {
         let rows = task.times()?;
@@ -74,13 +74,15 @@ impl<'a> Line<'a> {
     pub(super) fn bands(&self, node: NodeId) -> Bands {
         let temperatures = self.run.solution.temperature(node).unwrap_or_default();
         let value: Vec<f64> = self.rows.iter().map(|&place| temperatures[place]).collect();
-        let mut variance = vec![0.0; value.len()];
-        for input in self.inputs {
-            let slopes = self.slopes(input, node);
-            let squares = self.rows.iter().map(|&place| (slopes[place] * input.deviation).powi(2));
-            variance.iter_mut().zip(squares).for_each(|(sum, square)| *sum += square);
-        }
-        let deviation: Vec<f64> = variance.into_iter().map(f64::sqrt).collect();
+        let slopes: Vec<Vec<f64>> =
+            self.inputs.iter().map(|input| self.slopes(input, node)).collect();
+        let deviation = |&place: &usize| {
+            let each = self.inputs.iter().zip(&slopes);
+            let effects: Vec<f64> =
+                each.map(|(input, slopes)| slopes[place] * input.deviation).collect();
+            self.inputs.variance(&effects).max(0.0).sqrt()
+        };
+        let deviation: Vec<f64> = self.rows.iter().map(deviation).collect();
         let side =
             |sign: f64| value.iter().zip(&deviation).map(|(v, d)| v + sign * BAND * d).collect();
         Bands { node, low: side(-1.0), median: None, high: side(1.0), value, deviation }

@@ -3,6 +3,7 @@
 use crate::uncertainty::answer::{Answer, AnswerOf, Contribution};
 use crate::uncertainty::estimate::{Estimate, moments, quantile};
 use crate::uncertainty::sample::Sample;
+use crate::uncertainty::sobol::regression::Regression;
 use crate::uncertainty::sobol::{Blocks, Design, GROUPS};
 use crate::uncertainty::task::UncertaintyTask;
 
@@ -14,10 +15,15 @@ pub(super) fn answers(
     design: &Design<'_>,
 ) -> Vec<Answer> {
     let questions = task.questions().into_iter().enumerate();
+    let regression = design.inputs.are_correlated().then(|| Regression::of(blocks, design));
     let one = |(place, of): (usize, AnswerOf)| {
-        let column = Column::of(blocks, place, design.inputs.len());
-        let ranking =
-            (0..design.inputs.len()).map(|input| column.contribution(input, design)).collect();
+        let column = Column::of(blocks, place);
+        let ranking = match &regression {
+            Some(regression) => regression.contributions(place),
+            None => {
+                (0..design.inputs.len()).map(|input| column.contribution(input, design)).collect()
+            }
+        };
         column.answer(of, nominal.answers[place], ranking).sorted()
     };
     questions.map(one).collect()
@@ -39,12 +45,12 @@ struct Row {
 }
 
 impl Column {
-    fn of(blocks: &Blocks, place: usize, inputs: usize) -> Self {
+    fn of(blocks: &Blocks, place: usize) -> Self {
         let row = |(number, block): (usize, &super::Block)| {
             let base = [0, 1]
                 .map(|k: usize| block.base[k].as_ref().ok().map(|sample| sample.answers[place]));
             let mixed =
-                (0..inputs).map(|i| block.mixed[i].as_ref().ok().map(|answers| answers[place]));
+                block.mixed.iter().map(|mixed| mixed.as_ref().ok().map(|answers| answers[place]));
             Row { number, group: number / blocks.per_group, base, mixed: mixed.collect() }
         };
         let blocks_of: Vec<Row> = blocks.blocks.iter().enumerate().map(row).collect();
@@ -114,7 +120,8 @@ impl Column {
     /// standard deviations.
     fn effect(&self, input: usize, design: &Design<'_>) -> f64 {
         let point = |row: &Row, which: usize| {
-            Some((design.normal(row.number, which, input), row.base[which]?))
+            let score = design.normal(row.number, which, input);
+            Some((design.inputs[input].standard(score), row.base[which]?))
         };
         let pairs = self.rows(None).flat_map(|row| [0, 1].map(|which| point(row, which)));
         let points: Vec<(f64, f64)> = pairs.flatten().collect();

@@ -106,7 +106,7 @@ fn capacity(text: Option<&str>) -> Result<Option<Capacity>, Failure> {
     let Some(text) = text else { return Ok(None) };
     let what = (Dimension::CAPACITY, "fit::law_capacity", "\"2659 J/K ± 5 %\"");
     let found = positive("--capacity", text, what)?;
-    Ok(Some(Capacity { value: found.value, deviation: found.deviation.unwrap_or(0.0) }))
+    Ok(Some(Capacity { value: found.value, deviation: found.sigma() }))
 }
 
 fn consistency(data: &Data, capacity: Option<Capacity>) -> Result<Option<Consistency>, Failure> {

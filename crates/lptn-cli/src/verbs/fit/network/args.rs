@@ -30,7 +30,7 @@ pub(crate) struct NetworkArgs {
     /// Write the values into the netlist; comments and order stay
     #[arg(long, conflicts_with = "set")]
     pub(crate) write: bool,
-    /// Write residuals.csv, fit.json and a manifest here
+    /// Write residuals.csv, fit.json, posterior.json and a manifest here
     #[arg(short, long, value_name = "DIR", conflicts_with = "no_files")]
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]

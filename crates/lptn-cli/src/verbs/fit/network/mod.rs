@@ -21,10 +21,12 @@ use lptn_report::differing;
 use lptn_solve::available_threads;
 use lptn_units::{Type, Unit};
 
+use crate::belief::Belief;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files::Folder;
+use crate::files::names::POSTERIOR;
 use crate::input::{Input, Studies, quoted};
 use crate::interrupt::Interrupt;
 use crate::options::Source;
@@ -46,7 +48,10 @@ pub(crate) struct Answer<'a> {
 }
 
 pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Failure> {
-    let input = Input::load(&Source { set: args.set.clone(), ..Source::of(args.file.clone()) })?;
+    let source = Source { set: args.set.clone(), ..Source::of(args.file.clone()) };
+    // a fit begins with what the netlist itself says: what another one found counts the same
+    // records, perhaps
+    let input = Input::load_from(&source, &Belief::None)?;
     let fits = &input.netlist.studies.fits;
     let study = STUDIES.find(&input, (fits, |study| &study.name), args.name.as_deref())?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
@@ -74,15 +79,20 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
     let mut answer = Answer::new((&input, study), task, fit);
     answer.doubts = words::doubts(&answer);
     console.warn(&input.netlist.files, &answer.doubts);
+    let mut files = Vec::new();
     if let Some(folder) = &folder {
-        output::write(&answer, folder, begun.elapsed().as_secs_f64())?;
+        files = output::write(&answer, folder, begun.elapsed().as_secs_f64())?;
         console.results_in(folder.path());
     }
     let exit = console.show(&answer, args.printed.format)?;
     if let Some(folder) = &folder {
-        let [first, others @ ..] = output::NAMES;
-        let path = folder.path().join(first);
-        console.note(&format!("wrote  {}, {}", path.display(), others.join(", ")));
+        let path = folder.path().join(&files[0]);
+        console.note(&format!("wrote  {}, {}", path.display(), files[1..].join(", ")));
+        if files.iter().any(|file| file == POSTERIOR) && input.netlist.run.is_some() {
+            let file = quoted(&args.file.display().to_string());
+            let posterior = quoted(&folder.path().join(POSTERIOR).display().to_string());
+            console.next(&format!("lptn run {file} --posterior {posterior} --uncertainty linear"));
+        }
     }
     match (args.write, exit) {
         (true, Exit::Done) => {

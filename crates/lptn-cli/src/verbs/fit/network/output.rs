@@ -1,5 +1,5 @@
 //! The files of `lptn fit network -o DIR`: what was measured beside what the fitted network
-//! computes, the answer, and their manifest.
+//! computes, the answer, what studies go on from, and their manifest.
 
 use lptn_report::{Format, Look, write_csv};
 use lptn_solve::Table;
@@ -7,21 +7,32 @@ use lptn_solve::Table;
 use super::Answer;
 use crate::about;
 use crate::failure::Failure;
-use crate::files::names::{FIT, MANIFEST, RESIDUALS};
+use crate::files::names::{FIT, MANIFEST, POSTERIOR, RESIDUALS};
 use crate::files::{self, Folder};
 use crate::words::difference;
 
-/// What is written.
-pub(crate) const NAMES: [&str; 3] = [RESIDUALS, FIT, MANIFEST];
+/// What may be written.
+const NAMES: [&str; 4] = [RESIDUALS, FIT, POSTERIOR, MANIFEST];
 
-pub(crate) fn write(answer: &Answer<'_>, folder: &Folder, wall_time: f64) -> Result<(), Failure> {
+/// Writes the files, and says which: there is a posterior only where every value is determined.
+pub(crate) fn write(
+    answer: &Answer<'_>,
+    folder: &Folder,
+    wall_time: f64,
+) -> Result<Vec<String>, Failure> {
     let mut files = folder.batch();
     files.write(RESIDUALS, |out| write_csv(&residuals(answer), out))?;
     files.write(FIT, |mut out| lptn_report::write(answer, Format::Json, Look::PLAIN, &mut out))?;
+    let called = (answer.input.text.stem.as_str(), answer.study.name.as_str());
+    if let Some(posterior) = answer.fit.posterior(&answer.task, called, &answer.names) {
+        files.write(POSTERIOR, |mut out| posterior.write(&mut out))?;
+    }
     let inputs = about::hashes(&answer.input.netlist);
     let text = files::manifest(&inputs, files.written(), wall_time);
     files.write(MANIFEST, |out| out.write_all(format!("{text:#}\n").as_bytes()))?;
-    files.commit(&[])
+    let names = files.written().iter().map(|file| file.name.clone()).collect();
+    files.commit(&NAMES)?;
+    Ok(names)
 }
 
 /// A value of a record: which column of which, and its row.

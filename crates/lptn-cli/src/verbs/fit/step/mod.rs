@@ -89,9 +89,7 @@ fn fitted<'a>(request: &'a Request, column: &'a RecordColumn) -> Result<Column<'
     };
     // dT does not depend on the capacity
     let capacity = match &request.capacity {
-        Some(capacity) => {
-            Capacity { value: capacity.value, deviation: capacity.deviation.unwrap_or(0.0) }
-        }
+        Some(capacity) => Capacity { value: capacity.value, deviation: capacity.sigma() },
         None => Capacity { value: 1.0, deviation: 0.0 },
     };
     let sensor = Sensor { class: request.sensor.unwrap_or(0.0), gain: 0.0 };

@@ -94,7 +94,7 @@ impl Page for Answer<'_> {
         let capacity = request
             .capacity
             .as_ref()
-            .map(|c| json!({ "value": c.value, "unit": "J/K", "standard_error": c.deviation }));
+            .map(|c| json!({ "value": c.value, "unit": "J/K", "standard_error": c.deviation.map(|d| d.sigma) }));
         let network = self.model.as_ref().map(|model| &model.stem);
         json.member("format", &1)?;
         json.member("network", &network)?;
@@ -185,7 +185,7 @@ fn intervals(answer: &Answer<'_>, text: &mut Text) {
 fn rises(answer: &Answer<'_>, text: &mut Text) {
     text.sentence("", &reference(answer));
     if let Some(capacity) = &answer.request.capacity {
-        let capacity = with_error(capacity.value, capacity.deviation.unwrap_or(0.0));
+        let capacity = with_error(capacity.value, capacity.sigma());
         text.sentence(
             "",
             &format!("R_eq = t_RC / C and P_disp = dT / R_eq with C = {capacity} J/K"),

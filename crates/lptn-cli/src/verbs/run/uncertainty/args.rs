@@ -1,5 +1,7 @@
 //! The options of `lptn run --uncertainty`.
 
+use std::path::PathBuf;
+
 use clap::{Args as Arguments, ValueEnum};
 
 /// What the `±` of parameters do to the results.
@@ -9,6 +11,9 @@ pub(crate) struct UncertaintyArgs {
     /// Bands from every `±`, by linear or sobol
     #[arg(long, value_name = "METHOD", hide_possible_values = true)]
     pub(crate) uncertainty: Option<Method>,
+    /// Take values and their covariance from a fit, not those of the netlist
+    #[arg(long, value_name = "FILE.json")]
+    pub(crate) posterior: Option<PathBuf>,
     /// Base points of sobol, a power of two [512]
     #[arg(long, value_name = "N", requires = "uncertainty")]
     #[arg(value_parser = clap::value_parser!(u32).range(64..=65536))]

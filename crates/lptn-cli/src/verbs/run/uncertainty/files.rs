@@ -57,6 +57,8 @@ pub(crate) fn ranking(network: &Network, found: &Uncertainty) -> Table {
     column("share", &|part| Some(part.share.value));
     if matches!(found.method, UncertaintyMethod::Sobol { .. }) {
         column("share_error", &|part| part.share.error);
+    }
+    if matches!(found.method, UncertaintyMethod::Sobol { .. }) && !found.inputs.are_correlated() {
         column("total", &|part| part.total.map(|total| total.value));
         column("total_error", &|part| part.total?.error);
     }
@@ -81,7 +83,7 @@ fn type_of(network: &Network, of: AnswerOf) -> Type {
 }
 
 /// What was done: method, samples, seed, runs without a result.
-pub(crate) fn method(found: &Uncertainty) -> Map<String, Value> {
+fn method(found: &Uncertainty) -> Map<String, Value> {
     let mut members = Map::new();
     let count = |n: usize| json!({ "value": n, "unit": "1" });
     match &found.method {
@@ -110,23 +112,47 @@ fn one_lost(lost: &Lost) -> Value {
     })
 }
 
+/// What was done, and what was known of the parameters.
+pub(crate) fn given((network, unit): (&Network, &Unit), found: &Uncertainty) -> Map<String, Value> {
+    let mut members = method(found);
+    members.insert("parameters".into(), parameters((network, unit), found));
+    if found.inputs.are_correlated() {
+        members.insert("correlation".into(), correlation(network, found));
+    }
+    members
+}
+
 /// The parameters with `±` by name, in SI units but for temperatures.
-pub(crate) fn parameters((network, unit): (&Network, &Unit), found: &Uncertainty) -> Value {
+fn parameters((network, unit): (&Network, &Unit), found: &Uncertainty) -> Value {
     let one = |(i, input): (usize, &lptn_study::uncertainty::Uncertain)| {
         let ty = network.parameters()[input.parameter.index()].ty;
         let sd = scale::scalar(input.deviation, Type::of(ty.dimension), unit);
-        let member = json!({ "value": scale::scalar(input.value, ty, unit), "sd": sd });
+        let member = json!({
+            "value": scale::scalar(input.value, ty, unit),
+            "sd": sd,
+            "distribution": input.distribution.word(),
+        });
         (parameter(network, found, i), member)
     };
     Value::Object(found.inputs.iter().enumerate().map(one).collect())
+}
+
+/// The correlations of each parameter with every other.
+fn correlation(network: &Network, found: &Uncertainty) -> Value {
+    let all = 0..found.inputs.len();
+    let between = |i: usize, j: usize| json!(found.inputs.correlations().between(i, j));
+    let row = |i: usize| -> Map<String, Value> {
+        all.clone().map(|j| (parameter(network, found, j), between(i, j))).collect()
+    };
+    let rows = all.clone().map(|i| (parameter(network, found, i), Value::Object(row(i))));
+    Value::Object(rows.collect())
 }
 
 /// The member `uncertainty` of the results: method, parameters, and by the name of the column or
 /// limit what was found.
 pub(crate) fn json(network: &Network, study: &Study, unit: &Unit) -> Value {
     let found = &study.found;
-    let mut members = method(found);
-    members.insert("parameters".into(), parameters((network, unit), found));
+    let mut members = given((network, unit), found);
     let mut results = Map::new();
     for answer in &found.answers {
         let (name, part) = place(network, answer.of);

@@ -2,6 +2,7 @@
 
 pub(crate) mod args;
 pub(crate) mod files;
+mod inputs;
 pub(crate) mod text;
 
 use args::{Method, UncertaintyArgs};

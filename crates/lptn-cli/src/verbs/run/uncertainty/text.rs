@@ -9,6 +9,7 @@ use lptn_units::Unit;
 
 use super::Study;
 use super::files::{parameter, unit_of};
+use super::inputs;
 use crate::words::{MOST_NODES, count, difference};
 
 /// Parameters that a ranking names.
@@ -24,21 +25,24 @@ const MOST_RANKINGS: usize = 3;
 pub(crate) fn sections(text: &mut Text, network: &Network, (study, unit): (&Study, &Unit)) {
     let found = &study.found;
     text.section().sentence("uncertainty: ", &heading(found));
+    for (label, words) in inputs::described(network, found) {
+        text.sentence(label, &words);
+    }
     temperatures(text.section(), network, (found, unit));
     margins(text.section(), network, found);
     ranking(text.section(), network, found);
 }
 
 fn heading(found: &Uncertainty) -> String {
-    let parameters = count(found.inputs.len(), "parameter");
+    let parameters = inputs::counted(found);
     match &found.method {
         UncertaintyMethod::Linear { differences } => {
             let exact =
                 if differences.is_none() { "exact sensitivities" } else { "differences of runs" };
-            format!("{parameters} with ±, straight lines from {exact}")
+            format!("{parameters}, straight lines from {exact}")
         }
         UncertaintyMethod::Sobol { samples, seed, runs, .. } => {
-            format!("{parameters} with ±, {samples} Sobol points, seed {seed}, {runs} runs")
+            format!("{parameters}, {samples} Sobol points, seed {seed}, {runs} runs")
         }
     }
 }
@@ -181,8 +185,10 @@ fn side_by_side(
         answer.ranking.iter().copied().find(|part| part.input == input)
     };
     let weight = |input: &usize| {
-        let weights =
-            answers.iter().filter_map(|answer| part(answer, *input)).map(|part| part.weight());
+        let weights = answers
+            .iter()
+            .filter_map(|answer| part(answer, *input))
+            .map(|part| part.weight().abs());
         weights.fold(0.0, f64::max)
     };
     let mut inputs: Vec<usize> = (0..found.inputs.len()).collect();
@@ -192,14 +198,15 @@ fn side_by_side(
     let (shown, others) = inputs.split_at(named);
     let mut table = TextTable::of(shown)
         .left("what matters", |input| parameter(network, found, *input))
-        .right("±", |input| deviation(network, found, *input));
+        .right("±", |input| inputs::deviation(network, found, *input));
     for answer in answers {
         let digits = decimals(answer.deviation.value, 3, 1);
         let of = |input: usize, text: &dyn Fn(Contribution) -> String| {
             part(answer, input).map_or("-".into(), text)
         };
         let title = format!("{} [{}]", name(network, answer.of), unit_of(network, answer.of));
-        let linear = matches!(found.method, UncertaintyMethod::Linear { .. });
+        let linear = matches!(found.method, UncertaintyMethod::Linear { .. })
+            || found.inputs.are_correlated();
         table = table
             .right(title, |i| of(*i, &|part| signed(part.effect, digits)))
             .right(if linear { "share" } else { "alone" }, |i| {
@@ -221,24 +228,11 @@ fn left_out(found: &Uncertainty, answers: &[&Answer], others: &[usize]) -> Optio
     }
     let sum = |answer: &&Answer| -> f64 {
         let parts = answer.ranking.iter().filter(|part| others.contains(&part.input));
-        parts.map(|part| part.weight().max(0.0)).sum()
+        parts.map(|part| part.weight().abs()).sum()
     };
     let most = answers.iter().map(sum).fold(0.0, f64::max);
     let which = if others.len() == found.inputs.len() { "all" } else { "the other" };
     Some(format!("{which} {}: {} together", others.len(), percent(most)))
-}
-
-/// The standard deviation of a parameter: in percent, in K for a temperature.
-fn deviation(network: &Network, found: &Uncertainty, input: usize) -> String {
-    let input = &found.inputs[input];
-    let ty = network.parameters()[input.parameter.index()].ty;
-    if ty.absolute {
-        return format!("{} K", significant(input.deviation, 3));
-    }
-    if input.value == 0.0 {
-        return format!("{} {}", significant(input.deviation, 3), ty.dimension.si_unit());
-    }
-    format!("{} %", significant(100.0 * (input.deviation / input.value).abs(), 2))
 }
 
 fn signed(value: f64, digits: usize) -> String {
@@ -287,7 +281,9 @@ pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String
                      it"
                 )
             };
-            return differences.iter().map(note).chain(wide(network, found)).collect();
+            let more =
+                inputs::shares(found).into_iter().chain(inputs::far_from_normal(network, found));
+            return differences.iter().map(note).chain(wide(network, found)).chain(more).collect();
         }
         UncertaintyMethod::Sobol { lost, .. } => lost,
     };
@@ -297,6 +293,7 @@ pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String
     let worst = percent(errors.flatten().fold(0.0, f64::max));
     let mut notes =
         vec![format!("shares have standard errors of up to {worst}; more --samples, smaller ones")];
+    notes.extend(inputs::shares(found));
     notes.extend(lost.iter().map(|lost| {
         let cut = if lost.refused {
             "the distribution ends there"

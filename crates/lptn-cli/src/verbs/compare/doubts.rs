@@ -1,0 +1,80 @@
+//! How sure a comparison is: what the `±` of parameters do to peaks, margins and their order.
+
+use lptn_netlist::Diagnostic;
+use lptn_report::{Align, Column, decimals, fixed, significant};
+use lptn_study::{Candidate, CompareRow, Scatter};
+
+use crate::input::Input;
+use crate::words::spaced;
+
+/// What is not known or does not exist.
+const NOTHING: &str = "-";
+
+/// Looks at how sure the results of a candidate are; what keeps it from being known is a warning.
+pub(super) fn look(input: &Input, found: &mut Candidate, file: &str) -> Option<Diagnostic> {
+    let warning = |code, why: &str| {
+        let message = format!("{file}: how sure the results are is not known: {why}");
+        Some(Diagnostic::warning(code, message))
+    };
+    let netlist = &input.netlist;
+    let (Some(run), Some(hottest)) = (&netlist.run, &found.hottest) else {
+        return warning("uncertainty::no_run", "it is looked at over a [run]");
+    };
+    let parameters = netlist.overrides();
+    match Scatter::of_run(&netlist.network, (&parameters, run), hottest) {
+        Ok(scatter) => {
+            found.scatter = scatter;
+            None
+        }
+        Err(error) => warning(error.code(), &error.to_string()),
+    }
+}
+
+/// One standard deviation of peak and margins, the probability that a limit is broken, and by how
+/// much the peak is above that of the first candidate; none where nothing is uncertain.
+pub(super) fn columns(rows: &[CompareRow], names: &[String]) -> Vec<Column> {
+    let Some(first) = rows.iter().position(|row| row.scatter().is_some()) else {
+        return Vec::new();
+    };
+    let column = |title: String, cell: &dyn Fn(&CompareRow) -> Option<String>| {
+        let cells = rows.iter().map(|row| cell(row).unwrap_or_else(|| NOTHING.to_owned()));
+        Column::new(title, Align::Right, cells.collect())
+    };
+    let kelvin = |value: f64| format!("{} K", significant(value, 2));
+    let mut columns = vec![column("peak".into(), &|row| Some(kelvin(row.scatter()?.peak)))];
+    for name in CompareRow::limit_names(rows) {
+        let sd = |row: &CompareRow| {
+            let unit = spaced(&row.limit(name)?.ty.dimension.si_unit());
+            Some(format!("{}{unit}", significant(row.scatter_of(name)?.0, 2)))
+        };
+        columns.push(column(name.to_owned(), &sd));
+        let broken = |row: &CompareRow| Some(percent(row.scatter_of(name)?.1));
+        columns.push(column(format!("P({name} broken)"), &broken));
+    }
+    if rows.iter().filter(|row| row.scatter().is_some()).count() > 1 {
+        let than = rows[first].scatter();
+        let above = |row: &CompareRow| Some(row.scatter()?.above(than?));
+        let shown = |row: &CompareRow| {
+            let above = above(row).filter(|_| !std::ptr::eq(row, &rows[first]))?;
+            let digits = decimals(above.deviation, 2, 0);
+            Some(format!("{} ± {} K", fixed(above.by, digits), fixed(above.deviation, digits)))
+        };
+        columns.push(column(format!("above {}", names[first]), &shown));
+        let sure = |row: &CompareRow| {
+            let above = above(row).filter(|_| !std::ptr::eq(row, &rows[first]))?;
+            Some(percent(above.probability))
+        };
+        columns.push(column("P(above)".into(), &sure));
+    }
+    columns
+}
+
+fn percent(share: f64) -> String {
+    if share < 5e-4 {
+        return "< 0.1 %".to_owned();
+    }
+    if share > 1.0 - 5e-4 {
+        return "> 99.9 %".to_owned();
+    }
+    format!("{} %", fixed(100.0 * share, if (0.1..=0.9).contains(&share) { 0 } else { 1 }))
+}

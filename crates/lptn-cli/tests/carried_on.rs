@@ -1,0 +1,166 @@
+//! Command line: what a fit found is carried on to runs, sizes and comparisons.
+
+mod common;
+
+use common::Folder;
+use serde_json::Value;
+
+/// One body of 2 kJ/K; P and R are measured together.
+const BODY: &str = "format = 1\n[param]\nR = \"0.25 K/W\"\nP = \"190 ± 15 W\"\n\
+    T_room = \"25 ± 2 degC\"\nG_fan = \"1 W/K\"\n[node]\nbody = { C = \"2 kJ/K\", T0 = \"T_room\" }\n\
+    [boundary]\nroom = { T = \"T_room\" }\n[resistor]\n\
+    skin = { from = \"body\", to = \"room\", R = \"R\" }\n\
+    [source]\nheat = { into = \"body\", P = \"P\" }\n[limit]\nhot = { of = \"body.T\", below = \
+    \"95 degC\" }\n[run]\nstop = \"3 h\"\noutput = { every = \"10 min\" }\n\
+    [fit.all]\ndata = \"r.csv\"\ncolumn = { ring = \"body.T\" }\nsigma = \"1.5 K\"\n\
+    vary = { T_room = {}, P = {}, R = { from = \"0.05 K/W\", to = \"2 K/W\" } }\n";
+
+const ROWS: &str = "t [s],ring [degC]\n60,31.8\n300,48.9\n600,62.4\n1200,76.1\n2400,84.2\n";
+
+fn folder() -> Folder {
+    let folder = Folder::with("body.toml", BODY);
+    folder.write("r.csv", ROWS);
+    folder
+}
+
+fn fitted() -> Folder {
+    let folder = folder();
+    folder.run(&["fit", "network", "body.toml", "-o", "res"]).exits(0).says("posterior.json");
+    folder
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or(f64::NAN)
+}
+
+/// What `posterior.json` says, propagated by hand: T = T_room + P R at the end, settled (seven time
+/// constants and more), `gradient^T Cov gradient` with R in its logarithm.
+#[test]
+fn a_run_propagates_the_covariance_of_a_fit() {
+    let folder = fitted();
+    let posterior: Value = serde_json::from_str(&folder.read("res/posterior.json")).unwrap();
+    let value = |i: usize| number(&posterior["quantities"][i]["value"]);
+    let (power, resistance) = (value(1), value(2));
+    assert_eq!(posterior["of"], serde_json::json!(["T_room", "P", "ln R"]));
+    let gradient = [1.0, resistance, power * resistance];
+    let covariance = |i: usize, j: usize| number(&posterior["covariance"][i][j]);
+    let variance: f64 = (0..3)
+        .flat_map(|i| (0..3).map(move |j| (i, j)))
+        .map(|(i, j)| gradient[i] * covariance(i, j) * gradient[j])
+        .sum();
+    let alone: f64 = (0..3).map(|i| gradient[i] * covariance(i, i) * gradient[i]).sum();
+    assert!(alone > 4.0 * variance, "correlations matter: {alone} {variance}");
+    let run = |method: &'static str, samples: &'static str| -> Value {
+        let mut words = vec!["run", "body.toml", "--posterior", "res/posterior.json"];
+        words.extend(["--uncertainty", method, "--format", "json", "--no-files"]);
+        if !samples.is_empty() {
+            words.extend(["--samples", samples]);
+        }
+        folder.run(&words).exits(0).json()["uncertainty"].clone()
+    };
+    let lines = run("linear", "");
+    let end = |found: &Value| number(&found["results"]["body.T"]["end"]["sd"]["value"]);
+    let expected = variance.sqrt();
+    assert!((end(&lines) / expected - 1.0).abs() < 1e-4, "{} {expected}", end(&lines));
+    let tied = number(&lines["correlation"]["P"]["R"]);
+    assert!((tied - number(&posterior["correlation"][1][2])).abs() < 1e-12);
+    assert_eq!(lines["parameters"]["R"]["distribution"], "lognormal");
+    let sampled = run("sobol", "1024");
+    assert!((end(&sampled) / expected - 1.0).abs() < 0.03, "{} {expected}", end(&sampled));
+    assert_eq!(sampled["results"]["body.T"]["end"]["ranking"][0]["total"], Value::Null);
+}
+
+#[test]
+fn the_table_says_what_is_correlated_and_files_are_the_same_on_any_threads() {
+    let folder = fitted();
+    let words = |threads: &'static str, out: &'static str| {
+        ["run", "body.toml", "--posterior", "res/posterior.json", "--uncertainty", "sobol"]
+            .into_iter()
+            .chain(["--samples", "64", "--threads", threads, "-o", out])
+            .collect::<Vec<_>>()
+    };
+    let ran = folder.run(&words("1", "one")).exits(0);
+    let ran = ran.prints("correlated").prints("lognormal: R").prints("Sobol's indices");
+    assert!(ran.out.lines().all(|line| line.chars().count() <= 80), "{}", ran.out);
+    folder.run(&words("3", "three")).exits(0);
+    for name in ["uncertainty.csv", "ranking.csv"] {
+        assert_eq!(folder.read(&format!("one/{name}")), folder.read(&format!("three/{name}")));
+    }
+    let manifest: Value = serde_json::from_str(&folder.read("one/manifest.json")).unwrap();
+    assert_eq!(manifest["inputs"][2]["name"], "res/posterior.json");
+    assert!(number(&manifest["uncertainty"]["correlation"]["P"]["R"]) < -0.5, "{manifest}");
+}
+
+/// The netlist names the file itself; a fit does not read it.
+#[test]
+fn a_netlist_names_its_posterior() {
+    let folder = fitted();
+    let named = format!("{BODY}[uncertainty]\nposterior = \"res/posterior.json\"\n");
+    folder.write("body.toml", &named);
+    let by_name = folder.run(&["run", "body.toml", "--no-files", "--format", "csv"]).exits(0);
+    folder.write("plain.toml", BODY);
+    let words = ["run", "plain.toml", "--posterior", "res/posterior.json", "--no-files"];
+    let by_option = folder.run(&[&words[..], &["--format", "csv"]].concat()).exits(0);
+    assert_eq!(by_name.out, by_option.out);
+    by_option.says("posterior::other_network");
+    let first = folder.read("res/posterior.json");
+    folder.run(&["fit", "network", "body.toml", "-o", "again"]).exits(0);
+    assert_eq!(folder.read("again/posterior.json"), first);
+}
+
+/// What was the posterior of an earlier fit does not stay beside a fit that has none.
+#[test]
+fn a_fit_that_determines_too_little_leaves_no_posterior() {
+    let folder = fitted();
+    let open = BODY.replace("190 ± 15 W", "190 W").replace("25 ± 2 degC", "25 degC");
+    let open =
+        open.replace("sigma", "# sigma").replace("C = \"2 kJ/K\"", "C = \"G_fan * 2000 [s]\"");
+    let open = open.replace("T_room = {}, P = {}", "P = {}, G_fan = {}");
+    folder.write("body.toml", &open);
+    folder.run(&["fit", "network", "body.toml", "-o", "res"]).exits(1);
+    assert!(!folder.files().contains(&"res/posterior.json".to_owned()), "{:?}", folder.files());
+    assert!(folder.files().contains(&"res/fit.json".to_owned()));
+}
+
+#[test]
+fn sizes_and_comparisons_read_it() {
+    let folder = fitted();
+    let size = format!(
+        "{BODY}[size.skin]\nmaximise = \"R\"\nvary = {{ R = {{ from = \"0.05 K/W\", to = \"2 K/W\" }} }}\n\
+         require = [\"body.T <= 95 [degC]\"]\nprobability = \"95 %\"\n"
+    );
+    folder.write("body.toml", &size);
+    let value = |more: &[&str]| {
+        let ran = folder.run(&[&["size", "body.toml", "--format", "json"], more].concat()).exits(0);
+        let json = ran.json();
+        (number(&json["values"]["R"]["value"]), json.to_string())
+    };
+    let (own, _) = value(&[]);
+    let (carried, json) = value(&["--posterior", "res/posterior.json"]);
+    assert!((own - carried).abs() > 0.01, "{own} {carried} {json}");
+    folder.write("plain.toml", BODY);
+    folder.write(
+        "other.toml",
+        &BODY
+            .replace("R = \"0.25 K/W\"", "R2 = \"0.25 K/W\"")
+            .replace("R = \"R\"", "R = \"R2\"")
+            .replace("R = { from", "R2 = { from"),
+    );
+    let compared = ["compare", "plain.toml", "other.toml", "--posterior", "res/posterior.json"];
+    let ran = folder.run(&[&compared[..], &["--format", "json"]].concat());
+    assert!(ran.out.contains("peak"), "{} {}", ran.out, ran.err);
+}
+
+#[test]
+fn what_is_no_posterior_is_refused() {
+    let folder = fitted();
+    let run = |file: &str| folder.run(&["run", "body.toml", "--no-files", "--posterior", file]);
+    run("res/fit.json").exits(2).says("posterior::format");
+    run("no.json").exits(2).says("input::cannot_read");
+    let foreign = common::GEARBOX.to_owned();
+    folder.write("gearbox.toml", &foreign);
+    let words = ["run", "gearbox.toml", "--no-files", "--posterior", "res/posterior.json"];
+    folder.run(&words).exits(2).says("posterior::unknown_parameter");
+    let words = ["compare", "gearbox.toml", "--posterior", "res/posterior.json"];
+    folder.run(&words).exits(2).says("posterior::nothing");
+}

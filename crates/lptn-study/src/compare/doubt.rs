@@ -1,0 +1,102 @@
+//! How sure what is compared is, and how sure the difference of two candidates.
+
+use lptn_netlist::RunSettings;
+use lptn_network::{LimitId, Network, Parameters};
+use lptn_solve::Transient;
+
+use crate::uncertainty::normal::share_below;
+use crate::uncertainty::{Answer, AnswerOf, Inputs, UncertaintyError, UncertaintyTask, uncertain};
+
+/// What the `±` of parameters do to what is compared of a candidate, by straight lines.
+#[derive(Clone, Debug)]
+pub struct Scatter {
+    /// One standard deviation of the peak in K.
+    pub peak: f64,
+    /// For each limit of the network one standard deviation of its margin in SI units, and the
+    /// probability that it is broken.
+    pub limits: Vec<(f64, f64)>,
+    /// The peak in K.
+    value: f64,
+    /// What one standard deviation of each parameter does to the peak, by name.
+    effects: Vec<(String, f64)>,
+    /// The names of the inputs.
+    names: Vec<String>,
+    inputs: Inputs,
+}
+
+/// By how much one peak is above another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Above {
+    /// In K.
+    pub by: f64,
+    /// One standard deviation of that in K.
+    pub deviation: f64,
+    /// The probability that it is above.
+    pub probability: f64,
+}
+
+impl Scatter {
+    /// Of the run of a network with these parameters, `hottest` being the node that gets hottest;
+    /// `None` where every parameter is certain, or there is no such node.
+    ///
+    /// # Errors
+    /// [`UncertaintyError`].
+    pub fn of_run(
+        network: &Network,
+        (parameters, run): (&Parameters, &RunSettings),
+        hottest: &str,
+    ) -> Result<Option<Self>, UncertaintyError> {
+        let inputs = match uncertain(network, parameters) {
+            Err(UncertaintyError::NoDeviation) => return Ok(None),
+            inputs => inputs?,
+        };
+        let Ok(node) = network.node(hottest) else { return Ok(None) };
+        let (parameters, run) = (parameters.clone(), Transient::of(network, run));
+        let found = UncertaintyTask { network, parameters, run, nodes: vec![node] }.linear()?;
+        let name = |i: usize| network.parameters()[inputs[i].parameter.index()].name.clone();
+        let of = |wanted: AnswerOf| found.answers.iter().find(|answer| answer.of == wanted);
+        let Some(peak) = of(AnswerOf::Max(node)) else { return Ok(None) };
+        let limit = |id: LimitId| {
+            let judged = |answer: &Answer| (answer.deviation.value, answer.below_zero.value);
+            of(AnswerOf::Margin(id)).map_or((f64::NAN, f64::NAN), judged)
+        };
+        Ok(Some(Self {
+            peak: peak.deviation.value,
+            limits: network.limit_ids().map(limit).collect(),
+            value: peak.value,
+            effects: peak.ranking.iter().map(|part| (name(part.input), part.effect)).collect(),
+            names: (0..inputs.len()).map(name).collect(),
+            inputs,
+        }))
+    }
+
+    /// By how much the peak is above that of another candidate. Parameters of one name are one
+    /// thing, off by as many of their standard deviations in both; what is correlated in one is so in
+    /// both.
+    pub fn above(&self, other: &Self) -> Above {
+        let mut all: Vec<(&str, f64)> =
+            self.effects.iter().map(|(name, effect)| (name.as_str(), *effect)).collect();
+        for (name, effect) in &other.effects {
+            match all.iter_mut().find(|(own, _)| own == name) {
+                Some((_, own)) => *own -= effect,
+                None => all.push((name, -effect)),
+            }
+        }
+        let tied = |a: &str, b: &str| self.tied(a, b).or_else(|| other.tied(a, b)).unwrap_or(0.0);
+        let with = |a: &str| -> f64 {
+            all.iter().map(|(b, effect)| if a == *b { *effect } else { effect * tied(a, b) }).sum()
+        };
+        let variance: f64 = all.iter().map(|(a, effect)| effect * with(a)).sum();
+        let (by, deviation) = (self.value - other.value, variance.max(0.0).sqrt());
+        let certain = f64::from(u8::from(by > 0.0));
+        let probability = if deviation > 0.0 { share_below(by / deviation) } else { certain };
+        Above { by, deviation, probability }
+    }
+
+    /// The correlation of two parameters by name; `None` where it has not both.
+    fn tied(&self, a: &str, b: &str) -> Option<f64> {
+        // effects stand in the order of the ranking, inputs in that of the network
+        let place = |name: &str| self.names.iter().position(|own| own == name);
+        Some(self.inputs.correlations().between(place(a)?, place(b)?))
+    }
+}

@@ -1,0 +1,50 @@
+//! The distribution that stands behind a deviation: `0 ± 3 K (rectangle)`.
+
+use std::ops::Range;
+
+use crate::error::{UnitError, UnitErrorKind};
+use crate::spread::Distribution;
+
+/// A distribution as it stands in a text, brackets included.
+#[derive(Clone, Debug)]
+pub(crate) struct Named {
+    pub(crate) distribution: Distribution,
+    pub(crate) span: Range<usize>,
+}
+
+/// What distributions are called elsewhere, and which is meant; some there are not.
+const OTHERS: [(&str, Option<Distribution>); 12] = [
+    ("rectangular", Some(Distribution::Rectangle)),
+    ("uniform", Some(Distribution::Rectangle)),
+    ("limits", Some(Distribution::Rectangle)),
+    ("box", Some(Distribution::Rectangle)),
+    ("log-normal", Some(Distribution::Lognormal)),
+    ("log normal", Some(Distribution::Lognormal)),
+    ("gauss", Some(Distribution::Normal)),
+    ("gaussian", Some(Distribution::Normal)),
+    ("triangle", None),
+    ("triangular", None),
+    ("beta", None),
+    ("student", None),
+];
+
+/// The distribution in brackets at the end of a text; `None` where the bracket is part of a unit.
+pub(crate) fn named(text: &str) -> Result<Option<Named>, UnitError> {
+    let end = text.trim_end().len();
+    let Some(inside) = text.get(..end).and_then(|text| text.strip_suffix(')')) else {
+        return Ok(None);
+    };
+    let Some(open) = inside.rfind('(') else { return Ok(None) };
+    let word = inside.get(open + 1..).unwrap_or_default().trim().to_lowercase();
+    let span = open..end;
+    if let Some(distribution) = Distribution::of(&word) {
+        return Ok(Some(Named { distribution, span }));
+    }
+    match OTHERS.iter().find(|(other, _)| *other == word) {
+        Some(&(_, meant)) => {
+            let kind = UnitErrorKind::UnknownDistribution { word, meant };
+            Err(UnitError::new(kind, span))
+        }
+        None => Ok(None),
+    }
+}
