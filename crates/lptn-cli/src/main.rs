@@ -34,6 +34,7 @@ mod reporting;
 mod scale;
 mod select;
 mod sense;
+mod unseparated;
 mod verbs;
 mod words;
 mod written;

@@ -148,10 +148,11 @@ impl Study for Sensor {
     }
 }
 
-/// The names of the sensors that columns of fits name.
+/// The names of the sensors that columns of fits and places of plans name.
 fn in_use(raw: &RawNetlist) -> Vec<&str> {
     let fits = raw.elements("fit").iter().filter_map(|fit| inside(&fit.value, "column"));
-    let columns = fits.filter_map(|column| match &column.kind {
+    let plans = raw.elements("plan").iter().filter_map(|plan| inside(&plan.value, "place"));
+    let columns = fits.chain(plans).filter_map(|column| match &column.kind {
         RawKind::Table(table) => Some(&table.entries),
         _ => None,
     });

@@ -16,6 +16,7 @@ use crate::study::{PathFrom, Study};
 use crate::toml_text::{TomlFields, key as toml_key, like, string, value};
 use crate::work::Elaboration;
 
+pub(crate) use read::Measured;
 pub use recorded::{FitInitial, FitSignal};
 
 const FIT: SectionDeclaration = SectionDeclaration {

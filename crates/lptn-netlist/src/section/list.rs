@@ -26,6 +26,7 @@ use crate::foster::FOSTER;
 use crate::gearbox::GEARBOX;
 use crate::import::IMPORT;
 use crate::parameters::PARAM;
+use crate::plan::PlanStudy;
 use crate::raw::{RawNetlist, RawValue};
 use crate::run::RUN;
 use crate::sensor::Sensor;
@@ -91,6 +92,8 @@ studies! {
     sensors: Sensor,
     /// What to find from records, in file order.
     fits: FitStudy,
+    /// Which measurements to plan, in file order.
+    plans: PlanStudy,
     /// Over what to sweep, in file order.
     sweeps: SweepStudy,
 }
