@@ -5,6 +5,7 @@
 //! residuals depend on those before them. [`step`] is the seed paper's fit of one exponential,
 //! [`network`] the fit of any network's parameters.
 
+pub mod kalman;
 pub mod law;
 pub mod least_squares;
 pub mod network;
