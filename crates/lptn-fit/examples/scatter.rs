@@ -25,6 +25,10 @@ fn main() {
     let off = in_parallel(&seeds, threads, |&seed| missed(&task, (&plan.places, &plan.runs), seed));
     let found: Vec<&Vec<f64>> = off.iter().flatten().collect();
     println!("{} of {count} fits found a minimum", found.len());
+    let mut why: Vec<&String> = off.iter().filter_map(|off| off.as_ref().err()).collect();
+    why.sort();
+    why.dedup();
+    why.iter().for_each(|why| println!("else: {why}"));
     for (i, unknown) in task.unknowns.iter().enumerate().filter(|(_, u)| u.sensor().is_none()) {
         let squares: f64 = found.iter().map(|off| off[i] * off[i]).sum();
         let scatter = (squares / found.len() as f64).sqrt();
@@ -33,19 +37,19 @@ fn main() {
     }
 }
 
-/// By how much a fit of records of this seed misses every unknown; none without a minimum.
+/// By how much a fit of records of this seed misses every unknown; without a minimum why.
 fn missed(
     task: &DesignTask<'_>,
     planned: (&[usize], &[(usize, usize)]),
     seed: u32,
-) -> Option<Vec<f64>> {
+) -> Result<Vec<f64>, String> {
     let mut random = Pcg64::new(41 + u128::from(seed), 0x0a02_bdbf_7bb3_c0a7_ac28_fa16_a64a_bf96);
     let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
     let mut truth = task.clone();
     for (value, unknown) in truth.values.iter_mut().zip(&task.unknowns) {
         *value += unknown.prior.unwrap_or(0.0) * normal();
     }
-    let mut fit = truth.records(planned).ok()?;
+    let mut fit = truth.records(planned).map_err(|error| error.to_string())?;
     fit.threads = 1;
     for run in &mut fit.runs {
         for (column, &place) in run.columns.iter_mut().zip(planned.0) {
@@ -59,14 +63,14 @@ fn missed(
             }
         }
     }
-    let found = fit_network(&fit).ok()?;
+    let found = fit_network(&fit).map_err(|error| error.to_string())?;
     let own = fit.unknowns();
     let miss = |(unknown, value): (&lptn_fit::network::Unknown, &f64)| {
         let place = own.iter().position(|own| own.of == unknown.of);
         place.map_or(f64::NAN, |place| found.parameters[place].value - value)
     };
-    found
-        .not_converged
-        .is_none()
-        .then(|| task.unknowns.iter().zip(&truth.values).map(miss).collect())
+    match found.not_converged {
+        Some(stop) => Err(stop.text().to_owned()),
+        None => Ok(task.unknowns.iter().zip(&truth.values).map(miss).collect()),
+    }
 }

@@ -177,13 +177,25 @@ impl Never {
 
 fn of_set(space: &Space<'_, '_>, set: &BestSet) -> DesignSet {
     let mut told = space.base(&set.places);
-    let enough = set.leg.and_then(|leg| space.shortest(&set.places, (&told, leg)));
+    let enough = set.leg.and_then(|leg| enough(space, &set.places, (&told, leg)));
     set.leg.iter().for_each(|leg| told.add(&space.tells(&set.places, *leg)));
     DesignSet {
         places: set.places.clone(),
         run: set.leg.map(|leg| (leg.run, space.samples(leg))),
         errors: told.errors(),
-        enough: enough.map(|leg| space.samples(leg)),
+        enough,
+    }
+}
+
+/// After how many samples of a run all is known that shall be; one where it is known already.
+fn enough(
+    space: &Space<'_, '_>,
+    places: &[usize],
+    (base, leg): (&Information, Leg),
+) -> Option<usize> {
+    match space.score(base).is_reached() {
+        true => Some(1),
+        false => space.shortest(places, (base, leg)).map(|leg| space.samples(leg)),
     }
 }
 
@@ -193,7 +205,7 @@ fn next(space: &Space<'_, '_>, places: &[usize]) -> Vec<NextRun> {
         let leg = space.whole(run);
         let mut told = base.clone();
         told.add(&space.tells(places, leg));
-        let enough = space.shortest(places, (&base, leg)).map(|leg| space.samples(leg));
+        let enough = enough(space, places, (&base, leg));
         let (run, cost) = ((run, space.samples(leg)), space.cost_of(leg));
         NextRun { run, errors: told.errors(), enough, cost }
     };
