@@ -5,7 +5,7 @@ use lptn_solve::in_parallel;
 use crate::network::design::space::{Leg, Score, Space};
 
 /// Every set is looked at up to so many places; beyond, places are added one by one and exchanged.
-pub const MOST_PLACES: usize = 12;
+pub const MOST_PLACES: usize = 10;
 
 /// The best set of so many places, judged by the best single run.
 #[derive(Clone, Debug, PartialEq)]
