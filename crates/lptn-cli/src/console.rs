@@ -160,6 +160,14 @@ impl Console {
         &self,
         result: impl FnOnce(&mut BufWriter<io::StdoutLock<'static>>) -> io::Result<()>,
     ) -> Result<(), Failure> {
+        self.stream(result).map(|_| ())
+    }
+
+    /// The same for a part of a result that may go on forever: whether anybody still reads.
+    pub(crate) fn stream(
+        &self,
+        result: impl FnOnce(&mut BufWriter<io::StdoutLock<'static>>) -> io::Result<()>,
+    ) -> Result<bool, Failure> {
         self.printed.store(true, Ordering::Relaxed);
         let mut out = BufWriter::with_capacity(1 << 16, io::stdout().lock());
         match result(&mut out).and_then(|()| out.flush()) {
@@ -167,7 +175,7 @@ impl Console {
                 let message = format!("cannot write to stdout: {}", reason(&error));
                 Err(Failure::new(Exit::Failed, Diagnostic::error("output::stdout", message)))
             }
-            _ => Ok(()),
+            outcome => Ok(outcome.is_ok()),
         }
     }
 

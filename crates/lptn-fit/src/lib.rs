@@ -5,6 +5,7 @@
 //! residuals depend on those before them. [`step`] is the seed paper's fit of one exponential,
 //! [`network`] the fit of any network's parameters.
 
+pub mod infer;
 pub mod kalman;
 pub mod law;
 pub mod least_squares;
@@ -13,6 +14,7 @@ pub mod noise;
 pub mod step;
 
 mod covariance;
+mod simplex;
 mod spectrum;
 
 pub use covariance::Covariance;

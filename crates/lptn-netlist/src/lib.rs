@@ -49,6 +49,7 @@ mod head;
 mod import;
 mod imported;
 mod include;
+mod infer;
 mod initial;
 mod json;
 pub mod library;
@@ -94,11 +95,12 @@ pub use fit::{FitInitial, FitPlan, FitRecord, FitSignal, FitStudy, Observed, Var
 pub use format::{KeyDeclaration, NetlistFormat, Role, SectionDeclaration};
 pub use gearbox::{Arrangement, Gearbox, GearboxPart, Member};
 pub use include::Loader;
+pub use infer::{InferStart, InferStudy, SoughtSignal};
 pub use initial::InitialState;
 pub use lptn_data::{
-    DataSheet, Diagnostic, FileId, Files, Label, MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS,
-    ReadError, Record, RecordColumn, RecordName, RecordQuery, Rejected, Saturation, Severity, Span,
-    read_bytes, read_record, read_sheet,
+    CsvText, DataSheet, Diagnostic, FileId, Files, Label, MOST_BYTES, MOST_CSV_BYTES,
+    MOST_PROBLEMS, ReadError, Record, RecordColumn, RecordName, RecordQuery, Rejected, Saturation,
+    Severity, Span, read_bytes, read_record, read_sheet, read_text,
 };
 pub use lptn_network::{RunSettings, WindowSettings};
 pub use near_file::similar_file;

@@ -117,7 +117,8 @@ impl Study for Sensor {
         let entries = work.elements(SENSOR.name);
         let found = entries.iter().filter_map(|entry| work.sensor(entry)).collect();
         for entry in entries.iter().filter(|entry| !used.contains(&entry.key.as_str())) {
-            let message = format!("no column of a fit names sensor `{}`", entry.key);
+            let message =
+                format!("no column of a fit or an inference names sensor `{}`", entry.key);
             let help = format!(
                 "name it where a column is read, `ring = {{ of = \"steel.T\", sensor = \"{}\" }}`, \
                  or remove it",
@@ -148,9 +149,10 @@ impl Study for Sensor {
     }
 }
 
-/// The names of the sensors that columns of fits and places of plans name.
+/// The names of the sensors that columns of fits and inferences, and places of plans, name.
 fn in_use(raw: &RawNetlist) -> Vec<&str> {
-    let fits = raw.elements("fit").iter().filter_map(|fit| inside(&fit.value, "column"));
+    let fits = ["fit", "infer"].into_iter().flat_map(|section| raw.elements(section));
+    let fits = fits.filter_map(|fit| inside(&fit.value, "column"));
     let plans = raw.elements("plan").iter().filter_map(|plan| inside(&plan.value, "place"));
     let columns = fits.chain(plans).filter_map(|column| match &column.kind {
         RawKind::Table(table) => Some(&table.entries),

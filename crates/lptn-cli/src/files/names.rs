@@ -12,6 +12,8 @@ pub(crate) const POWER: &str = "figure_9_power.csv";
 pub(crate) const LAWS: &str = "laws.csv";
 pub(crate) const RESIDUALS: &str = "residuals.csv";
 pub(crate) const FIT: &str = "fit.json";
+pub(crate) const INFERRED: &str = "inferred.csv";
+pub(crate) const INFER: &str = "infer.json";
 pub(crate) const SWEEP: &str = "sweep.csv";
 pub(crate) const PARQUET: &str = "sweep.parquet";
 pub(crate) const MANIFEST: &str = "manifest.json";
@@ -26,7 +28,7 @@ pub(super) const COMMIT: &str = ".commit.json";
 /// The file whose lock says that somebody writes here.
 pub(super) const LOCK: &str = ".lptn.lock";
 
-const RESULTS: [&str; 16] = [
+const RESULTS: [&str; 18] = [
     RESULT,
     STATE,
     EVENTS,
@@ -39,6 +41,8 @@ const RESULTS: [&str; 16] = [
     LAWS,
     RESIDUALS,
     FIT,
+    INFERRED,
+    INFER,
     SWEEP,
     PARQUET,
     BEGUN,

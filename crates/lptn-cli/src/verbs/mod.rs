@@ -8,6 +8,7 @@ pub(crate) mod fit;
 pub(crate) mod gear;
 pub(crate) mod graph;
 pub(crate) mod impedance;
+pub(crate) mod infer;
 pub(crate) mod man;
 pub(crate) mod materials;
 pub(crate) mod modes;
@@ -102,6 +103,7 @@ verbs! {
     Rank(rank::RankArgs) => rank::rank, drawn |_| true;
     Sweep(sweep::SweepArgs) => sweep::sweep, drawn |args| args.verb.is_none();
     Fit(fit::FitArgs) => fit::fit, drawn |_| true;
+    Infer(infer::InferArgs) => infer::infer, drawn |_| true;
     Plan(plan::PlanArgs) => plan::plan, drawn |_| true;
     Reduce(reduce::ReduceArgs) => reduce::reduce, drawn |_| true;
     Impedance(impedance::ImpedanceArgs) => impedance::impedance, drawn |_| true;

@@ -1,6 +1,6 @@
 //! One reading after the other.
 
-use super::{Gaussian, Reading, Step, carried, dot, multiplied};
+use super::{Gaussian, Reading, Step, advanced, carried, dot, multiplied};
 
 /// What is known after the readings so far.
 #[derive(Clone, Debug)]
@@ -39,27 +39,30 @@ impl Filter {
     pub fn predict(&mut self, step: &Step) {
         let n = self.state.mean.len();
         let Gaussian { mean, covariance } = &mut self.state;
-        *mean = multiplied(&step.transition, mean);
+        *mean = advanced(&step.transition, mean);
         mean.iter_mut().zip(&step.input).for_each(|(x, u)| *x += u);
         *covariance = carried(&step.transition, covariance, n);
-        covariance.iter_mut().zip(&step.noise).for_each(|(p, q)| *p += q);
+        let d = step.input.len();
+        let rows = covariance.chunks_exact_mut(n).zip(step.noise.chunks_exact(d));
+        rows.for_each(|(row, noise)| row.iter_mut().zip(noise).for_each(|(p, q)| *p += q));
     }
 
     /// Takes a reading in.
     pub fn update(&mut self, reading: &Reading) -> Innovation {
         let (gain, innovation) = self.gain(reading);
         let n = gain.len();
+        let Innovation { residual, variance } = innovation;
         let Gaussian { mean, covariance } = &mut self.state;
-        mean.iter_mut().zip(&gain).for_each(|(x, k)| *x += k * innovation.residual);
+        let spread = multiplied(covariance, &reading.of);
+        mean.iter_mut().zip(&gain).for_each(|(x, k)| *x += k * residual);
         // (1 - k h) P (1 - k h)' + k r k' (P. D. Joseph), which stays a covariance when rounded
-        let rest = without(&gain, &reading.of);
-        *covariance = carried(&rest, covariance, n);
-        for (i, a) in gain.iter().enumerate() {
-            for (j, b) in gain.iter().enumerate() {
-                covariance[i * n + j] += a * b * reading.variance;
+        for i in 0..n {
+            for j in 0..=i {
+                let p = covariance[i * n + j] - gain[i] * spread[j] - spread[i] * gain[j]
+                    + gain[i] * gain[j] * variance;
+                (covariance[i * n + j], covariance[j * n + i]) = (p, p);
             }
         }
-        let Innovation { residual, variance } = innovation;
         let size = (std::f64::consts::TAU * variance).ln();
         self.log_likelihood -= 0.5 * (size + residual * residual / variance);
         innovation
@@ -73,12 +76,4 @@ impl Filter {
         let residual = reading.value - dot(&reading.of, mean);
         (spread.iter().map(|p| p / variance).collect(), Innovation { residual, variance })
     }
-}
-
-/// `1 - k h`
-pub(super) fn without(gain: &[f64], of: &[f64]) -> Vec<f64> {
-    let n = gain.len();
-    let mut rest: Vec<f64> = gain.iter().flat_map(|k| of.iter().map(move |h| -k * h)).collect();
-    rest.iter_mut().step_by(n + 1).for_each(|x| *x += 1.0);
-    rest
 }

@@ -8,6 +8,8 @@
 mod filter;
 mod smoother;
 
+use std::rc::Rc;
+
 pub use filter::{Filter, Innovation};
 pub use smoother::Smoother;
 
@@ -20,15 +22,16 @@ pub struct Gaussian {
     pub covariance: Vec<f64>,
 }
 
-/// How the states go on: `x' = transition x + input + noise`.
+/// How the first states go on, `x' = transition x + input + noise`; those behind them stay as they
+/// are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// What each state becomes of every other.
-    pub transition: Vec<f64>,
+    pub transition: Rc<Vec<f64>>,
     /// What comes to each.
     pub input: Vec<f64>,
     /// The covariance of what is not known beforehand.
-    pub noise: Vec<f64>,
+    pub noise: Rc<Vec<f64>>,
 }
 
 /// A number that was read: `value = of x + noise`.
@@ -59,16 +62,33 @@ fn multiplied(matrix: &[f64], x: &[f64]) -> Vec<f64> {
     matrix.chunks_exact(x.len()).map(|row| dot(row, x)).collect()
 }
 
-/// `a b a'`, symmetric as `b` is.
+/// `T b T'`, symmetric as `b` is, where T is `a` for the first states and nothing but 1 behind them.
 fn carried(a: &[f64], b: &[f64], n: usize) -> Vec<f64> {
-    let half: Vec<f64> = b.chunks_exact(n).flat_map(|row| multiplied(a, row)).collect();
-    // row i of `half` is a b_i; its columns are what rows of `a` meet
+    let d = side(a);
+    // row i of `half` is T b_i; its columns are what rows of T meet
+    let half: Vec<f64> = b.chunks_exact(n).flat_map(|row| advanced(a, row)).collect();
     let mut out = vec![0.0; n * n];
     for i in 0..n {
         for j in 0..=i {
-            let sum = (0..n).map(|k| a[i * n + k] * half[k * n + j]).sum::<f64>();
+            let sum = match i < d {
+                true => (0..d).map(|k| a[i * d + k] * half[k * n + j]).sum::<f64>(),
+                false => half[i * n + j],
+            };
             (out[i * n + j], out[j * n + i]) = (sum, sum);
         }
     }
     out
+}
+
+/// `T x`
+fn advanced(a: &[f64], x: &[f64]) -> Vec<f64> {
+    let (first, rest) = x.split_at(side(a));
+    let mut all = multiplied(a, first);
+    all.extend_from_slice(rest);
+    all
+}
+
+/// The number of rows of a square matrix.
+fn side(a: &[f64]) -> usize {
+    a.len().isqrt()
 }

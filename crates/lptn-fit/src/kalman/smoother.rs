@@ -1,7 +1,10 @@
 //! What all readings together say of every moment.
 
-use super::filter::without;
-use super::{Filter, Gaussian, Innovation, Reading, Step, carried, multiplied};
+use std::rc::Rc;
+
+use super::{
+    Filter, Gaussian, Innovation, Reading, Step, advanced, carried, dot, multiplied, side,
+};
 
 /// Takes readings in and remembers what it takes to go back.
 #[derive(Clone, Debug)]
@@ -14,8 +17,8 @@ pub struct Smoother {
 #[derive(Clone, Debug)]
 struct Moment {
     before: Gaussian,
-    /// The transition to it from the moment before.
-    transition: Vec<f64>,
+    /// The transition to it from the moment before, if there is one.
+    transition: Option<Rc<Vec<f64>>>,
     readings: Vec<Taken>,
 }
 
@@ -29,7 +32,7 @@ struct Taken {
 impl Smoother {
     /// Begins at the first moment, with what is known before its readings.
     pub fn new(state: Gaussian) -> Self {
-        let first = Moment { before: state.clone(), transition: Vec::new(), readings: Vec::new() };
+        let first = Moment { before: state.clone(), transition: None, readings: Vec::new() };
         Self { filter: Filter::new(state), moments: vec![first] }
     }
 
@@ -43,7 +46,7 @@ impl Smoother {
         self.filter.predict(step);
         self.moments.push(Moment {
             before: self.filter.state().clone(),
-            transition: step.transition.clone(),
+            transition: Some(Rc::clone(&step.transition)),
             readings: Vec::new(),
         });
     }
@@ -65,8 +68,8 @@ impl Smoother {
         for moment in self.moments.iter().rev() {
             moment.readings.iter().rev().for_each(|taken| later.reading(taken));
             smoothed.push(later.told(&moment.before));
-            if !moment.transition.is_empty() {
-                later.step(&moment.transition);
+            if let Some(transition) = &moment.transition {
+                later.step(transition);
             }
         }
         smoothed.reverse();
@@ -81,24 +84,28 @@ struct Later {
 }
 
 impl Later {
+    /// `(1 - k h)' hold (1 - k h) + h' h / S`, and the pull likewise.
     fn reading(&mut self, taken: &Taken) {
         let n = self.pull.len();
-        let rest = transposed(&without(&taken.gain, &taken.of), n);
+        let (of, gain) = (&taken.of, &taken.gain);
         let Innovation { residual, variance } = taken.innovation;
-        self.pull = multiplied(&rest, &self.pull);
-        self.hold = carried(&rest, &self.hold, n);
-        for (i, a) in taken.of.iter().enumerate() {
-            self.pull[i] += a * residual / variance;
-            for (j, b) in taken.of.iter().enumerate() {
-                self.hold[i * n + j] += a * b / variance;
+        let pulled = residual / variance - dot(gain, &self.pull);
+        self.pull.iter_mut().zip(of).for_each(|(x, h)| *x += h * pulled);
+        let held = multiplied(&self.hold, gain);
+        let most = dot(gain, &held) + 1.0 / variance;
+        for i in 0..n {
+            for j in 0..=i {
+                let hold =
+                    self.hold[i * n + j] - of[i] * held[j] - held[i] * of[j] + of[i] * of[j] * most;
+                (self.hold[i * n + j], self.hold[j * n + i]) = (hold, hold);
             }
         }
     }
 
     fn step(&mut self, transition: &[f64]) {
         let n = self.pull.len();
-        let back = transposed(transition, n);
-        self.pull = multiplied(&back, &self.pull);
+        let back = transposed(transition);
+        self.pull = advanced(&back, &self.pull);
         self.hold = carried(&back, &self.hold, n);
     }
 
@@ -112,12 +119,15 @@ impl Later {
     }
 }
 
-fn transposed(matrix: &[f64], n: usize) -> Vec<f64> {
+fn transposed(matrix: &[f64]) -> Vec<f64> {
+    let n = side(matrix);
     (0..n * n).map(|at| matrix[at % n * n + at / n]).collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use std::rc::Rc;
+
     use super::Smoother;
     use crate::kalman::{Gaussian, Reading, Step};
 
@@ -128,9 +138,9 @@ mod tests {
             covariance: vec![4.0, 0.5, 0.0, 0.5, 2.0, 0.1, 0.0, 0.1, 9.0],
         });
         let step = Step {
-            transition: vec![0.9, 0.05, 0.3, 0.02, 0.95, 0.01, 0.0, 0.0, 1.0],
+            transition: Rc::new(vec![0.9, 0.05, 0.3, 0.02, 0.95, 0.01, 0.0, 0.0, 1.0]),
             input: vec![0.1, -0.2, 0.0],
-            noise: vec![0.02, 0.001, 0.01, 0.001, 0.01, 0.0, 0.01, 0.0, 0.05],
+            noise: Rc::new(vec![0.02, 0.001, 0.01, 0.001, 0.01, 0.0, 0.01, 0.0, 0.05]),
         };
         let read = [
             (Some(1.3), Some(2.5)),
@@ -166,20 +176,20 @@ mod tests {
             ),
             (
                 2,
-                [2.921_275_864_968_167_7, 1.824_529_275_682_067_7, 2.499_655_398_257_269_5],
+                [2.921_275_864_968_168, 1.824_529_275_682_067_7, 2.499_655_398_257_269_5],
                 [0.015_415_717_495_175_057, 0.067_914_166_785_376_98, 0.093_319_893_246_172],
                 0.005_301_310_036_727_808,
             ),
             (
                 4,
                 [4.111_255_383_772_551, 1.484_650_270_306_837_5, 2.382_211_336_443_241],
-                [0.028_178_266_135_707_188, 0.062_250_497_728_226_2, 0.105_717_395_012_076_54],
+                [0.028_178_266_135_707_19, 0.062_250_497_728_226_2, 0.105_717_395_012_076_54],
                 0.019_089_483_273_499_237,
             ),
             (
                 5,
                 [4.534_727_878_371_957, 1.339_751_538_609_305_3, 2.353_755_789_935_982_3],
-                [0.032_065_696_589_675_276, 0.061_315_012_714_688_186, 0.139_139_425_212_814_96],
+                [0.032_065_696_589_675_28, 0.061_315_012_714_688_186, 0.139_139_425_212_814_96],
                 0.034_216_582_835_518_17,
             ),
         ];
@@ -193,7 +203,7 @@ mod tests {
             }
             assert!((found.covariance[2] - between).abs() < 1e-13);
         }
-        assert!((smoother.filter().log_likelihood() + 8.439_296_360_033_931).abs() < 1e-12);
+        assert!((smoother.filter().log_likelihood() + 8.439_296_360_033_93).abs() < 1e-12);
     }
 
     /// Behind the last reading there is nothing more to know.

@@ -33,6 +33,7 @@ pub use error::NetworkFitError;
 pub use fitted::{ColumnMisfit, FittedParameter, NetworkFit};
 pub use hint::{FAR, Hint};
 pub use identify::Identifiability;
+pub(crate) use lag::{follow, refined};
 pub use lptn_netlist::{Certainty, SensorValue};
 pub use lptn_network::Varied;
 pub use search::Starts;

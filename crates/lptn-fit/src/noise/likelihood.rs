@@ -3,7 +3,7 @@
 use faer::Mat;
 use lptn_integrate::dense;
 
-use super::simplex;
+use crate::simplex;
 
 /// Samples are filtered four series at once.
 const LANES: usize = 4;
@@ -154,8 +154,8 @@ impl Likelihood {
                 start = if value < start.1 { (place, value) } else { start };
             }
         }
-        let [time, logit] = simplex::minimum(at, start.0);
-        let place = [time.clamp(least, most), logit.clamp(-7.0, 7.0)];
+        let found = simplex::minimum(|p| at([p[0], p[1]]), &start.0, 0.6);
+        let place = [found[0].clamp(least, most), found[1].clamp(-7.0, 7.0)];
         (place, self.at(Shape::at(place, self.spacing)))
     }
 

@@ -31,7 +31,6 @@ mod likelihood;
 mod middle;
 mod quantile;
 mod resolution;
-mod simplex;
 pub(crate) mod stretches;
 
 pub(crate) use likelihood::orthonormal;

@@ -8,7 +8,8 @@ use lptn_units::Scope as _;
 
 use crate::fields::{Fields, Owner, wrong_shape};
 use crate::fit::read::Column;
-use crate::fit::{FIT, FitRecord, FitSignal, VariedName};
+use crate::fit::{FitRecord, FitSignal, VariedName};
+use crate::format::SectionDeclaration;
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::work::Elaboration;
@@ -16,9 +17,12 @@ use crate::work::Elaboration;
 /// The keys of one of several records.
 const KEYS: [&str; 2] = ["csv", "set"];
 
-/// The values of `[fit]` that name files.
-pub(crate) fn files(raw: &crate::raw::RawNetlist) -> Vec<(&str, &RawValue)> {
-    let fits = raw.elements(FIT.name).iter();
+/// The values of a section such as `[fit]` that name files.
+pub(crate) fn files_of<'r>(
+    raw: &'r crate::raw::RawNetlist,
+    section: &SectionDeclaration,
+) -> Vec<(&'r str, &'r RawValue)> {
+    let fits = raw.elements(section.name).iter();
     let data = fits.filter_map(|fit| match &fit.value.kind {
         RawKind::Table(table) => table.get("data"),
         _ => None,

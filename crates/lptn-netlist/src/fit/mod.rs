@@ -6,7 +6,7 @@ mod recorded;
 
 use std::sync::Arc;
 
-use lptn_data::{Diagnostic, Record, Span};
+use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, Span};
 use lptn_network::{End, Network, Parameters, Value, Varied};
 use lptn_units::{EvalError, Type};
 
@@ -16,7 +16,8 @@ use crate::study::{PathFrom, Study};
 use crate::toml_text::{TomlFields, key as toml_key, like, string, value};
 use crate::work::Elaboration;
 
-pub(crate) use read::Measured;
+pub(crate) use data::files_of;
+pub(crate) use read::{Measured, OUTLIERS};
 pub use recorded::{FitInitial, FitSignal};
 
 const FIT: SectionDeclaration = SectionDeclaration {
@@ -178,6 +179,19 @@ pub struct FitPlan {
 }
 
 impl FitStudy {
+    /// How a further record of the same columns is read: those that are observed, then those that
+    /// signals follow.
+    pub fn query(&self) -> RecordQuery {
+        let named = |name: &str, ty: Type| RecordName { ty: Some(ty), ..RecordName::new(name) };
+        let observed = self.observed.iter().map(|observed| named(&observed.column, observed.ty));
+        let followed = self.signals.iter().map(|signal| named(&signal.column, signal.ty));
+        RecordQuery {
+            time: self.time.as_deref().map(RecordName::new),
+            columns: observed.chain(followed).collect(),
+            ..RecordQuery::default()
+        }
+    }
+
     /// The numbers for the parameters of `network`; `set` is what was set in it, see
     /// [`Netlist::overrides`](crate::Netlist::overrides).
     ///
@@ -252,7 +266,7 @@ impl Study for FitStudy {
     const SECTION: &'static SectionDeclaration = &FIT;
 
     fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
-        data::files(raw)
+        files_of(raw, &FIT)
     }
 
     fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
@@ -293,17 +307,44 @@ impl Study for FitStudy {
     }
 
     fn fields(&self, network: &Network, path: &PathFrom<'_>) -> TomlFields {
-        let ty = |name: &str| {
-            let id = network.parameter(name).ok();
-            id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty)
-        };
         let mut fields = TomlFields::default();
+        self.put_read(&mut fields, network, path);
+        let varied = |varied: &VariedName| {
+            let ends = [("from", &varied.from), ("to", &varied.to)].into_iter();
+            let ty = type_of(network, &varied.name);
+            let ends: Vec<String> = ends
+                .filter_map(|(name, end)| Some(format!("{name} = {}", like(end.as_ref()?, ty))))
+                .collect();
+            let range = if ends.is_empty() {
+                "{}".to_owned()
+            } else {
+                format!("{{ {} }}", ends.join(", "))
+            };
+            format!("{} = {range}", toml_key(&varied.name))
+        };
+        let varied: Vec<String> = self.varied.iter().map(varied).collect();
+        fields.put("vary", format!("{{ {} }}", varied.join(", ")));
+        self.put_recorded(&mut fields);
+        fields
+    }
+}
+
+fn type_of(network: &Network, parameter: &str) -> Type {
+    let id = network.parameter(parameter).ok();
+    id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty)
+}
+
+impl FitStudy {
+    /// Puts the records and what their columns measured.
+    pub(crate) fn put_read(&self, fields: &mut TomlFields, network: &Network, path: &PathFrom<'_>) {
         let record = |record: &FitRecord| {
             let csv = string(&path(record.span.file, &record.csv));
             let set: Vec<String> = record
                 .set
                 .iter()
-                .map(|(name, own)| format!("{} = {}", toml_key(name), like(own, ty(name))))
+                .map(|(name, own)| {
+                    format!("{} = {}", toml_key(name), like(own, type_of(network, name)))
+                })
                 .collect();
             if set.is_empty() {
                 csv
@@ -332,23 +373,5 @@ impl Study for FitStudy {
         };
         let columns: Vec<String> = self.observed.iter().map(column).collect();
         fields.put("column", format!("{{ {} }}", columns.join(", ")));
-        let varied = |varied: &VariedName| {
-            let ends = [("from", &varied.from), ("to", &varied.to)].into_iter();
-            let ends: Vec<String> = ends
-                .filter_map(|(name, end)| {
-                    Some(format!("{name} = {}", like(end.as_ref()?, ty(&varied.name))))
-                })
-                .collect();
-            let range = if ends.is_empty() {
-                "{}".to_owned()
-            } else {
-                format!("{{ {} }}", ends.join(", "))
-            };
-            format!("{} = {range}", toml_key(&varied.name))
-        };
-        let varied: Vec<String> = self.varied.iter().map(varied).collect();
-        fields.put("vary", format!("{{ {} }}", varied.join(", ")));
-        self.put_recorded(&mut fields);
-        fields
     }
 }

@@ -5,14 +5,14 @@ use lptn_network::{Context, End, Value};
 use lptn_units::{Scope as _, Type};
 
 use crate::fields::{Fields, Owner, wrong_shape};
-use crate::fit::{FIT, FIT_COLUMN, FitStudy, Observed, VariedName};
+use crate::fit::{FIT, FIT_COLUMN, FitInitial, FitStudy, Observed, VariedName};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::size::VARY;
 use crate::work::Elaboration;
 
 /// What becomes of values that no course explains: whether they are dropped.
-const OUTLIERS: [(&str, bool); 2] = [("keep", false), ("drop", true)];
+pub(crate) const OUTLIERS: [(&str, bool); 2] = [("keep", false), ("drop", true)];
 
 /// A column whose result could not be read is still looked for in the records.
 pub(crate) struct Column<'a> {
@@ -45,29 +45,46 @@ impl<'a> Elaboration<'a> {
         let fields = self.fields(&FIT, entry)?;
         self.all_there(&fields, &["data", "column", "vary"])?;
         let varied = self.varied(&fields);
-        let columns = self.observed(&fields);
+        let initial = self.fit_initial(&fields);
+        let drop_outliers = self.choice(&fields, "outliers", &OUTLIERS);
+        let reads = self.recorded_columns(&fields, drop_outliers == Some(true))?;
+        self.set_and_varied(&fields, &reads.records, varied.as_deref().unwrap_or_default());
+        Some(FitStudy {
+            name: entry.key.clone(),
+            span: entry.key_span.clone(),
+            varied: varied?,
+            initial: initial?,
+            drop_outliers: drop_outliers?,
+            ..reads
+        })
+    }
+
+    /// The records and what their columns measured, as a fit that varies nothing.
+    pub(crate) fn recorded_columns(
+        &mut self,
+        fields: &Fields<'a>,
+        drop_outliers: bool,
+    ) -> Option<FitStudy> {
+        let columns = self.observed(fields);
         let time =
             fields.get("time").map(|raw| (fields.text("time", raw, &mut self.problems), raw));
-        let (signals, initial) = (self.fit_signals(&fields), self.fit_initial(&fields));
+        let signals = self.fit_signals(fields);
         let time_name = time.map(|(text, raw)| (text.unwrap_or("t"), raw));
         let followed = signals.as_deref().unwrap_or_default();
-        let drop_outliers = self.choice(&fields, "outliers", &OUTLIERS);
-        let columns_read = (columns.as_slice(), followed, drop_outliers == Some(true));
-        let records = self.fit_records(&fields, columns_read, time_name);
-        let records = records?;
-        self.set_and_varied(&fields, &records, varied.as_deref().unwrap_or_default());
+        let columns_read = (columns.as_slice(), followed, drop_outliers);
+        let records = self.fit_records(fields, columns_read, time_name)?;
         let observed: Option<Vec<Observed>> =
             columns.into_iter().map(|column| column.observed).collect();
         let observed = observed.filter(|observed| !observed.is_empty())?;
         Some(FitStudy {
-            name: entry.key.clone(),
-            span: entry.key_span.clone(),
+            name: String::new(),
+            span: fields.place.clone(),
             records,
             observed,
-            varied: varied?,
+            varied: Vec::new(),
             signals: signals?,
-            initial: initial?,
-            drop_outliers: drop_outliers?,
+            initial: FitInitial::Network,
+            drop_outliers,
             time: time.and_then(|(text, _)| text).map(str::to_owned),
         })
     }

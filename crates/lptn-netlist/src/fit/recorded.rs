@@ -40,7 +40,7 @@ pub enum FitInitial {
 const TIME: Type = Type::of(Dimension::TIME);
 
 impl FitStudy {
-    pub(super) fn put_recorded(&self, fields: &mut TomlFields) {
+    pub(crate) fn put_recorded(&self, fields: &mut TomlFields) {
         let signal = |s: &FitSignal| format!("{} = {}", toml_key(&s.name), string(&s.column));
         let signals: Vec<String> = self.signals.iter().map(signal).collect();
         if !signals.is_empty() {

@@ -25,6 +25,7 @@ use crate::format::{NetlistFormat, SectionDeclaration};
 use crate::foster::FOSTER;
 use crate::gearbox::GEARBOX;
 use crate::import::IMPORT;
+use crate::infer::InferStudy;
 use crate::parameters::PARAM;
 use crate::plan::PlanStudy;
 use crate::raw::{RawNetlist, RawValue};
@@ -92,6 +93,8 @@ studies! {
     sensors: Sensor,
     /// What to find from records, in file order.
     fits: FitStudy,
+    /// Courses to infer from records, in file order.
+    infers: InferStudy,
     /// Which measurements to plan, in file order.
     plans: PlanStudy,
     /// Over what to sweep, in file order.

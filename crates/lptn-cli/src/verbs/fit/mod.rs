@@ -7,6 +7,7 @@ mod network;
 mod step;
 
 pub(crate) use args::FitArgs;
+pub(crate) use network::record_place;
 
 use args::FitVerb;
 

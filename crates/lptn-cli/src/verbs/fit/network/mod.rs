@@ -124,6 +124,14 @@ fn failed(input: &Input, study: &FitStudy, error: &NetworkFitError) -> Failure {
         NetworkFitError::StartOutside { parameter } => {
             study.varied.get(*parameter).map(|varied| &varied.span)
         }
+        error => record_place(study, error),
+    };
+    input.failure(error, Some(span.unwrap_or(&study.span).clone()))
+}
+
+/// The column or record that is at fault.
+pub(crate) fn record_place<'s>(study: &'s FitStudy, error: &NetworkFitError) -> Option<&'s Span> {
+    match error {
         NetworkFitError::Observed { column, .. } | NetworkFitError::Initial { column, .. } => study
             .observed
             .iter()
@@ -135,8 +143,7 @@ fn failed(input: &Input, study: &FitStudy, error: &NetworkFitError) -> Failure {
             study.records.iter().find(|own| own.csv == *record).map(|own| &own.span)
         }
         _ => None,
-    };
-    input.failure(error, Some(span.unwrap_or(&study.span).clone()))
+    }
 }
 
 impl<'a> Answer<'a> {

@@ -1,0 +1,114 @@
+//! `lptn infer`: a heated body of which a closed form made the record.
+#![allow(clippy::unwrap_used, reason = "a test may")]
+
+mod common;
+
+use std::fmt::Write as _;
+
+use common::{Folder, csv};
+
+/// 150 W, from 10 min on 250 W, on 0.3 K/W and 2659 J/K over 25 degC, every 10 s; the second column
+/// reads 2 K too much.
+fn record() -> String {
+    let tau = 0.3 * 2659.0;
+    let mut text = "t [s],ring [degC],lid [degC]\n".to_owned();
+    for k in 0..121 {
+        let t = 10.0 * f64::from(k);
+        let later = (t - 600.0).max(0.0);
+        let rise = -45.0 * f64::exp_m1(-t / tau) - 30.0 * f64::exp_m1(-later / tau);
+        // noise without a seed: what is left of a golden section
+        let noise = |n: f64| 0.1 * ((n * 0.618_033_988_75).fract() - 0.5);
+        let own = f64::from(k);
+        writeln!(text, "{t},{:.4},{:.4}", 25.0 + rise + noise(own), 27.0 + rise + noise(own + 9.0))
+            .unwrap();
+    }
+    text
+}
+
+fn folder(study: &str) -> Folder {
+    let text = format!(
+        "format = 1\ntitle = \"Body\"\n[signal]\nP = \"100 W\"\n[node]\nbody = {{ C = \"2659 J/K\", T0 = \
+         \"25 degC\" }}\n[boundary]\nroom = {{ T = \"25 degC\" }}\n[resistor]\nskin = {{ from = \
+         \"body\", to = \"room\", R = \"0.3 K/W\" }}\n[source]\nheat = {{ into = \"body\", P = \"P\" \
+         }}\n{study}"
+    );
+    let folder = Folder::with("body.toml", &text);
+    folder.write("record.csv", &record());
+    folder
+}
+
+const STUDY: &str = "[infer.power]\ndata = \"record.csv\"\ncolumn = { ring = \"body.T\" }\n\
+    sigma = \"0.03 K\"\nfind = [\"P\"]\n";
+const SAID: &str = "[infer.power]\ndata = \"record.csv\"\ncolumn = { ring = \"body.T\" }\n\
+    sigma = \"0.03 K\"\nfind = { P = { change = \"60 W\", within = \"1 min\" } }\n";
+
+#[test]
+fn a_power_is_found_before_and_behind_a_step() {
+    let folder = folder(STUDY);
+    let run = folder.run(&["infer", "body.toml", "-o", "out"]).exits(0);
+    assert!(run.out.lines().all(|line| line.chars().count() <= 80), "{}", run.out);
+    assert!(run.out.contains("P changes (likelihood ratio"), "{}", run.out);
+    let (header, rows) = csv(&folder.read("out/inferred.csv"));
+    assert_eq!(&header[..4], ["time [s]", "P [W]", "P.low [W]", "P.high [W]"]);
+    for (row, expected) in [(30, 150.0), (100, 250.0)] {
+        assert!((rows[row][1] - expected).abs() < 8.0, "{:?}", rows[row]);
+        assert!(rows[row][2] < expected && expected < rows[row][3], "{:?}", rows[row]);
+    }
+    let json = folder.run(&["infer", "body.toml", "power", "--format", "json"]).exits(0).json();
+    assert_eq!(json["determined"], serde_json::json!(true));
+    assert!((json["courses"]["P"]["mean"]["value"].as_f64().unwrap() - 200.0).abs() < 3.0);
+    assert_eq!(json["moments"]["rows"].as_array().unwrap().len(), 121);
+}
+
+#[test]
+fn rows_that_come_are_answered_as_the_whole_record_at_its_end() {
+    let folder = folder(SAID);
+    let whole = folder.run(&["infer", "body.toml", "--format", "csv"]).exits(0);
+    let followed = folder.run_with(&["infer", "body.toml", "--follow"], &record()).exits(0);
+    let ((_, whole), (header, followed)) = (csv(&whole.out), csv(&followed.out));
+    assert_eq!(header.last().unwrap(), "ring.surprise [-]");
+    assert_eq!((whole.len(), followed.len()), (121, 121));
+    for (a, b) in whole[120].iter().zip(&followed[120]) {
+        assert!((a - b).abs() <= 1e-7 * a.abs().max(1.0), "{a} {b}");
+    }
+}
+
+#[test]
+fn what_cannot_be_followed_says_what_to_write() {
+    let open = folder(STUDY).run_with(&["infer", "body.toml", "--follow"], &record()).exits(2);
+    open.says("infer::smoothness").says("change = \"50 W\"");
+    let folder = folder(SAID);
+    let follow = |text: &str| folder.run_with(&["infer", "body.toml", "--follow"], text).exits(2);
+    follow("").says("record::no_rows");
+    follow("t [s],ring [degC]\n0,25\n0,26\n").says("record::time_reversed").says("line 3");
+    follow("t [s],ring [degC]\n0,25\n5,abc\n").says("record::not_a_number").says("line 3");
+    follow("t [s],rung [degC]\n0,25\n").says("ring");
+}
+
+/// The offset of the only instrument is free, and the start unknown: any power may be.
+#[test]
+fn an_offset_that_nothing_determines_is_a_verdict() {
+    let sensor = "[sensor]\ntc = { offset = \"0 ± 3 K\" }\n";
+    let both = STUDY.replace(
+        "{ ring = \"body.T\" }",
+        "{ ring = \"body.T\", lid = { of = \"body.T\", \
+                                                     sensor = \"tc\" } }",
+    );
+    let run = folder(&format!("{sensor}{both}")).run(&["infer", "body.toml", "--format", "json"]);
+    let offset = run.exits(0).json()["sensors"]["tc.offset"]["value"].as_f64().unwrap();
+    assert!((offset - 2.0).abs() < 0.02, "{offset}");
+    let free = STUDY.replace("\"body.T\"", "{ of = \"body.T\", sensor = \"tc\" }");
+    let short = "t [s],ring [degC],lid [degC]\n0,25,27\n1,25.1,27\n2,25.1,27\n";
+    let folder =
+        folder(&format!("[sensor]\ntc = {{ offset = \"free\" }}\n{free}initial = \"free\"\n"));
+    folder.write("record.csv", short);
+    folder.run(&["infer", "body.toml"]).exits(1).prints("not determined");
+}
+
+#[test]
+fn a_start_that_the_record_contradicts_is_named() {
+    let folder = folder(STUDY);
+    folder.write("record.csv", &record().replace("\n0,24.9", "\n0,29.9"));
+    folder.run(&["infer", "body.toml"]).exits(0).says("infer::start").says("initial = \"free\"");
+    folder.run(&["infer", "body.toml", "flow"]).exits(2).says("infer::no_study");
+}

@@ -1,0 +1,177 @@
+//! What the smoother says of every moment.
+
+use lptn_network::NodeId;
+use lptn_units::statistics::NORMAL_95;
+
+use crate::infer::error::InferError;
+use crate::infer::inferred::{Band, Inferred, InferredCourse, InferredSensor, Known};
+use crate::infer::model::{Model, coordinates};
+use crate::infer::open::mixture;
+use crate::infer::reference::{InferObserver, Reference};
+use crate::infer::rounds::{Settled, settle};
+use crate::infer::strength::Strength;
+use crate::infer::surprise;
+use crate::infer::task::InferTask;
+use crate::kalman::Gaussian;
+
+/// Infers courses from a record.
+///
+/// Where the smoothness of the only course that is sought is left to the record, bands hold 95 % of
+/// the mixture of all that it may be, each as likely as the record says (with a density that is
+/// even in the root of the intensity; A. Gelman, Bayesian Analysis 1 (2006) 515).
+///
+/// # Errors
+/// [`InferError`]
+pub fn infer(task: &InferTask<'_>, observer: &InferObserver<'_>) -> Result<Inferred, InferError> {
+    let settled = settle(task, observer)?;
+    let Settled { model, strength, reference, moments, .. } = &settled;
+    let (smoother, surprises) = model.smoothed(&strength.intensities, &strength.sigmas);
+    let asked = Asked::new(task, &settled);
+    let mixed = asked.mixed();
+    let states = &model.states;
+    let final_state = smoother.filter().state();
+    let alone = |place: usize, scale: f64| {
+        let (value, deviation) = final_state.of(&states.unit(place));
+        Known { value: scale * value, deviation: scale * deviation }
+    };
+    let sensor = |(r, read): (usize, &crate::infer::states::Reads)| {
+        let moved = alone(states.read(r), 1.0);
+        let now = Known { value: reference.reads[r] + moved.value, ..moved };
+        let before = Known { value: read.known.0, deviation: read.known.1 };
+        InferredSensor { sensor: read.sensor, gain: read.gain, before, now }
+    };
+    let parameter = |(k, (_, deviation)): (usize, &(_, f64))| {
+        let moved = alone(states.parameter(k), *deviation);
+        Known { value: reference.parameters[k] + moved.value, ..moved }
+    };
+    let still = still(task, (reference, model), strength);
+    let courses = (0..task.sought.len()).map(|j| asked.course(j, &mixed, still[j])).collect();
+    Ok(Inferred {
+        times: moments.times.clone(),
+        before: moments.before,
+        courses,
+        nodes: asked.nodes(&mixed),
+        sensors: states.reads.iter().enumerate().map(sensor).collect(),
+        parameters: task.uncertain.iter().enumerate().map(parameter).collect(),
+        columns: surprise::columns(model, strength, &surprises),
+        log_likelihood: smoother.filter().log_likelihood(),
+        rounds: settled.rounds,
+    })
+}
+
+/// Each course if none changes.
+fn still(
+    task: &InferTask<'_>,
+    (reference, model): (&Reference, &Model),
+    strength: &Strength,
+) -> Vec<(Known, f64)> {
+    let still = strength.still();
+    let (smoother, _) = model.smoothed(&still.intensities, &still.sigmas);
+    let (state, likely) = (smoother.filter().state(), smoother.filter().log_likelihood());
+    let last = coordinates(task, reference, model.nodes.len() - 1);
+    let one = |(j, sought): (usize, &crate::infer::Sought)| {
+        let (moved, deviation) = state.of(&model.states.unit(model.states.course(j)));
+        let there = last[j] + moved;
+        let known = match sought.positive {
+            true => Known { value: there.exp(), deviation: deviation * there.exp() },
+            false => Known { value: there, deviation },
+        };
+        (known, likely)
+    };
+    task.sought.iter().enumerate().map(one).collect()
+}
+
+/// What is asked of the states at every moment.
+struct Asked<'a> {
+    task: &'a InferTask<'a>,
+    settled: &'a Settled,
+    /// The nodes that are shown.
+    shown: Vec<NodeId>,
+}
+
+impl<'a> Asked<'a> {
+    fn new(task: &'a InferTask<'a>, settled: &'a Settled) -> Self {
+        Self { task, settled, shown: task.network.node_ids().collect() }
+    }
+
+    /// How many numbers there are for each moment.
+    fn of_moment(&self) -> usize {
+        self.task.sought.len() + self.shown.len()
+    }
+
+    /// Means and deviations of all that is asked: for each moment coordinates and temperatures,
+    /// then the integral of each course.
+    fn of(&self, smoothed: &[Gaussian]) -> Vec<(f64, f64)> {
+        let (model, states) = (&self.settled.model, &self.settled.model.states);
+        let mut all = Vec::with_capacity(smoothed.len() * self.of_moment());
+        for (k, known) in smoothed.iter().enumerate() {
+            let coordinates = coordinates(self.task, &self.settled.reference, k);
+            for (j, own) in coordinates.iter().enumerate() {
+                let (moved, deviation) = known.of(&states.unit(states.course(j)));
+                all.push((own + moved, deviation));
+            }
+            for id in &self.shown {
+                let (moved, deviation) = known.of(&model.weights(k, id.index()));
+                all.push((model.reference[k][id.index()] + moved, deviation));
+            }
+        }
+        let last = &smoothed[smoothed.len() - 1];
+        for j in 0..states.sought {
+            all.push(last.of(&states.unit(states.area(j))));
+        }
+        all
+    }
+
+    fn mixed(&self) -> Vec<(f64, f64)> {
+        let Settled { model, strength, .. } = self.settled;
+        mixture((self.task, model, strength), |smoothed| self.of(smoothed))
+    }
+
+    fn course(&self, j: usize, mixed: &[(f64, f64)], still: (Known, f64)) -> InferredCourse {
+        let (count, positive) = (self.settled.moments.times.len(), self.task.sought[j].positive);
+        let coordinate = |k: usize| mixed[k * self.of_moment() + j];
+        let band = |k: usize| {
+            let (value, deviation) = coordinate(k);
+            let half = NORMAL_95 * deviation;
+            let back = |x: f64| if positive { x.exp() } else { x };
+            Band { value: back(value), ends: (back(value - half), back(value + half)) }
+        };
+        let length = self.settled.model.length();
+        let mean = || {
+            let (area, deviation) = mixed[count * self.of_moment() + j];
+            let (times, own) = (&self.settled.moments.times, &self.settled.reference.courses[j]);
+            let own = times.windows(2).zip(own.windows(2));
+            let own: f64 = own.map(|(t, s)| 0.5 * (s[0] + s[1]) * (t[1] - t[0])).sum();
+            Known { value: (own + area) / length, deviation: deviation / length }
+        };
+        InferredCourse {
+            band: (0..count).map(band).collect(),
+            mean: (!positive).then(mean),
+            before: self.before(j),
+            intensity: self.settled.strength.intensities[2 * j],
+            slope_intensity: self.settled.strength.intensities[2 * j + 1],
+            still,
+        }
+    }
+
+    fn before(&self, j: usize) -> Known {
+        let model = &self.settled.model;
+        let place = model.states.course(j);
+        let (moved, deviation) = model.prior.of(&model.states.unit(place));
+        let own = coordinates(self.task, &self.settled.reference, 0)[j];
+        Known { value: own + moved, deviation }
+    }
+
+    fn nodes(&self, mixed: &[(f64, f64)]) -> Vec<(NodeId, Vec<Known>)> {
+        let (size, count) = (self.of_moment(), self.settled.moments.times.len());
+        let first = self.task.sought.len();
+        let one = |(i, id): (usize, &NodeId)| {
+            let known = |k: usize| {
+                let (value, deviation) = mixed[k * size + first + i];
+                Known { value, deviation }
+            };
+            (*id, (0..count).map(known).collect())
+        };
+        self.shown.iter().enumerate().map(one).collect()
+    }
+}

@@ -1,0 +1,185 @@
+//! A linear system driven by random walks, from one moment to the next.
+
+use std::rc::Rc;
+
+use crate::kalman::Step;
+
+/// What becomes of `dx/dt = F x` over a time, where some states are random walks.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Discrete {
+    /// `exp(F t)`
+    pub(crate) transition: Rc<Vec<f64>>,
+    /// For each walk what a steady rise by 1 per s of it brings to every state.
+    pub(crate) ramps: Vec<Vec<f64>>,
+    /// For each walk the covariance that it brings in at an intensity of 1 per s.
+    pub(crate) noises: Vec<Vec<f64>>,
+}
+
+/// Terms of a series of a step so short that the largest sum of a row of `F t` is at most
+/// [`SHORT`]: what is left out is below rounding.
+const TERMS: usize = 10;
+const SHORT: f64 = 0.1;
+
+/// The factorials 0! to 10!.
+const FACTORIAL: [f64; TERMS + 1] =
+    [1.0, 1.0, 2.0, 6.0, 24.0, 120.0, 720.0, 5040.0, 40320.0, 362_880.0, 3_628_800.0];
+
+impl Discrete {
+    /// By series over a short time, which is then doubled. What is doubled is `exp(F t) - 1`, so
+    /// that slow states keep their digits beside fast ones; nothing is inverted and nothing grows,
+    /// however fast a state is.
+    pub(crate) fn new(rates: &[f64], size: usize, time: f64, walks: &[usize]) -> Self {
+        let row = |row: &[f64]| row.iter().map(|x| x.abs()).sum::<f64>();
+        let norm = rates.chunks_exact(size.max(1)).map(row).fold(0.0, f64::max) * time;
+        let mut doublings = 0;
+        let mut short = time;
+        while norm.is_finite() && norm * short > SHORT * time {
+            short *= 0.5;
+            doublings += 1;
+        }
+        let mut change = series(rates, size, short);
+        let powers = |&walk: &usize| powers(rates, size, walk);
+        let powers: Vec<_> = walks.iter().map(powers).collect();
+        let mut ramps: Vec<_> = powers.iter().map(|v| ramp(v, short)).collect();
+        let mut noises: Vec<_> = powers.iter().map(|v| noise(v, short)).collect();
+        for _ in 0..doublings {
+            for ramp in &mut ramps {
+                let later = times_vector(&change, ramp);
+                ramp.iter_mut().zip(later).for_each(|(r, x)| *r = *r + *r + x);
+            }
+            noises.iter_mut().for_each(|noise| *noise = doubled(&change, noise, size));
+            let square = times(&change, &change, size);
+            change.iter_mut().zip(square).for_each(|(e, s)| *e = *e + *e + s);
+        }
+        change.iter_mut().step_by(size + 1).for_each(|x| *x += 1.0);
+        Self { transition: Rc::new(change), ramps, noises }
+    }
+
+    /// The covariance that walks of these intensities bring in.
+    pub(crate) fn noise(&self, intensities: &[f64]) -> Rc<Vec<f64>> {
+        let mut noise = vec![0.0; self.transition.len()];
+        for (own, q) in self.noises.iter().zip(intensities) {
+            noise.iter_mut().zip(own).for_each(|(n, x)| *n += q * x);
+        }
+        Rc::new(noise)
+    }
+
+    /// The step with that covariance, where the walks rise by so much per s beside what they walk.
+    pub(crate) fn step(&self, noise: Rc<Vec<f64>>, rises: &[f64]) -> Step {
+        let mut input = vec![0.0; self.transition.len().isqrt()];
+        for (ramp, rise) in self.ramps.iter().zip(rises) {
+            input.iter_mut().zip(ramp).for_each(|(u, r)| *u += rise * r);
+        }
+        Step { transition: Rc::clone(&self.transition), input, noise }
+    }
+}
+
+/// `exp(F t) - 1`
+fn series(rates: &[f64], size: usize, time: f64) -> Vec<f64> {
+    let scaled: Vec<f64> = rates.iter().map(|x| x * time).collect();
+    let mut term = scaled.clone();
+    let mut sum = scaled.clone();
+    for k in 2..=TERMS {
+        term = times(&term, &scaled, size).iter().map(|x| x / k as f64).collect();
+        sum.iter_mut().zip(&term).for_each(|(s, t)| *s += t);
+    }
+    sum
+}
+
+/// `F^k e` for the unit vector of a walk.
+fn powers(rates: &[f64], size: usize, walk: usize) -> Vec<Vec<f64>> {
+    let unit: Vec<f64> = (0..size).map(|i| if i == walk { 1.0 } else { 0.0 }).collect();
+    std::iter::successors(Some(unit), |last| Some(times_vector(rates, last))).take(TERMS).collect()
+}
+
+/// The integral of `exp(F t) e`.
+fn ramp(powers: &[Vec<f64>], time: f64) -> Vec<f64> {
+    let mut sum = vec![0.0; powers[0].len()];
+    let mut factor = 1.0;
+    for (k, power) in powers.iter().enumerate() {
+        factor *= time / (k + 1) as f64;
+        sum.iter_mut().zip(power).for_each(|(s, v)| *s += factor * v);
+    }
+    sum
+}
+
+/// The integral of `exp(F t) e e' exp(F t)'`.
+fn noise(powers: &[Vec<f64>], time: f64) -> Vec<f64> {
+    let size = powers[0].len();
+    let mut sum = vec![0.0; size * size];
+    for (i, v) in powers.iter().enumerate() {
+        for (j, w) in powers.iter().enumerate().take(TERMS - i) {
+            let order = i + j + 1;
+            let length = (0..order).fold(1.0, |length, _| length * time);
+            let factor = length / (order as f64 * FACTORIAL[i] * FACTORIAL[j]);
+            for (row, a) in sum.chunks_exact_mut(size).zip(v) {
+                row.iter_mut().zip(w).for_each(|(s, b)| *s += factor * a * b);
+            }
+        }
+    }
+    sum
+}
+
+/// `Q + (1 + E) Q (1 + E)'`
+fn doubled(change: &[f64], noise: &[f64], size: usize) -> Vec<f64> {
+    let half = times(change, noise, size);
+    let mut out = vec![0.0; size * size];
+    for i in 0..size {
+        for j in 0..=i {
+            let last = dot(&half[i * size..][..size], &change[j * size..][..size]);
+            let own = noise[i * size + j];
+            let sum = own + own + half[i * size + j] + half[j * size + i] + last;
+            (out[i * size + j], out[j * size + i]) = (sum, sum);
+        }
+    }
+    out
+}
+
+fn times(a: &[f64], b: &[f64], size: usize) -> Vec<f64> {
+    let mut out = vec![0.0; size * size];
+    for (row, a) in out.chunks_exact_mut(size.max(1)).zip(a.chunks_exact(size.max(1))) {
+        for (factor, b) in a.iter().zip(b.chunks_exact(size)) {
+            row.iter_mut().zip(b).for_each(|(sum, b)| *sum += factor * b);
+        }
+    }
+    out
+}
+
+fn times_vector(a: &[f64], x: &[f64]) -> Vec<f64> {
+    a.chunks_exact(x.len().max(1)).map(|row| dot(row, x)).collect()
+}
+
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Discrete;
+
+    /// `dT/dt = -T / tau + p / C`, p a walk: closed forms of J. M. Mendel, Lessons in Estimation
+    /// Theory (1995), lesson 26, by hand.
+    #[test]
+    fn analytic_one_body_driven_by_a_walk() {
+        for (tau, time) in [(800.0, 5.0), (800.0, 4000.0), (0.01, 60.0)] {
+            let capacity = 2659.0;
+            let found = Discrete::new(&[-1.0 / tau, 1.0 / capacity, 0.0, 0.0], 2, time, &[1]);
+            let left = f64::exp(-time / tau);
+            let rise = -tau * f64::exp_m1(-time / tau);
+            let expected = [left, rise / capacity, 0.0, 1.0];
+            for (a, b) in found.transition.iter().zip(expected) {
+                assert!((a - b).abs() <= 1e-13 * b.abs().max(1e-4), "{a} {b}");
+            }
+            let ramp = tau * (time - rise) / capacity;
+            assert!((found.ramps[0][0] - ramp).abs() <= 1e-11 * ramp);
+            let variance =
+                tau * tau * (time - 2.0 * rise - 0.5 * tau * f64::exp_m1(-2.0 * time / tau))
+                    / (capacity * capacity);
+            // differences of nearly equal numbers in the closed form itself
+            let digits = (tau / time).max(1.0).powi(2) * 1e-12;
+            assert!((found.noises[0][0] - variance).abs() <= digits * variance);
+            assert!((found.noises[0][3] - time).abs() <= 1e-12 * time);
+            assert!((found.noises[0][1] - ramp).abs() <= 1e-11 * ramp);
+        }
+    }
+}

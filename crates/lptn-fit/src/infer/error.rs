@@ -1,0 +1,68 @@
+//! Why nothing can be inferred.
+
+use lptn_assembly::ChangeError;
+use lptn_solve::{TransientError, Unsolved};
+use lptn_units::{Class, EvalError};
+
+use crate::network::NetworkFitError;
+
+lptn_units::errors! {
+/// Why no course can be inferred from a record.
+#[derive(Debug)]
+pub enum InferError {
+    /// What the record measures cannot be compared with the network.
+    Record => NetworkFitError;
+    /// A number of the study has no value.
+    Plan => EvalError;
+    /// The network, or what it is with other courses.
+    Network => ChangeError;
+    /// The run behind which the record is looked at.
+    Run => TransientError;
+    /// The rates at one of its moments.
+    Rates => Unsolved as Class::of_numbers;
+    /// A value of a sought signal, that of this name, is 0 or less.
+    NotPositive { signal: String, value: f64 } = "infer::not_positive",
+        format!("the logarithm of `{signal}` is sought, but its own course comes to {value}"),
+        help "give it a course above 0 to begin with, or leave `positive` out";
+    /// The record has fewer than two rows behind its start.
+    Short = "infer::short", "the record has fewer than two rows that count",
+        help "an inference over time needs a record: a row for each moment";
+    /// No column depends on a sought signal.
+    Unfelt { signal: String } = "infer::unfelt",
+        format!("no column depends on `{signal}`, so the record says nothing of it"),
+        help "measure a node that it heats or cools, or use it in an element";
+    /// Controls or comparisons of temperatures switch.
+    Events = "infer::events",
+        "the network has controls or comparisons of temperatures, which switch: what a record tells \
+         of a course across a switch is not known",
+        help "write what they do as a signal of the record, `signal = { fan = \"fan_state\" }`";
+    /// So many nodes with capacity are more than can be followed with all their covariances.
+    Large { nodes: usize, most: usize } = "infer::large",
+        format!("the network has {nodes} nodes with capacity; {most} can be followed, for each two of \
+            them have a covariance"),
+        help "make a smaller network of it: `lptn reduce FILE --keep NODES`";
+    /// The time constant of this instrument is not known.
+    Lag { sensor: String } = "infer::lag",
+        format!("the time constant of sensor `{sensor}` is not known exactly"),
+        help "find it by `lptn fit network` and write it as a plain value, `lag = \"20 s\"`";
+    /// How much a course changes has to be said.
+    Smoothness { signal: String } = "infer::smoothness",
+        format!("rows are answered as they come, so how much `{signal}` changes has to be said"),
+        help format!(
+            "write it, `find = {{ {signal} = {{ change = \"50 W\", within = \"1 min\" }} }}`: without \
+             --follow `lptn infer` finds it from a whole record"
+        );
+    /// The noise of a column has to be said.
+    Noise { column: String } = "infer::noise",
+        format!("rows are answered as they come, so the noise of column `{column}` has to be said"),
+        help "write how far one value scatters, for example `sigma = \"0.2 K\"`";
+    /// The courses did not settle in so many rounds.
+    NotSettled { rounds: usize } = "infer::not_settled",
+        format!("the courses have not settled after {rounds} rounds, each linear near the one before"),
+        help "begin nearer to what is expected, or say by `change` and `within` how smooth it is",
+        class Class::Numbers;
+    /// It was interrupted.
+    Interrupted = "infer::interrupted", "the inference was interrupted",
+        class Class::Interrupted;
+}
+}

@@ -1,0 +1,234 @@
+//! What everything depends on near the reference, at one moment.
+
+use lptn_assembly::{ChangeError, ThermalSystem};
+use lptn_network::ZERO_CELSIUS;
+use lptn_solve::{Rates, StateRates};
+
+use crate::infer::error::InferError;
+use crate::infer::reference::{Changed, Reference};
+use crate::infer::states::States;
+use crate::infer::task::InferTask;
+
+/// By how much a temperature is changed to see what depends on it, in K. Networks with constant
+/// conductances are linear, so any change will do; of others the cubic part remains, some 1e-8.
+const PROPORTIONAL: f64 = 1.0;
+const CURVED: f64 = 0.1;
+
+/// By which part of itself a course or parameter is changed, or of 1 SI unit where it is 0.
+const PART: f64 = 1e-4;
+
+/// Everything at one moment.
+#[derive(Clone, Debug)]
+pub(crate) struct Linear {
+    /// Rates of the states that change, row by row, by all that make them.
+    pub(crate) rates: Vec<f64>,
+    /// What each state brings to the temperature of each node in K.
+    pub(crate) nodes: Vec<Vec<(usize, f64)>>,
+}
+
+/// The network as it is, and with every course and parameter changed to either side.
+pub(crate) struct Systems {
+    pub(crate) own: ThermalSystem,
+    changed: Vec<([ThermalSystem; 2], f64)>,
+}
+
+impl Systems {
+    /// Courses first, then parameters.
+    pub(crate) fn new(
+        task: &InferTask<'_>,
+        (reference, times): (&Reference, &[f64]),
+    ) -> Result<Self, InferError> {
+        let of = |changed: Changed| {
+            let network = reference.network(task, times, changed)?;
+            let system = ThermalSystem::assemble(&network).map_err(ChangeError::from)?;
+            Ok::<_, InferError>(system)
+        };
+        let both = |make: &dyn Fn(f64) -> Changed, size: f64| {
+            let by = PART * if size > 0.0 { size } else { 1.0 };
+            Ok(([of(make(-by))?, of(make(by))?], 2.0 * by))
+        };
+        let mut changed: Vec<Result<_, InferError>> = Vec::new();
+        for (j, course) in reference.courses.iter().enumerate() {
+            // a logarithm may come near to 0
+            let least = course.iter().copied().fold(f64::INFINITY, |a, b| a.min(b.abs()));
+            let most = course.iter().copied().fold(0.0, |a: f64, b| a.max(b.abs()));
+            let size = if task.sought[j].positive { least } else { most };
+            changed.push(both(&|by| Changed::Course(j, by), size));
+        }
+        for (k, ((_, deviation), value)) in
+            task.uncertain.iter().zip(&reference.parameters).enumerate()
+        {
+            let size = value.abs().max(*deviation);
+            changed.push(both(&|by| Changed::Parameter(k, by), size));
+        }
+        let changed = changed.into_iter().collect::<Result<_, InferError>>()?;
+        Ok(Self { own: of(Changed::Nothing)?, changed })
+    }
+}
+
+/// Looks at moments one after the other.
+pub(crate) struct Linearise<'a> {
+    task: &'a InferTask<'a>,
+    states: &'a States,
+    own: StateRates<'a>,
+    changed: Vec<([StateRates<'a>; 2], f64)>,
+    /// Whether rates are the same functions of temperatures at all times.
+    proportional: bool,
+    /// What bodies do to each other and to nodes, where that is always the same.
+    known: Option<Vec<Rates>>,
+}
+
+impl<'a> Linearise<'a> {
+    pub(crate) fn new(
+        task: &'a InferTask<'a>,
+        states: &'a States,
+        systems: &'a Systems,
+    ) -> Result<Self, InferError> {
+        let changed = systems.changed.iter().map(|([below, above], by)| {
+            Ok(([StateRates::new(below)?, StateRates::new(above)?], *by))
+        });
+        Ok(Self {
+            task,
+            states,
+            own: StateRates::new(&systems.own)?,
+            changed: changed.collect::<Result<_, InferError>>()?,
+            proportional: systems.own.is_proportional(),
+            known: None,
+        })
+    }
+
+    /// The states at temperatures of all nodes in K.
+    pub(crate) fn carried(&self, nodes: &[f64]) -> Result<Vec<f64>, InferError> {
+        Ok(self.own.carried(nodes)?)
+    }
+
+    /// At `time` in s, with these states; `slopes` is what a unit of each course's coordinate and
+    /// of each parameter's is in SI units.
+    pub(crate) fn at(
+        &mut self,
+        (time, bodies): (f64, &[f64]),
+        slopes: &[f64],
+    ) -> Result<Linear, InferError> {
+        let states = self.states;
+        let mut columns: Vec<(usize, Rates)> =
+            self.bodies(time, bodies)?.into_iter().enumerate().collect();
+        for (i, (both, by)) in self.changed.iter_mut().enumerate() {
+            let place = match i < states.sought {
+                true => states.course(i),
+                false => states.parameter(i - states.sought),
+            };
+            let [below, above] = both;
+            let found = (below.at(time, bodies)?, above.at(time, bodies)?);
+            columns.push((place, difference(&found, *by / slopes[i])));
+        }
+        Ok(self.put(&columns))
+    }
+
+    /// What each body does.
+    fn bodies(&mut self, time: f64, bodies: &[f64]) -> Result<Vec<Rates>, InferError> {
+        if let Some(known) = &self.known {
+            return Ok(known.clone());
+        }
+        let by = if self.proportional { PROPORTIONAL } else { CURVED };
+        let mut moved = bodies.to_vec();
+        let mut all = Vec::with_capacity(bodies.len());
+        for (i, own) in bodies.iter().enumerate() {
+            moved[i] = own - by;
+            let below = self.own.at(time, &moved)?;
+            moved[i] = own + by;
+            let above = self.own.at(time, &moved)?;
+            moved[i] = *own;
+            all.push(difference(&(below, above), 2.0 * by));
+        }
+        if self.proportional {
+            self.known = Some(all.clone());
+        }
+        Ok(all)
+    }
+
+    fn put(&self, columns: &[(usize, Rates)]) -> Linear {
+        let (states, size) = (self.states, self.states.moving());
+        let mut rates = vec![0.0; size * size];
+        let nodes = self.task.network.nodes().len();
+        let mut follow: Vec<Vec<(usize, f64)>> = vec![Vec::new(); nodes];
+        for (place, Rates { states: of_states, nodes: of_nodes }) in columns {
+            for (i, rate) in of_states.iter().enumerate() {
+                rates[i * size + place] = *rate;
+            }
+            for (node, change) in follow.iter_mut().zip(of_nodes) {
+                if change.abs() > 0.0 {
+                    node.push((*place, *change));
+                }
+            }
+        }
+        for (column, lag) in &states.slow {
+            let Some(shown) = states.shown(*column) else { continue };
+            for (place, weight) in measured(self.task, *column, &follow) {
+                rates[shown * size + place] += weight / lag;
+            }
+            rates[shown * size + shown] -= 1.0 / lag;
+        }
+        for j in 0..states.sought {
+            rates[states.course(j) * size + states.slope(j)] = 1.0;
+            rates[states.area(j) * size + states.course(j)] = 1.0;
+        }
+        Linear { rates, nodes: follow }
+    }
+}
+
+/// By how much rates and temperatures change for each unit.
+fn difference((below, above): &(Rates, Rates), by: f64) -> Rates {
+    let slope = |below: &[f64], above: &[f64]| {
+        above.iter().zip(below).map(|(above, below)| (above - below) / by).collect()
+    };
+    Rates { states: slope(&below.states, &above.states), nodes: slope(&below.nodes, &above.nodes) }
+}
+
+/// What the states bring to the temperature that a column's instrument is exposed to.
+pub(crate) fn measured(
+    task: &InferTask<'_>,
+    column: usize,
+    nodes: &[Vec<(usize, f64)>],
+) -> Vec<(usize, f64)> {
+    let of = task.run.columns[column].of.iter();
+    of.flat_map(|(id, factor)| {
+        nodes[id.index()].iter().map(move |(place, weight)| (*place, factor * weight))
+    })
+    .collect()
+}
+
+impl Linear {
+    /// What the states bring to the reading of a column, whose instrument shows `shown` in K.
+    pub(crate) fn reading(
+        &self,
+        task: &InferTask<'_>,
+        (states, reads): (&States, &[f64]),
+        (column, shown): (usize, f64),
+    ) -> (Vec<f64>, f64) {
+        let mut of = vec![0.0; states.count()];
+        let Some(sensor) = task.run.columns[column].sensor else {
+            measured(task, column, &self.nodes).iter().for_each(|(i, weight)| of[*i] += weight);
+            return (of, shown);
+        };
+        let instrument = &task.sensors[sensor];
+        let (mut offset, mut gain) = (instrument.offset.value, instrument.gain.value);
+        let own = states.reads.iter().enumerate().filter(|(_, read)| read.sensor == sensor);
+        let over_zero = shown - ZERO_CELSIUS;
+        for (r, read) in own {
+            if read.gain {
+                gain = reads[r];
+                of[states.read(r)] = over_zero;
+            } else {
+                offset = reads[r];
+                of[states.read(r)] = 1.0;
+            }
+        }
+        match states.shown(column) {
+            Some(place) => of[place] = gain,
+            None => measured(task, column, &self.nodes)
+                .iter()
+                .for_each(|(i, weight)| of[*i] += gain * weight),
+        }
+        (of, ZERO_CELSIUS + gain * over_zero + offset)
+    }
+}

@@ -1,0 +1,34 @@
+//! Courses over time from records: the heat that is dissipated while it is, or a flow, a film
+//! coefficient, whatever signal a network has.
+//!
+//! What is sought is a random walk, so smooth that the record is most likely, or as smooth as is
+//! said. Near a run of the network everything is linear, and a Kalman filter and smoother give what
+//! all readings together say of every moment ([`crate::kalman`]). Networks that are not linear in
+//! what is sought are followed in rounds, each near the courses of the one before, until nothing
+//! moves (iterated smoother; B. M. Bell, SIAM J. Optim. 4 (1994) 626): that is the Gauss-Newton
+//! method for the most probable courses. Parameters with a `±` and instruments with one are
+//! estimated along, so what is not known of them widens every band.
+
+mod answer;
+mod discrete;
+mod error;
+mod follow;
+mod inferred;
+mod linear;
+mod model;
+mod open;
+mod prior;
+mod reference;
+mod rounds;
+mod states;
+mod strength;
+mod study;
+mod surprise;
+mod task;
+
+pub use answer::infer;
+pub use error::InferError;
+pub use follow::{Followed, Follower, Row};
+pub use inferred::{Band, Inferred, InferredColumn, InferredCourse, InferredSensor, Known};
+pub use reference::InferObserver;
+pub use task::{InferTask, Sought, Start};

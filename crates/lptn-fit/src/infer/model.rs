@@ -1,0 +1,335 @@
+//! A record and a network, linear near a reference: how states go on, and what is read of them.
+
+use std::rc::Rc;
+
+use lptn_network::NodeId;
+
+use crate::infer::discrete::Discrete;
+use crate::infer::error::InferError;
+use crate::infer::linear::{Linear, Linearise, Systems, measured};
+use crate::infer::prior::Begins;
+use crate::infer::reference::{InferObserver, Moments, Ran, Reference};
+use crate::infer::states::States;
+use crate::infer::task::InferTask;
+use crate::kalman::{Filter, Gaussian, Innovation, Reading, Smoother, Step};
+
+/// More bodies than this are not followed.
+const MOST: usize = 100;
+
+/// Rates that differ by less than this part of the largest are the same, and so are times.
+const SAME: f64 = 1e-11;
+
+/// A course may be so many times as far from its own as would explain all that was read.
+const FAR: f64 = 30.0;
+
+/// All that the readings are compared with.
+pub(crate) struct Model {
+    pub(crate) states: States,
+    /// Temperature of every node in K at every moment of the reference.
+    pub(crate) reference: Vec<Vec<f64>>,
+    /// What the instrument of each column shows then in K but for its offset and gain.
+    pub(crate) shown: Vec<Vec<f64>>,
+    /// What the states bring to the temperature of every node.
+    pub(crate) nodes: Vec<Vec<Vec<(usize, f64)>>>,
+    /// Between each two moments, with the rise of each course's reference per s.
+    steps: Vec<(Rc<Discrete>, Vec<f64>)>,
+    /// What was read at each moment.
+    readings: Vec<Vec<Read>>,
+    pub(crate) prior: Gaussian,
+    /// The size of each course in its coordinate, as far as all that was read tells.
+    pub(crate) sizes: Vec<f64>,
+    /// The moments in s.
+    times: Vec<f64>,
+}
+
+/// A value of a column.
+#[derive(Clone, Debug)]
+pub(crate) struct Read {
+    pub(crate) column: usize,
+    pub(crate) of: Vec<f64>,
+    /// Beyond what the reference comes to, in K.
+    pub(crate) beyond: f64,
+}
+
+/// What one unit of the coordinate of a course is in SI units: its logarithm or itself.
+fn slope(positive: bool, value: f64) -> f64 {
+    if positive { value } else { 1.0 }
+}
+
+impl Model {
+    /// `sizes` are those that were found in the first round, where nothing was explained yet.
+    pub(crate) fn new(
+        task: &InferTask<'_>,
+        (moments, begins): (&Moments, &Begins),
+        (reference, own): (&Reference, &Reference),
+        (sizes, observer): (&[f64], &InferObserver<'_>),
+    ) -> Result<Self, InferError> {
+        let times = &moments.times;
+        let systems = Systems::new(task, (reference, times))?;
+        let states = States::of(task, systems.own.states().len());
+        if states.bodies > MOST {
+            return Err(InferError::Large { nodes: states.bodies, most: MOST });
+        }
+        let Ran { nodes, shown } = reference.run(task, (&systems.own, times), observer)?;
+        let mut look = Linearise::new(task, &states, &systems)?;
+        let mut all: Vec<Linear> = Vec::with_capacity(times.len());
+        for (k, (&time, there)) in times.iter().zip(&nodes).enumerate() {
+            let bodies = look.carried(there)?;
+            let courses = task.sought.iter().zip(&reference.courses);
+            let slopes = courses.map(|(sought, course)| slope(sought.positive, course[k]));
+            let deviations = task.uncertain.iter().map(|(_, deviation)| *deviation);
+            let slopes: Vec<f64> = slopes.chain(deviations).collect();
+            all.push(look.at((time, &bodies), &slopes)?);
+        }
+        let steps = steps((task, &states), (times, reference), &all);
+        let readings = readings((task, moments), (&states, reference), (&all, &shown));
+        let mut model = Self {
+            shown,
+            reference: nodes,
+            nodes: all.iter().map(|linear| linear.nodes.clone()).collect(),
+            steps,
+            readings,
+            prior: Gaussian { mean: Vec::new(), covariance: Vec::new() },
+            sizes: Vec::new(),
+            times: times.clone(),
+            states,
+        };
+        model.sizes = match sizes {
+            [] => model.found_sizes(task)?,
+            known => known.to_vec(),
+        };
+        let far: Vec<f64> = model.sizes.iter().map(|size| FAR * size).collect();
+        let from = coordinates(task, own, 0).into_iter().zip(coordinates(task, reference, 0));
+        let courses: Vec<f64> = from.map(|(own, reference)| own - reference).collect();
+        let exposed: Vec<_> = model
+            .states
+            .slow
+            .iter()
+            .map(|(column, _)| measured(task, *column, &model.nodes[0]))
+            .map(|of| of.into_iter().filter(|(i, _)| *i < model.states.bodies).collect())
+            .collect();
+        let start = start(&begins.bodies, &model.reference[0]);
+        let at = (reference, own, start.as_slice());
+        model.prior = begins.prior((task, &model.states), at, (&courses, &far), &exposed);
+        Ok(model)
+    }
+
+    /// What the states bring to the temperature of a node at a moment.
+    pub(crate) fn weights(&self, k: usize, node: usize) -> Vec<f64> {
+        let mut weights = vec![0.0; self.states.count()];
+        self.nodes[k][node].iter().for_each(|(place, weight)| weights[*place] += weight);
+        weights
+    }
+
+    /// Takes a filter to a moment, and its readings in.
+    pub(crate) fn advance(
+        &self,
+        filter: &mut Filter,
+        k: usize,
+        (intensities, sigmas): (&[f64], &[f64]),
+    ) -> Vec<(usize, Innovation)> {
+        if k > 0 {
+            let mut walks = Walks { intensities, last: None };
+            filter.predict(&walks.step(&self.steps[k - 1]));
+        }
+        let readings = self.readings[k].iter();
+        readings.map(|read| (read.column, filter.update(&read.reading(sigmas)))).collect()
+    }
+
+    /// How large each course has to be to explain the farthest reading, if it stands still.
+    fn found_sizes(&self, task: &InferTask<'_>) -> Result<Vec<f64>, InferError> {
+        let all = self.readings.iter().flatten();
+        let farthest = all.map(|read| read.beyond.abs()).fold(0.0, f64::max);
+        let noise = task.run.columns.iter().filter_map(|column| column.sigma).fold(0.0, f64::max);
+        let size = |(j, sought): (usize, &crate::infer::Sought)| {
+            let answer = self.answer(j);
+            if !(answer > 0.0 && answer.is_finite()) {
+                return Err(InferError::Unfelt { signal: sought.name.clone() });
+            }
+            let size = (farthest + noise).max(1e-3) / answer;
+            Ok(if sought.positive { size.min(1.0) } else { size })
+        };
+        task.sought.iter().enumerate().map(size).collect()
+    }
+
+    /// The farthest reading that a course brings about that is 1 all the time.
+    fn answer(&self, j: usize) -> f64 {
+        let count = self.states.count();
+        let mut state = vec![0.0; count];
+        state[self.states.course(j)] = 1.0;
+        let mut farthest: f64 = 0.0;
+        for (k, readings) in self.readings.iter().enumerate() {
+            if k > 0 {
+                let transition = &self.steps[k - 1].0.transition;
+                let size = self.states.moving();
+                let moved = transition
+                    .chunks_exact(size)
+                    .map(|row| row.iter().zip(&state).map(|(a, x)| a * x).sum::<f64>());
+                let moved: Vec<f64> = moved.collect();
+                state[..size].copy_from_slice(&moved);
+            }
+            for read in readings {
+                let sum: f64 = read.of.iter().zip(&state).map(|(h, x)| h * x).sum();
+                farthest = farthest.max(sum.abs());
+            }
+        }
+        farthest
+    }
+
+    /// The same with one state more behind all others: by how many K, known to `spread`, a column's
+    /// instrument moves over the record at a steady rate.
+    pub(crate) fn drifting(&self, column: usize, spread: f64) -> Self {
+        let count = self.states.count() + 1;
+        let longer = |row: &[f64]| row.iter().copied().chain([0.0]).collect::<Vec<f64>>();
+        let mut covariance: Vec<f64> =
+            self.prior.covariance.chunks_exact(count - 1).flat_map(longer).collect();
+        covariance.extend((1..count).map(|_| 0.0).chain([spread * spread]));
+        let (first, last) = (self.times[0], self.times[self.times.len() - 1]);
+        let read = |time: f64, read: &Read| {
+            let mut of = longer(&read.of);
+            if read.column == column {
+                of[count - 1] = (time - first) / (last - first);
+            }
+            Read { of, ..read.clone() }
+        };
+        let readings = self.readings.iter().zip(&self.times);
+        Self {
+            readings: readings
+                .map(|(all, time)| all.iter().map(|one| read(*time, one)).collect())
+                .collect(),
+            prior: Gaussian { mean: longer(&self.prior.mean), covariance },
+            steps: self.steps.clone(),
+            reference: Vec::new(),
+            shown: Vec::new(),
+            nodes: Vec::new(),
+            sizes: self.sizes.clone(),
+            times: self.times.clone(),
+            states: self.states.clone(),
+        }
+    }
+
+    /// Length of the record in s.
+    pub(crate) fn length(&self) -> f64 {
+        self.times[self.times.len() - 1] - self.times[0]
+    }
+
+    /// The logarithm of the probability density of what was read, where walks and noises are these.
+    pub(crate) fn log_likelihood(&self, intensities: &[f64], sigmas: &[f64]) -> f64 {
+        let mut filter = Filter::new(self.prior.clone());
+        let mut walks = Walks { intensities, last: None };
+        for (k, readings) in self.readings.iter().enumerate() {
+            if k > 0 {
+                filter.predict(&walks.step(&self.steps[k - 1]));
+            }
+            readings.iter().for_each(|read| {
+                filter.update(&read.reading(sigmas));
+            });
+        }
+        filter.log_likelihood()
+    }
+
+    /// What is known of every moment, and by how much each reading surprised.
+    pub(crate) fn smoothed(
+        &self,
+        intensities: &[f64],
+        sigmas: &[f64],
+    ) -> (Smoother, Vec<Vec<(usize, Innovation)>>) {
+        let mut smoother = Smoother::new(self.prior.clone());
+        let mut walks = Walks { intensities, last: None };
+        let mut surprises = Vec::with_capacity(self.readings.len());
+        for (k, readings) in self.readings.iter().enumerate() {
+            if k > 0 {
+                smoother.predict(&walks.step(&self.steps[k - 1]));
+            }
+            let take = |read: &Read| (read.column, smoother.update(&read.reading(sigmas)));
+            surprises.push(readings.iter().map(take).collect());
+        }
+        (smoother, surprises)
+    }
+}
+
+/// Walks of given intensities: what they bring in is the same as long as nothing else changes.
+struct Walks<'a> {
+    intensities: &'a [f64],
+    last: Option<(Rc<Discrete>, Rc<Vec<f64>>)>,
+}
+
+impl Walks<'_> {
+    fn step(&mut self, (discrete, rises): &(Rc<Discrete>, Vec<f64>)) -> Step {
+        let noise = match &self.last {
+            Some((last, noise)) if Rc::ptr_eq(last, discrete) => Rc::clone(noise),
+            _ => discrete.noise(self.intensities),
+        };
+        self.last = Some((Rc::clone(discrete), Rc::clone(&noise)));
+        discrete.step(noise, rises)
+    }
+}
+
+impl Read {
+    fn reading(&self, sigmas: &[f64]) -> Reading {
+        let sigma = sigmas[self.column];
+        Reading { of: self.of.clone(), value: self.beyond, variance: sigma * sigma }
+    }
+}
+
+/// Coordinates of all courses at one moment.
+pub(crate) fn coordinates(task: &InferTask<'_>, reference: &Reference, k: usize) -> Vec<f64> {
+    let courses = task.sought.iter().zip(&reference.courses);
+    courses.map(|(s, course)| if s.positive { course[k].ln() } else { course[k] }).collect()
+}
+
+fn start(bodies: &[NodeId], nodes: &[f64]) -> Vec<f64> {
+    bodies.iter().map(|id| nodes[id.index()]).collect()
+}
+
+/// Between each two moments rates are the mean of both.
+fn steps(
+    (task, states): (&InferTask<'_>, &States),
+    (times, reference): (&[f64], &Reference),
+    all: &[Linear],
+) -> Vec<(Rc<Discrete>, Vec<f64>)> {
+    let walks = states.walks();
+    let mut last: Option<(Vec<f64>, f64, Rc<Discrete>)> = None;
+    let mut steps = Vec::with_capacity(times.len() - 1);
+    for k in 1..times.len() {
+        let time = times[k] - times[k - 1];
+        let both = all[k - 1].rates.iter().zip(&all[k].rates);
+        let rates: Vec<f64> = both.map(|(a, b)| 0.5 * (a + b)).collect();
+        let discrete = match &last {
+            Some((known, long, discrete)) if same((known, *long), (&rates, time), times[k]) => {
+                Rc::clone(discrete)
+            }
+            _ => Rc::new(Discrete::new(&rates, states.moving(), time, &walks)),
+        };
+        let (before, now) = (coordinates(task, reference, k - 1), coordinates(task, reference, k));
+        let both = now.iter().zip(before);
+        let rises = both.flat_map(|(now, before)| [(before - now) / time, 0.0]).collect();
+        steps.push((Rc::clone(&discrete), rises));
+        last = Some((rates, time, discrete));
+    }
+    steps
+}
+
+fn same((known, long): (&[f64], f64), (rates, time): (&[f64], f64), end: f64) -> bool {
+    let most = rates.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
+    (time - long).abs() <= SAME * time + 4.0 * f64::EPSILON * end.abs()
+        && known.iter().zip(rates).all(|(a, b)| (a - b).abs() <= SAME * most)
+}
+
+fn readings(
+    (task, moments): (&InferTask<'_>, &Moments),
+    (states, reference): (&States, &Reference),
+    (all, shown): (&[Linear], &[Vec<f64>]),
+) -> Vec<Vec<Read>> {
+    let at = |(k, linear): (usize, &Linear)| {
+        let Some(row) = k.checked_sub(moments.before) else { return Vec::new() };
+        let columns = task.run.columns.iter().enumerate();
+        let measured = columns.filter(|(_, column)| !column.values[row].is_nan());
+        let one = |(i, column): (usize, &crate::network::MeasuredColumn)| {
+            let (of, expected) = linear.reading(task, (states, &reference.reads), (i, shown[i][k]));
+            Read { column: i, of, beyond: column.values[row] - expected }
+        };
+        measured.map(one).collect()
+    };
+    all.iter().enumerate().map(at).collect()
+}

@@ -1,0 +1,115 @@
+//! What is known where the record leaves open how smooth a course is.
+
+use crate::infer::model::Model;
+use crate::infer::strength::{Strength, open_walks};
+use crate::infer::task::InferTask;
+use crate::kalman::Gaussian;
+
+/// Intensities that are looked at of each walk.
+const POINTS: usize = 8;
+
+/// Strengths beyond those at which the logarithm of the likelihood has fallen by so much do not
+/// count.
+const FALLEN: f64 = 7.0;
+
+/// Shares below this do not count.
+const LEAST_SHARE: f64 = 1e-3;
+
+/// Intensities are followed up and down as far from what is expected.
+const LEAST_PART: f64 = 1e-8;
+
+/// In steps of this factor.
+const FACTOR: f64 = 2.0;
+
+/// A walk is not felt that changes the logarithm of the likelihood by less.
+const NOT_FELT: f64 = 0.05;
+
+/// The strengths that may be, with their shares.
+fn possible(task: &InferTask<'_>, model: &Model, most: &Strength) -> Vec<(Strength, f64)> {
+    let alone = vec![(most.clone(), 1.0)];
+    let open = open_walks(task);
+    let [course, slope] = open.as_slice() else { return alone };
+    let axis = Axis { model, most, guess: Strength::guess(task, model) };
+    let greatest = most.log_likelihood(model);
+    let slopes = axis.values(*slope);
+    let points = axis.values(*course).into_iter().flat_map(|a| slopes.iter().map(move |b| (a, *b)));
+    let point = |(a, b): (f64, f64)| {
+        let mut there = most.clone();
+        (there.intensities[*course], there.intensities[*slope]) = (a, b);
+        let share = (there.log_likelihood(model) - greatest).exp();
+        (there, if share.is_finite() { share } else { 0.0 })
+    };
+    let points: Vec<(Strength, f64)> = points.map(point).collect();
+    let sum: f64 = points.iter().map(|(_, share)| share).sum();
+    let counts = points.into_iter().map(|(strength, share)| (strength, share / sum));
+    let counts: Vec<(Strength, f64)> = counts.filter(|(_, share)| *share > LEAST_SHARE).collect();
+    if counts.is_empty() { alone } else { counts }
+}
+
+/// Along one intensity, the others as they are most likely.
+struct Axis<'a> {
+    model: &'a Model,
+    most: &'a Strength,
+    guess: Strength,
+}
+
+impl Axis<'_> {
+    /// Intensities at even distances of their logarithm, from where the walk is not felt, or is
+    /// too weak, to where it is too strong.
+    fn values(&self, place: usize) -> Vec<f64> {
+        let likely = |intensity: f64| {
+            let mut there = self.most.clone();
+            there.intensities[place] = intensity;
+            there.log_likelihood(self.model)
+        };
+        let (own, guess) = (self.most.intensities[place], self.guess.intensities[place]);
+        let (still, greatest) = (likely(0.0), likely(own));
+        let counts = |intensity: f64| likely(intensity) > greatest - FALLEN;
+        let most = guess.max(own) / LEAST_PART;
+        let mut end = if own > 0.0 { own } else { LEAST_PART * guess };
+        while end < most && counts(end) {
+            end *= FACTOR;
+        }
+        let least = end * LEAST_PART * LEAST_PART;
+        let felt = |intensity: f64| (likely(intensity) - still).abs() > NOT_FELT;
+        let mut begin = if own > 0.0 { own } else { end / FACTOR };
+        while begin > least && counts(begin) && felt(begin) {
+            begin /= FACTOR;
+        }
+        let length = (end / begin).ln();
+        let value = |i: usize| begin * (length * (i as f64 + 0.5) / POINTS as f64).exp();
+        (0..POINTS).map(value).collect()
+    }
+}
+
+/// Means and standard deviations of what is `asked` of the smoothed states of all moments.
+pub(crate) fn mixture(
+    (task, model, most): (&InferTask<'_>, &Model, &Strength),
+    asked: impl Fn(&[Gaussian]) -> Vec<(f64, f64)>,
+) -> Vec<(f64, f64)> {
+    let of = |strength: &Strength| {
+        asked(&model.smoothed(&strength.intensities, &strength.sigmas).0.smoothed())
+    };
+    // means are summed as distances from those of the first, which keeps their digits
+    let mut base: Vec<f64> = Vec::new();
+    let mut sums: Vec<(f64, f64)> = Vec::new();
+    let mut whole = 0.0;
+    for (strength, share) in possible(task, model, most) {
+        let found = of(&strength);
+        if base.is_empty() {
+            base = found.iter().map(|(mean, _)| *mean).collect();
+            sums = vec![(0.0, 0.0); found.len()];
+        }
+        whole += share;
+        for ((sum, (mean, deviation)), base) in sums.iter_mut().zip(&found).zip(&base) {
+            let moved = mean - base;
+            sum.0 += share * moved;
+            sum.1 += share * (deviation * deviation + moved * moved);
+        }
+    }
+    let one = |((first, second), base): ((f64, f64), &f64)| {
+        let moved = first / whole;
+        (base + moved, (second / whole - moved * moved).max(0.0).sqrt())
+    };
+    sums.into_iter().zip(&base).map(one).collect()
+}

@@ -1,0 +1,112 @@
+//! What is known at the start, before anything is read.
+
+use lptn_network::NodeId;
+
+use crate::infer::error::InferError;
+use crate::infer::reference::{Changed, Reference};
+use crate::infer::states::{States, UNKNOWN_KELVIN};
+use crate::infer::task::{InferTask, Start};
+use crate::kalman::Gaussian;
+
+/// The start of the network itself, with its uncertain parameters at their own values.
+#[derive(Clone, Debug)]
+pub(crate) struct Begins {
+    /// Temperature of each body in K.
+    own: Vec<f64>,
+    /// Its change by a standard deviation of each uncertain parameter.
+    by_parameter: Vec<Vec<f64>>,
+    /// Whether nothing is known of it.
+    unknown: Vec<bool>,
+    /// The node of each.
+    pub(crate) bodies: Vec<NodeId>,
+}
+
+impl Begins {
+    pub(crate) fn of(
+        task: &InferTask<'_>,
+        (own, bodies, times): (&Reference, &[NodeId], &[f64]),
+    ) -> Result<Self, InferError> {
+        let at = |changed: Changed| -> Result<Vec<f64>, InferError> {
+            let network = own.network(task, times, changed)?;
+            Ok(bodies.iter().map(|&id| network.initial(id)).collect())
+        };
+        let change = |(k, (_, deviation)): (usize, &(_, f64))| {
+            let by = 0.5 * deviation;
+            let (below, above) = (at(Changed::Parameter(k, -by))?, at(Changed::Parameter(k, by))?);
+            Ok(above.iter().zip(below).map(|(above, below)| above - below).collect())
+        };
+        let by_parameter: Result<_, InferError> =
+            task.uncertain.iter().enumerate().map(change).collect();
+        let measured = task.run.nodes();
+        let unknown = |id: &NodeId| match task.start {
+            Start::Known => false,
+            Start::Measured => measured.contains(id),
+            Start::Free => true,
+        };
+        Ok(Self {
+            own: at(Changed::Nothing)?,
+            by_parameter: by_parameter?,
+            unknown: bodies.iter().map(unknown).collect(),
+            bodies: bodies.to_vec(),
+        })
+    }
+
+    /// Whether a body may begin elsewhere than the network says with its own parameters.
+    pub(crate) fn may_move(&self, body: usize) -> bool {
+        self.unknown[body] || self.by_parameter.iter().any(|change| change[body].abs() > 0.0)
+    }
+
+    /// How all states stand to a reference that begins at these temperatures; `spreads` says how
+    /// far each course may be from its own, `shown` what a slow instrument shows of the bodies.
+    pub(crate) fn prior(
+        &self,
+        (task, states): (&InferTask<'_>, &States),
+        (reference, own, start): (&Reference, &Reference, &[f64]),
+        (courses, spreads): (&[f64], &[f64]),
+        shown: &[Vec<(usize, f64)>],
+    ) -> Gaussian {
+        let count = states.count();
+        let mut mean = vec![0.0; count];
+        let mut roots: Vec<Vec<f64>> = Vec::new();
+        let mut root = |entries: &[(usize, f64)]| {
+            let mut root = vec![0.0; count];
+            entries.iter().for_each(|(place, spread)| root[*place] = *spread);
+            roots.push(root);
+        };
+        for (i, unknown) in self.unknown.iter().enumerate() {
+            if *unknown {
+                root(&[(i, UNKNOWN_KELVIN)]);
+            }
+            mean[i] = self.own[i] - start[i];
+        }
+        for (k, change) in self.by_parameter.iter().enumerate() {
+            let known = (0..states.bodies).filter(|i| !self.unknown[*i]);
+            let mut entries: Vec<(usize, f64)> = known.map(|i| (i, change[i])).collect();
+            entries.push((states.parameter(k), 1.0));
+            root(&entries);
+            let deviation = task.uncertain[k].1;
+            mean[states.parameter(k)] = (own.parameters[k] - reference.parameters[k]) / deviation;
+        }
+        for (j, (course, spread)) in courses.iter().zip(spreads).enumerate() {
+            root(&[(states.course(j), *spread)]);
+            mean[states.course(j)] = *course;
+        }
+        for (r, read) in states.reads.iter().enumerate() {
+            root(&[(states.read(r), read.known.1)]);
+            mean[states.read(r)] = read.known.0 - reference.reads[r];
+        }
+        for all in roots.iter_mut().chain([&mut mean]) {
+            for ((column, _), of) in states.slow.iter().zip(shown) {
+                let rest = of.iter().map(|(place, weight)| weight * all[*place]).sum();
+                states.shown(*column).into_iter().for_each(|place| all[place] = rest);
+            }
+        }
+        let mut covariance = vec![0.0; count * count];
+        for root in &roots {
+            for (row, a) in covariance.chunks_exact_mut(count).zip(root) {
+                row.iter_mut().zip(root).for_each(|(p, b)| *p += a * b);
+            }
+        }
+        Gaussian { mean, covariance }
+    }
+}

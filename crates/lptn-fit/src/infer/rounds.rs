@@ -1,0 +1,167 @@
+//! From a task to what is known: rounds until nothing moves.
+
+use lptn_assembly::{ChangeError, ThermalSystem};
+
+use crate::infer::error::InferError;
+use crate::infer::model::{Model, coordinates};
+use crate::infer::prior::Begins;
+use crate::infer::reference::{InferObserver, Moments, Reference};
+use crate::infer::strength::Strength;
+use crate::infer::task::InferTask;
+use crate::kalman::Gaussian;
+use crate::network::Certainty;
+
+/// The most rounds.
+const MOST: usize = 25;
+
+/// Nothing moves where no course does by more than this part of its standard deviation.
+const SETTLED: f64 = 1e-4;
+
+/// Behind so many rounds strengths stay as they are: searched again they would differ by what the
+/// search leaves open, and nothing would settle.
+const SEARCHED: usize = 3;
+
+/// A round whose courses no run can follow is taken back by halves so often.
+const HALVES: usize = 6;
+
+/// Where the rounds ended.
+pub(crate) struct Settled {
+    pub(crate) moments: Moments,
+    pub(crate) reference: Reference,
+    pub(crate) model: Model,
+    pub(crate) strength: Strength,
+    pub(crate) rounds: usize,
+}
+
+pub(crate) fn settle(
+    task: &InferTask<'_>,
+    observer: &InferObserver<'_>,
+) -> Result<Settled, InferError> {
+    checked(task)?;
+    let moments = Moments::of(task)?;
+    let (own, begins) = begun(task, &moments)?;
+    let at = |reference: &Reference, sizes: &[f64]| {
+        Model::new(task, (&moments, &begins), (reference, &own), (sizes, observer))
+    };
+    let mut reference = own.clone();
+    let mut model = at(&reference, &[])?;
+    let sizes = model.sizes.clone();
+    let mut strength = Strength::guess(task, &model);
+    for round in 1..=MOST {
+        if round <= SEARCHED {
+            let start = (strength.revived(task, &model), round == 1);
+            strength = Strength::most_likely((task, &model), start);
+        }
+        let (smoother, _) = model.smoothed(&strength.intensities, &strength.sigmas);
+        let smoothed = smoother.smoothed();
+        let mut next = moved((task, &begins), (&reference, &model), &smoothed, 1.0);
+        let far = distance((task, &model), (&reference, &next), &smoothed);
+        if far < SETTLED {
+            return Ok(Settled { moments, reference, model, strength, rounds: round });
+        }
+        let mut there = at(&next, &sizes);
+        for halves in 1..=HALVES {
+            match there {
+                Err(InferError::Network(_) | InferError::Run(_) | InferError::Rates(_)) => {}
+                _ => break,
+            }
+            let share = 0.5_f64.powi(halves as i32);
+            next = moved((task, &begins), (&reference, &model), &smoothed, share);
+            there = at(&next, &sizes);
+        }
+        (model, reference) = (there?, next);
+    }
+    Err(InferError::NotSettled { rounds: MOST })
+}
+
+/// What the network itself says, and how it begins.
+pub(crate) fn begun(
+    task: &InferTask<'_>,
+    moments: &Moments,
+) -> Result<(Reference, Begins), InferError> {
+    let own = own(task, moments)?;
+    let network = task.network.with(&task.run.parameters).map_err(ChangeError::from)?;
+    let system = ThermalSystem::assemble(&network).map_err(ChangeError::from)?;
+    let begins = Begins::of(task, (&own, system.states(), &moments.times))?;
+    Ok((own, begins))
+}
+
+pub(crate) fn checked(task: &InferTask<'_>) -> Result<(), InferError> {
+    if task.network.has_events() {
+        return Err(InferError::Events);
+    }
+    let used = task.run.columns.iter().filter_map(|column| column.sensor);
+    let unknown = used.map(|sensor| &task.sensors[sensor]);
+    match unknown.into_iter().find(|sensor| sensor.lag.certainty != Certainty::Exact) {
+        Some(sensor) => Err(InferError::Lag { sensor: sensor.name.clone() }),
+        None => Ok(()),
+    }
+}
+
+/// The courses and values that the network itself says.
+fn own(task: &InferTask<'_>, moments: &Moments) -> Result<Reference, InferError> {
+    let network = task.network.with(&task.run.parameters).map_err(ChangeError::from)?;
+    let network = network.recorded(&task.run.signals, &[]).map_err(ChangeError::from)?;
+    let course = |sought: &crate::infer::Sought| {
+        let course = Reference::own(&network, sought.signal, &moments.times);
+        match course.iter().find(|value| sought.positive && value.is_nan() | (**value <= 0.0)) {
+            Some(&value) => Err(InferError::NotPositive { signal: sought.name.clone(), value }),
+            None => Ok(course),
+        }
+    };
+    let courses = task.sought.iter().map(course).collect::<Result<_, _>>()?;
+    let parameters = task.uncertain.iter().map(|(id, _)| network.parameter_value(*id)).collect();
+    let reads = crate::infer::states::reads(task).iter().map(|read| read.known.0).collect();
+    Ok(Reference { courses, parameters, initial: Vec::new(), reads })
+}
+
+/// What all that was read makes of a reference: a share of the way there.
+fn moved(
+    (task, begins): (&InferTask<'_>, &Begins),
+    (reference, model): (&Reference, &Model),
+    smoothed: &[Gaussian],
+    share: f64,
+) -> Reference {
+    let states = &model.states;
+    let mut next = reference.clone();
+    for (k, known) in smoothed.iter().enumerate() {
+        let coordinates = coordinates(task, reference, k);
+        for (j, sought) in task.sought.iter().enumerate() {
+            let there = coordinates[j] + share * known.mean[states.course(j)];
+            next.courses[j][k] = if sought.positive { there.exp() } else { there };
+        }
+    }
+    let (first, last) = (&smoothed[0].mean, &smoothed[smoothed.len() - 1].mean);
+    for (k, (_, deviation)) in task.uncertain.iter().enumerate() {
+        next.parameters[k] += share * deviation * last[states.parameter(k)];
+    }
+    for (r, read) in next.reads.iter_mut().enumerate() {
+        *read += share * last[states.read(r)];
+    }
+    let bodies = begins.bodies.iter().enumerate().filter(|(i, _)| begins.may_move(*i));
+    let start = |(i, id): (usize, &lptn_network::NodeId)| {
+        (*id, model.reference[0][id.index()] + share * first[i])
+    };
+    next.initial = bodies.map(start).collect();
+    next
+}
+
+/// How far a round has moved anything that is sought, over its standard deviation.
+fn distance(
+    (task, model): (&InferTask<'_>, &Model),
+    (reference, next): (&Reference, &Reference),
+    smoothed: &[Gaussian],
+) -> f64 {
+    let states = &model.states;
+    let mut far: f64 = 0.0;
+    for (k, known) in smoothed.iter().enumerate() {
+        let (from, to) = (coordinates(task, reference, k), coordinates(task, next, k));
+        for j in 0..states.sought {
+            let place = states.course(j);
+            let deviation = known.covariance[place * (states.count() + 1)].max(0.0).sqrt();
+            let rounding = 1e-9 * to[j].abs();
+            far = far.max(((to[j] - from[j]).abs() - rounding).max(0.0) / deviation.max(1e-300));
+        }
+    }
+    far
+}

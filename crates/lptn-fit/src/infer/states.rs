@@ -1,0 +1,126 @@
+//! Which number stands where.
+
+use crate::infer::task::InferTask;
+use crate::network::Certainty;
+
+/// Temperatures and logarithms of which nothing is known are known to so many K, or factors of e.
+pub(crate) const UNKNOWN_KELVIN: f64 = 100.0;
+
+/// A gain of which nothing is known.
+const UNKNOWN_GAIN: f64 = 1.0;
+
+/// A value of an instrument that is not known exactly.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Reads {
+    /// Place of the instrument in the task.
+    pub(crate) sensor: usize,
+    /// Its offset, or its gain.
+    pub(crate) gain: bool,
+    /// Its value beforehand, and its standard deviation.
+    pub(crate) known: (f64, f64),
+}
+
+/// The places of all states: those that change with time, which are temperatures, what slow
+/// instruments show, what is sought, its integral, and the parameters that rates depend on; then
+/// what does not change, the values of instruments.
+#[derive(Clone, Debug)]
+pub(crate) struct States {
+    /// How many temperatures are carried.
+    pub(crate) bodies: usize,
+    /// The columns whose instrument is slow, with its time constant in s.
+    pub(crate) slow: Vec<(usize, f64)>,
+    /// How many courses are sought.
+    pub(crate) sought: usize,
+    /// How many parameters are uncertain.
+    pub(crate) uncertain: usize,
+    /// The values of instruments.
+    pub(crate) reads: Vec<Reads>,
+}
+
+impl States {
+    pub(crate) fn of(task: &InferTask<'_>, bodies: usize) -> Self {
+        let slow = task.run.columns.iter().enumerate().filter_map(|(i, column)| {
+            let lag = task.sensors[column.sensor?].lag.value;
+            (lag > 0.0).then_some((i, lag))
+        });
+        Self {
+            bodies,
+            slow: slow.collect(),
+            sought: task.sought.len(),
+            uncertain: task.uncertain.len(),
+            reads: reads(task),
+        }
+    }
+
+    /// What the instrument of a column shows, where that is slow.
+    pub(crate) fn shown(&self, column: usize) -> Option<usize> {
+        let place = self.slow.iter().position(|(slow, _)| *slow == column)?;
+        Some(self.bodies + place)
+    }
+
+    /// A course that is sought.
+    pub(crate) fn course(&self, j: usize) -> usize {
+        self.bodies + self.slow.len() + j
+    }
+
+    /// How fast it rises, but for what it walks.
+    pub(crate) fn slope(&self, j: usize) -> usize {
+        self.course(self.sought) + j
+    }
+
+    /// The integral of its distance from the reference over time.
+    pub(crate) fn area(&self, j: usize) -> usize {
+        self.slope(self.sought) + j
+    }
+
+    /// What walks: each course, and its slope.
+    pub(crate) fn walks(&self) -> Vec<usize> {
+        (0..self.sought).flat_map(|j| [self.course(j), self.slope(j)]).collect()
+    }
+
+    /// An uncertain parameter, over its standard deviation.
+    pub(crate) fn parameter(&self, k: usize) -> usize {
+        self.area(self.sought) + k
+    }
+
+    /// How many change, or make others change.
+    pub(crate) fn moving(&self) -> usize {
+        self.parameter(self.uncertain)
+    }
+
+    /// A value of an instrument.
+    pub(crate) fn read(&self, r: usize) -> usize {
+        self.moving() + r
+    }
+
+    /// What picks one.
+    pub(crate) fn unit(&self, place: usize) -> Vec<f64> {
+        (0..self.count()).map(|i| if i == place { 1.0 } else { 0.0 }).collect()
+    }
+
+    /// How many there are.
+    pub(crate) fn count(&self) -> usize {
+        self.moving() + self.reads.len()
+    }
+}
+
+/// The uncertain values of the instruments that columns name.
+pub(crate) fn reads(task: &InferTask<'_>) -> Vec<Reads> {
+    let mut all = Vec::new();
+    for (sensor, instrument) in task.sensors.iter().enumerate() {
+        if task.run.columns.iter().all(|column| column.sensor != Some(sensor)) {
+            continue;
+        }
+        for (gain, value, unknown) in
+            [(false, instrument.offset, UNKNOWN_KELVIN), (true, instrument.gain, UNKNOWN_GAIN)]
+        {
+            let deviation = match value.certainty {
+                Certainty::Exact => continue,
+                Certainty::Deviation(deviation) => deviation,
+                Certainty::Free => unknown,
+            };
+            all.push(Reads { sensor, gain, known: (value.value, deviation) });
+        }
+    }
+    all
+}

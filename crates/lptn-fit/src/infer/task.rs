@@ -1,0 +1,48 @@
+//! What is to be inferred from what.
+
+use lptn_network::{Network, ParameterId, SignalId};
+
+use crate::network::{Instrument, MeasuredRun};
+
+/// Courses of signals to infer from one record.
+#[derive(Clone, Debug)]
+pub struct InferTask<'a> {
+    /// The network. What is sought begins as its own courses say.
+    pub network: &'a Network,
+    /// The record. Its run begins at `settings.start`.
+    pub run: MeasuredRun,
+    /// The instruments that columns name.
+    pub sensors: Vec<Instrument>,
+    /// What is sought; each signal once.
+    pub sought: Vec<Sought>,
+    /// Parameters that are not known exactly, with their standard deviations in SI units. The
+    /// record tells of them too.
+    pub uncertain: Vec<(ParameterId, f64)>,
+    /// What is known of the start.
+    pub start: Start,
+}
+
+/// A signal whose course is sought: a random walk, or one of its logarithm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sought {
+    /// The signal.
+    pub signal: SignalId,
+    /// Its name.
+    pub name: String,
+    /// Whether it is its logarithm that walks, so that it stays above 0.
+    pub positive: bool,
+    /// Variance of the walk per s, in SI units squared per s or, for a logarithm, 1/s; `None` for
+    /// the value that makes the record most likely.
+    pub intensity: Option<f64>,
+}
+
+/// What is known of the temperatures at the start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Start {
+    /// They are those of the network.
+    Known,
+    /// Nothing of nodes that a column measures; the others are those of the network.
+    Measured,
+    /// Nothing.
+    Free,
+}

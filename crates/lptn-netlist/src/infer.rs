@@ -1,0 +1,349 @@
+//! `[infer.NAME]`: courses of signals to find over time, and the record that tells of them.
+
+use lptn_data::{Diagnostic, Span, nearest};
+use lptn_network::{Context, Network, Value};
+use lptn_units::{Dimension, EvalError, Scope as _, Type};
+
+use crate::fields::Fields;
+use crate::fit::{FitInitial, FitStudy, OUTLIERS, files_of};
+use crate::format::{Role, SectionDeclaration, key};
+use crate::names::ValueKind;
+use crate::place::Wanted;
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
+use crate::study::{PathFrom, Study};
+use crate::toml_text::{TomlFields, key as toml_key, value};
+use crate::work::Elaboration;
+
+const INFER: SectionDeclaration = SectionDeclaration {
+    name: "infer",
+    sentence: "Signals whose course over time is sought, and the record that tells of them.",
+    role: Role::Study,
+    keys: &[
+        key("data", "file", "the record", "\"record.csv\""),
+        key("time", "name of a column", "the column of the times", "\"t\"")
+            .or("the first in a unit of time"),
+        key("column", "table of results", "what each column measures", "{ ring = \"steel.T\" }"),
+        key("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\"")
+            .or("as the record is most likely"),
+        key("find", "names of signals, or a table", "whose course is sought", "[\"P\"]"),
+        key(
+            "outliers",
+            "`\"keep\"`, `\"drop\"`",
+            "values far outside of those before and behind them",
+            "\"drop\"",
+        )
+        .or("`\"keep\"`"),
+        key(
+            "signal",
+            "table of columns",
+            "signals that follow a column of the record",
+            "{ speed = \"omega\" }",
+        )
+        .or("their own courses"),
+        key(
+            "initial",
+            "`\"network\"`, `\"record\"`, `\"free\"`",
+            "what is known of the start: `T0`; nothing of measured nodes; nothing",
+            "\"free\"",
+        )
+        .or("`\"network\"`"),
+    ],
+    example: "{ data = \"record.csv\", column = { ring = \"steel.T\" }, find = [\"P\"] }",
+    elsewhere: &[
+        ("csv", "the record is `data`: `data = \"record.csv\"`"),
+        ("columns", "what a column measures is `column = { ring = \"steel.T\" }`"),
+        ("vary", "what changes over time is `find`; parameters with a `±` are estimated along"),
+        ("set", "a parameter has its value in [param], or by `--set`"),
+        (
+            "change",
+            "how much a course changes stands with it: `find = { P = { change = \"50 W\", within = \
+             \"1 min\" } }`",
+        ),
+    ],
+    ..SectionDeclaration::NEW
+};
+
+/// `P = { change = "50 W", within = "1 min" }` in `find`.
+const FIND: SectionDeclaration = SectionDeclaration {
+    name: "find",
+    keys: &[
+        key("change", "as the signal", "how much it usually changes (1 sigma)", "\"50 W\""),
+        key("within", "s", "in how long a time", "\"1 min\""),
+        key("positive", "bool", "it stays above 0: its logarithm walks", "true").or("`false`"),
+    ],
+    example: "{ change = \"50 W\", within = \"1 min\" }",
+    ..SectionDeclaration::NEW
+};
+
+/// One `[infer.NAME]`.
+#[derive(Clone, Debug)]
+pub struct InferStudy {
+    /// Its name.
+    pub name: String,
+    /// Where it stands.
+    pub span: Span,
+    /// The record and what its columns measured: a fit that varies nothing.
+    pub reads: FitStudy,
+    /// The signals that are sought, in file order; at least one, none twice.
+    pub sought: Vec<SoughtSignal>,
+    /// What is known of the start.
+    pub start: InferStart,
+}
+
+/// A signal whose course is sought.
+#[derive(Clone, Debug)]
+pub struct SoughtSignal {
+    /// Its name.
+    pub name: String,
+    /// Its type.
+    pub ty: Type,
+    /// Whether it stays above 0.
+    pub positive: bool,
+    /// Where it is named.
+    pub span: Span,
+    /// By how much it changes in which time.
+    change: Option<(Value, Value)>,
+}
+
+/// What is known of the start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InferStart {
+    /// It is `T0`.
+    Network,
+    /// Nothing of nodes that are measured.
+    Record,
+    /// Nothing.
+    Free,
+}
+
+const STARTS: [(&str, InferStart); 3] =
+    [("network", InferStart::Network), ("record", InferStart::Record), ("free", InferStart::Free)];
+
+impl InferStudy {
+    /// For each sought signal by how much it usually changes (1 sigma, in SI units, or a factor
+    /// where it stays above 0) in the root of 1 s; `None` where that is not said.
+    ///
+    /// # Errors
+    /// What the evaluation of a change or a time reports.
+    pub fn changes(&self, network: &Network) -> Result<Vec<Option<f64>>, EvalError> {
+        let mut scope = network.evaluation();
+        let mut one = |sought: &SoughtSignal| match &sought.change {
+            None => Ok(None),
+            Some((change, within)) => {
+                Ok(Some(change.at(&mut scope)? / within.at(&mut scope)?.sqrt()))
+            }
+        };
+        self.sought.iter().map(&mut one).collect()
+    }
+}
+
+impl Study for InferStudy {
+    const SECTION: &'static SectionDeclaration = &INFER;
+
+    fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
+        files_of(raw, &INFER)
+    }
+
+    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
+        let entries = work.elements(INFER.name);
+        if let Some(first) = entries.iter().find(|entry| INFER.key(&entry.key).is_some()) {
+            let message = format!("`{}` belongs to an inference with a name", first.key);
+            let help = "give it one in its heading, for example `[infer.power]`";
+            work.refuse("netlist::infer_without_name", message, &first.key_span, help);
+            return Vec::new();
+        }
+        entries.iter().filter_map(|entry| work.infer_study(entry)).collect()
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn check(&self, network: &Network) -> Vec<Diagnostic> {
+        let mut problems = self.reads.check(network);
+        let wrong = |message: String, span: &Span| {
+            Diagnostic::error("netlist::infer_change", message).at(span.clone(), "")
+        };
+        match self.changes(network) {
+            Err(error) => problems.push(
+                Diagnostic::error(error.code(), format!("infer `{}`: {error}", self.name))
+                    .at(self.span.clone(), ""),
+            ),
+            Ok(changes) => {
+                for (sought, change) in self.sought.iter().zip(changes) {
+                    if change.is_some_and(|change| !(change > 0.0 && change.is_finite())) {
+                        let message = format!(
+                            "how much `{}` changes, and in how long, have to be more than zero",
+                            sought.name
+                        );
+                        let help = "write for example `{ change = \"50 W\", within = \"1 min\" }`; \
+                                    what does not change at all is a parameter of `lptn fit network`";
+                        problems.push(wrong(message, &sought.span).help(help));
+                    }
+                }
+            }
+        }
+        problems
+    }
+
+    fn fields(&self, network: &Network, path: &PathFrom<'_>) -> TomlFields {
+        let mut fields = TomlFields::default();
+        self.reads.put_read(&mut fields, network, path);
+        let sought = |sought: &SoughtSignal| {
+            let mut own = TomlFields::default();
+            if let Some((change, within)) = &sought.change {
+                own.put("change", value(change, change_of(sought.ty, sought.positive)));
+                own.put("within", value(within, TIME));
+            }
+            if sought.positive {
+                own.put("positive", "true");
+            }
+            let own = if own.is_empty() { "{}".to_owned() } else { own.inline() };
+            format!("{} = {own}", toml_key(&sought.name))
+        };
+        let all: Vec<String> = self.sought.iter().map(sought).collect();
+        fields.put("find", format!("{{ {} }}", all.join(", ")));
+        self.reads.put_recorded(&mut fields);
+        if let Some((word, _)) = STARTS[1..].iter().find(|(_, start)| *start == self.start) {
+            fields.word("initial", word);
+        }
+        fields
+    }
+}
+
+const TIME: Type = Type::of(Dimension::TIME);
+
+/// The type of a change of a signal.
+fn change_of(ty: Type, positive: bool) -> Type {
+    if positive { Type::SCALAR } else { Type::of(ty.dimension) }
+}
+
+impl<'a> Elaboration<'a> {
+    fn infer_study(&mut self, entry: &'a RawEntry) -> Option<InferStudy> {
+        let fields = self.fields(&INFER, entry)?;
+        self.all_there(&fields, &["data", "column", "find"])?;
+        let sought = self.sought_signals(&fields);
+        let start = self.choice(&fields, "initial", &STARTS);
+        let drop_outliers = self.choice(&fields, "outliers", &OUTLIERS);
+        let reads = self.recorded_columns(&fields, drop_outliers == Some(true))?;
+        if reads.records.len() > 1 {
+            let words = fields.owner.field("data");
+            let message = format!("{words} names {} records", reads.records.len());
+            let span = &reads.records[1].span;
+            let help = "name one: the courses of several runs are several inferences";
+            self.refuse("netlist::infer_records", message, span, help);
+            return None;
+        }
+        let sought = sought?;
+        for signal in &reads.signals {
+            if let Some(both) = sought.iter().find(|sought| sought.name == signal.name) {
+                let message = format!(
+                    "{} follows a column of the record and is sought",
+                    fields.owner.field(&signal.name)
+                );
+                let problem = Diagnostic::error("netlist::infer_signal", message)
+                    .at(both.span.clone(), "sought")
+                    .also(signal.span.clone(), "follows this column");
+                self.report(problem.help("leave it out of `signal`, or out of `find`"));
+                return None;
+            }
+        }
+        let (name, span) = (entry.key.clone(), entry.key_span.clone());
+        let reads =
+            FitStudy { drop_outliers: drop_outliers?, initial: FitInitial::Network, ..reads };
+        Some(InferStudy { name, span, reads, sought, start: start? })
+    }
+
+    /// `find = ["P"]` or `find = { P = { change = "50 W", within = "1 min" } }`.
+    fn sought_signals(&mut self, fields: &Fields<'a>) -> Option<Vec<SoughtSignal>> {
+        let raw = self.require(fields, "find")?;
+        let all: Vec<Option<SoughtSignal>> = match &raw.kind {
+            RawKind::Table(table) if !table.entries.is_empty() => {
+                table.entries.iter().map(|entry| self.sought_entry(fields, entry)).collect()
+            }
+            RawKind::Array(list) if !list.is_empty() => {
+                let named = |raw: &'a RawValue| {
+                    let name = fields.text("find", raw, &mut self.problems)?;
+                    self.sought_signal(fields, (name, &raw.span))
+                };
+                list.iter().map(named).collect()
+            }
+            _ => {
+                let wanted = "a list of signals, or a table of them";
+                self.report(fields.wrong_shape("find", raw, wanted));
+                return None;
+            }
+        };
+        let all = all.into_iter().collect::<Option<Vec<_>>>()?;
+        for (i, own) in all.iter().enumerate() {
+            if all[..i].iter().any(|other| other.name == own.name) {
+                let message = format!("{} names `{}` twice", fields.owner.field("find"), own.name);
+                self.refuse("netlist::infer_find", message, &own.span, "name each signal once");
+                return None;
+            }
+        }
+        Some(all)
+    }
+
+    fn sought_entry(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<SoughtSignal> {
+        let sought = self.sought_signal(fields, (&entry.key, &entry.key_span))?;
+        let owner = fields.owner.inside("find").inside(&entry.key);
+        let inner = self.inner(&FIND, owner.clone(), entry)?;
+        let positive = match inner.get("positive").map(|raw| (raw, &raw.kind)) {
+            None => false,
+            Some((_, RawKind::Boolean(positive))) => *positive,
+            Some((raw, _)) => {
+                self.report(inner.wrong_shape("positive", raw, "`true` or `false`"));
+                return None;
+            }
+        };
+        let (change, within) = (inner.get("change"), inner.get("within"));
+        let change = match (change, within) {
+            (None, None) => None,
+            (Some(change), Some(within)) => {
+                let wanted = Wanted::constant(change_of(sought.ty, positive));
+                let change = self.given_inside(&owner, ("change", change), wanted);
+                let within = self.given_inside(&owner, ("within", within), Wanted::constant(TIME));
+                Some((change?.value(), within?.value()))
+            }
+            (one, _) => {
+                let missing = if one.is_some() { "within" } else { "change" };
+                let message = format!("{} has no `{missing}`", owner.words());
+                let problem = inner.missing(missing, message);
+                self.report(problem);
+                return None;
+            }
+        };
+        Some(SoughtSignal { positive, change, ..sought })
+    }
+
+    fn sought_signal(
+        &mut self,
+        fields: &Fields<'a>,
+        (name, span): (&str, &Span),
+    ) -> Option<SoughtSignal> {
+        let kind = self.names.values.get(name).map(|(kind, ..)| *kind);
+        if kind != Some(ValueKind::Signal) {
+            let message =
+                format!("{} names `{name}`, which is not a signal", fields.owner.field("find"));
+            let signals = self.elements(ValueKind::Signal.section()).iter();
+            let signals: Vec<&str> = signals.map(|entry| entry.key.as_str()).collect();
+            let help = match (kind, signals.is_empty()) {
+                (Some(ValueKind::Parameter), _) => format!(
+                    "`{name}` is a parameter, which does not change in a run: move its line from \
+                     [param] to [signal]"
+                ),
+                (_, true) => format!(
+                    "write one to begin with, `[signal]` with `{name} = \"200 W\"`, and use it where \
+                     it counts, for example `P = \"{name}\"` of a source"
+                ),
+                (_, false) => nearest(name, signals, "the signals are"),
+            };
+            self.refuse("netlist::infer_find", message, span, help);
+            return None;
+        }
+        let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
+        let (name, span) = (name.to_owned(), span.clone());
+        Some(SoughtSignal { name, ty, positive: false, span, change: None })
+    }
+}
