@@ -19,7 +19,8 @@ pub(crate) fn answer_shell(command: fn() -> Command) {
 
 /// The same command, of which some options know what they take.
 fn with_names(command: Command) -> Command {
-    let (materials, sweep) = (command.get_name() == "materials", command.get_name() == "sweep");
+    let is = |verb: &str| command.get_name() == verb;
+    let (materials, sweep, plan) = (is("materials"), is("sweep"), is("plan"));
     let command = command.mut_args(|arg| {
         let found: Option<fn() -> Vec<String>> = match arg.get_id().as_str() {
             "set" => Some(parameters),
@@ -29,6 +30,7 @@ fn with_names(command: Command) -> Command {
             "gearbox" => Some(gearboxes),
             "name" if materials => Some(substances),
             "name" if sweep => Some(sweeps),
+            "name" if plan => Some(plans),
             _ => None,
         };
         match found {
@@ -78,6 +80,11 @@ fn gearboxes() -> Vec<String> {
 fn sweeps() -> Vec<String> {
     let sweeps = netlist().map(|netlist| netlist.studies.sweeps).unwrap_or_default();
     sweeps.into_iter().map(|study| study.name).collect()
+}
+
+fn plans() -> Vec<String> {
+    let plans = netlist().map(|netlist| netlist.studies.plans).unwrap_or_default();
+    plans.into_iter().map(|study| study.name).collect()
 }
 
 fn substances() -> Vec<String> {

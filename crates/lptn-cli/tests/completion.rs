@@ -26,6 +26,14 @@ fn names_of_the_netlist_are_offered() {
     assert_eq!(offered(&folder, &["reduce", "gearbox.toml", "--port", "s"]), ["steel"]);
     assert!(offered(&folder, &["materials", "steel_8"]).contains(&"steel_8620".to_owned()));
     assert_eq!(offered(&folder, &["stea"]), ["steady"]);
+    folder.write(
+        "plan.toml",
+        "format = 1\n[param]\nR = \"1 K/W\"\n[node]\na = { C = \"1 J/K\", \
+        T0 = \"20 degC\" }\n[boundary]\nb = { T = \"20 degC\" }\n[resistor]\nr = { from = \"a\", \
+        to = \"b\", R = \"R\" }\n[plan.next]\nknow = { R = \"5 %\" }\nevery = \"1 s\"\n\
+        duration = \"1 min\"\nplace = { a = { of = \"a.T\", noise = \"1 K\" } }\n",
+    );
+    assert_eq!(offered(&folder, &["plan", "plan.toml", "ne"]), ["next"]);
 }
 
 /// A netlist that cannot be read offers nothing, and says nothing between the words of a shell.

@@ -61,6 +61,7 @@ mod netlist;
 mod outputs;
 mod parameters;
 mod place;
+mod plan;
 mod plausible;
 mod points;
 mod posterior;
@@ -108,6 +109,9 @@ pub use lptn_data::{
 pub use lptn_network::{RunSettings, WindowSettings};
 pub use near_file::similar_file;
 pub use netlist::{Netlist, parse, parse_bytes, parse_file, parse_raw, parse_with, read};
+pub use plan::{
+    KnownTo, PlaceNumbers, PlanNumbers, PlanPlace, PlanRun, PlanStudy, RunNumbers, Target,
+};
 pub use posterior::{Believed, Posterior, PosteriorOf, PosteriorPrior, PosteriorQuantity};
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 pub use run_times::RunTime;

@@ -13,6 +13,7 @@ pub(crate) mod man;
 pub(crate) mod materials;
 pub(crate) mod modes;
 pub(crate) mod new;
+pub(crate) mod plan;
 pub(crate) mod plot;
 pub(crate) mod rank;
 pub(crate) mod reduce;
@@ -103,6 +104,7 @@ verbs! {
     Sweep(sweep::SweepArgs) => sweep::sweep, drawn |args| args.verb.is_none();
     Fit(fit::FitArgs) => fit::fit, drawn |_| true;
     Infer(infer::InferArgs) => infer::infer, drawn |_| true;
+    Plan(plan::PlanArgs) => plan::plan, drawn |_| true;
     Reduce(reduce::ReduceArgs) => reduce::reduce, drawn |_| true;
     Impedance(impedance::ImpedanceArgs) => impedance::impedance, drawn |_| true;
     Gear(gear::GearArgs) => gear::gear, drawn |_| true;

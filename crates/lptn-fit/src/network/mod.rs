@@ -13,6 +13,7 @@
 
 mod combination;
 mod coordinates;
+pub mod design;
 mod error;
 mod errors;
 mod fitted;

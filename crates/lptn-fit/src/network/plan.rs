@@ -32,10 +32,7 @@ impl<'a> NetworkFitTask<'a> {
     ) -> Result<Self, NetworkFitError> {
         let network = &netlist.network;
         let plan = study.plan(network, &netlist.overrides())?;
-        let settings = netlist
-            .run
-            .as_ref()
-            .map_or_else(|| Transient::until(Time(1.0)), |run| Transient::of(network, run));
+        let settings = settings(netlist);
         let of: Vec<_> =
             study.observed.iter().map(|o| weights(network, o)).collect::<Result<_, _>>()?;
         let sensors = &netlist.studies.sensors;
@@ -78,6 +75,13 @@ impl<'a> NetworkFitTask<'a> {
         let parameters = plan.varied;
         Ok(Self { network, parameters, sensors, runs, more_starts: MORE_STARTS, threads })
     }
+}
+
+/// Start and controls of the runs of a netlist.
+pub(crate) fn settings(netlist: &Netlist) -> Transient {
+    let run = netlist.run.as_ref();
+    let of = |run| Transient::of(&netlist.network, run);
+    run.map_or_else(|| Transient::until(Time(1.0)), of)
 }
 
 /// One record, with what is known of its instruments.
@@ -158,7 +162,10 @@ impl Begun<'_> {
 }
 
 /// The nodes whose temperatures make up a result, with their factors.
-fn weights(network: &Network, observed: &Observed) -> Result<Vec<(NodeId, f64)>, NetworkFitError> {
+pub(crate) fn weights(
+    network: &Network,
+    observed: &Observed,
+) -> Result<Vec<(NodeId, f64)>, NetworkFitError> {
     if let Some(End::Node(node)) = observed.end {
         return Ok(vec![(node, 1.0)]);
     }

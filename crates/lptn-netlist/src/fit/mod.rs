@@ -17,7 +17,7 @@ use crate::toml_text::{TomlFields, key as toml_key, like, string, value};
 use crate::work::Elaboration;
 
 pub(crate) use data::files_of;
-pub(crate) use read::OUTLIERS;
+pub(crate) use read::{Measured, OUTLIERS};
 pub use recorded::{FitInitial, FitSignal};
 
 const FIT: SectionDeclaration = SectionDeclaration {

@@ -1,10 +1,10 @@
 //! Reads `[fit.NAME]`: what is varied and what is observed.
 
 use lptn_data::{Diagnostic, Span, list, nearest};
-use lptn_network::Context;
+use lptn_network::{Context, End, Value};
 use lptn_units::{Scope as _, Type};
 
-use crate::fields::{Fields, wrong_shape};
+use crate::fields::{Fields, Owner, wrong_shape};
 use crate::fit::{FIT, FIT_COLUMN, FitInitial, FitStudy, Observed, VariedName};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
@@ -18,6 +18,14 @@ pub(crate) const OUTLIERS: [(&str, bool); 2] = [("keep", false), ("drop", true)]
 pub(crate) struct Column<'a> {
     pub(crate) entry: &'a RawEntry,
     pub(crate) observed: Option<Observed>,
+}
+
+/// What is measured, as it is written and as it is read.
+pub(crate) struct Measured {
+    pub(crate) text: String,
+    pub(crate) end: Option<End>,
+    pub(crate) value: Value,
+    pub(crate) ty: Type,
 }
 
 impl<'a> Elaboration<'a> {
@@ -130,13 +138,13 @@ impl<'a> Elaboration<'a> {
 
     fn varied_name(&mut self, fields: &Fields<'a>, raw: &'a RawValue) -> Option<VariedName> {
         let name = fields.text("vary", raw, &mut self.problems)?;
-        self.can_vary(fields, name, &raw.span)?;
+        self.can_vary(&fields.owner.field("vary"), name, &raw.span)?;
         Some(VariedName { name: name.to_owned(), span: raw.span.clone(), from: None, to: None })
     }
 
     fn varied_entry(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<VariedName> {
         let name = &entry.key;
-        let known = self.can_vary(fields, name, &entry.key_span);
+        let known = self.can_vary(&fields.owner.field("vary"), name, &entry.key_span);
         let range = self.inner(&VARY, fields.owner.inside("vary").inside(name), entry)?;
         known?;
         let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
@@ -150,9 +158,8 @@ impl<'a> Elaboration<'a> {
     }
 
     /// Whether a name is that of a parameter that something depends on.
-    fn can_vary(&mut self, fields: &Fields<'a>, name: &str, place: &Span) -> Option<()> {
-        let words = fields.owner.field("vary");
-        if !self.is_parameter_here(&words, name, place) {
+    pub(crate) fn can_vary(&mut self, words: &str, name: &str, place: &Span) -> Option<()> {
+        if !self.is_parameter_here(words, name, place) {
             return None;
         }
         if !self.names.is_used(name) {
@@ -191,12 +198,7 @@ impl<'a> Elaboration<'a> {
             }
             _ => (&entry.value, None, None),
         };
-        let RawKind::String { text, .. } = &of.kind else {
-            self.report(wrong_shape(owner.words(), of, "the name of a result", "\"steel.T\""));
-            return None;
-        };
-        let given = self.given(Place { owner: &owner, key: "", raw: of }, Wanted::of_results())?;
-        let ty = given.ty();
+        let Measured { text, end, value, ty } = self.fit_result(&owner, of)?;
         if let (Some((_, raw)), false) = (sensor, ty.absolute) {
             let message = format!("{} has a sensor, but is no temperature", owner.words());
             let help = "sensors belong to columns of temperatures: remove it";
@@ -211,17 +213,29 @@ impl<'a> Elaboration<'a> {
                 Some(self.given_inside(&owner, ("sigma", raw), wanted)?.value())
             }
         };
-        let text = text.trim();
-        let end = text.strip_suffix(".T").and_then(|name| self.builder.end(name));
         let column = entry.key.clone();
         let span = entry.key_span.clone();
         let sensor = sensor.map(|(name, _)| name.to_owned());
-        let (value, text) = (given.value(), text.to_owned());
         Some(Observed { column, text, end, value, ty, sigma, sensor, span })
     }
 
+    /// What a column measures.
+    pub(crate) fn fit_result(&mut self, owner: &Owner, of: &RawValue) -> Option<Measured> {
+        let RawKind::String { text, .. } = &of.kind else {
+            self.report(wrong_shape(owner.words(), of, "the name of a result", "\"steel.T\""));
+            return None;
+        };
+        let given = self.given(Place { owner, key: "", raw: of }, Wanted::of_results())?;
+        let (ty, text) = (given.ty(), text.trim());
+        let end = text.strip_suffix(".T").and_then(|name| self.builder.end(name));
+        Some(Measured { text: text.to_owned(), end, value: given.value(), ty })
+    }
+
     /// `sensor = "tc1"`; nothing inside where there is none.
-    fn sensor_of(&mut self, fields: &Fields<'a>) -> Option<Option<(&'a str, &'a RawValue)>> {
+    pub(crate) fn sensor_of(
+        &mut self,
+        fields: &Fields<'a>,
+    ) -> Option<Option<(&'a str, &'a RawValue)>> {
         let Some(raw) = fields.get("sensor") else { return Some(None) };
         let name = fields.text("sensor", raw, &mut self.problems)?;
         let known = self.elements("sensor").iter().map(|entry| entry.key.as_str());

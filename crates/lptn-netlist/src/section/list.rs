@@ -27,6 +27,7 @@ use crate::gearbox::GEARBOX;
 use crate::import::IMPORT;
 use crate::infer::InferStudy;
 use crate::parameters::PARAM;
+use crate::plan::PlanStudy;
 use crate::raw::{RawNetlist, RawValue};
 use crate::run::RUN;
 use crate::sensor::Sensor;
@@ -95,6 +96,8 @@ studies! {
     fits: FitStudy,
     /// Courses to infer from records, in file order.
     infers: InferStudy,
+    /// Which measurements to plan, in file order.
+    plans: PlanStudy,
     /// Over what to sweep, in file order.
     sweeps: SweepStudy,
 }

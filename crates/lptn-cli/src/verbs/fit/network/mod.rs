@@ -19,7 +19,7 @@ use lptn_fit::network::{
 use lptn_netlist::{Diagnostic, FitStudy, Span};
 use lptn_report::differing;
 use lptn_solve::available_threads;
-use lptn_units::{Type, Unit};
+use lptn_units::Unit;
 
 use crate::belief::Belief;
 use crate::console::Console;
@@ -31,6 +31,7 @@ use crate::input::{Input, Studies, quoted};
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressLine;
+use crate::unseparated::{Named, names_and_units};
 
 /// What came of a fit, and of what.
 pub(crate) struct Answer<'a> {
@@ -164,17 +165,7 @@ impl<'a> Answer<'a> {
         let unknowns = task.unknowns();
         let records: Vec<String> = task.runs.iter().map(|run| run.name.clone()).collect();
         let records = differing(&records);
-        let name = |unknown: &Unknown| match unknown.run() {
-            Some(run) => format!("{} ({})", unknown.name, records[run]),
-            None => unknown.name.clone(),
-        };
-        let si = |ty: Type| Unit { text: ty.dimension.si_unit(), scale: 1.0, offset: 0.0, ty };
-        let unit = |unknown: &Unknown| match unknown.parameter() {
-            Some(parameter) => input.unit_of(parameter),
-            None => si(unknown.ty),
-        };
-        let names = unknowns.iter().map(name).collect();
-        let units = unknowns.iter().map(unit).collect();
+        let (names, units) = names_and_units(input, &unknowns, &records);
         Self { input, study, task, unknowns, names, units, fit, doubts: Vec::new() }
     }
 }
@@ -183,6 +174,12 @@ impl Answer<'_> {
     /// Whether every parameter is determined.
     pub(crate) fn is_whole(&self) -> bool {
         self.fit.identifiability.as_ref().is_some_and(|known| known.is_whole())
+    }
+
+    /// What was sought, by its names.
+    pub(crate) fn named(&self) -> Named<'_> {
+        let values = self.fit.parameters.iter().map(|parameter| parameter.value).collect();
+        Named { unknowns: &self.unknowns, names: &self.names, units: &self.units, values }
     }
 
     pub(crate) fn name(&self, i: usize) -> &str {

@@ -1,10 +1,10 @@
 //! What a fit of a network says in words.
 
 use lptn_fit::least_squares::Side;
-use lptn_fit::network::{ColumnMisfit, Combination, CombinationKind, FAR, Hint, Unseparated};
+use lptn_fit::network::{ColumnMisfit, Combination, FAR, Hint};
 use lptn_netlist::Diagnostic;
 use lptn_report::significant;
-use lptn_units::{Rational, Type, Unit};
+use lptn_units::Type;
 
 use super::Answer;
 use crate::words::count as number;
@@ -131,140 +131,14 @@ fn misfit(answer: &Answer<'_>, worst: &ColumnMisfit, (name, count): (&str, usize
     })
 }
 
-/// "`P`, `R` and `C`".
-pub(crate) fn listed(answer: &Answer<'_>, of: &[usize]) -> String {
-    let names: Vec<String> = of.iter().map(|&i| format!("`{}`", answer.name(i))).collect();
-    joined(&names)
-}
-
-fn joined(words: &[String]) -> String {
-    match words {
-        [] => String::new(),
-        [only] => only.clone(),
-        [all @ .., last] => format!("{} and {last}", all.join(", ")),
-    }
-}
-
 /// "P R", "P / C", "2 G1 + G2".
 pub(crate) fn combination(answer: &Answer<'_>, combination: &Combination) -> String {
-    let name = |i: usize| answer.name(i).to_owned();
-    match combination.kind {
-        CombinationKind::Product => {
-            let power =
-                |(i, c): (usize, i32)| if c == 1 { name(i) } else { format!("{}^{c}", name(i)) };
-            let side = |sign: i32| -> Vec<String> {
-                let terms = combination.terms.iter().filter(|(_, c)| c.signum() == sign);
-                terms.map(|&(i, c)| power((i, c.abs()))).collect()
-            };
-            let (above, below) = (side(1).join(" "), side(-1));
-            match below.len() {
-                0 => above,
-                1 => format!("{above} / {}", below[0]),
-                _ => format!("{above} / ({})", below.join(" ")),
-            }
-        }
-        CombinationKind::Sum => {
-            let mut text = String::new();
-            for &(i, c) in &combination.terms {
-                let sign = match (text.is_empty(), c < 0) {
-                    (true, _) => "",
-                    (false, true) => " - ",
-                    (false, false) => " + ",
-                };
-                let factor = if c.abs() == 1 { String::new() } else { format!("{} ", c.abs()) };
-                text += &format!("{sign}{factor}{}", name(i));
-            }
-            text
-        }
-    }
+    answer.named().combination(combination)
 }
 
 /// The type of a combination; `None` if its exponents cannot be held.
 pub(crate) fn type_of(answer: &Answer<'_>, combination: &Combination) -> Option<Type> {
-    let own = |i: usize| answer.unknowns[i].ty;
-    if combination.kind == CombinationKind::Sum {
-        return combination.terms.first().map(|&(i, _)| own(i));
-    }
-    let mut dimension = Type::SCALAR.dimension;
-    for &(i, c) in &combination.terms {
-        let factor = own(i).dimension.checked_pow(Rational::integer(c))?;
-        dimension = dimension.checked_mul(factor)?;
-    }
-    Some(Type::of(dimension))
-}
-
-/// "67.2 K".
-pub(crate) fn value_of(answer: &Answer<'_>, combination: &Combination) -> String {
-    let Some(ty) = type_of(answer, combination) else {
-        return significant(combination.value, DIGITS);
-    };
-    let unit = match combination.kind {
-        CombinationKind::Sum => combination.terms.first().map(|&(i, _)| answer.units[i].clone()),
-        CombinationKind::Product => Unit::parse(&ty.usual_unit()).ok(),
-    };
-    match unit {
-        Some(unit) if unit.text != "1" => {
-            format!("{} {}", significant(unit.from_si(combination.value), DIGITS), unit.text)
-        }
-        _ => significant(combination.value, DIGITS),
-    }
-}
-
-/// What is determined of parameters that cannot be told apart, and what would help.
-pub(crate) fn unseparated(answer: &Answer<'_>, group: &Unseparated) -> String {
-    let example = group.parameters.last().map_or("", |&i| answer.name(i));
-    let fix = match group.missing {
-        1 => format!("fix one, for example give {example} a prior with `±`"),
-        n => format!("fix {n} of them, for example give {example} a prior with `±`"),
-    };
-    match &group.determined {
-        Some(determined) if !determined.is_empty() => {
-            let texts: Vec<String> = determined.iter().map(|c| combination(answer, c)).collect();
-            let values: Vec<String> = determined.iter().map(|c| value_of(answer, c)).collect();
-            let verb = if texts.len() == 1 { "is" } else { "are" };
-            format!("only {} {verb} determined (here {}); {fix}", joined(&texts), joined(&values))
-        }
-        Some(_) => format!("nothing of {} is determined; {fix}", listed(answer, &group.parameters)),
-        None => {
-            let change = |direction: &Vec<f64>| {
-                let parts = group.parameters.iter().zip(direction).filter(|(_, d)| d.abs() > 0.0);
-                let largest = relative(answer, group, direction);
-                let part = |(&i, d): (&usize, &f64)| percent(answer, i, d / largest);
-                parts.map(part).collect::<Vec<_>>()
-            };
-            let changes: Vec<String> =
-                group.directions.iter().map(|d| joined(&change(d))).collect();
-            format!(
-                "{} cannot be told apart: {} together leave every column as it is; {fix}",
-                listed(answer, &group.parameters),
-                changes.join(", or ")
-            )
-        }
-    }
-}
-
-/// What counts as the size of an unknown beside a change of it, in SI units: the zero of a
-/// temperature or of an offset says nothing.
-fn size(answer: &Answer<'_>, i: usize) -> f64 {
-    const KELVIN: f64 = 100.0;
-    let value = answer.fit.parameters[i].value.abs();
-    if answer.unknowns[i].is_shift() { KELVIN } else { value.max(f64::MIN_POSITIVE) }
-}
-
-/// The largest relative change of a direction, so that divided by it the largest is 1 %.
-fn relative(answer: &Answer<'_>, group: &Unseparated, direction: &[f64]) -> f64 {
-    let all = group.parameters.iter().zip(direction).map(|(&i, d)| d.abs() / size(answer, i));
-    100.0 * all.fold(0.0, f64::max)
-}
-
-/// "R +1 %", "tc1.offset -0.5 K".
-fn percent(answer: &Answer<'_>, i: usize, change: f64) -> String {
-    let sign = if change < 0.0 { "" } else { "+" };
-    if answer.unknowns[i].is_shift() {
-        return format!("{} {sign}{} K", answer.name(i), significant(change, 3));
-    }
-    let part = significant(100.0 * change / size(answer, i), 3);
-    format!("{} {sign}{part} %", answer.name(i))
+    answer.named().type_of(combination)
 }
 
 /// The last line: what the fit determined.
@@ -274,9 +148,9 @@ pub(crate) fn verdict(answer: &Answer<'_>) -> String {
     };
     let mut parts = Vec::new();
     if !known.unfelt.is_empty() {
-        parts.push(format!("no column depends on {}", listed(answer, &known.unfelt)));
+        parts.push(format!("no column depends on {}", answer.named().listed(&known.unfelt)));
     }
-    parts.extend(known.unseparated.iter().map(|group| unseparated(answer, group)));
+    parts.extend(known.unseparated.iter().map(|group| answer.named().unseparated(group)));
     if !parts.is_empty() {
         return format!("not determined: {}", parts.join("; "));
     }

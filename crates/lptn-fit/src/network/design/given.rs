@@ -1,0 +1,63 @@
+//! Records that are there already.
+
+use lptn_netlist::{Netlist, PlanStudy};
+use lptn_network::ParameterId;
+
+use crate::network::design::error::DesignError;
+use crate::network::error::NetworkFitError;
+use crate::network::fit_network_observed;
+use crate::network::fitted::{ColumnMisfit, NetworkFit};
+use crate::network::task::{FitObserver, MeasuredRun, NetworkFitTask};
+
+/// The records of fits, and what they tell.
+pub(super) struct Given {
+    pub(super) runs: Vec<MeasuredRun>,
+    /// For each column of each record the variance that its residuals leave in what all of them
+    /// have in common, over that of independent ones of its weight.
+    pub(super) factors: Vec<Vec<f64>>,
+    /// What was fitted, in SI units; a later fit counts.
+    pub(super) values: Vec<(ParameterId, f64)>,
+}
+
+pub(super) fn given(
+    netlist: &Netlist,
+    study: &PlanStudy,
+    (threads, observer): (usize, &FitObserver<'_>),
+) -> Result<Given, DesignError> {
+    let mut given = Given { runs: Vec::new(), factors: Vec::new(), values: Vec::new() };
+    for name in &study.given {
+        let Some(own) = netlist.studies.fits.iter().find(|fit| fit.name == *name) else { continue };
+        let failed = |error| match error {
+            NetworkFitError::Interrupted { .. } => DesignError::Interrupted,
+            error => DesignError::Given { fit: name.clone(), error: Box::new(error) },
+        };
+        let task = NetworkFitTask::of(netlist, own, threads).map_err(failed)?;
+        let fit = fit_network_observed(&task, observer).map_err(failed)?;
+        if fit.not_converged.is_some() {
+            return Err(DesignError::NotConverged { fit: name.clone() });
+        }
+        for (varied, found) in task.parameters.iter().zip(&fit.parameters) {
+            given.values.retain(|(id, _)| *id != varied.parameter);
+            given.values.push((varied.parameter, found.value));
+        }
+        given.factors.extend(factors(&task, &fit));
+        given.runs.extend(task.runs);
+    }
+    Ok(given)
+}
+
+fn factors(task: &NetworkFitTask<'_>, fit: &NetworkFit) -> Vec<Vec<f64>> {
+    let mut factors: Vec<Vec<f64>> =
+        task.runs.iter().map(|run| vec![1.0; run.columns.len()]).collect();
+    for misfit in &fit.columns {
+        let weight = task.runs[misfit.run].columns[misfit.column].weight();
+        factors[misfit.run][misfit.column] = factor(misfit, weight);
+    }
+    factors
+}
+
+/// Residuals that follow each other tell less than as many independent ones.
+fn factor(misfit: &ColumnMisfit, weight: f64) -> f64 {
+    let fewer = misfit.samples as f64 / misfit.effective.max(1.0);
+    (misfit.rms / weight).powi(2) * fewer
+}

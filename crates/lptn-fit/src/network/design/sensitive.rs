@@ -1,0 +1,182 @@
+//! What each run tells, had once for every sensor and every length.
+
+use lptn_solve::{
+    Gradient, Proceed, Progress, SensitiveError, in_parallel, sensitive_run_observed,
+};
+
+use crate::network::design::error::DesignError;
+use crate::network::design::information::{Information, RowSum};
+use crate::network::design::task::{DesignPlace, DesignTask};
+use crate::network::readings::{Measure, Reader, Rows};
+use crate::network::task::NetworkFitTask;
+use crate::network::unknown::Unknown;
+
+/// Is called after every step of every run with the number of the run, and may interrupt them.
+pub type DesignObserver<'a> = dyn Fn(usize, Progress) -> Proceed + Sync + 'a;
+
+/// The runs have a tolerance of at most so much, in K.
+const TOLERANCE: f64 = 1e-10;
+
+/// Lengths of a run that are looked at: so many at equal distances, and as many at equal ratios.
+const LENGTHS: usize = 48;
+
+/// What one run tells at several lengths.
+#[derive(Clone, Debug)]
+pub(super) struct RunInformation {
+    /// Numbers of samples, ascending; the last is the whole run.
+    pub(super) lengths: Vec<usize>,
+    /// For each place what it tells at each of these lengths: of all unknowns, then of those that
+    /// this record alone has.
+    pub(super) places: Vec<Vec<Information>>,
+    /// Standard deviation of what is known beforehand of each of those, where there is one.
+    pub(super) own: Vec<Option<f64>>,
+    /// Whether the derivatives are exact, and not differences of runs.
+    pub(super) exact: bool,
+}
+
+/// A run that could be measured, row by row.
+pub(super) struct PlannedRecord {
+    unknowns: Vec<Unknown>,
+    pub(super) rows: usize,
+    measure: Measure,
+}
+
+impl PlannedRecord {
+    /// Derivatives of what a place reads in a row by all unknowns, over its standard deviation.
+    pub(super) fn row(&self, place: usize, row: usize) -> Vec<f64> {
+        row_of(&self.measure, &self.unknowns, place * self.rows + row)
+    }
+
+    /// No row of a place so far.
+    pub(super) fn begin(&self, place: &DesignPlace) -> RowSum {
+        RowSum::new(self.unknowns.len(), place.noise())
+    }
+
+    fn is_exact(&self) -> bool {
+        self.measure.gradient == Gradient::Exact
+    }
+}
+
+impl DesignTask<'_> {
+    /// What every run that could be measured tells.
+    pub(super) fn informations(
+        &self,
+        observer: &DesignObserver<'_>,
+    ) -> Result<Vec<RunInformation>, DesignError> {
+        let all: Vec<usize> = (0..self.runs.len()).collect();
+        let one = |&run: &usize| self.information(run, observer);
+        in_parallel(&all, self.fit.threads, one).into_iter().collect()
+    }
+
+    fn information(
+        &self,
+        run: usize,
+        observer: &DesignObserver<'_>,
+    ) -> Result<RunInformation, DesignError> {
+        let record = self.record(run, observer)?;
+        let lengths = lengths(record.rows);
+        let place = |place: usize| {
+            let mut found = Vec::with_capacity(lengths.len());
+            let mut sum = record.begin(&self.places[place]);
+            for row in 0..record.rows {
+                sum.add(&record.row(place, row));
+                if lengths.binary_search(&(row + 1)).is_ok() {
+                    found.push(sum.sum.clone());
+                }
+            }
+            found
+        };
+        let places = (0..self.places.len()).map(place).collect();
+        let own = record.unknowns[self.unknowns.len()..].iter().map(|unknown| unknown.prior);
+        Ok(RunInformation { lengths, places, own: own.collect(), exact: record.is_exact() })
+    }
+
+    /// The derivatives of a run that could be measured.
+    pub(super) fn record(
+        &self,
+        run: usize,
+        observer: &DesignObserver<'_>,
+    ) -> Result<PlannedRecord, DesignError> {
+        let at = self.given() + run;
+        let measure = self.measure((&self.fit, at), &|step| observer(run, step))?;
+        let rows = self.fit.runs[at].times.len();
+        Ok(PlannedRecord { unknowns: self.unknowns_of(at), rows, measure })
+    }
+
+    /// What the records that are there already tell.
+    pub(super) fn of_given(
+        &self,
+        observer: &DesignObserver<'_>,
+    ) -> Result<Information, DesignError> {
+        let mut all = Information::none(self.unknowns.len());
+        for (run, factors) in self.factors.iter().enumerate() {
+            let measured = &self.fit.runs[run];
+            let measure = self.measure((&self.fit, run), &|step| observer(run, step))?;
+            let unknowns = self.unknowns_of(run);
+            let mut own = Information::none(unknowns.len());
+            let mut at = 0;
+            for (column, factor) in measured.columns.iter().zip(factors) {
+                let rows = column.values.iter().filter(|value| !value.is_nan()).count();
+                for row in at..at + rows {
+                    own.add_row(&row_of(&measure, &unknowns, row), factor.recip());
+                }
+                at += rows;
+            }
+            let shared = self.unknowns.len();
+            for (i, unknown) in unknowns.iter().enumerate().skip(shared) {
+                unknown.prior.into_iter().for_each(|deviation| own.add_prior(i, deviation));
+            }
+            all.add(&own.without_last(shared));
+        }
+        Ok(all)
+    }
+
+    /// The unknowns of all records, then those of this one.
+    pub(super) fn unknowns_of(&self, run: usize) -> Vec<Unknown> {
+        let mut all = self.unknowns.clone();
+        all.extend(self.fit.unknowns().into_iter().filter(|own| own.run() == Some(run)));
+        all
+    }
+
+    /// Derivatives of what the columns of a record read by its unknowns, over their standard
+    /// deviations; `fit` is the task's own, or one with other rows.
+    pub(super) fn measure(
+        &self,
+        (fit, run): (&NetworkFitTask<'_>, usize),
+        observer: &dyn Fn(Progress) -> Proceed,
+    ) -> Result<Measure, DesignError> {
+        let (unknowns, measured) = (self.unknowns_of(run), &fit.runs[run]);
+        let own = unknowns[self.unknowns.len()..].iter().map(|unknown| unknown.own);
+        let values: Vec<f64> = self.values.iter().copied().chain(own).collect();
+        let failed = |error| match error {
+            SensitiveError::Interrupted => DesignError::Interrupted,
+            error => DesignError::Run { run: measured.name.clone(), error: Box::new(error) },
+        };
+        let network = fit.network_of(measured, &values).map_err(failed)?;
+        let rows = Rows::new(fit, measured, usize::MAX);
+        let settings = rows.settings(measured, measured.settings.tolerance.min(TOLERANCE));
+        let ids: Vec<_> = fit.parameters.iter().map(|varied| varied.parameter).collect();
+        let found = sensitive_run_observed(&network, (&settings, &ids), observer);
+        let reader = Reader { task: fit, run, rows: &rows, unknowns: &unknowns, values: &values };
+        Ok(reader.measure(&found.map_err(failed)?))
+    }
+}
+
+/// Derivatives of one value by all unknowns.
+pub(super) fn row_of(measure: &Measure, unknowns: &[Unknown], row: usize) -> Vec<f64> {
+    let rows = measure.residuals.len();
+    (0..unknowns.len()).map(|i| measure.jacobian[i * rows + row]).collect()
+}
+
+/// Numbers of samples at which a run of so many is looked at.
+fn lengths(samples: usize) -> Vec<usize> {
+    let ratio = (samples as f64).powf(1.0 / LENGTHS as f64);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to samples")]
+    let grown = (1..LENGTHS).map(|k| ratio.powf(k as f64).round() as usize);
+    let even = (1..LENGTHS).map(|k| k * samples / LENGTHS);
+    let mut all: Vec<usize> = grown.chain(even).chain([2, samples]).collect();
+    all.retain(|length| (2..=samples).contains(length));
+    all.sort_unstable();
+    all.dedup();
+    all
+}

@@ -1,0 +1,282 @@
+//! From a `[plan.NAME]` of a netlist to what can be computed.
+
+use lptn_netlist::{Netlist, PlaceNumbers, PlanNumbers, PlanPlace, PlanStudy, RunNumbers, Sensor};
+use lptn_network::{ParameterId, Varied};
+use lptn_solve::Transient;
+
+use crate::network::design::error::DesignError;
+use crate::network::design::given::given;
+use crate::network::design::information::Noise;
+use crate::network::plan::{settings, weights};
+use crate::network::task::{FitObserver, Instrument, MeasuredColumn, MeasuredRun, NetworkFitTask};
+use crate::network::unknown::Unknown;
+
+/// A measurement to plan.
+#[derive(Clone, Debug)]
+pub struct DesignTask<'a> {
+    /// The records that are there already, then one that could be for each run, with every place.
+    pub(super) fit: NetworkFitTask<'a>,
+    /// For each column of the records that are there the variance that its residuals leave in what
+    /// all of them have in common, over that of independent ones of its weight.
+    pub(super) factors: Vec<Vec<f64>>,
+    /// What is not known: parameters, then values of sensors that are those of every record.
+    pub unknowns: Vec<Unknown>,
+    /// The values of the unknowns for which the plan is made.
+    pub values: Vec<f64>,
+    /// What shall be known.
+    pub known: Vec<Known>,
+    /// Where sensors could be.
+    pub places: Vec<DesignPlace>,
+    /// The runs that could be measured.
+    pub runs: Vec<DesignRun>,
+    /// The time between two samples in s.
+    pub every: f64,
+    /// What an hour costs.
+    pub hour: f64,
+    /// What all may cost; infinite without a limit.
+    pub budget: f64,
+}
+
+/// An unknown that shall be known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Known {
+    /// Its place among the unknowns.
+    pub unknown: usize,
+    /// Its standard error, in its SI unit.
+    pub error: f64,
+}
+
+/// A place where a sensor could be.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignPlace {
+    /// Its name.
+    pub name: String,
+    /// Standard deviation of one sample in K: noise, drift and rounding together.
+    pub deviation: f64,
+    /// The part of that variance that drifts.
+    pub correlated: f64,
+    /// What is left of it from one sample to the next.
+    pub decay: f64,
+    /// What a sensor there costs.
+    pub cost: f64,
+}
+
+/// A run that could be measured.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignRun {
+    /// Its name.
+    pub name: String,
+    /// What it costs beside its time.
+    pub cost: f64,
+    /// Whether it is measured in any case.
+    pub done: bool,
+    /// How many samples it has at most.
+    pub samples: usize,
+}
+
+impl<'a> DesignTask<'a> {
+    /// The task of a study; the records that it says are there already are fitted first, and the
+    /// plan is made for the values that they tell.
+    ///
+    /// # Errors
+    /// [`DesignError`] for a place that is not measured as a temperature of a node or a mean of
+    /// some, for a fit that fails, and what the evaluation of the study's numbers reports.
+    pub fn of(
+        netlist: &'a Netlist,
+        study: &PlanStudy,
+        (threads, observer): (usize, &FitObserver<'_>),
+    ) -> Result<Self, DesignError> {
+        let network = &netlist.network;
+        let numbers = study.numbers(network, &netlist.overrides())?;
+        let given = given(netlist, study, (threads, observer))?;
+        let (sensors, instruments) = instruments(&netlist.studies.sensors, &study.places);
+        let (places, columns) = places(netlist, study, (&numbers, &instruments))?;
+        let settings = settings(netlist);
+        let candidates = numbers.runs.iter();
+        let candidates = candidates.map(|run| planned(run, &settings, (&columns, numbers.every)));
+        let runs: Vec<MeasuredRun> = given.runs.into_iter().chain(candidates).collect();
+        let parameters = sought(netlist, &numbers);
+        let (more_starts, found) = (0, given.values);
+        let mut fit = NetworkFitTask { network, parameters, sensors, runs, more_starts, threads };
+        for run in &mut fit.runs {
+            found.iter().for_each(|(id, value)| run.parameters.set(*id, *value));
+        }
+        let unknowns: Vec<Unknown> =
+            fit.unknowns().into_iter().filter(|unknown| unknown.run().is_none()).collect();
+        let value = |unknown: &Unknown| {
+            let fitted = found.iter().find(|(id, _)| unknown.parameter() == Some(*id));
+            fitted.map_or(unknown.own, |(_, value)| *value)
+        };
+        let values: Vec<f64> = unknowns.iter().map(value).collect();
+        let known = numbers.known.iter().enumerate();
+        let known = known.map(|(i, (_, to))| Known { unknown: i, error: to.of(values[i]) });
+        Ok(Self {
+            known: known.collect(),
+            runs: numbers.runs.iter().map(|run| DesignRun::new(run, numbers.every)).collect(),
+            places,
+            factors: given.factors,
+            unknowns,
+            values,
+            fit,
+            every: numbers.every,
+            hour: numbers.hour,
+            budget: numbers.budget,
+        })
+    }
+
+    /// How many records are there already.
+    pub fn given(&self) -> usize {
+        self.factors.len()
+    }
+
+    /// Whether an unknown is a parameter, or a value of a sensor at one of these places.
+    pub fn concerns(&self, unknown: &Unknown, places: &[usize]) -> bool {
+        let columns = self.fit.runs.last().map_or(&[][..], |run| run.columns.as_slice());
+        let sensor_of = |place: &usize| columns.get(*place).and_then(|column| column.sensor);
+        let sensor = unknown.sensor();
+        sensor.is_none() || places.iter().any(|place| sensor_of(place) == sensor)
+    }
+
+    /// The names of all records, those that are there already first.
+    pub fn record_names(&self) -> Vec<String> {
+        self.fit.runs.iter().map(|run| run.name.clone()).collect()
+    }
+
+    /// How long a run lasts that has so many samples, in s.
+    pub fn lasts(&self, samples: usize) -> f64 {
+        samples.saturating_sub(1) as f64 * self.every
+    }
+}
+
+/// What is sought: what shall be known, then what else is not.
+fn sought(netlist: &Netlist, numbers: &PlanNumbers) -> Vec<Varied> {
+    let mut ids: Vec<ParameterId> = numbers.known.iter().map(|(id, _)| *id).collect();
+    for id in &numbers.varied {
+        if !ids.contains(id) {
+            ids.push(*id);
+        }
+    }
+    let set = netlist.overrides();
+    let varied = |&parameter: &ParameterId| {
+        let own = netlist.network.parameters()[parameter.index()].deviation;
+        let spread = set.deviation(parameter).or(own).filter(|spread| spread.sigma > 0.0);
+        let prior = spread.map(|spread| spread.sigma);
+        Varied { parameter, bounds: (f64::NEG_INFINITY, f64::INFINITY), prior }
+    };
+    ids.iter().map(varied).collect()
+}
+
+/// The places, and the column that each would have in a record.
+fn places(
+    netlist: &Netlist,
+    study: &PlanStudy,
+    (numbers, instruments): (&PlanNumbers, &[Option<usize>]),
+) -> Result<(Vec<DesignPlace>, Vec<MeasuredColumn>), DesignError> {
+    let sensors = &netlist.studies.sensors;
+    let (mut places, mut columns) = (Vec::new(), Vec::new());
+    for ((place, own), sensor) in study.places.iter().zip(&numbers.places).zip(instruments) {
+        let planned = DesignPlace::new(place, (own, numbers.every), sensors);
+        columns.push(MeasuredColumn {
+            name: planned.name.clone(),
+            of: weights(&netlist.network, &place.observed)?,
+            sensor: *sensor,
+            sigma: Some(planned.weight()),
+            values: Vec::new(),
+        });
+        places.push(planned);
+    }
+    Ok((places, columns))
+}
+
+impl DesignRun {
+    fn new(run: &RunNumbers, every: f64) -> Self {
+        Self {
+            name: run.name.clone(),
+            cost: run.cost,
+            done: run.done,
+            samples: samples(run, every),
+        }
+    }
+}
+
+impl DesignPlace {
+    fn new(place: &PlanPlace, (own, every): (&PlaceNumbers, f64), sensors: &[Sensor]) -> Self {
+        let sensor = place.observed.sensor.as_ref();
+        let sensor = sensors.iter().find(|known| Some(&known.name) == sensor);
+        // rounding to steps of q adds a variance of q^2 / 12
+        let step = sensor.and_then(|sensor| sensor.resolution).unwrap_or(0.0);
+        let variance = own.noise.powi(2) + own.drift.powi(2) + step * step / 12.0;
+        let drifts = own.drift > 0.0;
+        let decay = if drifts { (-every / own.drift_time).exp() } else { 0.0 };
+        Self {
+            name: place.observed.column.clone(),
+            deviation: variance.sqrt(),
+            correlated: own.drift.powi(2) / variance,
+            decay,
+            cost: own.cost,
+        }
+    }
+
+    /// The standard deviation in K that values are weighed by: so much more of a drift is left in
+    /// the mean of many values than of independent ones. This is the `sigma` that a fit takes,
+    /// which else would believe a drifting record more than what is known beforehand.
+    pub fn weight(&self) -> f64 {
+        let kept = (1.0 + self.decay) / (1.0 - self.decay);
+        self.deviation * (1.0 + self.correlated * (kept - 1.0)).sqrt()
+    }
+
+    pub(super) fn noise(&self) -> Noise {
+        let variance = (self.deviation / self.weight()).powi(2);
+        Noise { correlated: self.correlated, decay: self.decay, variance }
+    }
+}
+
+/// The instruments, and that of each place: one that a single place names is that instrument; of
+/// one that several name, each has its own.
+fn instruments(sensors: &[Sensor], places: &[PlanPlace]) -> (Vec<Instrument>, Vec<Option<usize>>) {
+    let mut all: Vec<Instrument> = sensors.iter().map(Instrument::from).collect();
+    let named = |name: &String| {
+        places.iter().filter(|place| place.observed.sensor.as_ref() == Some(name)).count()
+    };
+    let mut of_places = Vec::new();
+    for place in places {
+        let sensor = place.observed.sensor.as_ref();
+        let own = sensors.iter().position(|known| Some(&known.name) == sensor);
+        of_places.push(match (own, sensor) {
+            (Some(own), Some(name)) if named(name) > 1 => {
+                let name = place.observed.column.clone();
+                all.push(Instrument { name, ..all[own].clone() });
+                Some(all.len() - 1)
+            }
+            (own, _) => own,
+        });
+    }
+    (all, of_places)
+}
+
+fn samples(run: &RunNumbers, every: f64) -> usize {
+    // the last one counts where rounding leaves it just behind the end
+    let steps = (run.duration / every * (1.0 + 1e-12)).floor();
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 1e6")]
+    let steps = steps as usize;
+    steps + 1
+}
+
+/// A record that could be: what it reads does not matter.
+fn planned(
+    run: &RunNumbers,
+    settings: &Transient,
+    (columns, every): (&[MeasuredColumn], f64),
+) -> MeasuredRun {
+    let count = samples(run, every);
+    let columns = columns.iter().map(|c| MeasuredColumn { values: vec![0.0; count], ..c.clone() });
+    MeasuredRun {
+        name: run.name.clone(),
+        parameters: run.parameters.clone(),
+        signals: Vec::new(),
+        initial: Vec::new(),
+        settings: settings.clone(),
+        times: (0..count).map(|k| settings.start + k as f64 * every).collect(),
+        columns: columns.collect(),
+    }
+}

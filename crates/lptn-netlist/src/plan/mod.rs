@@ -1,0 +1,281 @@
+//! `[plan.NAME]`: what a measurement shall tell, and the sensors and runs that it may take.
+
+mod check;
+mod declaration;
+mod read;
+mod write;
+
+use lptn_data::{Diagnostic, Span};
+use lptn_network::{Network, ParameterId, Parameters, Value};
+use lptn_units::EvalError;
+
+use crate::fit::Observed;
+use crate::format::SectionDeclaration;
+use crate::setting::Setting;
+use crate::study::{PathFrom, Study};
+use crate::toml_text::TomlFields;
+use crate::work::Elaboration;
+
+use declaration::PLAN;
+
+/// Combinations of the lists of one run, at most.
+pub(crate) const MOST_RUNS: usize = 200;
+
+/// One `[plan.NAME]`, as it is written; [`PlanStudy::numbers`] has its numbers.
+#[derive(Clone, Debug)]
+pub struct PlanStudy {
+    /// Its name.
+    pub name: String,
+    /// Where it stands.
+    pub span: Span,
+    /// What shall be known, in file order; at least one.
+    pub known: Vec<Target>,
+    /// The names of what else is not known, with their places.
+    pub varied: Vec<(String, Span)>,
+    /// Where sensors could be, in file order; at least one.
+    pub places: Vec<PlanPlace>,
+    /// The runs that could be measured, in file order.
+    pub runs: Vec<PlanRun>,
+    /// Names of runs that are measured in any case.
+    pub done: Vec<String>,
+    /// Names of the fits whose records are there already.
+    pub given: Vec<String>,
+    pub(crate) every: Setting,
+    pub(crate) duration: Option<Setting>,
+    pub(crate) run_cost: Option<Setting>,
+    pub(crate) hour_cost: Option<Setting>,
+    pub(crate) budget: Option<Setting>,
+}
+
+/// A parameter that shall be known.
+#[derive(Clone, Debug)]
+pub struct Target {
+    /// Its name.
+    pub name: String,
+    /// Where it stands.
+    pub span: Span,
+    /// In percent of its value, where it is written so.
+    pub(crate) percent: Option<f64>,
+    /// Else in its unit.
+    pub(crate) absolute: Option<Value>,
+}
+
+/// A place where a sensor could be.
+#[derive(Clone, Debug)]
+pub struct PlanPlace {
+    /// Its name as column, what is measured there, and the instrument.
+    pub observed: Observed,
+    pub(crate) noise: Setting,
+    /// Standard deviation and time of a drift.
+    pub(crate) drift: Option<(Setting, Setting)>,
+    pub(crate) cost: Option<Setting>,
+}
+
+/// A run that could be measured.
+#[derive(Clone, Debug)]
+pub struct PlanRun {
+    /// Its name.
+    pub name: String,
+    /// Where it stands.
+    pub span: Span,
+    /// The parameters that it sets, with one value or several.
+    pub(crate) set: Vec<(String, Vec<(Value, String)>)>,
+    pub(crate) duration: Option<Setting>,
+    pub(crate) cost: Option<Setting>,
+}
+
+/// The numbers of a [`PlanStudy`] for the parameters of a network, in SI units.
+#[derive(Clone, Debug)]
+pub struct PlanNumbers {
+    /// The parameters that shall be known, with the standard error of each.
+    pub known: Vec<(ParameterId, KnownTo)>,
+    /// What else is not known; none of those above.
+    pub varied: Vec<ParameterId>,
+    /// For each of [`PlanStudy::places`].
+    pub places: Vec<PlaceNumbers>,
+    /// The runs, lists of values written out.
+    pub runs: Vec<RunNumbers>,
+    /// The time between two samples in s.
+    pub every: f64,
+    /// What an hour costs.
+    pub hour: f64,
+    /// What all may cost; infinite without a limit.
+    pub budget: f64,
+}
+
+/// To which standard error a parameter shall be known.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum KnownTo {
+    /// To this part of its value.
+    Part(f64),
+    /// To this, in its SI unit.
+    Error(f64),
+}
+
+impl KnownTo {
+    /// In SI units, for this value.
+    pub fn of(self, value: f64) -> f64 {
+        match self {
+            Self::Part(part) => part * value.abs(),
+            Self::Error(error) => error,
+        }
+    }
+}
+
+/// The numbers of a place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaceNumbers {
+    /// Standard deviation of one sample in K, without the drift.
+    pub noise: f64,
+    /// Standard deviation of the drift in K; 0 without one.
+    pub drift: f64,
+    /// The time in s after which 1/e of the drift is left.
+    pub drift_time: f64,
+    /// What a sensor there costs.
+    pub cost: f64,
+}
+
+/// One run that could be measured.
+#[derive(Clone, Debug)]
+pub struct RunNumbers {
+    /// Its name; with the values that are its own where it is one of several.
+    pub name: String,
+    /// Place of what it is written as among [`PlanStudy::runs`]; none for the network as it stands.
+    pub of: Option<usize>,
+    /// Whether it is measured in any case.
+    pub done: bool,
+    /// Everything that was set, and what the run sets.
+    pub parameters: Parameters,
+    /// How long it may last in s.
+    pub duration: f64,
+    /// What it costs beside its time.
+    pub cost: f64,
+}
+
+impl PlanStudy {
+    /// The numbers for the parameters of `network`; `set` is what was set in it, see
+    /// [`Netlist::overrides`](crate::Netlist::overrides).
+    ///
+    /// # Errors
+    /// What the evaluation of a value reports.
+    pub fn numbers(&self, network: &Network, set: &Parameters) -> Result<PlanNumbers, EvalError> {
+        let mut scope = network.evaluation();
+        let mut at = |value: &Value| value.at(&mut scope);
+        let hour = self.hour_cost.as_ref().map_or(Ok(0.0), |cost| at(&cost.value))?;
+        let budget = self.budget.as_ref().map_or(Ok(f64::INFINITY), |most| at(&most.value))?;
+        let id = |name: &str| network.parameter(name).ok();
+        let mut known = Vec::new();
+        for target in &self.known {
+            let Some(id) = id(&target.name) else { continue };
+            let error = target.absolute.as_ref().map_or(Ok(f64::NAN), &mut at)?;
+            known.push(match target.percent {
+                Some(percent) => (id, KnownTo::Part(percent / 100.0)),
+                None => (id, KnownTo::Error(error)),
+            });
+        }
+        let varied = self.varied.iter().filter_map(|(name, _)| id(name)).collect();
+        let places = self.places.iter().map(|place| place.numbers(network));
+        let (places, every) = (places.collect::<Result<_, _>>()?, at(&self.every.value)?);
+        let runs = self.run_numbers(network, set)?;
+        Ok(PlanNumbers { known, varied, places, runs, every, hour, budget })
+    }
+
+    /// Every run with one value for each parameter that it sets.
+    fn run_numbers(
+        &self,
+        network: &Network,
+        set: &Parameters,
+    ) -> Result<Vec<RunNumbers>, EvalError> {
+        let mut scope = network.evaluation();
+        let mut at = |setting: &Option<Setting>, otherwise: f64| {
+            setting.as_ref().map_or(Ok(otherwise), |setting| setting.value.at(&mut scope))
+        };
+        let (duration, cost) = (at(&self.duration, f64::NAN)?, at(&self.run_cost, 0.0)?);
+        if self.runs.is_empty() {
+            let (name, parameters) = ("run".to_owned(), set.clone());
+            return Ok(vec![RunNumbers {
+                name,
+                of: None,
+                done: false,
+                parameters,
+                duration,
+                cost,
+            }]);
+        }
+        let mut all = Vec::new();
+        for (of, run) in self.runs.iter().enumerate() {
+            let (duration, cost) = (at(&run.duration, duration)?, at(&run.cost, cost)?);
+            let done = self.done.contains(&run.name);
+            for (name, parameters) in run.combinations(network, set)? {
+                let of = Some(of);
+                all.push(RunNumbers { name, of, done, parameters, duration, cost });
+            }
+        }
+        Ok(all)
+    }
+}
+
+impl PlanPlace {
+    fn numbers(&self, network: &Network) -> Result<PlaceNumbers, EvalError> {
+        let mut scope = network.evaluation();
+        let mut at = |setting: &Setting| setting.value.at(&mut scope);
+        let (drift, drift_time) = match &self.drift {
+            Some((drift, time)) => (at(drift)?, at(time)?),
+            None => (0.0, 0.0),
+        };
+        let cost = self.cost.as_ref().map_or(Ok(0.0), &mut at)?;
+        Ok(PlaceNumbers { noise: at(&self.noise)?, drift, drift_time, cost })
+    }
+}
+
+impl PlanRun {
+    /// Name and parameters of each combination of its values; the last list runs fastest.
+    fn combinations(
+        &self,
+        network: &Network,
+        set: &Parameters,
+    ) -> Result<Vec<(String, Parameters)>, EvalError> {
+        let mut scope = network.evaluation();
+        let mut all = vec![(Vec::new(), set.clone())];
+        for (name, values) in &self.set {
+            let Ok(id) = network.parameter(name) else { continue };
+            let mut next = Vec::new();
+            for (words, parameters) in &all {
+                for (value, text) in values {
+                    let (mut words, mut own) = (words.clone(), parameters.clone());
+                    own.set(id, value.at(&mut scope)?);
+                    if values.len() > 1 {
+                        words.push(text.clone());
+                    }
+                    next.push((words, own));
+                }
+            }
+            all = next;
+        }
+        let named = |(words, parameters): (Vec<String>, Parameters)| match words.is_empty() {
+            true => (self.name.clone(), parameters),
+            false => (format!("{} ({})", self.name, words.join(", ")), parameters),
+        };
+        Ok(all.into_iter().map(named).collect())
+    }
+}
+
+impl Study for PlanStudy {
+    const SECTION: &'static SectionDeclaration = &PLAN;
+
+    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
+        work.plans()
+    }
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn check(&self, network: &Network) -> Vec<Diagnostic> {
+        self.problems(network)
+    }
+
+    fn fields(&self, network: &Network, _: &PathFrom<'_>) -> TomlFields {
+        self.written_fields(network)
+    }
+}

@@ -1,0 +1,369 @@
+//! Reads `[plan.NAME]`.
+
+use lptn_data::{Diagnostic, nearest};
+use lptn_network::{Context, Value};
+use lptn_units::{Dimension, Scope as _, Type, parse_quantity};
+
+use super::declaration::{COST, PLACE, PLAN, PLAN_RUN};
+use super::{PlanPlace, PlanRun, PlanStudy, Target};
+use crate::fields::{Fields, Owner, wrong_shape};
+use crate::fit::{Measured, Observed};
+use crate::place::{Given, Wanted};
+use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::setting::{Setting, TIME};
+use crate::work::Elaboration;
+
+const KELVIN: Type = Type::of(Dimension::TEMPERATURE);
+
+/// A parameter with its values in a run: each with its text, as it is written.
+type Values = (String, Vec<(Value, String)>);
+
+impl<'a> Elaboration<'a> {
+    pub(crate) fn plans(&mut self) -> Vec<PlanStudy> {
+        let entries = self.elements(PLAN.name);
+        if let Some(first) = entries.iter().find(|entry| PLAN.key(&entry.key).is_some()) {
+            let message = format!("`{}` belongs to a plan with a name", first.key);
+            let problem = Diagnostic::error("netlist::plan_without_name", message);
+            let problem = problem.at(first.key_span.clone(), "below [plan]");
+            self.report(problem.help("give it one in its heading, for example `[plan.next]`"));
+            return Vec::new();
+        }
+        entries.iter().filter_map(|entry| self.plan(entry)).collect()
+    }
+
+    fn plan(&mut self, entry: &'a RawEntry) -> Option<PlanStudy> {
+        let fields = self.fields(&PLAN, entry)?;
+        self.all_there(&fields, &["know", "place", "every"])?;
+        let known = self.plan_targets(&fields);
+        let varied = self.plan_varied(&fields);
+        let places = self.plan_places(&fields);
+        let every = self.require(&fields, "every").map(|_| ());
+        let every = every.and_then(|()| self.plan_setting(&fields, "every", TIME)?);
+        let duration = self.plan_setting(&fields, "duration", TIME);
+        let runs = self.plan_runs(&fields);
+        let cost = self.plan_cost(&fields);
+        let budget = self.plan_setting(&fields, "budget", Type::SCALAR);
+        let names: Vec<&str> = self.elements("fit").iter().map(|fit| fit.key.as_str()).collect();
+        let given = self.plan_names(&fields, "given", ("netlist::plan_given", "fit", &names));
+        let runs = runs?;
+        let names: Vec<&str> = runs.iter().map(|run: &PlanRun| run.name.as_str()).collect();
+        let done = self.plan_names(&fields, "done", ("netlist::plan_done", "run", &names));
+        let duration = duration?;
+        if duration.is_none() && (runs.is_empty() || runs.iter().any(|run| run.duration.is_none()))
+        {
+            self.require(&fields, "duration");
+            return None;
+        }
+        let (known, varied) = (known?, varied?);
+        self.set_and_sought(&runs, &known, &varied)?;
+        let (run_cost, hour_cost) = cost?;
+        Some(PlanStudy {
+            name: entry.key.clone(),
+            span: entry.key_span.clone(),
+            known,
+            varied,
+            places: places?,
+            runs,
+            done: done?,
+            given: given?,
+            every: every?,
+            duration,
+            run_cost,
+            hour_cost,
+            budget: budget?,
+        })
+    }
+
+    /// A value in its field; nothing inside where it is left out, nothing at all where it is wrong.
+    fn plan_setting(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &'static str,
+        ty: Type,
+    ) -> Option<Option<Setting>> {
+        let Some(raw) = fields.get(key) else { return Some(None) };
+        Some(Some(self.setting(&fields.owner, (key, raw), ty)?))
+    }
+
+    /// `know = { R_int = "5 %", P = "2 W" }`.
+    fn plan_targets(&mut self, fields: &Fields<'a>) -> Option<Vec<Target>> {
+        let raw = self.require(fields, "know")?;
+        let table = self.table_of(fields, ("know", "a table of parameters and errors"))?;
+        if table.entries.is_empty() {
+            self.report(fields.wrong_shape("know", raw, "a table with a parameter"));
+            return None;
+        }
+        let all: Vec<Option<Target>> =
+            table.entries.iter().map(|entry| self.plan_target(fields, entry)).collect();
+        all.into_iter().collect()
+    }
+
+    fn plan_target(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<Target> {
+        let (words, name) = (fields.owner.field("know"), &entry.key);
+        self.can_vary(&words, name, &entry.key_span)?;
+        let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
+        let target = Target {
+            name: name.clone(),
+            span: entry.key_span.clone(),
+            percent: None,
+            absolute: None,
+        };
+        if let Some(percent) = percent_of(&entry.value) {
+            if ty.absolute {
+                let message = format!("{words}: the zero of the temperature `{name}` says nothing");
+                let help = "write the error in K, for example `\"0.5 K\"`";
+                self.refuse("netlist::plan_know", message, &entry.value.span, help);
+                return None;
+            }
+            return Some(Target { percent: Some(percent), ..target });
+        }
+        let owner = fields.owner.inside("know");
+        let wanted = Wanted::constant(Type::of(ty.dimension));
+        let value = self.given_inside(&owner, (name, &entry.value), wanted)?.value();
+        Some(Target { absolute: Some(value), ..target })
+    }
+
+    fn plan_varied(&mut self, fields: &Fields<'a>) -> Option<Vec<(String, lptn_data::Span)>> {
+        if fields.get("vary").is_none() {
+            return Some(Vec::new());
+        }
+        let words = fields.owner.field("vary");
+        let mut names = Vec::new();
+        for raw in self.list(fields, ("vary", "a list of parameters"))? {
+            let name = fields.text("vary", raw, &mut self.problems)?;
+            self.can_vary(&words, name, &raw.span)?;
+            names.push((name.to_owned(), raw.span.clone()));
+        }
+        Some(names)
+    }
+
+    fn plan_places(&mut self, fields: &Fields<'a>) -> Option<Vec<PlanPlace>> {
+        let raw = self.require(fields, "place")?;
+        let table = self.table_of(fields, ("place", "a table of places"))?;
+        if table.entries.is_empty() {
+            self.report(fields.wrong_shape("place", raw, "a table with a place"));
+            return None;
+        }
+        let shared = ["noise", "drift", "drift_time"];
+        let shared = shared.map(|key| {
+            let ty = if key == "drift_time" { TIME } else { KELVIN };
+            self.plan_setting(fields, key, ty)
+        });
+        let [noise, drift, time] = shared;
+        let shared = [noise?, drift?, time?];
+        let all: Vec<Option<PlanPlace>> =
+            table.entries.iter().map(|entry| self.plan_place(fields, entry, &shared)).collect();
+        all.into_iter().collect()
+    }
+
+    fn plan_place(
+        &mut self,
+        fields: &Fields<'a>,
+        entry: &'a RawEntry,
+        shared: &[Option<Setting>; 3],
+    ) -> Option<PlanPlace> {
+        let owner = fields.owner.inside("place").inside(&entry.key);
+        let inner = self.inner(&PLACE, owner.clone(), entry)?;
+        let of = self.require(&inner, "of").and_then(|raw| {
+            let found = self.fit_result(&owner, raw)?;
+            if found.ty.absolute {
+                return Some(found);
+            }
+            let message =
+                format!("{} measures `{}`, which is no temperature", owner.words(), found.text);
+            let help =
+                "write a temperature, `of = \"steel.T\"`, or a mean, `of = \"mean(a.T, b.T)\"`";
+            self.refuse("netlist::plan_place", message, &raw.span, help);
+            None
+        });
+        let mut own = |key: &'static str, ty, shared: &Option<Setting>| {
+            let own = self.plan_setting(&inner, key, ty)?;
+            Some(own.or_else(|| shared.clone()))
+        };
+        let noise = own("noise", KELVIN, &shared[0]);
+        let drift = own("drift", KELVIN, &shared[1]);
+        let time = own("drift_time", TIME, &shared[2]);
+        let cost = own("cost", Type::SCALAR, &None);
+        let sensor = self.sensor_of(&inner)?.map(|(name, _)| name.to_owned());
+        let drift = self.plan_drift((&owner, entry), (drift?, time?))?;
+        let Some(noise) = noise? else {
+            if inner.complete {
+                let message = format!("{} has no `noise`", owner.words());
+                self.report(inner.missing("noise", message));
+            }
+            return None;
+        };
+        let Measured { text, end, value, ty } = of?;
+        let (column, span) = (entry.key.clone(), entry.key_span.clone());
+        let observed = Observed { column, text, end, value, ty, sigma: None, sensor, span };
+        Some(PlanPlace { observed, noise, drift, cost: cost? })
+    }
+
+    /// A drift has a time.
+    fn plan_drift(
+        &mut self,
+        (owner, entry): (&Owner, &'a RawEntry),
+        drift: (Option<Setting>, Option<Setting>),
+    ) -> Option<Option<(Setting, Setting)>> {
+        let (is, not) = match drift {
+            (Some(drift), Some(time)) => return Some(Some((drift, time))),
+            (None, None) => return Some(None),
+            (Some(_), None) => ("drift", "drift_time"),
+            (None, Some(_)) => ("drift_time", "drift"),
+        };
+        let message = format!("{} has `{is}`, but no `{not}`", owner.words());
+        let help = "say how large the drift is and how long it lasts: `drift = \"0.05 K\"` and \
+                    `drift_time = \"5 min\"`";
+        self.refuse("netlist::plan_drift", message, &entry.key_span, help);
+        None
+    }
+
+    fn plan_runs(&mut self, fields: &Fields<'a>) -> Option<Vec<PlanRun>> {
+        if fields.get("run").is_none() {
+            return Some(Vec::new());
+        }
+        let table = self.table_of(fields, ("run", "a table of runs"))?;
+        let all: Vec<Option<PlanRun>> =
+            table.entries.iter().map(|entry| self.plan_run(fields, entry)).collect();
+        all.into_iter().collect()
+    }
+
+    fn plan_run(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<PlanRun> {
+        let owner = fields.owner.inside("run").inside(&entry.key);
+        let inner = self.inner(&PLAN_RUN, owner.clone(), entry)?;
+        let duration = self.plan_setting(&inner, "duration", TIME);
+        let cost = self.plan_setting(&inner, "cost", Type::SCALAR);
+        let set = match inner.get("set") {
+            None => Some(Vec::new()),
+            Some(_) => self.plan_set(&inner),
+        };
+        let set = set?;
+        let count: usize = set.iter().map(|(_, values)| values.len()).product();
+        if count > super::MOST_RUNS {
+            let message =
+                format!("{} makes {count} runs, more than {}", owner.words(), super::MOST_RUNS);
+            let help = "give its lists fewer values";
+            self.refuse("netlist::plan_runs", message, &entry.key_span, help);
+            return None;
+        }
+        let (name, span) = (entry.key.clone(), entry.key_span.clone());
+        Some(PlanRun { name, span, set, duration: duration?, cost: cost? })
+    }
+
+    /// `set = { omega = ["3000 rpm", "7000 rpm"], P = "20 W" }`.
+    fn plan_set(&mut self, fields: &Fields<'a>) -> Option<Vec<Values>> {
+        let table = self.table_of(fields, ("set", "a table of parameters"))?;
+        let owner = fields.owner.inside("set");
+        let all: Vec<Option<Values>> =
+            table.entries.iter().map(|entry| self.plan_values(&owner, entry)).collect();
+        all.into_iter().collect()
+    }
+
+    fn plan_values(&mut self, owner: &Owner, entry: &'a RawEntry) -> Option<Values> {
+        let name = &entry.key;
+        if !self.is_parameter_here(owner.words(), name, &entry.key_span) {
+            return None;
+        }
+        let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
+        let items = match &entry.value.kind {
+            RawKind::Array(items) if items.is_empty() => {
+                let sample = format!("{name} = [\"..\", \"..\"]");
+                self.report(wrong_shape(
+                    &owner.field(name),
+                    &entry.value,
+                    "a value or a list with one",
+                    &sample,
+                ));
+                return None;
+            }
+            RawKind::Array(items) => items.as_slice(),
+            _ => std::slice::from_ref(&entry.value),
+        };
+        let one = |item: &'a RawValue| {
+            let given = self.given_inside(owner, (name, item), Wanted::like(ty))?;
+            Some((Given::value(given), text_of(item)))
+        };
+        let values: Vec<Option<(Value, String)>> = items.iter().map(one).collect();
+        Some((name.clone(), values.into_iter().collect::<Option<_>>()?))
+    }
+
+    fn plan_cost(&mut self, fields: &Fields<'a>) -> Option<(Option<Setting>, Option<Setting>)> {
+        let Some(entry) = fields.entry("cost") else { return Some((None, None)) };
+        let inner = self.inner(&COST, fields.owner.inside("cost"), entry)?;
+        let run = self.plan_setting(&inner, "run", Type::SCALAR);
+        let hour = self.plan_setting(&inner, "hour", Type::SCALAR);
+        Some((run?, hour?))
+    }
+
+    /// Names of runs or fits that there are.
+    fn plan_names(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &'static str,
+        (code, kind, known): (&'static str, &str, &[&str]),
+    ) -> Option<Vec<String>> {
+        if fields.get(key).is_none() {
+            return Some(Vec::new());
+        }
+        let what = format!("a list of names of {kind}s");
+        let mut names = Vec::new();
+        for raw in self.list(fields, (key, &what))? {
+            let name = fields.text(key, raw, &mut self.problems)?;
+            if !known.contains(&name) {
+                let message = format!(
+                    "{} names `{name}`, but there is no such {kind}",
+                    fields.owner.field(key)
+                );
+                let help = match known.is_empty() {
+                    true => format!("there is no {kind} at all: leave `{key}` out"),
+                    false => nearest(name, known.iter().copied(), &format!("the {kind}s are")),
+                };
+                self.refuse(code, message, &raw.span, help);
+                return None;
+            }
+            names.push(name.to_owned());
+        }
+        Some(names)
+    }
+
+    /// What is sought has one value, which no run can set.
+    fn set_and_sought(
+        &mut self,
+        runs: &[PlanRun],
+        known: &[Target],
+        varied: &[(String, lptn_data::Span)],
+    ) -> Option<()> {
+        let sought = known.iter().map(|target| (&target.name, &target.span));
+        let sought: Vec<_> = sought.chain(varied.iter().map(|(name, span)| (name, span))).collect();
+        for run in runs {
+            for (name, _) in &run.set {
+                let Some((_, span)) = sought.iter().find(|(sought, _)| *sought == name) else {
+                    continue;
+                };
+                let message = format!("`{name}` is to be found, and run `{}` sets it", run.name);
+                let problem = Diagnostic::error("netlist::plan_set_and_sought", message)
+                    .at((*span).clone(), "to be found")
+                    .also(run.span.clone(), "set by this run");
+                let help = format!("leave `{name}` out of `set`, or out of `know` and `vary`");
+                self.report(problem.help(help));
+                return None;
+            }
+        }
+        Some(())
+    }
+}
+
+/// The number of `"5 %"` or `"± 5 %"`.
+fn percent_of(raw: &RawValue) -> Option<f64> {
+    let RawKind::String { text, .. } = &raw.kind else { return None };
+    let number = text.trim().trim_start_matches('±').strip_suffix('%')?;
+    parse_quantity(number.trim(), Some(Type::SCALAR)).ok().map(|quantity| quantity.value)
+}
+
+fn text_of(raw: &RawValue) -> String {
+    match &raw.kind {
+        RawKind::Integer(text) | RawKind::Float(text) => text.clone(),
+        RawKind::String { text, .. } => text.trim().to_owned(),
+        _ => String::new(),
+    }
+}
