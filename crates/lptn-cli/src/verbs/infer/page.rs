@@ -18,8 +18,10 @@ use crate::words::{count, difference, symbol};
 /// Moments that are shown, at most.
 const MOMENTS: usize = 13;
 
-/// Nodes that are shown beside the courses, at most.
-const NODES: usize = 4;
+/// Characters of a line, those of the times, and those of an end of a band with its gap.
+const LINE: usize = 80;
+const TIME: usize = 9;
+const END: usize = 8;
 
 /// A walk is told by what it changes in so many s.
 const MINUTE: f64 = 60.0;
@@ -154,10 +156,17 @@ impl Answer<'_> {
                 .right("to", move |&k| shown(band[k].ends.1));
         }
         let unit = &self.input.netlist.temperature_unit;
-        for (id, known) in self.found.nodes.iter().take(NODES) {
-            let name = &self.input.netlist.network.nodes()[id.index()].name;
-            let shown = move |&k: &usize| fixed(unit.from_si(known[k].value), 2);
-            table = table.right(format!("{name} [{}]", symbol(&unit.text)), shown);
+        let head = |name: &str, unit: &str| format!("{name} [{}]", symbol(unit));
+        let courses = self.task.sought.iter().zip(&self.units);
+        let heads = courses.map(|(sought, unit)| head(&sought.name, &unit.text));
+        let mut width = TIME + heads.map(|head| head.chars().count() + 2 + 2 * END).sum::<usize>();
+        for (id, known) in &self.found.nodes {
+            let head = head(&self.input.netlist.network.nodes()[id.index()].name, &unit.text);
+            width += head.chars().count() + 2;
+            if width > LINE {
+                break;
+            }
+            table = table.right(head, move |&k: &usize| fixed(unit.from_si(known[k].value), 2));
         }
         table.into()
     }
@@ -283,8 +292,9 @@ impl Answer<'_> {
         let shown = |coordinate: f64| match sought.positive {
             true => format!("{} %", significant(100.0 * coordinate, 3)),
             false => {
-                let unit = symbol(&self.units[j].text);
-                format!("{} {unit}", significant(self.shown_difference(j, coordinate), 3))
+                let unit = &self.units[j];
+                let words = if unit.ty.absolute { difference(unit) } else { symbol(&unit.text) };
+                format!("{} {words}", significant(self.shown_difference(j, coordinate), 3))
             }
         };
         let walk = (course.intensity * MINUTE).sqrt();
