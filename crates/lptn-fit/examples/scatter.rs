@@ -30,10 +30,14 @@ fn main() {
     why.dedup();
     why.iter().for_each(|why| println!("else: {why}"));
     for (i, unknown) in task.unknowns.iter().enumerate().filter(|(_, u)| u.sensor().is_none()) {
-        let squares: f64 = found.iter().map(|off| off[i] * off[i]).sum();
-        let scatter = (squares / found.len() as f64).sqrt();
+        let mut off: Vec<f64> = found.iter().map(|off| off[i].abs()).collect();
+        off.sort_by(f64::total_cmp);
+        let scatter = (off.iter().map(|off| off * off).sum::<f64>() / off.len() as f64).sqrt();
         let predicted = plan.errors[i];
-        println!("{:16} {predicted:.4e} {scatter:.4e} {:.3}", unknown.name, scatter / predicted);
+        // one that a normal error exceeds as often as its deviation, and the largest
+        let inner = off[(0.6827 * off.len() as f64) as usize];
+        let [all, inner, most] = [scatter, inner, off[off.len() - 1]].map(|x| x / predicted);
+        println!("{:16} {predicted:.4e} rms {all:.3} 68 % {inner:.3} most {most:.3}", unknown.name);
     }
 }
 

@@ -88,7 +88,7 @@ fn ranks_of_bodies(count: u32) -> [Vec<f64>; 2] {
         let spacing = even(&mut random, (2.0, 5.0)) * truth[0] * truth[1] / 60.0;
         let deviation = even(&mut random, (0.02, 0.5));
         let kept = if seed.is_multiple_of(2) { 0.0 } else { even(&mut random, (0.1, 0.9)) };
-        let noise = body::Noise { deviation, kept, step: 0.0 };
+        let noise = body::Noise { deviation, ..body::Noise::kept(kept) };
         (truth, body::fitted(seed, truth, ((60, spacing), noise)))
     });
     let rank = |p: &FittedParameter, truth: f64| {

@@ -327,6 +327,65 @@ fn a_search_that_gets_nowhere_says_so() {
     assert_eq!(short.iterations, 3);
 }
 
+/// A line through ten points whose values are off by up to 1e-6, each time by something else, with
+/// derivatives times `slope`.
+struct Blurred {
+    slope: f64,
+}
+
+impl Residuals for Blurred {
+    fn parameters(&self) -> usize {
+        2
+    }
+
+    fn evaluate(&mut self, p: &[f64], _: bool) -> Evaluated {
+        let blur = |i: f64| 1e-6 * ((p[0] + 3.0 * p[1]) * 1e9 + i).sin();
+        let at = |(i, y): (f64, f64)| p[0] + p[1] * i - y + blur(i);
+        let points = (0..10).map(|i| (f64::from(i), [0.1, 1.3, 1.9, 3.2][i as usize % 4]));
+        let slopes = (0..10).map(|i| self.slope * f64::from(i)).collect();
+        Ok((points.map(at).collect(), [vec![self.slope; 10], slopes].concat()))
+    }
+}
+
+/// A model that is computed to 1e-6 has its minimum where no step lowers the misfit any more; one
+/// whose derivatives are wrong has none there.
+#[test]
+fn errors_of_the_model_are_no_reason_to_stall() {
+    let found = |slope: f64| {
+        let error = 1e-6 * 10_f64.sqrt();
+        let settings = Settings { error, gradient: 1e-12, ..Settings::default() };
+        minimise(&mut Blurred { slope }, &[3.0, -2.0], &settings).unwrap()
+    };
+    let blurred = found(1.0);
+    assert!(blurred.outcome.converged(), "{:?}", blurred.outcome);
+    // numpy 1.24.2: np.polyfit(range(10), ([0.1, 1.3, 1.9, 3.2] * 3)[:10], 1)
+    for (found, expected) in blurred.parameters.iter().zip([1.27090909090909, 0.03757575757575766])
+    {
+        assert!((found - expected).abs() < 3e-6, "{found} is not {expected}");
+    }
+    assert_eq!(found(-1.0).outcome, Termination::NotConverged(Stop::Stalled));
+}
+
+/// `a + 1`, with a value for positive `a` only.
+struct Walled;
+
+impl Residuals for Walled {
+    fn parameters(&self) -> usize {
+        1
+    }
+
+    fn evaluate(&mut self, p: &[f64], _: bool) -> Evaluated {
+        let value = if p[0] > 0.0 { p[0] + 1.0 } else { f64::NAN };
+        Ok((vec![value], vec![1.0]))
+    }
+}
+
+#[test]
+fn a_search_that_runs_against_a_wall_says_so() {
+    let found = minimise(&mut Walled, &[1.0], &Settings::default()).unwrap();
+    assert_eq!(found.outcome, Termination::NotConverged(Stop::Edge));
+}
+
 #[test]
 fn bad_settings_are_refused() {
     let mut curve = Curve { model: decay, points: &DECAY, parameters: 3 };

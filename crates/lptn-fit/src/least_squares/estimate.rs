@@ -28,8 +28,11 @@ pub enum Stop {
     /// The largest number of steps was made.
     Iterations,
     /// However short the step, the sum of squares does not fall although its derivative says so:
-    /// the derivatives are wrong, or the model is noisier than the tests ask for.
+    /// the derivatives are wrong, or the model is noisier than
+    /// [`Settings::error`](super::Settings::error) says.
     Stalled,
+    /// The sum of squares falls towards parameters at which the model has no value.
+    Edge,
     /// The residuals or derivatives at the start are not finite.
     StartNotFinite,
     /// The derivatives at the last point are not finite.
@@ -42,6 +45,7 @@ impl Stop {
         match self {
             Self::Iterations => "the largest number of steps was made",
             Self::Stalled => "no shorter step lowers the misfit, although its derivatives say so",
+            Self::Edge => "the misfit falls on towards values for which there is no run",
             Self::StartNotFinite => "the model has no finite value at the start",
             Self::DerivativeNotFinite => {
                 "the model has no finite derivative where the search came to"

@@ -97,9 +97,13 @@ pub struct Settings {
     /// Differences of the sum of squares by less than this part of it count as rounding. A step
     /// that was to lower it by no more, and changes it by no more, is judged by `gradient`'s
     /// measure instead: while that falls by a tenth or more the search goes on, and then it ends,
-    /// with the parameters within `sqrt(cost n)` of their standard errors. To be raised where the
-    /// model is computed less precisely than to double precision.
+    /// with the parameters within `sqrt(cost n)` of their standard errors.
     pub cost: f64,
+    /// Root of the sum of the squares of what the residuals may be off where their model is
+    /// computed less precisely than to double precision; 0 if it is not. A full step that was to
+    /// change the sum of squares by less than that makes of it, and fails to lower it, is judged
+    /// like one within `cost`. The parameters then are off by what such errors make of them.
+    pub error: f64,
     /// The largest number of steps that lower the sum of squares.
     pub iterations: usize,
     /// The first step moves the scaled parameters by no more than this times their length.
@@ -115,6 +119,7 @@ impl Default for Settings {
             gradient: 1e-9,
             step: 1e-11,
             cost: 1e-12,
+            error: 0.0,
             iterations: 1000,
             reach: 3.0,
         }

@@ -9,6 +9,9 @@ use super::{Evaluated, Residuals, Settings};
 /// So many times a step is shortened.
 const MOST_TRIALS: usize = 100;
 
+/// So many descents may meet parameters at which the model has no value.
+const MOST_EDGES: usize = 20;
+
 type Fallible<T> = Result<T, LeastSquaresError>;
 
 /// Finds the parameters, near `start`, for which the sum of the squares of residuals and priors is
@@ -27,7 +30,7 @@ pub fn minimise<P: Residuals>(
     settings: &Settings,
 ) -> Fallible<LeastSquaresFit> {
     check(problem.parameters(), start, settings)?;
-    let mut search = Search { problem, settings, evaluations: 0, data: 0 };
+    let mut search = Search { problem, settings, evaluations: 0, data: 0, edges: 0 };
     let clamped =
         start.iter().enumerate().map(|(j, p)| p.clamp(search.bounds(j).0, search.bounds(j).1));
     let first = search.point(clamped.collect())?;
@@ -78,6 +81,8 @@ struct Search<'a, P: Residuals> {
     settings: &'a Settings,
     evaluations: usize,
     data: usize,
+    /// Descents in which the model had no value somewhere.
+    edges: usize,
 }
 
 /// A point with its linear model.
@@ -249,25 +254,46 @@ impl<P: Residuals> Search<'_, P> {
     fn descend(&mut self, here: &Place, scales: &[f64], radius: &mut f64) -> Fallible<Descent> {
         let region = Region { model: &here.model, scales, room: &here.room };
         let least = f64::EPSILON * region.length(&here.point.parameters);
-        if here.offset * here.offset <= self.settings.cost {
+        let level = self.level(&here.point);
+        if here.offset * here.offset <= level {
             // whatever the region was shortened to by sums of squares that differ by rounding
             *radius = radius.max(2.0 * region.length(&here.full));
         }
+        let mut edge = false;
         for _ in 0..MOST_TRIALS {
             let trial = self.attempt(&here.point, &region, *radius)?;
+            if trial.lowered.is_infinite() && !edge {
+                edge = true;
+                self.edges += 1;
+            }
+            if self.edges > MOST_EDGES {
+                return Ok(Descent::Stopped(Stop::Edge));
+            }
             *radius = next_radius(*radius, &trial);
-            let rounding = trial.predicted.max(trial.lowered.abs()) <= self.settings.cost;
-            if rounding && !trial.cut {
+            let differs = trial.predicted.max(trial.lowered.abs());
+            if differs <= self.settings.cost && !trial.cut {
                 return Ok(Descent::Level(self.point(trial.parameters)?));
             }
             if trial.lowered > 1e-4 * trial.predicted && trial.lowered > 0.0 {
                 return Ok(Descent::Lower(self.point(trial.parameters)?));
             }
+            if differs <= level && !trial.cut {
+                return Ok(Descent::Level(self.point(trial.parameters)?));
+            }
             if *radius <= least || trial.length <= least {
                 break;
             }
         }
-        Ok(Descent::Stopped(Stop::Stalled))
+        let full = self.attempt(&here.point, &region, f64::INFINITY)?;
+        let beyond = full.lowered.is_infinite();
+        Ok(Descent::Stopped(if beyond { Stop::Edge } else { Stop::Stalled }))
+    }
+
+    /// The part of the sum of squares by which two of them may differ for no reason: with what the
+    /// residuals r may be off, d, that is (2 |r| |d| + |d|^2) / |r|^2.
+    fn level(&self, point: &Point) -> f64 {
+        let part = self.settings.error / point.squares.max(f64::MIN_POSITIVE).sqrt();
+        self.settings.cost.max(part * (2.0 + part))
     }
 
     fn attempt(&mut self, point: &Point, region: &Region<'_>, radius: f64) -> Fallible<Trial> {

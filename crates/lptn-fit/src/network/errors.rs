@@ -6,7 +6,7 @@ use crate::network::hint::{Hint, Missed};
 use crate::network::identify::Identifiability;
 use crate::network::model::{Block, Evaluated, Model};
 use crate::network::task::NetworkFitTask;
-use crate::noise::{Middle, Noise, student_95};
+use crate::noise::{Middle, Noise, degrees_of, student_95};
 
 /// With fewer values than this left over, residuals alone do not tell the noise.
 const FEW: usize = 10;
@@ -62,7 +62,12 @@ impl<'a> Errors<'a> {
             .iter()
             .flat_map(|&i| self.derivatives(i)[block.range.clone()].iter().copied())
             .collect();
-        let noise = Noise::estimate(&times, &self.at_end.residuals[block.range.clone()], &slopes);
+        let residuals = &self.at_end.residuals[block.range.clone()];
+        // a single record may drift as slowly as its curve rises
+        let noise = match self.task.runs.len() {
+            1 => Noise::with_slow_drift(&times, residuals, &slopes),
+            _ => Noise::estimate(&times, residuals, &slopes),
+        };
         let middle = noise.middle(&times, &slopes);
         ColumnNoise { block, noise, middle }
     }
@@ -99,6 +104,7 @@ impl<'a> Errors<'a> {
             column: block.column,
             samples,
             effective: column.noise.effective,
+            slow_drift: column.noise.drifts(),
             rms,
             mean: mean(&|residual| residual),
             sigma: measured.sigma,
@@ -134,7 +140,8 @@ impl<'a> Errors<'a> {
     /// Half the width of the 95 % interval of a free parameter, and the degrees of freedom of the
     /// quantile of Student's t that it takes: each column tells the variance that it brings in with
     /// those of its own noise, and what is known beforehand is known (F. E. Satterthwaite,
-    /// Biometrics Bulletin 2 (1946) 110).
+    /// Biometrics Bulletin 2 (1946) 110). Slow drift of several columns adds up in the squares of
+    /// half the widths that it alone has.
     pub(crate) fn interval(&self, covariance: &Covariance, parameter: usize) -> Option<(f64, f64)> {
         let error = covariance.standard_error(parameter)?;
         let inverse =
@@ -144,13 +151,23 @@ impl<'a> Errors<'a> {
         }
         let count = self.at_end.jacobian.len() / self.at_end.residuals.len();
         let gradient: Vec<f64> = (0..count).map(|i| f64::from(u8::from(i == parameter))).collect();
-        let parts = self.columns.iter().map(|c| c.middle.variance(&inverse, &gradient));
-        let uncertain: f64 = parts.map(|(variance, degrees)| variance * variance / degrees).sum();
         let found = inverse.sandwich(&self.middle()).standard_error(parameter)?;
-        let degrees = found.powi(4) / uncertain;
+        let (mut known, mut uncertain, mut drift) = (found * found, 0.0, 0.0);
+        for column in &self.columns {
+            let (variance, degrees) = column.middle.variance(&inverse, &gradient);
+            if column.noise.drifts() {
+                known -= variance;
+                drift += variance * student_95(degrees).powi(2);
+            } else {
+                uncertain += variance * variance / degrees;
+            }
+        }
+        let known = known.max(0.0);
+        let degrees = if uncertain > 0.0 { known * known / uncertain } else { f64::INFINITY };
+        let half = (known * student_95(degrees).powi(2) + drift).sqrt();
+        let degrees = if drift > 0.0 { degrees_of(half / found) } else { degrees };
         // where few values are left over, the errors that `sigma` says are known
-        let half = (student_95(degrees) * found).max(student_95(f64::INFINITY) * error);
-        Some((half, degrees))
+        Some((half.max(student_95(f64::INFINITY) * error), degrees))
     }
 
     /// The rise of the sum of squares at the end of an interval of this half width: that over the

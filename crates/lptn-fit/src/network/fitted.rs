@@ -69,6 +69,8 @@ pub struct ColumnMisfit {
     pub samples: usize,
     /// How many independent values would tell as much.
     pub effective: f64,
+    /// Whether drift as slow as the record is as likely as none, and is in the intervals.
+    pub slow_drift: bool,
     /// Root of the mean square in K.
     pub rms: f64,
     /// Mean of model less record in K.

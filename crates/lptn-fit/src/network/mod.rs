@@ -105,11 +105,15 @@ pub fn fit_network_observed(
     let mut parameters =
         fitted_parameters((&errors, covariance.as_ref(), known), (&values, &own, &estimate));
     let left_over = errors.left_over();
-    let rises = one_sided(
-        (task, &model, &at_end),
-        (&unknowns, &parameters),
-        (&errors, &estimate.free(), known),
-    );
+    let rises = match outcome {
+        Ok(()) => one_sided(
+            (task, &model, &at_end),
+            (&unknowns, &parameters),
+            (&errors, &estimate.free(), known),
+        ),
+        // values that are no result have no interval
+        Err(_) => Vec::new(),
+    };
     let end = End {
         coordinates: &coordinates,
         unknowns: &unknowns,

@@ -13,6 +13,9 @@ use crate::network::readings::{Measure, Reader, Rows};
 use crate::network::task::{FitObserver, FitStage, MeasuredRun, NetworkFitTask};
 use crate::network::unknown::{Prior, Unknown};
 
+/// So many tolerances a temperature may be off.
+const ERROR: f64 = 10.0;
+
 /// The residuals of one column of one record.
 #[derive(Clone, Debug)]
 pub(crate) struct Block {
@@ -109,13 +112,13 @@ impl<'a> Model<'a> {
         self.blocks.last().map_or(0, |block| block.range.end)
     }
 
-    /// The root of the sum over all residuals of what they are per K, squared.
-    pub(crate) fn weights(&self) -> f64 {
+    /// The root of the sum of the squares of what errors of the runs make of the residuals.
+    pub(crate) fn error(&self) -> f64 {
         let of = |block: &Block| {
             let weight = self.task.runs[block.run].columns[block.column].weight();
             block.range.len() as f64 / (weight * weight)
         };
-        self.blocks.iter().map(of).sum::<f64>().sqrt()
+        ERROR * self.tolerance * self.blocks.iter().map(of).sum::<f64>().sqrt()
     }
 
     /// Residuals and derivatives for values in SI units; the record whose run failed, and why.

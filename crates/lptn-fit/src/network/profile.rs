@@ -122,8 +122,14 @@ impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
     fn excess(&mut self, value: f64) -> Option<f64> {
         let mut bounds = self.end.coordinates.bounds();
         bounds.remove(self.place);
-        let settings =
-            Settings { bounds, gradient: 1e-6, step: 1e-9, iterations: 100, ..Settings::default() };
+        let settings = Settings {
+            bounds,
+            gradient: 1e-6,
+            step: 1e-9,
+            error: self.model.error(),
+            iterations: 100,
+            ..Settings::default()
+        };
         let at = self.end.coordinates.one(self.place, value);
         let mut held = Held { model: &mut *self.model, place: self.place, at };
         let squares = if self.others.is_empty() {

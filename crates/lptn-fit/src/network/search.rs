@@ -18,9 +18,6 @@ const TOLERANCES: [f64; 2] = [1e-6, 1e-7];
 /// Sums of squares that differ by less than this part are those of one minimum.
 const SAME: f64 = 1e-3;
 
-/// So many tolerances a temperature may be off.
-const ERROR: f64 = 10.0;
-
 /// Seed of the starts between the bounds.
 const SEED: u32 = 6;
 
@@ -75,20 +72,22 @@ pub(crate) fn search<'a>(
         });
     }
     let gradient = coarse.gradient.unwrap_or(Gradient::Exact);
-    let settings = |gradient: f64, step: f64| Settings {
+    let settings = |gradient: f64, step: f64, error: f64| Settings {
         bounds: coordinates.bounds(),
         gradient,
         step,
+        error,
         iterations: 200,
         ..Settings::default()
     };
     let mut ends = Vec::new();
+    let roughly = settings(1e-4, 1e-6, coarse.error());
     for (i, start) in starts.iter().enumerate() {
         coarse.stage.search = i + 1;
-        let search = minimise(&mut coarse, &coordinates.of(start), &settings(1e-4, 1e-6));
+        let search = minimise(&mut coarse, &coordinates.of(start), &roughly);
         ends.push(search.map_err(|error| coarse.ended(error))?);
     }
-    let (best, starts) = best(&ends, &coarse, tolerance(TOLERANCES[0]));
+    let (best, starts) = best(&ends, coarse.error());
     let mut model = Model::new(
         (task, observer),
         (unknowns, coordinates),
@@ -96,13 +95,14 @@ pub(crate) fn search<'a>(
     );
     model.best = Some((f64::INFINITY, coordinates.values(&ends[best].parameters).0));
     model.stage = FitStage { search: 0, ..coarse.stage_now() };
+    let floor = model.error();
     let exact = match gradient {
-        Gradient::Exact => settings(1e-7, 1e-10),
-        Gradient::Differences(_) => settings(1e-5, 1e-8),
+        Gradient::Exact => settings(1e-7, 1e-10, floor),
+        Gradient::Differences(_) => settings(1e-5, 1e-8, floor),
     };
     let estimate = minimise(&mut model, &ends[best].parameters, &exact);
     let estimate = estimate.map_err(|error| model.ended(error))?;
-    let outcome = outcome(&estimate, floor(&model, tolerance(TOLERANCES[1])), &gradient);
+    let outcome = outcome(&estimate, floor, &gradient);
     Ok(Found { estimate, outcome, starts, gradient, searches: coarse.evaluations, model })
 }
 
@@ -124,8 +124,7 @@ fn starts(task: &NetworkFitTask<'_>, coordinates: &Coordinates, own: &[f64]) -> 
 }
 
 /// The lowest minimum, or the lowest point where no search found one; how the others compare.
-fn best(ends: &[LeastSquaresFit], model: &Model<'_>, tolerance: f64) -> (usize, Starts) {
-    let floor = floor(model, tolerance);
+fn best(ends: &[LeastSquaresFit], floor: f64) -> (usize, Starts) {
     let converged = |end: &LeastSquaresFit| end.outcome.converged() || removable(end) <= floor;
     let rank = |i: &usize| (!converged(&ends[*i]), ends[*i].squares);
     let order = |a: &usize, b: &usize| {
@@ -139,11 +138,6 @@ fn best(ends: &[LeastSquaresFit], model: &Model<'_>, tolerance: f64) -> (usize, 
     let minima = || ends.iter().filter(|end| converged(end));
     let (same, found) = (minima().filter(is_same).count(), minima().count());
     (best, Starts { tried: ends.len(), same, other: found - same, failed: ends.len() - found })
-}
-
-/// The root of the sum of squares that the errors of the runs leave.
-fn floor(model: &Model<'_>, tolerance: f64) -> f64 {
-    ERROR * tolerance * model.weights()
 }
 
 /// The root of the sum of squares that could still be removed.

@@ -37,6 +37,7 @@ pub(crate) mod stretches;
 pub(crate) use likelihood::orthonormal;
 use likelihood::{Likelihood, Possible, Shape};
 pub use middle::Middle;
+pub(crate) use quantile::degrees_of;
 pub use quantile::student_95;
 pub use resolution::resolution;
 
@@ -107,6 +108,10 @@ impl Noise {
     /// As [`Noise::estimate`], for a record that stands alone: where drift as slow as the record is
     /// as likely as none, intervals hold 95 % of the mixture of all such drifts.
     pub fn with_drift(times: &[f64], residuals: &[f64], jacobian: &[f64]) -> Self {
+        Self::drifting((times, residuals, jacobian), slow::BEHIND_OF_STEP)
+    }
+
+    fn drifting((times, residuals, jacobian): (&[f64], &[f64], &[f64]), behind: f64) -> Self {
         let stretch = stretches::longest(times.len());
         let likelihood = of_means(times, residuals, jacobian, stretch);
         let mut noise = Self::of_likelihood(&likelihood, times.len(), residuals, stretch);
@@ -118,12 +123,21 @@ impl Noise {
         }
         if likelihood.has_freedom() && noise.deviation > 0.0 {
             let likeliest = noise.likeliest.min(noise.white);
-            if let Some(slow) = likelihood.slow(noise.white, likeliest) {
+            if let Some(slow) = likelihood.slow((noise.white, likeliest), behind) {
                 (noise.possible, noise.slow) = (slow, true);
                 return noise;
             }
         }
         Self::estimate(times, residuals, jacobian)
+    }
+
+    /// As [`Noise::with_drift`], for a curve whose start is known: few samples tell its noise as
+    /// [`Noise::estimate`] says.
+    pub(crate) fn with_slow_drift(times: &[f64], residuals: &[f64], jacobian: &[f64]) -> Self {
+        if (times.len() as f64) < FEW {
+            return Self::estimate(times, residuals, jacobian);
+        }
+        Self::drifting((times, residuals, jacobian), slow::BEHIND_OF_NETWORK)
     }
 
     /// Whether drift as slow as the record is as likely as none, and is in the intervals.

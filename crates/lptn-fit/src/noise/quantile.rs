@@ -55,7 +55,7 @@ pub(super) fn mixed_95(parts: &[(f64, f64)]) -> f64 {
 
 /// The degrees of freedom for which Student's t is exceeded beyond `t` with probability 5 %: 1 for
 /// 12.7 and more, infinite for 1.96 and less.
-pub(super) fn degrees_of(t: f64) -> f64 {
+pub(crate) fn degrees_of(t: f64) -> f64 {
     if t <= NORMAL_95 {
         return f64::INFINITY;
     }

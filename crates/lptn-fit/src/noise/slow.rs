@@ -10,9 +10,13 @@ const PLACES: i32 = 12;
 /// Logits of the drift's part of the variance: from where it is felt beside white noise.
 const LOGITS: std::ops::RangeInclusive<i32> = 0..=9;
 
-/// How far the likelihood of slow drift may lie behind that of white noise, doubled as all of them:
-/// nearly as likely is likely enough.
-const BEHIND_WHITE: f64 = 0.15;
+/// How far the likelihood of slow drift may lie behind that of white noise, doubled as all of them,
+/// for one exponential: nearly as likely is likely enough.
+pub(super) const BEHIND_OF_STEP: f64 = 0.15;
+
+/// The same for a network, whose start is known: its curve takes less of a drift up, so that fewer
+/// clean records look as if they drifted.
+pub(super) const BEHIND_OF_NETWORK: f64 = 2.0;
 
 /// How far the likelihood of slow drift may lie behind that of the likeliest noise.
 const BEHIND: f64 = 4.0;
@@ -24,12 +28,17 @@ impl Likelihood {
     ///
     /// A fit takes up most of such drift, so what is left of it is small even where the error that
     /// it makes is several times that of the noise. A test for it finds half of them at 5 % of
-    /// false alarms; so no test is made: drift counts where it is no less likely than none.
-    pub(super) fn slow(&self, white: f64, likeliest: f64) -> Option<Vec<Possible>> {
+    /// false alarms; so no test is made: drift counts where it is no less likely than none, or not
+    /// further `behind`.
+    pub(super) fn slow(
+        &self,
+        (white, likeliest): (f64, f64),
+        behind: f64,
+    ) -> Option<Vec<Possible>> {
         let [least, most] = TIMES.map(|part| (part * self.length()).ln());
         let time = |k: i32| least + (most - least) * f64::from(k) / f64::from(PLACES - 1);
         let places = (0..PLACES).flat_map(|k| LOGITS.map(move |l| [time(k), f64::from(l)]));
         let (possible, best) = self.mixture(places);
-        (best < white + BEHIND_WHITE && best < likeliest + BEHIND).then_some(possible)
+        (best < white + behind && best < likeliest + BEHIND).then_some(possible)
     }
 }

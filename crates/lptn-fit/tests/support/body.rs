@@ -14,6 +14,17 @@ pub(crate) struct Noise {
     pub(crate) kept: f64,
     /// Step of the logger in K; 0 for none.
     pub(crate) step: f64,
+    /// Standard deviation in K and time in s of a drift beside it.
+    pub(crate) drift: (f64, f64),
+    /// Whether what drives the noise is Student's t of 3 degrees of freedom, of variance 1.
+    pub(crate) tails: bool,
+}
+
+impl Noise {
+    /// Noise of 0.1 K that is `kept` from one value to the next.
+    pub(crate) const fn kept(kept: f64) -> Self {
+        Self { deviation: 0.1, kept, step: 0.0, drift: (0.0, 1.0), tails: false }
+    }
 }
 
 /// A body of some K/W and J/K in a room of 25 degC, heated by 220.6 W.
@@ -25,13 +36,22 @@ fn netlist(
     let mut random = Pcg64::new(77 + u128::from(seed), 0x0a02_bdbf_7bb3_c0a7_ac28_fa16_a64a_bf96);
     let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
     let mut noise = of.deviation * normal();
+    let mut drift = if of.drift.0 > 0.0 { of.drift.0 * normal() } else { 0.0 };
+    let left = f64::exp(-spacing / of.drift.1);
     let mut csv = String::from("t [s],ring [degC]\n");
     for t in (0..samples).map(|k| f64::from(k) * spacing) {
         let rise = 220.6 * resistance * (1.0 - f64::exp(-t / (resistance * capacity)));
-        let exact = 25.0 + rise + noise;
+        let exact = 25.0 + rise + noise + drift;
         let read = if of.step > 0.0 { (exact / of.step).round() * of.step } else { exact };
         csv += &format!("{t},{read}\n");
-        noise = of.kept * noise + (1.0 - of.kept * of.kept).sqrt() * of.deviation * normal();
+        let driven = match of.tails {
+            true => normal() / (0..3).map(|_| normal().powi(2)).sum::<f64>().sqrt(),
+            false => normal(),
+        };
+        noise = of.kept * noise + (1.0 - of.kept * of.kept).sqrt() * of.deviation * driven;
+        if of.drift.0 > 0.0 {
+            drift = left * drift + (1.0 - left * left).sqrt() * of.drift.0 * normal();
+        }
     }
     let text = "format = 1\n[param]\nR = \"0.25 K/W\"\nC = \"2 kJ/K\"\n[node]\nbody = { C = \"C\", \
         T0 = \"25 degC\" }\n[boundary]\nroom = { T = \"25 degC\" }\n[resistor]\nskin = { from = \

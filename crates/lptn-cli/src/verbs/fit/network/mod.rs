@@ -73,8 +73,7 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
     if let Some(stop) = fit.not_converged {
         let message = format!("fit `{}` did not converge: {}", study.name, stop.text());
         let problem = Diagnostic::error("fit::not_converged", message).at(study.span.clone(), "");
-        let help = "give the parameters start values nearer to what is expected, and bounds with \
-            `from` and `to`";
+        let help = words::unfound(&task, (stop, &fit));
         return Err(input.refused(Exit::Failed, problem.help(help)));
     }
     let mut answer = Answer::new((&input, study), task, fit);

@@ -352,6 +352,7 @@ fn columns(answer: &Answer<'_>) -> Value {
             "sigma": misfit.sigma.map(|sigma| SiValue::new(sigma, "K")),
             "samples": misfit.samples,
             "effective_samples": misfit.effective,
+            "slow_drift": misfit.slow_drift,
         })
     };
     answer.fit.columns.iter().map(column).collect()

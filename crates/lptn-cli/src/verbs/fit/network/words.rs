@@ -1,7 +1,9 @@
 //! What a fit of a network says in words.
 
-use lptn_fit::least_squares::Side;
-use lptn_fit::network::{ColumnMisfit, Combination, FAR, Hint};
+use lptn_fit::least_squares::{Side, Stop};
+use lptn_fit::network::{
+    ColumnMisfit, Combination, FAR, FittedParameter, Hint, NetworkFit, NetworkFitTask,
+};
 use lptn_netlist::Diagnostic;
 use lptn_report::significant;
 use lptn_units::Type;
@@ -21,6 +23,22 @@ pub(crate) fn state(answer: &Answer<'_>, i: usize) -> &'static str {
         Some(Side::Lower) => "on its least value",
         Some(Side::Upper) => "on its greatest value",
         None => "free",
+    }
+}
+
+/// What helps a search that did not converge.
+pub(super) fn unfound(task: &NetworkFitTask<'_>, (stop, fit): (Stop, &NetworkFit)) -> String {
+    let part = |fitted: &FittedParameter| (fitted.value / fitted.start).abs();
+    let ends = task.unknowns().into_iter().zip(fit.parameters.iter().map(part));
+    match ends.min_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((unknown, part)) if stop == Stop::Edge && part < 1e-2 => format!(
+            "the records would have `{}` be nothing, or less: give it a least value with `from`, \
+             which the fit may then name as its end, or hold it",
+            unknown.name
+        ),
+        _ => "give the parameters start values nearer to what is expected, and bounds with `from` \
+              and `to`"
+            .to_owned(),
     }
 }
 
@@ -53,7 +71,39 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
     }
     doubts.extend((0..answer.fit.parameters.len()).filter_map(|i| off_prior(answer, i)));
     doubts.extend(misfits(answer));
+    doubts.extend(drifting(answer));
     doubts
+}
+
+/// An interval of more standard errors to each side is worth a word: many values have two.
+const WIDE: f64 = 2.5;
+
+/// That drift as slow as the record is in the intervals, where that makes one much wider.
+fn drifting(answer: &Answer<'_>) -> Option<Diagnostic> {
+    let name = |column: &ColumnMisfit| &answer.task.runs[column.run].columns[column.column].name;
+    let drifting = answer.fit.columns.iter().filter(|column| column.slow_drift);
+    let names: Vec<String> = drifting.map(|column| format!("`{}`", name(column))).collect();
+    let wide = |i: usize| {
+        let fitted = &answer.fit.parameters[i];
+        Some((i, fitted.half_width? / fitted.standard_error?))
+    };
+    let ratios = (0..answer.fit.parameters.len()).filter_map(wide);
+    let (widest, ratio) = ratios.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let message = format!(
+        "{} {}: a drift as slow as the record is as likely as none: the 95 % intervals count it, \
+         and that of {} is {} standard errors wide to each side",
+        if names.len() == 1 { "column" } else { "columns" },
+        names.join(", "),
+        answer.name(widest),
+        significant(ratio, 2)
+    );
+    let doubt = Diagnostic::warning("fit::slow_drift", message).at(answer.study.span.clone(), "");
+    let doubt = doubt.help(
+        "the curve takes such a drift up, and a single record cannot tell it; a sensor beside it \
+         whose temperature stays can, and several records, fitted one by one, show how far they \
+         differ",
+    );
+    (!names.is_empty() && ratio > WIDE).then_some(doubt)
 }
 
 /// A value that contradicts what is known of it beforehand, which is its own value.
