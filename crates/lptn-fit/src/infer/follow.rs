@@ -226,7 +226,7 @@ fn carried(
     let mut moved = vec![0.0; mean.len()];
     for (column, _) in &states.slow {
         let Some(place) = states.shown(*column) else { continue };
-        let of = task.run.columns[*column].of.iter();
+        let of = task.run.columns[*column].nodes().iter();
         let there: f64 = of.map(|(id, factor)| factor * temperature(id.index())).sum();
         moved[place] = model.shown[*column][k] + mean[place] - there;
     }

@@ -1,7 +1,7 @@
 //! The run near which everything is linear.
 
 use lptn_assembly::{ChangeError, ThermalSystem};
-use lptn_network::{AfterEnd, Course, Network, NodeId, OutputTimes, SignalId, ZERO_CELSIUS};
+use lptn_network::{AfterEnd, Course, Network, NodeId, OutputTimes, SignalId};
 use lptn_solve::{Proceed, Progress, RecordedNodes, RunStatus, Solution, Transient};
 use lptn_units::{Interpolation, Outside, Table1};
 
@@ -126,14 +126,14 @@ impl Reference {
         let shown = task.run.columns.iter().map(|column| {
             let sum = |row: usize| {
                 let row = solution.row(row);
-                column.of.iter().map(|(id, factor)| factor * row[id.index()]).sum::<f64>()
+                column.nodes().iter().map(|(id, factor)| factor * row[id.index()]).sum::<f64>()
             };
             let lag = column.sensor.map_or(0.0, |sensor| task.sensors[sensor].lag.value);
             if lag > 0.0 {
                 let over_zero: Vec<f64> =
-                    (0..all.len()).map(|row| sum(row) - ZERO_CELSIUS).collect();
+                    (0..all.len()).map(|row| sum(row) - column.zero()).collect();
                 let followed = follow(&all, &over_zero, lag).course;
-                return places.iter().map(|&row| followed[row] + ZERO_CELSIUS).collect();
+                return places.iter().map(|&row| followed[row] + column.zero()).collect();
             }
             places.iter().map(|&row| sum(row)).collect()
         });

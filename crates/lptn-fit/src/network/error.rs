@@ -49,14 +49,23 @@ pub enum NetworkFitError {
             SensitiveError::Run(_) => Class::Numbers,
             _ => Class::Input,
         };
-    /// A column measures something, as it is written, that is neither the temperature of a node nor
-    /// a mean of some.
+    /// A column measures something, as it is written, that no run tells: a parameter, the time.
     Observed { column: String, result: String } = "fit::observed",
-        format!("column `{column}` measures `{result}`, which is not a temperature of a node or a \
-            mean of some"),
-        help "write the temperature of a node, `\"steel.T\"`, or a mean, `\"mean(steel.T, \
-            bed.T)\"`; parameters, signals, boundaries, heat flows and `t` cannot stand there; \
-            what an instrument adds is said in [sensor]";
+        format!("column `{column}` measures `{result}`, which reads no temperature and no heat flow"),
+        help "write what the instrument was exposed to: a temperature, `\"steel.T\"`, a difference, \
+            `\"steel.T - bed.T\"`, or a heat flow, `\"internal.Q\"`";
+    /// A column measures something, as it is written, that is no sum of temperatures of nodes.
+    NotLinear { column: String, result: String } = "fit::not_linear",
+        format!("column `{column}` measures `{result}`, which is not a temperature of a node, a mean \
+            or a difference of some"),
+        help "only a fit compares other results; write the temperature of a node, `\"steel.T\"`, or \
+            a mean, `\"mean(steel.T, bed.T)\"`: parameters, signals, boundaries, heat flows and `t` \
+            cannot stand there";
+    /// Columns have different units, and this one has no standard deviation.
+    Units { column: String, units: [String; 2] } = "fit::units",
+        format!("columns are in {} and in {}, and column `{column}` has no `sigma`: without it there \
+            is no saying what counts how much", units[0], units[1]),
+        help "write how far one value of each column scatters: `{ of = \"skin.Q\", sigma = \"2 W\" }`";
     /// A column of a record, which a signal is to follow, has fewer than two values.
     Signal { record: String, column: String } = "fit::signal",
         format!("{record}: a signal follows column `{column}`, which has fewer than two values"),

@@ -6,7 +6,7 @@ use lptn_solve::Transient;
 use lptn_units::{Interpolation, Outside, Table1};
 
 use crate::network::error::NetworkFitError;
-use crate::network::task::{Instrument, MeasuredColumn, MeasuredRun, NetworkFitTask};
+use crate::network::task::{Instrument, Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask};
 
 /// Searches that begin between the bounds, where the netlist does not say.
 const MORE_STARTS: usize = 4;
@@ -23,8 +23,8 @@ impl<'a> NetworkFitTask<'a> {
     /// without one), and the times of its rows are times of that run.
     ///
     /// # Errors
-    /// [`NetworkFitError`] for a result that is not a temperature of a node or a mean of some, and
-    /// what the evaluation of the study's numbers reports.
+    /// [`NetworkFitError`] for a column that measures nothing that a run has, for columns whose units
+    /// cannot be compared, and what the evaluation of the study's numbers reports.
     pub fn of(
         netlist: &'a Netlist,
         study: &FitStudy,
@@ -33,8 +33,8 @@ impl<'a> NetworkFitTask<'a> {
         let network = &netlist.network;
         let plan = study.plan(network, &netlist.overrides())?;
         let settings = settings(netlist);
-        let of: Vec<_> =
-            study.observed.iter().map(|o| weights(network, o)).collect::<Result<_, _>>()?;
+        let of: Vec<Measurand> =
+            study.observed.iter().map(|o| measurand(network, o)).collect::<Result<_, _>>()?;
         let sensors = &netlist.studies.sensors;
         let sensor_of = |observed: &Observed| {
             sensors.iter().position(|sensor| observed.sensor.as_ref() == Some(&sensor.name))
@@ -45,6 +45,7 @@ impl<'a> NetworkFitTask<'a> {
             Some(sigma.as_ref()?.hypot(step(observed).unwrap_or(0.0) / 12_f64.sqrt()))
         };
         let sigmas: Vec<Option<f64>> = study.observed.iter().zip(&plan.sigmas).map(sigma).collect();
+        comparable(study, &sigmas)?;
         let mut runs = Vec::with_capacity(study.records.len());
         for (record, parameters) in study.records.iter().zip(plan.parameters) {
             let column = |(i, observed): (usize, &Observed)| {
@@ -55,6 +56,7 @@ impl<'a> NetworkFitTask<'a> {
                 MeasuredColumn {
                     name: observed.column.clone(),
                     of: of[i].clone(),
+                    ty: observed.ty,
                     sensor: sensor_of(observed),
                     sigma: sigmas[i],
                     values,
@@ -124,7 +126,7 @@ impl Begun<'_> {
     }
 
     /// Where the nodes begin whose temperature a column measures.
-    fn initial(&self, of: &[Vec<(NodeId, f64)>]) -> Result<Vec<(NodeId, f64)>, NetworkFitError> {
+    fn initial(&self, of: &[Measurand]) -> Result<Vec<(NodeId, f64)>, NetworkFitError> {
         let long = match self.study.initial {
             FitInitial::Network => return Ok(Vec::new()),
             FitInitial::First => 0.0,
@@ -132,7 +134,8 @@ impl Begun<'_> {
         };
         let mut found: Vec<(NodeId, f64)> = Vec::new();
         for (observed, of) in self.study.observed.iter().zip(of) {
-            let [(node, factor)] = of.as_slice() else { continue };
+            let Measurand::Temperatures(of) = of else { continue };
+            let ([(node, factor)], true) = (of.as_slice(), observed.ty.absolute) else { continue };
             let column = self.record.record.column(&observed.column);
             let (Some(column), true) = (column, (factor - 1.0).abs() < 1e-12) else { continue };
             let rows = self.record.record.time.iter().zip(&column.values);
@@ -161,7 +164,38 @@ impl Begun<'_> {
     }
 }
 
+/// What a column measures: a sum of temperatures where it is one, which costs least.
+fn measurand(network: &Network, observed: &Observed) -> Result<Measurand, NetworkFitError> {
+    match weights(network, observed) {
+        Ok(nodes) => Ok(Measurand::Temperatures(nodes)),
+        Err(_) if network.reads_results(&observed.value) => {
+            Ok(Measurand::Result(observed.value.clone()))
+        }
+        Err(_) => Err(NetworkFitError::Observed {
+            column: observed.column.clone(),
+            result: observed.text.clone(),
+        }),
+    }
+}
+
+/// Values in different units are compared by their standard deviations, so each needs one.
+fn comparable(study: &FitStudy, sigmas: &[Option<f64>]) -> Result<(), NetworkFitError> {
+    let first = &study.observed[0];
+    let other = study.observed.iter().find(|o| o.ty.dimension != first.ty.dimension);
+    let unknown = study.observed.iter().zip(sigmas).find(|(_, sigma)| sigma.is_none());
+    match (other, unknown) {
+        (Some(other), Some((column, _))) => Err(NetworkFitError::Units {
+            column: column.column.clone(),
+            units: [first, other].map(|observed| observed.ty.dimension.si_unit()),
+        }),
+        _ => Ok(()),
+    }
+}
+
 /// The nodes whose temperatures make up a result, with their factors.
+///
+/// # Errors
+/// [`NetworkFitError::NotLinear`] where it is no such sum.
 pub(crate) fn weights(
     network: &Network,
     observed: &Observed,
@@ -169,14 +203,10 @@ pub(crate) fn weights(
     if let Some(End::Node(node)) = observed.end {
         return Ok(vec![(node, 1.0)]);
     }
-    let refused = || NetworkFitError::Observed {
+    linear(network, observed).ok_or_else(|| NetworkFitError::NotLinear {
         column: observed.column.clone(),
         result: observed.text.clone(),
-    };
-    if !observed.ty.absolute {
-        return Err(refused());
-    }
-    linear(network, observed).ok_or_else(refused)
+    })
 }
 
 /// The factors of a result that is a weighted sum of temperatures of nodes. What it reads is known
@@ -209,8 +239,9 @@ fn linear(network: &Network, observed: &Observed) -> Option<Vec<(NodeId, f64)>> 
     }
     let uneven: Vec<f64> =
         (0..count).map(|i| BASE + RAISED * (1.0 + (i % 7) as f64 - (i % 3) as f64)).collect();
-    let sum: f64 = weights.iter().map(|(id, weight)| weight * uneven[id.index()]).sum();
-    let is_sum = |value: f64| (value - sum).abs() <= 1e-12 * sum.abs();
+    let terms = || weights.iter().map(|(id, weight)| weight * uneven[id.index()]);
+    let (sum, size): (f64, f64) = (terms().sum(), terms().map(f64::abs).sum());
+    let is_sum = |value: f64| (value - sum).abs() <= 1e-12 * size;
     (!weights.is_empty() && is_sum(at(&uneven, BASE)?) && is_sum(at(&uneven, 2.0 * BASE)?))
         .then_some(weights)
 }

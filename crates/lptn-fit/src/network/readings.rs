@@ -1,10 +1,10 @@
 //! What the instruments of one record read in its run.
 
-use lptn_network::{NodeId, OutputTimes, ZERO_CELSIUS};
-use lptn_solve::{Gradient, RecordedNodes, SensitiveRun, Transient};
+use lptn_network::{NodeId, OutputTimes, ParameterId};
+use lptn_solve::{Gradient, SensitiveRun, Transient};
 
 use crate::network::lag::{Followed, follow, refined};
-use crate::network::task::{MeasuredColumn, MeasuredRun, NetworkFitTask};
+use crate::network::task::{Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask};
 use crate::network::unknown::{Unknown, UnknownOf};
 
 /// The rows of a record that count, and those of its run.
@@ -48,7 +48,7 @@ impl Rows {
             stop,
             output: OutputTimes::At(between.collect()),
             tolerance,
-            record: RecordedNodes::Nodes(run.nodes()),
+            record: run.kept(),
             watch: Vec::new(),
             windows: Vec::new(),
             balance: None,
@@ -101,10 +101,15 @@ impl Reader<'_> {
         let mut slopes: Vec<Vec<f64>> = vec![Vec::new(); self.unknowns.len()];
         for column in &run.columns {
             let held = self.held(column);
-            let ideal = combined(column, |node| found.solution.temperature(node));
-            let over_zero = ideal.iter().map(|t| t - ZERO_CELSIUS).collect();
-            let followed = self.followed(over_zero, held);
-            let read = |y: &f64| ZERO_CELSIUS + held.gain * y + held.offset;
+            let ideal = match &column.of {
+                Measurand::Temperatures(of) => {
+                    combined(of, |node| found.solution.temperature(node))
+                }
+                Measurand::Result(value) => found.solution.result(value),
+            };
+            let zero = column.zero();
+            let followed = self.followed(ideal.iter().map(|x| x - zero).collect(), held);
+            let read = |y: &f64| zero + held.gain * y + held.offset;
             let model: Vec<f64> = self.picked(&followed.course).iter().map(read).collect();
             let missed = self.rows.chosen.iter().zip(&model);
             let missed = missed.map(|(&row, model)| (model - column.values[row]) / column.weight());
@@ -134,8 +139,7 @@ impl Reader<'_> {
         };
         match unknown.of {
             UnknownOf::Parameter(id) => {
-                let slopes = combined(column, |node| found.sensitivity(id, node));
-                scaled(&self.followed(slopes, held).course, held.gain)
+                scaled(&self.followed(slopes(column, id, found), held).course, held.gain)
             }
             UnknownOf::Offset { sensor, run }
                 if own(sensor) && run.is_none_or(|run| run == self.run) =>
@@ -183,10 +187,18 @@ impl Reader<'_> {
     }
 }
 
-/// The rows of the measured temperature, or of its derivative.
-fn combined(column: &MeasuredColumn, of_node: impl Fn(NodeId) -> Option<Vec<f64>>) -> Vec<f64> {
+/// How what a column measures changes with a parameter.
+fn slopes(column: &MeasuredColumn, id: ParameterId, found: &SensitiveRun) -> Vec<f64> {
+    match &column.of {
+        Measurand::Temperatures(of) => combined(of, |node| found.sensitivity(id, node)),
+        Measurand::Result(value) => found.result_slope(id, value).unwrap_or_default(),
+    }
+}
+
+/// The rows of a sum of temperatures, or of its derivative.
+fn combined(of: &[(NodeId, f64)], of_node: impl Fn(NodeId) -> Option<Vec<f64>>) -> Vec<f64> {
     let mut sum: Vec<f64> = Vec::new();
-    for &(node, factor) in &column.of {
+    for &(node, factor) in of {
         let values = of_node(node).unwrap_or_default();
         sum.resize(values.len(), 0.0);
         sum.iter_mut().zip(&values).for_each(|(sum, value)| *sum += factor * value);

@@ -151,8 +151,11 @@ impl NetworkFitTask<'_> {
             true => (0..self.runs.len()).filter(measures).map(Some).collect(),
             false => vec![None],
         };
-        let kelvin = Type::of(Dimension::TEMPERATURE);
-        let offset = |run| (UnknownOf::Offset { sensor, run }, instrument.offset, kelvin);
+        let mut columns = self.runs.iter().flat_map(|run| &run.columns);
+        let own = columns.find(|column| column.sensor == Some(sensor));
+        let dimension = own.map_or(Dimension::TEMPERATURE, |column| column.ty.dimension);
+        let offset =
+            |run| (UnknownOf::Offset { sensor, run }, instrument.offset, Type::of(dimension));
         let mut values: Vec<_> = records.into_iter().map(offset).collect();
         values.push((UnknownOf::Gain { sensor }, instrument.gain, Type::SCALAR));
         values.push((UnknownOf::Lag { sensor }, instrument.lag, Type::of(Dimension::TIME)));
