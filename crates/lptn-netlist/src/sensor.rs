@@ -154,10 +154,12 @@ impl Study for Sensor {
     }
 }
 
-/// The names of the sensors that columns of fits and inferences, and places of plans, name.
+/// The names of the sensors that columns and signals of fits and inferences, and places of plans,
+/// name.
 fn in_use(raw: &RawNetlist) -> Vec<&str> {
     let fits = ["fit", "infer"].into_iter().flat_map(|section| raw.elements(section));
-    let fits = fits.filter_map(|fit| inside(&fit.value, "column"));
+    let fits = fits.flat_map(|fit| ["column", "signal"].map(|key| inside(&fit.value, key)));
+    let fits = fits.flatten();
     let plans = raw.elements("plan").iter().filter_map(|plan| inside(&plan.value, "place"));
     let columns = fits.chain(plans).filter_map(|column| match &column.kind {
         RawKind::Table(table) => Some(&table.entries),

@@ -70,12 +70,11 @@ pub enum NetworkFitError {
     Signal { record: String, column: String } = "fit::signal",
         format!("{record}: a signal follows column `{column}`, which has fewer than two values"),
         help "take the record out, or the signal out of `signal`";
-    /// A node is to begin at what a sensor reads that is itself sought.
-    Initial { column: String, sensor: String } = "fit::initial",
-        format!("the start is read from column `{column}`, but what sensor `{sensor}` reads too much is \
-            sought"),
-        help "leave `initial` out and say in `T0` where the network begins, or write what the sensor \
-            reads too much as a plain value";
+    /// A signal is to follow what a slow sensor reads.
+    SignalLag { column: String, sensor: String } = "fit::signal_lag",
+        format!("a signal follows column `{column}`, whose sensor `{sensor}` has a lag"),
+        help "what was there before a slow sensor followed cannot be told from noise: name a sensor \
+            without `lag`, or make the place a node, whose column may have a slow sensor";
     /// A number of the study has no value.
     Plan => EvalError;
     /// The sum of squares cannot be minimised.

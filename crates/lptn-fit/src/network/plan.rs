@@ -1,11 +1,11 @@
 //! From a `[fit.NAME]` of a netlist to a task.
 
-use lptn_netlist::{FitInitial, FitRecord, FitSignal, FitStudy, Netlist, Observed, Sensor};
-use lptn_network::{AfterEnd, Course, End, Network, NodeId, SignalId, Time, ZERO_CELSIUS};
+use lptn_netlist::{FitInitial, FitRecord, FitStudy, Netlist, Observed, Sensor};
+use lptn_network::{End, Network, NodeId, Time};
 use lptn_solve::Transient;
-use lptn_units::{Interpolation, Outside, Table1};
 
 use crate::network::error::NetworkFitError;
+use crate::network::recorded::{RecordedSignal, RecordedStart};
 use crate::network::task::{Instrument, Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask};
 
 /// Searches that begin between the bounds, where the netlist does not say.
@@ -65,7 +65,7 @@ impl<'a> NetworkFitTask<'a> {
             let begun = Begun { study, record, sensors, start: settings.start };
             runs.push(MeasuredRun {
                 signals: begun.signals(network)?,
-                initial: begun.initial(&of)?,
+                initial: begun.initial(&of),
                 name: record.csv.clone(),
                 parameters,
                 settings: settings.clone(),
@@ -96,43 +96,55 @@ struct Begun<'a> {
 }
 
 impl Begun<'_> {
-    /// The courses of the signals that follow its columns: straight lines between its rows, over
-    /// gaps too, and the first and the last value before and behind them.
-    fn signals(&self, network: &Network) -> Result<Vec<(SignalId, Course)>, NetworkFitError> {
+    /// The signals that follow its columns: straight lines between its rows, over gaps too, and the
+    /// first value before them.
+    fn signals(&self, network: &Network) -> Result<Vec<RecordedSignal>, NetworkFitError> {
         let (all, times) = (network.signals(), &self.record.record.time);
-        let course = |signal: &FitSignal| {
-            let place = all.iter().position(|own| own.name == signal.name);
+        let mut found = Vec::new();
+        for own in &self.study.signals {
+            let place = all.iter().position(|signal| signal.name == own.name);
             let id = place.and_then(|place| network.signal_ids().nth(place));
-            let column = self.record.record.column(&signal.column);
-            let (Some(id), Some(column)) = (id, column) else { return Ok(None) };
+            let column = self.record.record.column(&own.column);
+            let (Some(signal), Some(column)) = (id, column) else { continue };
             let rows = times.iter().zip(&column.values).filter(|(_, value)| !value.is_nan());
-            let (mut t, mut v): (Vec<f64>, Vec<f64>) = rows.unzip();
-            if t.first().is_some_and(|first| *first > self.start) {
-                t.insert(0, self.start);
-                v.insert(0, v[0]);
+            let (mut times, mut values): (Vec<f64>, Vec<f64>) = rows.unzip();
+            let (record, column) = (self.record.csv.clone(), own.column.clone());
+            if times.len() < 2 {
+                return Err(NetworkFitError::Signal { record, column });
             }
-            let points = Table1::new(t, v, Interpolation::Linear, Outside::Hold);
-            let after = AfterEnd::Hold;
-            match points {
-                Ok(points) => Ok(Some((id, Course::Curve { points, after }))),
-                Err(_) => Err(NetworkFitError::Signal {
-                    record: self.record.csv.clone(),
-                    column: signal.column.clone(),
-                }),
+            let sensor = self.sensor(own.sensor.as_ref().or_else(|| self.sensor_of(&own.column)));
+            if let Some(slow) = sensor.map(|sensor| &self.sensors[sensor])
+                && (slow.lag.value > 0.0 || slow.lag.is_sought())
+            {
+                let sensor = slow.name.clone();
+                return Err(NetworkFitError::SignalLag { column, sensor });
             }
-        };
-        let courses: Result<Vec<_>, _> = self.study.signals.iter().map(course).collect();
-        Ok(courses?.into_iter().flatten().collect())
+            if times[0] > self.start {
+                times.insert(0, self.start);
+                values.insert(0, values[0]);
+            }
+            found.push(RecordedSignal { signal, ty: own.ty, times, values, sensor });
+        }
+        Ok(found)
+    }
+
+    /// A column that is compared has one instrument, whatever else follows it.
+    fn sensor_of(&self, column: &str) -> Option<&String> {
+        self.study.observed.iter().find(|observed| observed.column == column)?.sensor.as_ref()
+    }
+
+    fn sensor(&self, name: Option<&String>) -> Option<usize> {
+        self.sensors.iter().position(|sensor| Some(&sensor.name) == name)
     }
 
     /// Where the nodes begin whose temperature a column measures.
-    fn initial(&self, of: &[Measurand]) -> Result<Vec<(NodeId, f64)>, NetworkFitError> {
+    fn initial(&self, of: &[Measurand]) -> Vec<RecordedStart> {
         let long = match self.study.initial {
-            FitInitial::Network => return Ok(Vec::new()),
+            FitInitial::Network => return Vec::new(),
             FitInitial::First => 0.0,
             FitInitial::Mean(seconds) => seconds,
         };
-        let mut found: Vec<(NodeId, f64)> = Vec::new();
+        let mut found: Vec<RecordedStart> = Vec::new();
         for (observed, of) in self.study.observed.iter().zip(of) {
             let Measurand::Temperatures(of) = of else { continue };
             let ([(node, factor)], true) = (of.as_slice(), observed.ty.absolute) else { continue };
@@ -143,24 +155,13 @@ impl Begun<'_> {
             let Some(first) = rows.peek().map(|(time, _)| **time) else { continue };
             let values: Vec<f64> =
                 rows.take_while(|(time, _)| **time <= first + long).map(|(_, v)| *v).collect();
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            if found.iter().all(|(other, _)| other != node) {
-                found.push((*node, self.behind(observed, mean)?));
+            let reading = values.iter().sum::<f64>() / values.len() as f64;
+            if found.iter().all(|other| other.node != *node) {
+                let sensor = self.sensor(observed.sensor.as_ref());
+                found.push(RecordedStart { node: *node, reading, sensor });
             }
         }
-        Ok(found)
-    }
-
-    /// The temperature of which a column's instrument reads this, in K.
-    fn behind(&self, observed: &Observed, reading: f64) -> Result<f64, NetworkFitError> {
-        let own = |sensor: &&Sensor| observed.sensor.as_ref() == Some(&sensor.name);
-        let Some(sensor) = self.sensors.iter().find(own) else { return Ok(reading) };
-        if sensor.offset.is_sought() || sensor.gain.is_sought() {
-            let (column, sensor) = (observed.column.clone(), sensor.name.clone());
-            return Err(NetworkFitError::Initial { column, sensor });
-        }
-        let over_zero = (reading - ZERO_CELSIUS - sensor.offset.value) / sensor.gain.value;
-        Ok(ZERO_CELSIUS + over_zero)
+        found
     }
 }
 

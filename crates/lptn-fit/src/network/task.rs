@@ -3,9 +3,11 @@
 use std::fmt;
 
 use lptn_netlist::{Sensor, SensorValue};
-use lptn_network::{Course, Network, NodeId, Parameters, SignalId, Value, Varied, ZERO_CELSIUS};
+use lptn_network::{Network, NodeId, Parameters, Value, Varied, ZERO_CELSIUS};
 use lptn_solve::{Proceed, Progress, RecordedNodes, Transient};
 use lptn_units::Type;
+
+use crate::network::recorded::{RecordedSignal, RecordedStart};
 
 /// A fit of parameters of a network to records of its temperatures and heat flows.
 #[derive(Clone, Debug)]
@@ -57,9 +59,9 @@ pub struct MeasuredRun {
     /// [`Network::overrides`].
     pub parameters: Parameters,
     /// The courses of signals that the record has measured.
-    pub signals: Vec<(SignalId, Course)>,
-    /// Nodes that begin at another temperature than the network says, in K.
-    pub initial: Vec<(NodeId, f64)>,
+    pub signals: Vec<RecordedSignal>,
+    /// Nodes that begin at another temperature than the network says.
+    pub initial: Vec<RecordedStart>,
     /// Start and controls of the run; its stop, rows and tolerance follow from the record.
     pub settings: Transient,
     /// The times of the rows in s, ascending, on the clock of the run: none before its start, at
@@ -166,6 +168,13 @@ impl MeasuredRun {
         nodes.sort_unstable();
         nodes.dedup();
         nodes
+    }
+
+    /// The type of what an instrument read in it, if it did.
+    pub(crate) fn reads(&self, sensor: usize) -> Option<Type> {
+        let columns = self.columns.iter().map(|column| (column.sensor, column.ty));
+        let signals = self.signals.iter().map(|signal| (signal.sensor, signal.ty));
+        columns.chain(signals).find(|(own, _)| *own == Some(sensor)).map(|(_, ty)| ty)
     }
 
     /// What has to be kept of its run.

@@ -145,12 +145,14 @@ pub(crate) fn record_place<'s>(study: &'s FitStudy, error: &NetworkFitError) -> 
     match error {
         NetworkFitError::Observed { column, .. }
         | NetworkFitError::NotLinear { column, .. }
-        | NetworkFitError::Units { column, .. }
-        | NetworkFitError::Initial { column, .. } => study
+        | NetworkFitError::Units { column, .. } => study
             .observed
             .iter()
             .find(|observed| observed.column == *column)
             .map(|observed| &observed.span),
+        NetworkFitError::SignalLag { column, .. } => {
+            study.signals.iter().find(|signal| signal.column == *column).map(|signal| &signal.span)
+        }
         NetworkFitError::Times { record, .. }
         | NetworkFitError::Start { record, .. }
         | NetworkFitError::Signal { record, .. } => {
