@@ -137,6 +137,19 @@ fn analytic_a_start_moves_with_the_offset_of_its_sensor() {
     assert!((gain.parameters[2].value - 1.01).abs() < 1e-7, "{}", gain.parameters[2].value);
 }
 
+/// Two states of rest do not tell R, an offset and a gain: that is an answer, and no search that
+/// went astray.
+#[test]
+fn what_no_start_tells_is_not_determined() {
+    let more = format!(
+        "column = {{ ring = {{ of = \"body.T\", sensor = \"tc\" }} }}\n{BOTH}\ninitial = \"record\""
+    );
+    let sensor = "[sensor]\ntc = { offset = \"free\", gain = \"free\" }";
+    let fit = fitted(&read_by((&more, sensor), &WARM, |ring| 1.01 * ring + 2.0, 0.0)).unwrap();
+    let known = fit.identifiability.unwrap();
+    assert_eq!((fit.not_converged, known.is_whole(), known.rank), (None, false, 3), "{known:?}");
+}
+
 /// The hall reads 1.7 K too much: taken off what the signal follows where it is known, and found
 /// where it is not, for the body begins at a temperature that is known.
 #[test]

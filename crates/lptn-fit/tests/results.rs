@@ -153,6 +153,16 @@ fn columns_that_cannot_be_compared_are_refused() {
     assert_eq!(error.code(), "fit::units");
     let error = fit("column = { q = \"P\" }").unwrap_err();
     assert_eq!(error.code(), "fit::observed");
+    // ln 0 at the start: refused where something was measured there, and a gap otherwise
+    let tell = |first: &str| {
+        let csv = record("n", |_, q| vec![f64::ln(0.1 * q)]).replace("-inf", first);
+        let text =
+            "[fit.all]\ndata = \"r.csv\"\nvary = [\"P\"]\ncolumn.n = \"ln(inner.Q * R1 / 1 [K])\"";
+        let netlist = netlist("", text, &csv.replace("n\n", "n [1]\n"));
+        fitted(&netlist)
+    };
+    assert_eq!(tell("-9").unwrap_err().code(), "fit::no_value");
+    near(tell("").unwrap().parameters[0].value, POWER * 0.1 / 0.13, 1e-6);
     // alone, heat is compared by the watt
     near(fit("column = { q = \"outer.Q\" }").unwrap().parameters[0].value, POWER, 1e-6);
 }

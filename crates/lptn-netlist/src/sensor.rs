@@ -275,6 +275,12 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::sensor_prior", message, &raw.span, help);
             return None;
         }
+        if key == "gain" && text.ends_with('%') && percent_of(text).is_none() {
+            let message = format!("{} is {text}, and a gain is near 1", fields.owner.field(key));
+            let help = format!("a gain that is known to {text} is `gain = \"1 ± {text}\"`");
+            self.refuse("netlist::sensor_value", message, &raw.span, &help);
+            return None;
+        }
         let quantity = match percent_of(text).map_or_else(|| parse_quantity(text, Some(ty)), Ok) {
             Ok(quantity) => quantity,
             Err(error) => {

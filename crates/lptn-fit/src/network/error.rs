@@ -66,6 +66,11 @@ pub enum NetworkFitError {
         format!("columns are in {} and in {}, and column `{column}` has no `sigma`: without it there \
             is no saying what counts how much", units[0], units[1]),
         help "write how far one value of each column scatters: `{ of = \"skin.Q\", sigma = \"2 W\" }`";
+    /// What a column measures has no value at this time in s, although something was measured.
+    NoValue { record: String, column: String, time: f64 } = "fit::no_value",
+        format!("{record}: what column `{column}` measures has no value at {time} s"),
+        help "look for a root or a logarithm of what is 0 or less there, or for a result that is not \
+            there yet; rows without a value in the column are left out";
     /// A column of a record, which a signal is to follow, has fewer than two values.
     Signal { record: String, column: String } = "fit::signal",
         format!("{record}: a signal follows column `{column}`, which has fewer than two values"),

@@ -43,6 +43,15 @@ impl NetworkFitTask<'_> {
     }
 }
 
+impl NetworkFitTask<'_> {
+    /// Whether some of what is sought changes runs by their starts or inputs, so that its
+    /// derivatives are differences.
+    pub(crate) fn has_inputs_sought(&self, unknowns: &[Unknown]) -> bool {
+        let changes = |run: usize, unknown: &Unknown| self.runs[run].change(run, unknown).is_some();
+        (0..self.runs.len()).any(|run| unknowns.iter().any(|unknown| changes(run, unknown)))
+    }
+}
+
 impl MeasuredRun {
     /// The instruments on which the run itself depends.
     pub(crate) fn behind(&self) -> impl Iterator<Item = usize> + '_ {

@@ -120,6 +120,24 @@ impl<'a> Model<'a> {
         self.blocks.iter().map(of).sum::<f64>().sqrt()
     }
 
+    /// That what a column measures had no value where something was measured, in what was computed
+    /// last: that of an expression may have none.
+    pub(crate) fn without_value(&self) -> Option<NetworkFitError> {
+        let last = self.last.as_ref()?;
+        self.blocks.iter().find_map(|block| {
+            let run = &self.task.runs[block.run];
+            let column = &run.columns[block.column];
+            let rows = self.rows[block.run].chosen.iter().zip(&last.modelled[block.rows.clone()]);
+            let mut lost =
+                rows.filter(|(row, model)| !column.values[**row].is_nan() && !model.is_finite());
+            lost.next().map(|(&row, _)| NetworkFitError::NoValue {
+                record: run.name.clone(),
+                column: column.name.clone(),
+                time: run.times[row],
+            })
+        })
+    }
+
     /// Residuals and derivatives for values in SI units; the record whose run failed, and why.
     pub(crate) fn at(&mut self, values: &[f64]) -> Result<&Evaluated, (usize, SensitiveError)> {
         if self.last.as_ref().is_none_or(|last| last.values != values) {

@@ -110,9 +110,10 @@ impl Reader<'_> {
             let followed = self.followed(ideal.iter().map(|x| x - zero).collect(), held);
             let read = |y: &f64| zero + held.gain * y + held.offset;
             let model: Vec<f64> = self.picked(&followed.course).iter().map(read).collect();
-            let missed = self.rows.chosen.iter().zip(&model);
-            let missed = missed.map(|(&row, model)| (model - column.values[row]) / column.weight());
-            measure.residuals.extend(missed.filter(|residual| !residual.is_nan()));
+            let rows = self.rows.chosen.iter().zip(&model);
+            let rows = rows.filter(|(row, _)| !column.values[**row].is_nan());
+            let missed = rows.map(|(&row, model)| (model - column.values[row]) / column.weight());
+            measure.residuals.extend(missed);
             measure.modelled.extend_from_slice(&model);
             for (i, all) in slopes.iter_mut().enumerate() {
                 let mut slope = self.slope((&self.unknowns[i], column), (held, &followed), found);

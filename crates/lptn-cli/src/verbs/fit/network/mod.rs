@@ -145,6 +145,7 @@ pub(crate) fn record_place<'s>(study: &'s FitStudy, error: &NetworkFitError) -> 
     match error {
         NetworkFitError::Observed { column, .. }
         | NetworkFitError::NotLinear { column, .. }
+        | NetworkFitError::NoValue { column, .. }
         | NetworkFitError::Units { column, .. } => study
             .observed
             .iter()
