@@ -3,10 +3,8 @@
 //! Nothing is kept but the state at the last row, so a record may go on forever. Each row is linear
 //! near what was known at the one before it (extended Kalman filter).
 
-use lptn_network::{AfterEnd, Course, SignalId};
 use lptn_solve::Proceed;
 use lptn_units::statistics::NORMAL_95;
-use lptn_units::{Interpolation, Outside, Table1};
 
 use crate::infer::error::InferError;
 use crate::infer::inferred::{Band, Known};
@@ -17,6 +15,7 @@ use crate::infer::rounds::{begun, checked};
 use crate::infer::strength::Strength;
 use crate::infer::task::{InferTask, Start};
 use crate::kalman::{Filter, Gaussian};
+use crate::network::RecordedSignal;
 
 /// One row of a record.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,26 +140,19 @@ impl<'a> Follower<'a> {
         }
         let start = task.run.settings.start;
         let first = if task.start == Start::Known { start.min(times[0]) } else { times[0] };
-        let signals = task.run.signals.iter().enumerate();
-        task.run.signals =
-            signals.map(|(i, (id, _))| (*id, course((*id, i), first, rows))).collect();
+        let signals = task.run.signals.iter_mut().enumerate();
+        signals.for_each(|(i, signal)| course(signal, i, (first, rows)));
         task
     }
 }
 
-/// Straight lines between rows; the value of the first before them.
-fn course((_, place): (SignalId, usize), first: f64, rows: &[&Row]) -> Course {
+/// What was read in the rows; the value of the first before them.
+fn course(signal: &mut RecordedSignal, place: usize, (first, rows): (f64, &[&Row])) {
     let rows = rows.iter().filter(|row| !row.signals[place].is_nan());
-    let (mut times, mut values): (Vec<f64>, Vec<f64>) =
-        rows.map(|row| (row.time, row.signals[place])).unzip();
-    if times.first().is_some_and(|time| *time > first) {
-        times.insert(0, first);
-        values.insert(0, values[0]);
-    }
-    let points = Table1::new(times.clone(), values.clone(), Interpolation::Linear, Outside::Hold);
-    match points {
-        Ok(points) => Course::Curve { points, after: AfterEnd::Hold },
-        Err(_) => Course::Steps { times, values, after: AfterEnd::Hold },
+    (signal.times, signal.values) = rows.map(|row| (row.time, row.signals[place])).unzip();
+    if signal.times.first().is_some_and(|time| *time > first) {
+        signal.times.insert(0, first);
+        signal.values.insert(0, signal.values[0]);
     }
 }
 
@@ -230,7 +222,7 @@ fn carried(
     let mut moved = vec![0.0; mean.len()];
     for (column, _) in &states.slow {
         let Some(place) = states.shown(*column) else { continue };
-        let of = task.run.columns[*column].of.iter();
+        let of = task.run.columns[*column].nodes().iter();
         let there: f64 = of.map(|(id, factor)| factor * temperature(id.index())).sum();
         moved[place] = model.shown[*column][k] + mean[place] - there;
     }
