@@ -56,6 +56,10 @@ pub enum InferError {
             "write it, `find = {{ {signal} = {{ change = \"50 W\", within = \"1 min\" }} }}`: without \
              --follow `lptn infer` finds it from a whole record"
         );
+    /// Jumps are seen by what comes behind them.
+    Jumps { signal: String } = "infer::jumps",
+        format!("rows are answered as they come, and where `{signal}` jumps is seen behind it only"),
+        help "leave `jumps` out: a surprise beyond 5 tells that something has jumped";
     /// The noise of a column has to be said.
     Noise { column: String } = "infer::noise",
         format!("rows are answered as they come, so the noise of column `{column}` has to be said"),

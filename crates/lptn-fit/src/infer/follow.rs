@@ -12,6 +12,7 @@ use crate::infer::model::{Model, coordinates};
 use crate::infer::prior::Begins;
 use crate::infer::reference::{Moments, Reference};
 use crate::infer::rounds::{begun, checked};
+use crate::infer::strength::Strength;
 use crate::infer::task::{InferTask, Start};
 use crate::kalman::{Filter, Gaussian};
 use crate::network::RecordedSignal;
@@ -71,6 +72,9 @@ impl<'a> Follower<'a> {
         checked(&task)?;
         if let Some(sought) = task.sought.iter().find(|sought| sought.intensity.is_none()) {
             return Err(InferError::Smoothness { signal: sought.name.clone() });
+        }
+        if let Some(sought) = task.sought.iter().find(|sought| sought.jumps) {
+            return Err(InferError::Jumps { signal: sought.name.clone() });
         }
         if let Some(column) = task.run.columns.iter().find(|column| column.sigma.is_none()) {
             return Err(InferError::Noise { column: column.name.clone() });
@@ -159,12 +163,12 @@ fn step(
     (filter, k): (&mut Filter, usize),
     time: f64,
 ) -> Followed {
-    let intensities: Vec<f64> =
-        task.sought.iter().flat_map(|sought| [sought.intensity.unwrap_or(0.0), 0.0]).collect();
-    let columns = task.run.columns.iter();
-    let sigmas: Vec<f64> = columns.map(|column| column.sigma.unwrap_or(1.0)).collect();
-    let mut surprises = vec![f64::NAN; sigmas.len()];
-    for (column, innovation) in model.advance(filter, k, (&intensities, &sigmas)) {
+    let walks = task.sought.iter().flat_map(|sought| [sought.intensity.unwrap_or(0.0), 0.0]);
+    let sigmas = task.run.columns.iter().map(|column| column.sigma.unwrap_or(1.0));
+    let strength =
+        Strength { intensities: walks.collect(), sigmas: sigmas.collect(), jumps: Vec::new() };
+    let mut surprises = vec![f64::NAN; strength.sigmas.len()];
+    for (column, innovation) in model.advance(filter, k, &strength) {
         surprises[column] = innovation.residual / innovation.variance.sqrt();
     }
     let state = filter.state();

@@ -3,6 +3,7 @@
 use lptn_assembly::{ChangeError, ThermalSystem};
 
 use crate::infer::error::InferError;
+use crate::infer::jumps::most_likely;
 use crate::infer::model::{Model, coordinates};
 use crate::infer::prior::Begins;
 use crate::infer::reference::{InferObserver, Moments, Reference};
@@ -49,10 +50,10 @@ pub(crate) fn settle(
     let mut strength = Strength::guess(task, &model);
     for round in 1..=MOST {
         if round <= SEARCHED {
-            let start = (strength.revived(task, &model), round == 1);
-            strength = Strength::most_likely((task, &model), start);
+            let start = (&strength.revived(task, &model), round == 1);
+            strength = most_likely((task, &model), start);
         }
-        let (smoother, _) = model.smoothed(&strength.intensities, &strength.sigmas);
+        let (smoother, _) = model.smoothed(&strength);
         let smoothed = smoother.smoothed();
         let mut next = moved((task, &begins), (&reference, &model), &smoothed, 1.0);
         let far = distance((task, &model), (&reference, &next), &smoothed);

@@ -27,6 +27,7 @@ impl<'a> InferTask<'a> {
                 name: sought.name.clone(),
                 positive: sought.positive,
                 intensity: change.map(|change| change * change),
+                jumps: sought.jumps,
             })
         };
         let sought = study.sought.iter().zip(changes).filter_map(sought).collect();

@@ -45,6 +45,8 @@ pub struct Sought {
     /// Variance of the walk per s, in SI units squared per s or, for a logarithm, 1/s; `None` for
     /// the value that makes the record most likely.
     pub intensity: Option<f64>,
+    /// Whether it may jump where the record says so.
+    pub jumps: bool,
 }
 
 /// What is known of the temperatures at the start.
