@@ -4,6 +4,7 @@ mod args;
 mod figure;
 mod law;
 mod network;
+mod posterior;
 mod step;
 
 pub(crate) use args::FitArgs;
