@@ -164,3 +164,60 @@ fn what_is_no_posterior_is_refused() {
     let words = ["compare", "gearbox.toml", "--posterior", "res/posterior.json"];
     folder.run(&words).exits(2).says("posterior::nothing");
 }
+
+/// Points of a loss over the speed, with standard errors.
+const POINTS: &str = "omega [rpm],P [W],P_sd [W]\n1000,9.4,0.5\n1000,8.1,0.5\n2000,26.9,0.6\n\
+    3000,55.6,0.8\n4000,86.5,1.0\n5000,128,1.4\n6000,172,1.8\n7000,224,2.2\n";
+
+/// A body that loses what the law says at 7000 rpm, settled.
+const DRIVEN: &str = "format = 1\n[param]\nalpha = \"1 mW/(rad/s)^(5/3)\"\nbeta = \"1 mW/(rad/s)\"\n\
+    omega = \"7000 rpm\"\n[node]\nbody = { C = \"2 kJ/K\", T0 = \"25 degC\" }\n[boundary]\nroom = { T \
+    = \"25 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"room\", R = \"0.3 K/W\" }\n[source]\n\
+    heat = { into = \"body\", P = \"alpha * omega^(5/3) + beta * omega\" }\n[run]\nstop = \"6 h\"\n\
+    output = { every = \"1 h\" }\n";
+
+/// Values, standard errors and correlation are those of weighted least squares by NumPy (`inv(A^T A)`
+/// times chi^2 over degrees of freedom), half widths those with SciPy's quantile of Student's t; the
+/// standard deviation of the settled body is `R` times that of the power at 7000 rpm.
+#[test]
+fn a_law_is_carried_on_under_the_names_of_its_coefficients() {
+    let folder = Folder::with("points.csv", POINTS);
+    folder.write("driven.toml", DRIVEN);
+    let law = ["fit", "law", "points.csv", "--law", "alpha * omega^(5/3) + beta * omega"];
+    let written = [&law[..], &["--posterior", "law.json"]].concat();
+    folder.run(&written).exits(0).says("law.json");
+    let posterior: Value = serde_json::from_str(&folder.read("law.json")).unwrap();
+    let near = |found: &Value, expected: f64| {
+        let found = number(found);
+        assert!((found / expected - 1.0).abs() < 1e-5, "{found} {expected}");
+    };
+    let of = |i: usize, key: &str| &posterior["quantities"][i][key];
+    assert_eq!((of(0, "name"), of(1, "name")), (&"alpha".into(), &"beta".into()));
+    near(of(0, "value"), 3.761_09e-3);
+    near(of(0, "standard_error"), 7.423_912_05e-5);
+    near(of(1, "standard_error"), 4.296_028_28e-3);
+    near(of(1, "half_width_95"), 0.010_512);
+    near(of(1, "degrees_of_freedom"), 6.0);
+    near(&posterior["correlation"][0][1], -0.952_104_12);
+    let omega = 7000.0 * std::f64::consts::PI / 30.0;
+    let slopes = [0.3 * f64::powf(omega, 5.0 / 3.0), 0.3 * omega];
+    let [a, b] = [slopes[0] * 7.423_912_05e-5, slopes[1] * 4.296_028_28e-3];
+    let expected = (a * a + b * b - 2.0 * 0.952_104_12 * a * b).sqrt();
+    let run = ["run", "driven.toml", "--posterior", "law.json", "--uncertainty", "linear"];
+    let ran = folder.run(&[&run[..], &["--format", "json", "--no-files"]].concat()).exits(0);
+    // six degrees of freedom are fewer than a normal distribution stands for
+    let ran = ran.says("posterior::few_degrees").says("posterior::other_network");
+    near(&ran.json()["uncertainty"]["results"]["body.T"]["end"]["sd"]["value"], expected);
+    // names that the netlist does not have, no law, two laws, a folder
+    let other = law.map(|word| if word.contains("alpha") { "gamma * omega^(5/3)" } else { word });
+    folder.run(&[&other[..], &["--posterior", "gamma.json"]].concat()).exits(0);
+    let run = run.map(|word| if word == "law.json" { "gamma.json" } else { word });
+    folder.run(&run).exits(2).says("posterior::unknown");
+    let two = [&written[..], &["--law", "a * omega"]].concat();
+    folder.run(&two).exits(2).says("fit::law_posterior");
+    let records = written.iter().map(|word| if *word == "points.csv" { "." } else { word });
+    folder.run(&records.collect::<Vec<_>>()).exits(2).says("fit::law_posterior");
+    let exact = "omega [rpm],P [W]\n1000,1\n2000,2\n";
+    folder.write("points.csv", exact);
+    folder.run(&written).says("no posterior is written");
+}

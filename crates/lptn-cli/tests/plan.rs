@@ -53,7 +53,7 @@ fn what_cannot_be_planned_is_said() {
         .replace("run = { hot = {}, cold = { set = { P = \"50 W\" } } }\n", "")
         .replace("of = \"body.T\"", "of = \"R * 1 [W] + body.T\"");
     let ran = Folder::with("body.toml", &no_run).run(&["plan", "body.toml"]).exits(2);
-    ran.says("fit::observed");
+    ran.says("fit::not_linear");
 }
 
 /// One step of unknown power does not tell P, R and C apart; with a `±` of C it tells P as well as

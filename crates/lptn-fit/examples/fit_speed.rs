@@ -4,10 +4,13 @@
 //! `cargo run --release -p lptn-study --example fit_speed`, under `time` for the CPU.
 #![allow(clippy::print_stdout, reason = "an example")]
 
-use lptn_fit::network::{MeasuredColumn, MeasuredRun, NetworkFitTask, Varied, fit_network};
+use lptn_fit::network::{
+    Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask, Varied, fit_network,
+};
 use lptn_netlist::parse;
 use lptn_network::Time;
 use lptn_solve::Transient;
+use lptn_units::Type;
 
 const GEARBOX: &str = "format = 1
 [param]
@@ -39,7 +42,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let of = vec![(network.node(node)?, 1.0)];
         Ok(MeasuredColumn {
             name: node.into(),
-            of,
+            of: Measurand::Temperatures(of),
+            ty: Type::ABSOLUTE_TEMPERATURE,
             sensor: None,
             sigma: Some(0.1),
             values: times.iter().map(shown).collect(),

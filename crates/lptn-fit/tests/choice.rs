@@ -164,7 +164,7 @@ fn analytic_of_a_single_record_the_last_third_is_foretold() {
     assert!(poor.behind.unwrap().interval.is_none() && choice.is_told(0));
     let apart = poor.apart.unwrap();
     assert!(apart.time < 1e-9, "{apart:?}");
-    near(apart.kelvin, 0.643_431_91, 1e-6);
+    near(apart.by, 0.643_431_91, 1e-6);
 }
 
 /// A resistance that is right as it is makes nothing better, so the records do not tell it.

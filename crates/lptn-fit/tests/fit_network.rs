@@ -5,12 +5,13 @@
 
 use lptn_fit::least_squares::Side;
 use lptn_fit::network::{
-    CombinationKind, MeasuredColumn, MeasuredRun, NetworkFitError, NetworkFitTask, Varied,
-    fit_network,
+    CombinationKind, Measurand, MeasuredColumn, MeasuredRun, NetworkFitError, NetworkFitTask,
+    Varied, fit_network,
 };
 use lptn_netlist::{Netlist, parse};
 use lptn_network::Time;
 use lptn_solve::{Gradient, Transient};
+use lptn_units::Type;
 
 const CELSIUS: f64 = 273.15;
 
@@ -78,7 +79,8 @@ fn record(netlist: &Netlist, (node, values): (&str, &[f64]), set: &[(&str, &str)
         times: every_50_s(values.len()),
         columns: vec![MeasuredColumn {
             name: node.to_owned(),
-            of: vec![(netlist.network.node(node).unwrap(), 1.0)],
+            of: Measurand::Temperatures(vec![(netlist.network.node(node).unwrap(), 1.0)]),
+            ty: Type::ABSOLUTE_TEMPERATURE,
             sensor: None,
             sigma: None,
             values: values.iter().map(|t| t + CELSIUS).collect(),

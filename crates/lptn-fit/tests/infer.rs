@@ -337,6 +337,64 @@ fn what_cannot_be_inferred_is_refused() {
     let task = InferTask::of(&netlist, &netlist.studies.infers[0]).unwrap();
     let open = Follower::new(task).unwrap_err();
     assert!(matches!(open, InferError::Smoothness { .. }), "{open}");
+    let jumps = WALK.replace("min\"", "min\", jumps = true");
+    let netlist = body(&format!("sigma = \"0.1 K\"\nfind = {jumps}"), &csv);
+    let task = InferTask::of(&netlist, &netlist.studies.infers[0]).unwrap();
+    assert!(matches!(Follower::new(task).unwrap_err(), InferError::Jumps { .. }));
     let short = body("sigma = \"0.1 K\"\nfind = [\"P\"]", "t [s],tc [degC]\n0,25\n");
     assert!(matches!(inferred(&short).unwrap_err(), InferError::Short));
+}
+
+/// A bench that holds one load after the other, 5 minutes each at least.
+fn held(t: f64) -> f64 {
+    let loads = [100.0, 220.0, 220.0, 60.0, 150.0, 150.0, 200.0, 30.0, 30.0, 120.0];
+    loads[((t / 300.0) as usize).min(9)]
+}
+
+const OPEN: &str = "sigma = \"0.1 K\"\nfind = [\"P\"]";
+
+/// SciPy 1.11: generalised least squares of the same record with jumps at the six moments of the
+/// truth, each beside a shift of temperature of which nothing is known, since a jump may come
+/// anywhere between two rows.
+#[test]
+fn reference_held_loads_are_known_by_their_jumps() {
+    let bench = Bench { every: 5.0, rows: 600, sigma: 0.1 };
+    let course = bench.course(held);
+    let csv = bench.csv(&course, 2);
+    let found = inferred(&body(OPEN, &csv)).unwrap();
+    let expected = [
+        (300.0, 120.666_542_94, 0.266_795_64),
+        (900.0, -160.520_514_83, 0.424_423_22),
+        (1200.0, 90.387_175_35, 0.424_423_22),
+        (1800.0, 50.141_626_29, 0.424_423_22),
+        (2100.0, -170.021_069_98, 0.424_423_22),
+        (2700.0, 90.378_849_27, 0.433_937_55),
+    ];
+    assert_eq!(found.jumps.len(), expected.len());
+    for (jump, (moment, by, deviation)) in found.jumps.iter().zip(expected) {
+        assert!(jump.between.0 <= moment && moment <= jump.between.1, "{jump:?}");
+        near(jump.by.value, by, 0.3 * deviation);
+        near(jump.by.deviation, deviation, 0.05 * deviation);
+    }
+    let smooth = "sigma = \"0.1 K\"\nfind = { P = { jumps = false } }";
+    let smooth = inferred(&body(smooth, &csv)).unwrap();
+    assert!(smooth.jumps.is_empty());
+    let width = |found: &Inferred| half(found.courses[0].band[90].ends);
+    assert!(width(&smooth) > 10.0 * width(&found), "{} {}", width(&smooth), width(&found));
+}
+
+/// Records in which nothing jumps: the price of a jump allows for 2 of 40.
+#[test]
+fn chance_does_not_jump() {
+    let bench = Bench { every: 5.0, rows: 120, sigma: 0.1 };
+    let ramp = |t: f64| 50.0 + 0.3 * t;
+    for truth in [&(|_| 220.0) as &(dyn Fn(f64) -> f64 + Sync), &ramp] {
+        let course = bench.course(truth);
+        let seeds: Vec<u32> = (0..40).collect();
+        let jumps = in_parallel(&seeds, available_threads(), |&seed| {
+            inferred(&body(OPEN, &bench.csv(&course, seed))).unwrap().jumps.len()
+        });
+        let records = jumps.iter().filter(|jumps| **jumps > 0).count();
+        assert!(records <= 2, "{records}");
+    }
 }

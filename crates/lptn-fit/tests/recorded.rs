@@ -3,8 +3,10 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+use lptn_fit::infer::{InferError, InferTask};
 use lptn_fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, fit_network};
 use lptn_netlist::{Netlist, parse_with};
+use lptn_solve::Proceed;
 
 /// A body of 0.3 K/W and 2659 J/K in a room that warms evenly from `room` by `rate`, heated by
 /// `power` W, that begins `above` it.
@@ -37,6 +39,17 @@ impl Run {
 }
 
 fn netlist(more: &str, sensor: &str, records: &[Run]) -> Netlist {
+    read_by((more, sensor), records, |ring| ring, 0.0)
+}
+
+/// The records as instruments give them: one makes `ring` of what is there in degC, one reads `hall`
+/// too much.
+fn read_by(
+    (more, sensor): (&str, &str),
+    records: &[Run],
+    ring: impl Fn(f64) -> f64,
+    hall: f64,
+) -> Netlist {
     let names: Vec<String> = (0..records.len()).map(|k| format!("\"{k}.csv\"")).collect();
     let text = format!(
         "format = 1\n[param]\nR = \"0.25 K/W\"\nC = \"2 kJ/K\"\n[signal]\nhall = \"25 degC\"\n\
@@ -48,7 +61,15 @@ fn netlist(more: &str, sensor: &str, records: &[Run]) -> Netlist {
     );
     let record = |path: &std::path::Path| -> std::io::Result<Vec<u8>> {
         let name = path.file_stem().unwrap().to_str().unwrap().to_owned();
-        Ok(records[name.parse::<usize>().unwrap()].csv().into_bytes())
+        let csv = records[name.parse::<usize>().unwrap()].csv();
+        let read = |line: &str| {
+            let cells: Vec<f64> = line.split(',').map_while(|cell| cell.parse().ok()).collect();
+            match cells.as_slice() {
+                [t, r, h, p] => format!("{t},{},{},{p}\n", ring(*r), h + hall),
+                _ => format!("{line}\n"),
+            }
+        };
+        Ok(csv.lines().map(read).collect::<String>().into_bytes())
     };
     parse_with("body.toml", &text, &mut |path| record(path))
         .unwrap_or_else(|rejected| panic!("{rejected}"))
@@ -89,14 +110,92 @@ fn analytic_a_run_begins_where_its_record_does() {
     is_truth(&fitted(&netlist(&mean, "", &WARM)).unwrap());
 }
 
+const BOTH: &str = "signal = { hall = \"hall\", heat = \"heat\" }";
+
+/// The start moves with what its sensor reads too much. Everything is relative to the hall, which is
+/// known, so a body that comes to rest tells both.
 #[test]
-fn a_start_is_not_read_from_a_sensor_that_is_sought() {
-    let more = "column = { ring = { of = \"body.T\", sensor = \"tc\" } }\n\
-                signal = { hall = \"hall\", heat = \"heat\" }\ninitial = \"record\"";
-    let sensor = |offset: &str| format!("[sensor]\ntc = {{ offset = \"{offset}\" }}");
-    let error = fitted(&netlist(more, &sensor("0 ± 3 K"), &WARM)).unwrap_err();
-    assert_eq!(error.code(), "fit::initial");
-    is_truth(&fitted(&netlist(more, &sensor("0 K"), &WARM)).unwrap());
+fn analytic_a_start_moves_with_the_offset_of_its_sensor() {
+    let more = format!(
+        "column = {{ ring = {{ of = \"body.T\", sensor = \"tc\" }} }}\n{BOTH}\ninitial = \"record\""
+    );
+    let fit = |sensor: &str, ring: fn(f64) -> f64| {
+        let sensor = format!("[sensor]\ntc = {{ {sensor} }}");
+        fitted(&read_by((&more, &sensor), &WARM, ring, 0.0)).unwrap()
+    };
+    is_truth(&fit("offset = \"0 K\"", |ring| ring));
+    is_truth(&fit("offset = \"2 K\"", |ring| ring + 2.0));
+    let free = fit("offset = \"free\"", |ring| ring + 2.0);
+    is_truth(&free);
+    assert!((free.parameters[2].value - 2.0).abs() < 1e-5, "{}", free.parameters[2].value);
+    // a `±` of 3 K, known to 0.01 K or so, pulls by less than 1e-5 of itself
+    let known = fit("offset = \"0 ± 3 K\"", |ring| ring + 2.0);
+    assert!((known.parameters[2].value - 2.0).abs() < 1e-4, "{}", known.parameters[2].value);
+    // two states of rest tell two numbers: R and the gain, beside an offset that is known
+    let gain = fit("offset = \"2 K\", gain = \"free\"", |ring| 1.01 * ring + 2.0);
+    is_truth(&gain);
+    assert!((gain.parameters[2].value - 1.01).abs() < 1e-7, "{}", gain.parameters[2].value);
+}
+
+/// Two states of rest do not tell R, an offset and a gain: that is an answer, and no search that
+/// went astray.
+#[test]
+fn what_no_start_tells_is_not_determined() {
+    let more = format!(
+        "column = {{ ring = {{ of = \"body.T\", sensor = \"tc\" }} }}\n{BOTH}\ninitial = \"record\""
+    );
+    let sensor = "[sensor]\ntc = { offset = \"free\", gain = \"free\" }";
+    let fit = fitted(&read_by((&more, sensor), &WARM, |ring| 1.01 * ring + 2.0, 0.0)).unwrap();
+    let known = fit.identifiability.unwrap();
+    assert_eq!((fit.not_converged, known.is_whole(), known.rank), (None, false, 3), "{known:?}");
+}
+
+/// The hall reads 1.7 K too much: taken off what the signal follows where it is known, and found
+/// where it is not, for the body begins at a temperature that is known.
+#[test]
+fn analytic_a_signal_follows_what_its_sensor_was_exposed_to() {
+    let follows = "signal = { hall = { column = \"hall\", sensor = \"th\" }, heat = \"heat\" }";
+    let more = format!("column = {{ ring = \"body.T\" }}\n{follows}");
+    let fit = |more: &str, sensor: &str| {
+        let sensor = format!("[sensor]\nth = {{ {sensor} }}");
+        fitted(&read_by((more, &sensor), &WARMING, |ring| ring, 1.7))
+    };
+    is_truth(&fit(&more, "offset = \"1.7 K\"").unwrap());
+    let close = |fit: &NetworkFit, i: usize| {
+        is_truth(fit);
+        assert!((fit.parameters[i].value - 1.7).abs() < 1e-5, "{}", fit.parameters[i].value);
+    };
+    close(&fit(&more, "offset = \"free\"").unwrap(), 2);
+    // a column that is compared has one instrument, whatever else follows it
+    let both = format!(
+        "column = {{ ring = \"body.T\", hall = {{ of = \"room.T\", sensor = \"th\" }} }}\n{BOTH}"
+    );
+    close(&fit(&both, "offset = \"free\"").unwrap(), 2);
+    let error = fit(&more, "offset = \"1.7 K\", lag = \"10 s\"").unwrap_err();
+    assert_eq!(error.code(), "fit::signal_lag");
+}
+
+/// An inference takes off what is known of an input's sensor, and refuses one of which more is to be
+/// found.
+#[test]
+fn an_inference_follows_what_the_sensor_of_its_input_was_exposed_to() {
+    let infer = |sensor: &str, hall: f64| {
+        let more = format!(
+            "column = {{ ring = \"body.T\" }}\n{BOTH}\n[infer.heat]\ndata = \"0.csv\"\ncolumn = {{ ring \
+             = \"body.T\" }}\nsigma = \"0.1 K\"\nsignal = {{ hall = {{ column = \"hall\", sensor = \
+             \"th\" }} }}\nfind = {{ heat = {{ change = \"30 W\", within = \"1 min\" }} }}"
+        );
+        let sensor = format!("[sensor]\nth = {{ {sensor} }}");
+        let netlist = read_by((&more, &sensor), &WARMING[..1], |ring| ring, hall);
+        let task = InferTask::of(&netlist, &netlist.studies.infers[0]).unwrap();
+        let found = lptn_fit::infer::infer(&task, &|_| Proceed::Continue)?;
+        Ok::<_, InferError>(found.courses[0].band.iter().map(|b| b.value).collect::<Vec<_>>())
+    };
+    let [ideal, high] =
+        [infer("offset = \"0 K\"", 0.0), infer("offset = \"1.7 K\"", 1.7)].map(Result::unwrap);
+    let apart = ideal.iter().zip(&high).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    assert!(ideal.len() > 50 && apart < 1e-6, "{apart}");
+    assert_eq!(infer("offset = \"0 ± 3 K\"", 1.7).unwrap_err().code(), "infer::input");
 }
 
 /// One value of 9999 degC ruins a fit; it is named, and left out where that is asked.

@@ -70,6 +70,8 @@ const FIND: SectionDeclaration = SectionDeclaration {
         key("change", "as the signal", "how much it usually changes (1 sigma)", "\"50 W\""),
         key("within", "s", "in how long a time", "\"1 min\""),
         key("positive", "bool", "it stays above 0: its logarithm walks", "true").or("`false`"),
+        key("jumps", "bool", "it may jump where the record says so", "false")
+            .or("`true`, but `false` beside `change`"),
     ],
     example: "{ change = \"50 W\", within = \"1 min\" }",
     ..SectionDeclaration::NEW
@@ -99,6 +101,8 @@ pub struct SoughtSignal {
     pub ty: Type,
     /// Whether it stays above 0.
     pub positive: bool,
+    /// Whether it may jump where the record says so.
+    pub jumps: bool,
     /// Where it is named.
     pub span: Span,
     /// By how much it changes in which time.
@@ -198,6 +202,9 @@ impl Study for InferStudy {
             if sought.positive {
                 own.put("positive", "true");
             }
+            if sought.jumps != sought.change.is_none() {
+                own.put("jumps", sought.jumps.to_string());
+            }
             let own = if own.is_empty() { "{}".to_owned() } else { own.inline() };
             format!("{} = {own}", toml_key(&sought.name))
         };
@@ -289,14 +296,8 @@ impl<'a> Elaboration<'a> {
         let sought = self.sought_signal(fields, (&entry.key, &entry.key_span))?;
         let owner = fields.owner.inside("find").inside(&entry.key);
         let inner = self.inner(&FIND, owner.clone(), entry)?;
-        let positive = match inner.get("positive").map(|raw| (raw, &raw.kind)) {
-            None => false,
-            Some((_, RawKind::Boolean(positive))) => *positive,
-            Some((raw, _)) => {
-                self.report(inner.wrong_shape("positive", raw, "`true` or `false`"));
-                return None;
-            }
-        };
+        let positive = self.yes_or_no(&inner, "positive")?.unwrap_or(false);
+        let jumps = self.yes_or_no(&inner, "jumps")?;
         let (change, within) = (inner.get("change"), inner.get("within"));
         let change = match (change, within) {
             (None, None) => None,
@@ -314,7 +315,20 @@ impl<'a> Elaboration<'a> {
                 return None;
             }
         };
-        Some(SoughtSignal { positive, change, ..sought })
+        let jumps = jumps.unwrap_or(change.is_none());
+        Some(SoughtSignal { positive, jumps, change, ..sought })
+    }
+
+    /// The value of a key that is `true` or `false`, where there is one.
+    fn yes_or_no(&mut self, fields: &Fields<'a>, key: &str) -> Option<Option<bool>> {
+        match fields.get(key).map(|raw| (raw, &raw.kind)) {
+            None => Some(None),
+            Some((_, RawKind::Boolean(answer))) => Some(Some(*answer)),
+            Some((raw, _)) => {
+                self.report(fields.wrong_shape(key, raw, "`true` or `false`"));
+                None
+            }
+        }
     }
 
     fn sought_signal(
@@ -344,6 +358,6 @@ impl<'a> Elaboration<'a> {
         }
         let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
         let (name, span) = (name.to_owned(), span.clone());
-        Some(SoughtSignal { name, ty, positive: false, span, change: None })
+        Some(SoughtSignal { name, ty, positive: false, jumps: true, span, change: None })
     }
 }

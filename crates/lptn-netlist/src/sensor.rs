@@ -1,9 +1,9 @@
-//! `[sensor.NAME]`: what an instrument makes of the temperature that it measures.
+//! `[sensor.NAME]`: what an instrument makes of the temperature, or heat flow, that it measures.
 //!
 //! No temperature depends on a sensor, so it stands with the studies and not with the elements: only
 //! fits read it, and their columns name it.
 
-use lptn_data::{Diagnostic, Span};
+use lptn_data::{Diagnostic, Span, nearest};
 use lptn_network::Network;
 use lptn_units::{Dimension, Quantity, Spread, Type, parse_quantity};
 
@@ -17,20 +17,25 @@ use crate::work::Elaboration;
 
 const SENSOR: SectionDeclaration = SectionDeclaration {
     name: "sensor",
-    sentence: "An instrument of records: what it adds to a temperature, and how well that is known.",
+    sentence: "An instrument of records: what it adds to what it measures, and how well that is known.",
     role: Role::Study,
     keys: &[
-        key("offset", "K, with `±`, or `\"free\"`", "what it reads too much", "\"0 ± 3 K\"")
-            .or("none"),
+        key(
+            "offset",
+            "as the column, with `±`, or `\"free\"`",
+            "what it reads too much",
+            "\"0 ± 3 K\"",
+        )
+        .or("none"),
         key(
             "gain",
             "number, with `±`, or `\"free\"`",
-            "by which a reading in degC is multiplied",
+            "by which a reading is multiplied, in degC for a temperature",
             "\"1 ± 0.5 %\"",
         )
         .or("1"),
         key("lag", "s, with `±`", "the time constant with which it follows", "\"20 s\"").or("none"),
-        key("resolution", "K", "the step of its numbers", "\"0.1 K\"").or("none"),
+        key("resolution", "as the column", "the step of its numbers", "\"0.1 K\"").or("none"),
         key("per", "`\"sensor\"`, `\"record\"`", "whose the offset is", "\"record\"")
             .or("`\"sensor\"`"),
     ],
@@ -88,20 +93,20 @@ impl SensorValue {
 }
 
 /// One `[sensor.NAME]`, in SI units. With x for a temperature over 0 degC, it reads
-/// `gain y + offset` over 0 degC, where `lag dy/dt = x - y`.
+/// `gain y + offset` over 0 degC, where `lag dy/dt = x - y`; of what is no temperature, x is that.
 #[derive(Clone, Debug)]
 pub struct Sensor {
     /// Its name.
     pub name: String,
     /// Where it stands.
     pub span: Span,
-    /// In K.
+    /// In the SI unit of the columns that it gave, K for a temperature.
     pub offset: SensorValue,
     /// A factor.
     pub gain: SensorValue,
     /// In s; 0 without one.
     pub lag: SensorValue,
-    /// The step of its numbers in K.
+    /// The step of its numbers in the same unit.
     pub resolution: Option<f64>,
     /// Whether an offset that is to be found is another one in each record.
     pub per_record: bool,
@@ -149,10 +154,12 @@ impl Study for Sensor {
     }
 }
 
-/// The names of the sensors that columns of fits and inferences, and places of plans, name.
+/// The names of the sensors that columns and signals of fits and inferences, and places of plans,
+/// name.
 fn in_use(raw: &RawNetlist) -> Vec<&str> {
     let fits = ["fit", "infer"].into_iter().flat_map(|section| raw.elements(section));
-    let fits = fits.filter_map(|fit| inside(&fit.value, "column"));
+    let fits = fits.flat_map(|fit| ["column", "signal"].map(|key| inside(&fit.value, key)));
+    let fits = fits.flatten();
     let plans = raw.elements("plan").iter().filter_map(|plan| inside(&plan.value, "place"));
     let columns = fits.chain(plans).filter_map(|column| match &column.kind {
         RawKind::Table(table) => Some(&table.entries),
@@ -177,11 +184,11 @@ fn inside<'r>(value: &'r RawValue, key: &str) -> Option<&'r RawValue> {
 impl<'a> Elaboration<'a> {
     fn sensor(&mut self, entry: &'a RawEntry) -> Option<Sensor> {
         let fields = self.fields(&SENSOR, entry)?;
-        let kelvin = Type::of(Dimension::TEMPERATURE);
-        let offset = self.sensor_value(&fields, "offset", kelvin);
+        let own = type_of(entry).unwrap_or(Type::of(Dimension::TEMPERATURE));
+        let offset = self.sensor_value(&fields, "offset", own);
         let gain = self.sensor_value(&fields, "gain", Type::SCALAR);
         let lag = self.sensor_value(&fields, "lag", Type::of(Dimension::TIME));
-        let resolution = self.sensor_value(&fields, "resolution", kelvin);
+        let resolution = self.sensor_value(&fields, "resolution", own);
         let per_record = self.choice(&fields, "per", &PER);
         let offset = offset?.unwrap_or(SensorValue::exact(0.0));
         if per_record? && !offset.is_sought() {
@@ -199,6 +206,45 @@ impl<'a> Elaboration<'a> {
             per_record: per_record?,
             written: written.map(|(key, raw)| (key, as_written(raw))).collect(),
         })
+    }
+
+    /// `sensor = "tc1"` of what measures something of a type; nothing inside where there is none.
+    pub(crate) fn sensor_of(
+        &mut self,
+        fields: &Fields<'a>,
+        measured: Option<Type>,
+    ) -> Option<Option<(&'a str, &'a RawValue)>> {
+        let Some(raw) = fields.get("sensor") else { return Some(None) };
+        let name = fields.text("sensor", raw, &mut self.problems)?;
+        let all = self.elements(SENSOR.name);
+        let Some(entry) = all.iter().find(|entry| entry.key == name) else {
+            let message = format!("{}: there is no sensor `{name}`", fields.owner.words());
+            let known: Vec<&str> = all.iter().map(|entry| entry.key.as_str()).collect();
+            let help = match known.is_empty() {
+                true => format!("write what it is: `[sensor.{name}]` with `offset = \"0 ± 3 K\"`"),
+                false => nearest(name, known, "the sensors are"),
+            };
+            self.refuse("netlist::fit_sensor", message, &raw.span, help);
+            return None;
+        };
+        match (type_of(entry), measured) {
+            (Some(own), Some(ty)) if own.dimension != ty.dimension => {
+                let message = format!(
+                    "{} is in {}, but its sensor `{name}` reads in {}",
+                    fields.owner.words(),
+                    ty.dimension.si_unit(),
+                    own.dimension.si_unit()
+                );
+                let problem = Diagnostic::error("netlist::fit_sensor", message)
+                    .at(raw.span.clone(), "")
+                    .also(entry.key_span.clone(), "this sensor");
+                self.report(problem.help(
+                    "`offset` and `resolution` of a sensor are in the unit of the columns that it gave",
+                ));
+                None
+            }
+            _ => Some(Some((name, raw))),
+        }
     }
 
     /// A value in its field; nothing inside where it is left out, nothing at all where it is wrong.
@@ -229,6 +275,12 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::sensor_prior", message, &raw.span, help);
             return None;
         }
+        if key == "gain" && text.ends_with('%') && percent_of(text).is_none() {
+            let message = format!("{} is {text}, and a gain is near 1", fields.owner.field(key));
+            let help = format!("a gain that is known to {text} is `gain = \"1 ± {text}\"`");
+            self.refuse("netlist::sensor_value", message, &raw.span, &help);
+            return None;
+        }
         let quantity = match percent_of(text).map_or_else(|| parse_quantity(text, Some(ty)), Ok) {
             Ok(quantity) => quantity,
             Err(error) => {
@@ -245,6 +297,17 @@ impl<'a> Elaboration<'a> {
         let certainty = sigma.map_or(Certainty::Exact, Certainty::Deviation);
         Some(Some(SensorValue { value: quantity.value, certainty }))
     }
+}
+
+/// The type of what a sensor reads, of differences, as far as its own values say.
+fn type_of(entry: &RawEntry) -> Option<Type> {
+    ["offset", "resolution"].into_iter().find_map(|key| match &inside(&entry.value, key)?.kind {
+        RawKind::String { text, .. } => {
+            let ty = parse_quantity(text.trim(), None).ok()?.ty;
+            (!ty.absolute && !ty.is_scalar()).then_some(ty)
+        }
+        _ => None,
+    })
 }
 
 /// Why a quantity cannot be this value of a sensor: code, what is wrong, and help.

@@ -1,7 +1,7 @@
 //! The rows of a run, one after the other, as they were.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{ConductorId, Positions, Received};
+use lptn_network::{ConductorId, Positions, Received, Value};
 
 use crate::quantity::Quantity;
 use crate::reading::Reading;
@@ -40,6 +40,12 @@ impl<'a> Replay<'a> {
         let value =
             if self.known { self.reading.value(&mut self.work, quantity).ok() } else { None };
         value.unwrap_or(f64::NAN)
+    }
+
+    /// An expression of results in SI units, compiled for this network.
+    pub(crate) fn result(&mut self, value: &Value) -> f64 {
+        let found = if self.known { value.at(&mut self.reading.scope).ok() } else { None };
+        found.unwrap_or(f64::NAN)
     }
 
     /// The workspace of this row.

@@ -2,11 +2,11 @@
 
 use std::ops::Range;
 
-use lptn_assembly::ThermalSystem;
+use lptn_assembly::{ChangeError, ThermalSystem};
 use lptn_integrate::Statistics;
 use lptn_network::{
     BoundaryId, ConductorId, ControlId, HeatOf, Network, NodeId, ParameterId, Positions, Received,
-    ReportId, SignalId, SourceId, same_time,
+    ReportId, SignalId, SourceId, Value, same_time,
 };
 
 use crate::balance::Balance;
@@ -202,6 +202,40 @@ impl Solution {
         self.values(Quantity::Report(id))
     }
 
+    /// An expression of results over the rows in SI units, compiled for this network; NaN where it
+    /// has no value, and unless every node was recorded.
+    pub fn result(&self, value: &Value) -> Vec<f64> {
+        let mut values = Vec::with_capacity(self.times.len());
+        self.replay(|at| values.push(at.result(value)));
+        values
+    }
+
+    /// The same where a parameter has another value, and every temperature has changed with it as
+    /// its sensitivity says: of that, only the first order in the change means anything.
+    ///
+    /// # Errors
+    /// [`ChangeError`] where the network does not take the value.
+    pub(crate) fn result_beside(
+        &self,
+        value: &Value,
+        (parameter, to): (ParameterId, f64),
+    ) -> Result<Vec<f64>, ChangeError> {
+        let network = self.network();
+        let by = to - network.parameter_value(parameter);
+        let mut changed = network.given();
+        changed.set(parameter, to);
+        let system = self.system.with(&changed)?;
+        let slopes: Vec<Option<Vec<f64>>> =
+            self.recorded.iter().map(|&node| self.sensitivity(parameter, node)).collect();
+        let moved = |row: usize, column: usize| {
+            let slope = slopes[column].as_ref().map_or(f64::NAN, |slopes| slopes[row]);
+            self.row(row)[column] + by * slope
+        };
+        let mut values = Vec::with_capacity(self.times.len());
+        self.replay_as((&system, &moved), 0..self.times.len(), |at| values.push(at.result(value)));
+        Ok(values)
+    }
+
     /// Temperatures and heat flows at a row; `None` unless every node was recorded.
     ///
     /// # Panics
@@ -242,8 +276,18 @@ impl Solution {
     }
 
     /// The same for some of the rows.
-    pub(crate) fn replay_rows(&self, rows: Range<usize>, mut visit: impl FnMut(&mut Replay<'_>)) {
-        let mut at = Replay::new(&self.system);
+    pub(crate) fn replay_rows(&self, rows: Range<usize>, visit: impl FnMut(&mut Replay<'_>)) {
+        self.replay_as((&self.system, &|row, column| self.row(row)[column]), rows, visit);
+    }
+
+    /// The same with another system, and temperatures by row and place among the recorded nodes.
+    fn replay_as(
+        &self,
+        (system, temperature): (&ThermalSystem, &dyn Fn(usize, usize) -> f64),
+        rows: Range<usize>,
+        mut visit: impl FnMut(&mut Replay<'_>),
+    ) {
+        let mut at = Replay::new(system);
         let mut nodes = vec![f64::NAN; self.network().nodes().len()];
         for row in rows.clone() {
             if let Some(&at_row) = self.row_positions.get(row)
@@ -251,7 +295,8 @@ impl Solution {
             {
                 at.set_positions(&self.positions[at_row as usize]);
             }
-            self.recorded.iter().zip(self.row(row)).for_each(|(id, t)| nodes[id.index()] = *t);
+            let places = self.recorded.iter().enumerate();
+            places.for_each(|(column, id)| nodes[id.index()] = temperature(row, column));
             at.go_to((self.times[row], self.segments[row]), &nodes);
             visit(&mut at);
         }

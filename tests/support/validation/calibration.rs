@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use lptn::fit::network::{
-    MeasuredColumn, MeasuredRun, NetworkFit, NetworkFitTask, Varied, fit_network,
+    Measurand, MeasuredColumn, MeasuredRun, NetworkFit, NetworkFitTask, Varied, fit_network,
 };
 use lptn::network::End;
 use lptn::prelude::*;
 use lptn::solve::available_threads;
+use lptn::units::Type;
 
 use super::answer::Trouble;
 use super::case::{Calibration, Case};
@@ -70,7 +71,8 @@ fn measured(case: &Case, calibration: &Calibration, model: &Model) -> Result<Mea
         let values = column(&observation.column)?.iter().map(|t| t + case.zero()).collect();
         Ok(MeasuredColumn {
             name: observation.column.clone(),
-            of: vec![(*node, 1.0)],
+            of: Measurand::Temperatures(vec![(*node, 1.0)]),
+            ty: Type::ABSOLUTE_TEMPERATURE,
             sensor: None,
             sigma: None,
             values,

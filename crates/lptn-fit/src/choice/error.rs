@@ -26,11 +26,11 @@ pub enum ChoiceError {
             "does not, or not the same values of it"),
         help "name the same columns in `column` of each [fit.NAME]; `outliers` and `time` change \
             values too";
-    /// Two networks do not count a column alike, with these standard deviations in K.
-    Sigma { one: String, other: String, column: String, sigmas: [f64; 2] } = "fit::other_sigma",
+    /// Two networks do not count a column alike, with these standard deviations in its SI unit.
+    Sigma { one: String, other: String, column: String, sigmas: [f64; 2], unit: String } = "fit::other_sigma",
         format!(
-            "a value of column `{column}` counts as known to {} K with `{one}` and to {} K with \
-             `{other}`", sigmas[0], sigmas[1]
+            "a value of column `{column}` counts as known to {} {unit} with `{one}` and to {} {unit} \
+             with `{other}`", sigmas[0], sigmas[1]
         ),
         help "write the same `sigma` in each [fit.NAME], and the same `resolution` of its sensor";
     /// A single record whose last third has so many values.

@@ -12,7 +12,7 @@ pub const LAGS: usize = 10;
 /// A column of fewer means than these has no noise of its own.
 const FEW: usize = 5;
 
-/// What runs leave of a column that they describe perfectly, in K.
+/// What runs leave of a column that they describe perfectly, in K (or another SI unit).
 const ROUNDING: f64 = 1e-6;
 
 /// How likely the records are with the values of a fit.
@@ -32,7 +32,7 @@ pub struct Likely {
     pub aicc: Option<f64>,
 }
 
-/// The means of what is missed of a column of a record, in K, with their times.
+/// The means of what is missed of a column of a record, in its SI unit, with their times.
 struct Means {
     column: usize,
     stretch: usize,

@@ -112,8 +112,8 @@ pub struct Apart {
     pub column: usize,
     /// When, in s.
     pub time: f64,
-    /// By how much, in K.
-    pub kelvin: f64,
+    /// By how much, in the SI unit of the column.
+    pub by: f64,
 }
 
 impl Choice<'_> {
@@ -240,8 +240,9 @@ fn apart(task: &NetworkFitTask<'_>, a: &NetworkFit, b: &NetworkFit) -> Option<Ap
         let both = a.modelled.iter().zip(&b.modelled);
         both.zip(&task.runs[a.run].times).map(move |((x, y), &time)| {
             let (run, column) = (a.run, a.column);
-            Apart { run, column, time, kelvin: (x - y).abs() }
+            Apart { run, column, time, by: (x - y).abs() }
         })
     });
-    columns.max_by(|a, b| a.kelvin.total_cmp(&b.kelvin))
+    let size = |one: &Apart| one.by / task.runs[one.run].columns[one.column].weight();
+    columns.max_by(|a, b| size(a).total_cmp(&size(b)))
 }

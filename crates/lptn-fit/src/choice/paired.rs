@@ -53,7 +53,8 @@ pub(crate) fn best(judged: &[Judged<'_>]) -> usize {
 }
 
 impl Judged<'_> {
-    /// Root of the mean square, over all values that it has not seen, of what it misses, in K.
+    /// Root of the mean square, over all values that it has not seen, of what it misses, in the
+    /// unit of [`UnseenRecord::rms`].
     pub fn unseen_rms(&self) -> f64 {
         let samples: usize = self.unseen.iter().map(|part| part.samples).sum();
         let squares = self.unseen.iter().map(|part| part.rms * part.rms * part.samples as f64);

@@ -98,6 +98,7 @@ fn weighed_alike(
             other: other.to_owned(),
             column: a.name.clone(),
             sigmas: [a.weight(), b.weight()],
+            unit: a.ty.dimension.si_unit(),
         }),
         None => Ok(()),
     }

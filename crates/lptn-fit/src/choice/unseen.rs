@@ -33,15 +33,16 @@ pub struct UnseenRecord {
     pub run: usize,
     /// Number of values.
     pub samples: usize,
-    /// Root of the mean square of what it misses, in standard deviations (in K where none is given).
+    /// Root of the mean square of what it misses, in standard deviations (in SI units where none are
+    /// given).
     pub over_sigma: f64,
-    /// The same in K.
+    /// The same in the SI unit of the columns; in standard deviations where they have none in common.
     pub rms: f64,
     /// Whether the search without the record found a minimum.
     pub converged: bool,
     /// Whether the other records determine every value.
     pub whole: bool,
-    /// What it says of each column in each row of the record, in K; of a single record in the rows
+    /// What it says of each column in each row of the record, in SI units; of a single record in the rows
     /// too that it has seen.
     pub modelled: Vec<Vec<f64>>,
 }
@@ -113,7 +114,7 @@ impl Held {
                 error: Box::new(error),
             },
         })?;
-        let (samples, over_sigma, rms) = size(&missed);
+        let (samples, over_sigma, rms) = size(&missed, split.unseen.unit().is_some());
         let (converged, whole) = (found.converged, found.whole);
         let modelled = missed.into_iter().map(|column| column.modelled).collect();
         Ok(UnseenRecord { run: part, samples, over_sigma, rms, converged, whole, modelled })
@@ -201,8 +202,8 @@ fn late(run: &MeasuredRun, from: f64) -> MeasuredRun {
     run
 }
 
-/// Number of values, and root of the mean square in standard deviations and in K.
-fn size(missed: &[Misses]) -> (usize, f64, f64) {
+/// Number of values, and root of the mean square in standard deviations and in the unit of all.
+fn size(missed: &[Misses], one_unit: bool) -> (usize, f64, f64) {
     let samples: usize = missed.iter().map(|column| column.over_sigma.len()).sum();
     let mean = |of: &dyn Fn(&Misses, f64) -> f64| {
         let column = |misses: &Misses| -> f64 {
@@ -211,5 +212,6 @@ fn size(missed: &[Misses]) -> (usize, f64, f64) {
         (missed.iter().map(column).sum::<f64>() / samples.max(1) as f64).sqrt()
     };
     let over_sigma = mean(&|_, one| one).max(SMALL);
-    (samples, over_sigma, mean(&|misses, one| one * misses.sigma))
+    let unit = |misses: &Misses| if one_unit { misses.sigma } else { 1.0 };
+    (samples, over_sigma, mean(&|misses, one| one * unit(misses)))
 }

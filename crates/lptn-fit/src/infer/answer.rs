@@ -5,6 +5,7 @@ use lptn_units::statistics::NORMAL_95;
 
 use crate::infer::error::InferError;
 use crate::infer::inferred::{Band, Inferred, InferredCourse, InferredSensor, Known};
+use crate::infer::jumps::told;
 use crate::infer::model::{Model, coordinates};
 use crate::infer::open::mixture;
 use crate::infer::reference::{InferObserver, Reference};
@@ -18,14 +19,15 @@ use crate::kalman::Gaussian;
 ///
 /// Where the smoothness of the only course that is sought is left to the record, bands hold 95 % of
 /// the mixture of all that it may be, each as likely as the record says (with a density that is
-/// even in the root of the intensity; A. Gelman, Bayesian Analysis 1 (2006) 515).
+/// even in the logarithm of each intensity). Of what is not known of the moments of jumps the
+/// variance is added, one jump after the other.
 ///
 /// # Errors
 /// [`InferError`]
 pub fn infer(task: &InferTask<'_>, observer: &InferObserver<'_>) -> Result<Inferred, InferError> {
     let settled = settle(task, observer)?;
     let Settled { model, strength, reference, moments, .. } = &settled;
-    let (smoother, surprises) = model.smoothed(&strength.intensities, &strength.sigmas);
+    let (smoother, surprises) = model.smoothed(strength);
     let asked = Asked::new(task, &settled);
     let mixed = asked.mixed();
     let states = &model.states;
@@ -55,6 +57,7 @@ pub fn infer(task: &InferTask<'_>, observer: &InferObserver<'_>) -> Result<Infer
         parameters: task.uncertain.iter().enumerate().map(parameter).collect(),
         columns: surprise::columns(model, strength, &surprises),
         log_likelihood: smoother.filter().log_likelihood(),
+        jumps: told(model, strength),
         rounds: settled.rounds,
     })
 }
@@ -66,7 +69,7 @@ fn still(
     strength: &Strength,
 ) -> Vec<(Known, f64)> {
     let still = strength.still();
-    let (smoother, _) = model.smoothed(&still.intensities, &still.sigmas);
+    let (smoother, _) = model.smoothed(&still);
     let (state, likely) = (smoother.filter().state(), smoother.filter().log_likelihood());
     let last = coordinates(task, reference, model.nodes.len() - 1);
     let one = |(j, sought): (usize, &crate::infer::Sought)| {

@@ -45,6 +45,10 @@ pub enum InferError {
     Lag { sensor: String } = "infer::lag",
         format!("the time constant of sensor `{sensor}` is not known exactly"),
         help "find it by `lptn fit network` and write it as a plain value, `lag = \"20 s\"`";
+    /// What this instrument, which a signal follows, reads too much is not known.
+    Input { sensor: String } = "infer::input",
+        format!("a signal follows what sensor `{sensor}` reads, whose offset or gain is not known exactly"),
+        help "find it by `lptn fit network` and write it as a plain value, `offset = \"1.2 K\"`";
     /// How much a course changes has to be said.
     Smoothness { signal: String } = "infer::smoothness",
         format!("rows are answered as they come, so how much `{signal}` changes has to be said"),
@@ -52,6 +56,10 @@ pub enum InferError {
             "write it, `find = {{ {signal} = {{ change = \"50 W\", within = \"1 min\" }} }}`: without \
              --follow `lptn infer` finds it from a whole record"
         );
+    /// Jumps are seen by what comes behind them.
+    Jumps { signal: String } = "infer::jumps",
+        format!("rows are answered as they come, and where `{signal}` jumps is seen behind it only"),
+        help "leave `jumps` out: a surprise beyond 5 tells that something has jumped";
     /// The noise of a column has to be said.
     Noise { column: String } = "infer::noise",
         format!("rows are answered as they come, so the noise of column `{column}` has to be said"),

@@ -3,10 +3,8 @@
 //! Nothing is kept but the state at the last row, so a record may go on forever. Each row is linear
 //! near what was known at the one before it (extended Kalman filter).
 
-use lptn_network::{AfterEnd, Course, SignalId};
 use lptn_solve::Proceed;
 use lptn_units::statistics::NORMAL_95;
-use lptn_units::{Interpolation, Outside, Table1};
 
 use crate::infer::error::InferError;
 use crate::infer::inferred::{Band, Known};
@@ -14,8 +12,10 @@ use crate::infer::model::{Model, coordinates};
 use crate::infer::prior::Begins;
 use crate::infer::reference::{Moments, Reference};
 use crate::infer::rounds::{begun, checked};
+use crate::infer::strength::Strength;
 use crate::infer::task::{InferTask, Start};
 use crate::kalman::{Filter, Gaussian};
+use crate::network::RecordedSignal;
 
 /// One row of a record.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,6 +72,9 @@ impl<'a> Follower<'a> {
         checked(&task)?;
         if let Some(sought) = task.sought.iter().find(|sought| sought.intensity.is_none()) {
             return Err(InferError::Smoothness { signal: sought.name.clone() });
+        }
+        if let Some(sought) = task.sought.iter().find(|sought| sought.jumps) {
+            return Err(InferError::Jumps { signal: sought.name.clone() });
         }
         if let Some(column) = task.run.columns.iter().find(|column| column.sigma.is_none()) {
             return Err(InferError::Noise { column: column.name.clone() });
@@ -137,26 +140,19 @@ impl<'a> Follower<'a> {
         }
         let start = task.run.settings.start;
         let first = if task.start == Start::Known { start.min(times[0]) } else { times[0] };
-        let signals = task.run.signals.iter().enumerate();
-        task.run.signals =
-            signals.map(|(i, (id, _))| (*id, course((*id, i), first, rows))).collect();
+        let signals = task.run.signals.iter_mut().enumerate();
+        signals.for_each(|(i, signal)| course(signal, i, (first, rows)));
         task
     }
 }
 
-/// Straight lines between rows; the value of the first before them.
-fn course((_, place): (SignalId, usize), first: f64, rows: &[&Row]) -> Course {
+/// What was read in the rows; the value of the first before them.
+fn course(signal: &mut RecordedSignal, place: usize, (first, rows): (f64, &[&Row])) {
     let rows = rows.iter().filter(|row| !row.signals[place].is_nan());
-    let (mut times, mut values): (Vec<f64>, Vec<f64>) =
-        rows.map(|row| (row.time, row.signals[place])).unzip();
-    if times.first().is_some_and(|time| *time > first) {
-        times.insert(0, first);
-        values.insert(0, values[0]);
-    }
-    let points = Table1::new(times.clone(), values.clone(), Interpolation::Linear, Outside::Hold);
-    match points {
-        Ok(points) => Course::Curve { points, after: AfterEnd::Hold },
-        Err(_) => Course::Steps { times, values, after: AfterEnd::Hold },
+    (signal.times, signal.values) = rows.map(|row| (row.time, row.signals[place])).unzip();
+    if signal.times.first().is_some_and(|time| *time > first) {
+        signal.times.insert(0, first);
+        signal.values.insert(0, signal.values[0]);
     }
 }
 
@@ -167,12 +163,12 @@ fn step(
     (filter, k): (&mut Filter, usize),
     time: f64,
 ) -> Followed {
-    let intensities: Vec<f64> =
-        task.sought.iter().flat_map(|sought| [sought.intensity.unwrap_or(0.0), 0.0]).collect();
-    let columns = task.run.columns.iter();
-    let sigmas: Vec<f64> = columns.map(|column| column.sigma.unwrap_or(1.0)).collect();
-    let mut surprises = vec![f64::NAN; sigmas.len()];
-    for (column, innovation) in model.advance(filter, k, (&intensities, &sigmas)) {
+    let walks = task.sought.iter().flat_map(|sought| [sought.intensity.unwrap_or(0.0), 0.0]);
+    let sigmas = task.run.columns.iter().map(|column| column.sigma.unwrap_or(1.0));
+    let strength =
+        Strength { intensities: walks.collect(), sigmas: sigmas.collect(), jumps: Vec::new() };
+    let mut surprises = vec![f64::NAN; strength.sigmas.len()];
+    for (column, innovation) in model.advance(filter, k, &strength) {
         surprises[column] = innovation.residual / innovation.variance.sqrt();
     }
     let state = filter.state();
@@ -226,7 +222,7 @@ fn carried(
     let mut moved = vec![0.0; mean.len()];
     for (column, _) in &states.slow {
         let Some(place) = states.shown(*column) else { continue };
-        let of = task.run.columns[*column].of.iter();
+        let of = task.run.columns[*column].nodes().iter();
         let there: f64 = of.map(|(id, factor)| factor * temperature(id.index())).sum();
         moved[place] = model.shown[*column][k] + mean[place] - there;
     }

@@ -30,6 +30,8 @@ pub struct Inferred {
     pub columns: Vec<InferredColumn>,
     /// The logarithm of the probability density of the record, in readings per K.
     pub log_likelihood: f64,
+    /// Where courses jump, in ascending order.
+    pub jumps: Vec<InferredJump>,
     /// How many rounds it took, each linear near the courses of the one before.
     pub rounds: usize,
 }
@@ -61,6 +63,19 @@ pub struct Band {
     pub value: f64,
     /// The ends of the interval of 95 %.
     pub ends: (f64, f64),
+}
+
+/// A course jumps, somewhere between two rows.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InferredJump {
+    /// The place of the course in the task.
+    pub course: usize,
+    /// The interval in s that holds it with a probability of 95 %, from row to row.
+    pub between: (f64, f64),
+    /// By how much, in SI units; of its logarithm where it is that which walks.
+    pub by: Known,
+    /// By how much the logarithm of the likelihood falls without it.
+    pub gain: f64,
 }
 
 /// A value of an instrument.

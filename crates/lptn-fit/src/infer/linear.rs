@@ -1,7 +1,6 @@
 //! What everything depends on near the reference, at one moment.
 
 use lptn_assembly::{ChangeError, ThermalSystem};
-use lptn_network::ZERO_CELSIUS;
 use lptn_solve::{Rates, StateRates};
 
 use crate::infer::error::InferError;
@@ -190,7 +189,7 @@ pub(crate) fn measured(
     column: usize,
     nodes: &[Vec<(usize, f64)>],
 ) -> Vec<(usize, f64)> {
-    let of = task.run.columns[column].of.iter();
+    let of = task.run.columns[column].nodes().iter();
     of.flat_map(|(id, factor)| {
         nodes[id.index()].iter().map(move |(place, weight)| (*place, factor * weight))
     })
@@ -213,7 +212,8 @@ impl Linear {
         let instrument = &task.sensors[sensor];
         let (mut offset, mut gain) = (instrument.offset.value, instrument.gain.value);
         let own = states.reads.iter().enumerate().filter(|(_, read)| read.sensor == sensor);
-        let over_zero = shown - ZERO_CELSIUS;
+        let zero = task.run.columns[column].zero();
+        let over_zero = shown - zero;
         for (r, read) in own {
             if read.gain {
                 gain = reads[r];
@@ -229,6 +229,6 @@ impl Linear {
                 .iter()
                 .for_each(|(i, weight)| of[*i] += gain * weight),
         }
-        (of, ZERO_CELSIUS + gain * over_zero + offset)
+        (of, zero + gain * over_zero + offset)
     }
 }

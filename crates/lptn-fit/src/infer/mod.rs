@@ -14,12 +14,14 @@ mod discrete;
 mod error;
 mod follow;
 mod inferred;
+mod jumps;
 mod linear;
 mod model;
 mod open;
 mod prior;
 mod reference;
 mod rounds;
+mod search;
 mod states;
 mod strength;
 mod study;
@@ -29,6 +31,8 @@ mod task;
 pub use answer::infer;
 pub use error::InferError;
 pub use follow::{Followed, Follower, Row};
-pub use inferred::{Band, Inferred, InferredColumn, InferredCourse, InferredSensor, Known};
+pub use inferred::{
+    Band, Inferred, InferredColumn, InferredCourse, InferredJump, InferredSensor, Known,
+};
 pub use reference::InferObserver;
 pub use task::{InferTask, Sought, Start};

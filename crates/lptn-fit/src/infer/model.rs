@@ -10,6 +10,7 @@ use crate::infer::linear::{Linear, Linearise, Systems, measured};
 use crate::infer::prior::Begins;
 use crate::infer::reference::{InferObserver, Moments, Ran, Reference};
 use crate::infer::states::States;
+use crate::infer::strength::{Jump, Strength};
 use crate::infer::task::InferTask;
 use crate::kalman::{Filter, Gaussian, Innovation, Reading, Smoother, Step};
 
@@ -21,6 +22,9 @@ const SAME: f64 = 1e-11;
 
 /// A course may be so many times as far from its own as would explain all that was read.
 const FAR: f64 = 30.0;
+
+/// A jump is so many times as large as its course, as a standard deviation.
+const JUMP: f64 = 3.0;
 
 /// All that the readings are compared with.
 pub(crate) struct Model {
@@ -39,7 +43,7 @@ pub(crate) struct Model {
     /// The size of each course in its coordinate, as far as all that was read tells.
     pub(crate) sizes: Vec<f64>,
     /// The moments in s.
-    times: Vec<f64>,
+    pub(crate) times: Vec<f64>,
 }
 
 /// A value of a column.
@@ -126,13 +130,13 @@ impl Model {
         &self,
         filter: &mut Filter,
         k: usize,
-        (intensities, sigmas): (&[f64], &[f64]),
+        strength: &Strength,
     ) -> Vec<(usize, Innovation)> {
         if k > 0 {
-            let mut walks = Walks { intensities, last: None };
-            filter.predict(&walks.step(&self.steps[k - 1]));
+            filter.predict(&Walks { model: self, strength, last: None }.step(k));
         }
         let readings = self.readings[k].iter();
+        let sigmas = &strength.sigmas;
         readings.map(|read| (read.column, filter.update(&read.reading(sigmas)))).collect()
     }
 
@@ -214,15 +218,15 @@ impl Model {
     }
 
     /// The logarithm of the probability density of what was read, where walks and noises are these.
-    pub(crate) fn log_likelihood(&self, intensities: &[f64], sigmas: &[f64]) -> f64 {
+    pub(crate) fn log_likelihood(&self, strength: &Strength) -> f64 {
         let mut filter = Filter::new(self.prior.clone());
-        let mut walks = Walks { intensities, last: None };
+        let mut walks = Walks { model: self, strength, last: None };
         for (k, readings) in self.readings.iter().enumerate() {
             if k > 0 {
-                filter.predict(&walks.step(&self.steps[k - 1]));
+                filter.predict(&walks.step(k));
             }
             readings.iter().for_each(|read| {
-                filter.update(&read.reading(sigmas));
+                filter.update(&read.reading(&strength.sigmas));
             });
         }
         filter.log_likelihood()
@@ -231,34 +235,64 @@ impl Model {
     /// What is known of every moment, and by how much each reading surprised.
     pub(crate) fn smoothed(
         &self,
-        intensities: &[f64],
-        sigmas: &[f64],
+        strength: &Strength,
     ) -> (Smoother, Vec<Vec<(usize, Innovation)>>) {
         let mut smoother = Smoother::new(self.prior.clone());
-        let mut walks = Walks { intensities, last: None };
+        let mut walks = Walks { model: self, strength, last: None };
         let mut surprises = Vec::with_capacity(self.readings.len());
         for (k, readings) in self.readings.iter().enumerate() {
             if k > 0 {
-                smoother.predict(&walks.step(&self.steps[k - 1]));
+                smoother.predict(&walks.step(k));
             }
+            let sigmas = &strength.sigmas;
             let take = |read: &Read| (read.column, smoother.update(&read.reading(sigmas)));
             surprises.push(readings.iter().map(take).collect());
         }
         (smoother, surprises)
     }
+
+    /// The walk on the way to a moment that brings as much about, mean and variance, as a jump at
+    /// any time between.
+    fn jump(&self, Jump { to, course }: Jump) -> f64 {
+        (JUMP * self.sizes[course]).powi(2) / (self.times[to] - self.times[to - 1])
+    }
+
+    /// What a jump by one standard deviation brings to the states that change.
+    pub(crate) fn shock(&self, jump: Jump) -> Vec<f64> {
+        let course = self.states.course(jump.course);
+        let size = self.states.moving();
+        let noise = &self.steps[jump.to - 1].0.noises[2 * jump.course];
+        let scale = JUMP * self.sizes[jump.course] / noise[course * (size + 1)];
+        noise[course * size..][..size].iter().map(|x| x * scale).collect()
+    }
+
+    /// The covariance that comes in on the way to a moment.
+    pub(crate) fn comes_in(&self, to: usize, strength: &Strength) -> Rc<Vec<f64>> {
+        let mut intensities = strength.intensities.clone();
+        for jump in strength.jumps.iter().filter(|jump| jump.to == to) {
+            intensities[2 * jump.course] += self.jump(*jump);
+        }
+        self.steps[to - 1].0.noise(&intensities)
+    }
 }
 
-/// Walks of given intensities: what they bring in is the same as long as nothing else changes.
+/// Walks of given strengths: what they bring in is the same as long as nothing else changes.
 struct Walks<'a> {
-    intensities: &'a [f64],
+    model: &'a Model,
+    strength: &'a Strength,
     last: Option<(Rc<Discrete>, Rc<Vec<f64>>)>,
 }
 
 impl Walks<'_> {
-    fn step(&mut self, (discrete, rises): &(Rc<Discrete>, Vec<f64>)) -> Step {
+    /// On the way to a moment.
+    fn step(&mut self, to: usize) -> Step {
+        let (discrete, rises) = &self.model.steps[to - 1];
+        if self.strength.jumps.iter().any(|jump| jump.to == to) {
+            return discrete.step(self.model.comes_in(to, self.strength), rises);
+        }
         let noise = match &self.last {
             Some((last, noise)) if Rc::ptr_eq(last, discrete) => Rc::clone(noise),
-            _ => discrete.noise(self.intensities),
+            _ => discrete.noise(&self.strength.intensities),
         };
         self.last = Some((Rc::clone(discrete), Rc::clone(&noise)));
         discrete.step(noise, rises)

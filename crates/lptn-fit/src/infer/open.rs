@@ -1,7 +1,9 @@
 //! What is known where the record leaves open how smooth a course is.
 
+use crate::infer::jumps::elsewhere;
 use crate::infer::model::Model;
-use crate::infer::strength::{Strength, open_walks};
+use crate::infer::search::open_walks;
+use crate::infer::strength::Strength;
 use crate::infer::task::InferTask;
 use crate::kalman::Gaussian;
 
@@ -30,13 +32,13 @@ fn possible(task: &InferTask<'_>, model: &Model, most: &Strength) -> Vec<(Streng
     let open = open_walks(task);
     let [course, slope] = open.as_slice() else { return alone };
     let axis = Axis { model, most, guess: Strength::guess(task, model) };
-    let greatest = most.log_likelihood(model);
+    let greatest = model.log_likelihood(most);
     let slopes = axis.values(*slope);
     let points = axis.values(*course).into_iter().flat_map(|a| slopes.iter().map(move |b| (a, *b)));
     let point = |(a, b): (f64, f64)| {
         let mut there = most.clone();
         (there.intensities[*course], there.intensities[*slope]) = (a, b);
-        let share = (there.log_likelihood(model) - greatest).exp();
+        let share = (model.log_likelihood(&there) - greatest).exp();
         (there, if share.is_finite() { share } else { 0.0 })
     };
     let points: Vec<(Strength, f64)> = points.map(point).collect();
@@ -60,7 +62,7 @@ impl Axis<'_> {
         let likely = |intensity: f64| {
             let mut there = self.most.clone();
             there.intensities[place] = intensity;
-            there.log_likelihood(self.model)
+            self.model.log_likelihood(&there)
         };
         let (own, guess) = (self.most.intensities[place], self.guess.intensities[place]);
         let (still, greatest) = (likely(0.0), likely(own));
@@ -87,29 +89,58 @@ pub(crate) fn mixture(
     (task, model, most): (&InferTask<'_>, &Model, &Strength),
     asked: impl Fn(&[Gaussian]) -> Vec<(f64, f64)>,
 ) -> Vec<(f64, f64)> {
-    let of = |strength: &Strength| {
-        asked(&model.smoothed(&strength.intensities, &strength.sigmas).0.smoothed())
-    };
-    // means are summed as distances from those of the first, which keeps their digits
-    let mut base: Vec<f64> = Vec::new();
-    let mut sums: Vec<(f64, f64)> = Vec::new();
-    let mut whole = 0.0;
+    let of = |strength: &Strength| asked(&model.smoothed(strength).0.smoothed());
+    let mut own: Option<Vec<(f64, f64)>> = None;
+    let mut mixed = Mixed::default();
     for (strength, share) in possible(task, model, most) {
-        let found = of(&strength);
-        if base.is_empty() {
-            base = found.iter().map(|(mean, _)| *mean).collect();
-            sums = vec![(0.0, 0.0); found.len()];
+        mixed.add(&of(&strength), share);
+    }
+    let mut known: Vec<(f64, f64)> = mixed.done().collect();
+    for i in 0..most.jumps.len() {
+        let others = elsewhere(model, most, i);
+        if others.is_empty() {
+            continue;
         }
-        whole += share;
-        for ((sum, (mean, deviation)), base) in sums.iter_mut().zip(&found).zip(&base) {
+        let own = own.get_or_insert_with(|| of(most));
+        let mut mixed = Mixed::default();
+        mixed.add(own, 1.0);
+        others.iter().for_each(|(strength, share)| mixed.add(&of(strength), *share));
+        for ((known, own), (mean, deviation)) in known.iter_mut().zip(own).zip(mixed.done()) {
+            let more = deviation * deviation - own.1 * own.1;
+            *known = (known.0 + mean - own.0, (known.1 * known.1 + more).max(0.0).sqrt());
+        }
+    }
+    known
+}
+
+/// Sums of Gaussians with their shares. Means are summed as distances from those of the first, which
+/// keeps their digits.
+#[derive(Default)]
+struct Mixed {
+    base: Vec<f64>,
+    sums: Vec<(f64, f64)>,
+    whole: f64,
+}
+
+impl Mixed {
+    fn add(&mut self, found: &[(f64, f64)], share: f64) {
+        if self.base.is_empty() {
+            self.base = found.iter().map(|(mean, _)| *mean).collect();
+            self.sums = vec![(0.0, 0.0); found.len()];
+        }
+        self.whole += share;
+        for ((sum, (mean, deviation)), base) in self.sums.iter_mut().zip(found).zip(&self.base) {
             let moved = mean - base;
             sum.0 += share * moved;
             sum.1 += share * (deviation * deviation + moved * moved);
         }
     }
-    let one = |((first, second), base): ((f64, f64), &f64)| {
-        let moved = first / whole;
-        (base + moved, (second / whole - moved * moved).max(0.0).sqrt())
-    };
-    sums.into_iter().zip(&base).map(one).collect()
+
+    /// The mean and standard deviation of each.
+    fn done(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.sums.iter().zip(&self.base).map(|((first, second), base)| {
+            let moved = first / self.whole;
+            (base + moved, (second / self.whole - moved * moved).max(0.0).sqrt())
+        })
+    }
 }

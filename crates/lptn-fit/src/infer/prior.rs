@@ -37,7 +37,10 @@ impl Begins {
         };
         let by_parameter: Result<_, InferError> =
             task.uncertain.iter().enumerate().map(change).collect();
-        let measured = task.run.nodes();
+        // a difference of two temperatures says of neither where it begins
+        let absolute = task.run.columns.iter().filter(|column| column.ty.absolute);
+        let measured: Vec<NodeId> =
+            absolute.flat_map(|column| column.nodes()).map(|(node, _)| *node).collect();
         let unknown = |id: &NodeId| match task.start {
             Start::Known => false,
             Start::Measured => measured.contains(id),

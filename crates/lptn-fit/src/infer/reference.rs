@@ -1,13 +1,12 @@
 //! The run near which everything is linear.
 
 use lptn_assembly::{ChangeError, ThermalSystem};
-use lptn_network::{AfterEnd, Course, Network, NodeId, OutputTimes, SignalId, ZERO_CELSIUS};
+use lptn_network::{Network, NodeId, OutputTimes, SignalId};
 use lptn_solve::{Proceed, Progress, RecordedNodes, RunStatus, Solution, Transient};
-use lptn_units::{Interpolation, Outside, Table1};
 
 use crate::infer::error::InferError;
 use crate::infer::task::{InferTask, Start};
-use crate::network::{follow, refined};
+use crate::network::{follow, line, refined};
 
 /// Is called after every step of a run, and may interrupt it.
 pub type InferObserver<'a> = dyn Fn(Progress) -> Proceed + 'a;
@@ -96,7 +95,7 @@ impl Reference {
             parameters.set(*id, value + more);
         }
         let network = task.network.with(&parameters).map_err(ChangeError::from)?;
-        let mut signals = task.run.signals.clone();
+        let mut signals = task.inputs();
         for (j, (sought, course)) in task.sought.iter().zip(&self.courses).enumerate() {
             let more = if let Changed::Course(of, by) = changed
                 && of == j
@@ -126,14 +125,14 @@ impl Reference {
         let shown = task.run.columns.iter().map(|column| {
             let sum = |row: usize| {
                 let row = solution.row(row);
-                column.of.iter().map(|(id, factor)| factor * row[id.index()]).sum::<f64>()
+                column.nodes().iter().map(|(id, factor)| factor * row[id.index()]).sum::<f64>()
             };
             let lag = column.sensor.map_or(0.0, |sensor| task.sensors[sensor].lag.value);
             if lag > 0.0 {
                 let over_zero: Vec<f64> =
-                    (0..all.len()).map(|row| sum(row) - ZERO_CELSIUS).collect();
+                    (0..all.len()).map(|row| sum(row) - column.zero()).collect();
                 let followed = follow(&all, &over_zero, lag).course;
-                return places.iter().map(|&row| followed[row] + ZERO_CELSIUS).collect();
+                return places.iter().map(|&row| followed[row] + column.zero()).collect();
             }
             places.iter().map(|&row| sum(row)).collect()
         });
@@ -184,13 +183,4 @@ fn places(all: &[f64], times: &[f64]) -> Vec<usize> {
         from
     };
     times.iter().map(place).collect()
-}
-
-/// Straight lines between values at the moments.
-fn line(times: &[f64], values: Vec<f64>) -> Course {
-    let points = Table1::new(times.to_vec(), values.clone(), Interpolation::Linear, Outside::Hold);
-    match points {
-        Ok(points) => Course::Curve { points, after: AfterEnd::Hold },
-        Err(_) => Course::Steps { times: times.to_vec(), values, after: AfterEnd::Hold },
-    }
 }

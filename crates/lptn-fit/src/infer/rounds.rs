@@ -3,13 +3,14 @@
 use lptn_assembly::{ChangeError, ThermalSystem};
 
 use crate::infer::error::InferError;
+use crate::infer::jumps::most_likely;
 use crate::infer::model::{Model, coordinates};
 use crate::infer::prior::Begins;
 use crate::infer::reference::{InferObserver, Moments, Reference};
 use crate::infer::strength::Strength;
 use crate::infer::task::InferTask;
 use crate::kalman::Gaussian;
-use crate::network::Certainty;
+use crate::network::{Certainty, unknown_input};
 
 /// The most rounds.
 const MOST: usize = 25;
@@ -49,10 +50,10 @@ pub(crate) fn settle(
     let mut strength = Strength::guess(task, &model);
     for round in 1..=MOST {
         if round <= SEARCHED {
-            let start = (strength.revived(task, &model), round == 1);
-            strength = Strength::most_likely((task, &model), start);
+            let start = (&strength.revived(task, &model), round == 1);
+            strength = most_likely((task, &model), start);
         }
-        let (smoother, _) = model.smoothed(&strength.intensities, &strength.sigmas);
+        let (smoother, _) = model.smoothed(&strength);
         let smoothed = smoother.smoothed();
         let mut next = moved((task, &begins), (&reference, &model), &smoothed, 1.0);
         let far = distance((task, &model), (&reference, &next), &smoothed);
@@ -90,6 +91,9 @@ pub(crate) fn checked(task: &InferTask<'_>) -> Result<(), InferError> {
     if task.network.has_events() {
         return Err(InferError::Events);
     }
+    if let Some(sensor) = unknown_input(&task.run, &task.sensors) {
+        return Err(InferError::Input { sensor: sensor.name.clone() });
+    }
     let used = task.run.columns.iter().filter_map(|column| column.sensor);
     let unknown = used.map(|sensor| &task.sensors[sensor]);
     match unknown.into_iter().find(|sensor| sensor.lag.certainty != Certainty::Exact) {
@@ -101,7 +105,7 @@ pub(crate) fn checked(task: &InferTask<'_>) -> Result<(), InferError> {
 /// The courses and values that the network itself says.
 fn own(task: &InferTask<'_>, moments: &Moments) -> Result<Reference, InferError> {
     let network = task.network.with(&task.run.parameters).map_err(ChangeError::from)?;
-    let network = network.recorded(&task.run.signals, &[]).map_err(ChangeError::from)?;
+    let network = network.recorded(&task.inputs(), &[]).map_err(ChangeError::from)?;
     let course = |sought: &crate::infer::Sought| {
         let course = Reference::own(&network, sought.signal, &moments.times);
         match course.iter().find(|value| sought.positive && value.is_nan() | (**value <= 0.0)) {

@@ -2,17 +2,19 @@
 
 use lptn_netlist::{InferStart, InferStudy, Netlist, SoughtSignal};
 use lptn_network::ParameterId;
+use lptn_units::Dimension;
 
 use crate::infer::error::InferError;
 use crate::infer::task::{InferTask, Sought, Start};
-use crate::network::NetworkFitTask;
+use crate::network::plan::weights;
+use crate::network::{NetworkFitError, NetworkFitTask};
 
 impl<'a> InferTask<'a> {
     /// The task of a study. Every parameter with a `±`, its own or that of a posterior, is
     /// uncertain, with its correlations.
     ///
     /// # Errors
-    /// [`InferError`] for a column that does not measure a temperature of a node or a mean of some,
+    /// [`InferError`] for a column that is no temperature of a node, no mean and no difference of some,
     /// and what the evaluation of the study's numbers reports.
     pub fn of(netlist: &'a Netlist, study: &InferStudy) -> Result<Self, InferError> {
         let network = &netlist.network;
@@ -25,6 +27,7 @@ impl<'a> InferTask<'a> {
                 name: sought.name.clone(),
                 positive: sought.positive,
                 intensity: change.map(|change| change * change),
+                jumps: sought.jumps,
             })
         };
         let sought = study.sought.iter().zip(changes).filter_map(sought).collect();
@@ -33,6 +36,14 @@ impl<'a> InferTask<'a> {
             InferStart::Record => Start::Measured,
             InferStart::Free => Start::Free,
         };
+        // a filter follows what is linear in temperatures of nodes, and no other result
+        study.reads.observed.iter().try_for_each(|observed| match observed.ty.dimension {
+            Dimension::TEMPERATURE => weights(network, observed).map(|_| ()),
+            _ => Err(NetworkFitError::NotLinear {
+                column: observed.column.clone(),
+                result: observed.text.clone(),
+            }),
+        })?;
         let run = read.runs.swap_remove(0);
         let believed = netlist.overrides();
         let uncertain: Vec<(ParameterId, f64)> =

@@ -37,7 +37,7 @@ pub(crate) fn columns(
 /// The drift of a column over the record, if it is one more thing that is not known.
 fn drift(model: &Model, strength: &Strength, column: usize) -> Known {
     let drifting = model.drifting(column, UNKNOWN_KELVIN);
-    let (smoother, _): (Smoother, _) = drifting.smoothed(&strength.intensities, &strength.sigmas);
+    let (smoother, _): (Smoother, _) = drifting.smoothed(strength);
     let last = smoother.filter().state();
     let place = last.mean.len() - 1;
     let unit: Vec<f64> = (0..=place).map(|i| if i == place { 1.0 } else { 0.0 }).collect();

@@ -1,9 +1,9 @@
 //! What is to be inferred from what.
 
-use lptn_network::{Network, ParameterId, SignalId};
+use lptn_network::{Course, Network, ParameterId, SignalId};
 use lptn_units::Correlations;
 
-use crate::network::{Instrument, MeasuredRun};
+use crate::network::{Held, Instrument, MeasuredRun};
 
 /// Courses of signals to infer from one record.
 #[derive(Clone, Debug)]
@@ -25,6 +25,14 @@ pub struct InferTask<'a> {
     pub start: Start,
 }
 
+impl InferTask<'_> {
+    /// The courses of the signals that follow the record, whose instruments are known.
+    pub(crate) fn inputs(&self) -> Vec<(SignalId, Course)> {
+        let held = |sensor: Option<usize>| Held::of(sensor.and_then(|i| self.sensors.get(i)));
+        self.run.signals.iter().map(|s| (s.signal, s.course(held(s.sensor)))).collect()
+    }
+}
+
 /// A signal whose course is sought: a random walk, or one of its logarithm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sought {
@@ -37,6 +45,8 @@ pub struct Sought {
     /// Variance of the walk per s, in SI units squared per s or, for a logarithm, 1/s; `None` for
     /// the value that makes the record most likely.
     pub intensity: Option<f64>,
+    /// Whether it may jump where the record says so.
+    pub jumps: bool,
 }
 
 /// What is known of the temperatures at the start.

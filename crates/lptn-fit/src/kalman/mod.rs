@@ -11,7 +11,7 @@ mod smoother;
 use std::rc::Rc;
 
 pub use filter::{Filter, Innovation};
-pub use smoother::Smoother;
+pub use smoother::{Later, Smoother};
 
 /// What is known of the states: their mean and covariance.
 #[derive(Clone, Debug, PartialEq)]

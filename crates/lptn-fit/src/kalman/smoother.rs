@@ -62,28 +62,45 @@ impl Smoother {
 
     /// What is known of each moment, first to last, from all readings.
     pub fn smoothed(&self) -> Vec<Gaussian> {
+        let mut smoothed: Vec<Gaussian> = Vec::with_capacity(self.moments.len());
+        self.backwards(|k, later| smoothed.push(later.told(&self.moments[k].before)));
+        smoothed.reverse();
+        smoothed
+    }
+
+    /// Visits the moments, last to first, with what the readings from each on say.
+    pub fn backwards(&self, mut visit: impl FnMut(usize, &Later)) {
         let n = self.filter.state().mean.len();
         let mut later = Later { pull: vec![0.0; n], hold: vec![0.0; n * n] };
-        let mut smoothed: Vec<Gaussian> = Vec::with_capacity(self.moments.len());
-        for moment in self.moments.iter().rev() {
+        for (k, moment) in self.moments.iter().enumerate().rev() {
             moment.readings.iter().rev().for_each(|taken| later.reading(taken));
-            smoothed.push(later.told(&moment.before));
+            visit(k, &later);
             if let Some(transition) = &moment.transition {
                 later.step(transition);
             }
         }
-        smoothed.reverse();
-        smoothed
     }
 }
 
-/// What later readings say: they move the mean by `P pull` and the covariance by `-P hold P`.
-struct Later {
+/// What later readings say of a moment: they move the mean that was known before them by `P pull`
+/// and its covariance P by `-P hold P`.
+#[derive(Clone, Debug)]
+pub struct Later {
     pull: Vec<f64>,
     hold: Vec<f64>,
 }
 
 impl Later {
+    /// What they say of a shock to the states on the way to the moment, the first of which came
+    /// along `shock` for each unit: its estimate if nothing is known of its size is `pull / hold`,
+    /// with the variance `1 / hold` (P. de Jong, J. Penzer, J. Am. Stat. Assoc. 93 (1998) 796).
+    pub fn of_shock(&self, shock: &[f64]) -> (f64, f64) {
+        let n = self.pull.len();
+        let pull = dot(shock, &self.pull);
+        let hold = shock.iter().zip(self.hold.chunks_exact(n)).map(|(s, row)| s * dot(shock, row));
+        (pull, hold.sum())
+    }
+
     /// `(1 - k h)' hold (1 - k h) + h' h / S`, and the pull likewise.
     fn reading(&mut self, taken: &Taken) {
         let n = self.pull.len();

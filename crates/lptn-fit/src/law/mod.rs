@@ -28,6 +28,7 @@ mod criteria;
 mod error;
 mod model;
 mod points;
+mod posterior;
 mod powers;
 mod runs;
 mod significance;

@@ -49,24 +49,37 @@ pub enum NetworkFitError {
             SensitiveError::Run(_) => Class::Numbers,
             _ => Class::Input,
         };
-    /// A column measures something, as it is written, that is neither the temperature of a node nor
-    /// a mean of some.
+    /// A column measures something, as it is written, that no run tells: a parameter, the time.
     Observed { column: String, result: String } = "fit::observed",
-        format!("column `{column}` measures `{result}`, which is not a temperature of a node or a \
-            mean of some"),
-        help "write the temperature of a node, `\"steel.T\"`, or a mean, `\"mean(steel.T, \
-            bed.T)\"`; parameters, signals, boundaries, heat flows and `t` cannot stand there; \
-            what an instrument adds is said in [sensor]";
+        format!("column `{column}` measures `{result}`, which reads no temperature and no heat flow"),
+        help "write what the instrument was exposed to: a temperature, `\"steel.T\"`, a difference, \
+            `\"steel.T - bed.T\"`, or a heat flow, `\"internal.Q\"`";
+    /// A column measures something, as it is written, that is no sum of temperatures of nodes.
+    NotLinear { column: String, result: String } = "fit::not_linear",
+        format!("column `{column}` measures `{result}`, which is not a temperature of a node, a mean \
+            or a difference of some"),
+        help "only a fit compares other results; write the temperature of a node, `\"steel.T\"`, or \
+            a mean, `\"mean(steel.T, bed.T)\"`: parameters, signals, boundaries, heat flows and `t` \
+            cannot stand there";
+    /// Columns have different units, and this one has no standard deviation.
+    Units { column: String, units: [String; 2] } = "fit::units",
+        format!("columns are in {} and in {}, and column `{column}` has no `sigma`: without it there \
+            is no saying what counts how much", units[0], units[1]),
+        help "write how far one value of each column scatters: `{ of = \"skin.Q\", sigma = \"2 W\" }`";
+    /// What a column measures has no value at this time in s, although something was measured.
+    NoValue { record: String, column: String, time: f64 } = "fit::no_value",
+        format!("{record}: what column `{column}` measures has no value at {time} s"),
+        help "look for a root or a logarithm of what is 0 or less there, or for a result that is not \
+            there yet; rows without a value in the column are left out";
     /// A column of a record, which a signal is to follow, has fewer than two values.
     Signal { record: String, column: String } = "fit::signal",
         format!("{record}: a signal follows column `{column}`, which has fewer than two values"),
         help "take the record out, or the signal out of `signal`";
-    /// A node is to begin at what a sensor reads that is itself sought.
-    Initial { column: String, sensor: String } = "fit::initial",
-        format!("the start is read from column `{column}`, but what sensor `{sensor}` reads too much is \
-            sought"),
-        help "leave `initial` out and say in `T0` where the network begins, or write what the sensor \
-            reads too much as a plain value";
+    /// A signal is to follow what a slow sensor reads.
+    SignalLag { column: String, sensor: String } = "fit::signal_lag",
+        format!("a signal follows column `{column}`, whose sensor `{sensor}` has a lag"),
+        help "what was there before a slow sensor followed cannot be told from noise: name a sensor \
+            without `lag`, or make the place a node, whose column may have a slow sensor";
     /// A number of the study has no value.
     Plan => EvalError;
     /// The sum of squares cannot be minimised.

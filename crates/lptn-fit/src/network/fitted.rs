@@ -19,7 +19,10 @@ pub struct NetworkFit {
     pub parameters: Vec<FittedParameter>,
     /// The columns of every record, in the order of the task.
     pub columns: Vec<ColumnMisfit>,
-    /// Root of the mean of the squares of all misfits, not weighted, in K.
+    /// Root of the mean of the squares of all misfits: in the SI unit of the columns, or over their
+    /// standard deviations where they have no unit in common ([`NetworkFitTask::unit`]).
+    ///
+    /// [`NetworkFitTask::unit`]: crate::network::NetworkFitTask::unit
     pub rms: f64,
     /// Covariance of the parameters that are free and determined, corrected for residuals that
     /// follow each other.
@@ -58,7 +61,7 @@ pub struct FittedParameter {
     pub profile: Option<Profile>,
 }
 
-/// How the model misses a column.
+/// How the model misses a column, in the SI unit of what that measures.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnMisfit {
     /// Place of the record.
@@ -69,15 +72,15 @@ pub struct ColumnMisfit {
     pub samples: usize,
     /// How many independent values would tell as much.
     pub effective: f64,
-    /// Root of the mean square in K.
+    /// Root of the mean square.
     pub rms: f64,
-    /// Mean of model less record in K.
+    /// Mean of model less record.
     pub mean: f64,
-    /// Standard deviation of one value as it was given, in K.
+    /// Standard deviation of one value as it was given.
     pub sigma: Option<f64>,
     /// What the misfit looks like, where it is far more than that.
     pub hint: Option<Hint>,
-    /// What the model says at each time of the record, in K.
+    /// What the model says at each time of the record.
     pub modelled: Vec<f64>,
 }
 

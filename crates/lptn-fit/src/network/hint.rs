@@ -10,7 +10,7 @@ use crate::network::task::NetworkFitTask;
 /// What would explain most of what is missed of a column, were the parameters fitted with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Hint {
-    /// The instrument reads so much too much, in K.
+    /// The instrument reads so much too much, in the SI unit of its column.
     Offset(f64),
     /// It follows with this time constant in s.
     Lag(f64),
@@ -76,7 +76,7 @@ impl Missed<'_> {
         })
     }
 
-    /// How much of a change `by` of each column in K explains what is missed of
+    /// How much of a change `by` of each column explains what is missed of
     /// it, all at once.
     fn explained(&self, columns: &[usize], by: &dyn Fn(&Block) -> Vec<f64>) -> Vec<Explained> {
         let rows = self.at_end.residuals.len();

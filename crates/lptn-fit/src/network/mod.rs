@@ -1,4 +1,4 @@
-//! Parameters of a network from records of its temperatures.
+//! Parameters of a network from records of its temperatures, heat flows and expressions of them.
 //!
 //! Residuals are model less record, over the standard deviation of a value where one is given, at
 //! every row of every record; what is known of a parameter beforehand (`±`) counts as one more.
@@ -17,15 +17,17 @@ pub mod design;
 mod error;
 mod errors;
 mod fitted;
+mod held;
 mod hint;
 mod identify;
 mod lag;
 mod model;
-mod plan;
+pub(crate) mod plan;
 mod posterior;
 mod predict;
 mod profile;
 mod readings;
+mod recorded;
 mod search;
 mod task;
 mod undetermined;
@@ -34,6 +36,7 @@ mod unknown;
 pub use combination::CombinationKind;
 pub use error::NetworkFitError;
 pub use fitted::{ColumnMisfit, FittedParameter, NetworkFit};
+pub(crate) use held::unknown_input;
 pub use hint::{FAR, Hint};
 pub use identify::Identifiability;
 pub(crate) use lag::{follow, refined};
@@ -41,8 +44,12 @@ pub use lptn_netlist::{Certainty, SensorValue};
 pub use lptn_network::Varied;
 pub(crate) use predict::{Misses, misses, refit};
 pub use profile::Profile;
+pub(crate) use recorded::{Held, line};
+pub use recorded::{RecordedSignal, RecordedStart};
 pub use search::Starts;
-pub use task::{FitObserver, FitStage, Instrument, MeasuredColumn, MeasuredRun, NetworkFitTask};
+pub use task::{
+    FitObserver, FitStage, Instrument, Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask,
+};
 pub use undetermined::{Combination, Unseparated};
 pub use unknown::{Unknown, UnknownOf};
 
@@ -128,7 +135,7 @@ pub fn fit_network_observed(
     Ok(NetworkFit {
         not_converged: outcome.err(),
         parameters,
-        rms: rms_of(&columns),
+        rms: rms_of(&columns, task.unit().is_some()),
         columns,
         covariance,
         left_over,
@@ -263,8 +270,10 @@ fn told_apart(
     identify(&place, &mut |values| model.at(values).ok().map(|found| found.residuals.clone()))
 }
 
-fn rms_of(columns: &[ColumnMisfit]) -> f64 {
-    let squares: f64 = columns.iter().map(|c| c.rms * c.rms * c.samples as f64).sum();
+/// Over standard deviations where the columns have no unit in common: then each has one.
+fn rms_of(columns: &[ColumnMisfit], one_unit: bool) -> f64 {
+    let unit = |c: &ColumnMisfit| if one_unit { 1.0 } else { c.sigma.unwrap_or(1.0) };
+    let squares: f64 = columns.iter().map(|c| (c.rms / unit(c)).powi(2) * c.samples as f64).sum();
     let samples: usize = columns.iter().map(|c| c.samples).sum();
     (squares / samples.max(1) as f64).sqrt()
 }

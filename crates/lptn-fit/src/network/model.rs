@@ -4,13 +4,15 @@ use std::ops::Range;
 
 use lptn_assembly::ChangeError;
 use lptn_network::{Network, ParameterId};
-use lptn_solve::{Gradient, SensitiveError, in_parallel, sensitive_run_observed};
+use lptn_solve::{
+    Gradient, Proceed, Progress, SensitiveError, in_parallel, sensitive_run_observed,
+};
 
 use crate::least_squares::{self, LeastSquaresError, Residuals};
 use crate::network::coordinates::Coordinates;
 use crate::network::error::NetworkFitError;
-use crate::network::readings::{Measure, Reader, Rows};
-use crate::network::task::{FitObserver, FitStage, MeasuredRun, NetworkFitTask};
+use crate::network::readings::{Beside, Measure, Reader, Rows};
+use crate::network::task::{FitObserver, FitStage, NetworkFitTask};
 use crate::network::unknown::{Prior, Unknown};
 
 /// The residuals of one column of one record.
@@ -118,6 +120,24 @@ impl<'a> Model<'a> {
         self.blocks.iter().map(of).sum::<f64>().sqrt()
     }
 
+    /// That what a column measures had no value where something was measured, in what was computed
+    /// last: that of an expression may have none.
+    pub(crate) fn without_value(&self) -> Option<NetworkFitError> {
+        let last = self.last.as_ref()?;
+        self.blocks.iter().find_map(|block| {
+            let run = &self.task.runs[block.run];
+            let column = &run.columns[block.column];
+            let rows = self.rows[block.run].chosen.iter().zip(&last.modelled[block.rows.clone()]);
+            let mut lost =
+                rows.filter(|(row, model)| !column.values[**row].is_nan() && !model.is_finite());
+            lost.next().map(|(&row, _)| NetworkFitError::NoValue {
+                record: run.name.clone(),
+                column: column.name.clone(),
+                time: run.times[row],
+            })
+        })
+    }
+
     /// Residuals and derivatives for values in SI units; the record whose run failed, and why.
     pub(crate) fn at(&mut self, values: &[f64]) -> Result<&Evaluated, (usize, SensitiveError)> {
         if self.last.as_ref().is_none_or(|last| last.values != values) {
@@ -175,36 +195,61 @@ impl<'a> Model<'a> {
 
     /// One record's run.
     fn run(&self, i: usize, values: &[f64]) -> Result<Measure, SensitiveError> {
-        let (run, rows) = (&self.task.runs[i], &self.rows[i]);
-        let network = self.task.network_of(run, values)?;
-        let ids: Vec<ParameterId> =
-            self.task.parameters.iter().map(|varied| varied.parameter).collect();
-        let (settings, stage) = (rows.settings(run, self.tolerance), self.stage_now());
-        let found = sensitive_run_observed(&network, (&settings, &ids), &|step| {
-            (self.observer)(stage, step)
-        })?;
-        let reader = Reader { task: self.task, run: i, rows, unknowns: self.unknowns, values };
-        Ok(reader.measure(&found))
+        let (rows, stage) = (&self.rows[i], self.stage_now());
+        let at = (self.unknowns, values);
+        self.task.measured((i, rows), at, (self.tolerance, &|step| (self.observer)(stage, step)))
     }
 }
 
 impl NetworkFitTask<'_> {
-    /// The network of one record with values of the varied parameters in SI units.
-    pub(crate) fn network_of(
+    /// A record's run with these values of what is sought, compared with the record.
+    pub(crate) fn measured(
         &self,
-        run: &MeasuredRun,
-        values: &[f64],
+        (run, rows): (usize, &Rows),
+        (unknowns, values): (&[Unknown], &[f64]),
+        (tolerance, observer): (f64, &dyn Fn(Progress) -> Proceed),
+    ) -> Result<Measure, SensitiveError> {
+        let settings = rows.settings(&self.runs[run], tolerance);
+        let computed = |values: &[f64], ids: &[ParameterId]| {
+            let network = self.network_of(run, (unknowns, values))?;
+            sensitive_run_observed(&network, (&settings, ids), observer)
+        };
+        let ids: Vec<ParameterId> = self.parameters.iter().map(|varied| varied.parameter).collect();
+        let found = computed(values, &ids)?;
+        let mut beside = Vec::new();
+        for (i, unknown) in unknowns.iter().enumerate() {
+            let Some(by) = self.runs[run].change(run, unknown) else { continue };
+            let moved = |by: f64| {
+                let mut moved = values.to_vec();
+                moved[i] += by;
+                computed(&moved, &[])
+            };
+            beside.push(Beside { unknown: i, runs: [moved(-by)?, moved(by)?], distance: 2.0 * by });
+        }
+        let reader = Reader { task: self, run, rows, unknowns, values, beside: &beside };
+        Ok(reader.measure(&found))
+    }
+
+    /// The network of one record with values of what is sought in SI units.
+    fn network_of(
+        &self,
+        place: usize,
+        (unknowns, values): (&[Unknown], &[f64]),
     ) -> Result<Network, SensitiveError> {
+        let run = &self.runs[place];
         let mut parameters = run.parameters.clone();
-        self.parameters
-            .iter()
-            .zip(values)
-            .for_each(|(varied, &value)| parameters.set(varied.parameter, value));
+        for (unknown, &value) in unknowns.iter().zip(values) {
+            unknown.parameter().into_iter().for_each(|id| parameters.set(id, value));
+        }
         let network = self.network.with(&parameters).map_err(ChangeError::from)?;
         if run.signals.is_empty() && run.initial.is_empty() {
             return Ok(network);
         }
-        Ok(network.recorded(&run.signals, &run.initial).map_err(ChangeError::from)?)
+        let held = |sensor| self.held((sensor, place), (unknowns, values));
+        let signals = run.signals.iter();
+        let signals: Vec<_> = signals.map(|s| (s.signal, s.course(held(s.sensor)))).collect();
+        let initial: Vec<_> = run.initial.iter().map(|s| s.begins(held(s.sensor))).collect();
+        Ok(network.recorded(&signals, &initial).map_err(ChangeError::from)?)
     }
 }
 

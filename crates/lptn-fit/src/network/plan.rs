@@ -1,12 +1,12 @@
 //! From a `[fit.NAME]` of a netlist to a task.
 
-use lptn_netlist::{FitInitial, FitRecord, FitSignal, FitStudy, Netlist, Observed, Sensor};
-use lptn_network::{AfterEnd, Course, End, Network, NodeId, SignalId, Time, ZERO_CELSIUS};
+use lptn_netlist::{FitInitial, FitRecord, FitStudy, Netlist, Observed, Sensor};
+use lptn_network::{End, Network, NodeId, Time};
 use lptn_solve::Transient;
-use lptn_units::{Interpolation, Outside, Table1};
 
 use crate::network::error::NetworkFitError;
-use crate::network::task::{Instrument, MeasuredColumn, MeasuredRun, NetworkFitTask};
+use crate::network::recorded::{RecordedSignal, RecordedStart};
+use crate::network::task::{Instrument, Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask};
 
 /// Searches that begin between the bounds, where the netlist does not say.
 const MORE_STARTS: usize = 4;
@@ -23,8 +23,8 @@ impl<'a> NetworkFitTask<'a> {
     /// without one), and the times of its rows are times of that run.
     ///
     /// # Errors
-    /// [`NetworkFitError`] for a result that is not a temperature of a node or a mean of some, and
-    /// what the evaluation of the study's numbers reports.
+    /// [`NetworkFitError`] for a column that measures nothing that a run has, for columns whose units
+    /// cannot be compared, and what the evaluation of the study's numbers reports.
     pub fn of(
         netlist: &'a Netlist,
         study: &FitStudy,
@@ -33,8 +33,8 @@ impl<'a> NetworkFitTask<'a> {
         let network = &netlist.network;
         let plan = study.plan(network, &netlist.overrides())?;
         let settings = settings(netlist);
-        let of: Vec<_> =
-            study.observed.iter().map(|o| weights(network, o)).collect::<Result<_, _>>()?;
+        let of: Vec<Measurand> =
+            study.observed.iter().map(|o| measurand(network, o)).collect::<Result<_, _>>()?;
         let sensors = &netlist.studies.sensors;
         let sensor_of = |observed: &Observed| {
             sensors.iter().position(|sensor| observed.sensor.as_ref() == Some(&sensor.name))
@@ -45,6 +45,7 @@ impl<'a> NetworkFitTask<'a> {
             Some(sigma.as_ref()?.hypot(step(observed).unwrap_or(0.0) / 12_f64.sqrt()))
         };
         let sigmas: Vec<Option<f64>> = study.observed.iter().zip(&plan.sigmas).map(sigma).collect();
+        comparable(study, &sigmas)?;
         let mut runs = Vec::with_capacity(study.records.len());
         for (record, parameters) in study.records.iter().zip(plan.parameters) {
             let column = |(i, observed): (usize, &Observed)| {
@@ -55,6 +56,7 @@ impl<'a> NetworkFitTask<'a> {
                 MeasuredColumn {
                     name: observed.column.clone(),
                     of: of[i].clone(),
+                    ty: observed.ty,
                     sensor: sensor_of(observed),
                     sigma: sigmas[i],
                     values,
@@ -63,7 +65,7 @@ impl<'a> NetworkFitTask<'a> {
             let begun = Begun { study, record, sensors, start: settings.start };
             runs.push(MeasuredRun {
                 signals: begun.signals(network)?,
-                initial: begun.initial(&of)?,
+                initial: begun.initial(&of),
                 name: record.csv.clone(),
                 parameters,
                 settings: settings.clone(),
@@ -94,45 +96,58 @@ struct Begun<'a> {
 }
 
 impl Begun<'_> {
-    /// The courses of the signals that follow its columns: straight lines between its rows, over
-    /// gaps too, and the first and the last value before and behind them.
-    fn signals(&self, network: &Network) -> Result<Vec<(SignalId, Course)>, NetworkFitError> {
+    /// The signals that follow its columns: straight lines between its rows, over gaps too, and the
+    /// first value before them.
+    fn signals(&self, network: &Network) -> Result<Vec<RecordedSignal>, NetworkFitError> {
         let (all, times) = (network.signals(), &self.record.record.time);
-        let course = |signal: &FitSignal| {
-            let place = all.iter().position(|own| own.name == signal.name);
+        let mut found = Vec::new();
+        for own in &self.study.signals {
+            let place = all.iter().position(|signal| signal.name == own.name);
             let id = place.and_then(|place| network.signal_ids().nth(place));
-            let column = self.record.record.column(&signal.column);
-            let (Some(id), Some(column)) = (id, column) else { return Ok(None) };
+            let column = self.record.record.column(&own.column);
+            let (Some(signal), Some(column)) = (id, column) else { continue };
             let rows = times.iter().zip(&column.values).filter(|(_, value)| !value.is_nan());
-            let (mut t, mut v): (Vec<f64>, Vec<f64>) = rows.unzip();
-            if t.first().is_some_and(|first| *first > self.start) {
-                t.insert(0, self.start);
-                v.insert(0, v[0]);
+            let (mut times, mut values): (Vec<f64>, Vec<f64>) = rows.unzip();
+            let (record, column) = (self.record.csv.clone(), own.column.clone());
+            if times.len() < 2 {
+                return Err(NetworkFitError::Signal { record, column });
             }
-            let points = Table1::new(t, v, Interpolation::Linear, Outside::Hold);
-            let after = AfterEnd::Hold;
-            match points {
-                Ok(points) => Ok(Some((id, Course::Curve { points, after }))),
-                Err(_) => Err(NetworkFitError::Signal {
-                    record: self.record.csv.clone(),
-                    column: signal.column.clone(),
-                }),
+            let sensor = self.sensor(own.sensor.as_ref().or_else(|| self.sensor_of(&own.column)));
+            if let Some(slow) = sensor.map(|sensor| &self.sensors[sensor])
+                && (slow.lag.value > 0.0 || slow.lag.is_sought())
+            {
+                let sensor = slow.name.clone();
+                return Err(NetworkFitError::SignalLag { column, sensor });
             }
-        };
-        let courses: Result<Vec<_>, _> = self.study.signals.iter().map(course).collect();
-        Ok(courses?.into_iter().flatten().collect())
+            if times[0] > self.start {
+                times.insert(0, self.start);
+                values.insert(0, values[0]);
+            }
+            found.push(RecordedSignal { signal, ty: own.ty, times, values, sensor });
+        }
+        Ok(found)
+    }
+
+    /// A column that is compared has one instrument, whatever else follows it.
+    fn sensor_of(&self, column: &str) -> Option<&String> {
+        self.study.observed.iter().find(|observed| observed.column == column)?.sensor.as_ref()
+    }
+
+    fn sensor(&self, name: Option<&String>) -> Option<usize> {
+        self.sensors.iter().position(|sensor| Some(&sensor.name) == name)
     }
 
     /// Where the nodes begin whose temperature a column measures.
-    fn initial(&self, of: &[Vec<(NodeId, f64)>]) -> Result<Vec<(NodeId, f64)>, NetworkFitError> {
+    fn initial(&self, of: &[Measurand]) -> Vec<RecordedStart> {
         let long = match self.study.initial {
-            FitInitial::Network => return Ok(Vec::new()),
+            FitInitial::Network => return Vec::new(),
             FitInitial::First => 0.0,
             FitInitial::Mean(seconds) => seconds,
         };
-        let mut found: Vec<(NodeId, f64)> = Vec::new();
+        let mut found: Vec<RecordedStart> = Vec::new();
         for (observed, of) in self.study.observed.iter().zip(of) {
-            let [(node, factor)] = of.as_slice() else { continue };
+            let Measurand::Temperatures(of) = of else { continue };
+            let ([(node, factor)], true) = (of.as_slice(), observed.ty.absolute) else { continue };
             let column = self.record.record.column(&observed.column);
             let (Some(column), true) = (column, (factor - 1.0).abs() < 1e-12) else { continue };
             let rows = self.record.record.time.iter().zip(&column.values);
@@ -140,28 +155,48 @@ impl Begun<'_> {
             let Some(first) = rows.peek().map(|(time, _)| **time) else { continue };
             let values: Vec<f64> =
                 rows.take_while(|(time, _)| **time <= first + long).map(|(_, v)| *v).collect();
-            let mean = values.iter().sum::<f64>() / values.len() as f64;
-            if found.iter().all(|(other, _)| other != node) {
-                found.push((*node, self.behind(observed, mean)?));
+            let reading = values.iter().sum::<f64>() / values.len() as f64;
+            if found.iter().all(|other| other.node != *node) {
+                let sensor = self.sensor(observed.sensor.as_ref());
+                found.push(RecordedStart { node: *node, reading, sensor });
             }
         }
-        Ok(found)
+        found
     }
+}
 
-    /// The temperature of which a column's instrument reads this, in K.
-    fn behind(&self, observed: &Observed, reading: f64) -> Result<f64, NetworkFitError> {
-        let own = |sensor: &&Sensor| observed.sensor.as_ref() == Some(&sensor.name);
-        let Some(sensor) = self.sensors.iter().find(own) else { return Ok(reading) };
-        if sensor.offset.is_sought() || sensor.gain.is_sought() {
-            let (column, sensor) = (observed.column.clone(), sensor.name.clone());
-            return Err(NetworkFitError::Initial { column, sensor });
+/// What a column measures: a sum of temperatures where it is one, which costs least.
+fn measurand(network: &Network, observed: &Observed) -> Result<Measurand, NetworkFitError> {
+    match weights(network, observed) {
+        Ok(nodes) => Ok(Measurand::Temperatures(nodes)),
+        Err(_) if network.reads_results(&observed.value) => {
+            Ok(Measurand::Result(observed.value.clone()))
         }
-        let over_zero = (reading - ZERO_CELSIUS - sensor.offset.value) / sensor.gain.value;
-        Ok(ZERO_CELSIUS + over_zero)
+        Err(_) => Err(NetworkFitError::Observed {
+            column: observed.column.clone(),
+            result: observed.text.clone(),
+        }),
+    }
+}
+
+/// Values in different units are compared by their standard deviations, so each needs one.
+fn comparable(study: &FitStudy, sigmas: &[Option<f64>]) -> Result<(), NetworkFitError> {
+    let first = &study.observed[0];
+    let other = study.observed.iter().find(|o| o.ty.dimension != first.ty.dimension);
+    let unknown = study.observed.iter().zip(sigmas).find(|(_, sigma)| sigma.is_none());
+    match (other, unknown) {
+        (Some(other), Some((column, _))) => Err(NetworkFitError::Units {
+            column: column.column.clone(),
+            units: [first, other].map(|observed| observed.ty.dimension.si_unit()),
+        }),
+        _ => Ok(()),
     }
 }
 
 /// The nodes whose temperatures make up a result, with their factors.
+///
+/// # Errors
+/// [`NetworkFitError::NotLinear`] where it is no such sum.
 pub(crate) fn weights(
     network: &Network,
     observed: &Observed,
@@ -169,14 +204,10 @@ pub(crate) fn weights(
     if let Some(End::Node(node)) = observed.end {
         return Ok(vec![(node, 1.0)]);
     }
-    let refused = || NetworkFitError::Observed {
+    linear(network, observed).ok_or_else(|| NetworkFitError::NotLinear {
         column: observed.column.clone(),
         result: observed.text.clone(),
-    };
-    if !observed.ty.absolute {
-        return Err(refused());
-    }
-    linear(network, observed).ok_or_else(refused)
+    })
 }
 
 /// The factors of a result that is a weighted sum of temperatures of nodes. What it reads is known
@@ -209,8 +240,9 @@ fn linear(network: &Network, observed: &Observed) -> Option<Vec<(NodeId, f64)>> 
     }
     let uneven: Vec<f64> =
         (0..count).map(|i| BASE + RAISED * (1.0 + (i % 7) as f64 - (i % 3) as f64)).collect();
-    let sum: f64 = weights.iter().map(|(id, weight)| weight * uneven[id.index()]).sum();
-    let is_sum = |value: f64| (value - sum).abs() <= 1e-12 * sum.abs();
+    let terms = || weights.iter().map(|(id, weight)| weight * uneven[id.index()]);
+    let (sum, size): (f64, f64) = (terms().sum(), terms().map(f64::abs).sum());
+    let is_sum = |value: f64| (value - sum).abs() <= 1e-12 * size;
     (!weights.is_empty() && is_sum(at(&uneven, BASE)?) && is_sum(at(&uneven, 2.0 * BASE)?))
         .then_some(weights)
 }

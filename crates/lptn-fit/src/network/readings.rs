@@ -1,10 +1,11 @@
 //! What the instruments of one record read in its run.
 
-use lptn_network::{NodeId, OutputTimes, ZERO_CELSIUS};
-use lptn_solve::{Gradient, RecordedNodes, SensitiveRun, Transient};
+use lptn_network::{NodeId, OutputTimes, ParameterId};
+use lptn_solve::{Gradient, SensitiveRun, Transient};
 
 use crate::network::lag::{Followed, follow, refined};
-use crate::network::task::{MeasuredColumn, MeasuredRun, NetworkFitTask};
+use crate::network::recorded::Held;
+use crate::network::task::{Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask};
 use crate::network::unknown::{Unknown, UnknownOf};
 
 /// The rows of a record that count, and those of its run.
@@ -48,7 +49,7 @@ impl Rows {
             stop,
             output: OutputTimes::At(between.collect()),
             tolerance,
-            record: RecordedNodes::Nodes(run.nodes()),
+            record: run.kept(),
             watch: Vec::new(),
             windows: Vec::new(),
             balance: None,
@@ -81,14 +82,17 @@ pub(crate) struct Reader<'a> {
     pub(crate) rows: &'a Rows,
     pub(crate) unknowns: &'a [Unknown],
     pub(crate) values: &'a [f64],
+    /// The runs beside it where values of instruments change the run itself.
+    pub(crate) beside: &'a [Beside],
 }
 
-/// What an instrument is held to be: with an offset of 0, a gain of 1 and no lag it is ideal.
-#[derive(Clone, Copy)]
-struct Held {
-    offset: f64,
-    gain: f64,
-    lag: f64,
+/// Runs with less and with more of an unknown.
+pub(crate) struct Beside {
+    /// Place of the unknown.
+    pub(crate) unknown: usize,
+    pub(crate) runs: [SensitiveRun; 2],
+    /// By how much the two differ in it.
+    pub(crate) distance: f64,
 }
 
 impl Reader<'_> {
@@ -101,17 +105,22 @@ impl Reader<'_> {
         let mut slopes: Vec<Vec<f64>> = vec![Vec::new(); self.unknowns.len()];
         for column in &run.columns {
             let held = self.held(column);
-            let ideal = combined(column, |node| found.solution.temperature(node));
-            let over_zero = ideal.iter().map(|t| t - ZERO_CELSIUS).collect();
-            let followed = self.followed(over_zero, held);
-            let read = |y: &f64| ZERO_CELSIUS + held.gain * y + held.offset;
+            let ideal = exposed(column, found);
+            let zero = column.zero();
+            let followed = self.followed(ideal.iter().map(|x| x - zero).collect(), held);
+            let read = |y: &f64| zero + held.gain * y + held.offset;
             let model: Vec<f64> = self.picked(&followed.course).iter().map(read).collect();
-            let missed = self.rows.chosen.iter().zip(&model);
-            let missed = missed.map(|(&row, model)| (model - column.values[row]) / column.weight());
-            measure.residuals.extend(missed.filter(|residual| !residual.is_nan()));
+            let rows = self.rows.chosen.iter().zip(&model);
+            let rows = rows.filter(|(row, _)| !column.values[**row].is_nan());
+            let missed = rows.map(|(&row, model)| (model - column.values[row]) / column.weight());
+            measure.residuals.extend(missed);
             measure.modelled.extend_from_slice(&model);
-            for (unknown, all) in self.unknowns.iter().zip(&mut slopes) {
-                let slope = self.slope((unknown, column), (held, &followed), found);
+            for (i, all) in slopes.iter_mut().enumerate() {
+                let mut slope = self.slope((&self.unknowns[i], column), (held, &followed), found);
+                if let Some(beside) = self.beside.iter().find(|beside| beside.unknown == i) {
+                    let run = self.picked(&self.followed(beside.slopes(column), held).course);
+                    slope.iter_mut().zip(run).for_each(|(own, run)| *own += held.gain * run);
+                }
                 let kept = self.rows.chosen.iter().zip(slope);
                 let kept = kept.filter(|(row, _)| !column.values[**row].is_nan());
                 all.extend(kept.map(|(_, slope)| slope / column.weight()));
@@ -134,8 +143,7 @@ impl Reader<'_> {
         };
         match unknown.of {
             UnknownOf::Parameter(id) => {
-                let slopes = combined(column, |node| found.sensitivity(id, node));
-                scaled(&self.followed(slopes, held).course, held.gain)
+                scaled(&self.followed(slopes(column, id, found), held).course, held.gain)
             }
             UnknownOf::Offset { sensor, run }
                 if own(sensor) && run.is_none_or(|run| run == self.run) =>
@@ -149,24 +157,7 @@ impl Reader<'_> {
     }
 
     fn held(&self, column: &MeasuredColumn) -> Held {
-        let Some(sensor) = column.sensor else { return Held { offset: 0.0, gain: 1.0, lag: 0.0 } };
-        let instrument = &self.task.sensors[sensor];
-        let [offset, gain, lag] =
-            [instrument.offset, instrument.gain, instrument.lag].map(|value| value.value);
-        let mut held = Held { offset, gain, lag };
-        for (unknown, &value) in self.unknowns.iter().zip(self.values) {
-            match unknown.of {
-                UnknownOf::Offset { sensor: of, run }
-                    if of == sensor && run.is_none_or(|run| run == self.run) =>
-                {
-                    held.offset = value;
-                }
-                UnknownOf::Gain { sensor: of } if of == sensor => held.gain = value,
-                UnknownOf::Lag { sensor: of } if of == sensor => held.lag = value,
-                _ => {}
-            }
-        }
-        held
+        self.task.held((column.sensor, self.run), (self.unknowns, self.values))
     }
 
     fn followed(&self, course: Vec<f64>, held: Held) -> Followed {
@@ -183,10 +174,34 @@ impl Reader<'_> {
     }
 }
 
-/// The rows of the measured temperature, or of its derivative.
-fn combined(column: &MeasuredColumn, of_node: impl Fn(NodeId) -> Option<Vec<f64>>) -> Vec<f64> {
+impl Beside {
+    /// How what a column's instrument is exposed to changes with the unknown.
+    fn slopes(&self, column: &MeasuredColumn) -> Vec<f64> {
+        let [below, above] = self.runs.each_ref().map(|run| exposed(column, run));
+        below.iter().zip(above).map(|(below, above)| (above - below) / self.distance).collect()
+    }
+}
+
+/// What a column's instrument is exposed to.
+fn exposed(column: &MeasuredColumn, found: &SensitiveRun) -> Vec<f64> {
+    match &column.of {
+        Measurand::Temperatures(of) => combined(of, |node| found.solution.temperature(node)),
+        Measurand::Result(value) => found.solution.result(value),
+    }
+}
+
+/// How that changes with a parameter.
+fn slopes(column: &MeasuredColumn, id: ParameterId, found: &SensitiveRun) -> Vec<f64> {
+    match &column.of {
+        Measurand::Temperatures(of) => combined(of, |node| found.sensitivity(id, node)),
+        Measurand::Result(value) => found.result_slope(id, value).unwrap_or_default(),
+    }
+}
+
+/// The rows of a sum of temperatures, or of its derivative.
+fn combined(of: &[(NodeId, f64)], of_node: impl Fn(NodeId) -> Option<Vec<f64>>) -> Vec<f64> {
     let mut sum: Vec<f64> = Vec::new();
-    for &(node, factor) in &column.of {
+    for &(node, factor) in of {
         let values = of_node(node).unwrap_or_default();
         sum.resize(values.len(), 0.0);
         sum.iter_mut().zip(&values).for_each(|(sum, value)| *sum += factor * value);

@@ -74,6 +74,7 @@ pub(crate) fn search<'a>(
             error: Box::new(error),
         });
     }
+    coarse.without_value().map_or(Ok(()), Err)?;
     let gradient = coarse.gradient.unwrap_or(Gradient::Exact);
     let settings = |gradient: f64, step: f64| Settings {
         bounds: coordinates.bounds(),
@@ -100,9 +101,15 @@ pub(crate) fn search<'a>(
         Gradient::Exact => settings(1e-7, 1e-10),
         Gradient::Differences(_) => settings(1e-5, 1e-8),
     };
+    // rows that the searches did not look at may be where an expression has no value
+    let begins = coordinates.values(&ends[best].parameters).0;
+    if model.at(&begins).is_ok() {
+        model.without_value().map_or(Ok(()), Err)?;
+    }
     let estimate = minimise(&mut model, &ends[best].parameters, &exact);
     let estimate = estimate.map_err(|error| model.ended(error))?;
-    let outcome = outcome(&estimate, floor(&model, tolerance(TOLERANCES[1])), &gradient);
+    let exact = gradient == Gradient::Exact && !task.has_inputs_sought(unknowns);
+    let outcome = outcome(&estimate, floor(&model, tolerance(TOLERANCES[1])), exact);
     Ok(Found { estimate, outcome, starts, gradient, searches: coarse.evaluations, model })
 }
 
@@ -153,17 +160,13 @@ fn removable(end: &LeastSquaresFit) -> f64 {
 
 /// A search that gets no further because what is left to remove is less than the errors of the runs
 /// is at its minimum.
-fn outcome(end: &LeastSquaresFit, floor: f64, gradient: &Gradient) -> Result<(), Stop> {
+fn outcome(end: &LeastSquaresFit, floor: f64, exact: bool) -> Result<(), Stop> {
     /// Differences of runs are no more accurate than this.
     const DIFFERENCES: f64 = 1e-3;
     match end.outcome {
         Termination::Converged(_) => Ok(()),
         Termination::NotConverged(_) if removable(end) <= floor => Ok(()),
-        Termination::NotConverged(Stop::Stalled)
-            if *gradient != Gradient::Exact && end.offset <= DIFFERENCES =>
-        {
-            Ok(())
-        }
+        Termination::NotConverged(Stop::Stalled) if !exact && end.offset <= DIFFERENCES => Ok(()),
         Termination::NotConverged(stop) => Err(stop),
     }
 }

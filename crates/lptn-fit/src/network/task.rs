@@ -3,10 +3,13 @@
 use std::fmt;
 
 use lptn_netlist::{Sensor, SensorValue};
-use lptn_network::{Course, Network, NodeId, Parameters, SignalId, Varied};
-use lptn_solve::{Proceed, Progress, Transient};
+use lptn_network::{Network, NodeId, Parameters, Value, Varied, ZERO_CELSIUS};
+use lptn_solve::{Proceed, Progress, RecordedNodes, Transient};
+use lptn_units::Type;
 
-/// A fit of parameters of a network to records of its temperatures.
+use crate::network::recorded::{RecordedSignal, RecordedStart};
+
+/// A fit of parameters of a network to records of its temperatures and heat flows.
 #[derive(Clone, Debug)]
 pub struct NetworkFitTask<'a> {
     /// The network; the start values of the parameters are its own.
@@ -56,9 +59,9 @@ pub struct MeasuredRun {
     /// [`Network::overrides`].
     pub parameters: Parameters,
     /// The courses of signals that the record has measured.
-    pub signals: Vec<(SignalId, Course)>,
-    /// Nodes that begin at another temperature than the network says, in K.
-    pub initial: Vec<(NodeId, f64)>,
+    pub signals: Vec<RecordedSignal>,
+    /// Nodes that begin at another temperature than the network says.
+    pub initial: Vec<RecordedStart>,
     /// Start and controls of the run; its stop, rows and tolerance follow from the record.
     pub settings: Transient,
     /// The times of the rows in s, ascending, on the clock of the run: none before its start, at
@@ -69,12 +72,13 @@ pub struct MeasuredRun {
 }
 
 /// What an instrument makes of the temperature x over 0 degC that it measures: `gain y + offset`
-/// over 0 degC, where `lag dy/dt = x - y` from rest at the start of the run. All in SI units.
+/// over 0 degC, where `lag dy/dt = x - y` from rest at the start of the run. All in SI units. What
+/// else is measured than a temperature counts from its own zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instrument {
     /// Its name.
     pub name: String,
-    /// In K.
+    /// In the SI unit of its columns, K for a temperature.
     pub offset: SensorValue,
     /// A factor.
     pub gain: SensorValue,
@@ -96,25 +100,60 @@ impl From<&Sensor> for Instrument {
     }
 }
 
+/// What a column measures.
+#[derive(Clone, Debug)]
+pub enum Measurand {
+    /// The sum of temperatures of nodes times these factors: one of them, a mean, a difference.
+    Temperatures(Vec<(NodeId, f64)>),
+    /// An expression of temperatures and heat flows, compiled for the network.
+    Result(Value),
+}
+
 /// A measured column.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct MeasuredColumn {
     /// The name of the column in its file.
     pub name: String,
-    /// The temperature that was measured: the sum of temperatures of nodes times these factors.
-    pub of: Vec<(NodeId, f64)>,
+    /// What was measured.
+    pub of: Measurand,
+    /// Its type; values are in the SI unit of that.
+    pub ty: Type,
     /// Place of its instrument among those of the task; an ideal one unless there is one.
     pub sensor: Option<usize>,
-    /// Standard deviation of one value in K; `None` counts as 1 K.
+    /// Standard deviation of one value; `None` counts as 1.
     pub sigma: Option<f64>,
-    /// One value in K for each time; NaN where nothing was measured.
+    /// One value for each time; NaN where nothing was measured.
     pub values: Vec<f64>,
 }
 
 impl MeasuredColumn {
-    /// The standard deviation that residuals are divided by, in K.
+    /// The standard deviation that residuals are divided by.
     pub(crate) fn weight(&self) -> f64 {
         self.sigma.unwrap_or(1.0)
+    }
+
+    /// From where its instrument counts.
+    pub(crate) fn zero(&self) -> f64 {
+        if self.ty.absolute { ZERO_CELSIUS } else { 0.0 }
+    }
+
+    /// The nodes whose temperatures make it up, with their factors; none where it is an expression
+    /// of other results.
+    pub fn nodes(&self) -> &[(NodeId, f64)] {
+        match &self.of {
+            Measurand::Temperatures(nodes) => nodes,
+            Measurand::Result(_) => &[],
+        }
+    }
+}
+
+impl NetworkFitTask<'_> {
+    /// The type whose unit all columns have in common, of differences of what they measure; `None`
+    /// where there is none.
+    pub fn unit(&self) -> Option<Type> {
+        let mut all = self.runs.iter().flat_map(|run| &run.columns).map(|column| column.ty);
+        let first = all.next()?.dimension;
+        all.all(|ty| ty.dimension == first).then_some(Type::of(first))
     }
 }
 
@@ -124,10 +163,26 @@ impl MeasuredRun {
         let mut nodes: Vec<NodeId> = self
             .columns
             .iter()
-            .flat_map(|column| column.of.iter().map(|(node, _)| *node))
+            .flat_map(|column| column.nodes().iter().map(|(node, _)| *node))
             .collect();
         nodes.sort_unstable();
         nodes.dedup();
         nodes
+    }
+
+    /// The type of what an instrument read in it, if it did.
+    pub(crate) fn reads(&self, sensor: usize) -> Option<Type> {
+        let columns = self.columns.iter().map(|column| (column.sensor, column.ty));
+        let signals = self.signals.iter().map(|signal| (signal.sensor, signal.ty));
+        columns.chain(signals).find(|(own, _)| *own == Some(sensor)).map(|(_, ty)| ty)
+    }
+
+    /// What has to be kept of its run.
+    pub(crate) fn kept(&self) -> RecordedNodes {
+        let follows = |column: &MeasuredColumn| matches!(column.of, Measurand::Result(_));
+        match self.columns.iter().any(follows) {
+            true => RecordedNodes::All,
+            false => RecordedNodes::Nodes(self.nodes()),
+        }
     }
 }

@@ -137,10 +137,7 @@ impl NetworkFitTask<'_> {
             }
         };
         let mut all: Vec<Unknown> = self.parameters.iter().map(parameter).collect();
-        let used = |sensor: usize| {
-            let mut columns = self.runs.iter().flat_map(|run| &run.columns);
-            columns.any(|column| column.sensor == Some(sensor))
-        };
+        let used = |sensor: usize| self.runs.iter().any(|run| run.reads(sensor).is_some());
         for (i, sensor) in self.sensors.iter().enumerate().filter(|(i, _)| used(*i)) {
             all.extend(self.unknowns_of(i, sensor));
         }
@@ -150,15 +147,15 @@ impl NetworkFitTask<'_> {
     fn unknowns_of(&self, sensor: usize, instrument: &Instrument) -> Vec<Unknown> {
         const ABOVE: (f64, f64) = (f64::MIN_POSITIVE, f64::INFINITY);
         const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
-        let measures = |run: &usize| {
-            self.runs[*run].columns.iter().any(|column| column.sensor == Some(sensor))
-        };
+        let measures = |run: &usize| self.runs[*run].reads(sensor).is_some();
         let records: Vec<Option<usize>> = match instrument.per_record {
             true => (0..self.runs.len()).filter(measures).map(Some).collect(),
             false => vec![None],
         };
-        let kelvin = Type::of(Dimension::TEMPERATURE);
-        let offset = |run| (UnknownOf::Offset { sensor, run }, instrument.offset, kelvin);
+        let own = self.runs.iter().find_map(|run| run.reads(sensor));
+        let dimension = own.map_or(Dimension::TEMPERATURE, |ty| ty.dimension);
+        let offset =
+            |run| (UnknownOf::Offset { sensor, run }, instrument.offset, Type::of(dimension));
         let mut values: Vec<_> = records.into_iter().map(offset).collect();
         values.push((UnknownOf::Gain { sensor }, instrument.gain, Type::SCALAR));
         values.push((UnknownOf::Lag { sensor }, instrument.lag, Type::of(Dimension::TIME)));

@@ -95,6 +95,21 @@ const FIT_COLUMN: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
+/// `bed = { column = "mill_bed", sensor = "tc3" }` in `signal` of a fit.
+const FIT_SIGNAL: SectionDeclaration = SectionDeclaration {
+    name: "signal",
+    keys: &[
+        key("column", "name of a column", "what the signal follows", "\"mill_bed\""),
+        key("sensor", "name of a sensor", "the instrument that gave it", "\"tc3\""),
+    ],
+    example: "{ column = \"mill_bed\", sensor = \"tc3\" }",
+    elsewhere: &[(
+        "offset",
+        "what an instrument adds stands in [sensor]: `tc3 = { offset = \"0 ± 3 K\" }`",
+    )],
+    ..SectionDeclaration::NEW
+};
+
 /// One `[fit.NAME]`, as it is written; [`FitStudy::plan`] has its numbers.
 #[derive(Clone, Debug)]
 pub struct FitStudy {

@@ -1,6 +1,6 @@
 //! Reads `[fit.NAME]`: what is varied and what is observed.
 
-use lptn_data::{Diagnostic, Span, list, nearest};
+use lptn_data::{Diagnostic, Span, list};
 use lptn_network::{Context, End, Value};
 use lptn_units::{Scope as _, Type};
 
@@ -44,10 +44,12 @@ impl<'a> Elaboration<'a> {
     fn fit_study(&mut self, entry: &'a RawEntry) -> Option<FitStudy> {
         let fields = self.fields(&FIT, entry)?;
         self.all_there(&fields, &["data", "column", "vary"])?;
-        let varied = self.varied(&fields);
         let initial = self.fit_initial(&fields);
         let drop_outliers = self.choice(&fields, "outliers", &OUTLIERS);
-        let reads = self.recorded_columns(&fields, drop_outliers == Some(true))?;
+        let reads = self.recorded_columns(&fields, drop_outliers == Some(true));
+        // after the columns, whose expressions may use what is varied
+        let varied = self.varied(&fields);
+        let reads = reads?;
         self.set_and_varied(&fields, &reads.records, varied.as_deref().unwrap_or_default());
         Some(FitStudy {
             name: entry.key.clone(),
@@ -186,25 +188,44 @@ impl<'a> Elaboration<'a> {
             }
         };
         let column = |entry| Column { entry, observed: self.observed_column(fields, entry) };
-        entries.iter().map(column).collect()
+        let columns: Vec<Column<'a>> = entries.iter().map(column).collect();
+        self.one_kind_a_sensor(&columns);
+        columns
+    }
+
+    /// An instrument whose values say no unit measures one kind of thing all the same.
+    fn one_kind_a_sensor(&mut self, columns: &[Column<'a>]) {
+        let observed: Vec<&Observed> = columns.iter().filter_map(|c| c.observed.as_ref()).collect();
+        for (i, own) in observed.iter().enumerate().filter(|(_, own)| own.sensor.is_some()) {
+            let same = observed[..i].iter().find(|other| other.sensor == own.sensor);
+            let Some(other) = same.filter(|o| o.ty.dimension != own.ty.dimension) else { continue };
+            let [first, second] = [other, own].map(|o| o.ty.dimension.si_unit());
+            let sensor = own.sensor.as_deref().unwrap_or_default();
+            let message = format!("sensor `{sensor}` gave a column in {first} and one in {second}");
+            let problem = Diagnostic::error("netlist::fit_sensor", message)
+                .at(own.span.clone(), format!("in {second}"))
+                .also(other.span.clone(), format!("in {first}"));
+            self.report(
+                problem.help("an instrument measures one kind of thing: write two sensors"),
+            );
+        }
     }
 
     fn observed_column(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<Observed> {
         let owner = fields.owner.inside("column").inside(&entry.key);
-        let (of, own, sensor) = match &entry.value.kind {
-            RawKind::Table(_) => {
-                let inner = self.inner(&FIT_COLUMN, owner.clone(), entry)?;
-                (self.require(&inner, "of")?, inner.get("sigma"), self.sensor_of(&inner)?)
-            }
-            _ => (&entry.value, None, None),
+        let inner = match &entry.value.kind {
+            RawKind::Table(_) => Some(self.inner(&FIT_COLUMN, owner.clone(), entry)?),
+            _ => None,
+        };
+        let of = match &inner {
+            Some(inner) => self.require(inner, "of")?,
+            None => &entry.value,
         };
         let Measured { text, end, value, ty } = self.fit_result(&owner, of)?;
-        if let (Some((_, raw)), false) = (sensor, ty.absolute) {
-            let message = format!("{} has a sensor, but is no temperature", owner.words());
-            let help = "sensors belong to columns of temperatures: remove it";
-            self.refuse("netlist::fit_sensor", message, &raw.span, help);
-            return None;
-        }
+        let (own, sensor) = match &inner {
+            Some(inner) => (inner.get("sigma"), self.sensor_of(inner, Some(ty))?),
+            None => (None, None),
+        };
         let sigma = match own.or_else(|| fields.get("sigma")) {
             None => None,
             // a difference where a temperature is measured
@@ -229,26 +250,5 @@ impl<'a> Elaboration<'a> {
         let (ty, text) = (given.ty(), text.trim());
         let end = text.strip_suffix(".T").and_then(|name| self.builder.end(name));
         Some(Measured { text: text.to_owned(), end, value: given.value(), ty })
-    }
-
-    /// `sensor = "tc1"`; nothing inside where there is none.
-    pub(crate) fn sensor_of(
-        &mut self,
-        fields: &Fields<'a>,
-    ) -> Option<Option<(&'a str, &'a RawValue)>> {
-        let Some(raw) = fields.get("sensor") else { return Some(None) };
-        let name = fields.text("sensor", raw, &mut self.problems)?;
-        let known = self.elements("sensor").iter().map(|entry| entry.key.as_str());
-        let known: Vec<&str> = known.collect();
-        if known.contains(&name) {
-            return Some(Some((name, raw)));
-        }
-        let message = format!("{}: there is no sensor `{name}`", fields.owner.words());
-        let help = match known.is_empty() {
-            true => format!("write what it is: `[sensor.{name}]` with `offset = \"0 ± 3 K\"`"),
-            false => nearest(name, known.iter().copied(), "the sensors are"),
-        };
-        self.refuse("netlist::fit_sensor", message, &raw.span, help);
-        None
     }
 }

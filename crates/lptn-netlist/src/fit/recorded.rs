@@ -6,7 +6,7 @@ use lptn_network::Context;
 use lptn_units::{Dimension, Scope as _, Type, parse_quantity};
 
 use crate::fields::{Fields, wrong_shape};
-use crate::fit::FitStudy;
+use crate::fit::{FIT_SIGNAL, FitStudy};
 use crate::names::ValueKind;
 use crate::place::Place;
 use crate::raw::{RawEntry, RawKind};
@@ -20,6 +20,9 @@ pub struct FitSignal {
     pub name: String,
     /// The column.
     pub column: String,
+    /// The instrument that gave it, by its name, where one is named here; else that of the same
+    /// column among those that are compared.
+    pub sensor: Option<String>,
     /// Its type.
     pub ty: Type,
     /// Where it is named.
@@ -41,7 +44,13 @@ const TIME: Type = Type::of(Dimension::TIME);
 
 impl FitStudy {
     pub(crate) fn put_recorded(&self, fields: &mut TomlFields) {
-        let signal = |s: &FitSignal| format!("{} = {}", toml_key(&s.name), string(&s.column));
+        let signal = |s: &FitSignal| {
+            let (name, column) = (toml_key(&s.name), string(&s.column));
+            match &s.sensor {
+                Some(own) => format!("{name} = {{ column = {column}, sensor = {} }}", string(own)),
+                None => format!("{name} = {column}"),
+            }
+        };
         let signals: Vec<String> = self.signals.iter().map(signal).collect();
         if !signals.is_empty() {
             fields.put("signal", format!("{{ {} }}", signals.join(", ")));
@@ -58,7 +67,7 @@ impl FitStudy {
 }
 
 impl<'a> Elaboration<'a> {
-    /// `signal = { speed = "omega" }`; nothing where something is wrong, which is then reported.
+    /// `signal = { speed = "omega", hall = { column = "hall", sensor = "tc3" } }`; nothing where something is wrong, which is then reported.
     pub(super) fn fit_signals(&mut self, fields: &Fields<'a>) -> Option<Vec<FitSignal>> {
         let Some(raw) = fields.get("signal") else { return Some(Vec::new()) };
         let RawKind::Table(table) = &raw.kind else {
@@ -72,9 +81,17 @@ impl<'a> Elaboration<'a> {
 
     fn fit_signal(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<FitSignal> {
         let owner = fields.owner.inside("signal").inside(&entry.key);
-        let RawKind::String { text, .. } = &entry.value.kind else {
+        let inner = match &entry.value.kind {
+            RawKind::Table(_) => Some(self.inner(&FIT_SIGNAL, owner.clone(), entry)?),
+            _ => None,
+        };
+        let raw = match &inner {
+            Some(inner) => self.require(inner, "column")?,
+            None => &entry.value,
+        };
+        let RawKind::String { text, .. } = &raw.kind else {
             let sample = format!("{} = \"omega\"", entry.key);
-            self.report(wrong_shape(owner.words(), &entry.value, "the name of a column", &sample));
+            self.report(wrong_shape(owner.words(), raw, "the name of a column", &sample));
             return None;
         };
         let is_signal = |kind: Option<&(ValueKind, Span, usize)>| {
@@ -97,8 +114,12 @@ impl<'a> Elaboration<'a> {
             return None;
         }
         let ty = self.builder.scope(Context::Time).symbol(&entry.key)?.ty;
-        let (name, column, span) = (entry.key.clone(), text.clone(), entry.value.span.clone());
-        Some(FitSignal { name, column, ty, span })
+        let sensor = match &inner {
+            Some(inner) => self.sensor_of(inner, Some(ty))?.map(|(name, _)| name.to_owned()),
+            None => None,
+        };
+        let (name, column, span) = (entry.key.clone(), text.clone(), raw.span.clone());
+        Some(FitSignal { name, column, sensor, ty, span })
     }
 
     /// `initial = "record"` or `initial = "10 s"`.

@@ -184,7 +184,8 @@ impl<'a> Elaboration<'a> {
         let drift = own("drift", KELVIN, &shared[1]);
         let time = own("drift_time", TIME, &shared[2]);
         let cost = own("cost", Type::SCALAR, &None);
-        let sensor = self.sensor_of(&inner)?.map(|(name, _)| name.to_owned());
+        let sensor =
+            self.sensor_of(&inner, of.as_ref().map(|of| of.ty))?.map(|(name, _)| name.to_owned());
         let drift = self.plan_drift((&owner, entry), (drift?, time?))?;
         let Some(noise) = noise? else {
             if inner.complete {

@@ -102,6 +102,15 @@ impl Network {
 }
 
 impl Network {
+    /// Whether a result reads a temperature or a heat flow, and not only what is known beforehand.
+    pub fn reads_results(&self, result: &Value) -> bool {
+        let is_result = |slot: &u32| {
+            let holds = self.parts.layout.holds(*slot);
+            matches!(holds, Holds::Temperature(_) | Holds::Grid(_) | Holds::Heat(_))
+        };
+        result.slots().iter().any(is_result)
+    }
+
     /// Whether a result reads temperatures of nodes, and means of grids, and nothing else, each in
     /// the first degree at most. That is told from its code and not from its numbers: a parameter
     /// that happens to be 0 is read all the same.

@@ -43,10 +43,12 @@ impl Answer<'_> {
             let curve = Curve::line(name, points.collect()).within(ends.collect());
             panel.curves.push(curve.as_place(place));
         }
-        for (i, column) in self.task.run.columns.iter().enumerate().take(MOST_CURVES) {
+        // a difference of two temperatures is none
+        let columns = self.task.run.columns.iter().enumerate().take(MOST_CURVES);
+        for (i, column) in columns.filter(|(_, column)| column.ty.absolute) {
             let times = self.task.run.times.iter().copied();
             let points = times.zip(column.values.iter().map(|kelvin| unit.from_si(*kelvin)));
-            let of = column.of.first().map(|(id, _)| *id);
+            let of = column.nodes().first().map(|(id, _)| *id);
             let place = self.found.nodes.iter().position(|(id, _)| Some(*id) == of).unwrap_or(i);
             let curve = Curve::line(&column.name, points.collect()).looks(Look::Dots);
             panel.curves.push(curve.as_place(place));

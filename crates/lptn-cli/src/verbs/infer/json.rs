@@ -1,6 +1,6 @@
 //! The parts of the object that `lptn infer --format json` prints.
 
-use lptn_fit::infer::{InferredColumn, InferredSensor, Known};
+use lptn_fit::infer::{InferredColumn, InferredJump, InferredSensor, Known};
 use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
@@ -25,6 +25,21 @@ impl Answer<'_> {
             (sought.name.clone(), member)
         };
         Value::Object((0..self.task.sought.len()).map(one).collect())
+    }
+
+    pub(super) fn jumps_json(&self) -> Value {
+        let one = |jump: &InferredJump| {
+            let sought = &self.task.sought[jump.course];
+            let own = self.units[jump.course].ty.dimension.si_unit();
+            let unit = if sought.positive { "1".to_owned() } else { own };
+            json!({
+                "signal": sought.name,
+                "between": [jump.between.0, jump.between.1],
+                "by": { "value": jump.by.value, "sd": jump.by.deviation, "unit": unit },
+                "log_likelihood_without": self.found.log_likelihood - jump.gain,
+            })
+        };
+        self.found.jumps.iter().map(one).collect()
     }
 
     pub(super) fn sensors_json(&self) -> Value {

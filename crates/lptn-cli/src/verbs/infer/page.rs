@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lptn_fit::infer::{InferredColumn, InferredSensor, Known};
+use lptn_fit::infer::{InferredColumn, InferredJump, InferredSensor, Known};
 use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Report, Rows, Text, TextTable, decimals, duration, fixed, significant,
@@ -40,6 +40,9 @@ impl Page for Answer<'_> {
             count(self.found.columns.len(), "column"),
         ));
         text.section().table(self.moments());
+        if !self.found.jumps.is_empty() {
+            text.section().table(self.jumps());
+        }
         text.section().table(self.means());
         if !self.found.sensors.is_empty() {
             text.section().table(self.sensors());
@@ -76,6 +79,7 @@ impl Page for Answer<'_> {
         json.member("study", &self.study.name)?;
         json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
         json.member("courses", &self.courses_json())?;
+        json.member("jumps", &self.jumps_json())?;
         json.member("sensors", &self.sensors_json())?;
         json.member("parameters", &self.parameters_json())?;
         json.member("columns", &self.columns_json())?;
@@ -169,6 +173,38 @@ impl Answer<'_> {
             table = table.right(head, move |&k: &usize| fixed(unit.from_si(known[k].value), 2));
         }
         table.into()
+    }
+
+    /// When courses jump, and by how much.
+    fn jumps(&self) -> TextTable {
+        let by = |jump: &InferredJump| {
+            let (value, error) = match self.task.sought[jump.course].positive {
+                true => with_error(100.0 * jump.by.value, 100.0 * jump.by.deviation),
+                false => {
+                    let shown = |si: f64| self.shown_difference(jump.course, si);
+                    with_error(shown(jump.by.value), shown(jump.by.deviation))
+                }
+            };
+            format!("{value} ± {error}")
+        };
+        let unit = |jump: &InferredJump| match self.task.sought[jump.course].positive {
+            true => "%",
+            false => self.difference_unit(jump.course),
+        };
+        TextTable::of(&self.found.jumps)
+            .left("jump of", |jump| &*self.task.sought[jump.course].name)
+            .names()
+            .right("between", |jump| duration(jump.between.0, 4))
+            .right("and", |jump| duration(jump.between.1, 4))
+            .right("by", by)
+            .left("unit", unit)
+            .into()
+    }
+
+    /// The unit of a difference of values of a course.
+    fn difference_unit(&self, j: usize) -> &str {
+        let unit = &self.units[j];
+        if unit.ty.absolute { difference(unit) } else { symbol(&unit.text) }
     }
 
     /// Of each course the mean, and what it is at the end.
@@ -292,9 +328,8 @@ impl Answer<'_> {
         let shown = |coordinate: f64| match sought.positive {
             true => format!("{} %", significant(100.0 * coordinate, 3)),
             false => {
-                let unit = &self.units[j];
-                let words = if unit.ty.absolute { difference(unit) } else { symbol(&unit.text) };
-                format!("{} {words}", significant(self.shown_difference(j, coordinate), 3))
+                let value = significant(self.shown_difference(j, coordinate), 3);
+                format!("{value} {}", self.difference_unit(j))
             }
         };
         let walk = (course.intensity * MINUTE).sqrt();

@@ -1,13 +1,11 @@
 //! What each run tells, had once for every sensor and every length.
 
-use lptn_solve::{
-    Gradient, Proceed, Progress, SensitiveError, in_parallel, sensitive_run_observed,
-};
+use lptn_solve::{Gradient, Proceed, Progress, SensitiveError, in_parallel};
 
 use crate::network::design::error::DesignError;
 use crate::network::design::information::{Information, RowSum};
 use crate::network::design::task::{DesignPlace, DesignTask};
-use crate::network::readings::{Measure, Reader, Rows};
+use crate::network::readings::{Measure, Rows};
 use crate::network::task::NetworkFitTask;
 use crate::network::unknown::Unknown;
 
@@ -152,13 +150,9 @@ impl DesignTask<'_> {
             SensitiveError::Interrupted => DesignError::Interrupted,
             error => DesignError::Run { run: measured.name.clone(), error: Box::new(error) },
         };
-        let network = fit.network_of(measured, &values).map_err(failed)?;
         let rows = Rows::new(fit, measured, usize::MAX);
-        let settings = rows.settings(measured, measured.settings.tolerance.min(TOLERANCE));
-        let ids: Vec<_> = fit.parameters.iter().map(|varied| varied.parameter).collect();
-        let found = sensitive_run_observed(&network, (&settings, &ids), observer);
-        let reader = Reader { task: fit, run, rows: &rows, unknowns: &unknowns, values: &values };
-        Ok(reader.measure(&found.map_err(failed)?))
+        let tolerance = measured.settings.tolerance.min(TOLERANCE);
+        fit.measured((run, &rows), (&unknowns, &values), (tolerance, observer)).map_err(failed)
     }
 }
 

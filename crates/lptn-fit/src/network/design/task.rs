@@ -8,7 +8,9 @@ use crate::network::design::error::DesignError;
 use crate::network::design::given::given;
 use crate::network::design::information::Noise;
 use crate::network::plan::{settings, weights};
-use crate::network::task::{FitObserver, Instrument, MeasuredColumn, MeasuredRun, NetworkFitTask};
+use crate::network::task::{
+    FitObserver, Instrument, Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask,
+};
 use crate::network::unknown::Unknown;
 
 /// A measurement to plan.
@@ -178,7 +180,8 @@ fn places(
         let planned = DesignPlace::new(place, (own, numbers.every), sensors);
         columns.push(MeasuredColumn {
             name: planned.name.clone(),
-            of: weights(&netlist.network, &place.observed)?,
+            of: Measurand::Temperatures(weights(&netlist.network, &place.observed)?),
+            ty: place.observed.ty,
             sensor: *sensor,
             sigma: Some(planned.weight()),
             values: Vec::new(),

@@ -46,7 +46,10 @@ impl Answer<'_> {
     fn missed(&self, order: &[usize], (record, column): (usize, usize)) -> Panel {
         let run = &self.judged(self.choice.best).task.runs[record];
         let name = format!("{}: measured \u{2212} foretold", run.columns[column].name);
-        let mut panel = Panel::new(Axis::time(), Axis::linear(name, "K"));
+        let mut panel = Panel::new(
+            Axis::time(),
+            Axis::linear(name, run.columns[column].ty.dimension.si_unit()),
+        );
         for (place, &i) in order.iter().enumerate() {
             let points = missed(self.judged(i), (record, column));
             panel.curves.push(Curve::line(self.name(i), points).as_place(place));
@@ -63,8 +66,10 @@ impl Answer<'_> {
     /// A line for each candidate, with a dot for each record.
     fn of_each(&self, order: &[usize]) -> Panel {
         let names = order.iter().map(|&i| shortened(self.name(i), NAME)).collect();
-        let mut panel =
-            Panel::new(Axis::linear("unseen misfit rms", "K"), Axis::names("candidate", names));
+        let mut panel = Panel::new(
+            Axis::linear("unseen misfit rms", self.unit()),
+            Axis::names("candidate", names),
+        );
         for (place, &i) in order.iter().enumerate() {
             let all = self.judged(i).unseen.iter().map(|part| (part.rms, place as f64));
             let curve = Curve::line("", all.collect());

@@ -14,7 +14,7 @@ use super::shown::{interval, probability, ratio, share};
 use super::words::{likelier, records, unseen, verdict};
 use crate::about;
 use crate::diagnostics;
-use crate::verbs::fit::network::{parameter, values};
+use crate::verbs::fit::network::{common, parameter, values};
 use crate::words::count;
 
 /// What does not exist.
@@ -93,17 +93,17 @@ impl Page for Answer<'_> {
 
 fn overview(answer: &Answer<'_>, order: &[usize]) -> TextTable {
     let kelvin = |value: f64| significant(value, 3);
-    let behind = |i: usize| answer.judged(i).behind;
+    let (unit, behind) = (answer.unit(), |i: usize| answer.judged(i).behind);
     let within = |i: usize| behind(i).and_then(|behind| behind.interval);
     let several = answer.choice.held == Held::EachRecord;
     let mut table = TextTable::of(order)
         .left("candidate", |&i| answer.name(i))
         .names()
         .right("numbers", |&i| answer.judged(i).likely.unknowns.to_string())
-        .right("misfit [K]", |&i| kelvin(answer.judged(i).fit.rms))
+        .right(format!("misfit [{unit}]"), |&i| kelvin(answer.judged(i).fit.rms))
         .right("AICc", |&i| answer.shown_above(i))
         .right("weight", |&i| answer.judged(i).weight.map_or(NOTHING.to_owned(), share))
-        .right("unseen [K]", |&i| kelvin(answer.judged(i).unseen_rms()))
+        .right(format!("unseen [{unit}]"), |&i| kelvin(answer.judged(i).unseen_rms()))
         .right("times best", |&i| {
             behind(i).map_or("1".to_owned(), |behind| ratio(behind.ratio, behind.interval))
         });
@@ -175,17 +175,18 @@ impl Answer<'_> {
     /// A row for each candidate.
     pub(super) fn table(&self) -> Table {
         let order = self.order();
+        let unit = common(&self.choice.contenders[0].task);
         let nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
         let ends = |i: usize| self.judged(i).behind.and_then(|behind| behind.interval);
         let mut table = Table::of(&order);
         table.label("candidate", |&i| self.name(i).to_owned());
         table.label("state", |&i| standing(self, i).0.to_owned());
         table.column("numbers", "1", |&i| self.judged(i).likely.unknowns as f64);
-        table.column("misfit", "K", |&i| self.judged(i).fit.rms);
+        table.column("misfit", &unit, |&i| self.judged(i).fit.rms);
         table.column("log_likelihood", "1", |&i| -0.5 * self.judged(i).likely.misfit);
         table.column("AICc", "1", |&i| nan(self.judged(i).likely.aicc));
         table.column("weight", "1", |&i| nan(self.judged(i).weight));
-        table.column("unseen", "K", |&i| self.judged(i).unseen_rms());
+        table.column("unseen", &unit, |&i| self.judged(i).unseen_rms());
         table.column("times_best", "1", |&i| {
             self.judged(i).behind.map_or(1.0, |behind| behind.ratio)
         });
@@ -201,12 +202,13 @@ impl Answer<'_> {
             .into_iter()
             .flat_map(|i| (0..self.judged(i).unseen.len()).map(move |part| (i, part)))
             .collect();
+        let unit = common(&self.choice.contenders[0].task);
         let part = |&(i, part): &(usize, usize)| &self.judged(i).unseen[part];
         let mut table = Table::of(&rows);
         table.label("candidate", |&(i, _)| self.name(i).to_owned());
         table.label("record", |row| self.judged(row.0).task.runs[part(row).run].name.clone());
         table.column("values", "1", |row| part(row).samples as f64);
-        table.column("missed", "K", |row| part(row).rms);
+        table.column("missed", &unit, |row| part(row).rms);
         table.column("missed_over_sigma", "1", |row| part(row).over_sigma);
         table.done()
     }
@@ -226,12 +228,12 @@ impl Answer<'_> {
         let (one, judged, fit) = (&self.candidates[i], self.judged(i), &self.fits[i]);
         let parameters: Map<String, Value> =
             (0..fit.unknowns.len()).map(|j| (fit.name(j).to_owned(), parameter(fit, j))).collect();
-        let behind = judged.behind;
+        let (behind, unit) = (judged.behind, common(&judged.task));
         let part = |part: &lptn_fit::choice::UnseenRecord| {
             json!({
                 "record": judged.task.runs[part.run].name,
                 "samples": part.samples,
-                "rms": SiValue::new(part.rms, "K"),
+                "rms": SiValue::new(part.rms, &unit),
                 "over_sigma": part.over_sigma,
                 "converged": part.converged,
                 "identifiable": part.whole,
@@ -244,7 +246,7 @@ impl Answer<'_> {
             "state": standing(self, i).0,
             "parameters": parameters,
             "identifiable": fit.is_whole(),
-            "rms": SiValue::new(judged.fit.rms, "K"),
+            "rms": SiValue::new(judged.fit.rms, &unit),
             "log_likelihood": -0.5 * judged.likely.misfit,
             "means": judged.likely.means,
             "numbers": judged.likely.unknowns,
@@ -253,7 +255,7 @@ impl Answer<'_> {
             "weight": judged.weight,
             "whiteness": self.whiteness_of(i),
             "unseen": judged.unseen.iter().map(part).collect::<Vec<_>>(),
-            "unseen_rms": SiValue::new(judged.unseen_rms(), "K"),
+            "unseen_rms": SiValue::new(judged.unseen_rms(), &unit),
             "times_best": behind.map(|behind| behind.ratio),
             "times_best_95": behind.and_then(|behind| behind.interval),
             "records_enough": behind.and_then(|behind| behind.records),
@@ -277,7 +279,7 @@ impl Answer<'_> {
             "record": run.name,
             "column": run.columns[apart.column].name,
             "time": SiValue::new(apart.time, "s"),
-            "by": SiValue::new(apart.kelvin, "K"),
+            "by": SiValue::new(apart.by, &run.columns[apart.column].ty.dimension.si_unit()),
         })
     }
 }

@@ -24,6 +24,12 @@ impl Answer<'_> {
         &self.choice.contenders[i]
     }
 
+    /// The unit of what all candidates miss: that of all columns, else standard deviations.
+    pub(super) fn unit(&self) -> String {
+        let unit = self.choice.contenders[0].task.unit();
+        unit.map_or_else(|| "sigma".to_owned(), |ty| ty.dimension.si_unit())
+    }
+
     pub(super) fn name(&self, i: usize) -> &str {
         &self.candidates[i].name
     }

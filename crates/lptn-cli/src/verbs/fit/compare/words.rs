@@ -8,7 +8,7 @@ use super::Answer;
 use super::shown::{interval, ratio};
 use crate::words::count;
 
-/// What two runs of the same network may differ by, in K.
+/// What two runs of the same network may differ by, in K (or another SI unit).
 const SAME: f64 = 1e-5;
 
 /// "each of the 5 records in its turn".
@@ -61,8 +61,9 @@ fn told(answer: &Answer<'_>) -> String {
     let (name, rms) = (answer.name(best), significant(answer.judged(best).unseen_rms(), 2));
     let behind = answer.judged(next).behind.as_ref().map_or(String::new(), times);
     let text = format!(
-        "the records speak for `{name}`: it misses what it has not seen by {rms} K rms, `{}` by \
+        "the records speak for `{name}`: it misses what it has not seen by {rms} {} rms, `{}` by \
          {behind} as much",
+        answer.unit(),
         answer.name(next)
     );
     match answer.choice.held {
@@ -115,13 +116,14 @@ fn what_would(answer: &Answer<'_>, rival: usize) -> String {
     let judged = answer.judged(rival);
     let mut text = String::new();
     if let Some(apart) = judged.apart {
-        if apart.kelvin < SAME {
-            return ". They compute the same temperatures, so no record can tell".to_owned();
+        if apart.by < SAME {
+            return ". They compute the same, so no record can tell".to_owned();
         }
         let run = &judged.task.runs[apart.run];
         text += &format!(
-            ". They differ most by {} K, in {} at {} of {}",
-            significant(apart.kelvin, 2),
+            ". They differ most by {} {}, in {} at {} of {}",
+            significant(apart.by, 2),
+            run.columns[apart.column].ty.dimension.si_unit(),
             run.columns[apart.column].name,
             duration(apart.time, 3),
             run.name

@@ -42,6 +42,9 @@ pub(crate) struct LawArgs {
     /// Fit this law too; names that are not columns are coefficients; may be repeated
     #[arg(long, value_name = "EXPRESSION", requires = "points")]
     pub(crate) law: Vec<String>,
+    /// Write the coefficients of --law with their covariance here, for lptn run --posterior
+    #[arg(long, value_name = "FILE", requires = "law")]
+    pub(crate) posterior: Option<PathBuf>,
     /// Begin the search for a coefficient here: "a = 20 mW/rpm"; may be repeated
     #[arg(long, value_name = "NAME=VALUE", requires = "law")]
     pub(crate) start: Vec<String>,

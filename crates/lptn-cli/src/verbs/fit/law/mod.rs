@@ -5,6 +5,7 @@ mod figure;
 mod laws;
 mod page;
 mod points;
+mod posterior;
 mod runs;
 mod shown;
 
@@ -27,6 +28,7 @@ use points::Data;
 pub(crate) fn law(args: &LawArgs, console: &Console) -> Result<Exit, Failure> {
     let capacity = capacity(args.capacity.as_deref())?;
     let Some(path) = &args.points else { return laws::laws(args, capacity, console) };
+    posterior::possible(args, path)?;
     if path.is_dir() {
         return runs::runs(path, args, capacity, console);
     }
@@ -36,6 +38,7 @@ pub(crate) fn law(args: &LawArgs, console: &Console) -> Result<Exit, Failure> {
     let consistency = consistency(&data, capacity)?;
     let answer = Answer { data, study, consistency };
     console.page(&answer, args.format)?;
+    posterior::write(args, (path, &answer.study), console)?;
     Ok(answer.conclude(args.format, console))
 }
 

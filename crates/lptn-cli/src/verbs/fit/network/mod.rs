@@ -5,11 +5,13 @@ mod figure;
 mod interrupted;
 mod output;
 mod page;
+mod units;
 mod words;
 mod write;
 
 pub(crate) use args::NetworkArgs;
 pub(crate) use page::{parameter, values};
+pub(crate) use units::common;
 pub(crate) use words::doubts;
 
 use std::sync::{Mutex, PoisonError};
@@ -144,11 +146,17 @@ fn failed(input: &Input, study: &FitStudy, error: &NetworkFitError) -> Failure {
 /// The column or record that is at fault.
 pub(crate) fn record_place<'s>(study: &'s FitStudy, error: &NetworkFitError) -> Option<&'s Span> {
     match error {
-        NetworkFitError::Observed { column, .. } | NetworkFitError::Initial { column, .. } => study
+        NetworkFitError::Observed { column, .. }
+        | NetworkFitError::NotLinear { column, .. }
+        | NetworkFitError::NoValue { column, .. }
+        | NetworkFitError::Units { column, .. } => study
             .observed
             .iter()
             .find(|observed| observed.column == *column)
             .map(|observed| &observed.span),
+        NetworkFitError::SignalLag { column, .. } => {
+            study.signals.iter().find(|signal| signal.column == *column).map(|signal| &signal.span)
+        }
         NetworkFitError::Times { record, .. }
         | NetworkFitError::Start { record, .. }
         | NetworkFitError::Signal { record, .. } => {

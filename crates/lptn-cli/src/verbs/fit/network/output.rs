@@ -3,13 +3,14 @@
 
 use lptn_report::{Format, Look, write_csv};
 use lptn_solve::Table;
+use lptn_units::Type;
 
 use super::Answer;
+use super::units::Shown;
 use crate::about;
 use crate::failure::Failure;
 use crate::files::names::{FIT, MANIFEST, POSTERIOR, RESIDUALS};
 use crate::files::{self, Folder};
-use crate::words::difference;
 
 /// What may be written.
 const NAMES: [&str; 4] = [RESIDUALS, FIT, POSTERIOR, MANIFEST];
@@ -41,14 +42,17 @@ struct Sample<'a> {
     column: &'a str,
     /// In s.
     time: f64,
-    /// In K.
+    /// In SI units.
     measured: f64,
     computed: f64,
+    shown: Shown,
 }
 
-/// A row for each value, by record and column, in the unit of the netlist. A residual is positive
-/// where more was measured than the network computes.
+/// A row for each value, by record and column: temperatures in the unit of the netlist; where not all
+/// columns are temperatures, the unit of each value stands beside it. A residual is positive where
+/// more was measured than the network computes.
 fn residuals(answer: &Answer<'_>) -> Table {
+    let temperature = &answer.input.netlist.temperature_unit;
     let samples = answer.fit.columns.iter().flat_map(|m| {
         let run = &answer.task.runs[m.run];
         let column = &run.columns[m.column];
@@ -59,18 +63,28 @@ fn residuals(answer: &Answer<'_>) -> Table {
             time,
             measured,
             computed,
+            shown: Shown::of(column.ty, temperature),
         };
         // gaps of the record are no values
         values.map(sample).filter(|sample| sample.measured.is_finite()).collect::<Vec<_>>()
     });
     let samples: Vec<Sample<'_>> = samples.collect();
-    let unit = &answer.input.netlist.temperature_unit;
+    let mixed = answer.fit.columns.iter().any(|misfit| !answer.column(misfit).ty.absolute);
+    let kelvin = Shown::of(Type::ABSOLUTE_TEMPERATURE, temperature);
+    let [unit, of_differences] = match mixed {
+        true => ["unit"; 2].map(str::to_owned),
+        false => [kelvin.unit.text, kelvin.of_differences],
+    };
     let mut table = Table::of(&samples);
     table.label("record", |s| s.record.to_owned());
     table.label("column", |s| s.column.to_owned());
+    if mixed {
+        table.label("unit", |s| s.shown.unit.text.clone());
+    }
     table.column("time", "s", |s| s.time);
-    table.column("measured", &unit.text, |s| unit.from_si(s.measured));
-    table.column("computed", &unit.text, |s| unit.from_si(s.computed));
-    table.column("residual", difference(unit), |s| (s.measured - s.computed) / unit.scale);
+    table.column("measured", &unit, |s| s.shown.unit.from_si(s.measured));
+    table.column("computed", &unit, |s| s.shown.unit.from_si(s.computed));
+    let residual = |s: &Sample<'_>| (s.measured - s.computed) / s.shown.unit.scale;
+    table.column("residual", &of_differences, residual);
     table.done()
 }

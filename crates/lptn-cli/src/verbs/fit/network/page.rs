@@ -14,6 +14,7 @@ use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
 use super::Answer;
+use super::units::common;
 use super::words::{combination, sought, state, type_of, verdict};
 use crate::about::{self, Known};
 use crate::diagnostics;
@@ -104,7 +105,7 @@ impl Page for Answer<'_> {
         if !of_sensors.is_empty() {
             json.member("sensors", &values(&of_sensors))?;
         }
-        json.member("rms", &SiValue::new(fit.rms, "K"))?;
+        json.member("rms", &SiValue::new(fit.rms, &common(&self.task)))?;
         json.member("samples", &fit.samples())?;
         json.member("columns", &columns(self))?;
         json.member("correlation", &correlation)?;
@@ -239,12 +240,21 @@ fn misfits(answer: &Answer<'_>) -> TextTable {
         let name = &answer.task.runs[misfit.run].columns[misfit.column].name;
         if several { format!("{name} ({})", records[misfit.run]) } else { name.clone() }
     };
-    TextTable::of(&answer.fit.columns)
+    // columns in different units name them one by one
+    let unit = answer.task.unit().map(|ty| format!(" [{}]", symbol(&ty.dimension.si_unit())));
+    let unit = unit.unwrap_or_default();
+    let mut table = TextTable::of(&answer.fit.columns)
         .left("column", name)
         .names()
-        .right("misfit rms [K]", |misfit| significant(misfit.rms, 3))
-        .right("mean [K]", |misfit| significant(misfit.mean, 2))
-        .right("sigma [K]", |m| m.sigma.map_or("-".to_owned(), |sigma| significant(sigma, 3)))
+        .right(format!("misfit rms{unit}"), |misfit| significant(misfit.rms, 3))
+        .right(format!("mean{unit}"), |misfit| significant(misfit.mean, 2))
+        .right(format!("sigma{unit}"), |m| {
+            m.sigma.map_or("-".to_owned(), |sigma| significant(sigma, 3))
+        });
+    if unit.is_empty() {
+        table = table.left("unit", |misfit| answer.unit_of(misfit));
+    }
+    table
         .right("values", |misfit| misfit.samples.to_string())
         .right("independent", |misfit| significant(misfit.effective.round(), 6))
         .into()
@@ -277,9 +287,11 @@ fn correlations(answer: &Answer<'_>) -> Option<TextTable> {
 
 fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
     let fit = &answer.fit;
+    let unit = answer.task.unit().map(|ty| ty.dimension.si_unit());
+    let unit = unit.unwrap_or_else(|| "sigma".to_owned());
     let mut notes = vec![(
         "misfit",
-        format!("{} K rms over all {} values", significant(fit.rms, 4), fit.samples()),
+        format!("{} {unit} rms over all {} values", significant(fit.rms, 4), fit.samples()),
     )];
     notes.extend(unverified(&answer.input.netlist.network).map(|unsure| ("note", unsure)));
     let starts = fit.starts;
@@ -343,13 +355,13 @@ fn interval(fitted: &FittedParameter) -> Option<[Option<f64>; 2]> {
 
 fn columns(answer: &Answer<'_>) -> Value {
     let column = |misfit: &lptn_fit::network::ColumnMisfit| {
-        let run = &answer.task.runs[misfit.run];
+        let (run, unit) = (&answer.task.runs[misfit.run], answer.unit_of(misfit));
         json!({
             "record": run.name,
             "column": run.columns[misfit.column].name,
-            "rms": SiValue::new(misfit.rms, "K"),
-            "mean": SiValue::new(misfit.mean, "K"),
-            "sigma": misfit.sigma.map(|sigma| SiValue::new(sigma, "K")),
+            "rms": SiValue::new(misfit.rms, &unit),
+            "mean": SiValue::new(misfit.mean, &unit),
+            "sigma": misfit.sigma.map(|sigma| SiValue::new(sigma, &unit)),
             "samples": misfit.samples,
             "effective_samples": misfit.effective,
         })

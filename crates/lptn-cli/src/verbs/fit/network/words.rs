@@ -7,6 +7,7 @@ use lptn_report::significant;
 use lptn_units::Type;
 
 use super::Answer;
+use super::units::common;
 use crate::words::count as number;
 
 /// Digits of a value that nothing says the accuracy of.
@@ -45,8 +46,11 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
     let unweighted =
         answer.task.runs.iter().flat_map(|run| &run.columns).any(|column| column.sigma.is_none());
     if priors && unweighted {
-        let message = "without `sigma` a value of a record counts as known to 1 K beside what `±` \
-            says of a parameter";
+        let message = format!(
+            "without `sigma` a value of a record counts as known to 1 {} beside what `±` says of a \
+             parameter",
+            common(&answer.task)
+        );
         let doubt = Diagnostic::warning("fit::no_sigma", message).at(answer.study.span.clone(), "");
         doubts
             .push(doubt.help("write how far one value scatters, for example `sigma = \"0.2 K\"`"));
@@ -100,25 +104,26 @@ fn misfits(answer: &Answer<'_>) -> Vec<Diagnostic> {
 
 fn misfit(answer: &Answer<'_>, worst: &ColumnMisfit, (name, count): (&str, usize)) -> Diagnostic {
     let record = &answer.task.runs[worst.run].name;
-    let (rms, sigma) = (significant(worst.rms, 3), significant(worst.sigma.unwrap_or(f64::NAN), 3));
+    let unit = answer.unit_of(worst);
+    let [rms, sigma] = [worst.rms, worst.sigma.unwrap_or(f64::NAN)]
+        .map(|value| format!("{} {unit}", significant(value, 3)));
     let message = match count {
         1 => format!(
-            "the model does not describe column `{name}` of {record}: it misses it by {rms} K rms, \
-             where `sigma` is {sigma} K"
+            "the model does not describe column `{name}` of {record}: it misses it by {rms} rms, \
+             where `sigma` is {sigma}"
         ),
         _ => format!(
             "the model does not describe column `{name}` in {count} records: it misses it by more \
-             than {FAR} times `sigma`, most in {record}, by {rms} K rms, where `sigma` is {sigma} \
-             K"
+             than {FAR} times `sigma`, most in {record}, by {rms} rms, where `sigma` is {sigma}"
         ),
     };
     let doubt = Diagnostic::warning("fit::misfit", message).at(answer.study.span.clone(), "");
     doubt.help(match worst.hint {
-        Some(Hint::Offset(kelvin)) => format!(
-            "a constant would explain it: does the sensor have an offset of {} K? A `[sensor]` \
-             with `offset = \"0 ± {} K\"`, named by the column, lets the fit find it",
-            significant(kelvin, 2),
-            significant(kelvin.abs().ceil(), 6)
+        Some(Hint::Offset(offset)) => format!(
+            "a constant would explain it: does the sensor have an offset of {} {unit}? A `[sensor]` \
+             with `offset = \"0 ± {} {unit}\"`, named by the column, lets the fit find it",
+            significant(offset, 2),
+            significant(offset.abs().ceil(), 6)
         ),
         Some(Hint::Lag(seconds)) => format!(
             "a delay would explain it: does the sensor have a lag of {0} s? A `[sensor]` \

@@ -23,7 +23,7 @@ impl Answer<'_> {
     pub(crate) fn figure(&self) -> Figure {
         let unit = &self.request.unit;
         let mut panel = Panel::new(Axis::time(), Axis::linear(TEMPERATURE, &*unit.text));
-        let mut missed = differences("measured \u{2212} fit", unit);
+        let mut missed = differences("measured \u{2212} fit", difference(unit));
         let mut notes = Vec::new();
         for (place, column) in self.columns.iter().take(MOST_CURVES).enumerate() {
             let drawn = Drawn { answer: self, column, place };

@@ -1,0 +1,208 @@
+//! Where courses jump: a bench that holds one load after the other is a course that stands still and
+//! jumps, and is known far better so than as a walk.
+//!
+//! A jump is a walk that is as strong as the course is large, between two moments. It is taken in
+//! where it makes the record more likely by more than chance would anywhere in it.
+
+use crate::infer::inferred::{InferredJump, Known};
+use crate::infer::model::Model;
+use crate::infer::search::Open;
+use crate::infer::strength::{Jump, Strength};
+use crate::infer::task::InferTask;
+
+/// Beyond its place, which may be any, a jump costs so many units of the logarithm of the
+/// likelihood: chance alone pays that in at most 5 of 100 records (inequality of A. Markov).
+const PRICE: f64 = 3.0;
+
+/// So many jumps are tried in a row of which none pays, since one alone may not where two do: in
+/// the first round, and in others.
+const PATIENCE: [usize; 2] = [4, 1];
+
+/// The most jumps.
+const MOST: usize = 60;
+
+/// The most likely strengths with the jumps that pay, from `start` on, or from the best of many near
+/// it where that is a guess.
+pub(crate) fn most_likely(
+    (task, model): (&InferTask<'_>, &Model),
+    (start, guessed): (&Strength, bool),
+) -> Strength {
+    let open = Open::of(task, model);
+    let found = open.first(start, guessed);
+    let courses: Vec<usize> = (0..task.sought.len()).filter(|j| task.sought[*j].jumps).collect();
+    if courses.is_empty() {
+        return open.without_walks(found);
+    }
+    let places = courses.len() * (model.times.len() - 1);
+    let patience = PATIENCE[usize::from(!guessed)];
+    let search = Search { open: &open, courses, price: PRICE + (places as f64).ln(), patience };
+    open.without_walks(search.placed(search.needed(search.taken_in(found))))
+}
+
+struct Search<'a> {
+    open: &'a Open<'a>,
+    courses: Vec<usize>,
+    price: f64,
+    patience: usize,
+}
+
+impl Search<'_> {
+    fn worth(&self, strength: &Strength) -> f64 {
+        self.open.model.log_likelihood(strength) - self.price * strength.jumps.len() as f64
+    }
+
+    /// With one jump after the other, as far as they pay.
+    fn taken_in(&self, found: Strength) -> Strength {
+        let mut best = (self.worth(&found), found.clone());
+        let (mut now, mut in_vain) = (found, 0);
+        while in_vain < self.patience && now.jumps.len() < MOST {
+            let Some(jump) = self.most_telling(&now) else { break };
+            now = self.open.again(&now.with(jump));
+            let worth = self.worth(&now);
+            in_vain += 1;
+            if worth > best.0 {
+                (best, in_vain) = ((worth, now.clone()), 0);
+            }
+        }
+        best.1
+    }
+
+    /// The jump that makes the record most likely, where all else stays as it is (A. S. Willsky,
+    /// H. L. Jones, IEEE Trans. Autom. Control 21 (1976) 108).
+    fn most_telling(&self, strength: &Strength) -> Option<Jump> {
+        let model = self.open.model;
+        let mut best: Option<(f64, Jump)> = None;
+        model.smoothed(strength).0.backwards(|to, later| {
+            for &course in &self.courses {
+                let jump = Jump { to, course };
+                if to == 0 || strength.jumps.contains(&jump) {
+                    continue;
+                }
+                let (pull, hold) = later.of_shock(&model.shock(jump));
+                let gain = 0.5 * (pull * pull / (1.0 + hold) - hold.ln_1p());
+                if best.is_none_or(|(most, _)| gain > most) {
+                    best = Some((gain, jump));
+                }
+            }
+        });
+        best.map(|(_, jump)| jump)
+    }
+
+    /// Without those that do not pay beside the others.
+    fn needed(&self, mut found: Strength) -> Strength {
+        while !found.jumps.is_empty() {
+            let without = found.jumps.iter().map(|jump| {
+                let less = found.without(*jump);
+                (self.worth(&less), less)
+            });
+            let Some((_, less)) = without.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
+            let less = self.open.again(&less);
+            if self.worth(&less) < self.worth(&found) {
+                break;
+            }
+            found = less;
+        }
+        found
+    }
+
+    /// Each where it is most likely beside the others.
+    fn placed(&self, mut found: Strength) -> Strength {
+        let model = self.open.model;
+        let mut most = model.log_likelihood(&found);
+        for i in 0..found.jumps.len() {
+            for forward in [false, true] {
+                while let Some(moved) = beside(model, &found, i, forward) {
+                    let likely = model.log_likelihood(&moved);
+                    if likely <= most {
+                        break;
+                    }
+                    (found, most) = (moved, likely);
+                }
+            }
+        }
+        found
+    }
+}
+
+/// The same with a jump one moment earlier or later, unless another is there.
+fn beside(model: &Model, strength: &Strength, i: usize, forward: bool) -> Option<Strength> {
+    let Jump { to, course } = strength.jumps[i];
+    let to = if forward { to + 1 } else { to - 1 };
+    let jump = Jump { to, course };
+    let free = to > 0 && to < model.times.len() && !strength.jumps.contains(&jump);
+    let mut moved = strength.clone();
+    moved.jumps[i] = jump;
+    free.then_some(moved)
+}
+
+/// What is told of the jumps: when, and by how much. What else comes in on the way counts as jump.
+pub(crate) fn told(model: &Model, strength: &Strength) -> Vec<InferredJump> {
+    let most = model.log_likelihood(strength);
+    let one = |(i, jump): (usize, &Jump)| {
+        let mut places = elsewhere(model, strength, i);
+        places.push((strength.clone(), 1.0));
+        places.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let between = between(&places, i);
+        InferredJump {
+            course: jump.course,
+            between: (model.times[between.0 - 1], model.times[between.1]),
+            by: by(model, &places, i),
+            gain: most - model.log_likelihood(&strength.without(*jump)),
+        }
+    };
+    strength.jumps.iter().enumerate().map(one).collect()
+}
+
+/// By how much the course changes, wherever it jumps.
+fn by(model: &Model, places: &[(Strength, f64)], i: usize) -> Known {
+    let whole: f64 = places.iter().map(|(_, share)| share).sum();
+    let (mut mean, mut square) = (0.0, 0.0);
+    for (strength, share) in places {
+        let Jump { to, course } = strength.jumps[i];
+        let (course, size) = (model.states.course(course), model.states.moving());
+        let noise = model.comes_in(to, strength);
+        let shock = &noise[course * size..][..size];
+        model.smoothed(strength).0.backwards(|k, later| {
+            if k == to {
+                let (pull, hold) = later.of_shock(shock);
+                mean += share / whole * pull;
+                square += share / whole * (pull * pull + shock[course] - hold);
+            }
+        });
+    }
+    Known { value: mean, deviation: (square - mean * mean).max(0.0).sqrt() }
+}
+
+/// The first and last moments to which a jump leads, but for 5 % of all that is likely.
+fn between(places: &[(Strength, f64)], i: usize) -> (usize, usize) {
+    let enough = 0.95 * places.iter().map(|(_, share)| share).sum::<f64>();
+    let (mut sum, mut ends) = (0.0, (usize::MAX, 0));
+    for (strength, share) in places {
+        if sum < enough {
+            let to = strength.jumps[i].to;
+            ends = (ends.0.min(to), ends.1.max(to));
+        }
+        sum += share;
+    }
+    ends
+}
+
+/// Where else a jump may be, with its share beside that of the place where it is, which is 1.
+pub(crate) fn elsewhere(model: &Model, strength: &Strength, i: usize) -> Vec<(Strength, f64)> {
+    /// Places that are less likely do not count.
+    const LEAST_SHARE: f64 = 1e-3;
+    let most = model.log_likelihood(strength);
+    let mut all = Vec::new();
+    for forward in [false, true] {
+        let mut now = strength.clone();
+        while let Some(moved) = beside(model, &now, i, forward) {
+            let share = (model.log_likelihood(&moved) - most).exp();
+            if share.is_nan() || share < LEAST_SHARE {
+                break;
+            }
+            all.push((moved.clone(), share));
+            now = moved;
+        }
+    }
+    all
+}

@@ -1,0 +1,41 @@
+//! What a law leaves behind for studies.
+
+use lptn_netlist::{Posterior, PosteriorOf, PosteriorQuantity};
+use lptn_units::{Correlations, Distribution, Spread};
+
+use super::candidate::{Coefficient, LawFit};
+use crate::noise::student_95;
+
+impl LawFit {
+    /// The coefficients with their covariance, straight in the coefficients, as parameters of the
+    /// same names. `points` and `fit` are what the data and the fit are called. `None` where the law
+    /// was not fitted, and where no point is left over to tell errors from.
+    pub fn posterior(&self, points: &str, fit: &str) -> Option<Posterior> {
+        let fitted = self.fitted()?;
+        let left = fitted.degrees_of_freedom;
+        let degrees = (left > 0).then_some(left as f64);
+        let student = student_95(degrees.unwrap_or(f64::INFINITY));
+        let quantity = |own: &Coefficient| {
+            let sigma = own.standard_error.filter(|error| *error > 0.0)?;
+            Some(PosteriorQuantity {
+                name: own.name.clone(),
+                of: PosteriorOf::Parameter,
+                value: own.value,
+                unit: own.dimension.si_unit(),
+                spread: Some(Spread { sigma, distribution: Distribution::Normal }),
+                half_width: Some(student * sigma),
+                degrees_of_freedom: degrees,
+                bounds: (f64::NEG_INFINITY, f64::INFINITY),
+                prior: None,
+            })
+        };
+        let quantities: Option<Vec<_>> = fitted.coefficients.iter().map(quantity).collect();
+        let quantities = quantities?;
+        let mut correlations = Correlations::none(quantities.len());
+        for i in 0..quantities.len() {
+            (0..i).for_each(|j| correlations.set(i, j, fitted.correlation[i][j]));
+        }
+        let (network, fit) = (points.to_owned(), fit.to_owned());
+        Some(Posterior { network, fit, quantities, correlations })
+    }
+}
