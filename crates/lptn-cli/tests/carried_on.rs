@@ -221,3 +221,52 @@ fn a_law_is_carried_on_under_the_names_of_its_coefficients() {
     folder.write("points.csv", exact);
     folder.run(&written).says("no posterior is written");
 }
+
+/// P = C dT / t_RC and R = t_RC / C, so that the covariances with C are P/C and -R/C times its
+/// variance whatever the record says, and P R = dT does not know C at all.
+#[test]
+fn a_step_is_carried_on_with_its_capacity() {
+    let mut csv = "t [s],ring [degC]\n".to_owned();
+    let rows =
+        (0..301).map(|i| (5.0 * f64::from(i), f64::from(i * i * 7919 % 1000) / 1000.0 - 0.5));
+    csv.extend(
+        rows.map(|(t, noise)| format!("{t},{:.4}\n", 92.7 - 67.2 * f64::exp(-t / 810.0) + noise)),
+    );
+    let folder = Folder::with("step.csv", &csv);
+    let words =
+        ["fit", "step", "step.csv", "--capacity", "2659 J/K ± 5 %", "--posterior", "p.json"];
+    let step = folder.run(&[&words[..], &["--format", "json"]].concat()).exits(0).json();
+    let posterior: Value = serde_json::from_str(&folder.read("p.json")).unwrap();
+    assert_eq!(posterior["of"], serde_json::json!(["P_disp", "R_eq", "C_eq"]));
+    let covariance = |i: usize, j: usize| number(&posterior["covariance"][i][j]);
+    let [p, r, c] = [0, 1, 2].map(|i| number(&posterior["quantities"][i]["value"]));
+    let near = |found: f64, expected: f64| {
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    };
+    let variance = (0.05 * 2659.0_f64).powi(2);
+    near(covariance(2, 2), variance);
+    near(covariance(0, 2), p / c * variance);
+    near(covariance(1, 2), -r / c * variance);
+    let rise = r * r * covariance(0, 0) + p * p * covariance(1, 1) + 2.0 * p * r * covariance(0, 1);
+    let said = &step["columns"]["ring"]["dT"];
+    assert!((rise.sqrt() / number(&said["standard_error"]) - 1.0).abs() < 1e-6, "{rise} {said}");
+    folder.write(
+        "body.toml",
+        "format = 1\n[param]\nP_disp = \"1 W\"\nR_eq = \"1 K/W\"\nC_eq = \"1 kJ/K\"\n[node]\nbody = \
+         { C = \"C_eq\", T0 = \"25.5 degC\" }\n[boundary]\nroom = { T = \"25.5 degC\" }\n[resistor]\n\
+         skin = { from = \"body\", to = \"room\", R = \"R_eq\" }\n[source]\nheat = { into = \"body\", P = \
+         \"P_disp\" }\n[run]\nstop = \"6 h\"\noutput = { every = \"1 h\" }\n",
+    );
+    let run = ["run", "body.toml", "--posterior", "p.json", "--uncertainty", "linear"];
+    let json =
+        folder.run(&[&run[..], &["--format", "json", "--no-files"]].concat()).exits(0).json();
+    let end = number(&json["uncertainty"]["results"]["body.T"]["end"]["sd"]["value"]);
+    assert!((end / rise.sqrt() - 1.0).abs() < 1e-3, "{end} {rise}");
+    // a second column that says the same
+    let twice = |line: &str| match line.rsplit_once(',') {
+        Some((rest, last)) if !last.contains('[') => format!("{rest},{last},{last}\n"),
+        _ => format!("{line},steel [degC]\n"),
+    };
+    folder.write("step.csv", &csv.lines().map(twice).collect::<String>());
+    folder.run(&words).exits(2).says("fit::step_posterior");
+}

@@ -11,6 +11,7 @@
 mod bias;
 mod error;
 mod lack;
+mod posterior;
 mod power;
 mod saturation;
 mod second;

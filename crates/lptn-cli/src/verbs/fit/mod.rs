@@ -5,6 +5,7 @@ mod compare;
 mod figure;
 mod law;
 mod network;
+mod posterior;
 mod step;
 
 pub(crate) use args::FitArgs;

@@ -9,7 +9,6 @@ use super::args::LawArgs;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::files;
 
 /// Refuses before anything is computed what could not be written afterwards.
 pub(crate) fn possible(args: &LawArgs, points: &Path) -> Result<(), Failure> {
@@ -48,13 +47,7 @@ pub(crate) fn write(
         console.message("no posterior is written: nothing tells the errors of the coefficients");
         return Ok(());
     };
-    let mut text = Vec::new();
-    // into memory, which does not fail
-    if posterior.write(&mut text).is_ok() {
-        files::replace(file, &text)?;
-        console.note(&format!("wrote  {}", file.display()));
-    }
-    Ok(())
+    crate::verbs::fit::posterior::write(&posterior, file, console)
 }
 
 fn refused(message: &str, help: &str) -> Failure {

@@ -50,6 +50,9 @@ pub(crate) struct StepArgs {
     /// The node of the model that the thermocouple is on
     #[arg(long, value_name = "NODE", requires = "model")]
     pub(crate) port: Option<String>,
+    /// Write P_disp, R_eq and C_eq with their covariance here, for lptn run --posterior
+    #[arg(long, value_name = "FILE", requires = "capacity")]
+    pub(crate) posterior: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) printed: Printed,
     #[command(flatten)]

@@ -10,12 +10,15 @@ mod request;
 
 pub(crate) use args::StepArgs;
 
+use std::path::Path;
+
 use lptn_fit::step::{Capacity, Power, ReferenceTemperature as Zero, Sensor, StepError, StepFit};
-use lptn_netlist::{Diagnostic, RecordColumn};
+use lptn_netlist::{Diagnostic, Posterior, RecordColumn};
 
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::verbs::fit::posterior;
 use model::Model;
 use request::{Reference, Request};
 
@@ -44,6 +47,13 @@ pub(crate) struct Column<'a> {
 
 pub(crate) fn step(args: &StepArgs, console: &Console) -> Result<Exit, Failure> {
     let request = Request::read(args)?;
+    if args.posterior.is_some() && request.columns.len() != 1 {
+        let problem = Diagnostic::error(
+            "fit::step_posterior",
+            "--posterior writes what one column says of P_disp and R_eq",
+        );
+        return Err(Failure::new(Exit::Input, problem.help("name it: --column ring_gear")));
+    }
     let (record, files) = (&request.record, &request.files);
     let (mut columns, mut without, mut failures) = (Vec::new(), Vec::new(), Vec::new());
     for column in request.columns.iter().map(|&i| &record.columns[i]) {
@@ -69,7 +79,26 @@ pub(crate) fn step(args: &StepArgs, console: &Console) -> Result<Exit, Failure> 
     let answer = Answer { request: &request, columns, without, model, warnings, exit };
     console.page(&answer, args.printed.format)?;
     console.report(files, &problems);
+    if let (Some(file), [column]) = (&args.posterior, answer.columns.as_slice()) {
+        posterior::write(&column.posterior(&request), file, console)?;
+    }
     Ok(exit)
+}
+
+impl Column<'_> {
+    fn posterior(&self, request: &Request) -> Posterior {
+        let stem = Path::new(&request.name).file_stem().map(|stem| stem.to_string_lossy());
+        let called = (&*stem.unwrap_or_default(), self.column.name.as_str());
+        self.power.posterior(&self.fit, capacity(request), called)
+    }
+}
+
+/// dT does not depend on the capacity.
+fn capacity(request: &Request) -> Capacity {
+    match &request.capacity {
+        Some(capacity) => Capacity { value: capacity.value, deviation: capacity.sigma() },
+        None => Capacity { value: 1.0, deviation: 0.0 },
+    }
 }
 
 fn fitted<'a>(request: &'a Request, column: &'a RecordColumn) -> Result<Column<'a>, StepError> {
@@ -87,13 +116,8 @@ fn fitted<'a>(request: &'a Request, column: &'a RecordColumn) -> Result<Column<'
             }
         }
     };
-    // dT does not depend on the capacity
-    let capacity = match &request.capacity {
-        Some(capacity) => Capacity { value: capacity.value, deviation: capacity.sigma() },
-        None => Capacity { value: 1.0, deviation: 0.0 },
-    };
     let sensor = Sensor { class: request.sensor.unwrap_or(0.0), gain: 0.0 };
-    let power = Power::new(&fit, capacity, &reference, sensor)?;
+    let power = Power::new(&fit, capacity(request), &reference, sensor)?;
     Ok(Column { column, fit, power })
 }
 

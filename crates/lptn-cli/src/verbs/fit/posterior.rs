@@ -1,0 +1,20 @@
+//! `--posterior FILE` of fits that write no folder.
+
+use std::path::Path;
+
+use lptn_netlist::Posterior;
+
+use crate::console::Console;
+use crate::failure::Failure;
+use crate::files;
+
+/// Puts what a fit found in the place of what stands there.
+pub(crate) fn write(posterior: &Posterior, file: &Path, console: &Console) -> Result<(), Failure> {
+    let mut text = Vec::new();
+    // into memory, which does not fail
+    if posterior.write(&mut text).is_ok() {
+        files::replace(file, &text)?;
+        console.note(&format!("wrote  {}", file.display()));
+    }
+    Ok(())
+}
