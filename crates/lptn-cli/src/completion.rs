@@ -27,6 +27,7 @@ fn with_names(command: Command) -> Command {
             "case" => Some(cases),
             "select" => Some(columns),
             "answering" | "balance" | "keep" | "port" => Some(nodes),
+            "fit" => Some(fits),
             "gearbox" => Some(gearboxes),
             "name" if materials => Some(substances),
             "name" if sweep => Some(sweeps),
@@ -85,6 +86,11 @@ fn sweeps() -> Vec<String> {
 fn plans() -> Vec<String> {
     let plans = netlist().map(|netlist| netlist.studies.plans).unwrap_or_default();
     plans.into_iter().map(|study| study.name).collect()
+}
+
+fn fits() -> Vec<String> {
+    let fits = netlist().map(|netlist| netlist.studies.fits).unwrap_or_default();
+    fits.into_iter().map(|study| study.name).collect()
 }
 
 fn substances() -> Vec<String> {

@@ -34,6 +34,10 @@ fn names_of_the_netlist_are_offered() {
         duration = \"1 min\"\nplace = { a = { of = \"a.T\", noise = \"1 K\" } }\n",
     );
     assert_eq!(offered(&folder, &["plan", "plan.toml", "ne"]), ["next"]);
+    folder.write("r.csv", "t [s],x [degC]\n0,25\n60,30\n");
+    let fit = "[fit.near]\ndata = \"r.csv\"\ncolumn = { x = \"a.T\" }\nvary = [\"R\"]\n";
+    folder.write("fit.toml", &(folder.read("plan.toml") + fit));
+    assert_eq!(offered(&folder, &["fit", "compare", "fit.toml", "--fit", "ne"]), ["near"]);
 }
 
 /// A netlist that cannot be read offers nothing, and says nothing between the words of a shell.

@@ -59,6 +59,7 @@ fn every_failure_is_one_object() {
         ("reduce gearbox.toml --port stel", 2, "reduce::unknown_port"),
         ("size gearbox.toml", 2, "size::no_study"),
         ("fit network gearbox.toml", 2, "fit::no_study"),
+        ("fit compare gearbox.toml", 2, "fit::no_study"),
         ("fit step line.csv", 3, "fit::no_curvature"),
         ("fit law line.csv", 2, "fit::law_column"),
         ("check missing.toml", 2, "input::cannot_read"),

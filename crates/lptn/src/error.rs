@@ -72,7 +72,7 @@ macro_rules! made_of {
 
 made_of! {
     lptn_assembly::AssemblyError, lptn_assembly::ChangeError,
-    lptn_fit::infer::InferError, lptn_fit::law::LawError, lptn_fit::law::RunsError, lptn_fit::least_squares::LeastSquaresError,
+    lptn_fit::choice::ChoiceError, lptn_fit::infer::InferError, lptn_fit::law::LawError, lptn_fit::law::RunsError, lptn_fit::least_squares::LeastSquaresError,
     lptn_fit::network::design::DesignError, lptn_fit::network::NetworkFitError, lptn_fit::step::StepError,
     lptn_netlist::ReadError, lptn_netlist::Rejected, lptn_netlist::WrittenError,
     lptn_network::BuildError, lptn_network::BuildErrors, lptn_network::InputError,

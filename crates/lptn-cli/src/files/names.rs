@@ -14,6 +14,9 @@ pub(crate) const RESIDUALS: &str = "residuals.csv";
 pub(crate) const FIT: &str = "fit.json";
 pub(crate) const INFERRED: &str = "inferred.csv";
 pub(crate) const INFER: &str = "infer.json";
+pub(crate) const CANDIDATES: &str = "candidates.csv";
+pub(crate) const UNSEEN: &str = "unseen.csv";
+pub(crate) const CHOICE: &str = "choice.json";
 pub(crate) const POSTERIOR: &str = "posterior.json";
 pub(crate) const SWEEP: &str = "sweep.csv";
 pub(crate) const PARQUET: &str = "sweep.parquet";
@@ -29,7 +32,7 @@ pub(super) const COMMIT: &str = ".commit.json";
 /// The file whose lock says that somebody writes here.
 pub(super) const LOCK: &str = ".lptn.lock";
 
-const RESULTS: [&str; 19] = [
+const RESULTS: [&str; 22] = [
     RESULT,
     STATE,
     EVENTS,
@@ -44,6 +47,9 @@ const RESULTS: [&str; 19] = [
     FIT,
     INFERRED,
     INFER,
+    CANDIDATES,
+    UNSEEN,
+    CHOICE,
     POSTERIOR,
     SWEEP,
     PARQUET,

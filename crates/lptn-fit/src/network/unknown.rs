@@ -76,6 +76,12 @@ impl Unknown {
         }
     }
 
+    /// By how many deviations a value is off what is known beforehand, if anything is: `ln` of it for
+    /// a lognormal one.
+    pub fn off_prior(&self, value: f64) -> Option<f64> {
+        Some(Prior::of((0, self))?.residual(value).0)
+    }
+
     /// Whether its zero says nothing, so that it is never seen as a logarithm.
     pub fn is_shift(&self) -> bool {
         self.ty.absolute || matches!(self.of, UnknownOf::Offset { .. })

@@ -25,7 +25,7 @@ pub(super) fn size(rows: usize, jacobian: &[f64]) -> usize {
 
 /// The number of samples that leaves [`STRETCHES`]: in those the fast noise is white, so that only
 /// slow noise is left to be told.
-pub(super) fn longest(rows: usize) -> usize {
+pub(crate) fn longest(rows: usize) -> usize {
     if rows < LONG { 1 } else { rows / STRETCHES }
 }
 

@@ -7,7 +7,7 @@ mod page;
 mod variants;
 
 pub(crate) use args::CompareArgs;
-use variants::Variant;
+pub(crate) use variants::{Variant, of_sets};
 
 use std::path::{Path, PathBuf};
 
@@ -38,7 +38,7 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
     let jobs = jobs(args, &files)?;
     let belief = args.posterior.as_deref().map_or(Belief::Named, Belief::Shared);
     let loaded = in_parallel(&jobs, threads, |(file, variant)| load(file, variant, &belief));
-    used(args, &loaded)?;
+    used(&args.set, &loaded)?;
     believed(args, &loaded)?;
     let mut done = evaluate_all(&loaded, (args.periodic, threads), console);
     let unsure = if args.uncertainty { doubtful(&loaded, &mut done, threads) } else { Vec::new() };
@@ -68,7 +68,7 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
 }
 
 /// Every file once, folders as their netlists in alphabetical order.
-fn listed(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
+pub(crate) fn listed(given: &[PathBuf]) -> Result<Vec<PathBuf>, Failure> {
     let mut files: Vec<PathBuf> = Vec::new();
     for path in given {
         let found = if path.is_dir() { folder(path)? } else { vec![path.clone()] };
@@ -90,7 +90,7 @@ fn folder(path: &Path) -> Result<Vec<PathBuf>, Failure> {
 
 /// Every file with every variant of it.
 fn jobs(args: &CompareArgs, files: &[PathBuf]) -> Result<Vec<(PathBuf, Variant)>, Failure> {
-    let sets = variants::of_sets(&args.set).ok_or_else(|| too_many("--set"))?;
+    let sets = of_sets(&args.set).ok_or_else(|| too_many("--set"))?;
     let mut jobs = Vec::new();
     for file in files {
         let all = variants::with_parts(file, &args.parts, &sets)?;
@@ -101,21 +101,21 @@ fn jobs(args: &CompareArgs, files: &[PathBuf]) -> Result<Vec<(PathBuf, Variant)>
     Ok(jobs)
 }
 
-fn too_many(option: &str) -> Failure {
+pub(crate) fn too_many(option: &str) -> Failure {
     let message = format!("`{option}` makes more than {} variants", variants::MOST);
     let problem = Diagnostic::error("compare::too_many", message);
     Failure::new(Exit::Input, problem.help("give fewer values, or compare in several steps"))
 }
 
 /// A candidate's file, and its netlist or what is wrong with it.
-struct Loaded {
+pub(crate) struct Loaded {
     file: String,
-    input: Result<Input, Failure>,
+    pub(crate) input: Result<Input, Failure>,
     /// For each `--set` whether this candidate has the parameter.
     has: Vec<bool>,
 }
 
-fn load(file: &Path, variant: &Variant, belief: &Belief<'_>) -> Loaded {
+pub(crate) fn load(file: &Path, variant: &Variant, belief: &Belief<'_>) -> Loaded {
     let (set, case) = (&variant.set, variant.case.clone());
     let source = Source { case, ..Source::of(file.to_owned()) };
     let name = match variant.label.as_str() {
@@ -166,11 +166,11 @@ fn unsettled(file: &str, found: &Candidate) -> Option<Diagnostic> {
 
 /// A `--set` that no candidate can use is a mistake, unless a candidate that could not be read may
 /// be meant.
-fn used(args: &CompareArgs, loaded: &[Loaded]) -> Result<(), Failure> {
+pub(crate) fn used(set: &[String], loaded: &[Loaded]) -> Result<(), Failure> {
     let all_read = loaded.iter().all(|one| one.input.is_ok());
-    let idle = (0..args.set.len()).find(|&i| loaded.iter().all(|one| !one.has[i]));
+    let idle = (0..set.len()).find(|&i| loaded.iter().all(|one| !one.has[i]));
     let (Some(i), true) = (idle, all_read) else { return Ok(()) };
-    let name = args.set[i].split('=').next().unwrap_or_default().trim();
+    let name = set[i].split('=').next().unwrap_or_default().trim();
     let message = format!("no candidate has a parameter `{name}`");
     let mut names: Vec<&str> = loaded
         .iter()

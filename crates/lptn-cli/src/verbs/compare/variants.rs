@@ -15,7 +15,7 @@ pub(super) const MOST: usize = 1000;
 
 /// What is changed in a netlist.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Variant {
+pub(crate) struct Variant {
     pub(super) case: Option<String>,
     pub(super) set: Vec<String>,
     /// What tells it from the others: `hot, R=1K/W`; empty where there are no others.
@@ -24,7 +24,7 @@ pub(super) struct Variant {
 
 /// Every combination of the values in lists, the last list changing fastest; `None` where there are
 /// too many.
-pub(super) fn of_sets(set: &[String]) -> Option<Vec<Variant>> {
+pub(crate) fn of_sets(set: &[String]) -> Option<Vec<Variant>> {
     let mut all = vec![Variant::default()];
     for text in set {
         let (name, values) = text.split_once('=').unwrap_or((text, ""));
@@ -81,6 +81,11 @@ pub(super) fn with_parts(
 }
 
 impl Variant {
+    /// What tells it from the others; empty where there are no others.
+    pub(crate) fn label(&self) -> &str {
+        &self.label
+    }
+
     /// With the values of a part, after those that are set before.
     fn of_part(&self, table: &Catalogue, part: usize) -> Self {
         let set = self.set.iter().cloned().chain(table.assignments(part)).collect();

@@ -2,6 +2,7 @@
 
 use clap::{Args as Arguments, Subcommand};
 
+use super::compare::FitCompareArgs;
 use super::law::LawArgs;
 use super::network::NetworkArgs;
 use super::step::StepArgs;
@@ -20,4 +21,5 @@ pub(crate) enum FitVerb {
     Step(StepArgs),
     Network(NetworkArgs),
     Law(Box<LawArgs>),
+    Compare(FitCompareArgs),
 }

@@ -1,6 +1,7 @@
 //! `lptn fit`: what records of measured temperatures tell. Each of its verbs is a module.
 
 mod args;
+mod compare;
 mod figure;
 mod law;
 mod network;
@@ -21,5 +22,6 @@ pub(crate) fn fit(args: &FitArgs, console: &Console) -> Result<Exit, Failure> {
         FitVerb::Step(args) => step::step(args, console),
         FitVerb::Network(args) => network::network(args, console),
         FitVerb::Law(args) => law::law(args, console),
+        FitVerb::Compare(args) => compare::compare(args, console),
     }
 }

@@ -10,6 +10,9 @@ mod words;
 mod write;
 
 pub(crate) use args::NetworkArgs;
+pub(crate) use page::{parameter, values};
+pub(crate) use units::common;
+pub(crate) use words::doubts;
 
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -78,7 +81,7 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
         return Err(input.refused(Exit::Failed, problem.help(help)));
     }
     let mut answer = Answer::new((&input, study), task, fit);
-    answer.doubts = words::doubts(&answer);
+    answer.doubts = doubts(&answer);
     console.warn(&input.netlist.files, &answer.doubts);
     let mut files = Vec::new();
     if let Some(folder) = &folder {
@@ -121,7 +124,7 @@ fn observed(task: &NetworkFitTask<'_>, console: &Console) -> Result<NetworkFit, 
     outcome
 }
 
-const STUDIES: Studies = Studies {
+pub(crate) const STUDIES: Studies = Studies {
     section: "fit",
     codes: ["fit::no_study", "fit::which_study"],
     question: "what is to be fitted to what?",
@@ -163,7 +166,7 @@ pub(crate) fn record_place<'s>(study: &'s FitStudy, error: &NetworkFitError) -> 
 }
 
 impl<'a> Answer<'a> {
-    fn new(
+    pub(crate) fn new(
         (input, study): (&'a Input, &'a FitStudy),
         task: NetworkFitTask<'a>,
         fit: NetworkFit,

@@ -190,7 +190,7 @@ fn remark(answer: &Answer<'_>, i: usize) -> &'static str {
     Some(state(answer, i)).filter(|state| *state != "free").unwrap_or_default()
 }
 
-fn values(answer: &Answer<'_>, all: &[usize]) -> TextTable {
+pub(crate) fn values(answer: &Answer<'_>, all: &[usize]) -> TextTable {
     let bound = |i: usize, si: f64| match si.is_finite() {
         true => significant(answer.shown(i, si), 4),
         false => String::new(),
@@ -328,7 +328,7 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
     notes
 }
 
-fn parameter(answer: &Answer<'_>, i: usize) -> Value {
+pub(crate) fn parameter(answer: &Answer<'_>, i: usize) -> Value {
     let (fitted, varied) = (&answer.fit.parameters[i], &answer.unknowns[i]);
     let unit = varied.ty.dimension.si_unit();
     let finite = |value: f64| value.is_finite().then_some(value);

@@ -1,0 +1,98 @@
+//! Why networks cannot be compared on their records.
+
+use lptn_solve::SensitiveError;
+use lptn_units::Class;
+
+use crate::network::NetworkFitError;
+
+lptn_units::errors! {
+/// Why networks cannot be compared on their records. That the records cannot tell them apart is an
+/// answer and not an error.
+#[derive(Debug)]
+pub enum ChoiceError {
+    /// There are fewer than two.
+    Alone = "fit::one_candidate",
+        "one candidate alone cannot be compared",
+        help "name several netlists with a [fit.NAME], or one with several; `--set NAME=A,B` makes \
+            a candidate of each value";
+    /// Two networks are not fitted to the same records.
+    Records { one: String, other: String, record: String } = "fit::other_records",
+        format!("`{one}` is fitted to {record}, and `{other}` is not"),
+        help "a likelihood of other records is no likelihood of these: name the same ones in `data` \
+            of each [fit.NAME]; their order does not matter";
+    /// Two networks are not fitted to the same columns of a record, or to other values of them.
+    Columns { one: String, other: String, record: String, column: String } = "fit::other_columns",
+        format!("of {record} `{one}` reads column `{column}`, and `{other}` {}",
+            "does not, or not the same values of it"),
+        help "name the same columns in `column` of each [fit.NAME]; `outliers` and `time` change \
+            values too";
+    /// Two networks do not count a column alike, with these standard deviations in its SI unit.
+    Sigma { one: String, other: String, column: String, sigmas: [f64; 2], unit: String } = "fit::other_sigma",
+        format!(
+            "a value of column `{column}` counts as known to {} {unit} with `{one}` and to {} {unit} \
+             with `{other}`", sigmas[0], sigmas[1]
+        ),
+        help "write the same `sigma` in each [fit.NAME], and the same `resolution` of its sensor";
+    /// A single record whose last third has so many values.
+    Nothing { record: String, values: usize } = "fit::nothing_unseen",
+        format!("{record} is a single record, and its last third has {values} values: nothing can \
+            be left out of the fit to be foretold"),
+        help "name several records in `data`, or a longer one";
+    /// The offset of a sensor is another one in each record, and nothing is known of it beforehand.
+    Offset { contender: String, sensor: String } = "fit::unseen_offset",
+        format!("`{contender}` cannot foretell a record that it has not seen: the offset of sensor \
+            `{sensor}` is `\"free\"` in each"),
+        help "write what is known of it, such as \"0 ± 2 K\", or share it between the records";
+    /// The fit of no network has a minimum; that of this one, and why not.
+    NotConverged { contender: String, why: String } = "fit::not_converged",
+        format!("no candidate has a fit that converged: that of `{contender}` ended because {why}"),
+        help "`lptn fit network` says more of it; give the parameters start values nearer to what \
+            is expected, and bounds with `from` and `to`",
+        class Class::Numbers;
+    /// A network cannot be fitted, or not without a record.
+    Fit { contender: String, without: Option<String>, error: Box<NetworkFitError> } = error.code(),
+        match without {
+            Some(record) => format!("`{contender}` without {record}: {error}"),
+            None => format!("`{contender}`: {error}"),
+        },
+        source error.as_ref(),
+        class error.class();
+    /// The run of a record fails with what a network learnt from the others.
+    Unseen { contender: String, record: String, error: Box<SensitiveError> } = error.code(),
+        format!("`{contender}` cannot say {record}, which it has not seen: {error}"),
+        source error.as_ref(),
+        class match &**error {
+            SensitiveError::Run(_) => Class::Numbers,
+            _ => Class::Input,
+        };
+    /// It was interrupted.
+    Interrupted = "run::interrupted", "the comparison was interrupted", class Class::Interrupted;
+}
+}
+
+impl ChoiceError {
+    pub(crate) fn of_fit(contender: &str, without: Option<&str>, error: NetworkFitError) -> Self {
+        match error {
+            NetworkFitError::Interrupted { .. } => Self::Interrupted,
+            error => Self::Fit {
+                contender: contender.to_owned(),
+                without: without.map(ToOwned::to_owned),
+                error: Box::new(error),
+            },
+        }
+    }
+
+    /// The network that is at fault.
+    pub fn contender(&self) -> Option<&str> {
+        match self {
+            Self::Alone | Self::Nothing { .. } | Self::Interrupted => None,
+            Self::Records { other, .. }
+            | Self::Columns { other, .. }
+            | Self::Sigma { other, .. } => Some(other),
+            Self::Offset { contender, .. }
+            | Self::NotConverged { contender, .. }
+            | Self::Fit { contender, .. }
+            | Self::Unseen { contender, .. } => Some(contender),
+        }
+    }
+}
