@@ -100,12 +100,14 @@ impl Folder {
         self.run(&words)
     }
 
-    /// Runs with a text on stdin.
+    /// Runs with a text on stdin. A program that refuses the study may end before it has read it.
     pub fn run_with(&self, arguments: &[&str], stdin: &str) -> Ran {
         let mut command = self.command(arguments);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();
-        child.stdin.take().unwrap().write_all(stdin.as_bytes()).unwrap();
+        let wrote = child.stdin.take().unwrap().write_all(stdin.as_bytes());
+        let left = |error: std::io::Error| error.kind() == std::io::ErrorKind::BrokenPipe;
+        assert!(wrote.map_or_else(left, |()| true));
         Ran::of(child.wait_with_output().unwrap())
     }
 }
