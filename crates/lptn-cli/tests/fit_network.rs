@@ -284,6 +284,29 @@ fn a_misfit_and_a_contradicted_prior_are_warned_of() {
     );
 }
 
+/// Analytic: three equally good values of R 0.009 K/W apart have a mean with an error of 0.009 K/W
+/// over the root of 3, two degrees of freedom, and 4.303 as the quantile of Student's t.
+#[test]
+fn records_that_differ_are_warned_of_and_counted() {
+    let text = netlist(OWN, "vary = [\"R\", \"C\"]")
+        .replace("\"record.csv\"", "[\"a.csv\", \"b.csv\", \"c.csv\"]");
+    let folder = Folder::with("body.toml", &text);
+    for (name, resistance) in [("a.csv", 0.291), ("b.csv", 0.3), ("c.csv", 0.309)] {
+        folder.write(name, &record(200.0 * resistance, resistance * 2600.0));
+    }
+    let run = folder.json("fit network body.toml").exits(0);
+    let json = run.json();
+    let resistance = &json["parameters"]["R"];
+    let error = 0.009 / f64::sqrt(3.0);
+    near(&resistance["value"], 0.3, 1e-3);
+    near(&resistance["standard_error"], error, 0.03);
+    near(&resistance["interval_95"][1], 0.3 + 4.303 * error, 2e-3);
+    assert_eq!(resistance["between_records"]["differ"], true);
+    let told = &json["warnings"][0];
+    assert_eq!(told["code"], "fit::records_differ");
+    assert!(told["message"].as_str().unwrap().contains("`R`"), "{told}");
+}
+
 #[test]
 fn what_is_wrong_with_the_question() {
     let folder = folder(OWN, "vary = [\"R\"]");

@@ -1,6 +1,7 @@
 //! How well the parameters are determined, from what is left over.
 
 use crate::Covariance;
+use crate::network::between::{BetweenRecords, Told};
 use crate::network::fitted::ColumnMisfit;
 use crate::network::hint::{Hint, Missed};
 use crate::network::identify::Identifiability;
@@ -20,6 +21,10 @@ pub(crate) struct Errors<'a> {
     /// The parameters that have a standard error, and those that are held for it.
     free: Vec<usize>,
     columns: Vec<ColumnNoise<'a>>,
+    /// `(J^T J)^-1` of the free parameters.
+    inverse: Option<Covariance>,
+    /// How the records differ in each free parameter, where enough of them tell it.
+    between: Vec<Option<BetweenRecords>>,
 }
 
 /// One column with values.
@@ -46,9 +51,15 @@ impl<'a> Errors<'a> {
         let unfelt = |i: &usize| known.is_none_or(|known| known.unfelt.contains(i));
         let free: Vec<usize> =
             inside.iter().copied().filter(|i| !unfelt(i) && !held.contains(i)).collect();
-        let mut errors = Self { task, at_end, data: model.data(), free, columns: Vec::new() };
+        let inverse = match free.is_empty() {
+            true => None,
+            false => Covariance::inverse(&at_end.jacobian, at_end.residuals.len(), &free),
+        };
+        let (data, columns, between) = (model.data(), Vec::new(), Vec::new());
+        let mut errors = Self { task, at_end, data, free, columns, inverse, between };
         let blocks = model.blocks.iter().filter(|block| !block.range.is_empty());
         errors.columns = blocks.map(|block| errors.noise_of(block)).collect();
+        errors.between = errors.free.iter().map(|&i| errors.scatter(i)).collect();
         errors
     }
 
@@ -123,15 +134,11 @@ impl<'a> Errors<'a> {
     /// parameters vanish: then errors are at least those that the standard deviations given say,
     /// and where none are given and nothing is left over there are none.
     pub(crate) fn covariance(&self) -> Option<Covariance> {
-        if self.free.is_empty() || self.data == 0 {
-            return None;
-        }
-        let inverse =
-            Covariance::inverse(&self.at_end.jacobian, self.at_end.residuals.len(), &self.free)?;
-        let found = inverse.sandwich(&self.middle());
+        let inverse = self.inverse.as_ref().filter(|_| self.data > 0)?;
+        let found = self.with_records(inverse.sandwich(&self.middle()));
         let given = self.columns.iter().all(|column| self.sigma(column).is_some());
         match self.left_over() {
-            0 => given.then_some(inverse),
+            0 => given.then(|| inverse.clone()),
             left if left < FEW && given => Some(inverse.at_least(&found)),
             _ => Some(found),
         }
@@ -144,17 +151,15 @@ impl<'a> Errors<'a> {
     /// half the widths that it alone has.
     pub(crate) fn interval(&self, covariance: &Covariance, parameter: usize) -> Option<(f64, f64)> {
         let error = covariance.standard_error(parameter)?;
-        let inverse =
-            Covariance::inverse(&self.at_end.jacobian, self.at_end.residuals.len(), &self.free)?;
+        let inverse = self.inverse.as_ref()?;
         if self.left_over() == 0 {
             return Some((student_95(f64::INFINITY) * error, f64::INFINITY));
         }
-        let count = self.at_end.jacobian.len() / self.at_end.residuals.len();
-        let gradient: Vec<f64> = (0..count).map(|i| f64::from(u8::from(i == parameter))).collect();
+        let gradient = self.unit(parameter);
         let found = inverse.sandwich(&self.middle()).standard_error(parameter)?;
         let (mut known, mut uncertain, mut drift) = (found * found, 0.0, 0.0);
         for column in &self.columns {
-            let (variance, degrees) = column.middle.variance(&inverse, &gradient);
+            let (variance, degrees) = column.middle.variance(inverse, &gradient);
             if column.noise.drifts() {
                 known -= variance;
                 drift += variance * student_95(degrees).powi(2);
@@ -167,31 +172,96 @@ impl<'a> Errors<'a> {
         let half = (known * student_95(degrees).powi(2) + drift).sqrt();
         let degrees = if drift > 0.0 { degrees_of(half / found) } else { degrees };
         // where few values are left over, the errors that `sigma` says are known
-        Some((half.max(student_95(f64::INFINITY) * error), degrees))
+        let inside = (half.max(student_95(f64::INFINITY) * error), degrees);
+        Some(self.widened(parameter, inside).unwrap_or(inside))
+    }
+
+    /// An interval from how the records scatter, where that is more than their noise says.
+    fn widened(&self, parameter: usize, (half, _): (f64, f64)) -> Option<(f64, f64)> {
+        let between = self.between(parameter)?;
+        let noise = self.inverse.as_ref()?.sandwich(&self.noise());
+        let prior = self.inverse.as_ref()?.sandwich(&self.prior()).standard_error(parameter)?;
+        let scatter = between.standard_error;
+        if scatter <= noise.standard_error(parameter)? {
+            return None;
+        }
+        let wide = (student_95(between.degrees_of_freedom) * scatter)
+            .hypot(student_95(f64::INFINITY) * prior);
+        (wide > half).then(|| (wide, degrees_of(wide / scatter.hypot(prior))))
+    }
+
+    /// How the records differ in what they say of a free parameter.
+    pub(crate) fn between(&self, parameter: usize) -> Option<BetweenRecords> {
+        self.between[self.free.binary_search(&parameter).ok()?]
+    }
+
+    fn scatter(&self, parameter: usize) -> Option<BetweenRecords> {
+        let inverse = self.inverse.as_ref().filter(|_| self.task.runs.len() > 2)?;
+        let gradient = self.unit(parameter);
+        let weights: Vec<f64> =
+            self.free.iter().map(|&i| inverse.between(parameter, i)).collect::<Option<_>>()?;
+        let mut records = vec![Told::default(); self.task.runs.len()];
+        for column in &self.columns {
+            let told = &mut records[column.block.run];
+            told.variance += column.middle.variance(inverse, &gradient).0;
+            for row in column.block.range.clone() {
+                let slopes = self.free.iter().map(|&i| self.derivatives(i)[row]);
+                let weight: f64 = slopes.zip(&weights).map(|(slope, weight)| slope * weight).sum();
+                told.pull += weight * self.at_end.residuals[row];
+                told.share += weight * self.derivatives(parameter)[row];
+            }
+        }
+        BetweenRecords::of(&records)
+    }
+
+    /// A covariance whose standard errors count how the records differ; correlations stay.
+    fn with_records(&self, found: Covariance) -> Covariance {
+        let n = found.parameters.len();
+        let mut between = found.clone();
+        let prior = self.inverse.as_ref().map(|inverse| inverse.sandwich(&self.prior()));
+        for k in 0..n {
+            let error = self.between[k].map_or(0.0, |between| between.standard_error);
+            let known = prior.as_ref().map_or(0.0, |prior| prior.values[k * n + k]);
+            between.values[k * n + k] = error * error + known;
+        }
+        found.at_least(&between)
+    }
+
+    /// What picks a parameter.
+    fn unit(&self, parameter: usize) -> Vec<f64> {
+        let count = self.at_end.jacobian.len() / self.at_end.residuals.len();
+        (0..count).map(|i| f64::from(u8::from(i == parameter))).collect()
     }
 
     /// The rise of the sum of squares at the end of an interval of this half width: that over the
     /// error that independent residuals of unit variance would leave, squared.
     pub(crate) fn rise(&self, parameter: usize, half: f64) -> Option<f64> {
-        let rows = self.at_end.residuals.len();
-        let inverse = Covariance::inverse(&self.at_end.jacobian, rows, &self.free)?;
-        Some((half / inverse.standard_error(parameter)?).powi(2))
+        Some((half / self.inverse.as_ref()?.standard_error(parameter)?).powi(2))
     }
 
     fn sigma(&self, column: &ColumnNoise<'_>) -> Option<f64> {
         self.task.runs[column.block.run].columns[column.block.column].sigma
     }
 
+    /// `J^T Omega J` of records and of what is known beforehand.
     fn middle(&self) -> Vec<f64> {
+        self.prior().iter().zip(self.noise()).map(|(prior, noise)| prior + noise).collect()
+    }
+
+    fn noise(&self) -> Vec<f64> {
+        let mut noise = vec![0.0; self.free.len() * self.free.len()];
+        for column in &self.columns {
+            noise.iter_mut().zip(&column.middle.values).for_each(|(sum, part)| *sum += part);
+        }
+        noise
+    }
+
+    /// Priors are what they are said to be.
+    fn prior(&self) -> Vec<f64> {
         let n = self.free.len();
-        // priors are what they are said to be
         let prior = |i: usize| &self.derivatives(self.free[i])[self.data..];
         let dot =
             |at: usize| prior(at / n).iter().zip(prior(at % n)).map(|(a, b)| a * b).sum::<f64>();
-        let mut middle: Vec<f64> = (0..n * n).map(dot).collect();
-        for column in &self.columns {
-            middle.iter_mut().zip(&column.middle.values).for_each(|(sum, part)| *sum += part);
-        }
-        middle
+        (0..n * n).map(dot).collect()
     }
 }

@@ -4,6 +4,7 @@ use lptn_solve::Gradient;
 
 use crate::Covariance;
 use crate::least_squares::{Side, Stop};
+use crate::network::between::BetweenRecords;
 use crate::network::hint::Hint;
 use crate::network::identify::Identifiability;
 use crate::network::profile::Profile;
@@ -52,6 +53,9 @@ pub struct FittedParameter {
     pub half_width: Option<f64>,
     /// The degrees of freedom of that quantile; infinite where the error is known.
     pub degrees_of_freedom: Option<f64>,
+    /// How the records differ in it, where more than two of them tell it; the errors above count
+    /// it where that is more than their noise says.
+    pub between: Option<BetweenRecords>,
     /// Its value before.
     pub start: f64,
     /// The bound that it sits on.

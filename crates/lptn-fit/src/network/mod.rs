@@ -7,10 +7,12 @@
 //! on with all rows.
 //!
 //! Standard errors follow from the residuals as they are, not from the standard deviations given,
-//! and know that neighbours in a record are alike: see [`crate::noise`]. Only where few values are
+//! and know that neighbours in a record are alike: see [`crate::noise`]. Where records differ by more
+//! than that, errors follow from how they differ ([`BetweenRecords`]). Only where few values are
 //! left over they are no smaller than the standard deviations say. [`Identifiability`] tells what
 //! the records cannot separate.
 
+mod between;
 mod combination;
 mod coordinates;
 pub mod design;
@@ -33,6 +35,7 @@ mod task;
 mod undetermined;
 mod unknown;
 
+pub use between::BetweenRecords;
 pub use combination::CombinationKind;
 pub use error::NetworkFitError;
 pub use fitted::{ColumnMisfit, FittedParameter, NetworkFit};
@@ -167,6 +170,7 @@ fn fitted_parameters(
             standard_error,
             half_width: interval.map(|(half, _)| half),
             degrees_of_freedom: interval.map(|(_, degrees)| degrees),
+            between: standard_error.and(errors.between(i)),
             start: own[i],
             on_bound: estimate.on_bound[i],
             profile: None,

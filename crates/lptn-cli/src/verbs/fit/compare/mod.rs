@@ -223,8 +223,8 @@ impl<'a> Answer<'a> {
     }
 
     /// Of one candidate: those of its fit, and those of what it says of unseen records. That one
-    /// which is worse misses the records is what was asked, and that intervals count slow drift is
-    /// seen by their width.
+    /// which is worse misses the records, each in its own way, is what was asked, and that intervals
+    /// count slow drift is seen by their width.
     fn doubts_of(&self, i: usize) -> Vec<Diagnostic> {
         let name = &self.candidates[i].name;
         let named = |doubt: Diagnostic| Diagnostic {
@@ -232,8 +232,9 @@ impl<'a> Answer<'a> {
             ..doubt
         };
         let worse = self.choice.is_told(i);
-        let matters = |doubt: &Diagnostic| {
-            !(worse && doubt.code == "fit::misfit" || doubt.code == "fit::slow_drift")
+        let matters = |doubt: &Diagnostic| match doubt.code {
+            "fit::misfit" | "fit::records_differ" => !worse,
+            code => code != "fit::slow_drift",
         };
         let of_fit = doubts(&self.fits[i]).into_iter().filter(matters).map(named);
         of_fit.chain(words::doubts(self, i)).collect()

@@ -339,6 +339,12 @@ pub(crate) fn parameter(answer: &Answer<'_>, i: usize) -> Value {
         "standard_error": fitted.standard_error,
         "interval_95": interval(fitted),
         "degrees_of_freedom": fitted.degrees_of_freedom.filter(|degrees| degrees.is_finite()),
+        "between_records": fitted.between.map(|between| json!({
+            "ratio": between.ratio,
+            "standard_error": between.standard_error,
+            "degrees_of_freedom": between.degrees_of_freedom,
+            "differ": between.differ,
+        })),
         "start": fitted.start,
         "from": finite(varied.bounds.0),
         "to": finite(varied.bounds.1),

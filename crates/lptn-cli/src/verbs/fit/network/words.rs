@@ -76,6 +76,7 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
     doubts.extend((0..answer.fit.parameters.len()).filter_map(|i| off_prior(answer, i)));
     doubts.extend(misfits(answer));
     doubts.extend(drifting(answer));
+    doubts.extend(differing(answer));
     doubts
 }
 
@@ -104,10 +105,35 @@ fn drifting(answer: &Answer<'_>) -> Option<Diagnostic> {
     let doubt = Diagnostic::warning("fit::slow_drift", message).at(answer.study.span.clone(), "");
     let doubt = doubt.help(
         "the curve takes such a drift up, and a single record cannot tell it; a sensor beside it \
-         whose temperature stays can, and several records, fitted one by one, show how far they \
-         differ",
+         whose temperature stays can, and so can three records and more by how far they differ",
     );
     (!names.is_empty() && ratio > WIDE).then_some(doubt)
+}
+
+/// That something changes from record to record which the network holds fixed.
+fn differing(answer: &Answer<'_>) -> Option<Diagnostic> {
+    let between = |i: usize| Some((i, answer.fit.parameters[i].between.filter(|b| b.differ)?));
+    let all: Vec<_> = (0..answer.fit.parameters.len()).filter_map(between).collect();
+    let (widest, most) = all.iter().max_by(|a, b| a.1.ratio.total_cmp(&b.1.ratio))?;
+    let names: Vec<String> = all.iter().map(|(i, _)| format!("`{}`", answer.name(*i))).collect();
+    let (ratio, name) = (significant(most.ratio, 2), answer.name(*widest));
+    let message = match all.len() {
+        1 => format!(
+            "what the records say of `{name}` differs {ratio} times as far as their noise tells: \
+             its error follows from how they scatter"
+        ),
+        _ => format!(
+            "what the records say of {} differs farther than their noise tells, of `{name}` \
+             {ratio} times as far: their errors follow from how they scatter",
+            names.join(", ")
+        ),
+    };
+    let doubt = Diagnostic::warning("fit::records_differ", message);
+    Some(doubt.at(answer.study.span.clone(), "").help(
+        "something changes from run to run that the network holds fixed, such as mounting, oil, a \
+         start or a law of the speed: fit the records one by one to see with what it changes, and \
+         let `lptn fit compare` say which network foretells a record that it has not seen",
+    ))
 }
 
 /// A value that contradicts what is known of it beforehand, which is its own value.

@@ -1,0 +1,93 @@
+//! Whether records differ by more than their noise tells.
+
+/// How far apart the records are in what they say of a parameter: mounting, oil or a slow drift
+/// change from run to run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BetweenRecords {
+    /// How many times as far records are apart as their noise tells, as a root of a mean square.
+    pub ratio: f64,
+    /// The standard error that follows from how the records scatter, in SI units.
+    pub standard_error: f64,
+    /// With so many degrees of freedom: as many records as count, less one.
+    pub degrees_of_freedom: f64,
+    /// Whether chance alone brings such a scatter about in less than one of 1000 fits.
+    pub differ: bool,
+}
+
+/// What one record does to a parameter.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Told {
+    /// By how much it pulls the parameter.
+    pub(crate) pull: f64,
+    /// How far the parameter follows if it is another one in this record: those of all records and
+    /// of what is known beforehand add up to 1.
+    pub(crate) share: f64,
+    /// The variance that its noise brings in.
+    pub(crate) variance: f64,
+}
+
+/// Chance alone exceeds chi-square of `degrees` with a probability of 0.1 %; to 3 % of itself
+/// (E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684).
+fn chance(degrees: f64) -> f64 {
+    const NORMAL_999: f64 = 3.090_232_306_167_813;
+    let part = 2.0 / (9.0 * degrees);
+    degrees * (1.0 - part + NORMAL_999 * part.sqrt()).powi(3)
+}
+
+impl BetweenRecords {
+    /// The mean of the squares of the pulls is the variance of the parameter if records are drawn
+    /// by chance (K.-Y. Liang, S. L. Zeger, Biometrika 73 (1986) 13), with as many degrees of
+    /// freedom as records that have a share (R. M. Bell, D. F. McCaffrey, Survey Methodology 28
+    /// (2002) 169), less one. `None` where less than two and a half records count.
+    pub(crate) fn of(records: &[Told]) -> Option<Self> {
+        const LEAST: f64 = 1.5;
+        let told = || records.iter().filter(|told| told.variance > 0.0 && told.share > 0.0);
+        let sum = |of: &dyn Fn(&Told) -> f64| told().map(of).sum::<f64>();
+        let (all, shares) = (sum(&|told| told.pull), sum(&|told| told.share));
+        let degrees = shares * shares / sum(&|told| told.share * told.share) - 1.0;
+        if degrees.is_nan() || degrees < LEAST {
+            return None;
+        }
+        let others = told().count() as f64 - 1.0;
+        let noise = sum(&|told| told.variance);
+        let squares = sum(&|told| told.pull * told.pull / told.variance) - all * all / noise;
+        // what is known beforehand pulls against all of them
+        let off = sum(&|told| (told.pull - all * told.share / shares).powi(2));
+        Some(Self {
+            ratio: (squares / others).max(0.0).sqrt(),
+            standard_error: (off * (degrees + 1.0) / degrees).sqrt(),
+            degrees_of_freedom: degrees,
+            differ: squares > chance(others),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{BetweenRecords, Told, chance};
+
+    /// Tables of chi-square at 0.1 %: 10.828, 13.816, 29.588.
+    #[test]
+    fn reference_chance_is_that_of_tables() {
+        for (degrees, expected) in [(1.0, 10.828), (2.0, 13.816), (10.0, 29.588)] {
+            let found = chance(degrees);
+            assert!((found - expected).abs() < 0.035 * expected, "{found} {expected}");
+        }
+    }
+
+    /// Records that tell equally much: the standard error of a mean of 4 values.
+    #[test]
+    fn analytic_equal_records_have_the_error_of_their_mean() {
+        let off = [3.0, -1.0, -4.0, 2.0_f64];
+        let records = |variance: f64| {
+            off.map(|off| Told { pull: off / 4.0, share: 0.25, variance: variance / 16.0 })
+        };
+        let found = BetweenRecords::of(&records(0.01)).unwrap();
+        let squares = off.iter().map(|x| x * x).sum::<f64>();
+        assert!((found.standard_error - (squares / 12.0).sqrt()).abs() < 1e-12);
+        assert!((found.degrees_of_freedom - 3.0).abs() < 1e-12);
+        assert!((found.ratio - (squares / 0.01 / 3.0).sqrt()).abs() < 1e-9);
+        assert!(found.differ && !BetweenRecords::of(&records(30.0)).unwrap().differ);
+        assert!(BetweenRecords::of(&records(0.01)[..2]).is_none());
+    }
+}
