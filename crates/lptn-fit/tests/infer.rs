@@ -3,21 +3,13 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use lptn_fit::infer::{Follower, InferError, InferTask, Inferred, Row, infer};
-use lptn_netlist::{Netlist, parse_with};
-use lptn_solve::{Proceed, available_threads, in_parallel};
-use rand_distr::{Distribution, StandardNormal};
-use rand_pcg::Pcg64;
+#[path = "support/bench.rs"]
+mod bench;
 
-fn parse(text: &str, csv: &str) -> Netlist {
-    parse_with("infer.toml", text, &mut |_| Ok(csv.as_bytes().to_vec()))
-        .unwrap_or_else(|rejected| panic!("{rejected}"))
-}
-
-fn inferred(netlist: &Netlist) -> Result<Inferred, InferError> {
-    let task = InferTask::of(netlist, &netlist.studies.infers[0])?;
-    infer(&task, &|_| Proceed::Continue)
-}
+use bench::{Bench, body, driven, held, inferred, noise, parse};
+use lptn_fit::infer::{Follower, InferError, InferTask, Inferred, Row};
+use lptn_netlist::Netlist;
+use lptn_solve::{available_threads, in_parallel};
 
 #[track_caller]
 fn near(found: f64, expected: f64, within: f64) {
@@ -92,57 +84,6 @@ fn analytic_the_filter_is_the_smoother_at_the_last_row() {
     near(last.nodes[0].value, found.nodes[0].1[12].value, 1e-5);
 }
 
-/// One body of 2659 J/K on 0.3 K/W in a room of 25 degC, whose power is `power` between each two of
-/// many short steps, read every `every` s with noise.
-struct Bench {
-    every: f64,
-    rows: u32,
-    sigma: f64,
-}
-
-const TAU: f64 = 0.3 * 2659.0;
-
-fn noise(seed: u32) -> impl FnMut() -> f64 {
-    let mut random = Pcg64::new(500 + u128::from(seed), 0x0a02_bdbf_7bb3_c0a7_ac28_fa16_a64a_bf96);
-    move || StandardNormal.sample(&mut random)
-}
-
-impl Bench {
-    /// Time, power and temperature over 25 degC of every row.
-    fn course(&self, mut power: impl FnMut(f64) -> f64) -> Vec<(f64, f64, f64)> {
-        const PARTS: u32 = 20;
-        let step = self.every / f64::from(PARTS);
-        let (mut rise, mut all) = (0.0, Vec::new());
-        for k in 0..self.rows {
-            let time = f64::from(k) * self.every;
-            all.push((time, power(time), rise));
-            for part in 0..PARTS {
-                let heat = power(time + (f64::from(part) + 0.5) * step);
-                rise = 0.3 * heat + (rise - 0.3 * heat) * f64::exp(-step / TAU);
-            }
-        }
-        all
-    }
-
-    fn csv(&self, course: &[(f64, f64, f64)], seed: u32) -> String {
-        let mut noise = noise(seed);
-        let row = |(t, _, rise): &(f64, f64, f64)| {
-            format!("{t},{}\n", 25.0 + rise + self.sigma * noise())
-        };
-        format!("t [s],tc [degC]\n{}", course.iter().map(row).collect::<String>())
-    }
-}
-
-fn body(study: &str, csv: &str) -> Netlist {
-    let text = format!(
-        "format = 1\n[signal]\nP = \"100 W\"\n[node]\nbody = {{ C = \"2659 J/K\", T0 = \"25 degC\" }}\n\
-         [boundary]\nroom = {{ T = \"25 degC\" }}\n[resistor]\nskin = {{ from = \"body\", to = \
-         \"room\", R = \"0.3 K/W\" }}\n[source]\nheat = {{ into = \"body\", P = \"P\" }}\n\
-         [infer.power]\ndata = \"r.csv\"\ncolumn = {{ tc = \"body.T\" }}\n{study}\n"
-    );
-    parse(&text, csv)
-}
-
 /// Rise of the steel t s after 220.6 W began: by both modes of the two bodies.
 fn steel(t: f64) -> f64 {
     let (between, out) = (1.0 / 7.7e-3, 1.0 / 0.297);
@@ -177,21 +118,6 @@ fn analytic_a_constant_power_is_known_after_two_minutes() {
     }
     deviations.sort_by(f64::total_cmp);
     assert!(deviations[19] < 0.05 && deviations[10] < 0.025, "{deviations:?}");
-}
-
-/// Steps, a ramp and a drive cycle, 50 minutes.
-fn driven(t: f64) -> f64 {
-    let minutes = t / 60.0;
-    match minutes {
-        m if m < 5.0 => 120.0,
-        m if m < 10.0 => 220.0,
-        m if m < 15.0 => 60.0,
-        m if m < 25.0 => 60.0 + 16.0 * (m - 15.0),
-        m => {
-            let fast = f64::sin(1.9 * m) + 0.6 * f64::sin(4.1 * m + 1.0);
-            160.0 + 40.0 * fast + if m % 4.0 < 1.5 { 50.0 } else { 0.0 }
-        }
-    }
 }
 
 /// In how many percent of the rows the band holds the truth.
@@ -343,12 +269,6 @@ fn what_cannot_be_inferred_is_refused() {
     assert!(matches!(Follower::new(task).unwrap_err(), InferError::Jumps { .. }));
     let short = body("sigma = \"0.1 K\"\nfind = [\"P\"]", "t [s],tc [degC]\n0,25\n");
     assert!(matches!(inferred(&short).unwrap_err(), InferError::Short));
-}
-
-/// A bench that holds one load after the other, 5 minutes each at least.
-fn held(t: f64) -> f64 {
-    let loads = [100.0, 220.0, 220.0, 60.0, 150.0, 150.0, 200.0, 30.0, 30.0, 120.0];
-    loads[((t / 300.0) as usize).min(9)]
 }
 
 const OPEN: &str = "sigma = \"0.1 K\"\nfind = [\"P\"]";

@@ -2,7 +2,7 @@
 
 use lptn_data::{Diagnostic, Span, nearest};
 use lptn_network::{Context, Network, Value};
-use lptn_units::{Dimension, EvalError, Scope as _, Type};
+use lptn_units::{EvalError, Scope as _, Type};
 
 use crate::fields::Fields;
 use crate::fit::{FitInitial, FitStudy, OUTLIERS, files_of};
@@ -10,6 +10,7 @@ use crate::format::{Role, SectionDeclaration, key};
 use crate::names::ValueKind;
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
+use crate::setting::{KELVIN, Setting, TIME};
 use crate::study::{PathFrom, Study};
 use crate::toml_text::{TomlFields, key as toml_key, value};
 use crate::work::Elaboration;
@@ -25,6 +26,9 @@ const INFER: SectionDeclaration = SectionDeclaration {
         key("column", "table of results", "what each column measures", "{ ring = \"steel.T\" }"),
         key("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\"")
             .or("as the record is most likely"),
+        key("drift", "K", "the standard deviation of a slow part of the noise", "\"0.05 K\"")
+            .or("a part of `sigma`, as the record is most likely"),
+        key("drift_time", "s", "the time after which that has forgotten itself", "\"5 min\""),
         key("find", "names of signals, or a table", "whose course is sought", "[\"P\"]"),
         key(
             "outliers",
@@ -90,6 +94,8 @@ pub struct InferStudy {
     pub sought: Vec<SoughtSignal>,
     /// What is known of the start.
     pub start: InferStart,
+    /// Standard deviation and time of the slow part of the noise.
+    drift: Option<(Setting, Setting)>,
 }
 
 /// A signal whose course is sought.
@@ -139,6 +145,36 @@ impl InferStudy {
         };
         self.sought.iter().map(&mut one).collect()
     }
+
+    /// Standard deviation in K and time in s of the slow part of the noise; `None` where that is
+    /// not said.
+    ///
+    /// # Errors
+    /// What the evaluation of the two reports.
+    pub fn drift(&self, network: &Network) -> Result<Option<(f64, f64)>, EvalError> {
+        let mut scope = network.evaluation();
+        let mut at = |setting: &Setting| setting.value.at(&mut scope);
+        self.drift.as_ref().map(|(drift, time)| Ok((at(drift)?, at(time)?))).transpose()
+    }
+
+    /// What is wrong with the drift.
+    fn unsound_drift(&self, network: &Network) -> Option<Diagnostic> {
+        let (drift, time) = self.drift.as_ref()?;
+        let setting = match self.drift(network) {
+            Err(error) => {
+                let message = format!("infer `{}`: {error}", self.name);
+                return Some(Diagnostic::error(error.code(), message).at(drift.span.clone(), ""));
+            }
+            Ok(Some((deviation, _))) if !(deviation >= 0.0 && deviation.is_finite()) => drift,
+            Ok(Some((_, lasts))) if !(lasts > 0.0 && lasts.is_finite()) => time,
+            Ok(_) => return None,
+        };
+        let message = format!("{} has to be more than zero", setting.words);
+        let problem = Diagnostic::error("netlist::infer_drift", message);
+        let help = "`drift = \"0 K\"` says that all noise is white; leave both keys out where it is \
+                    not known";
+        Some(problem.at(setting.span.clone(), "").help(help))
+    }
 }
 
 impl Study for InferStudy {
@@ -165,6 +201,7 @@ impl Study for InferStudy {
 
     fn check(&self, network: &Network) -> Vec<Diagnostic> {
         let mut problems = self.reads.check(network);
+        problems.extend(self.unsound_drift(network));
         let wrong = |message: String, span: &Span| {
             Diagnostic::error("netlist::infer_change", message).at(span.clone(), "")
         };
@@ -208,6 +245,10 @@ impl Study for InferStudy {
             let own = if own.is_empty() { "{}".to_owned() } else { own.inline() };
             format!("{} = {own}", toml_key(&sought.name))
         };
+        if let Some((drift, time)) = &self.drift {
+            fields.put("drift", drift.written());
+            fields.put("drift_time", time.written());
+        }
         let all: Vec<String> = self.sought.iter().map(sought).collect();
         fields.put("find", format!("{{ {} }}", all.join(", ")));
         self.reads.put_recorded(&mut fields);
@@ -217,8 +258,6 @@ impl Study for InferStudy {
         fields
     }
 }
-
-const TIME: Type = Type::of(Dimension::TIME);
 
 /// The type of a change of a signal.
 fn change_of(ty: Type, positive: bool) -> Type {
@@ -230,6 +269,13 @@ impl<'a> Elaboration<'a> {
         let fields = self.fields(&INFER, entry)?;
         self.all_there(&fields, &["data", "column", "find"])?;
         let sought = self.sought_signals(&fields);
+        let drift = self.optional_setting(&fields, "drift", KELVIN);
+        let time = self.optional_setting(&fields, "drift_time", TIME);
+        let place = (&fields.owner, &entry.key_span, "netlist::infer_drift");
+        let drift = match (drift, time) {
+            (Some(drift), Some(time)) => self.drift(place, (drift, time)),
+            _ => None,
+        };
         let start = self.choice(&fields, "initial", &STARTS);
         let drop_outliers = self.choice(&fields, "outliers", &OUTLIERS);
         let reads = self.recorded_columns(&fields, drop_outliers == Some(true))?;
@@ -258,7 +304,7 @@ impl<'a> Elaboration<'a> {
         let (name, span) = (entry.key.clone(), entry.key_span.clone());
         let reads =
             FitStudy { drop_outliers: drop_outliers?, initial: FitInitial::Network, ..reads };
-        Some(InferStudy { name, span, reads, sought, start: start? })
+        Some(InferStudy { name, span, reads, sought, start: start?, drift: drift? })
     }
 
     /// `find = ["P"]` or `find = { P = { change = "50 W", within = "1 min" } }`.

@@ -4,13 +4,14 @@ use lptn_data::Span;
 use lptn_network::Value;
 use lptn_units::{Dimension, Type, format_number};
 
-use crate::fields::Owner;
+use crate::fields::{Fields, Owner};
 use crate::place::{Place, Wanted};
 use crate::raw::RawValue;
 use crate::toml_text::string;
 use crate::work::Elaboration;
 
 pub(crate) const TIME: Type = Type::of(Dimension::TIME);
+pub(crate) const KELVIN: Type = Type::of(Dimension::TEMPERATURE);
 
 /// A value with its place.
 #[derive(Clone, Debug)]
@@ -47,5 +48,35 @@ impl Elaboration<'_> {
         let value = self.given(place, Wanted::constant(ty))?.value();
         let help = format!("write it like this: `{}`", owner.sample(key));
         Some(Setting { value, span: raw.span.clone(), words, unit: ty.usual_unit(), help })
+    }
+
+    /// A value in its field; nothing inside where it is left out, nothing at all where it is wrong.
+    pub(crate) fn optional_setting(
+        &mut self,
+        fields: &Fields<'_>,
+        key: &'static str,
+        ty: Type,
+    ) -> Option<Option<Setting>> {
+        let Some(raw) = fields.get(key) else { return Some(None) };
+        Some(Some(self.setting(&fields.owner, (key, raw), ty)?))
+    }
+
+    /// A drift has a standard deviation and a time, or there is none.
+    pub(crate) fn drift(
+        &mut self,
+        (owner, span, code): (&Owner, &Span, &'static str),
+        drift: (Option<Setting>, Option<Setting>),
+    ) -> Option<Option<(Setting, Setting)>> {
+        let (is, not) = match drift {
+            (Some(drift), Some(time)) => return Some(Some((drift, time))),
+            (None, None) => return Some(None),
+            (Some(_), None) => ("drift", "drift_time"),
+            (None, Some(_)) => ("drift_time", "drift"),
+        };
+        let message = format!("{} has `{is}`, but no `{not}`", owner.words());
+        let help = "say how large the drift is and how long it lasts: `drift = \"0.05 K\"` and \
+                    `drift_time = \"5 min\"`";
+        self.refuse(code, message, span, help);
+        None
     }
 }

@@ -13,7 +13,7 @@ use crate::infer::rounds::{Settled, settle};
 use crate::infer::strength::Strength;
 use crate::infer::surprise;
 use crate::infer::task::InferTask;
-use crate::kalman::Gaussian;
+use crate::kalman::Smoother;
 
 /// Infers courses from a record.
 ///
@@ -33,7 +33,7 @@ pub fn infer(task: &InferTask<'_>, observer: &InferObserver<'_>) -> Result<Infer
     let states = &model.states;
     let final_state = smoother.filter().state();
     let alone = |place: usize, scale: f64| {
-        let (value, deviation) = final_state.of(&states.unit(place));
+        let (value, deviation) = final_state.of(&[(place, 1.0)]);
         Known { value: scale * value, deviation: scale * deviation }
     };
     let sensor = |(r, read): (usize, &crate::infer::states::Reads)| {
@@ -73,7 +73,7 @@ fn still(
     let (state, likely) = (smoother.filter().state(), smoother.filter().log_likelihood());
     let last = coordinates(task, reference, model.nodes.len() - 1);
     let one = |(j, sought): (usize, &crate::infer::Sought)| {
-        let (moved, deviation) = state.of(&model.states.unit(model.states.course(j)));
+        let (moved, deviation) = state.of(&[(model.states.course(j), 1.0)]);
         let there = last[j] + moved;
         let known = match sought.positive {
             true => Known { value: there.exp(), deviation: deviation * there.exp() },
@@ -104,30 +104,32 @@ impl<'a> Asked<'a> {
 
     /// Means and deviations of all that is asked: for each moment coordinates and temperatures,
     /// then the integral of each course.
-    fn of(&self, smoothed: &[Gaussian]) -> Vec<(f64, f64)> {
+    fn of(&self, smoother: &Smoother) -> Vec<(f64, f64)> {
         let (model, states) = (&self.settled.model, &self.settled.model.states);
-        let mut all = Vec::with_capacity(smoothed.len() * self.of_moment());
-        for (k, known) in smoothed.iter().enumerate() {
+        let (size, count) = (self.of_moment(), self.settled.moments.times.len());
+        let mut all = vec![(0.0, 0.0); size * count + states.sought];
+        smoother.backwards(|k, told| {
+            let moment = &mut all[k * size..][..size];
             let coordinates = coordinates(self.task, &self.settled.reference, k);
             for (j, own) in coordinates.iter().enumerate() {
-                let (moved, deviation) = known.of(&states.unit(states.course(j)));
-                all.push((own + moved, deviation));
+                let (moved, deviation) = told.of(&[(states.course(j), 1.0)]);
+                moment[j] = (own + moved, deviation);
             }
-            for id in &self.shown {
-                let (moved, deviation) = known.of(&model.weights(k, id.index()));
-                all.push((model.reference[k][id.index()] + moved, deviation));
+            for (known, id) in moment[states.sought..].iter_mut().zip(&self.shown) {
+                let (moved, deviation) = told.of(model.weights(k, id.index()));
+                *known = (model.reference[k][id.index()] + moved, deviation);
             }
-        }
-        let last = &smoothed[smoothed.len() - 1];
-        for j in 0..states.sought {
-            all.push(last.of(&states.unit(states.area(j))));
+        });
+        let last = smoother.filter().state();
+        for (j, known) in all[size * count..].iter_mut().enumerate() {
+            *known = last.of(&[(states.area(j), 1.0)]);
         }
         all
     }
 
     fn mixed(&self) -> Vec<(f64, f64)> {
         let Settled { model, strength, .. } = self.settled;
-        mixture((self.task, model, strength), |smoothed| self.of(smoothed))
+        mixture((self.task, model, strength), |smoother| self.of(smoother))
     }
 
     fn course(&self, j: usize, mixed: &[(f64, f64)], still: (Known, f64)) -> InferredCourse {
@@ -160,7 +162,7 @@ impl<'a> Asked<'a> {
     fn before(&self, j: usize) -> Known {
         let model = &self.settled.model;
         let place = model.states.course(j);
-        let (moved, deviation) = model.prior.of(&model.states.unit(place));
+        let (moved, deviation) = model.prior.of(&[(place, 1.0)]);
         let own = coordinates(self.task, &self.settled.reference, 0)[j];
         Known { value: own + moved, deviation }
     }

@@ -2,13 +2,13 @@
 
 use std::rc::Rc;
 
-use crate::kalman::Step;
+use crate::kalman::Transition;
 
 /// What becomes of `dx/dt = F x` over a time, where some states are random walks.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Discrete {
     /// `exp(F t)`
-    pub(crate) transition: Rc<Vec<f64>>,
+    pub(crate) transition: Rc<Transition>,
     /// For each walk what a steady rise by 1 per s of it brings to every state.
     pub(crate) ramps: Vec<Vec<f64>>,
     /// For each walk the covariance that it brings in at an intensity of 1 per s.
@@ -52,25 +52,26 @@ impl Discrete {
             change.iter_mut().zip(square).for_each(|(e, s)| *e = *e + *e + s);
         }
         change.iter_mut().step_by(size + 1).for_each(|x| *x += 1.0);
-        Self { transition: Rc::new(change), ramps, noises }
+        Self { transition: Rc::new(Transition::of(&change)), ramps, noises }
     }
 
     /// The covariance that walks of these intensities bring in.
     pub(crate) fn noise(&self, intensities: &[f64]) -> Rc<Vec<f64>> {
-        let mut noise = vec![0.0; self.transition.len()];
-        for (own, q) in self.noises.iter().zip(intensities) {
+        let side = self.transition.side();
+        let mut noise = vec![0.0; side * side];
+        for (own, q) in self.noises.iter().zip(intensities).filter(|(_, q)| **q > 0.0) {
             noise.iter_mut().zip(own).for_each(|(n, x)| *n += q * x);
         }
         Rc::new(noise)
     }
 
-    /// The step with that covariance, where the walks rise by so much per s beside what they walk.
-    pub(crate) fn step(&self, noise: Rc<Vec<f64>>, rises: &[f64]) -> Step {
-        let mut input = vec![0.0; self.transition.len().isqrt()];
+    /// What comes to the states where the walks rise by so much per s beside what they walk.
+    pub(crate) fn input(&self, rises: &[f64]) -> Vec<f64> {
+        let mut input = vec![0.0; self.transition.side()];
         for (ramp, rise) in self.ramps.iter().zip(rises) {
             input.iter_mut().zip(ramp).for_each(|(u, r)| *u += rise * r);
         }
-        Step { transition: Rc::clone(&self.transition), input, noise }
+        input
     }
 }
 
@@ -167,7 +168,10 @@ mod tests {
             let left = f64::exp(-time / tau);
             let rise = -tau * f64::exp_m1(-time / tau);
             let expected = [left, rise / capacity, 0.0, 1.0];
-            for (a, b) in found.transition.iter().zip(expected) {
+            let column = |unit: [f64; 2]| found.transition.advanced(&[], &unit);
+            let (first, second) = (column([1.0, 0.0]), column([0.0, 1.0]));
+            let matrix = [first[0], second[0], first[1], second[1]];
+            for (a, b) in matrix.iter().zip(expected) {
                 assert!((a - b).abs() <= 1e-13 * b.abs().max(1e-4), "{a} {b}");
             }
             let ramp = tau * (time - rise) / capacity;

@@ -12,10 +12,10 @@ use crate::infer::model::{Model, coordinates};
 use crate::infer::prior::Begins;
 use crate::infer::reference::{Moments, Reference};
 use crate::infer::rounds::{begun, checked};
-use crate::infer::strength::Strength;
-use crate::infer::task::{InferTask, Start};
+use crate::infer::strength::{Noise, Strength};
+use crate::infer::task::{Drift, InferTask, Start};
 use crate::kalman::{Filter, Gaussian};
-use crate::network::RecordedSignal;
+use crate::network::{MeasuredColumn, RecordedSignal};
 
 /// One row of a record.
 #[derive(Clone, Debug, PartialEq)]
@@ -116,7 +116,7 @@ impl<'a> Follower<'a> {
         let (own, begins) = begun(&task, &moments)?;
         let observer = |_: lptn_solve::Progress| Proceed::Continue;
         let model = Model::new(&task, (&moments, &begins), (&own, &own), (&[], &observer))?;
-        let mut filter = Filter::new(model.prior.clone());
+        let mut filter = Filter::new(model.begin(&noises(&task)));
         let last = moments.times.len() - 1;
         let each = moments.times.iter().enumerate();
         let answers = each.map(|(k, time)| step(&task, (&model, &own), (&mut filter, k), *time));
@@ -156,6 +156,15 @@ fn course(signal: &mut RecordedSignal, place: usize, (first, rows): (f64, &[&Row
     }
 }
 
+/// The noise that is said.
+fn noises(task: &InferTask<'_>) -> Vec<Noise> {
+    let said = |column: &MeasuredColumn| match (column.sigma.unwrap_or(1.0), task.drift) {
+        (white, Drift::Known { deviation, time }) => Noise { white, drift: deviation, time },
+        (white, Drift::Open) => Noise::white(white),
+    };
+    task.run.columns.iter().map(said).collect()
+}
+
 /// Goes on to a moment and takes its readings in.
 fn step(
     task: &InferTask<'_>,
@@ -164,23 +173,22 @@ fn step(
     time: f64,
 ) -> Followed {
     let walks = task.sought.iter().flat_map(|sought| [sought.intensity.unwrap_or(0.0), 0.0]);
-    let sigmas = task.run.columns.iter().map(|column| column.sigma.unwrap_or(1.0));
     let strength =
-        Strength { intensities: walks.collect(), sigmas: sigmas.collect(), jumps: Vec::new() };
-    let mut surprises = vec![f64::NAN; strength.sigmas.len()];
+        Strength { intensities: walks.collect(), noises: noises(task), jumps: Vec::new() };
+    let mut surprises = vec![f64::NAN; strength.noises.len()];
     for (column, innovation) in model.advance(filter, k, &strength) {
         surprises[column] = innovation.residual / innovation.variance.sqrt();
     }
     let state = filter.state();
     let own = coordinates(task, reference, k);
     let band = |(j, own): (usize, &f64)| {
-        let (moved, deviation) = state.of(&model.states.unit(model.states.course(j)));
+        let (moved, deviation) = state.of(&[(model.states.course(j), 1.0)]);
         let (value, half) = (own + moved, NORMAL_95 * deviation);
         let back = |x: f64| if task.sought[j].positive { x.exp() } else { x };
         Band { value: back(value), ends: (back(value - half), back(value + half)) }
     };
     let node = |i: usize| {
-        let (moved, deviation) = state.of(&model.weights(k, i));
+        let (moved, deviation) = state.of(model.weights(k, i));
         Known { value: model.reference[k][i] + moved, deviation }
     };
     Followed {
@@ -226,6 +234,8 @@ fn carried(
         let there: f64 = of.map(|(id, factor)| factor * temperature(id.index())).sum();
         moved[place] = model.shown[*column][k] + mean[place] - there;
     }
+    let drifts = states.drifts.iter().filter_map(|column| states.drift(*column));
+    drifts.for_each(|place| moved[place] = mean[place]);
     // a body begins anew as its temperature; integrals begin at 0
     let size = |i: usize| match i {
         i if i < states.bodies => {

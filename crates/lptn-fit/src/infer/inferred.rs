@@ -96,8 +96,11 @@ pub struct InferredSensor {
 pub struct InferredColumn {
     /// How many there were.
     pub readings: usize,
-    /// The noise in K, said or found.
+    /// Standard deviation of the noise of one reading in K, said or found.
     pub sigma: f64,
+    /// That of the part of it that dies away slowly, and after how many s 1/e of it is left; `None`
+    /// where all is white.
+    pub slow: Option<(f64, f64)>,
     /// By how many standard deviations the first reading surprised.
     pub first: f64,
     /// Mean of what each reading surprised by, over its standard deviation: 0 but for chance, which

@@ -36,7 +36,10 @@ pub(crate) fn most_likely(
     let places = courses.len() * (model.times.len() - 1);
     let patience = PATIENCE[usize::from(!guessed)];
     let search = Search { open: &open, courses, price: PRICE + (places as f64).ln(), patience };
-    open.without_walks(search.placed(search.needed(search.taken_in(found))))
+    let found = search.placed(search.needed(search.taken_in(found)));
+    let found =
+        if found.jumps.is_empty() { found } else { open.needed_drifts(open.in_turns(found)) };
+    open.without_walks(found)
 }
 
 struct Search<'a> {
@@ -72,13 +75,13 @@ impl Search<'_> {
     fn most_telling(&self, strength: &Strength) -> Option<Jump> {
         let model = self.open.model;
         let mut best: Option<(f64, Jump)> = None;
-        model.smoothed(strength).0.backwards(|to, later| {
+        model.smoothed(strength).0.backwards(|to, told| {
             for &course in &self.courses {
                 let jump = Jump { to, course };
                 if to == 0 || strength.jumps.contains(&jump) {
                     continue;
                 }
-                let (pull, hold) = later.of_shock(&model.shock(jump));
+                let (pull, hold) = told.later.of_shock(&model.shock(jump));
                 let gain = 0.5 * (pull * pull / (1.0 + hold) - hold.ln_1p());
                 if best.is_none_or(|(most, _)| gain > most) {
                     best = Some((gain, jump));
@@ -162,9 +165,9 @@ fn by(model: &Model, places: &[(Strength, f64)], i: usize) -> Known {
         let (course, size) = (model.states.course(course), model.states.moving());
         let noise = model.comes_in(to, strength);
         let shock = &noise[course * size..][..size];
-        model.smoothed(strength).0.backwards(|k, later| {
+        model.smoothed(strength).0.backwards(|k, told| {
             if k == to {
-                let (pull, hold) = later.of_shock(shock);
+                let (pull, hold) = told.later.of_shock(shock);
                 mean += share / whole * pull;
                 square += share / whole * (pull * pull + shock[course] - hold);
             }

@@ -205,6 +205,7 @@ impl Linear {
         (column, shown): (usize, f64),
     ) -> (Vec<f64>, f64) {
         let mut of = vec![0.0; states.count()];
+        states.drift(column).into_iter().for_each(|place| of[place] = 1.0);
         let Some(sensor) = task.run.columns[column].sensor else {
             measured(task, column, &self.nodes).iter().for_each(|(i, weight)| of[*i] += weight);
             return (of, shown);

@@ -13,10 +13,12 @@ mod answer;
 mod discrete;
 mod error;
 mod follow;
+mod guess;
 mod inferred;
 mod jumps;
 mod linear;
 mod model;
+mod noises;
 mod open;
 mod prior;
 mod reference;
@@ -35,4 +37,4 @@ pub use inferred::{
     Band, Inferred, InferredColumn, InferredCourse, InferredJump, InferredSensor, Known,
 };
 pub use reference::InferObserver;
-pub use task::{InferTask, Sought, Start};
+pub use task::{Drift, InferTask, Sought, Start};

@@ -10,9 +10,9 @@ use crate::infer::linear::{Linear, Linearise, Systems, measured};
 use crate::infer::prior::Begins;
 use crate::infer::reference::{InferObserver, Moments, Ran, Reference};
 use crate::infer::states::States;
-use crate::infer::strength::{Jump, Strength};
+use crate::infer::strength::{Jump, Noise, Strength};
 use crate::infer::task::InferTask;
-use crate::kalman::{Filter, Gaussian, Innovation, Reading, Smoother, Step};
+use crate::kalman::{Fade, Filter, Gaussian, Innovation, Reading, Smoother, Step, Weights};
 
 /// More bodies than this are not followed.
 const MOST: usize = 100;
@@ -35,8 +35,9 @@ pub(crate) struct Model {
     pub(crate) shown: Vec<Vec<f64>>,
     /// What the states bring to the temperature of every node.
     pub(crate) nodes: Vec<Vec<Vec<(usize, f64)>>>,
-    /// Between each two moments, with the rise of each course's reference per s.
-    steps: Vec<(Rc<Discrete>, Vec<f64>)>,
+    /// Between each two moments, with what comes to the states that change as the courses of the
+    /// reference rise.
+    steps: Vec<(Rc<Discrete>, Rc<Vec<f64>>)>,
     /// What was read at each moment.
     readings: Vec<Vec<Read>>,
     pub(crate) prior: Gaussian,
@@ -50,7 +51,7 @@ pub(crate) struct Model {
 #[derive(Clone, Debug)]
 pub(crate) struct Read {
     pub(crate) column: usize,
-    pub(crate) of: Vec<f64>,
+    pub(crate) of: Rc<Weights>,
     /// Beyond what the reference comes to, in K.
     pub(crate) beyond: f64,
 }
@@ -119,10 +120,21 @@ impl Model {
     }
 
     /// What the states bring to the temperature of a node at a moment.
-    pub(crate) fn weights(&self, k: usize, node: usize) -> Vec<f64> {
-        let mut weights = vec![0.0; self.states.count()];
-        self.nodes[k][node].iter().for_each(|(place, weight)| weights[*place] += weight);
-        weights
+    pub(crate) fn weights(&self, k: usize, node: usize) -> &Weights {
+        &self.nodes[k][node]
+    }
+
+    /// What is known before anything is read, where noises are these.
+    pub(crate) fn begin(&self, noises: &[Noise]) -> Gaussian {
+        let mut prior = self.prior.clone();
+        let side = prior.mean.len() + 1;
+        for column in &self.states.drifts {
+            let place = self.states.drift(*column);
+            place
+                .into_iter()
+                .for_each(|p| prior.covariance[p * side] = noises[*column].drift.powi(2));
+        }
+        prior
     }
 
     /// Takes a filter to a moment, and its readings in.
@@ -136,8 +148,8 @@ impl Model {
             filter.predict(&Walks { model: self, strength, last: None }.step(k));
         }
         let readings = self.readings[k].iter();
-        let sigmas = &strength.sigmas;
-        readings.map(|read| (read.column, filter.update(&read.reading(sigmas)))).collect()
+        let noises = &strength.noises;
+        readings.map(|read| (read.column, filter.update(&read.reading(noises)))).collect()
     }
 
     /// How large each course has to be to explain the farthest reading, if it stands still.
@@ -158,22 +170,15 @@ impl Model {
 
     /// The farthest reading that a course brings about that is 1 all the time.
     fn answer(&self, j: usize) -> f64 {
-        let count = self.states.count();
-        let mut state = vec![0.0; count];
+        let mut state = vec![0.0; self.states.count()];
         state[self.states.course(j)] = 1.0;
         let mut farthest: f64 = 0.0;
         for (k, readings) in self.readings.iter().enumerate() {
             if k > 0 {
-                let transition = &self.steps[k - 1].0.transition;
-                let size = self.states.moving();
-                let moved = transition
-                    .chunks_exact(size)
-                    .map(|row| row.iter().zip(&state).map(|(a, x)| a * x).sum::<f64>());
-                let moved: Vec<f64> = moved.collect();
-                state[..size].copy_from_slice(&moved);
+                state = self.steps[k - 1].0.transition.advanced(&[], &state);
             }
             for read in readings {
-                let sum: f64 = read.of.iter().zip(&state).map(|(h, x)| h * x).sum();
+                let sum: f64 = read.of.iter().map(|(place, h)| h * state[*place]).sum();
                 farthest = farthest.max(sum.abs());
             }
         }
@@ -190,11 +195,11 @@ impl Model {
         covariance.extend((1..count).map(|_| 0.0).chain([spread * spread]));
         let (first, last) = (self.times[0], self.times[self.times.len() - 1]);
         let read = |time: f64, read: &Read| {
-            let mut of = longer(&read.of);
-            if read.column == column {
-                of[count - 1] = (time - first) / (last - first);
+            if read.column != column {
+                return read.clone();
             }
-            Read { of, ..read.clone() }
+            let drifted = (count - 1, (time - first) / (last - first));
+            Read { of: read.of.iter().copied().chain([drifted]).collect(), ..read.clone() }
         };
         let readings = self.readings.iter().zip(&self.times);
         Self {
@@ -219,14 +224,14 @@ impl Model {
 
     /// The logarithm of the probability density of what was read, where walks and noises are these.
     pub(crate) fn log_likelihood(&self, strength: &Strength) -> f64 {
-        let mut filter = Filter::new(self.prior.clone());
+        let mut filter = Filter::new(self.begin(&strength.noises));
         let mut walks = Walks { model: self, strength, last: None };
         for (k, readings) in self.readings.iter().enumerate() {
             if k > 0 {
                 filter.predict(&walks.step(k));
             }
             readings.iter().for_each(|read| {
-                filter.update(&read.reading(&strength.sigmas));
+                filter.update(&read.reading(&strength.noises));
             });
         }
         filter.log_likelihood()
@@ -237,15 +242,15 @@ impl Model {
         &self,
         strength: &Strength,
     ) -> (Smoother, Vec<Vec<(usize, Innovation)>>) {
-        let mut smoother = Smoother::new(self.prior.clone());
+        let mut smoother = Smoother::new(self.begin(&strength.noises));
         let mut walks = Walks { model: self, strength, last: None };
         let mut surprises = Vec::with_capacity(self.readings.len());
         for (k, readings) in self.readings.iter().enumerate() {
             if k > 0 {
                 smoother.predict(&walks.step(k));
             }
-            let sigmas = &strength.sigmas;
-            let take = |read: &Read| (read.column, smoother.update(&read.reading(sigmas)));
+            let noises = &strength.noises;
+            let take = |read: &Read| (read.column, smoother.update(&read.reading(noises)));
             surprises.push(readings.iter().map(take).collect());
         }
         (smoother, surprises)
@@ -276,33 +281,48 @@ impl Model {
     }
 }
 
-/// Walks of given strengths: what they bring in is the same as long as nothing else changes.
+/// Walks and noises of given strengths: what they bring in is the same as long as nothing else
+/// changes.
 struct Walks<'a> {
     model: &'a Model,
     strength: &'a Strength,
-    last: Option<(Rc<Discrete>, Rc<Vec<f64>>)>,
+    last: Option<(Rc<Discrete>, Step)>,
 }
 
 impl Walks<'_> {
     /// On the way to a moment.
     fn step(&mut self, to: usize) -> Step {
-        let (discrete, rises) = &self.model.steps[to - 1];
-        if self.strength.jumps.iter().any(|jump| jump.to == to) {
-            return discrete.step(self.model.comes_in(to, self.strength), rises);
-        }
-        let noise = match &self.last {
-            Some((last, noise)) if Rc::ptr_eq(last, discrete) => Rc::clone(noise),
-            _ => discrete.noise(&self.strength.intensities),
+        let (discrete, input) = &self.model.steps[to - 1];
+        let mut step = match &self.last {
+            Some((last, step)) if Rc::ptr_eq(last, discrete) => step.clone(),
+            _ => {
+                let (transition, input) = (Rc::clone(&discrete.transition), Rc::clone(input));
+                let noise = discrete.noise(&self.strength.intensities);
+                let step = Step { transition, input, noise, fades: self.fades(to) };
+                self.last = Some((Rc::clone(discrete), step.clone()));
+                step
+            }
         };
-        self.last = Some((Rc::clone(discrete), Rc::clone(&noise)));
-        discrete.step(noise, rises)
+        step.input = Rc::clone(input);
+        if self.strength.jumps.iter().any(|jump| jump.to == to) {
+            step.noise = self.model.comes_in(to, self.strength);
+        }
+        step
+    }
+
+    /// What becomes of the states that no other changes.
+    fn fades(&self, to: usize) -> Rc<Vec<Fade>> {
+        let (states, times) = (&self.model.states, &self.model.times);
+        let drift = |column: &usize| self.strength.noises[*column].fade(times[to] - times[to - 1]);
+        let reads = states.reads.iter().map(|_| Fade::NONE);
+        Rc::new(reads.chain(states.drifts.iter().map(drift)).collect())
     }
 }
 
 impl Read {
-    fn reading(&self, sigmas: &[f64]) -> Reading {
-        let sigma = sigmas[self.column];
-        Reading { of: self.of.clone(), value: self.beyond, variance: sigma * sigma }
+    fn reading(&self, noises: &[Noise]) -> Reading {
+        let white = noises[self.column].white;
+        Reading { of: Rc::clone(&self.of), value: self.beyond, variance: white * white }
     }
 }
 
@@ -321,7 +341,7 @@ fn steps(
     (task, states): (&InferTask<'_>, &States),
     (times, reference): (&[f64], &Reference),
     all: &[Linear],
-) -> Vec<(Rc<Discrete>, Vec<f64>)> {
+) -> Vec<(Rc<Discrete>, Rc<Vec<f64>>)> {
     let walks = states.walks();
     let mut last: Option<(Vec<f64>, f64, Rc<Discrete>)> = None;
     let mut steps = Vec::with_capacity(times.len() - 1);
@@ -337,8 +357,8 @@ fn steps(
         };
         let (before, now) = (coordinates(task, reference, k - 1), coordinates(task, reference, k));
         let both = now.iter().zip(before);
-        let rises = both.flat_map(|(now, before)| [(before - now) / time, 0.0]).collect();
-        steps.push((Rc::clone(&discrete), rises));
+        let rises: Vec<f64> = both.flat_map(|(now, before)| [(before - now) / time, 0.0]).collect();
+        steps.push((Rc::clone(&discrete), Rc::new(discrete.input(&rises))));
         last = Some((rates, time, discrete));
     }
     steps
@@ -361,6 +381,7 @@ fn readings(
         let measured = columns.filter(|(_, column)| !column.values[row].is_nan());
         let one = |(i, column): (usize, &crate::network::MeasuredColumn)| {
             let (of, expected) = linear.reading(task, (states, &reference.reads), (i, shown[i][k]));
+            let of = of.into_iter().enumerate().filter(|(_, weight)| weight.abs() > 0.0).collect();
             Read { column: i, of, beyond: column.values[row] - expected }
         };
         measured.map(one).collect()

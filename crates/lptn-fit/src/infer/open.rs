@@ -5,7 +5,7 @@ use crate::infer::model::Model;
 use crate::infer::search::open_walks;
 use crate::infer::strength::Strength;
 use crate::infer::task::InferTask;
-use crate::kalman::Gaussian;
+use crate::kalman::Smoother;
 
 /// Intensities that are looked at of each walk.
 const POINTS: usize = 8;
@@ -84,12 +84,12 @@ impl Axis<'_> {
     }
 }
 
-/// Means and standard deviations of what is `asked` of the smoothed states of all moments.
+/// Means and standard deviations of what is `asked` of the states of all moments.
 pub(crate) fn mixture(
     (task, model, most): (&InferTask<'_>, &Model, &Strength),
-    asked: impl Fn(&[Gaussian]) -> Vec<(f64, f64)>,
+    asked: impl Fn(&Smoother) -> Vec<(f64, f64)>,
 ) -> Vec<(f64, f64)> {
-    let of = |strength: &Strength| asked(&model.smoothed(strength).0.smoothed());
+    let of = |strength: &Strength| asked(&model.smoothed(strength).0);
     let mut own: Option<Vec<(f64, f64)>> = None;
     let mut mixed = Mixed::default();
     for (strength, share) in possible(task, model, most) {

@@ -22,6 +22,9 @@ const SETTLED: f64 = 1e-4;
 /// search leaves open, and nothing would settle.
 const SEARCHED: usize = 3;
 
+/// Strengths are not searched again where the logarithm of the likelihood has moved by less.
+const SAME: f64 = 1e-3;
+
 /// A round whose courses no run can follow is taken back by halves so often.
 const HALVES: usize = 6;
 
@@ -48,10 +51,14 @@ pub(crate) fn settle(
     let mut model = at(&reference, &[])?;
     let sizes = model.sizes.clone();
     let mut strength = Strength::guess(task, &model);
+    let mut likely = f64::NEG_INFINITY;
     for round in 1..=MOST {
-        if round <= SEARCHED {
+        // a linear network is the same in every round
+        let same = (model.log_likelihood(&strength) - likely).abs() < SAME;
+        if round <= SEARCHED && !same {
             let start = (&strength.revived(task, &model), round == 1);
             strength = most_likely((task, &model), start);
+            likely = model.log_likelihood(&strength);
         }
         let (smoother, _) = model.smoothed(&strength);
         let smoothed = smoother.smoothed();

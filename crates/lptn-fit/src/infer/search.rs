@@ -1,5 +1,4 @@
-//! How smooth the courses are, and how large the noise of a column, where neither is said: as the
-//! record is most likely.
+//! How smooth the courses are, where that is not said: as the record is most likely.
 
 use crate::infer::model::Model;
 use crate::infer::strength::Strength;
@@ -12,6 +11,11 @@ const TRIED: [i32; 10] = [-5, -4, -3, -2, -1, 0, 1, 2, 3, 4];
 const WEAKER: [i32; 4] = [-4, -2, -1, 0];
 const NEAR: [i32; 1] = [0];
 
+/// Walks and noises are searched in so many turns, as long as more is gained of the logarithm of the
+/// likelihood.
+const TURNS: usize = 4;
+const LITTLE: f64 = 0.1;
+
 /// So far apart are the first corners of the search, in logarithms.
 const APART: f64 = 1.0;
 
@@ -19,7 +23,7 @@ const APART: f64 = 1.0;
 pub(crate) struct Open<'a> {
     /// Places of the intensities.
     walks: Vec<usize>,
-    noises: Vec<usize>,
+    pub(crate) task: &'a InferTask<'a>,
     pub(crate) model: &'a Model,
 }
 
@@ -29,75 +33,79 @@ pub(crate) fn open_walks(task: &InferTask<'_>) -> Vec<usize> {
     open.flat_map(|(j, _)| [2 * j, 2 * j + 1]).collect()
 }
 
-impl Strength {
-    /// What is said, and first guesses of what is not. Where it is said how much a course changes,
-    /// its slope is none.
-    pub(crate) fn guess(task: &InferTask<'_>, model: &Model) -> Self {
-        let length = model.length();
-        let walk = |(sought, size): (&crate::infer::Sought, &f64)| match sought.intensity {
-            Some(intensity) => [intensity, 0.0],
-            None => [size * size / length, size * size / length.powi(3)],
-        };
-        let columns = task.run.columns.iter();
-        let noise = columns.map(|c| c.sigma.unwrap_or_else(|| scatter(&c.values)));
-        let intensities = task.sought.iter().zip(&model.sizes).flat_map(walk).collect();
-        Self { intensities, sigmas: noise.collect(), jumps: Vec::new() }
-    }
-
-    /// The same, where walks that stood still are given another chance.
-    pub(crate) fn revived(mut self, task: &InferTask<'_>, model: &Model) -> Self {
-        let guess = Self::guess(task, model).intensities;
-        let stood = self.intensities.iter_mut().zip(guess).filter(|(q, _)| **q <= 0.0);
-        stood.for_each(|(q, guess)| *q = guess);
-        self
-    }
-}
-
 impl<'a> Open<'a> {
-    pub(crate) fn of(task: &InferTask<'_>, model: &'a Model) -> Self {
-        let noises = task.run.columns.iter().enumerate().filter(|(_, c)| c.sigma.is_none());
-        Self { walks: open_walks(task), noises: noises.map(|(i, _)| i).collect(), model }
+    pub(crate) fn of(task: &'a InferTask<'a>, model: &'a Model) -> Self {
+        Self { walks: open_walks(task), task, model }
     }
 
     /// The most likely from `start` on, or of many near it where that is a guess.
     pub(crate) fn first(&self, start: &Strength, guessed: bool) -> Strength {
-        self.searched(start, if guessed { &TRIED } else { &NEAR })
-    }
-
-    fn at(&self, start: &Strength, logarithms: &[f64]) -> Strength {
-        let mut all = start.clone();
-        let (walks, noises) = logarithms.split_at(self.walks.len());
-        self.walks.iter().zip(walks).for_each(|(j, x)| all.intensities[*j] *= x.exp());
-        self.noises.iter().zip(noises).for_each(|(i, x)| all.sigmas[*i] *= x.exp());
-        all
+        let walked = self.walked(start, if guessed { &TRIED } else { &NEAR });
+        let found = self.noised(walked);
+        if guessed { self.drifted(found) } else { found }
     }
 
     /// The most likely near `start`, where walks may have become weaker.
     pub(crate) fn again(&self, start: &Strength) -> Strength {
-        self.searched(start, &WEAKER)
+        self.whitened(self.walked(start, &WEAKER))
     }
 
-    fn searched(&self, start: &Strength, tried: &[i32]) -> Strength {
-        let still = vec![0.0; self.walks.len() + self.noises.len()];
+    /// With walks made stronger and weaker by factors whose logarithms these are.
+    fn at(&self, start: &Strength, logarithms: &[f64]) -> Strength {
+        let mut all = start.clone();
+        self.walks.iter().zip(logarithms).for_each(|(j, x)| all.intensities[*j] *= x.exp());
+        all
+    }
+
+    /// The most likely walks.
+    fn walked(&self, start: &Strength, tried: &[i32]) -> Strength {
+        let still = vec![0.0; self.walks.len()];
         if still.is_empty() {
             return start.clone();
         }
         let lack = |logarithms: &[f64]| -self.model.log_likelihood(&self.at(start, logarithms));
         let with = |(course, slope): (i32, i32)| {
             let mut logarithms = still.clone();
-            let walks = logarithms[..self.walks.len()].chunks_exact_mut(2);
-            walks.for_each(|pair| {
+            logarithms.chunks_exact_mut(2).for_each(|pair| {
                 pair.copy_from_slice(&[3.0 * f64::from(course), 3.0 * f64::from(slope)]);
             });
             (lack(&logarithms), logarithms)
         };
         let mut begin = still.clone();
-        if tried.len() > 1 && !self.walks.is_empty() {
+        if tried.len() > 1 {
             let all = tried.iter().flat_map(|course| tried.iter().map(|slope| (*course, *slope)));
             let best = all.map(with).min_by(|a, b| a.0.total_cmp(&b.0));
             begin = best.map_or(still, |(_, logarithms)| logarithms);
         }
         self.at(start, &simplex::minimum(lack, &begin, APART))
+    }
+
+    /// Walks and noises in turns, from what is nearly right.
+    pub(crate) fn in_turns(&self, mut found: Strength) -> Strength {
+        let mut likely = self.model.log_likelihood(&found);
+        for _ in 0..TURNS {
+            found = self.noised(self.walked(&found, &NEAR));
+            let now = self.model.log_likelihood(&found);
+            if now < likely + LITTLE {
+                break;
+            }
+            likely = now;
+        }
+        found
+    }
+
+    /// The walks with which a start is most likely, of few that are far apart: from none to strong,
+    /// of the course or of its slope.
+    pub(crate) fn roughly(&self, start: &Strength) -> (f64, Strength) {
+        let steps = [-6, -3, -1, 1, 3].map(|step| 3.0 * f64::from(step));
+        let weak = steps[0];
+        let pairs = steps.iter().flat_map(|step| [[*step, weak], [weak, *step]]);
+        let all = pairs.map(|pair| {
+            let there = self.at(start, &pair.repeat(self.walks.len() / 2));
+            (self.model.log_likelihood(&there), there)
+        });
+        let best = all.max_by(|a, b| a.0.total_cmp(&b.0));
+        best.unwrap_or_else(|| (self.model.log_likelihood(start), start.clone()))
     }
 
     /// Walks stand still where the record is as likely so.
@@ -113,13 +121,4 @@ impl<'a> Open<'a> {
         }
         found
     }
-}
-
-/// The noise of values from how they scatter about their neighbours: the root of the mean of the
-/// squares of second differences, each the sum of three noises with the factors 1, -2 and 1.
-fn scatter(values: &[f64]) -> f64 {
-    let read: Vec<f64> = values.iter().copied().filter(|value| !value.is_nan()).collect();
-    let bends = read.windows(3).map(|v| (v[0] - 2.0 * v[1] + v[2]).powi(2));
-    let mean = bends.sum::<f64>() / read.len().saturating_sub(2).max(1) as f64;
-    (mean / 6.0).sqrt().max(1e-6)
 }

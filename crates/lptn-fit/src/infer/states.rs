@@ -1,6 +1,6 @@
 //! Which number stands where.
 
-use crate::infer::task::InferTask;
+use crate::infer::task::{Drift, InferTask};
 use crate::network::Certainty;
 
 /// Temperatures and logarithms of which nothing is known are known to so many K, or factors of e.
@@ -22,7 +22,7 @@ pub(crate) struct Reads {
 
 /// The places of all states: those that change with time, which are temperatures, what slow
 /// instruments show, what is sought, its integral, and the parameters that rates depend on; then
-/// what does not change, the values of instruments.
+/// what no other changes, the values of instruments and the slow part of the noise of columns.
 #[derive(Clone, Debug)]
 pub(crate) struct States {
     /// How many temperatures are carried.
@@ -35,7 +35,12 @@ pub(crate) struct States {
     pub(crate) uncertain: usize,
     /// The values of instruments.
     pub(crate) reads: Vec<Reads>,
+    /// The columns whose noise may hold a part that dies away slowly.
+    pub(crate) drifts: Vec<usize>,
 }
+
+/// Columns of fewer values do not tell how slow their noise is.
+const ENOUGH: usize = 30;
 
 impl States {
     pub(crate) fn of(task: &InferTask<'_>, bodies: usize) -> Self {
@@ -49,6 +54,7 @@ impl States {
             sought: task.sought.len(),
             uncertain: task.uncertain.len(),
             reads: reads(task),
+            drifts: drifts(task),
         }
     }
 
@@ -93,15 +99,27 @@ impl States {
         self.moving() + r
     }
 
-    /// What picks one.
-    pub(crate) fn unit(&self, place: usize) -> Vec<f64> {
-        (0..self.count()).map(|i| if i == place { 1.0 } else { 0.0 }).collect()
+    /// The slow part of the noise of a column in K, where it may have one.
+    pub(crate) fn drift(&self, column: usize) -> Option<usize> {
+        let place = self.drifts.iter().position(|own| *own == column)?;
+        Some(self.moving() + self.reads.len() + place)
     }
 
     /// How many there are.
     pub(crate) fn count(&self) -> usize {
-        self.moving() + self.reads.len()
+        self.moving() + self.reads.len() + self.drifts.len()
     }
+}
+
+/// The columns whose noise may hold a part that dies away slowly.
+fn drifts(task: &InferTask<'_>) -> Vec<usize> {
+    let columns = task.run.columns.iter().enumerate();
+    let read = |values: &[f64]| values.iter().filter(|value| !value.is_nan()).count();
+    let may = columns.filter(|(_, column)| match task.drift {
+        Drift::Known { deviation, .. } => deviation > 0.0,
+        Drift::Open => read(&column.values) >= ENOUGH,
+    });
+    may.map(|(i, _)| i).collect()
 }
 
 /// The uncertain values of the instruments that columns name.

@@ -1,4 +1,6 @@
-//! How smooth the courses are, how large the noise of a column, and where courses jump.
+//! How smooth the courses are, what the noise of a column is like, and where courses jump.
+
+use crate::kalman::Fade;
 
 /// The strengths of walks and noises.
 #[derive(Clone, Debug, PartialEq)]
@@ -6,10 +8,44 @@ pub(crate) struct Strength {
     /// For each course the variance of its walk per s, in the units of its coordinate squared, and
     /// that of the walk of its slope.
     pub(crate) intensities: Vec<f64>,
-    /// Standard deviation of the noise of each column in K.
-    pub(crate) sigmas: Vec<f64>,
+    /// The noise of each column.
+    pub(crate) noises: Vec<Noise>,
     /// Where courses may jump, in ascending order.
     pub(crate) jumps: Vec<Jump>,
+}
+
+/// The noise of a column: white, and a part that dies away (J. L. Doob, Ann. Math. 43 (1942) 351).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Noise {
+    /// Standard deviation of the white part in K, above 0.
+    pub(crate) white: f64,
+    /// That of the other.
+    pub(crate) drift: f64,
+    /// The time in s after which 1/e of it is left.
+    pub(crate) time: f64,
+}
+
+impl Noise {
+    pub(crate) const fn white(white: f64) -> Self {
+        Self { white, drift: 0.0, time: 1.0 }
+    }
+
+    /// Of a standard deviation of one reading in K, of which so large a share of the variance dies
+    /// away.
+    pub(crate) fn split(whole: f64, share: f64, time: f64) -> Self {
+        Self { white: whole * (1.0 - share).sqrt(), drift: whole * share.sqrt(), time }
+    }
+
+    /// Standard deviation of one reading in K.
+    pub(crate) fn whole(&self) -> f64 {
+        self.white.hypot(self.drift)
+    }
+
+    /// What becomes of the slow part in so many s.
+    pub(crate) fn fade(&self, time: f64) -> Fade {
+        let lost = f64::exp_m1(-2.0 * time / self.time);
+        Fade { left: f64::exp(-time / self.time), variance: -self.drift * self.drift * lost }
+    }
 }
 
 /// A course jumps somewhere between two moments.
@@ -24,7 +60,13 @@ impl Strength {
     /// The same with walks that stand still.
     pub(crate) fn still(&self) -> Self {
         let intensities = vec![0.0; self.intensities.len()];
-        Self { intensities, sigmas: self.sigmas.clone(), jumps: Vec::new() }
+        Self { intensities, noises: self.noises.clone(), jumps: Vec::new() }
+    }
+
+    /// The same where all noise is white.
+    pub(crate) fn white(&self, sigma: impl Fn(&Noise) -> f64) -> Self {
+        let noises = self.noises.iter().map(|noise| Noise::white(sigma(noise))).collect();
+        Self { noises, ..self.clone() }
     }
 
     /// The same with one jump more.

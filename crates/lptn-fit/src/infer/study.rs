@@ -5,7 +5,7 @@ use lptn_network::ParameterId;
 use lptn_units::Dimension;
 
 use crate::infer::error::InferError;
-use crate::infer::task::{InferTask, Sought, Start};
+use crate::infer::task::{Drift, InferTask, Sought, Start};
 use crate::network::plan::weights;
 use crate::network::{NetworkFitError, NetworkFitTask};
 
@@ -36,6 +36,8 @@ impl<'a> InferTask<'a> {
             InferStart::Record => Start::Measured,
             InferStart::Free => Start::Free,
         };
+        let drift = study.drift(network)?;
+        let drift = drift.map_or(Drift::Open, |(deviation, time)| Drift::Known { deviation, time });
         // a filter follows what is linear in temperatures of nodes, and no other result
         study.reads.observed.iter().try_for_each(|observed| match observed.ty.dimension {
             Dimension::TEMPERATURE => weights(network, observed).map(|_| ()),
@@ -50,6 +52,6 @@ impl<'a> InferTask<'a> {
             believed.uncertain().into_iter().map(|(id, spread)| (id, spread.sigma)).collect();
         let ids: Vec<ParameterId> = uncertain.iter().map(|(id, _)| *id).collect();
         let together = believed.correlations_of(&ids);
-        Ok(Self { network, run, sensors: read.sensors, sought, uncertain, together, start })
+        Ok(Self { network, run, sensors: read.sensors, sought, uncertain, together, start, drift })
     }
 }

@@ -4,8 +4,8 @@
 use crate::infer::inferred::{InferredColumn, Known};
 use crate::infer::model::Model;
 use crate::infer::states::UNKNOWN_KELVIN;
-use crate::infer::strength::Strength;
-use crate::kalman::{Innovation, Smoother};
+use crate::infer::strength::{Noise, Strength};
+use crate::kalman::Innovation;
 
 /// What is told of every column.
 pub(crate) fn columns(
@@ -13,8 +13,8 @@ pub(crate) fn columns(
     strength: &Strength,
     surprises: &[Vec<(usize, Innovation)>],
 ) -> Vec<InferredColumn> {
-    let several = strength.sigmas.len() > 1;
-    let one = |(i, sigma): (usize, &f64)| {
+    let several = strength.noises.len() > 1;
+    let one = |(i, noise): (usize, &Noise)| {
         let own = surprises.iter().flatten().filter(|(column, _)| *column == i);
         let all: Vec<f64> = own.map(|(_, s)| s.residual / s.variance.sqrt()).collect();
         let count = all.len().max(1) as f64;
@@ -23,7 +23,8 @@ pub(crate) fn columns(
         let neighbours = all.windows(2).map(|pair| pair[0] * pair[1]).sum::<f64>() / squares;
         InferredColumn {
             readings: all.len(),
-            sigma: *sigma,
+            sigma: noise.whole(),
+            slow: (noise.drift > 0.0).then_some((noise.drift, noise.time)),
             first: all.first().copied().unwrap_or(0.0),
             mean,
             rms: (squares / count).sqrt(),
@@ -31,16 +32,21 @@ pub(crate) fn columns(
             drift: several.then(|| drift(model, strength, i)),
         }
     };
-    strength.sigmas.iter().enumerate().map(one).collect()
+    strength.noises.iter().enumerate().map(one).collect()
 }
 
-/// The drift of a column over the record, if it is one more thing that is not known.
+/// The drift of a column over the record, if it is one more thing that is not known. A steady drift
+/// may have been taken for slow noise, so that is left out where the record is likelier then.
 fn drift(model: &Model, strength: &Strength, column: usize) -> Known {
     let drifting = model.drifting(column, UNKNOWN_KELVIN);
-    let (smoother, _): (Smoother, _) = drifting.smoothed(strength);
-    let last = smoother.filter().state();
-    let place = last.mean.len() - 1;
-    let unit: Vec<f64> = (0..=place).map(|i| if i == place { 1.0 } else { 0.0 }).collect();
-    let (value, deviation) = last.of(&unit);
-    Known { value, deviation }
+    let known = |strength: &Strength| {
+        let (smoother, _) = drifting.smoothed(strength);
+        let last = smoother.filter();
+        let (value, deviation) = last.state().of(&[(model.states.count(), 1.0)]);
+        (last.log_likelihood(), Known { value, deviation })
+    };
+    let whites = [strength.white(|noise| noise.white), strength.white(Noise::whole)];
+    let all = whites.iter().chain([strength]).map(known);
+    let best = all.max_by(|a, b| a.0.total_cmp(&b.0));
+    best.map_or(Known { value: 0.0, deviation: UNKNOWN_KELVIN }, |(_, known)| known)
 }

@@ -23,6 +23,8 @@ pub struct InferTask<'a> {
     pub together: Correlations,
     /// What is known of the start.
     pub start: Start,
+    /// What is known of the slow part of the noise.
+    pub drift: Drift,
 }
 
 impl InferTask<'_> {
@@ -47,6 +49,21 @@ pub struct Sought {
     pub intensity: Option<f64>,
     /// Whether it may jump where the record says so.
     pub jumps: bool,
+}
+
+/// The part of the noise of each column that dies away with `exp(-t / time)`; the rest is white.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Drift {
+    /// What makes the record most likely. The standard deviation of a column is then that of both
+    /// parts.
+    Open,
+    /// The same for all columns, beside their own standard deviation.
+    Known {
+        /// Standard deviation in K; 0 where all noise is white.
+        deviation: f64,
+        /// In s, above 0.
+        time: f64,
+    },
 }
 
 /// What is known of the temperatures at the start.

@@ -1,12 +1,14 @@
 //! One reading after the other.
 
-use super::{Gaussian, Reading, Step, advanced, carried, dot, multiplied};
+use super::{Fade, Gaussian, Reading, Step, weighed};
 
 /// What is known after the readings so far.
 #[derive(Clone, Debug)]
 pub struct Filter {
     state: Gaussian,
     log_likelihood: f64,
+    /// Room for two matrices.
+    room: [Vec<f64>; 2],
 }
 
 /// By how much a reading was not what was expected of it.
@@ -21,7 +23,8 @@ pub struct Innovation {
 impl Filter {
     /// Begins with what is known before the first reading.
     pub fn new(state: Gaussian) -> Self {
-        Self { state, log_likelihood: 0.0 }
+        let room = vec![0.0; state.covariance.len()];
+        Self { state, log_likelihood: 0.0, room: [room.clone(), room] }
     }
 
     /// What is known now.
@@ -39,41 +42,53 @@ impl Filter {
     pub fn predict(&mut self, step: &Step) {
         let n = self.state.mean.len();
         let Gaussian { mean, covariance } = &mut self.state;
-        *mean = advanced(&step.transition, mean);
-        mean.iter_mut().zip(&step.input).for_each(|(x, u)| *x += u);
-        *covariance = carried(&step.transition, covariance, n);
-        let d = step.input.len();
-        let rows = covariance.chunks_exact_mut(n).zip(step.noise.chunks_exact(d));
+        *mean = step.transition.advanced(&step.fades, mean);
+        mean.iter_mut().zip(step.input.iter()).for_each(|(x, u)| *x += u);
+        let [half, out] = &mut self.room;
+        step.transition.carried(&step.fades, covariance, (half, out));
+        std::mem::swap(covariance, out);
+        let d = step.transition.side();
+        let rows = covariance.chunks_exact_mut(n).zip(step.noise.chunks_exact(d.max(1)));
         rows.for_each(|(row, noise)| row.iter_mut().zip(noise).for_each(|(p, q)| *p += q));
+        for (i, Fade { variance, .. }) in step.fades.iter().enumerate() {
+            covariance[(d + i) * (n + 1)] += variance;
+        }
     }
 
     /// Takes a reading in.
     pub fn update(&mut self, reading: &Reading) -> Innovation {
-        let (gain, innovation) = self.gain(reading);
-        let n = gain.len();
-        let Innovation { residual, variance } = innovation;
-        let Gaussian { mean, covariance } = &mut self.state;
-        let spread = multiplied(covariance, &reading.of);
-        mean.iter_mut().zip(&gain).for_each(|(x, k)| *x += k * residual);
-        // (1 - k h) P (1 - k h)' + k r k' (P. D. Joseph), which stays a covariance when rounded
-        for i in 0..n {
-            for j in 0..=i {
-                let p = covariance[i * n + j] - gain[i] * spread[j] - spread[i] * gain[j]
-                    + gain[i] * gain[j] * variance;
-                (covariance[i * n + j], covariance[j * n + i]) = (p, p);
-            }
-        }
-        let size = (std::f64::consts::TAU * variance).ln();
-        self.log_likelihood -= 0.5 * (size + residual * residual / variance);
-        innovation
+        self.taken(reading).1
     }
 
-    /// What a reading changes per unit that it was not expected, and that it was not.
-    pub(super) fn gain(&self, reading: &Reading) -> (Vec<f64>, Innovation) {
-        let Gaussian { mean, covariance } = &self.state;
-        let spread = multiplied(covariance, &reading.of);
-        let variance = dot(&reading.of, &spread) + reading.variance;
-        let residual = reading.value - dot(&reading.of, mean);
-        (spread.iter().map(|p| p / variance).collect(), Innovation { residual, variance })
+    /// The same; what it changed per unit that it was not expected comes with it.
+    pub(super) fn taken(&mut self, reading: &Reading) -> (Vec<f64>, Innovation) {
+        let spread = self.state.spread(&reading.of);
+        let variance = weighed(&reading.of, &spread) + reading.variance;
+        let residual = reading.value - weighed(&reading.of, &self.state.mean);
+        let gain: Vec<f64> = spread.iter().map(|p| p / variance).collect();
+        let Gaussian { mean, covariance } = &mut self.state;
+        mean.iter_mut().zip(&gain).for_each(|(x, k)| *x += k * residual);
+        joseph(covariance, (&spread, &gain), variance);
+        let size = (std::f64::consts::TAU * variance).ln();
+        self.log_likelihood -= 0.5 * (size + residual * residual / variance);
+        (gain, Innovation { residual, variance })
+    }
+}
+
+/// `(1 - k h) P (1 - k h)' + k r k'` (P. D. Joseph), which stays a covariance when rounded.
+fn joseph(covariance: &mut [f64], (spread, gain): (&[f64], &[f64]), variance: f64) {
+    let n = gain.len();
+    for i in 0..n {
+        let (own, more) = (gain[i], spread[i]);
+        if own.abs() + more.abs() <= 0.0 {
+            continue;
+        }
+        let row = covariance[i * n..][..=i].iter_mut().zip(spread.iter().zip(gain));
+        row.for_each(|(p, (s, k))| *p = *p - own * s - more * k + own * k * variance);
+    }
+    for i in 0..n {
+        for j in 0..i {
+            covariance[j * n + i] = covariance[i * n + j];
+        }
     }
 }

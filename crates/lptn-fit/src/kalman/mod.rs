@@ -7,11 +7,16 @@
 
 mod filter;
 mod smoother;
+mod transition;
 
 use std::rc::Rc;
 
 pub use filter::{Filter, Innovation};
-pub use smoother::{Later, Smoother};
+pub use smoother::{Later, Smoother, Told};
+pub use transition::{Fade, Transition};
+
+/// A sum of states: the place of each, and its weight.
+pub type Weights = [(usize, f64)];
 
 /// What is known of the states: their mean and covariance.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,23 +27,24 @@ pub struct Gaussian {
     pub covariance: Vec<f64>,
 }
 
-/// How the first states go on, `x' = transition x + input + noise`; those behind them stay as they
-/// are.
+/// How the states go on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// What each state becomes of every other.
-    pub transition: Rc<Vec<f64>>,
-    /// What comes to each.
-    pub input: Vec<f64>,
-    /// The covariance of what is not known beforehand.
+    /// What each of the first states becomes of the others.
+    pub transition: Rc<Transition>,
+    /// What comes to each of them.
+    pub input: Rc<Vec<f64>>,
+    /// The covariance of what is not known of that beforehand.
     pub noise: Rc<Vec<f64>>,
+    /// Of each state behind them; those behind these stay as they are.
+    pub fades: Rc<Vec<Fade>>,
 }
 
 /// A number that was read: `value = of x + noise`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// What each state brings to it.
-    pub of: Vec<f64>,
+    /// What the states bring to it.
+    pub of: Rc<Weights>,
     /// What was read.
     pub value: f64,
     /// The variance of its noise, above 0.
@@ -47,9 +53,19 @@ pub struct Reading {
 
 impl Gaussian {
     /// The mean of a sum of states and its standard deviation.
-    pub fn of(&self, weights: &[f64]) -> (f64, f64) {
-        let spread = multiplied(&self.covariance, weights);
-        (dot(weights, &self.mean), dot(weights, &spread).max(0.0).sqrt())
+    pub fn of(&self, weights: &Weights) -> (f64, f64) {
+        let spread = self.spread(weights);
+        (weighed(weights, &self.mean), weighed(weights, &spread).max(0.0).sqrt())
+    }
+
+    /// The covariance of a sum of states with each state.
+    fn spread(&self, weights: &Weights) -> Vec<f64> {
+        let n = self.mean.len();
+        let mut spread = vec![0.0; n];
+        for &(place, weight) in weights {
+            add(&mut spread, weight, &self.covariance[place * n..][..n]);
+        }
+        spread
     }
 }
 
@@ -57,38 +73,16 @@ fn dot(x: &[f64], y: &[f64]) -> f64 {
     x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
+fn weighed(weights: &Weights, x: &[f64]) -> f64 {
+    weights.iter().map(|(place, weight)| weight * x[*place]).sum()
+}
+
+/// `sum += factor x`
+fn add(sum: &mut [f64], factor: f64, x: &[f64]) {
+    sum.iter_mut().zip(x).for_each(|(sum, x)| *sum += factor * x);
+}
+
 /// A matrix times a vector.
 fn multiplied(matrix: &[f64], x: &[f64]) -> Vec<f64> {
     matrix.chunks_exact(x.len()).map(|row| dot(row, x)).collect()
-}
-
-/// `T b T'`, symmetric as `b` is, where T is `a` for the first states and nothing but 1 behind them.
-fn carried(a: &[f64], b: &[f64], n: usize) -> Vec<f64> {
-    let d = side(a);
-    // row i of `half` is T b_i; its columns are what rows of T meet
-    let half: Vec<f64> = b.chunks_exact(n).flat_map(|row| advanced(a, row)).collect();
-    let mut out = vec![0.0; n * n];
-    for i in 0..n {
-        for j in 0..=i {
-            let sum = match i < d {
-                true => (0..d).map(|k| a[i * d + k] * half[k * n + j]).sum::<f64>(),
-                false => half[i * n + j],
-            };
-            (out[i * n + j], out[j * n + i]) = (sum, sum);
-        }
-    }
-    out
-}
-
-/// `T x`
-fn advanced(a: &[f64], x: &[f64]) -> Vec<f64> {
-    let (first, rest) = x.split_at(side(a));
-    let mut all = multiplied(a, first);
-    all.extend_from_slice(rest);
-    all
-}
-
-/// The number of rows of a square matrix.
-fn side(a: &[f64]) -> usize {
-    a.len().isqrt()
 }

@@ -3,7 +3,8 @@
 use std::rc::Rc;
 
 use super::{
-    Filter, Gaussian, Innovation, Reading, Step, advanced, carried, dot, multiplied, side,
+    Fade, Filter, Gaussian, Innovation, Reading, Step, Transition, Weights, add, dot, multiplied,
+    weighed,
 };
 
 /// Takes readings in and remembers what it takes to go back.
@@ -17,14 +18,20 @@ pub struct Smoother {
 #[derive(Clone, Debug)]
 struct Moment {
     before: Gaussian,
-    /// The transition to it from the moment before, if there is one.
-    transition: Option<Rc<Vec<f64>>>,
+    /// The way to it from the moment before, if there is one.
+    way: Option<Way>,
     readings: Vec<Taken>,
 }
 
 #[derive(Clone, Debug)]
+struct Way {
+    transition: Rc<Transition>,
+    fades: Rc<Vec<Fade>>,
+}
+
+#[derive(Clone, Debug)]
 struct Taken {
-    of: Vec<f64>,
+    of: Rc<Weights>,
     gain: Vec<f64>,
     innovation: Innovation,
 }
@@ -32,7 +39,7 @@ struct Taken {
 impl Smoother {
     /// Begins at the first moment, with what is known before its readings.
     pub fn new(state: Gaussian) -> Self {
-        let first = Moment { before: state.clone(), transition: None, readings: Vec::new() };
+        let first = Moment { before: state.clone(), way: None, readings: Vec::new() };
         Self { filter: Filter::new(state), moments: vec![first] }
     }
 
@@ -44,41 +51,80 @@ impl Smoother {
     /// Goes on to the next moment.
     pub fn predict(&mut self, step: &Step) {
         self.filter.predict(step);
+        let (transition, fades) = (Rc::clone(&step.transition), Rc::clone(&step.fades));
         self.moments.push(Moment {
             before: self.filter.state().clone(),
-            transition: Some(Rc::clone(&step.transition)),
+            way: Some(Way { transition, fades }),
             readings: Vec::new(),
         });
     }
 
     /// Takes a reading of the moment in.
     pub fn update(&mut self, reading: &Reading) -> Innovation {
-        let (gain, innovation) = self.filter.gain(reading);
+        let (gain, innovation) = self.filter.taken(reading);
         if let Some(moment) = self.moments.last_mut() {
-            moment.readings.push(Taken { of: reading.of.clone(), gain, innovation });
+            moment.readings.push(Taken { of: Rc::clone(&reading.of), gain, innovation });
         }
-        self.filter.update(reading)
+        innovation
     }
 
     /// What is known of each moment, first to last, from all readings.
     pub fn smoothed(&self) -> Vec<Gaussian> {
         let mut smoothed: Vec<Gaussian> = Vec::with_capacity(self.moments.len());
-        self.backwards(|k, later| smoothed.push(later.told(&self.moments[k].before)));
+        self.backwards(|_, told| smoothed.push(told.whole()));
         smoothed.reverse();
         smoothed
     }
 
-    /// Visits the moments, last to first, with what the readings from each on say.
-    pub fn backwards(&self, mut visit: impl FnMut(usize, &Later)) {
+    /// Visits the moments, last to first, with what all readings say of each.
+    pub fn backwards(&self, mut visit: impl FnMut(usize, &Told<'_>)) {
         let n = self.filter.state().mean.len();
         let mut later = Later { pull: vec![0.0; n], hold: vec![0.0; n * n] };
+        let (mut last, mut back) = (None::<Rc<Transition>>, None::<Transition>);
+        let mut room = [vec![0.0; n * n], vec![0.0; n * n]];
         for (k, moment) in self.moments.iter().enumerate().rev() {
             moment.readings.iter().rev().for_each(|taken| later.reading(taken));
-            visit(k, &later);
-            if let Some(transition) = &moment.transition {
-                later.step(transition);
+            visit(k, &Told { before: &moment.before, later: &later });
+            let Some(Way { transition, fades }) = &moment.way else { continue };
+            if last.as_ref().is_none_or(|last| !Rc::ptr_eq(last, transition)) {
+                (last, back) = (Some(Rc::clone(transition)), Some(transition.transposed()));
             }
+            back.iter().for_each(|back| later.step(back, fades, &mut room));
         }
+    }
+}
+
+/// What all readings say of a moment.
+#[derive(Clone, Copy, Debug)]
+pub struct Told<'a> {
+    before: &'a Gaussian,
+    /// What those from the moment on say.
+    pub later: &'a Later,
+}
+
+impl Told<'_> {
+    /// The mean of a sum of states and its standard deviation.
+    pub fn of(&self, weights: &Weights) -> (f64, f64) {
+        let spread = self.before.spread(weights);
+        let known = dot(&spread, &multiplied(&self.later.hold, &spread));
+        let mean = weighed(weights, &self.before.mean) + dot(&spread, &self.later.pull);
+        (mean, (weighed(weights, &spread) - known).max(0.0).sqrt())
+    }
+
+    fn whole(&self) -> Gaussian {
+        let Gaussian { mean, covariance } = self.before;
+        let n = mean.len();
+        let moved = multiplied(covariance, &self.later.pull);
+        let mean = mean.iter().zip(&moved).map(|(x, d)| x + d).collect();
+        let mut half = vec![0.0; n * n];
+        for (half, row) in half.chunks_exact_mut(n).zip(self.later.hold.chunks_exact(n)) {
+            row.iter().enumerate().for_each(|(k, h)| add(half, *h, &covariance[k * n..][..n]));
+        }
+        let mut all = covariance.clone();
+        for (i, all) in all.chunks_exact_mut(n).enumerate() {
+            (0..n).for_each(|k| add(all, -covariance[i * n + k], &half[k * n..][..n]));
+        }
+        Gaussian { mean, covariance: all }
     }
 }
 
@@ -107,38 +153,23 @@ impl Later {
         let (of, gain) = (&taken.of, &taken.gain);
         let Innovation { residual, variance } = taken.innovation;
         let pulled = residual / variance - dot(gain, &self.pull);
-        self.pull.iter_mut().zip(of).for_each(|(x, h)| *x += h * pulled);
         let held = multiplied(&self.hold, gain);
         let most = dot(gain, &held) + 1.0 / variance;
-        for i in 0..n {
-            for j in 0..=i {
-                let hold =
-                    self.hold[i * n + j] - of[i] * held[j] - held[i] * of[j] + of[i] * of[j] * most;
-                (self.hold[i * n + j], self.hold[j * n + i]) = (hold, hold);
+        for &(i, h) in of.iter() {
+            self.pull[i] += h * pulled;
+            for (j, held) in held.iter().enumerate() {
+                self.hold[i * n + j] -= h * held;
+                self.hold[j * n + i] -= h * held;
             }
+            of.iter().for_each(|&(j, other)| self.hold[i * n + j] += h * other * most);
         }
     }
 
-    fn step(&mut self, transition: &[f64]) {
-        let n = self.pull.len();
-        let back = transposed(transition);
-        self.pull = advanced(&back, &self.pull);
-        self.hold = carried(&back, &self.hold, n);
+    fn step(&mut self, back: &Transition, fades: &[Fade], [half, out]: &mut [Vec<f64>; 2]) {
+        self.pull = back.advanced(fades, &self.pull);
+        back.carried(fades, &self.hold, (half, out));
+        std::mem::swap(&mut self.hold, out);
     }
-
-    fn told(&self, before: &Gaussian) -> Gaussian {
-        let n = self.pull.len();
-        let moved = multiplied(&before.covariance, &self.pull);
-        let mean = before.mean.iter().zip(&moved).map(|(x, d)| x + d).collect();
-        let known = carried(&before.covariance, &self.hold, n);
-        let covariance = before.covariance.iter().zip(&known).map(|(p, k)| p - k).collect();
-        Gaussian { mean, covariance }
-    }
-}
-
-fn transposed(matrix: &[f64]) -> Vec<f64> {
-    let n = side(matrix);
-    (0..n * n).map(|at| matrix[at % n * n + at / n]).collect()
 }
 
 #[cfg(test)]
@@ -146,7 +177,7 @@ mod tests {
     use std::rc::Rc;
 
     use super::Smoother;
-    use crate::kalman::{Gaussian, Reading, Step};
+    use crate::kalman::{Gaussian, Reading, Step, Transition};
 
     /// Moments of six steps with two readings each, one missing, and a moment without any.
     fn followed() -> Smoother {
@@ -154,10 +185,12 @@ mod tests {
             mean: vec![1.0, 2.0, 3.0],
             covariance: vec![4.0, 0.5, 0.0, 0.5, 2.0, 0.1, 0.0, 0.1, 9.0],
         });
+        let matrix = [0.9, 0.05, 0.3, 0.02, 0.95, 0.01, 0.0, 0.0, 1.0];
         let step = Step {
-            transition: Rc::new(vec![0.9, 0.05, 0.3, 0.02, 0.95, 0.01, 0.0, 0.0, 1.0]),
-            input: vec![0.1, -0.2, 0.0],
+            transition: Rc::new(Transition::of(&matrix)),
+            input: Rc::new(vec![0.1, -0.2, 0.0]),
             noise: Rc::new(vec![0.02, 0.001, 0.01, 0.001, 0.01, 0.0, 0.01, 0.0, 0.05]),
+            fades: Rc::new(Vec::new()),
         };
         let read = [
             (Some(1.3), Some(2.5)),
@@ -171,10 +204,10 @@ mod tests {
             if k > 0 {
                 smoother.predict(&step);
             }
-            let first = first.map(|value| (vec![1.0, 0.0, 0.0], value, 0.04));
-            let second = second.map(|value| (vec![0.2, 1.0, 0.0], value, 0.25));
+            let first = first.map(|value| (vec![(0, 1.0)], value, 0.04));
+            let second = second.map(|value| (vec![(0, 0.2), (1, 1.0)], value, 0.25));
             for (of, value, variance) in first.into_iter().chain(second) {
-                smoother.update(&Reading { of, value, variance });
+                smoother.update(&Reading { of: of.into(), value, variance });
             }
         }
         smoother
@@ -231,7 +264,7 @@ mod tests {
         let (last, filtered) = (&smoothed[5], smoother.filter().state());
         for i in 0..3 {
             assert!((last.mean[i] - filtered.mean[i]).abs() < 1e-13);
-            let (own, weights) = (filtered.covariance[4 * i], [0.0, 1.0, 0.0]);
+            let (own, weights) = (filtered.covariance[4 * i], [(1, 1.0)]);
             assert!((last.covariance[4 * i] - own).abs() < 1e-14);
             assert_eq!(filtered.of(&weights).0.to_bits(), filtered.mean[1].to_bits());
         }

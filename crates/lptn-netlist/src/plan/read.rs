@@ -2,7 +2,7 @@
 
 use lptn_data::{Diagnostic, nearest};
 use lptn_network::{Context, Value};
-use lptn_units::{Dimension, Scope as _, Type, parse_quantity};
+use lptn_units::{Scope as _, Type, parse_quantity};
 
 use super::declaration::{COST, PLACE, PLAN, PLAN_RUN};
 use super::{PlanPlace, PlanRun, PlanStudy, Target};
@@ -10,10 +10,8 @@ use crate::fields::{Fields, Owner, wrong_shape};
 use crate::fit::{Measured, Observed};
 use crate::place::{Given, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::setting::{Setting, TIME};
+use crate::setting::{KELVIN, Setting, TIME};
 use crate::work::Elaboration;
-
-const KELVIN: Type = Type::of(Dimension::TEMPERATURE);
 
 /// A parameter with its values in a run: each with its text, as it is written.
 type Values = (String, Vec<(Value, String)>);
@@ -38,11 +36,11 @@ impl<'a> Elaboration<'a> {
         let varied = self.plan_varied(&fields);
         let places = self.plan_places(&fields);
         let every = self.require(&fields, "every").map(|_| ());
-        let every = every.and_then(|()| self.plan_setting(&fields, "every", TIME)?);
-        let duration = self.plan_setting(&fields, "duration", TIME);
+        let every = every.and_then(|()| self.optional_setting(&fields, "every", TIME)?);
+        let duration = self.optional_setting(&fields, "duration", TIME);
         let runs = self.plan_runs(&fields);
         let cost = self.plan_cost(&fields);
-        let budget = self.plan_setting(&fields, "budget", Type::SCALAR);
+        let budget = self.optional_setting(&fields, "budget", Type::SCALAR);
         let names: Vec<&str> = self.elements("fit").iter().map(|fit| fit.key.as_str()).collect();
         let given = self.plan_names(&fields, "given", ("netlist::plan_given", "fit", &names));
         let runs = runs?;
@@ -72,17 +70,6 @@ impl<'a> Elaboration<'a> {
             hour_cost,
             budget: budget?,
         })
-    }
-
-    /// A value in its field; nothing inside where it is left out, nothing at all where it is wrong.
-    fn plan_setting(
-        &mut self,
-        fields: &Fields<'a>,
-        key: &'static str,
-        ty: Type,
-    ) -> Option<Option<Setting>> {
-        let Some(raw) = fields.get(key) else { return Some(None) };
-        Some(Some(self.setting(&fields.owner, (key, raw), ty)?))
     }
 
     /// `know = { R_int = "5 %", P = "2 W" }`.
@@ -147,7 +134,7 @@ impl<'a> Elaboration<'a> {
         let shared = ["noise", "drift", "drift_time"];
         let shared = shared.map(|key| {
             let ty = if key == "drift_time" { TIME } else { KELVIN };
-            self.plan_setting(fields, key, ty)
+            self.optional_setting(fields, key, ty)
         });
         let [noise, drift, time] = shared;
         let shared = [noise?, drift?, time?];
@@ -177,7 +164,7 @@ impl<'a> Elaboration<'a> {
             None
         });
         let mut own = |key: &'static str, ty, shared: &Option<Setting>| {
-            let own = self.plan_setting(&inner, key, ty)?;
+            let own = self.optional_setting(&inner, key, ty)?;
             Some(own.or_else(|| shared.clone()))
         };
         let noise = own("noise", KELVIN, &shared[0]);
@@ -186,7 +173,8 @@ impl<'a> Elaboration<'a> {
         let cost = own("cost", Type::SCALAR, &None);
         let sensor =
             self.sensor_of(&inner, of.as_ref().map(|of| of.ty))?.map(|(name, _)| name.to_owned());
-        let drift = self.plan_drift((&owner, entry), (drift?, time?))?;
+        let place = (&owner, &entry.key_span, "netlist::plan_drift");
+        let drift = self.drift(place, (drift?, time?))?;
         let Some(noise) = noise? else {
             if inner.complete {
                 let message = format!("{} has no `noise`", owner.words());
@@ -198,25 +186,6 @@ impl<'a> Elaboration<'a> {
         let (column, span) = (entry.key.clone(), entry.key_span.clone());
         let observed = Observed { column, text, end, value, ty, sigma: None, sensor, span };
         Some(PlanPlace { observed, noise, drift, cost: cost? })
-    }
-
-    /// A drift has a time.
-    fn plan_drift(
-        &mut self,
-        (owner, entry): (&Owner, &'a RawEntry),
-        drift: (Option<Setting>, Option<Setting>),
-    ) -> Option<Option<(Setting, Setting)>> {
-        let (is, not) = match drift {
-            (Some(drift), Some(time)) => return Some(Some((drift, time))),
-            (None, None) => return Some(None),
-            (Some(_), None) => ("drift", "drift_time"),
-            (None, Some(_)) => ("drift_time", "drift"),
-        };
-        let message = format!("{} has `{is}`, but no `{not}`", owner.words());
-        let help = "say how large the drift is and how long it lasts: `drift = \"0.05 K\"` and \
-                    `drift_time = \"5 min\"`";
-        self.refuse("netlist::plan_drift", message, &entry.key_span, help);
-        None
     }
 
     fn plan_runs(&mut self, fields: &Fields<'a>) -> Option<Vec<PlanRun>> {
@@ -232,8 +201,8 @@ impl<'a> Elaboration<'a> {
     fn plan_run(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<PlanRun> {
         let owner = fields.owner.inside("run").inside(&entry.key);
         let inner = self.inner(&PLAN_RUN, owner.clone(), entry)?;
-        let duration = self.plan_setting(&inner, "duration", TIME);
-        let cost = self.plan_setting(&inner, "cost", Type::SCALAR);
+        let duration = self.optional_setting(&inner, "duration", TIME);
+        let cost = self.optional_setting(&inner, "cost", Type::SCALAR);
         let set = match inner.get("set") {
             None => Some(Vec::new()),
             Some(_) => self.plan_set(&inner),
@@ -291,8 +260,8 @@ impl<'a> Elaboration<'a> {
     fn plan_cost(&mut self, fields: &Fields<'a>) -> Option<(Option<Setting>, Option<Setting>)> {
         let Some(entry) = fields.entry("cost") else { return Some((None, None)) };
         let inner = self.inner(&COST, fields.owner.inside("cost"), entry)?;
-        let run = self.plan_setting(&inner, "run", Type::SCALAR);
-        let hour = self.plan_setting(&inner, "hour", Type::SCALAR);
+        let run = self.optional_setting(&inner, "run", Type::SCALAR);
+        let hour = self.optional_setting(&inner, "hour", Type::SCALAR);
         Some((run?, hour?))
     }
 

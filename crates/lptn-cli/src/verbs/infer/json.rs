@@ -75,6 +75,7 @@ impl Answer<'_> {
             json!({
                 "column": column.name,
                 "sigma": SiValue::new(found.sigma, "K"),
+                "slow": found.slow.map(|(sd, time)| json!({ "sd": sd, "unit": "K", "time": time })),
                 "samples": found.readings,
                 "surprise_rms": found.rms,
                 "surprise_mean": found.mean,

@@ -1,0 +1,74 @@
+//! Where the search for what is not said begins.
+
+use crate::infer::model::Model;
+use crate::infer::strength::{Noise, Strength};
+use crate::infer::task::{Drift, InferTask};
+
+impl Strength {
+    /// What is said, and first guesses of what is not. Where it is said how much a course changes,
+    /// its slope is none.
+    pub(crate) fn guess(task: &InferTask<'_>, model: &Model) -> Self {
+        let length = model.length();
+        let walk = |(sought, size): (&crate::infer::Sought, &f64)| match sought.intensity {
+            Some(intensity) => [intensity, 0.0],
+            None => [size * size / length, size * size / length.powi(3)],
+        };
+        let intensities = task.sought.iter().zip(&model.sizes).flat_map(walk).collect();
+        Self { intensities, noises: noises(task), jumps: Vec::new() }
+    }
+
+    /// The same, where walks that stood still are given another chance.
+    pub(crate) fn revived(mut self, task: &InferTask<'_>, model: &Model) -> Self {
+        let guess = Self::guess(task, model).intensities;
+        let stood = self.intensities.iter_mut().zip(guess).filter(|(q, _)| **q <= 0.0);
+        stood.for_each(|(q, guess)| *q = guess);
+        self
+    }
+}
+
+/// What is said, and first guesses of what is not.
+fn noises(task: &InferTask<'_>) -> Vec<Noise> {
+    let one = |i: usize| match task.drift {
+        Drift::Known { deviation, time } => {
+            let all = Scatter::of(task, i);
+            let white = task.run.columns[i].sigma.unwrap_or_else(|| all.noise(0.0, 1.0));
+            Noise { white, drift: deviation, time }
+        }
+        Drift::Open => with(task, i, (0.0, 1.0)),
+    };
+    (0..task.run.columns.len()).map(one).collect()
+}
+
+/// The noise of a column if so large a share of its variance dies away in such a time.
+pub(crate) fn with(task: &InferTask<'_>, column: usize, (part, time): (f64, f64)) -> Noise {
+    let said = task.run.columns[column].sigma;
+    Noise::split(said.unwrap_or_else(|| Scatter::of(task, column).noise(part, time)), part, time)
+}
+
+/// How values scatter about their neighbours.
+struct Scatter {
+    /// Mean of the squares of second differences.
+    bends: f64,
+    /// The usual distance of two values in s.
+    every: f64,
+}
+
+impl Scatter {
+    fn of(task: &InferTask<'_>, column: usize) -> Self {
+        let all = task.run.times.iter().zip(&task.run.columns[column].values);
+        let read: Vec<(f64, f64)> =
+            all.filter(|(_, value)| !value.is_nan()).map(|(t, value)| (*t, *value)).collect();
+        let bends = read.windows(3).map(|v| (v[0].1 - 2.0 * v[1].1 + v[2].1).powi(2));
+        let bends = bends.sum::<f64>() / read.len().saturating_sub(2).max(1) as f64;
+        let length = read.last().map_or(0.0, |last| last.0 - read[0].0);
+        Self { bends, every: length / read.len().saturating_sub(1).max(1) as f64 }
+    }
+
+    /// Standard deviation of one value: a second difference is the sum of three noises with the
+    /// factors 1, -2 and 1.
+    fn noise(&self, part: f64, time: f64) -> f64 {
+        let alike = f64::exp(-self.every / time);
+        let factor = 6.0 + part * (2.0 * alike * alike - 8.0 * alike);
+        (self.bends / factor).sqrt().max(1e-6)
+    }
+}

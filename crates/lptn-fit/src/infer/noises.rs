@@ -1,0 +1,166 @@
+//! What the noise of each column is like, where that is not said: as the record is most likely.
+//!
+//! A thermocouple that follows the air of a hall, or an amplifier that filters, reads two neighbours
+//! too high together. Taken for white, such noise becomes a course that walks: 2 s of it made a
+//! constant power of 223 W wander by 50 W.
+
+use crate::infer::guess::with;
+use crate::infer::search::Open;
+use crate::infer::strength::{Noise, Strength};
+use crate::infer::task::Drift;
+use crate::simplex;
+
+/// A slow part has to make the record so much more likely, in the logarithm.
+const WORTH: f64 = 4.0;
+
+/// A slow part without which it is so many times less likely at once is not given another look.
+const FAR: f64 = 10.0;
+
+/// Times that are tried, from this many distances of rows on, each this many times the one before.
+const SHORTEST: f64 = 1.5;
+const LONGER: f64 = 4.0;
+
+/// The longest time, as a part of the record: what is slower bends like the course.
+const LONGEST: f64 = 0.1;
+
+/// Shares of the variance that are tried.
+const PARTS: [f64; 2] = [0.5, 0.95];
+
+/// The share is searched as its log-odds, which are at most so large.
+const SURE: f64 = 9.0;
+
+/// The first corners of the search are so far apart.
+const APART: f64 = 0.5;
+
+/// What is open of the noise of a column: logarithms and log-odds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Unsaid {
+    /// Its white part.
+    White,
+    /// How much of it is slow, and how slow.
+    Drift,
+    /// The whole of it, and these.
+    All,
+}
+
+impl Unsaid {
+    /// As numbers of order 1.
+    fn numbers(self, noise: &Noise) -> Vec<f64> {
+        let part = (noise.drift / noise.whole()).powi(2);
+        let odds = (part / (1.0 - part)).ln().clamp(-SURE, SURE);
+        match self {
+            Self::White => vec![noise.white.ln()],
+            Self::Drift => vec![odds, noise.time.ln()],
+            Self::All => vec![odds, noise.time.ln(), noise.whole().ln()],
+        }
+    }
+
+    fn noise(self, own: &Noise, numbers: &[f64], times: (f64, f64)) -> Noise {
+        if self == Self::White {
+            return Noise { white: numbers[0].exp(), ..*own };
+        }
+        let part = 1.0 / (1.0 + (-numbers[0].clamp(-SURE, SURE)).exp());
+        let whole = numbers.get(2).map_or_else(|| own.whole(), |x| x.exp());
+        Noise::split(whole, part, numbers[1].exp().clamp(times.0, times.1))
+    }
+}
+
+impl Open<'_> {
+    fn likely(&self, strength: &Strength) -> f64 {
+        self.model.log_likelihood(strength)
+    }
+
+    /// What is not said of the noise of a column that has a slow part or has none.
+    fn unsaid(&self, column: usize, noise: &Noise) -> Option<Unsaid> {
+        let sigma = self.task.run.columns[column].sigma.is_some();
+        let slow = noise.drift > 0.0 && self.task.drift == Drift::Open;
+        match (sigma, slow) {
+            (true, false) => None,
+            (false, false) => Some(Unsaid::White),
+            (true, true) => Some(Unsaid::Drift),
+            (false, true) => Some(Unsaid::All),
+        }
+    }
+
+    /// With the most likely noise of one column after the other.
+    pub(crate) fn noised(&self, found: Strength) -> Strength {
+        self.with_noises(found, |_| true)
+    }
+
+    /// With the most likely noise of those that are white.
+    pub(crate) fn whitened(&self, found: Strength) -> Strength {
+        self.with_noises(found, |unsaid| unsaid == Unsaid::White)
+    }
+
+    fn with_noises(&self, mut found: Strength, those: impl Fn(Unsaid) -> bool) -> Strength {
+        for column in 0..found.noises.len() {
+            let own = found.noises[column];
+            let unsaid = self.unsaid(column, &own).filter(|unsaid| those(*unsaid));
+            let Some(unsaid) = unsaid else { continue };
+            let there = |numbers: &[f64]| {
+                let mut there = found.clone();
+                there.noises[column] = unsaid.noise(&own, numbers, self.times());
+                there
+            };
+            let lack = |numbers: &[f64]| -self.likely(&there(numbers));
+            let best = simplex::minimum(lack, &unsaid.numbers(&own), APART);
+            found = there(&best);
+        }
+        found
+    }
+
+    /// The shortest and longest time of a slow part.
+    fn times(&self) -> (f64, f64) {
+        let length = self.model.length();
+        let rows = (self.model.times.len() - 1) as f64;
+        (0.1 * length / rows, LONGEST * length)
+    }
+
+    /// With a slow part of the noise of each column that makes the record more likely; the walks
+    /// are then weaker.
+    pub(crate) fn drifted(&self, white: Strength) -> Strength {
+        if self.task.drift != Drift::Open || self.model.states.drifts.is_empty() {
+            return white;
+        }
+        let (_, longest) = self.times();
+        let shortest = SHORTEST * self.model.length() / (self.model.times.len() - 1) as f64;
+        let times = std::iter::successors(Some(shortest), |time| Some(LONGER * time));
+        let starts = times.take_while(|time| *time <= longest);
+        let starts = starts.flat_map(|time| PARTS.map(|part| self.slow((part, time))));
+        let best = starts.map(|start| self.roughly(&start)).max_by(|a, b| a.0.total_cmp(&b.0));
+        let Some((_, best)) = best else { return white };
+        let found = self.needed_drifts(self.in_turns(best));
+        let count = found.noises.iter().filter(|noise| noise.drift > 0.0).count();
+        let worth = self.likely(&found) - WORTH * count as f64;
+        if worth > self.likely(&white) { found } else { white }
+    }
+
+    /// The guess in which the noise of every column that may have one has this slow part.
+    fn slow(&self, drift: (f64, f64)) -> Strength {
+        let mut start = Strength::guess(self.task, self.model);
+        for &column in &self.model.states.drifts {
+            start.noises[column] = with(self.task, column, drift);
+        }
+        start
+    }
+
+    /// Without the slow parts that are not worth it beside the others.
+    pub(crate) fn needed_drifts(&self, mut found: Strength) -> Strength {
+        for column in 0..found.noises.len() {
+            if found.noises[column].drift <= 0.0 || self.task.drift != Drift::Open {
+                continue;
+            }
+            let mut white = found.clone();
+            white.noises[column] = with(self.task, column, (0.0, 1.0));
+            let (white, likely) = (self.whitened(white), self.likely(&found));
+            if self.likely(&white) < likely - FAR * WORTH {
+                continue;
+            }
+            let white = self.in_turns(white);
+            if self.likely(&white) > likely - WORTH {
+                found = white;
+            }
+        }
+        found
+    }
+}
