@@ -32,7 +32,17 @@ fn main() {
     cases.push(Truth { tails: 3.0, ..paper });
     cases.push(Truth { samples: 30, spacing: 50.0, rho: 0.0, step: 0.0, ..paper });
     cases.push(Truth { samples: 30, spacing: 50.0, rho: 0.5, ..paper });
-    let head = "samples  L/t_RC    rho   sd [K]  step [K]  drift [K, s]   |   T_i   T_f  t_RC [%] | coarse  second   drift [%]";
+    for (samples, spacing, rho) in [(300, 5.0, 0.0), (300, 5.0, 0.6), (1500, 1.0, 0.9)] {
+        cases.extend([(0.5, 3.0), (3.0, 0.5)].map(|halves| Truth {
+            samples,
+            spacing,
+            rho,
+            halves,
+            step: 0.0,
+            ..paper
+        }));
+    }
+    let head = "samples  L/t_RC    rho   sd [K]  step [K]  drift [K, s] halves |   T_i   T_f  t_RC [%] | coarse  second   drift [%]";
     println!("{head}");
     for truth in cases {
         let fits = truth.fits(count);
@@ -42,7 +52,7 @@ fn main() {
         };
         let length = truth.samples as f64 * truth.spacing / truth.curve[2];
         println!(
-            "{:7} {length:7.2} {:6} {:8} {:9} {:6} {:6} | {initial:5.1} {settled:5.1} {tau:5.1}    | {:6.0} \
+            "{:7} {length:7.2} {:6} {:8} {:9} {:6} {:6} {:?} | {initial:5.1} {settled:5.1} {tau:5.1}    | {:6.0} \
              {:8.1} {:7.0}",
             truth.samples,
             truth.rho,
@@ -50,6 +60,7 @@ fn main() {
             truth.step,
             truth.drift.0,
             truth.drift.1,
+            truth.halves,
             part(|fit| fit.coarse),
             part(|fit| fit.second.offer.is_some()),
             part(|fit| fit.noise.drifts()),

@@ -67,6 +67,11 @@ fn intervals_of_a_thousand_records() {
         ((8, 200.0), noise(0.0)),
         ((30, 50.0), noise(0.0)),
         ((30, 50.0), noise(0.5)),
+        // noise that grows, and that falls
+        ((300, 5.0), Noise { halves: (0.5, 3.0), ..noise(0.0) }),
+        ((300, 5.0), Noise { halves: (3.0, 0.5), ..noise(0.0) }),
+        ((1500, 1.0), Noise { halves: (0.5, 3.0), ..noise(0.9) }),
+        ((1500, 1.0), Noise { halves: (3.0, 0.5), ..noise(0.9) }),
     ] {
         let covered = covered(1000, samples, noise);
         println!("{samples:?} {noise:?}: {covered:?}");

@@ -1,5 +1,7 @@
 //! Whether records differ by more than their noise tells.
 
+use crate::noise::chi_square_999;
+
 /// How far apart the records are in what they say of a parameter: mounting, oil or a slow drift
 /// change from run to run.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,14 +28,6 @@ pub(crate) struct Told {
     pub(crate) variance: f64,
 }
 
-/// Chance alone exceeds chi-square of `degrees` with a probability of 0.1 %; to 3 % of itself
-/// (E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684).
-fn chance(degrees: f64) -> f64 {
-    const NORMAL_999: f64 = 3.090_232_306_167_813;
-    let part = 2.0 / (9.0 * degrees);
-    degrees * (1.0 - part + NORMAL_999 * part.sqrt()).powi(3)
-}
-
 impl BetweenRecords {
     /// The mean of the squares of the pulls is the variance of the parameter if records are drawn
     /// by chance (K.-Y. Liang, S. L. Zeger, Biometrika 73 (1986) 13), with as many degrees of
@@ -57,23 +51,14 @@ impl BetweenRecords {
             ratio: (squares / others).max(0.0).sqrt(),
             standard_error: (off * (degrees + 1.0) / degrees).sqrt(),
             degrees_of_freedom: degrees,
-            differ: squares > chance(others),
+            differ: squares > chi_square_999(others),
         })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{BetweenRecords, Told, chance};
-
-    /// Tables of chi-square at 0.1 %: 10.828, 13.816, 29.588.
-    #[test]
-    fn reference_chance_is_that_of_tables() {
-        for (degrees, expected) in [(1.0, 10.828), (2.0, 13.816), (10.0, 29.588)] {
-            let found = chance(degrees);
-            assert!((found - expected).abs() < 0.035 * expected, "{found} {expected}");
-        }
-    }
+    use super::{BetweenRecords, Told};
 
     /// Records that tell equally much: the standard error of a mean of 4 values.
     #[test]

@@ -74,9 +74,9 @@ impl<'a> Errors<'a> {
             .flat_map(|&i| self.derivatives(i)[block.range.clone()].iter().copied())
             .collect();
         let residuals = &self.at_end.residuals[block.range.clone()];
-        // a single record may drift as slowly as its curve rises
+        // records may drift as slowly as their curves rise; from three on it shows in how they differ
         let noise = match self.task.runs.len() {
-            1 => Noise::with_slow_drift(&times, residuals, &slopes),
+            records @ 1..=2 => Noise::with_slow_drift((&times, residuals, &slopes), records == 1),
             _ => Noise::estimate(&times, residuals, &slopes),
         };
         let middle = noise.middle(&times, &slopes);

@@ -28,6 +28,7 @@
 //! and the degrees of freedom are those whose quantile is as wide.
 
 mod likelihood;
+mod local;
 mod middle;
 mod quantile;
 mod resolution;
@@ -37,8 +38,8 @@ pub(crate) mod stretches;
 pub(crate) use likelihood::orthonormal;
 use likelihood::{Likelihood, Possible, Shape};
 pub use middle::Middle;
-pub(crate) use quantile::degrees_of;
 pub use quantile::student_95;
+pub(crate) use quantile::{chi_square_999, degrees_of};
 pub use resolution::resolution;
 
 /// So few means do not tell white noise from slow noise.
@@ -77,6 +78,8 @@ pub struct Noise {
     /// greatest.
     white: f64,
     likeliest: f64,
+    /// The strength of the noise at each sample over that of all; empty where it is the same.
+    strengths: Vec<f64>,
 }
 
 /// The noise of the means of stretches.
@@ -102,13 +105,32 @@ impl Noise {
     /// White noise is taken where the two more numbers do not lower Akaike's criterion. Residuals
     /// that are all 0 have deviation 0.
     pub fn estimate(times: &[f64], residuals: &[f64], jacobian: &[f64]) -> Self {
+        Self::of_even((times, residuals, jacobian), Self::even)
+    }
+
+    /// From residuals whose noise has one strength.
+    fn even((times, residuals, jacobian): (&[f64], &[f64], &[f64])) -> Self {
         Self::of_stretches(times, residuals, jacobian, stretches::size(times.len(), jacobian))
+    }
+
+    /// What `of` makes of residuals and derivatives over the strength that the noise has at each.
+    fn of_even(
+        (times, residuals, jacobian): (&[f64], &[f64], &[f64]),
+        of: impl Fn((&[f64], &[f64], &[f64])) -> Self,
+    ) -> Self {
+        let strengths = local::strengths(residuals);
+        let values = local::even(&strengths, residuals);
+        let slopes = local::even(&strengths, jacobian);
+        let noise = of((times, &values, &slopes));
+        Self { strengths, ..noise }
     }
 
     /// As [`Noise::estimate`], for a record that stands alone: where drift as slow as the record is
     /// as likely as none, intervals hold 95 % of the mixture of all such drifts.
     pub fn with_drift(times: &[f64], residuals: &[f64], jacobian: &[f64]) -> Self {
-        Self::drifting((times, residuals, jacobian), slow::BEHIND_OF_STEP)
+        let drifting =
+            |record: (&[f64], &[f64], &[f64])| Self::drifting(record, slow::BEHIND_OF_STEP);
+        Self::of_even((times, residuals, jacobian), drifting)
     }
 
     fn drifting((times, residuals, jacobian): (&[f64], &[f64], &[f64]), behind: f64) -> Self {
@@ -128,16 +150,21 @@ impl Noise {
                 return noise;
             }
         }
-        Self::estimate(times, residuals, jacobian)
+        Self::even((times, residuals, jacobian))
     }
 
-    /// As [`Noise::with_drift`], for a curve whose start is known: few samples tell its noise as
-    /// [`Noise::estimate`] says.
-    pub(crate) fn with_slow_drift(times: &[f64], residuals: &[f64], jacobian: &[f64]) -> Self {
+    /// As [`Noise::with_drift`], for a curve whose start is known, of one or two records: few
+    /// samples tell its noise as [`Noise::estimate`] says.
+    pub(crate) fn with_slow_drift(
+        (times, residuals, jacobian): (&[f64], &[f64], &[f64]),
+        alone: bool,
+    ) -> Self {
         if (times.len() as f64) < FEW {
             return Self::estimate(times, residuals, jacobian);
         }
-        Self::drifting((times, residuals, jacobian), slow::BEHIND_OF_NETWORK)
+        let behind = if alone { slow::BEHIND_OF_NETWORK } else { slow::BEHIND_OF_TWO };
+        let drifting = |record: (&[f64], &[f64], &[f64])| Self::drifting(record, behind);
+        Self::of_even((times, residuals, jacobian), drifting)
     }
 
     /// Whether drift as slow as the record is as likely as none, and is in the intervals.
@@ -183,6 +210,7 @@ impl Noise {
             slow: false,
             white: white.restricted,
             likeliest: white.restricted,
+            strengths: Vec::new(),
         };
         if !(white.restricted.is_finite() && likelihood.has_freedom()) {
             // residuals that are all 0, or too few to say more
@@ -224,7 +252,7 @@ impl Noise {
 
     /// `J^T Omega J`, which the sandwich holds, with how it changes with what was estimated.
     pub fn middle(&self, times: &[f64], jacobian: &[f64]) -> Middle {
-        Middle::new(self, times, jacobian)
+        Middle::new(self, times, &local::uneven(&self.strengths, jacobian))
     }
 }
 

@@ -1,4 +1,4 @@
-//! Quantiles of Student's t.
+//! Quantiles of Student's t and of chi-square.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -40,6 +40,14 @@ pub fn student_95(degrees: f64) -> f64 {
     (n * y).sqrt()
 }
 
+/// What chi-square of so many degrees of freedom exceeds with a probability of 0.1 %; to 3 % of
+/// itself (E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684).
+pub(crate) fn chi_square_999(degrees: f64) -> f64 {
+    const NORMAL_999: f64 = 3.090_232_306_167_813;
+    let part = 2.0 / (9.0 * degrees);
+    degrees * (1.0 - part + NORMAL_999 * part.sqrt()).powi(3)
+}
+
 /// What a variable exceeds in size with probability 5 % that is normal with one of these standard
 /// deviations, each behind its probability.
 pub(super) fn mixed_95(parts: &[(f64, f64)]) -> f64 {
@@ -77,7 +85,16 @@ fn halved((mut low, mut high): (f64, f64), holds: impl Fn(f64) -> bool) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::{degrees_of, mixed_95};
+    use super::{chi_square_999, degrees_of, mixed_95};
+
+    /// Tables of chi-square at 0.1 %: 10.828, 13.816, 29.588.
+    #[test]
+    fn reference_chi_square_is_that_of_tables() {
+        for (degrees, expected) in [(1.0, 10.828), (2.0, 13.816), (10.0, 29.588)] {
+            let found = chi_square_999(degrees);
+            assert!((found - expected).abs() < 0.035 * expected, "{found} {expected}");
+        }
+    }
 
     /// The mixture by bisection on the `erfc` of Python, the quantile of t from tables.
     #[test]

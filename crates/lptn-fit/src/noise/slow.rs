@@ -18,6 +18,9 @@ pub(super) const BEHIND_OF_STEP: f64 = 0.15;
 /// clean records look as if they drifted.
 pub(super) const BEHIND_OF_NETWORK: f64 = 2.0;
 
+/// The same for one of two records of a network, of which each tells of the drift of the other.
+pub(super) const BEHIND_OF_TWO: f64 = 0.0;
+
 /// How far the likelihood of slow drift may lie behind that of the likeliest noise.
 const BEHIND: f64 = 4.0;
 

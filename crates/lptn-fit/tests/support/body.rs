@@ -16,6 +16,8 @@ pub(crate) struct Noise {
     pub(crate) step: f64,
     /// Standard deviation in K and time in s of a drift beside it.
     pub(crate) drift: (f64, f64),
+    /// What the standard deviation is multiplied by in the first and the second half.
+    pub(crate) halves: (f64, f64),
     /// Whether what drives the noise is Student's t of 3 degrees of freedom, of variance 1.
     pub(crate) tails: bool,
 }
@@ -23,7 +25,14 @@ pub(crate) struct Noise {
 impl Noise {
     /// Noise of 0.1 K that is `kept` from one value to the next.
     pub(crate) const fn kept(kept: f64) -> Self {
-        Self { deviation: 0.1, kept, step: 0.0, drift: (0.0, 1.0), tails: false }
+        Self {
+            deviation: 0.1,
+            kept,
+            step: 0.0,
+            drift: (0.0, 1.0),
+            halves: (1.0, 1.0),
+            tails: false,
+        }
     }
 }
 
@@ -39,9 +48,11 @@ fn netlist(
     let mut drift = if of.drift.0 > 0.0 { of.drift.0 * normal() } else { 0.0 };
     let left = f64::exp(-spacing / of.drift.1);
     let mut csv = String::from("t [s],ring [degC]\n");
-    for t in (0..samples).map(|k| f64::from(k) * spacing) {
+    for k in 0..samples {
+        let t = f64::from(k) * spacing;
+        let factor = if 2 * k < samples { of.halves.0 } else { of.halves.1 };
         let rise = 220.6 * resistance * (1.0 - f64::exp(-t / (resistance * capacity)));
-        let exact = 25.0 + rise + noise + drift;
+        let exact = 25.0 + rise + factor * noise + drift;
         let read = if of.step > 0.0 { (exact / of.step).round() * of.step } else { exact };
         csv += &format!("{t},{read}\n");
         let driven = match of.tails {

@@ -20,6 +20,9 @@ pub(crate) struct Truth {
     pub(crate) drift: (f64, f64),
     /// Degrees of freedom of Student's t of what drives the fast noise; infinite for a normal one.
     pub(crate) tails: f64,
+    /// What the standard deviation of the fast noise is multiplied by in the first and the second
+    /// half.
+    pub(crate) halves: (f64, f64),
     /// Step of the logger in K; 0 for none.
     pub(crate) step: f64,
     /// Amplitude in K and time constant in s of a second exponential.
@@ -36,6 +39,7 @@ impl Truth {
         deviation: 0.1,
         drift: (0.0, 1.0),
         tails: f64::INFINITY,
+        halves: (1.0, 1.0),
         step: 0.1,
         second: (0.0, 1.0),
     };
@@ -52,7 +56,9 @@ impl Truth {
         let [initial, settled, tau] = self.curve;
         let mut value = |t: &f64| {
             let slow = (initial - settled - self.second.0) * (-t / tau).exp();
-            let exact = settled + slow + self.second.0 * (-t / self.second.1).exp() + noise + drift;
+            let half = 0.5 * self.samples as f64 * self.spacing;
+            let fast = noise * if *t < half { self.halves.0 } else { self.halves.1 };
+            let exact = settled + slow + self.second.0 * (-t / self.second.1).exp() + fast + drift;
             let driven = match self.tails.is_finite() {
                 // of variance 1
                 true => {
