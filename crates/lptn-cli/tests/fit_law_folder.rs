@@ -61,6 +61,7 @@ fn records_become_points_and_files() {
         "figure_9_power.csv",
         "laws.csv",
         "manifest.json",
+        "slopes.csv",
     ];
     let written: Vec<String> =
         folder.files().into_iter().filter(|name| name.starts_with("out/")).collect();
@@ -68,7 +69,7 @@ fn records_become_points_and_files() {
     let manifest: serde_json::Value =
         serde_json::from_str(&folder.read("out/records/manifest.json")).unwrap();
     assert_eq!(manifest["inputs"].as_array().unwrap().len(), 8);
-    assert_eq!(manifest["results"].as_array().unwrap().len(), 4);
+    assert_eq!(manifest["results"].as_array().unwrap().len(), 5);
     let power = folder.read("out/records/figure_9_power.csv");
     let head = power.lines().next().unwrap();
     assert!(
@@ -114,6 +115,43 @@ fn the_bed_as_reference_lowers_the_rise() {
     assert!(json["runs"][6]["columns"]["bed"].is_null());
     let systematic = json["systematic"].as_object().unwrap();
     assert!(systematic.values().next().unwrap()["offset"].as_f64().unwrap() > 0.0);
+}
+
+/// dT = 20 K n^2, so that the line through the origin has 20 K sum n^3 / sum n^2 = 112 K in 1000 rpm,
+/// a tenth of it for the bed; the time constant is 100 s at all speeds.
+#[test]
+fn lines_over_the_speed_have_intervals() {
+    let words = [&RUN[..], &["--column", "ring", "--column", "bed", "--no-files"]].concat();
+    let json = whole().run(&[&words[..], &["--format", "json"]].concat()).exits(0).json();
+    let near = |found: &serde_json::Value, expected: f64, tolerance: f64| {
+        let found = found.as_f64().unwrap();
+        assert!((found - expected).abs() < tolerance, "{found} {expected}");
+    };
+    let rpm = std::f64::consts::TAU / 60.0;
+    let [ring, bed] = ["ring", "bed"].map(|name| &json["slopes"]["columns"][name]);
+    near(&ring["dT"]["value"], 0.112 / rpm, 2e-3);
+    near(&bed["dT"]["value"], 0.0112 / rpm, 2e-3);
+    assert_eq!(ring["dT"]["unit"], "K s/rad");
+    near(&ring["dT_exponent"]["value"], 2.0, 0.01);
+    near(&ring["t_RC"]["value"], 100.0, 0.5);
+    assert!(ring["t_RC_slope"]["half_width_95"].as_f64().unwrap() > 0.0);
+    let difference = &json["slopes"]["differences"][0];
+    assert_eq!((&difference["of"], &difference["less"]), (&"ring".into(), &"bed".into()));
+    near(&difference["dT"]["value"], 0.9 * 0.112 / rpm, 2e-3);
+    let ran = whole().run(&words).exits(0);
+    ran.prints("dT / omega [K/rpm]")
+        .prints("differ ring less bed: dT 0.10")
+        .prints("line   dT of ring");
+}
+
+#[test]
+fn two_runs_have_a_mean_and_no_slope() {
+    let folder = folder(&[("1000rpm.csv", "", 1000.0), ("2000rpm.csv", "", 2000.0)]);
+    let words = [&RUN[..], &["--no-files", "--format", "json"]].concat();
+    let json = folder.run(&words).exits(0).json();
+    let ring = &json["slopes"]["columns"]["ring"];
+    assert!(ring["dT"].is_null() && ring["t_RC_slope"].is_null() && ring["dT_exponent"].is_null());
+    assert!((ring["t_RC"]["value"].as_f64().unwrap() - 100.0).abs() < 1.0);
 }
 
 #[test]

@@ -9,6 +9,7 @@ pub(crate) const RANKING: &str = "ranking.csv";
 pub(crate) const RISE: &str = "figure_7_rise.csv";
 pub(crate) const TIME_CONSTANT: &str = "figure_8_time_constant.csv";
 pub(crate) const POWER: &str = "figure_9_power.csv";
+pub(crate) const SLOPES: &str = "slopes.csv";
 pub(crate) const LAWS: &str = "laws.csv";
 pub(crate) const RESIDUALS: &str = "residuals.csv";
 pub(crate) const FIT: &str = "fit.json";
@@ -32,7 +33,7 @@ pub(super) const COMMIT: &str = ".commit.json";
 /// The file whose lock says that somebody writes here.
 pub(super) const LOCK: &str = ".lptn.lock";
 
-const RESULTS: [&str; 22] = [
+const RESULTS: [&str; 23] = [
     RESULT,
     STATE,
     EVENTS,
@@ -42,6 +43,7 @@ const RESULTS: [&str; 22] = [
     RISE,
     TIME_CONSTANT,
     POWER,
+    SLOPES,
     LAWS,
     RESIDUALS,
     FIT,

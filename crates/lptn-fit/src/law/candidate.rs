@@ -2,6 +2,7 @@
 
 use lptn_units::Dimension;
 
+use super::interval::Scatter;
 use super::model::LossLaw;
 use crate::least_squares::Stop;
 
@@ -51,6 +52,9 @@ pub struct Coefficient {
     pub value: f64,
     /// Its standard error in SI units; `None` where no point is left over to tell.
     pub standard_error: Option<f64>,
+    /// Half the width of its 95 % interval in SI units, which also holds where points scatter
+    /// unevenly: see [`Estimate::half_width`](super::Estimate::half_width).
+    pub half_width: Option<f64>,
     /// Its dimension: power over a power of the speed, for example.
     pub dimension: Dimension,
 }
@@ -78,6 +82,8 @@ pub struct Fitted {
     /// Akaike's criterion with the correction for few points; smaller is better, only differences
     /// count. `None` where there are too few points for it.
     pub aicc: Option<f64>,
+    /// What the points say of numbers that follow from the coefficients.
+    pub(crate) scatter: Scatter,
 }
 
 impl Fitted {
@@ -86,16 +92,6 @@ impl Fitted {
     /// not count.
     pub fn negative(&self) -> bool {
         self.coefficients.iter().any(|c| c.value < 0.0 && !c.dimension.is_none())
-    }
-
-    /// The standard error of a quantity with these derivatives by the coefficients; NaN where they
-    /// have none.
-    pub(crate) fn propagated(&self, slopes: &[f64]) -> f64 {
-        let error = |i: usize| slopes[i] * self.coefficients[i].standard_error.unwrap_or(f64::NAN);
-        let terms = (0..slopes.len()).flat_map(|i| (0..slopes.len()).map(move |j| (i, j)));
-        let variance: f64 = terms.map(|(i, j)| self.correlation[i][j] * error(i) * error(j)).sum();
-        // max would hide what is not known
-        if variance < 0.0 { 0.0 } else { variance.sqrt() }
     }
 
     /// The coefficient of this name.

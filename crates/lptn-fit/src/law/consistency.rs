@@ -370,7 +370,8 @@ fn jackknife(points: usize, of: &dyn Fn(&[usize]) -> f64) -> f64 {
 }
 
 fn significance(z: f64, degrees_of_freedom: Option<usize>) -> Significance {
-    Significance { z, probability: two_sided(z, degrees_of_freedom) }
+    let degrees = degrees_of_freedom.map_or(f64::INFINITY, |degrees| degrees as f64);
+    Significance { z, probability: two_sided(z, degrees) }
 }
 
 fn level(ratio: f64, relative_error: Option<f64>, degrees_of_freedom: Option<usize>) -> Level {

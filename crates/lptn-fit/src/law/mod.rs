@@ -23,28 +23,32 @@
 //! ```
 
 mod candidate;
+mod columns;
 mod consistency;
 mod criteria;
 mod error;
+mod interval;
 mod model;
 mod points;
 mod posterior;
 mod powers;
 mod runs;
 mod significance;
+mod slopes;
 mod solve;
 mod stated;
 mod study;
 mod written;
 
 pub use candidate::{Coefficient, Fitted, LawFit, Outcome};
+pub use columns::{ColumnFits, RunFit};
 pub use consistency::{AtSpeed, CLOSE, Consistency, Level, Measured, SIGNIFICANT, Significance};
 pub use error::LawError;
+pub use interval::Estimate;
 pub use model::LossLaw;
 pub use points::{Points, Variable};
-pub use runs::{
-    ColumnFits, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy, Systematic,
-};
+pub use runs::{Run, RunReference, RunsError, RunsSettings, RunsStudy, Systematic};
+pub use slopes::{ColumnDifference, ColumnLines};
 pub use stated::{Exponent, LawOf, StatedLaw};
 pub use study::{ALIKE, LawStudy};
 pub use written::{Start, WrittenLaw};

@@ -8,7 +8,7 @@ use crate::noise::student_95;
 
 impl LawFit {
     /// The coefficients with their covariance, straight in the coefficients, as parameters of the
-    /// same names. `points` and `fit` are what the data and the fit are called. `None` where the law
+    /// same names; with the standard errors to which Student's t gives their 95 % intervals. `points` and `fit` are what the data and the fit are called. `None` where the law
     /// was not fitted, and where no point is left over to tell errors from.
     pub fn posterior(&self, points: &str, fit: &str) -> Option<Posterior> {
         let fitted = self.fitted()?;
@@ -16,14 +16,15 @@ impl LawFit {
         let degrees = (left > 0).then_some(left as f64);
         let student = student_95(degrees.unwrap_or(f64::INFINITY));
         let quantity = |own: &Coefficient| {
-            let sigma = own.standard_error.filter(|error| *error > 0.0)?;
+            let half_width = own.half_width.filter(|half| *half > 0.0)?;
+            let sigma = half_width / student;
             Some(PosteriorQuantity {
                 name: own.name.clone(),
                 of: PosteriorOf::Parameter,
                 value: own.value,
                 unit: own.dimension.si_unit(),
                 spread: Some(Spread { sigma, distribution: Distribution::Normal }),
-                half_width: Some(student * sigma),
+                half_width: Some(half_width),
                 degrees_of_freedom: degrees,
                 bounds: (f64::NEG_INFINITY, f64::INFINITY),
                 prior: None,

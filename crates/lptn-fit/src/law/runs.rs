@@ -4,10 +4,12 @@ use lptn_solve::in_parallel;
 use lptn_units::statistics;
 
 use super::candidate::{LawFit, Outcome};
-use super::consistency::{Consistency, Measured};
+use super::columns::{ColumnFits, RunFit};
+use super::consistency::Consistency;
 use super::error::LawError;
 use super::model::LossLaw;
 use super::points::Points;
+use super::slopes::{ColumnDifference, ColumnLines};
 use super::solve;
 use super::study::LawStudy;
 use crate::step::{Capacity, Power, ReferenceTemperature, Sensor, StepError, StepFit};
@@ -71,24 +73,6 @@ pub enum RunsError {
 }
 }
 
-/// One column of one run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RunFit {
-    /// The exponential through the column.
-    pub fit: StepFit,
-    /// Rise, resistance and power.
-    pub power: Power,
-}
-
-/// A column of every run.
-#[derive(Clone, Debug, PartialEq)]
-pub struct ColumnFits {
-    /// The name of the column in every record.
-    pub column: String,
-    /// In the order of the runs.
-    pub fits: Vec<RunFit>,
-}
-
 /// How far a coefficient moves when what is the same in all runs is off by one standard deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Systematic {
@@ -120,6 +104,10 @@ pub struct RunsStudy {
     /// too few runs, or a rise that is not above 0. The power was computed from the other two: this
     /// shows which laws of them are possible.
     pub consistency: Option<Consistency>,
+    /// The lines of every column over the speed.
+    pub lines: Vec<ColumnLines>,
+    /// The first column less each of the others.
+    pub differences: Vec<ColumnDifference>,
     settings: RunsSettings,
 }
 
@@ -138,26 +126,21 @@ impl RunsStudy {
         }
         let speeds: Vec<f64> = runs.iter().map(|run| run.speed).collect();
         let first = columns.first().map_or(&[][..], |column| &column.fits);
-        let power: Vec<f64> = first.iter().map(|f| f.power.power.value).collect();
-        let random: Vec<f64> = first.iter().map(|f| f.power.power.random).collect();
-        let weights = (!settings.unweighted).then(|| random.clone());
-        let points = Points::new(speeds.clone(), power.clone(), weights)?;
+        let power = first.iter().map(|f| f.power.power.value).collect();
+        let random = || first.iter().map(|f| f.power.power.random).collect();
+        let weights = (!settings.unweighted).then(random);
+        let points = Points::new(speeds.clone(), power, weights)?;
         let laws =
             if settings.laws.is_empty() { LossLaw::standard() } else { settings.laws.clone() };
-        let rise: Vec<f64> = first.iter().map(|f| f.power.rise.value).collect();
-        let time_constant: Vec<f64> = first.iter().map(|f| f.fit.tau.value).collect();
-        let of_rise: Vec<f64> = first.iter().map(|f| f.power.rise.random).collect();
-        let of_time: Vec<f64> = first.iter().map(|f| f.fit.tau.standard_error).collect();
-        let measured = Measured {
-            speed: &speeds,
-            rise: &rise,
-            time_constant: &time_constant,
-            power: &power,
-            errors: (!settings.unweighted).then_some([&of_rise[..], &of_time[..], &random[..]]),
+        let consistency = |column: &ColumnFits| {
+            column.consistency(&speeds, settings.capacity, settings.unweighted)
         };
+        let lines = |c: &ColumnFits| ColumnLines::of(c, &speeds, consistency(c).as_ref());
         Ok(Self {
             runs: runs.iter().map(|run| (run.name.clone(), run.speed)).collect(),
-            consistency: Consistency::of_points(&measured, Some(settings.capacity)).ok(),
+            consistency: columns.first().and_then(consistency),
+            lines: columns.iter().map(lines).collect(),
+            differences: ColumnDifference::all(&columns, &speeds),
             laws: LawStudy::new(points, laws),
             columns,
             settings,
@@ -204,12 +187,6 @@ impl RunsStudy {
     /// How the study was made.
     pub fn settings(&self) -> &RunsSettings {
         &self.settings
-    }
-}
-
-impl ColumnFits {
-    fn named(column: &str) -> Self {
-        Self { column: column.to_owned(), fits: Vec::new() }
     }
 }
 

@@ -5,6 +5,7 @@ use lptn_integrate::dense;
 
 use super::candidate::{Coefficient, Fitted, Outcome};
 use super::criteria::rms;
+use super::interval::Scatter;
 use super::model::LossLaw;
 use super::points::Points;
 use crate::Covariance;
@@ -54,6 +55,11 @@ impl Local {
         Ok(Self { misses, values, jacobian: (0..p.len()).flat_map(column).collect() })
     }
 
+    /// The derivatives of one point.
+    fn row(&self, point: usize) -> Vec<f64> {
+        self.jacobian.iter().skip(point).step_by(self.misses.len()).copied().collect()
+    }
+
     fn column(&self, j: usize) -> &[f64] {
         let rows = self.misses.len();
         &self.jacobian[j * rows..][..rows]
@@ -76,13 +82,13 @@ impl Local {
         Covariance::inverse(&self.jacobian, self.misses.len(), &(0..count).collect::<Vec<_>>())
     }
 
-    /// The share of each point in its own value: the diagonal of the hat matrix, in 0..1.
-    fn leverages(&self, inverse: &Covariance, count: usize) -> Vec<f64> {
-        let of = |i: usize| {
-            let slopes: Vec<f64> = (0..count).map(|j| self.column(j)[i]).collect();
-            inverse.propagated(&slopes).powi(2)
-        };
-        (0..self.misses.len()).map(of).collect()
+    /// What the misses say of numbers that follow from the coefficients. Standard errors that are
+    /// given are known, and 1 on the scale of the misses.
+    fn scatter(&self, inverse: &Covariance, points: &Points) -> Scatter {
+        let known = if points.deviation().is_some() { 1.0 } else { 0.0 };
+        let count = self.misses.len();
+        let rows = (0..count).map(|point| self.row(point)).collect();
+        Scatter::new(rows, inverse, self.misses.clone(), vec![known; count])
     }
 }
 
@@ -186,54 +192,57 @@ fn conclude(law: &LossLaw, points: &Points, p: &[f64]) -> Outcome {
         Err(outcome) => return outcome,
     };
     let Some(inverse) = local.inverse(p.len()) else { return Outcome::NotDetermined };
-    let squares: f64 = local.misses.iter().map(|residual| residual * residual).sum();
-    let degrees_of_freedom = points.len() - p.len();
-    let variance = variance(squares, degrees_of_freedom, points);
-    let error = |j: usize| Some(inverse.standard_error(j)? * variance?.sqrt());
-    let named = law.coefficients().into_iter().enumerate();
-    let coefficient = |(j, (name, dimension))| Coefficient {
-        name,
-        value: p[j],
-        standard_error: error(j),
-        dimension,
-    };
-    let drifts = |j: usize| error(j).is_some_and(|error| error > DRIFT * p[j].abs());
-    if !linear(law, points) && (0..p.len()).any(drifts) {
+    let scatter = local.scatter(&inverse, points);
+    let coefficients = coefficients(law, p, &scatter);
+    let drifts = |c: &Coefficient| c.standard_error.is_some_and(|e| e > DRIFT * c.value.abs());
+    if !linear(law, points) && coefficients.iter().any(drifts) {
         return Outcome::NotDetermined; // the search ran off to where a coefficient has no effect
     }
     let all = 0..p.len();
     let row =
         |i: usize| all.clone().map(|j| inverse.correlation(i, j).unwrap_or(f64::NAN)).collect();
     Outcome::Fitted(Box::new(Fitted {
-        coefficients: named.map(coefficient).collect(),
+        coefficients,
         correlation: all.clone().map(row).collect(),
         rmse: rms(local.values.iter().zip(points.power()).map(|(value, power)| value - power)),
-        leave_one_out: leave_one_out(law, points, (p, &local), &inverse),
+        leave_one_out: leave_one_out(law, points, (p, &local), &scatter),
         values: local.values,
-        squares,
-        degrees_of_freedom,
+        squares: local.misses.iter().map(|residual| residual * residual).sum(),
+        degrees_of_freedom: points.len() - p.len(),
         aicc: None,
+        scatter,
     }))
 }
 
-/// The variance of one residual: what the residuals show, and where standard errors are given no
-/// less than these say.
-fn variance(squares: f64, degrees_of_freedom: usize, points: &Points) -> Option<f64> {
-    let shown = (degrees_of_freedom > 0).then(|| squares / degrees_of_freedom as f64);
-    if points.deviation().is_some() { Some(shown.unwrap_or(1.0).max(1.0)) } else { shown }
+/// The coefficients of a law with their errors.
+fn coefficients(law: &LossLaw, p: &[f64], scatter: &Scatter) -> Vec<Coefficient> {
+    let coefficient = |(j, (name, dimension)): (usize, (String, _))| {
+        let mut slopes = vec![0.0; p.len()];
+        slopes[j] = 1.0;
+        let found = scatter.estimate(p[j], &slopes);
+        let told = |error: f64| (!error.is_nan()).then_some(error);
+        Coefficient {
+            name,
+            value: p[j],
+            standard_error: told(found.standard_error),
+            half_width: told(found.half_width),
+            dimension,
+        }
+    };
+    law.coefficients().into_iter().enumerate().map(coefficient).collect()
 }
 
 fn leave_one_out(
     law: &LossLaw,
     points: &Points,
     (p, local): (&[f64], &Local),
-    inverse: &Covariance,
+    scatter: &Scatter,
 ) -> Option<f64> {
     if points.len() <= p.len() {
         return None;
     }
     let missed: Option<Vec<f64>> = if linear(law, points) || points.len() > REFITS {
-        let leverages = local.leverages(inverse, p.len());
+        let leverages = scatter.leverages();
         let residual = |(i, h): (usize, &f64)| {
             (*h < 1.0 - 1e-9).then(|| local.misses[i] * points.scale(i) / (1.0 - h))
         };

@@ -5,7 +5,6 @@ use super::criteria::{aicc, dispersion};
 use super::model::LossLaw;
 use super::points::Points;
 use super::solve;
-use crate::noise::student_95;
 
 /// Laws whose criteria differ by less than this cannot be told apart (K. P. Burnham, D. R.
 /// Anderson, Model Selection and Multimodel Inference, 2nd edition, Springer 2002, section 2.6).
@@ -94,10 +93,9 @@ impl LawStudy {
         }
         let points = self.points.at_speeds(speeds);
         let p: Vec<f64> = fit.coefficients.iter().map(|c| c.value).collect();
-        let student = student_95((fit.degrees_of_freedom as f64).max(1.0));
         let at = |point: usize| {
             let (value, slopes) = law.law.evaluate(&p, &points, point).ok()?;
-            value.is_finite().then(|| (value, student * fit.propagated(&slopes)))
+            value.is_finite().then(|| (value, fit.scatter.estimate(value, &slopes).half_width))
         };
         (0..speeds.len()).map(at).collect()
     }

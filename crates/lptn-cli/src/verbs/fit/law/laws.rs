@@ -13,7 +13,7 @@ use lptn_units::{Dimension, Type};
 use serde_json::{Value, json};
 
 use super::args::LawArgs;
-use super::shown::{SpeedUnit, with_error};
+use super::shown::{SpeedUnit, chance, with_error};
 use super::wrong_law;
 use crate::console::Console;
 use crate::exit::Exit;
@@ -139,11 +139,7 @@ pub(crate) fn sections(text: &mut Text, found: &Consistency, unit: &SpeedUnit) {
 }
 
 fn in_words(found: &Significance) -> String {
-    let probability = match found.probability {
-        p if p < 1e-4 => "p < 0.0001".to_owned(),
-        p => format!("p = {}", significant(p, 2)),
-    };
-    format!("(z = {}, {probability})", fixed(found.z, 1))
+    format!("(z = {}, {})", fixed(found.z, 1), chance(found.probability))
 }
 
 fn at_speeds(found: &Consistency, unit: &SpeedUnit) -> TextTable {

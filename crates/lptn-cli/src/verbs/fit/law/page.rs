@@ -11,7 +11,7 @@ use lptn_solve::Table;
 use serde_json::{Value, json};
 
 use super::laws::{sections, verdict};
-use super::shown::with_error;
+use super::shown::{chance, with_error};
 use super::{Answer, laws};
 use crate::about;
 use crate::diagnostics;
@@ -31,6 +31,7 @@ impl Page for Answer {
         text.line(format!("{} points at {range}, {weights}", data.points.len()));
         text.section().table(laws(self));
         notes(study, text.section());
+        intervals(self, &mut text);
         correlation(study, &mut text);
         text.section().sentence("", &study.verdict());
         if let Some(found) = &self.consistency {
@@ -69,6 +70,7 @@ impl Page for Answer {
             };
         column("value", "SI", &|_, c| Some(c.value));
         column("standard_error", "SI", &|_, c| c.standard_error);
+        column("half_width_95", "SI", &|_, c| c.half_width);
         column("rmse", "W", &|f, _| Some(f.rmse));
         column("leave_one_out", "W", &|f, _| f.leave_one_out);
         let squares = if self.data.points.deviation().is_some() { "1" } else { "W^2" };
@@ -163,8 +165,18 @@ fn names(law: &LossLaw, count: usize) -> Vec<String> {
 
 pub(super) fn coefficient(answer: &Answer, candidate: &LawFit, fit: &Fitted, i: usize) -> String {
     let c = &fit.coefficients[i];
+    with_unit(answer, candidate, (i, c), c.standard_error)
+}
+
+/// A coefficient with an error of some kind.
+fn with_unit(
+    answer: &Answer,
+    candidate: &LawFit,
+    (i, c): (usize, &Coefficient),
+    error: Option<f64>,
+) -> String {
     let unit = &answer.data.unit;
-    let value = unit.quantity(c.value, c.standard_error, c.dimension);
+    let value = unit.quantity(c.value, error, c.dimension);
     match (&candidate.law, i) {
         (LossLaw::Powers(_), _) => value,
         (LossLaw::FreeExponent, 0) => {
@@ -233,6 +245,23 @@ fn notes(study: &LawStudy, text: &mut Text) {
     }
 }
 
+/// The 95 % intervals of the best law.
+fn intervals(answer: &Answer, text: &mut Text) {
+    let Some((best, fit)) = answer.study.best().and_then(|best| Some((best, best.fitted()?)))
+    else {
+        return;
+    };
+    let interval = |(i, c): (usize, &Coefficient)| {
+        c.half_width?;
+        Some(with_unit(answer, best, (i, c), c.half_width))
+    };
+    let all: Option<Vec<String>> = fit.coefficients.iter().enumerate().map(interval).collect();
+    if let Some(all) = all {
+        let law = plain(&best.law.to_string());
+        text.sentence("95 %      ", &format!("{law}: {}", all.join("; ")));
+    }
+}
+
 /// How the coefficients of the best law depend on each other.
 fn correlation(study: &LawStudy, text: &mut Text) {
     let Some((best, fit)) = study.best().and_then(|best| Some((best, best.fitted()?))) else {
@@ -260,18 +289,14 @@ fn claims(found: &Consistency) -> TextTable {
         ("P", found.power, 1.0, "proportional to the speed"),
         ("P", found.power, 5.0 / 3.0, "with omega^(5/3)"),
     ];
-    let chance = |claim: &Claim| found.claim(claim.1, claim.2).map(|s| s.probability);
-    let shown = |p: Option<f64>| match p {
-        Some(p) if p < 1e-4 => "p < 0.0001".to_owned(),
-        Some(p) => format!("p = {}", significant(p, 2)),
-        None => "-".to_owned(),
-    };
-    let refuted = |claim: &Claim| chance(claim).is_some_and(|p| p < SIGNIFICANT);
+    let probability = |claim: &Claim| found.claim(claim.1, claim.2).map(|s| s.probability);
+    let shown = |p: Option<f64>| p.map_or("-".to_owned(), chance);
+    let refuted = |claim: &Claim| probability(claim).is_some_and(|p| p < SIGNIFICANT);
     TextTable::of(&claims)
         .left("of", |claim| claim.0)
         .left("exponent", |claim| with_error(claim.1.value, claim.1.standard_error))
         .left("claim", |claim| claim.3)
-        .left("by chance", |claim| shown(chance(claim)))
+        .left("by chance", |claim| shown(probability(claim)))
         .left("", |claim| if refuted(claim) { "refuted" } else { "possible" })
         .into()
 }
@@ -292,6 +317,7 @@ fn law(answer: &Answer, candidate: &LawFit) -> Value {
             "value": c.value,
             "unit": unit,
             "standard_error": c.standard_error,
+            "half_width_95": c.half_width,
             "shown": shown,
         })
     };

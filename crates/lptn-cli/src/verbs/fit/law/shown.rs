@@ -24,6 +24,16 @@ impl SpeedUnit {
         format!("{} .. {}", significant(self.0.from_si(low), 4), self.speed(high))
     }
 
+    /// A unit over that of the speed: `K/rpm`, `K/(rad/s)`.
+    pub(crate) fn per(&self, unit: &str) -> String {
+        let speed = &self.0.text;
+        if speed.contains(['/', ' ']) {
+            format!("{unit}/({speed})")
+        } else {
+            format!("{unit}/{speed}")
+        }
+    }
+
     /// A value with its standard error and a unit that suits its size: `87.2 ± 0.3 uW/rpm^(5/3)`.
     pub(crate) fn quantity(&self, value: f64, error: Option<f64>, of: Dimension) -> String {
         let (scale, unit) = self.unit(value, of);
@@ -61,6 +71,14 @@ impl SpeedUnit {
             n => format!(" {}", power(name, n, angle.den())),
         };
         (per_speed * factor, format!("{prefix}W{speeds}"))
+    }
+}
+
+/// How likely chance alone is: `p = 0.42`.
+pub(crate) fn chance(probability: f64) -> String {
+    match probability {
+        p if p < 1e-4 => "p < 0.0001".to_owned(),
+        p => format!("p = {}", significant(p, 2)),
     }
 }
 

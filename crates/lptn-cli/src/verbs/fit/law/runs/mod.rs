@@ -2,6 +2,7 @@
 
 mod figure;
 mod folder;
+mod lines;
 mod output;
 
 use std::io;
@@ -313,6 +314,7 @@ impl Page for Runs {
         text.sentence("", &self.zero());
         text.section().table(self.table());
         self.notes(text.section());
+        lines::put(self, &mut text);
         text.append(self.answer.text());
         self.errors(text.section());
         text

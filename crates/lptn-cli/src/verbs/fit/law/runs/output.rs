@@ -9,19 +9,23 @@ use lptn_solve::{Table, TableOf};
 use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
-use super::Runs;
+use super::{Runs, lines};
 use crate::failure::Failure;
-use crate::files::names::{LAWS, MANIFEST, POWER, RISE, TIME_CONSTANT};
+use crate::files::names::{LAWS, MANIFEST, POWER, RISE, SLOPES, TIME_CONSTANT};
 use crate::files::{Folder, manifest};
 
 /// What is written.
-pub(crate) const NAMES: [&str; 5] = [RISE, TIME_CONSTANT, POWER, LAWS, MANIFEST];
+pub(crate) const NAMES: [&str; 6] = [RISE, TIME_CONSTANT, POWER, SLOPES, LAWS, MANIFEST];
 
 pub(crate) fn write(found: &Runs, folder: &Folder) -> Result<(), Failure> {
     let mut files = folder.batch();
-    for (name, table) in
-        [(RISE, rise(found)), (TIME_CONSTANT, time_constant(found)), (POWER, power(found))]
-    {
+    let tables = [
+        (RISE, rise(found)),
+        (TIME_CONSTANT, time_constant(found)),
+        (POWER, power(found)),
+        (SLOPES, lines::sheet(found)),
+    ];
+    for (name, table) in tables {
         files.write(name, |out| write_csv(&table, out))?;
     }
     files.write(LAWS, |mut out| {
@@ -109,6 +113,7 @@ pub(crate) fn power(found: &Runs) -> Table {
 pub(crate) fn json(found: &Runs, json: &mut Json<'_>) -> io::Result<()> {
     found.answer.json(json)?;
     json.member("runs", &runs(found))?;
+    json.member("slopes", &lines::json(found))?;
     let part = |e: &Systematic| {
         let total = e.total();
         json!({ "capacity": e.capacity, "offset": e.offset, "gain": e.gain, "total": total })
