@@ -18,6 +18,9 @@ const PRICE: f64 = 3.0;
 /// the first round, and in others.
 const PATIENCE: [usize; 2] = [4, 1];
 
+/// Where no walk hides jumps, one is tried that gains this part of its price.
+const NEARLY: f64 = 0.5;
+
 /// The most jumps.
 const MOST: usize = 60;
 
@@ -57,9 +60,13 @@ impl Search<'_> {
     /// With one jump after the other, as far as they pay.
     fn taken_in(&self, found: Strength) -> Strength {
         let mut best = (self.worth(&found), found.clone());
+        let hidden = self.hides(&found);
         let (mut now, mut in_vain) = (found, 0);
         while in_vain < self.patience && now.jumps.len() < MOST {
-            let Some(jump) = self.most_telling(&now) else { break };
+            let Some((gain, jump)) = self.most_telling(&now) else { break };
+            if gain < self.price * NEARLY && !hidden {
+                break;
+            }
             now = self.open.again(&now.with(jump));
             let worth = self.worth(&now);
             in_vain += 1;
@@ -70,9 +77,16 @@ impl Search<'_> {
         best.1
     }
 
-    /// The jump that makes the record most likely, where all else stays as it is (A. S. Willsky,
-    /// H. L. Jones, IEEE Trans. Autom. Control 21 (1976) 108).
-    fn most_telling(&self, strength: &Strength) -> Option<Jump> {
+    /// Whether walks may have taken jumps in: they make the record more likely.
+    fn hides(&self, found: &Strength) -> bool {
+        let model = self.open.model;
+        model.log_likelihood(found) > model.log_likelihood(&found.still()) + 1.0
+    }
+
+    /// The jump that makes the record most likely, where all else stays as it is, behind the gain
+    /// of the logarithm of the likelihood (A. S. Willsky, H. L. Jones, IEEE Trans. Autom. Control 21
+    /// (1976) 108).
+    fn most_telling(&self, strength: &Strength) -> Option<(f64, Jump)> {
         let model = self.open.model;
         let mut best: Option<(f64, Jump)> = None;
         model.smoothed(strength).0.backwards(|to, told| {
@@ -88,7 +102,7 @@ impl Search<'_> {
                 }
             }
         });
-        best.map(|(_, jump)| jump)
+        best
     }
 
     /// Without those that do not pay beside the others.

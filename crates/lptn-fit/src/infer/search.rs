@@ -14,7 +14,7 @@ const NEAR: [i32; 1] = [0];
 /// Walks and noises are searched in so many turns, as long as more is gained of the logarithm of the
 /// likelihood.
 const TURNS: usize = 4;
-const LITTLE: f64 = 0.1;
+const LITTLE: f64 = 0.5;
 
 /// So far apart are the first corners of the search, in logarithms.
 const APART: f64 = 1.0;
