@@ -11,7 +11,7 @@ const BLOCKS: usize = 8;
 const LEAST_BLOCKS: usize = 2;
 
 /// A block has to hold as many independent values.
-const ENOUGH: f64 = 8.0;
+const ENOUGH: f64 = 16.0;
 
 /// Of longer records means of stretches are looked at, so many.
 const LONG: usize = 2000;
