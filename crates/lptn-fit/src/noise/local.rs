@@ -16,25 +16,37 @@ const ENOUGH: f64 = 16.0;
 /// Of longer records means of stretches are looked at, so many.
 const LONG: usize = 2000;
 
+/// How far an uneven noise has to lie beyond what chance brings about in one of 1000 records: how
+/// many values are independent is an estimate too, and of few blocks a rough one.
+const CLEARLY: f64 = 2.0;
+
 /// Correlations below this part no longer count.
 const ALIKE: f64 = 0.05;
 
 /// The standard deviation of the noise at each sample over the root of the mean square of all;
-/// empty where chance explains how it differs from block to block, but in one of 1000 records.
+/// empty where chance explains how it differs from block to block.
+/// Neighbours have to differ more or less too: a curve that the model does not follow makes what is
+/// missed larger in one part of the record, and is not noise.
 ///
 /// Strengths are means of what is missed, not of its square, and how far such a mean may be off is
 /// taken from its own scatter: so heavy tails and rounding look no more uneven than they are. They
 /// change along straight lines in the logarithm from the middle of a block to that of the next.
 pub(super) fn strengths(residuals: &[f64]) -> Vec<f64> {
-    let sizes: Vec<f64> = residuals.iter().map(|r| r.abs()).collect();
-    let sizes = stretches::means(&sizes, sizes.len().div_ceil(LONG).max(1));
+    let size = residuals.len().div_ceil(LONG).max(1);
+    let means = |values: Vec<f64>| stretches::means(&values, size);
+    let sizes = means(residuals.iter().map(|r| r.abs()).collect());
+    let changes = means(residuals.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect());
     let independent = Blocks::of(&sizes, BLOCKS).independent();
     let count = ((independent / ENOUGH) as usize).min(BLOCKS);
     if count < LEAST_BLOCKS {
         return Vec::new();
     }
     let blocks = Blocks::of(&sizes, count);
-    if blocks.differ() { blocks.strengths(residuals.len()) } else { Vec::new() }
+    if blocks.differ() && Blocks::of(&changes, count).differ() {
+        blocks.strengths(residuals.len())
+    } else {
+        Vec::new()
+    }
 }
 
 /// Residuals and their derivatives as they would be if the noise had one strength.
@@ -107,7 +119,7 @@ impl<'a> Blocks<'a> {
         let logarithms: Vec<f64> = self.means.iter().map(|mean| mean.ln()).collect();
         let middle = logarithms.iter().sum::<f64>() / self.count as f64;
         let squares: f64 = logarithms.iter().map(|l| (l - middle).powi(2)).sum();
-        squares / of_mean > chi_square_999(self.count as f64 - 1.0)
+        squares / of_mean > CLEARLY * chi_square_999(self.count as f64 - 1.0)
     }
 
     fn strengths(&self, rows: usize) -> Vec<f64> {

@@ -104,7 +104,7 @@ fn drifting(answer: &Answer<'_>) -> Option<Diagnostic> {
     );
     let doubt = Diagnostic::warning("fit::slow_drift", message).at(answer.study.span.clone(), "");
     let doubt = doubt.help(
-        "the curve takes such a drift up, and a single record cannot tell it; a sensor beside it \
+        "the curve takes such a drift up, and one or two records cannot tell it; a sensor beside it \
          whose temperature stays can, and so can three records and more by how far they differ",
     );
     (!names.is_empty() && ratio > WIDE).then_some(doubt)
