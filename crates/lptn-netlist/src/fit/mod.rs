@@ -7,8 +7,8 @@ mod recorded;
 use std::sync::Arc;
 
 use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, Span};
-use lptn_network::{End, Network, Parameters, Value, Varied};
-use lptn_units::{EvalError, Type};
+use lptn_network::{End, Network, ParameterId, Parameters, Value, Varied};
+use lptn_units::{Correlations, EvalError, Type};
 
 use crate::format::{Role, SectionDeclaration, key};
 use crate::raw::{RawNetlist, RawValue};
@@ -185,6 +185,8 @@ pub struct VariedName {
 pub struct FitPlan {
     /// The parameters to find, in file order.
     pub varied: Vec<Varied>,
+    /// How what is known of them beforehand is correlated, in their order.
+    pub correlations: Correlations,
     /// The standard deviation of one sample of each of [`FitStudy::observed`], in the unit of its
     /// type (K for a temperature); `None` where none is given.
     pub sigmas: Vec<Option<f64>>,
@@ -239,7 +241,9 @@ impl FitStudy {
             }
             parameters.push(own);
         }
-        Ok(FitPlan { varied, sigmas: sigmas?, parameters })
+        let ids: Vec<ParameterId> = varied.iter().map(|varied| varied.parameter).collect();
+        let correlations = set.correlations_of(&ids);
+        Ok(FitPlan { varied, correlations, sigmas: sigmas?, parameters })
     }
 
     fn check_range(

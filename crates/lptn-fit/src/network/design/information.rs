@@ -105,11 +105,15 @@ impl Covariance {
         self.values[i * self.count + i].max(0.0).sqrt()
     }
 
-    /// The part of the variance of one unknown that comes from what is known of another beforehand
-    /// to a standard deviation.
-    pub(super) fn share(&self, i: usize, (of, deviation): (usize, f64)) -> f64 {
-        let weight = self.inverse[i * self.count + of] / deviation;
-        weight * weight / self.values[i * self.count + i]
+    /// The part of the variance of one unknown that comes from what `known` says of another
+    /// beforehand. The fit moves by `w` for each unit that the value known beforehand moves, with
+    /// `w = A^-1 Lambda` of its information Lambda, and the covariance of that value with the fitted
+    /// one is `A^-1`: of correlated ones a share is this product (J. W. Pratt, Proc. 2nd Int. Tampere
+    /// Conf. Statistics (1987) 245), of one alone `(A^-1 / deviation)^2`.
+    pub(super) fn share(&self, i: usize, (of, known): (usize, &Information)) -> f64 {
+        let n = self.count;
+        let weight: f64 = (0..n).map(|k| self.inverse[i * n + k] * known.bread[k * n + of]).sum();
+        weight * self.inverse[i * n + of] / self.values[i * n + i]
     }
 }
 
@@ -286,7 +290,9 @@ mod tests {
         (0..4).for_each(|_| rows.add(&[1.0, 1.0]));
         rows.sum.add_prior(1, 1.0);
         let covariance = rows.sum.covariance();
+        let mut known = Information::none(2);
+        known.add_prior(1, 1.0);
         assert!((covariance.error(0).powi(2) - 1.25).abs() < 1e-12);
-        assert!((covariance.share(0, (1, 1.0)) - 0.8).abs() < 1e-12);
+        assert!((covariance.share(0, (1, &known)) - 0.8).abs() < 1e-12);
     }
 }

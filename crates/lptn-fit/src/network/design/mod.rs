@@ -262,15 +262,15 @@ fn plan(
 
 /// For each unknown the one of whose `±` most of its variance comes.
 fn causes(space: &Space<'_, '_>, told: &Information) -> Vec<Option<(usize, f64)>> {
-    let covariance = told.covariance();
+    let (covariance, known) = (told.covariance(), space.task.of_priors());
     let unknowns = space.task.unknowns.iter().enumerate();
-    let priors: Vec<(usize, f64)> =
-        unknowns.filter_map(|(i, unknown)| Some((i, unknown.prior?))).collect();
+    let priors: Vec<usize> =
+        unknowns.filter(|(_, unknown)| unknown.prior.is_some()).map(|(i, _)| i).collect();
     let most = |i: usize| {
         if !covariance.error(i).is_finite() {
             return None;
         }
-        let shares = priors.iter().map(|&prior| (prior.0, covariance.share(i, prior)));
+        let shares = priors.iter().map(|&prior| (prior, covariance.share(i, (prior, &known))));
         shares.max_by(|a, b| a.1.total_cmp(&b.1))
     };
     (0..told.count).map(most).collect()

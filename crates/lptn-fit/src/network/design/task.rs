@@ -98,8 +98,18 @@ impl<'a> DesignTask<'a> {
         let candidates = candidates.map(|run| planned(run, &settings, (&columns, numbers.every)));
         let runs: Vec<MeasuredRun> = given.runs.into_iter().chain(candidates).collect();
         let parameters = sought(netlist, &numbers);
+        let ids: Vec<ParameterId> = parameters.iter().map(|varied| varied.parameter).collect();
+        let correlations = netlist.overrides().correlations_of(&ids);
         let (more_starts, found) = (0, given.values);
-        let mut fit = NetworkFitTask { network, parameters, sensors, runs, more_starts, threads };
+        let mut fit = NetworkFitTask {
+            network,
+            parameters,
+            correlations,
+            sensors,
+            runs,
+            more_starts,
+            threads,
+        };
         for run in &mut fit.runs {
             found.iter().for_each(|(id, value)| run.parameters.set(*id, *value));
         }
