@@ -32,6 +32,7 @@ mod profile;
 mod readings;
 mod recorded;
 mod search;
+mod taken;
 mod task;
 mod undetermined;
 mod unknown;
@@ -52,6 +53,7 @@ pub use profile::Profile;
 pub(crate) use recorded::{Held, line};
 pub use recorded::{RecordedSignal, RecordedStart};
 pub use search::Starts;
+pub use taken::{Moved, Off};
 pub use task::{
     FitObserver, FitStage, Instrument, Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask,
 };

@@ -146,6 +146,13 @@ pub struct FitRecord {
     pub span: Span,
 }
 
+impl FitRecord {
+    /// Whether it has a value of its own for a parameter.
+    pub fn sets(&self, parameter: &str) -> bool {
+        self.set.iter().any(|(name, _)| name == parameter)
+    }
+}
+
 /// A column of the records, and the result it measures.
 #[derive(Clone, Debug)]
 pub struct Observed {
@@ -178,6 +185,13 @@ pub struct VariedName {
     pub span: Span,
     pub(crate) from: Option<Value>,
     pub(crate) to: Option<Value>,
+}
+
+impl VariedName {
+    /// Whether it has a least or a greatest value.
+    pub fn has_range(&self) -> bool {
+        self.from.is_some() || self.to.is_some()
+    }
 }
 
 /// The numbers of a [`FitStudy`] for the parameters of a network, in SI units.

@@ -9,7 +9,7 @@ const NOTHING: f64 = 1e-12;
 /// `x Omega x^T` with their correlation Omega. The covariance of a fit is
 /// `bread^-1 middle bread^-1`. Both add up over rows, sensors and runs.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Information {
+pub(crate) struct Information {
     pub(super) count: usize,
     /// Row by row, `count` squared.
     pub(super) bread: Vec<f64>,
@@ -17,7 +17,7 @@ pub(super) struct Information {
 }
 
 impl Information {
-    pub(super) fn none(count: usize) -> Self {
+    pub(crate) fn none(count: usize) -> Self {
         Self { count, bread: vec![0.0; count * count], middle: vec![0.0; count * count] }
     }
 
@@ -35,7 +35,7 @@ impl Information {
     }
 
     /// So many equal rows, in units of the error that their mean has.
-    pub(super) fn add_row(&mut self, x: &[f64], times: f64) {
+    pub(crate) fn add_row(&mut self, x: &[f64], times: f64) {
         for (i, a) in x.iter().enumerate() {
             for (j, b) in x.iter().enumerate() {
                 self.bread[i * self.count + j] += times * a * b;
@@ -72,7 +72,7 @@ impl Information {
     }
 
     /// The covariance of what a fit finds.
-    pub(super) fn covariance(&self) -> Covariance {
+    pub(crate) fn covariance(&self) -> Covariance {
         let n = self.count;
         let (inverse, unknown) = inverse(&self.bread, n);
         let half = product(&inverse, &self.middle, n);
@@ -88,7 +88,7 @@ impl Information {
 
 /// The covariance of what a fit finds, and what it does not find.
 #[derive(Clone, Debug)]
-pub(super) struct Covariance {
+pub(crate) struct Covariance {
     count: usize,
     values: Vec<f64>,
     /// Of the information, where it has one.
@@ -103,6 +103,14 @@ impl Covariance {
             return f64::INFINITY;
         }
         self.values[i * self.count + i].max(0.0).sqrt()
+    }
+
+    /// By how much an unknown moves where so much is pulled at all of them, the sum of `x r` over
+    /// rows that change by r; `None` where it is not determined.
+    pub(crate) fn moved(&self, i: usize, pull: &[f64]) -> Option<f64> {
+        let n = self.count;
+        let by = (0..n).map(|k| self.inverse[i * n + k] * pull[k]).sum();
+        (!self.unknown[i]).then_some(by)
     }
 
     /// The part of the variance of one unknown that comes from what `known` says of another

@@ -23,6 +23,7 @@ mod records;
 mod sensitive;
 mod sets;
 mod space;
+mod taken;
 mod task;
 
 pub use choice::MOST_LEGS;
@@ -33,7 +34,7 @@ pub use task::{DesignPlace, DesignRun, DesignTask, Known};
 
 use crate::network::coordinates::Coordinates;
 use crate::network::design::choice::{Choice, choose};
-use crate::network::design::information::Information;
+pub(crate) use crate::network::design::information::Information;
 use crate::network::design::limit::limits;
 use crate::network::design::sets::{BestSet, best_sets};
 use crate::network::design::space::{Leg, Space};
