@@ -2,6 +2,7 @@
 
 mod args;
 mod figure;
+mod given;
 mod page;
 mod shown;
 mod words;
@@ -12,7 +13,7 @@ use std::sync::{Mutex, PoisonError};
 
 use lptn_fit::network::NetworkFitError;
 use lptn_fit::network::design::{Design, DesignError, DesignTask, design};
-use lptn_netlist::{PlanStudy, Span};
+use lptn_netlist::{Diagnostic, PlanStudy, Span};
 use lptn_solve::{Proceed, Progress, available_threads};
 use lptn_units::Unit;
 
@@ -37,7 +38,9 @@ pub(crate) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, Failure> 
     let answer = Answer { input: &input, study, task, design, names, units };
     let named = answer.named();
     let doubt = taken::of_plan((&input, study), (&answer.task, &answer.design), &named);
-    console.warn(&input.netlist.files, doubt.as_slice());
+    let doubts: Vec<Diagnostic> =
+        given::doubts(&input, &answer.task).into_iter().chain(doubt).collect();
+    console.warn(&input.netlist.files, &doubts);
     console.show(&answer, args.printed.format)
 }
 

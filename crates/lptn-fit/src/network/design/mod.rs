@@ -28,6 +28,7 @@ mod task;
 
 pub use choice::MOST_LEGS;
 pub use error::DesignError;
+pub use given::GivenFit;
 pub use sensitive::DesignObserver;
 pub use sets::{MOST_PLACES, Searched};
 pub use task::{DesignPlace, DesignRun, DesignTask, Known};
