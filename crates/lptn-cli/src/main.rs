@@ -35,6 +35,7 @@ mod reporting;
 mod scale;
 mod select;
 mod sense;
+mod taken;
 mod unseparated;
 mod verbs;
 mod words;

@@ -112,3 +112,29 @@ fn records_that_are_there_already_count() {
     assert!((known / error(361) - 1.0).abs() < 0.02, "{known} is not {}", error(361));
     assert_eq!(json["plan"]["runs"].as_array().map(Vec::len), Some(0));
 }
+
+/// What the fit of records that are there warns of was lost: a start that is 10 K off, and a fit that
+/// does not tell its parameters apart.
+#[test]
+fn what_a_given_fit_warns_of_is_said() {
+    let row = |k: u32| {
+        let t = 5.0 * f64::from(k);
+        format!("{t},{:.6}\n", 25.0 + 220.6 * 0.3 * -f64::exp_m1(-t / 797.7))
+    };
+    let csv: String = "t [s],ring [degC]\n".to_owned() + &(0..361).map(row).collect::<String>();
+    let says = |text: &str, vary: &str| {
+        let plan = BODY
+            .replace(", cold = { set = { P = \"50 W\" } }", "")
+            .replace("T0 = \"25", text)
+            + "given = [\"first\"]\n[fit.first]\ndata = \"r.csv\"\ncolumn = { ring = \"body.T\" }\n\
+               sigma = \"0.1 K\"\nvary = "
+            + vary;
+        let folder = Folder::with("body.toml", &plan);
+        folder.write("r.csv", &csv);
+        folder.run(&["plan", "body.toml"])
+    };
+    let ran = says("T0 = \"35", "[\"P\", \"C\"]").says("fit::misfit");
+    ran.says("fit `first`, whose records are there: the model does not describe column `ring`");
+    let ran = says("T0 = \"25", "[\"P\", \"R\", \"C\"]").exits(1).says("plan::given_open");
+    ran.says("not determined: only P R and R C are determined");
+}

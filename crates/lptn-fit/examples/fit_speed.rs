@@ -10,7 +10,7 @@ use lptn_fit::network::{
 use lptn_netlist::parse;
 use lptn_network::Time;
 use lptn_solve::Transient;
-use lptn_units::Type;
+use lptn_units::{Correlations, Type};
 
 const GEARBOX: &str = "format = 1
 [param]
@@ -57,6 +57,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let task = NetworkFitTask {
         network,
         parameters: ranges.into_iter().map(varied).collect::<Result<_, _>>()?,
+        correlations: Correlations::none(ranges.len()),
         sensors: Vec::new(),
         runs: vec![MeasuredRun {
             name: "record".into(),

@@ -11,7 +11,7 @@ use lptn_fit::network::{
 use lptn_netlist::{Netlist, parse};
 use lptn_network::Time;
 use lptn_solve::{Gradient, Transient};
-use lptn_units::Type;
+use lptn_units::{Correlations, Type};
 
 const CELSIUS: f64 = 273.15;
 
@@ -91,6 +91,7 @@ fn record(netlist: &Netlist, (node, values): (&str, &[f64]), set: &[(&str, &str)
 fn task(netlist: &Netlist, parameters: Vec<Varied>, runs: Vec<MeasuredRun>) -> NetworkFitTask<'_> {
     NetworkFitTask {
         network: &netlist.network,
+        correlations: Correlations::none(parameters.len()),
         parameters,
         sensors: Vec::new(),
         runs,

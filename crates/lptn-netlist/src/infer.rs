@@ -349,9 +349,10 @@ impl<'a> Elaboration<'a> {
             (None, None) => None,
             (Some(change), Some(within)) => {
                 let wanted = Wanted::constant(change_of(sought.ty, positive));
-                let change = self.given_inside(&owner, ("change", change), wanted);
-                let within = self.given_inside(&owner, ("within", within), Wanted::constant(TIME));
-                Some((change?.value(), within?.value()))
+                let change = self.exactly_inside(&owner, ("change", change), wanted);
+                let within =
+                    self.exactly_inside(&owner, ("within", within), Wanted::constant(TIME));
+                Some((change?, within?))
             }
             (one, _) => {
                 let missing = if one.is_some() { "within" } else { "change" };

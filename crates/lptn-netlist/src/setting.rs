@@ -2,10 +2,10 @@
 
 use lptn_data::Span;
 use lptn_network::Value;
-use lptn_units::{Dimension, Type, format_number};
+use lptn_units::{Dimension, Quantity, Type, format_number};
 
 use crate::fields::{Fields, Owner};
-use crate::place::{Place, Wanted};
+use crate::place::{Given, Place, Wanted};
 use crate::raw::RawValue;
 use crate::toml_text::string;
 use crate::work::Elaboration;
@@ -37,6 +37,41 @@ impl Setting {
 }
 
 impl Elaboration<'_> {
+    /// A value of which nothing counts how far it may be off: a `±` would be passed over in silence.
+    pub(crate) fn exactly(&mut self, place: Place<'_>, wanted: Wanted) -> Option<Value> {
+        let given = self.given(place, wanted)?;
+        if let Given::Quantity(quantity) = &given {
+            self.without_deviation(place, quantity)?;
+        }
+        Some(given.value())
+    }
+
+    /// The same of a field of something inside a field.
+    pub(crate) fn exactly_inside(
+        &mut self,
+        owner: &Owner,
+        (key, raw): (&str, &RawValue),
+        wanted: Wanted,
+    ) -> Option<Value> {
+        self.exactly(Place { owner: &owner.inside(key), key: "", raw }, wanted)
+    }
+
+    /// Reports a `±`.
+    pub(crate) fn without_deviation(
+        &mut self,
+        place: Place<'_>,
+        quantity: &Quantity,
+    ) -> Option<()> {
+        if quantity.deviation.is_none() {
+            return Some(());
+        }
+        let message = format!("{} has a `±`, which counts for nothing there", place.words());
+        let help = "write the value alone: what may be off, and counts, is a parameter in [param] or \
+            a value of a [sensor]";
+        self.refuse("netlist::useless_deviation", message, &place.raw.span, help);
+        None
+    }
+
     pub(crate) fn setting(
         &mut self,
         owner: &Owner,
@@ -45,7 +80,7 @@ impl Elaboration<'_> {
     ) -> Option<Setting> {
         let place = Place { owner, key, raw };
         let words = place.words();
-        let value = self.given(place, Wanted::constant(ty))?.value();
+        let value = self.exactly(place, Wanted::constant(ty))?;
         let help = format!("write it like this: `{}`", owner.sample(key));
         Some(Setting { value, span: raw.span.clone(), words, unit: ty.usual_unit(), help })
     }

@@ -178,3 +178,31 @@ fn a_posterior_of_the_command_line_takes_the_place_of_the_named_one() {
     let lost = netlist.take_posterior(path, b"{}", Taken::All).unwrap_err();
     assert_eq!(lost.diagnostics[0].code, "posterior::format");
 }
+
+/// What stands beside the covariance was not looked at: a file with its rows under other names, or
+/// with the correlations of another fit, was taken without a word.
+#[test]
+fn labels_that_contradict_the_covariance_are_refused() {
+    let sound = json(&found());
+    let refused = |from: &str, to: &str| {
+        let other = sound.replacen(from, to, 1);
+        assert_ne!(other, sound, "{from}");
+        let problem = read(OWN, NAMED, &other).unwrap_err().diagnostics.remove(0);
+        assert_eq!(problem.code, "posterior::member");
+        problem.message
+    };
+    let own = r#""of": ["ln R","P","tc.offset"]"#;
+    for other in [r#"["P","ln R","tc.offset"]"#, r#"["R","P","tc.offset"]"#, r#"["ln R","P"]"#] {
+        let told = refused(own, &format!("\"of\": {other}"));
+        assert!(told.contains("`ln R`, `P` and `tc.offset`, in this order"), "{told}");
+    }
+    refused(own, "\"of\": 3");
+    let (_, rows) = sound.split_once("\"correlation\"").unwrap();
+    let opposite = rows.replace("-0.75", "0.75");
+    let told = refused(rows, &opposite);
+    assert!(told.contains("different things of ln R and P"), "{told}");
+    refused(rows, &rows.replacen("[1.0,-0.75,0.0],", "", 1));
+    // without them the quantities say it
+    let alone = sound.replace(own, "\"also\": 1").replace("\"correlation\"", "\"more\"");
+    assert!(read(OWN, NAMED, &alone).is_ok());
+}

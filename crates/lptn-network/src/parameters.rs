@@ -60,6 +60,11 @@ impl Parameters {
         self.values[id.index()] = Some(value);
     }
 
+    /// The value that a parameter was given, in SI units; an absolute temperature in K.
+    pub fn value(&self, id: ParameterId) -> Option<f64> {
+        self.values[id.index()]
+    }
+
     /// These values with one more, set as by [`Parameters::set_text`].
     ///
     /// # Errors

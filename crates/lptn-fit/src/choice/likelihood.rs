@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use crate::choice::Judged;
-use crate::network::{ColumnMisfit, NetworkFit, NetworkFitTask};
+use crate::network::{ColumnMisfit, NetworkFit, NetworkFitTask, Priors};
 use crate::noise::{Noise, stretches};
 
 /// How many lags the test of whiteness looks at.
@@ -51,11 +51,9 @@ impl Likely {
             of_noise += numbers;
         }
         let unknowns = task.unknowns();
-        let off = unknowns.iter().zip(&fit.parameters);
-        misfit += off
-            .filter_map(|(unknown, fitted)| unknown.off_prior(fitted.value))
-            .map(|off| off * off)
-            .sum::<f64>();
+        let values: Vec<f64> = fit.parameters.iter().map(|fitted| fitted.value).collect();
+        let off = Priors::of(&unknowns, &task.correlations).residuals(&values);
+        misfit += off.iter().map(|off| off * off).sum::<f64>();
         let unknowns = unknowns.len();
         let aicc = aicc(misfit, means, unknowns + of_noise);
         Self { misfit, means, unknowns, of_noise, aicc }

@@ -34,6 +34,10 @@ pub enum NetworkFitError {
     /// The own value of a parameter, by its place among the varied ones, is outside its bounds.
     StartOutside { parameter: usize } = "fit::start_outside",
         format!("the own value of varied parameter {parameter} is outside its bounds");
+    /// What is known beforehand of a parameter, by its place among the varied ones, cannot be so
+    /// correlated with what is known of those before it.
+    Correlations { parameter: usize } = "fit::correlations",
+        format!("what is known of varied parameter {parameter} cannot be so correlated");
     /// The run of a record fails with the own values of the parameters.
     Start { record: String, error: Box<SensitiveError> } =
         match &**error {

@@ -27,10 +27,12 @@ mod model;
 pub(crate) mod plan;
 mod posterior;
 mod predict;
+mod prior;
 mod profile;
 mod readings;
 mod recorded;
 mod search;
+mod taken;
 mod task;
 mod undetermined;
 mod unknown;
@@ -46,10 +48,12 @@ pub(crate) use lag::{follow, refined};
 pub use lptn_netlist::{Certainty, SensorValue};
 pub use lptn_network::Varied;
 pub(crate) use predict::{Misses, misses, refit};
+pub(crate) use prior::Priors;
 pub use profile::Profile;
 pub(crate) use recorded::{Held, line};
 pub use recorded::{RecordedSignal, RecordedStart};
 pub use search::Starts;
+pub use taken::{Moved, Off};
 pub use task::{
     FitObserver, FitStage, Instrument, Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask,
 };
@@ -245,6 +249,9 @@ fn check(task: &NetworkFitTask<'_>, unknowns: &[Unknown]) -> Result<(), NetworkF
     if values + priors < unknowns.len() {
         let parameters = unknowns.len();
         return Err(NetworkFitError::TooFew { values: values + priors, parameters });
+    }
+    if let Some(parameter) = Priors::impossible(unknowns, &task.correlations) {
+        return Err(NetworkFitError::Correlations { parameter });
     }
     let outside = |u: &Unknown| !(u.bounds.0 <= u.own && u.own <= u.bounds.1);
     match unknowns.iter().position(outside) {

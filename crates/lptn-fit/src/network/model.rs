@@ -11,9 +11,10 @@ use lptn_solve::{
 use crate::least_squares::{self, LeastSquaresError, Residuals};
 use crate::network::coordinates::Coordinates;
 use crate::network::error::NetworkFitError;
+use crate::network::prior::Priors;
 use crate::network::readings::{Beside, Measure, Reader, Rows};
 use crate::network::task::{FitObserver, FitStage, NetworkFitTask};
-use crate::network::unknown::{Prior, Unknown};
+use crate::network::unknown::Unknown;
 
 /// So many tolerances a temperature may be off.
 const ERROR: f64 = 10.0;
@@ -45,6 +46,8 @@ pub(crate) struct Model<'a> {
     task: &'a NetworkFitTask<'a>,
     unknowns: &'a [Unknown],
     coordinates: &'a Coordinates,
+    /// What is known beforehand.
+    priors: Priors,
     /// The rows of each record that count.
     rows: Vec<Rows>,
     pub(crate) blocks: Vec<Block>,
@@ -78,6 +81,7 @@ impl<'a> Model<'a> {
             task,
             unknowns,
             coordinates,
+            priors: Priors::of(unknowns, &task.correlations),
             rows,
             blocks,
             tolerance,
@@ -172,28 +176,19 @@ impl<'a> Model<'a> {
 
     fn with_priors(&self, values: &[f64], runs: &[Measure]) -> Evaluated {
         let (data, count) = (self.data(), values.len());
-        let priors = self.priors();
-        let mut residuals: Vec<f64> = Vec::with_capacity(data + priors.len());
+        let mut residuals: Vec<f64> = Vec::with_capacity(data + self.priors.count());
         runs.iter().for_each(|run| residuals.extend_from_slice(&run.residuals));
         let modelled = runs.iter().flat_map(|run| &run.modelled).copied().collect();
-        residuals.extend(priors.iter().map(|prior| prior.residual(values[prior.place]).0));
+        residuals.extend(self.priors.residuals(values));
         let mut jacobian = Vec::with_capacity(residuals.len() * count);
-        for (j, &value) in values.iter().enumerate() {
+        for j in 0..count {
             for run in runs {
                 let rows = run.residuals.len();
                 jacobian.extend_from_slice(&run.jacobian[j * rows..(j + 1) * rows]);
             }
-            let slope = |prior: &Prior| {
-                if prior.place == j { prior.residual(value).1 } else { 0.0 }
-            };
-            jacobian.extend(priors.iter().map(slope));
+            jacobian.extend(self.priors.slopes(values, j));
         }
         Evaluated { values: values.to_vec(), modelled, residuals, jacobian }
-    }
-
-    /// What is known beforehand.
-    fn priors(&self) -> Vec<Prior> {
-        self.unknowns.iter().enumerate().filter_map(Prior::of).collect()
     }
 
     /// One record's run.
@@ -280,7 +275,7 @@ impl Residuals for Model<'_> {
     /// may ask for them.
     fn evaluate(&mut self, p: &[f64], _: bool) -> least_squares::Evaluated {
         let (values, slopes) = self.coordinates.values(p);
-        let count = self.data() + self.priors().len();
+        let count = self.data() + self.priors.count();
         match self.at(&values) {
             Ok(found) => {
                 let columns = found.jacobian.chunks(found.residuals.len().max(1)).zip(slopes);

@@ -74,8 +74,8 @@ impl<'a> NetworkFitTask<'a> {
             });
         }
         let sensors = sensors.iter().map(Instrument::from).collect();
-        let parameters = plan.varied;
-        Ok(Self { network, parameters, sensors, runs, more_starts: MORE_STARTS, threads })
+        let (parameters, correlations, more_starts) = (plan.varied, plan.correlations, MORE_STARTS);
+        Ok(Self { network, parameters, correlations, sensors, runs, more_starts, threads })
     }
 }
 

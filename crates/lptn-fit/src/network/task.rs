@@ -5,7 +5,7 @@ use std::fmt;
 use lptn_netlist::{Sensor, SensorValue};
 use lptn_network::{Network, NodeId, Parameters, Value, Varied, ZERO_CELSIUS};
 use lptn_solve::{Proceed, Progress, RecordedNodes, Transient};
-use lptn_units::Type;
+use lptn_units::{Correlations, Type};
 
 use crate::network::recorded::{RecordedSignal, RecordedStart};
 
@@ -16,6 +16,8 @@ pub struct NetworkFitTask<'a> {
     pub network: &'a Network,
     /// What is varied; each parameter once.
     pub parameters: Vec<Varied>,
+    /// How what is known of them beforehand is correlated, in their order.
+    pub correlations: Correlations,
     /// The instruments that columns name.
     pub sensors: Vec<Instrument>,
     /// The records, each of a run of its own.

@@ -76,47 +76,9 @@ impl Unknown {
         }
     }
 
-    /// By how many deviations a value is off what is known beforehand, if anything is: `ln` of it for
-    /// a lognormal one.
-    pub fn off_prior(&self, value: f64) -> Option<f64> {
-        Some(Prior::of((0, self))?.residual(value).0)
-    }
-
     /// Whether its zero says nothing, so that it is never seen as a logarithm.
     pub fn is_shift(&self) -> bool {
         self.ty.absolute || matches!(self.of, UnknownOf::Offset { .. })
-    }
-}
-
-/// What is known of an unknown beforehand: one more measurement.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Prior {
-    /// Which unknown.
-    pub(crate) place: usize,
-    known: f64,
-    sigma: f64,
-    distribution: Distribution,
-}
-
-impl Prior {
-    /// Of those that have one.
-    pub(crate) fn of((place, unknown): (usize, &Unknown)) -> Option<Self> {
-        let distribution = unknown.distribution;
-        Some(Self { place, known: unknown.own, sigma: unknown.prior?, distribution })
-    }
-
-    /// By how many deviations a value is off, and the derivative of that by the value; of a
-    /// lognormal one in its logarithm.
-    pub(crate) fn residual(&self, value: f64) -> (f64, f64) {
-        match self.distribution {
-            Distribution::Normal | Distribution::Rectangle => {
-                ((value - self.known) / self.sigma, 1.0 / self.sigma)
-            }
-            Distribution::Lognormal => {
-                let sigma = self.sigma / self.known;
-                ((value / self.known).ln() / sigma, 1.0 / (value * sigma))
-            }
-        }
     }
 }
 

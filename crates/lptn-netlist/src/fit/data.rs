@@ -168,10 +168,10 @@ impl<'a> Elaboration<'a> {
                 continue;
             }
             let value = self.builder.scope(Context::Time).symbol(name).and_then(|symbol| {
-                self.given_inside(owner, (name, &entry.value), Wanted::like(symbol.ty))
+                self.exactly_inside(owner, (name, &entry.value), Wanted::like(symbol.ty))
             });
             match value {
-                Some(value) => set.push((name.clone(), value.value())),
+                Some(value) => set.push((name.clone(), value)),
                 None => sound = false,
             }
         }

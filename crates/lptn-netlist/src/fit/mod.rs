@@ -7,8 +7,8 @@ mod recorded;
 use std::sync::Arc;
 
 use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, Span};
-use lptn_network::{End, Network, Parameters, Value, Varied};
-use lptn_units::{EvalError, Type};
+use lptn_network::{End, Network, ParameterId, Parameters, Value, Varied};
+use lptn_units::{Correlations, EvalError, Type};
 
 use crate::format::{Role, SectionDeclaration, key};
 use crate::raw::{RawNetlist, RawValue};
@@ -146,6 +146,13 @@ pub struct FitRecord {
     pub span: Span,
 }
 
+impl FitRecord {
+    /// Whether it has a value of its own for a parameter.
+    pub fn sets(&self, parameter: &str) -> bool {
+        self.set.iter().any(|(name, _)| name == parameter)
+    }
+}
+
 /// A column of the records, and the result it measures.
 #[derive(Clone, Debug)]
 pub struct Observed {
@@ -180,11 +187,20 @@ pub struct VariedName {
     pub(crate) to: Option<Value>,
 }
 
+impl VariedName {
+    /// Whether it has a least or a greatest value.
+    pub fn has_range(&self) -> bool {
+        self.from.is_some() || self.to.is_some()
+    }
+}
+
 /// The numbers of a [`FitStudy`] for the parameters of a network, in SI units.
 #[derive(Clone, Debug)]
 pub struct FitPlan {
     /// The parameters to find, in file order.
     pub varied: Vec<Varied>,
+    /// How what is known of them beforehand is correlated, in their order.
+    pub correlations: Correlations,
     /// The standard deviation of one sample of each of [`FitStudy::observed`], in the unit of its
     /// type (K for a temperature); `None` where none is given.
     pub sigmas: Vec<Option<f64>>,
@@ -239,7 +255,9 @@ impl FitStudy {
             }
             parameters.push(own);
         }
-        Ok(FitPlan { varied, sigmas: sigmas?, parameters })
+        let ids: Vec<ParameterId> = varied.iter().map(|varied| varied.parameter).collect();
+        let correlations = set.correlations_of(&ids);
+        Ok(FitPlan { varied, correlations, sigmas: sigmas?, parameters })
     }
 
     fn check_range(

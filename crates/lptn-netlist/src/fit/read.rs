@@ -231,7 +231,7 @@ impl<'a> Elaboration<'a> {
             // a difference where a temperature is measured
             Some(raw) => {
                 let wanted = Wanted::constant(Type::of(ty.dimension));
-                Some(self.given_inside(&owner, ("sigma", raw), wanted)?.value())
+                Some(self.exactly_inside(&owner, ("sigma", raw), wanted)?)
             }
         };
         let column = entry.key.clone();

@@ -131,7 +131,10 @@ impl<'a> Elaboration<'a> {
         }
         let place = Place { owner: &fields.owner, key: "initial", raw };
         match parse_quantity(text, Some(TIME)) {
-            Ok(quantity) if quantity.value >= 0.0 => Some(FitInitial::Mean(quantity.value)),
+            Ok(quantity) if quantity.value >= 0.0 => {
+                self.without_deviation(place, &quantity)?;
+                Some(FitInitial::Mean(quantity.value))
+            }
             Ok(_) => {
                 let message = format!("{} is less than zero", place.words());
                 let help = "write \"record\" for the first row, or how long the mean is, \"10 s\"";

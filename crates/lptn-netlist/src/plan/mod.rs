@@ -84,6 +84,13 @@ pub struct PlanRun {
     pub(crate) cost: Option<Setting>,
 }
 
+impl PlanRun {
+    /// Whether it has values of its own for a parameter.
+    pub fn sets(&self, parameter: &str) -> bool {
+        self.set.iter().any(|(name, _)| name == parameter)
+    }
+}
+
 /// The numbers of a [`PlanStudy`] for the parameters of a network, in SI units.
 #[derive(Clone, Debug)]
 pub struct PlanNumbers {

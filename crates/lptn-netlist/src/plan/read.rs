@@ -2,13 +2,13 @@
 
 use lptn_data::{Diagnostic, nearest};
 use lptn_network::{Context, Value};
-use lptn_units::{Scope as _, Type, parse_quantity};
+use lptn_units::{Quantity, Scope as _, Type, parse_quantity};
 
 use super::declaration::{COST, PLACE, PLAN, PLAN_RUN};
 use super::{PlanPlace, PlanRun, PlanStudy, Target};
 use crate::fields::{Fields, Owner, wrong_shape};
 use crate::fit::{Measured, Observed};
-use crate::place::{Given, Wanted};
+use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::setting::{KELVIN, Setting, TIME};
 use crate::work::Elaboration;
@@ -102,11 +102,14 @@ impl<'a> Elaboration<'a> {
                 self.refuse("netlist::plan_know", message, &entry.value.span, help);
                 return None;
             }
-            return Some(Target { percent: Some(percent), ..target });
+            let owner = fields.owner.inside("know").inside(name);
+            let place = Place { owner: &owner, key: "", raw: &entry.value };
+            self.without_deviation(place, &percent)?;
+            return Some(Target { percent: Some(percent.value), ..target });
         }
         let owner = fields.owner.inside("know");
         let wanted = Wanted::constant(Type::of(ty.dimension));
-        let value = self.given_inside(&owner, (name, &entry.value), wanted)?.value();
+        let value = self.exactly_inside(&owner, (name, &entry.value), wanted)?;
         Some(Target { absolute: Some(value), ..target })
     }
 
@@ -250,8 +253,8 @@ impl<'a> Elaboration<'a> {
             _ => std::slice::from_ref(&entry.value),
         };
         let one = |item: &'a RawValue| {
-            let given = self.given_inside(owner, (name, item), Wanted::like(ty))?;
-            Some((Given::value(given), text_of(item)))
+            let value = self.exactly_inside(owner, (name, item), Wanted::like(ty))?;
+            Some((value, text_of(item)))
         };
         let values: Vec<Option<(Value, String)>> = items.iter().map(one).collect();
         Some((name.clone(), values.into_iter().collect::<Option<_>>()?))
@@ -324,10 +327,10 @@ impl<'a> Elaboration<'a> {
 }
 
 /// The number of `"5 %"` or `"± 5 %"`.
-fn percent_of(raw: &RawValue) -> Option<f64> {
+fn percent_of(raw: &RawValue) -> Option<Quantity> {
     let RawKind::String { text, .. } = &raw.kind else { return None };
     let number = text.trim().trim_start_matches('±').strip_suffix('%')?;
-    parse_quantity(number.trim(), Some(Type::SCALAR)).ok().map(|quantity| quantity.value)
+    parse_quantity(number.trim(), Some(Type::SCALAR)).ok()
 }
 
 fn text_of(raw: &RawValue) -> String {

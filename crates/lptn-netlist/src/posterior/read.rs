@@ -88,6 +88,7 @@ fn whole(json: Json<'_>) -> Result<PosteriorFile, Wrong> {
         places.push(value.span());
     }
     let correlations = joint(&object, &mut quantities)?;
+    labelled(&object, &quantities, &correlations)?;
     let (network, fit) = (object.text("network")?, object.text("fit")?);
     let posterior = Posterior { network, fit, quantities, correlations };
     Ok(PosteriorFile { posterior, places })
@@ -138,6 +139,48 @@ fn joint(object: &Object<'_>, quantities: &mut [PosteriorQuantity]) -> Result<Co
             );
             Err(("posterior::not_definite", words, place))
         }
+    }
+}
+
+/// What stands beside the covariance says the same, where it is there: whose rows they are, and the
+/// correlations.
+fn labelled(
+    object: &Object<'_>,
+    quantities: &[PosteriorQuantity],
+    correlations: &Correlations,
+) -> Result<(), Wrong> {
+    let own: Vec<String> = quantities.iter().filter_map(PosteriorQuantity::coordinate).collect();
+    let wrong = |name: &str, words: String| {
+        object.get(name).and_then(|found| Err(("posterior::member", words, found.span())))
+    };
+    if object.member("of").is_some() && object.texts("of")? != own {
+        let words = format!(
+            "`of` names other rows of the covariance than the quantities do: those with a standard \
+             error are {}, in this order",
+            lptn_data::list(&own.iter().map(String::as_str).collect::<Vec<_>>())
+        );
+        return wrong("of", words);
+    }
+    if object.member("correlation").is_none() {
+        return Ok(());
+    }
+    let (rows, n) = (object.numbers("correlation")?, own.len());
+    let same = |at: usize| {
+        let (i, j) = (at / n, at % n);
+        let found = rows.get(i).and_then(|row| row.get(j)).copied().unwrap_or(f64::NAN);
+        (found - correlations.between(i, j)).abs() <= SAME
+    };
+    let is_square = rows.len() == n && rows.iter().all(|row| row.len() == n);
+    match (0..n * n).find(|&at| !(is_square && same(at))) {
+        Some(at) => wrong(
+            "correlation",
+            format!(
+                "`correlation` and the covariance say different things of {} and {}",
+                own[at / n],
+                own[at % n]
+            ),
+        ),
+        None => Ok(()),
     }
 }
 
@@ -246,6 +289,14 @@ impl<'a> Object<'a> {
     fn list(&self, name: &str) -> Result<Vec<JsonValue<'a>>, Wrong> {
         let found = self.get(name)?;
         found.items().ok_or_else(|| self.wrong(name, "a list", found))
+    }
+
+    /// Words.
+    fn texts(&self, name: &str) -> Result<Vec<String>, Wrong> {
+        let text = |item: JsonValue<'a>| {
+            item.string().ok_or_else(|| self.wrong(name, "a list of texts", item))
+        };
+        self.list(name)?.into_iter().map(text).collect()
     }
 
     /// Rows of numbers.

@@ -23,8 +23,7 @@ impl<'a> Elaboration<'a> {
         key: &str,
         ty: Type,
     ) -> Option<Option<Value>> {
-        let given = self.given_inside(&range.owner, (key, range.get(key)?), Wanted::like(ty));
-        Some(given.map(Given::value))
+        Some(self.exactly_inside(&range.owner, (key, range.get(key)?), Wanted::like(ty)))
     }
 
     pub(super) fn size_study(&mut self, entry: &'a RawEntry) -> Option<SizeStudy> {

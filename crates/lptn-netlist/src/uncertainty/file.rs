@@ -57,7 +57,7 @@ impl Believed {
     }
 
     /// The places of the parameters that are taken, among the quantities.
-    pub(crate) fn chosen(&self) -> impl Iterator<Item = usize> + '_ {
+    pub fn chosen(&self) -> impl Iterator<Item = usize> + '_ {
         let counts = |name: &String| self.only.as_ref().is_none_or(|only| only.contains(name));
         let all = self.posterior.quantities.iter().enumerate();
         all.filter(move |(_, q)| q.of == PosteriorOf::Parameter && counts(&q.name)).map(|(i, _)| i)

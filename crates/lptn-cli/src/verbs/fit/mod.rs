@@ -9,7 +9,7 @@ mod posterior;
 mod step;
 
 pub(crate) use args::FitArgs;
-pub(crate) use network::record_place;
+pub(crate) use network::{Answer as NetworkAnswer, doubts, record_place, verdict};
 
 use args::FitVerb;
 

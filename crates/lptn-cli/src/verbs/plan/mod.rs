@@ -2,6 +2,7 @@
 
 mod args;
 mod figure;
+mod given;
 mod page;
 mod shown;
 mod words;
@@ -12,7 +13,7 @@ use std::sync::{Mutex, PoisonError};
 
 use lptn_fit::network::NetworkFitError;
 use lptn_fit::network::design::{Design, DesignError, DesignTask, design};
-use lptn_netlist::{PlanStudy, Span};
+use lptn_netlist::{Diagnostic, PlanStudy, Span};
 use lptn_solve::{Proceed, Progress, available_threads};
 use lptn_units::Unit;
 
@@ -23,7 +24,8 @@ use crate::input::{Input, Studies};
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressLine;
-use crate::unseparated::names_and_units;
+use crate::taken;
+use crate::unseparated::{Named, names_and_units};
 
 pub(crate) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&Source { set: args.set.clone(), ..Source::of(args.file.clone()) })?;
@@ -34,6 +36,11 @@ pub(crate) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, Failure> 
         planned(&input, study, console).map_err(|error| failed(&input, study, &error))?;
     let (names, units) = names_and_units(&input, &task.unknowns, &task.record_names());
     let answer = Answer { input: &input, study, task, design, names, units };
+    let named = answer.named();
+    let doubt = taken::of_plan((&input, study), (&answer.task, &answer.design), &named);
+    let doubts: Vec<Diagnostic> =
+        given::doubts(&input, &answer.task).into_iter().chain(doubt).collect();
+    console.warn(&input.netlist.files, &doubts);
     console.show(&answer, args.printed.format)
 }
 
@@ -100,4 +107,12 @@ pub(crate) struct Answer<'a> {
     /// What each unknown is called, and in which unit it is shown.
     pub(crate) names: Vec<String>,
     pub(crate) units: Vec<Unit>,
+}
+
+impl Answer<'_> {
+    /// What is sought, by its names.
+    fn named(&self) -> Named<'_> {
+        let (unknowns, values) = (&self.task.unknowns, self.task.values.clone());
+        Named { unknowns, names: &self.names, units: &self.units, values }
+    }
 }

@@ -27,6 +27,14 @@ pub enum DesignError {
     NotConverged { fit: String } = "plan::given",
         format!("fit `{fit}`, whose records are there already, does not converge"),
         help format!("`lptn fit network` says more of it; without it, leave `{fit}` out of `given`");
+    /// What is sought, by the plan or by a fit whose records are there already, is set by one of the
+    /// runs or records.
+    Set { parameter: String, by: String } = "plan::given_set",
+        format!("`{parameter}` is to be found, and {by} sets it"),
+        help format!(
+            "one name has one value in all records and runs: give what is set another name than \
+             `{parameter}`, or leave it out of what is found"
+        );
     /// A number of the study has no value.
     Numbers => EvalError;
     /// What is measured at a place cannot be.

@@ -9,8 +9,21 @@ use crate::network::fit_network_observed;
 use crate::network::fitted::{ColumnMisfit, NetworkFit};
 use crate::network::task::{FitObserver, MeasuredRun, NetworkFitTask};
 
+/// The fit of records that are there already.
+#[derive(Clone, Debug)]
+pub struct GivenFit<'a> {
+    /// Its name.
+    pub name: String,
+    /// What was fitted.
+    pub task: NetworkFitTask<'a>,
+    /// What came of it.
+    pub fit: NetworkFit,
+}
+
 /// The records of fits, and what they tell.
-pub(super) struct Given {
+#[derive(Default)]
+pub(super) struct Given<'a> {
+    pub(super) fits: Vec<GivenFit<'a>>,
     pub(super) runs: Vec<MeasuredRun>,
     /// For each column of each record the variance that its residuals leave in what all of them
     /// have in common, over that of independent ones of its weight.
@@ -19,12 +32,12 @@ pub(super) struct Given {
     pub(super) values: Vec<(ParameterId, f64)>,
 }
 
-pub(super) fn given(
-    netlist: &Netlist,
+pub(super) fn given<'a>(
+    netlist: &'a Netlist,
     study: &PlanStudy,
     (threads, observer): (usize, &FitObserver<'_>),
-) -> Result<Given, DesignError> {
-    let mut given = Given { runs: Vec::new(), factors: Vec::new(), values: Vec::new() };
+) -> Result<Given<'a>, DesignError> {
+    let mut given = Given::default();
     for name in &study.given {
         let Some(own) = netlist.studies.fits.iter().find(|fit| fit.name == *name) else { continue };
         let failed = |error| match error {
@@ -41,7 +54,8 @@ pub(super) fn given(
             given.values.push((varied.parameter, found.value));
         }
         given.factors.extend(factors(&task, &fit));
-        given.runs.extend(task.runs);
+        given.runs.extend(task.runs.iter().cloned());
+        given.fits.push(GivenFit { name: name.clone(), task, fit });
     }
     Ok(given)
 }

@@ -9,7 +9,7 @@ const NOTHING: f64 = 1e-12;
 /// `x Omega x^T` with their correlation Omega. The covariance of a fit is
 /// `bread^-1 middle bread^-1`. Both add up over rows, sensors and runs.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Information {
+pub(crate) struct Information {
     pub(super) count: usize,
     /// Row by row, `count` squared.
     pub(super) bread: Vec<f64>,
@@ -17,7 +17,7 @@ pub(super) struct Information {
 }
 
 impl Information {
-    pub(super) fn none(count: usize) -> Self {
+    pub(crate) fn none(count: usize) -> Self {
         Self { count, bread: vec![0.0; count * count], middle: vec![0.0; count * count] }
     }
 
@@ -35,7 +35,7 @@ impl Information {
     }
 
     /// So many equal rows, in units of the error that their mean has.
-    pub(super) fn add_row(&mut self, x: &[f64], times: f64) {
+    pub(crate) fn add_row(&mut self, x: &[f64], times: f64) {
         for (i, a) in x.iter().enumerate() {
             for (j, b) in x.iter().enumerate() {
                 self.bread[i * self.count + j] += times * a * b;
@@ -72,7 +72,7 @@ impl Information {
     }
 
     /// The covariance of what a fit finds.
-    pub(super) fn covariance(&self) -> Covariance {
+    pub(crate) fn covariance(&self) -> Covariance {
         let n = self.count;
         let (inverse, unknown) = inverse(&self.bread, n);
         let half = product(&inverse, &self.middle, n);
@@ -88,7 +88,7 @@ impl Information {
 
 /// The covariance of what a fit finds, and what it does not find.
 #[derive(Clone, Debug)]
-pub(super) struct Covariance {
+pub(crate) struct Covariance {
     count: usize,
     values: Vec<f64>,
     /// Of the information, where it has one.
@@ -105,11 +105,23 @@ impl Covariance {
         self.values[i * self.count + i].max(0.0).sqrt()
     }
 
-    /// The part of the variance of one unknown that comes from what is known of another beforehand
-    /// to a standard deviation.
-    pub(super) fn share(&self, i: usize, (of, deviation): (usize, f64)) -> f64 {
-        let weight = self.inverse[i * self.count + of] / deviation;
-        weight * weight / self.values[i * self.count + i]
+    /// By how much an unknown moves where so much is pulled at all of them, the sum of `x r` over
+    /// rows that change by r; `None` where it is not determined.
+    pub(crate) fn moved(&self, i: usize, pull: &[f64]) -> Option<f64> {
+        let n = self.count;
+        let by = (0..n).map(|k| self.inverse[i * n + k] * pull[k]).sum();
+        (!self.unknown[i]).then_some(by)
+    }
+
+    /// The part of the variance of one unknown that comes from what `known` says of another
+    /// beforehand. The fit moves by `w` for each unit that the value known beforehand moves, with
+    /// `w = A^-1 Lambda` of its information Lambda, and the covariance of that value with the fitted
+    /// one is `A^-1`: of correlated ones a share is this product (J. W. Pratt, Proc. 2nd Int. Tampere
+    /// Conf. Statistics (1987) 245), of one alone `(A^-1 / deviation)^2`.
+    pub(super) fn share(&self, i: usize, (of, known): (usize, &Information)) -> f64 {
+        let n = self.count;
+        let weight: f64 = (0..n).map(|k| self.inverse[i * n + k] * known.bread[k * n + of]).sum();
+        weight * self.inverse[i * n + of] / self.values[i * n + i]
     }
 }
 
@@ -286,7 +298,9 @@ mod tests {
         (0..4).for_each(|_| rows.add(&[1.0, 1.0]));
         rows.sum.add_prior(1, 1.0);
         let covariance = rows.sum.covariance();
+        let mut known = Information::none(2);
+        known.add_prior(1, 1.0);
         assert!((covariance.error(0).powi(2) - 1.25).abs() < 1e-12);
-        assert!((covariance.share(0, (1, 1.0)) - 0.8).abs() < 1e-12);
+        assert!((covariance.share(0, (1, &known)) - 0.8).abs() < 1e-12);
     }
 }

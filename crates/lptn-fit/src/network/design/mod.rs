@@ -23,17 +23,19 @@ mod records;
 mod sensitive;
 mod sets;
 mod space;
+mod taken;
 mod task;
 
 pub use choice::MOST_LEGS;
 pub use error::DesignError;
+pub use given::GivenFit;
 pub use sensitive::DesignObserver;
 pub use sets::{MOST_PLACES, Searched};
 pub use task::{DesignPlace, DesignRun, DesignTask, Known};
 
 use crate::network::coordinates::Coordinates;
 use crate::network::design::choice::{Choice, choose};
-use crate::network::design::information::Information;
+pub(crate) use crate::network::design::information::Information;
 use crate::network::design::limit::limits;
 use crate::network::design::sets::{BestSet, best_sets};
 use crate::network::design::space::{Leg, Space};
@@ -262,15 +264,15 @@ fn plan(
 
 /// For each unknown the one of whose `±` most of its variance comes.
 fn causes(space: &Space<'_, '_>, told: &Information) -> Vec<Option<(usize, f64)>> {
-    let covariance = told.covariance();
+    let (covariance, known) = (told.covariance(), space.task.of_priors());
     let unknowns = space.task.unknowns.iter().enumerate();
-    let priors: Vec<(usize, f64)> =
-        unknowns.filter_map(|(i, unknown)| Some((i, unknown.prior?))).collect();
+    let priors: Vec<usize> =
+        unknowns.filter(|(_, unknown)| unknown.prior.is_some()).map(|(i, _)| i).collect();
     let most = |i: usize| {
         if !covariance.error(i).is_finite() {
             return None;
         }
-        let shares = priors.iter().map(|&prior| (prior.0, covariance.share(i, prior)));
+        let shares = priors.iter().map(|&prior| (prior, covariance.share(i, (prior, &known))));
         shares.max_by(|a, b| a.1.total_cmp(&b.1))
     };
     (0..told.count).map(most).collect()

@@ -5,6 +5,7 @@ use lptn_solve::{Gradient, Proceed, Progress, SensitiveError, in_parallel};
 use crate::network::design::error::DesignError;
 use crate::network::design::information::{Information, RowSum};
 use crate::network::design::task::{DesignPlace, DesignTask};
+use crate::network::prior::Priors;
 use crate::network::readings::{Measure, Rows};
 use crate::network::task::NetworkFitTask;
 use crate::network::unknown::Unknown;
@@ -99,6 +100,14 @@ impl DesignTask<'_> {
         let measure = self.measure((&self.fit, at), &|step| observer(run, step))?;
         let rows = self.fit.runs[at].times.len();
         Ok(PlannedRecord { unknowns: self.unknowns_of(at), rows, measure })
+    }
+
+    /// What is known beforehand, of what is not another one in each record.
+    pub(super) fn of_priors(&self) -> Information {
+        let mut all = Information::none(self.unknowns.len());
+        let priors = Priors::of(&self.unknowns, &self.fit.correlations);
+        priors.rows(&self.values).iter().for_each(|row| all.add_row(row, 1.0));
+        all
     }
 
     /// What the records that are there already tell.

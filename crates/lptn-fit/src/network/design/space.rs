@@ -45,9 +45,7 @@ impl<'t, 'a> Space<'t, 'a> {
     ) -> Result<Self, DesignError> {
         let runs = task.informations(observer)?;
         let mut before = task.of_given(observer)?;
-        for (i, unknown) in task.unknowns.iter().enumerate() {
-            unknown.prior.into_iter().for_each(|deviation| before.add_prior(i, deviation));
-        }
+        before.add(&task.of_priors());
         Ok(Self { task, runs, before })
     }
 

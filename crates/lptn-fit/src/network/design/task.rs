@@ -1,11 +1,14 @@
 //! From a `[plan.NAME]` of a netlist to what can be computed.
 
-use lptn_netlist::{Netlist, PlaceNumbers, PlanNumbers, PlanPlace, PlanStudy, RunNumbers, Sensor};
+use lptn_netlist::{
+    FitRecord, FitStudy, Netlist, PlaceNumbers, PlanNumbers, PlanPlace, PlanStudy, RunNumbers,
+    Sensor,
+};
 use lptn_network::{ParameterId, Varied};
 use lptn_solve::Transient;
 
 use crate::network::design::error::DesignError;
-use crate::network::design::given::given;
+use crate::network::design::given::{Given, GivenFit, given};
 use crate::network::design::information::Noise;
 use crate::network::plan::{settings, weights};
 use crate::network::task::{
@@ -21,6 +24,8 @@ pub struct DesignTask<'a> {
     /// For each column of the records that are there the variance that its residuals leave in what
     /// all of them have in common, over that of independent ones of its weight.
     pub(super) factors: Vec<Vec<f64>>,
+    /// The fits of the records that are there.
+    pub given_fits: Vec<GivenFit<'a>>,
     /// What is not known: parameters, then values of sensors that are those of every record.
     pub unknowns: Vec<Unknown>,
     /// The values of the unknowns for which the plan is made.
@@ -96,10 +101,21 @@ impl<'a> DesignTask<'a> {
         let settings = settings(netlist);
         let candidates = numbers.runs.iter();
         let candidates = candidates.map(|run| planned(run, &settings, (&columns, numbers.every)));
-        let runs: Vec<MeasuredRun> = given.runs.into_iter().chain(candidates).collect();
-        let parameters = sought(netlist, &numbers);
+        let runs: Vec<MeasuredRun> = given.runs.iter().cloned().chain(candidates).collect();
+        let parameters = sought(netlist, (&numbers, &given));
+        settable(netlist, study, &parameters)?;
+        let ids: Vec<ParameterId> = parameters.iter().map(|varied| varied.parameter).collect();
+        let correlations = netlist.overrides().correlations_of(&ids);
         let (more_starts, found) = (0, given.values);
-        let mut fit = NetworkFitTask { network, parameters, sensors, runs, more_starts, threads };
+        let mut fit = NetworkFitTask {
+            network,
+            parameters,
+            correlations,
+            sensors,
+            runs,
+            more_starts,
+            threads,
+        };
         for run in &mut fit.runs {
             found.iter().for_each(|(id, value)| run.parameters.set(*id, *value));
         }
@@ -117,6 +133,7 @@ impl<'a> DesignTask<'a> {
             runs: numbers.runs.iter().map(|run| DesignRun::new(run, numbers.every)).collect(),
             places,
             factors: given.factors,
+            given_fits: given.fits,
             unknowns,
             values,
             fit,
@@ -150,10 +167,11 @@ impl<'a> DesignTask<'a> {
     }
 }
 
-/// What is sought: what shall be known, then what else is not.
-fn sought(netlist: &Netlist, numbers: &PlanNumbers) -> Vec<Varied> {
+/// What is sought: what shall be known, then what else is not, and what the records that are there
+/// were fitted with: they tell of all of these together, and of none alone.
+fn sought(netlist: &Netlist, (numbers, given): (&PlanNumbers, &Given<'_>)) -> Vec<Varied> {
     let mut ids: Vec<ParameterId> = numbers.known.iter().map(|(id, _)| *id).collect();
-    for id in &numbers.varied {
+    for id in numbers.varied.iter().chain(given.values.iter().map(|(id, _)| id)) {
         if !ids.contains(id) {
             ids.push(*id);
         }
@@ -166,6 +184,26 @@ fn sought(netlist: &Netlist, numbers: &PlanNumbers) -> Vec<Varied> {
         Varied { parameter, bounds: (f64::NEG_INFINITY, f64::INFINITY), prior }
     };
     ids.iter().map(varied).collect()
+}
+
+/// What is sought has one value, which neither a run nor a record that is there may set.
+fn settable(netlist: &Netlist, study: &PlanStudy, sought: &[Varied]) -> Result<(), DesignError> {
+    let given = |fit: &&FitStudy| study.given.contains(&fit.name);
+    let fits = netlist.studies.fits.iter().filter(given);
+    let records: Vec<(&FitStudy, &FitRecord)> =
+        fits.flat_map(|fit| fit.records.iter().map(move |record| (fit, record))).collect();
+    for varied in sought {
+        let name = &netlist.network.parameters()[varied.parameter.index()].name;
+        let run = study.runs.iter().find(|run| run.sets(name));
+        let run = run.map(|run| format!("run `{}`", run.name));
+        let record = records.iter().find(|(_, record)| record.sets(name));
+        let record =
+            record.map(|(fit, record)| format!("the record {} of fit `{}`", record.csv, fit.name));
+        if let Some(by) = run.or(record) {
+            return Err(DesignError::Set { parameter: name.clone(), by });
+        }
+    }
+    Ok(())
 }
 
 /// The places, and the column that each would have in a record.

@@ -12,7 +12,7 @@ mod write;
 pub(crate) use args::NetworkArgs;
 pub(crate) use page::{parameter, values};
 pub(crate) use units::common;
-pub(crate) use words::doubts;
+pub(crate) use words::{doubts, verdict};
 
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;

@@ -10,6 +10,7 @@ use lptn_units::Type;
 
 use super::Answer;
 use super::units::common;
+use crate::taken;
 use crate::words::count as number;
 
 /// Digits of a value that nothing says the accuracy of.
@@ -74,6 +75,10 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
             .push(doubt.help("write how far one value scatters, for example `sigma = \"0.2 K\"`"));
     }
     doubts.extend((0..answer.fit.parameters.len()).filter_map(|i| off_prior(answer, i)));
+    let (of, found) = ((answer.input, answer.study), (&answer.task, &answer.fit));
+    doubts.extend(taken::of_fit(of, found, &answer.named()));
+    let of = (answer.study, &answer.task, &answer.fit);
+    doubts.extend(taken::beside_posterior(answer.input, of, &answer.named()));
     doubts.extend(misfits(answer));
     doubts.extend(drifting(answer));
     doubts.extend(differing(answer));
