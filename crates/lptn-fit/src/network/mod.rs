@@ -64,7 +64,7 @@ use crate::network::coordinates::Coordinates;
 use crate::network::errors::Errors;
 use crate::network::identify::identify;
 use crate::network::model::{Evaluated, Model};
-use crate::network::profile::{End, misleads, profile};
+use crate::network::profile::{End, Rise, misleads, profile};
 use crate::network::search::{Found, search};
 use crate::network::undetermined::Place;
 
@@ -185,17 +185,17 @@ fn one_sided(
     (task, model, at_end): (&NetworkFitTask<'_>, &Model<'_>, &Evaluated),
     (unknowns, parameters): (&[Unknown], &[FittedParameter]),
     (errors, free, known): (&Errors<'_>, &[usize], Option<&Identifiability>),
-) -> Vec<(usize, f64)> {
+) -> Vec<(usize, Rise)> {
     if errors.left_over() == 0 {
         return Vec::new();
     }
     let of_free = |i: usize| {
         let half = parameters[i].half_width?;
         let misleads = misleads(&unknowns[i], parameters[i].value, half);
-        if misleads { errors.rise(i, half) } else { None }
+        if misleads { Some(Rise { of: errors.rise(i, half)?, half }) } else { None }
     };
     let on_bound = |i: usize| {
-        if unknowns[i].is_shift() || parameters[i].value <= 0.0 {
+        if unknowns[i].is_shift() || parameters[i].value < 0.0 {
             return None;
         }
         let mut with = free.to_vec();
@@ -203,7 +203,7 @@ fn one_sided(
         with.sort_unstable();
         let errors = Errors::new(task, model, (at_end, &with, known));
         let half = errors.interval(&errors.covariance()?, i)?.0;
-        errors.rise(i, half)
+        Some(Rise { of: errors.rise(i, half)?, half })
     };
     let one = |i: usize| match parameters[i].on_bound {
         Some(_) => on_bound(i),
