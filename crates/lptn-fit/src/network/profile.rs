@@ -14,8 +14,9 @@
 //! the residuals in it and `q` the quantile of Student's t, so that for a linear model the interval
 //! is value ± q error exactly.
 
-use crate::least_squares::{Evaluated, LeastSquaresError, Residuals, Settings, minimise};
+use crate::least_squares::{Residuals, Settings, minimise};
 use crate::network::coordinates::Coordinates;
+use crate::network::holding::Holding;
 use crate::network::model::Model;
 use crate::network::unknown::Unknown;
 
@@ -166,7 +167,7 @@ impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
             ..Settings::default()
         };
         let at = self.end.coordinates.one(self.place, value);
-        let mut held = Held { model: &mut *self.model, place: self.place, at };
+        let mut held = Holding { model: &mut *self.model, held: vec![(self.place, at)] };
         let squares = if self.others.is_empty() {
             held.evaluate(&[], false).ok()?.0.iter().map(|r| r * r).sum()
         } else {
@@ -176,31 +177,5 @@ impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
         };
         let excess = (squares - self.end.squares) / self.rise.of - 1.0;
         excess.is_finite().then_some(excess)
-    }
-}
-
-/// The same residuals with one parameter held.
-struct Held<'h, 'a> {
-    model: &'h mut Model<'a>,
-    place: usize,
-    /// Its coordinate.
-    at: f64,
-}
-
-impl Residuals for Held<'_, '_> {
-    fn parameters(&self) -> usize {
-        self.model.parameters() - 1
-    }
-
-    fn evaluate(&mut self, p: &[f64], derivatives: bool) -> Evaluated {
-        let mut all = p.to_vec();
-        all.insert(self.place, self.at);
-        let (residuals, mut jacobian): (_, Vec<f64>) =
-            Residuals::evaluate(self.model, &all, derivatives)?;
-        if jacobian.len() < residuals.len() * all.len() {
-            return Err(LeastSquaresError::Interrupted);
-        }
-        jacobian.drain(self.place * residuals.len()..(self.place + 1) * residuals.len());
-        Ok((residuals, jacobian))
     }
 }
