@@ -4,7 +4,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use lptn_fit::network::{NetworkFit, NetworkFitTask, Unseparated, fit_network};
+use lptn_fit::network::{NetworkFit, NetworkFitError, NetworkFitTask, Unseparated, fit_network};
 use lptn_netlist::{Netlist, parse_with};
 
 /// One body of `R` and `C` that 100 W heat from 20 degC, with records of 1800 s.
@@ -131,4 +131,20 @@ fn an_offset_known_to_nothing_hides_no_parameter() {
         assert!((wide / free - 1.0).abs() < 1e-4, "{wide} {free}");
     }
     assert!((wide[2] - 1.0).abs() < 0.1);
+}
+
+/// A mean over the record is no start of it.
+#[test]
+fn a_mean_over_more_than_half_of_the_record_is_refused() {
+    let read = |t: f64| 20.0 + 30.0 * (1.0 - f64::exp(-t / 600.0));
+    for (initial, refused) in [("2 h", true), ("1000 s", true), ("900 s", false), ("20 s", false)] {
+        let study = format!(
+            "[fit.a]\ndata = \"r.csv\"\ncolumn.y = \"body.T\"\nsigma = \"0.1 K\"\n\
+             initial = \"{initial}\"\nvary = [\"R\", \"C\"]\n"
+        );
+        let netlist = body(STARTS[0], ("degC", &study), read);
+        let task = NetworkFitTask::of(&netlist, &netlist.studies.fits[0], 1);
+        let code = task.err().map(|error: NetworkFitError| error.code());
+        assert_eq!(code, refused.then_some("fit::initial_mean"), "{initial}");
+    }
 }
