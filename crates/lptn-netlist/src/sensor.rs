@@ -5,7 +5,7 @@
 
 use lptn_data::{Diagnostic, Span, nearest};
 use lptn_network::Network;
-use lptn_units::{Dimension, Quantity, Spread, Type, parse_quantity};
+use lptn_units::{Dimension, Distribution, Quantity, Spread, Type, parse_quantity};
 
 use crate::fields::Fields;
 use crate::format::{Role, SectionDeclaration, key};
@@ -329,6 +329,14 @@ fn unsound(key: &str, quantity: &Quantity) -> Option<(&'static str, &'static str
             "leave it out where there is none: a gain is near 1, a lag is a time constant, a \
              resolution a step of numbers",
         )),
+        _ if quantity.deviation.is_some_and(|d| d.distribution == Distribution::Lognormal) => {
+            Some((
+                "netlist::sensor_prior",
+                "is `(lognormal)`, and what is known of a sensor counts as normal",
+                "write it without `(lognormal)`: no fit takes a gain or a lag below 0, and an offset \
+                 is as often below 0 as above",
+            ))
+        }
         _ => None,
     }
 }
