@@ -365,3 +365,16 @@ fn residuals_are_written_beside_the_answer() {
     assert_eq!(inputs, ["body.toml", "record.csv"]);
     assert_eq!(manifest["results"].as_array().unwrap().len(), 3);
 }
+
+/// The ends of an interval are value ± half width, for CSV as for JSON.
+#[test]
+fn csv_has_both_ends_of_every_interval() {
+    let folder = folder(OWN, "sigma = \"0.1 K\"\nvary = [\"R\", \"C\"]");
+    let csv = folder.run(&["fit", "network", "body.toml", "--format", "csv"]).exits(0).out;
+    let cell = |line: &str, k: usize| line.split(',').nth(k).unwrap().parse::<f64>().unwrap();
+    for line in csv.lines().skip(1) {
+        let [value, half, low, high] = [3, 5, 6, 7].map(|k| cell(line, k));
+        assert!((value - half - low).abs() <= 1e-9 * value && half > 0.0, "{line}");
+        assert!((value + half - high).abs() <= 1e-9 * value, "{line}");
+    }
+}

@@ -76,6 +76,27 @@ fn analytic_offset_gain_and_lag_are_found_with_the_network() {
     assert!(fit.identifiability.unwrap().is_whole());
 }
 
+/// A lag of nothing that is thought to be 10 ± 5 s, beside six courses of noise of 0.01 K: half of
+/// them speak for less than nothing. The lags are those of SciPy 1.17's bounded `least_squares`
+/// (trf) of the closed form, the errors of the lag those of its (J'J)^-1: 0.0174 s.
+#[test]
+fn a_lag_of_nothing_is_found_as_nothing() {
+    let expected = [0.006_916, 0.0, 0.0, 0.0, 0.023_623, 0.037_452];
+    for (phase, expected) in (0..6).zip(expected) {
+        let noise = |k: f64| 0.01 * 2_f64.sqrt() * f64::sin(k * k + f64::from(phase));
+        let times = (0..600).map(f64::from);
+        let rows: Vec<(f64, f64)> =
+            times.map(|k| (2.0 * k, lagging(2.0 * k, 0.0) + noise(k))).collect();
+        let netlist = body("{ lag = \"10 ± 5 s\" }", WITH, "[\"R\", \"C\"]", &rows);
+        let fit = fitted(&netlist);
+        near(value(&netlist, &fit, "tc.lag"), expected, 1e-4);
+        let profile = fit.parameters[2].profile.unwrap_or_else(|| panic!("{phase}"));
+        let high = profile.high.unwrap_or_else(|| panic!("{phase}"));
+        assert!(profile.low.is_none() && high > 0.02 && high < 0.4, "{phase}: {profile:?}");
+        assert_eq!(fit.parameters[2].on_bound.is_some(), expected <= 0.0, "{phase}");
+    }
+}
+
 /// The gain is a factor of readings in degC: with R known, a rise tells it.
 #[test]
 fn analytic_a_gain_is_found_where_the_resistance_is_known() {

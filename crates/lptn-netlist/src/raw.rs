@@ -128,7 +128,9 @@ impl RawKind {
             Self::Boolean(true) => "`true`",
             Self::Boolean(false) => "`false`",
             Self::Datetime => "a date",
+            Self::Array(list) if list.is_empty() => "an empty list",
             Self::Array(_) => "a list",
+            Self::Table(table) if table.entries.is_empty() => "an empty table",
             Self::Table(_) => "a table",
         }
     }

@@ -5,7 +5,7 @@
 
 use lptn_data::{Diagnostic, Span, nearest};
 use lptn_network::Network;
-use lptn_units::{Dimension, Quantity, Spread, Type, parse_quantity};
+use lptn_units::{Dimension, Distribution, Quantity, Spread, Type, parse_quantity};
 
 use crate::fields::Fields;
 use crate::format::{Role, SectionDeclaration, key};
@@ -264,7 +264,12 @@ impl<'a> Elaboration<'a> {
                 return None;
             }
         };
-        if text == FREE && matches!(key, "offset" | "gain") {
+        if let Some((message, help)) = misread(key, text) {
+            let message = format!("{} {message}", fields.owner.field(key));
+            self.refuse("netlist::sensor_value", message, &raw.span, &help);
+            return None;
+        }
+        if text == FREE {
             let value = if key == "gain" { 1.0 } else { 0.0 };
             return Some(Some(SensorValue { value, certainty: Certainty::Free }));
         }
@@ -273,12 +278,6 @@ impl<'a> Elaboration<'a> {
             let message = format!("{words} says how well it is known, but not what it is");
             let help = format!("write `{key} = \"{neutral} {text}\"`");
             self.refuse("netlist::sensor_prior", message, &raw.span, help);
-            return None;
-        }
-        if key == "gain" && text.ends_with('%') && percent_of(text).is_none() {
-            let message = format!("{} is {text}, and a gain is near 1", fields.owner.field(key));
-            let help = format!("a gain that is known to {text} is `gain = \"1 ± {text}\"`");
-            self.refuse("netlist::sensor_value", message, &raw.span, &help);
             return None;
         }
         let quantity = match percent_of(text).map_or_else(|| parse_quantity(text, Some(ty)), Ok) {
@@ -330,13 +329,61 @@ fn unsound(key: &str, quantity: &Quantity) -> Option<(&'static str, &'static str
             "leave it out where there is none: a gain is near 1, a lag is a time constant, a \
              resolution a step of numbers",
         )),
+        _ if quantity.deviation.is_some_and(|d| d.distribution == Distribution::Lognormal) => {
+            Some((
+                "netlist::sensor_prior",
+                "is `(lognormal)`, and what is known of a sensor counts as normal",
+                "write it without `(lognormal)`: no fit takes a gain or a lag below 0, and an offset \
+                 is as often below 0 as above",
+            ))
+        }
         _ => None,
     }
 }
 
+/// What is wrong with a value as it is written, and help.
+fn misread(key: &str, text: &str) -> Option<(String, String)> {
+    let takes_free = matches!(key, "offset" | "gain");
+    if text.eq_ignore_ascii_case(FREE) && !(takes_free && text == FREE) {
+        let alone = format!("cannot be `{text}`: only an offset or a gain is sought from nothing");
+        return Some(match key {
+            "offset" | "gain" => {
+                (format!("cannot be `{text}`"), format!("write `{key} = \"{FREE}\"`"))
+            }
+            "lag" => {
+                let help = "write about how long it takes, and how well that is known: \
+                            `lag = \"20 ± 10 s\"`";
+                (alone, help.to_owned())
+            }
+            _ => (alone, format!("write the step: `{key} = \"0.1 K\"`")),
+        });
+    }
+    if key != "gain" || percent_of(text).is_some() {
+        return None;
+    }
+    let known = parse_quantity(&in_percent(text)?, Some(Type::SCALAR)).ok()?;
+    let (value, message) = (known.value, format!("is {text}, and a gain is near 1"));
+    let help = match known.deviation {
+        Some(spread) => {
+            let sigma = (value * spread.sigma / 100.0).abs();
+            format!("if it multiplies by {value}, write `gain = \"{value} ± {sigma}\"`")
+        }
+        None => format!("a gain that is known to {text} is `gain = \"1 ± {text}\"`"),
+    };
+    Some((message, help))
+}
+
+/// A value in percent without its sign: `1 ± 0.5` of `1 ± 0.5 %`, with its distribution behind it.
+fn in_percent(text: &str) -> Option<String> {
+    let (before, behind) = text.rsplit_once('%')?;
+    let behind = behind.trim();
+    let distribution = behind.is_empty() || (behind.starts_with('(') && behind.ends_with(')'));
+    distribution.then(|| format!("{} {behind}", before.trim()).trim().to_owned())
+}
+
 /// `1 ± 0.5 %`, which elsewhere could be percentage points: a gain of one percent there is none.
 fn percent_of(text: &str) -> Option<Quantity> {
-    let quantity = parse_quantity(text.strip_suffix('%')?, Some(Type::SCALAR)).ok()?;
+    let quantity = parse_quantity(&in_percent(text)?, Some(Type::SCALAR)).ok()?;
     let near_one = (0.5..2.0).contains(&quantity.value);
     let deviation = quantity.deviation.filter(|_| near_one)?;
     let sigma = quantity.value * deviation.sigma / 100.0;

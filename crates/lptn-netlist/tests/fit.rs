@@ -4,7 +4,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lptn_netlist::{Netlist, parse_with};
+use lptn_netlist::{Certainty, Netlist, parse_with};
 use lptn_network::{End, Varied};
 use lptn_units::{Dimension, Type};
 
@@ -112,4 +112,23 @@ fn regression_a_fit_is_kept_by_the_expansion() {
     assert!(text.contains("{ csv = \"block_2000.csv\", set = { omega = "), "{text}");
     assert!(text.contains("rise = { of = \"steel.T - air.T\", sigma = \"0.2 K\" }"), "{text}");
     assert_eq!(parse(&text).expanded(), text);
+}
+
+/// 0.5 % of 1 as the half width of a rectangle is a standard deviation of 0.005 / sqrt(3).
+#[test]
+fn analytic_a_gain_in_percent_may_be_a_rectangle() {
+    let sensor = |gain: &str| {
+        let sensor = format!("[sensor.tc]\ngain = \"{gain}\"\n\n[fit.block]");
+        let netlist = parse(&FIT.replace("[fit.block]", &sensor));
+        netlist.studies.sensors[0].gain
+    };
+    let within = |gain: &str, expected: f64| match sensor(gain).certainty {
+        Certainty::Deviation(sigma) => near(sigma, expected),
+        other => panic!("{other:?}"),
+    };
+    within("1 ± 0.5 % (rectangle)", 0.005 / 3_f64.sqrt());
+    within("1 ± 0.5% (rectangle)", 0.005 / 3_f64.sqrt());
+    within("1 ± 0.5 %", 0.005);
+    within("1.1 ± 0.5 %", 0.0055);
+    within("10 ± 0.1", 0.1);
 }

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::error::{UnitError, UnitErrorKind};
 use crate::spread::Distribution;
+use crate::suggest::suggest;
 
 /// A distribution as it stands in a text, brackets included.
 #[derive(Clone, Debug)]
@@ -45,6 +46,34 @@ pub(crate) fn named(text: &str) -> Result<Option<Named>, UnitError> {
             let kind = UnitErrorKind::UnknownDistribution { word, meant };
             Err(UnitError::new(kind, span))
         }
-        None => Ok(None),
+        None => match suggest(&word, Distribution::ALL.iter().map(|known| known.word())) {
+            Some(near) => {
+                let meant = Distribution::of(near);
+                Err(UnitError::new(UnitErrorKind::UnknownDistribution { word, meant }, span))
+            }
+            None => Ok(None),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::parse_quantity;
+
+    /// Brackets of a unit are no distribution, whatever they are like.
+    #[test]
+    fn a_distribution_that_is_misspelt_is_one() {
+        for (text, help) in [
+            ("10 ± 1 s (lognormel)", Some("write `(lognormal)`")),
+            ("10 ± 1 s (rectangel)", Some("write `(rectangle)`")),
+            (
+                "10 ± 1 s (nomral)",
+                Some("leave it out: a deviation is normal unless it says otherwise"),
+            ),
+        ] {
+            let found = parse_quantity(text, None).map_err(|error| error.help());
+            assert_eq!(found.err().flatten().as_deref(), help, "{text}");
+        }
+        assert!(parse_quantity("10 ± 1 W/(m^2 K)", None).is_ok());
     }
 }

@@ -8,7 +8,7 @@ use lptn::fit::network::{
 use lptn::network::End;
 use lptn::prelude::*;
 use lptn::solve::available_threads;
-use lptn::units::Type;
+use lptn::units::{Correlations, Type};
 
 use super::answer::Trouble;
 use super::case::{Calibration, Case};
@@ -26,12 +26,14 @@ pub fn fit(case: &Case) -> Result<NetworkFit, Trouble> {
         Ok(Varied { parameter, bounds: (f64::NEG_INFINITY, f64::INFINITY), prior: None })
     };
     let parameters =
-        calibration.parameters.iter().map(|p| varied(&p.name)).collect::<Result<_, _>>()?;
+        calibration.parameters.iter().map(|p| varied(&p.name)).collect::<Result<Vec<_>, _>>()?;
+    let correlations = Correlations::none(parameters.len());
     let run = measured(case, calibration, &model)?;
     let threads = available_threads();
     let fit = fit_network(&NetworkFitTask {
         network,
         parameters,
+        correlations,
         sensors: Vec::new(),
         runs: vec![run],
         more_starts: 0,

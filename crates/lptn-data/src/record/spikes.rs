@@ -16,11 +16,32 @@ const SPREAD: f64 = 5.0;
 /// fast is no spike.
 const ALONE: f64 = 0.1;
 
+/// In a record of few rows, of so many at least, a value counts as one where it is off by so many
+/// times of what all others span. There the first and the last say nothing: what begins or ends
+/// fast is as far off.
+const FEWEST: usize = 6;
+const SPAN: f64 = 30.0;
+
 /// The places of such values, in order; `values` holds no gaps.
 pub(crate) fn spikes(values: &[f64]) -> Vec<usize> {
-    if values.len() < 2 * SIDE {
-        return Vec::new();
+    match values.len() {
+        ..FEWEST => Vec::new(),
+        few if few < 3 * SIDE => (1..few - 1).filter(|&i| is_far(values, i)).collect(),
+        _ => scattered(values),
     }
+}
+
+/// Whether a value is far outside of all others, whatever course they take.
+fn is_far(values: &[f64], i: usize) -> bool {
+    let others = || values.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, v)| *v);
+    let low = others().fold(f64::INFINITY, f64::min);
+    let high = others().fold(f64::NEG_INFINITY, f64::max);
+    let outside = (values[i] - high).max(low - values[i]);
+    // of others that are all the same nothing says how far they scatter
+    high > low && outside > SPAN * (high - low)
+}
+
+fn scattered(values: &[f64]) -> Vec<usize> {
     let bent = |w: &[f64]| (w[1] - 0.5 * (w[0] + w[2])).abs();
     let scatter = 1.4826 * median(values.windows(3).map(bent).collect());
     let least = (SCATTER * scatter).max(STEPS * step(values));
@@ -95,6 +116,30 @@ mod tests {
         let mut values = rise();
         (values[50], values[99]) = (0.0, values[99] + 8.0);
         assert_eq!(spikes(&values), [50, 99]);
+    }
+
+    /// Courses of few rows with one broken value inside, and what is no outlier among few: a pulse
+    /// beside nothing, a start and an end that are fast, a peak between rows far apart.
+    #[test]
+    fn one_of_few_rows_is_found() {
+        for count in 6..25 {
+            for place in 1..count - 1 {
+                let rise = |k: usize| 20.0 + 5.0 * (1.0 - f64::exp(-(k as f64) / 4.0));
+                let mut values: Vec<f64> = (0..count).map(rise).collect();
+                assert_eq!(spikes(&values), [0; 0], "{count}");
+                values[place] = 9999.0;
+                assert_eq!(spikes(&values), [place], "{count}");
+            }
+        }
+        for clean in [
+            vec![0.0, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0],
+            vec![80.0, 20.1, 20.0, 20.0, 20.1, 20.0, 20.0],
+            vec![20.0, 20.0, 20.1, 20.0, 20.1, 20.0, 80.0],
+            vec![20.0, 20.0, 45.0, 24.0, 21.0, 20.0],
+            vec![20.0, 45.0, 45.1, 45.0, 45.1, 45.0],
+        ] {
+            assert_eq!(spikes(&clean), [0; 0], "{clean:?}");
+        }
     }
 
     #[test]

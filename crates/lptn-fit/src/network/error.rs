@@ -84,6 +84,14 @@ pub enum NetworkFitError {
         format!("a signal follows column `{column}`, whose sensor `{sensor}` has a lag"),
         help "what was there before a slow sensor followed cannot be told from noise: name a sensor \
             without `lag`, or make the place a node, whose column may have a slow sensor";
+    /// Nodes are to begin at a mean over so many s, which is more than half of the record; how long
+    /// that is.
+    InitialLong { record: String, mean: f64, length: f64 } = "fit::initial_mean",
+        format!(
+            "{record}: `initial` is a mean over {mean} s, and the record is {length} s long"
+        ),
+        help "a node begins at what its column reads before it has moved: take the mean over its first \
+            rows, `initial = \"2 s\"`, or the first row, `initial = \"record\"`";
     /// A number of the study has no value.
     Plan => EvalError;
     /// The sum of squares cannot be minimised.

@@ -7,7 +7,8 @@ pub(crate) struct Followed {
 }
 
 /// The solution of `lag dy/dt = x - y` that begins in rest, `y = x`, at ascending `times` in s.
-/// Between two of them x is the cubic through four neighbours, and y is exact for that.
+/// Between two of them x is the cubic through four neighbours, and y is exact for that. Without a
+/// lag y is x, and its derivative by the lag is that of x by the time, reversed.
 pub(crate) fn follow(times: &[f64], x: &[f64], lag: f64) -> Followed {
     let first = x.first().copied().unwrap_or(f64::NAN);
     let (mut course, mut by_lag) = (vec![first; x.len()], vec![0.0; x.len()]);
@@ -29,9 +30,14 @@ pub(crate) fn follow(times: &[f64], x: &[f64], lag: f64) -> Followed {
         let decay = (-apart / lag).exp();
         let transient = course[k - 1] - c[0];
         let settled = c[0] + apart * (c[1] + apart * (c[2] + apart * c[3]));
-        course[k] = settled + transient * decay;
-        by_lag[k] =
-            slope(apart) + (by_lag[k - 1] - slope(0.0) + transient * apart / (lag * lag)) * decay;
+        course[k] = settled;
+        by_lag[k] = slope(apart);
+        // a transient that has died away has no derivative either, however small the lag
+        if decay > 0.0 {
+            course[k] += transient * decay;
+            let stretched = transient * apart / (lag * lag);
+            by_lag[k] += (by_lag[k - 1] - slope(0.0) + stretched) * decay;
+        }
     }
     Followed { course, by_lag }
 }
@@ -102,6 +108,23 @@ mod tests {
                 * ((tau * body - lag * own) / (tau - lag).powi(2)
                     - (own + t / lag * own) / (tau - lag));
             assert!((found.by_lag[k] - by_lag).abs() < 5e-5, "{t}: {}", found.by_lag[k] - by_lag);
+        }
+    }
+
+    /// A lag of nothing, and one far below the distance of rows, of a rise of 60 K in 35 s: dT/dlag
+    /// is -dT/dt, from the closed form.
+    #[test]
+    fn analytic_a_lag_of_nothing_has_a_derivative() {
+        let (tau, rise) = (35.0, 60.0);
+        let times: Vec<f64> = (0..100).map(f64::from).collect();
+        let x: Vec<f64> = times.iter().map(|t| rise * (1.0 - f64::exp(-t / tau))).collect();
+        for lag in [0.0, f64::MIN_POSITIVE, 1e-200, 1e-20, 1e-6] {
+            let found = follow(&times, &x, lag);
+            for k in 1..times.len() {
+                let expected = -rise / tau * f64::exp(-times[k] / tau);
+                assert!((found.by_lag[k] - expected).abs() < 1e-3, "{lag}: {}", found.by_lag[k]);
+                assert!((found.course[k] - x[k]).abs() < 1e-5, "{lag}: {}", found.course[k]);
+            }
         }
     }
 

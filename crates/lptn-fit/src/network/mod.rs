@@ -21,9 +21,11 @@ mod errors;
 mod fitted;
 mod held;
 mod hint;
+mod holding;
 mod identify;
 mod lag;
 mod model;
+mod open;
 pub(crate) mod plan;
 mod posterior;
 mod predict;
@@ -68,7 +70,8 @@ use crate::network::coordinates::Coordinates;
 use crate::network::errors::Errors;
 use crate::network::identify::identify;
 use crate::network::model::{Evaluated, Model};
-use crate::network::profile::{End, misleads, profile};
+use crate::network::open::settled;
+use crate::network::profile::{End, Rise, misleads, profile};
 use crate::network::search::{Found, search};
 use crate::network::undetermined::Place;
 
@@ -104,13 +107,14 @@ pub fn fit_network_observed(
     check(task, &unknowns)?;
     let own: Vec<f64> = unknowns.iter().map(|unknown| unknown.own).collect();
     let coordinates = Coordinates::new(&unknowns);
-    let Found { estimate, outcome, starts, gradient, mut model, searches } =
-        search((task, observer), (&unknowns, &coordinates), &own)?;
+    let found = search((task, observer), (&unknowns, &coordinates), &own)?;
+    let found = settled(found, (task, &unknowns, &coordinates), &own)?;
+    let Found { estimate, outcome, starts, gradient, mut model, searches, accuracy, .. } = found;
     let (values, _) = coordinates.values(&estimate.parameters);
     let Ok(at_end) = model.at(&values).cloned() else {
         return Err(NetworkFitError::NoData); // the search ends where there are runs
     };
-    let identifiability = told_apart(&unknowns, &at_end, &mut model, &gradient);
+    let identifiability = told_apart((task, &unknowns), (&at_end, accuracy), &mut model);
     if model.interrupted {
         return Err(model.broken_off());
     }
@@ -189,17 +193,17 @@ fn one_sided(
     (task, model, at_end): (&NetworkFitTask<'_>, &Model<'_>, &Evaluated),
     (unknowns, parameters): (&[Unknown], &[FittedParameter]),
     (errors, free, known): (&Errors<'_>, &[usize], Option<&Identifiability>),
-) -> Vec<(usize, f64)> {
+) -> Vec<(usize, Rise)> {
     if errors.left_over() == 0 {
         return Vec::new();
     }
     let of_free = |i: usize| {
         let half = parameters[i].half_width?;
         let misleads = misleads(&unknowns[i], parameters[i].value, half);
-        if misleads { errors.rise(i, half) } else { None }
+        if misleads { Some(Rise { of: errors.rise(i, half)?, half }) } else { None }
     };
     let on_bound = |i: usize| {
-        if unknowns[i].is_shift() || parameters[i].value <= 0.0 {
+        if unknowns[i].is_shift() || parameters[i].value < 0.0 {
             return None;
         }
         let mut with = free.to_vec();
@@ -207,7 +211,7 @@ fn one_sided(
         with.sort_unstable();
         let errors = Errors::new(task, model, (at_end, &with, known));
         let half = errors.interval(&errors.covariance()?, i)?.0;
-        errors.rise(i, half)
+        Some(Rise { of: errors.rise(i, half)?, half })
     };
     let one = |i: usize| match parameters[i].on_bound {
         Some(_) => on_bound(i),
@@ -260,17 +264,25 @@ fn check(task: &NetworkFitTask<'_>, unknowns: &[Unknown]) -> Result<(), NetworkF
     }
 }
 
+/// How accurate derivatives that are had so are, relative.
+fn accuracy(gradient: Gradient) -> f64 {
+    if gradient == Gradient::Exact { EXACT } else { DIFFERENCES }
+}
+
 /// What the residuals and their derivatives where the search ended tell of the parameters.
 fn told_apart(
-    unknowns: &[Unknown],
-    at_end: &Evaluated,
+    (task, unknowns): (&NetworkFitTask<'_>, &[Unknown]),
+    (at_end, accuracy): (&Evaluated, f64),
     model: &mut Model<'_>,
-    gradient: &Gradient,
 ) -> Option<Identifiability> {
     // in units of its own value a parameter is seen as its logarithm, unless it drifted to nearly
     // nothing
     let scale = |(unknown, value): (&Unknown, &f64)| match (size(unknown), value.abs()) {
-        (size, _) if unknown.is_shift() => size,
+        // an offset of which next to nothing is known is no larger than what was read
+        (size, _) if unknown.is_shift() => {
+            let read = unknown.sensor().map_or(f64::INFINITY, |sensor| task.largest_of(sensor));
+            if read > 0.0 { size.min(read) } else { size }
+        }
         (size, value) if value > SMALL * size => value,
         (size, _) => SMALL * size,
     };
@@ -279,7 +291,7 @@ fn told_apart(
         jacobian: &at_end.jacobian,
         values: &at_end.values,
         scales: &scales,
-        accuracy: if *gradient == Gradient::Exact { EXACT } else { DIFFERENCES },
+        accuracy,
         addable: &|i, j| unknowns[i].ty == unknowns[j].ty && !unknowns[i].ty.absolute,
     };
     identify(&place, &mut |values| model.at(values).ok().map(|found| found.residuals.clone()))

@@ -65,7 +65,7 @@ impl<'a> NetworkFitTask<'a> {
             let begun = Begun { study, record, sensors, start: settings.start };
             runs.push(MeasuredRun {
                 signals: begun.signals(network)?,
-                initial: begun.initial(&of),
+                initial: begun.initial(&of)?,
                 name: record.csv.clone(),
                 parameters,
                 settings: settings.clone(),
@@ -138,11 +138,11 @@ impl Begun<'_> {
     }
 
     /// Where the nodes begin whose temperature a column measures.
-    fn initial(&self, of: &[Measurand]) -> Vec<RecordedStart> {
+    fn initial(&self, of: &[Measurand]) -> Result<Vec<RecordedStart>, NetworkFitError> {
         let long = match self.study.initial {
-            FitInitial::Network => return Vec::new(),
+            FitInitial::Network => return Ok(Vec::new()),
             FitInitial::First => 0.0,
-            FitInitial::Mean(seconds) => seconds,
+            FitInitial::Mean(seconds) => self.short(seconds)?,
         };
         let mut found: Vec<RecordedStart> = Vec::new();
         for (observed, of) in self.study.observed.iter().zip(of) {
@@ -161,7 +161,20 @@ impl Begun<'_> {
                 found.push(RecordedStart { node: *node, reading, sensor });
             }
         }
-        found
+        Ok(found)
+    }
+
+    /// The time over which a mean is taken, if it is no more than half of the record: the rest is
+    /// what the fit is held against.
+    fn short(&self, mean: f64) -> Result<f64, NetworkFitError> {
+        let times = &self.record.record.time;
+        let ends = times.first().zip(times.last());
+        let length = ends.map_or(0.0, |(first, last)| last - first);
+        let record = self.record.csv.clone();
+        match mean > 0.5 * length {
+            true => Err(NetworkFitError::InitialLong { record, mean, length }),
+            false => Ok(mean),
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use lptn_solve::SensitiveError;
 use crate::network::coordinates::Coordinates;
 use crate::network::error::NetworkFitError;
 use crate::network::model::Model;
+use crate::network::open::settled;
 use crate::network::search::search;
 use crate::network::task::{FitObserver, NetworkFitTask};
 use crate::network::told_apart;
@@ -30,12 +31,13 @@ pub(crate) fn refit(
     let unknowns = task.unknowns();
     super::check(task, &unknowns)?;
     let coordinates = Coordinates::new(&unknowns);
-    let mut found = search((task, observer), (&unknowns, &coordinates), begin)?;
+    let found = search((task, observer), (&unknowns, &coordinates), begin)?;
+    let mut found = settled(found, (task, &unknowns, &coordinates), begin)?;
     let (values, _) = coordinates.values(&found.estimate.parameters);
     let Ok(at_end) = found.model.at(&values).cloned() else {
         return Err(NetworkFitError::NoData); // the search ends where there are runs
     };
-    let known = told_apart(&unknowns, &at_end, &mut found.model, &found.gradient);
+    let known = told_apart((task, &unknowns), (&at_end, found.accuracy), &mut found.model);
     if found.model.interrupted {
         return Err(found.model.broken_off());
     }

@@ -14,13 +14,18 @@
 //! the residuals in it and `q` the quantile of Student's t, so that for a linear model the interval
 //! is value ± q error exactly.
 
-use crate::least_squares::{Evaluated, LeastSquaresError, Residuals, Settings, minimise};
+use crate::least_squares::{Residuals, Settings, minimise};
 use crate::network::coordinates::Coordinates;
+use crate::network::holding::Holding;
 use crate::network::model::Model;
 use crate::network::unknown::Unknown;
 
 /// Logarithm of the factor by which a value is followed.
 const FAR: f64 = 12.0;
+
+/// A value below this part of half its interval is followed upwards from 0 in units of that half:
+/// no factor of it says where the interval ends.
+const NOTHING: f64 = 1e-3;
 
 /// How near the sum of squares comes to what it shall be, in parts of its rise.
 const NEAR: f64 = 1e-4;
@@ -53,11 +58,20 @@ pub(crate) struct End<'e> {
     pub(crate) squares: f64,
 }
 
+/// How far the sum of squares rises at the ends of an interval.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Rise {
+    /// By this much.
+    pub(crate) of: f64,
+    /// Half the interval, were the sum of squares the parabola that it is at the minimum.
+    pub(crate) half: f64,
+}
+
 /// The interval of one parameter, within which the sum of squares rises by `rise`.
 pub(crate) fn profile(
     model: &mut Model<'_>,
     end: &End<'_>,
-    (place, rise): (usize, f64),
+    (place, rise): (usize, Rise),
 ) -> Profile {
     let mut side = |sign: f64| Walk::new(model, end, (place, rise)).end(sign);
     Profile { low: side(-1.0), high: side(1.0) }
@@ -68,13 +82,13 @@ struct Walk<'w, 'a, 'e> {
     model: &'w mut Model<'a>,
     end: &'w End<'e>,
     place: usize,
-    rise: f64,
+    rise: Rise,
     /// Where the others stood last.
     others: Vec<f64>,
 }
 
 impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
-    fn new(model: &'w mut Model<'a>, end: &'w End<'e>, (place, rise): (usize, f64)) -> Self {
+    fn new(model: &'w mut Model<'a>, end: &'w End<'e>, (place, rise): (usize, Rise)) -> Self {
         let mut others = end.parameters.to_vec();
         others.remove(place);
         Self { model, end, place, rise, others }
@@ -83,15 +97,12 @@ impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
     /// The value at which the sum of squares has risen, in steps that double and then by false
     /// position (the Illinois rule). `None` where a bound or [`FAR`] comes first, or no run.
     fn end(mut self, sign: f64) -> Option<f64> {
-        let value = self.end.values[self.place];
-        let (low, high) = self.end.unknowns[self.place].bounds;
-        let bound = if sign < 0.0 { low } else { high };
-        let most = if bound > 0.0 { (bound / value).ln().abs().min(FAR) } else { FAR };
+        let most = self.most(sign)?;
         let mut inside = (0.0, -1.0);
         let mut step: f64 = 0.125;
         let mut outside = loop {
             let at = (inside.0 + step).min(most);
-            let excess = self.excess(value * (sign * at).exp())?;
+            let excess = self.excess(self.at(sign * at))?;
             if excess > 0.0 {
                 break (at, excess);
             }
@@ -102,9 +113,9 @@ impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
         };
         for _ in 0..40 {
             let at = (inside.0 * outside.1 - outside.0 * inside.1) / (outside.1 - inside.1);
-            let excess = self.excess(value * (sign * at).exp())?;
+            let excess = self.excess(self.at(sign * at))?;
             if excess.abs() < NEAR || outside.0 - inside.0 < 1e-9 {
-                return Some(value * (sign * at).exp());
+                return Some(self.at(sign * at));
             }
             if excess > 0.0 {
                 outside = (at, excess);
@@ -114,7 +125,32 @@ impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
                 outside.1 *= 0.5;
             }
         }
-        Some(value * (sign * outside.0).exp())
+        Some(self.at(sign * outside.0))
+    }
+
+    /// How far it is to a bound, at most [`FAR`]; nothing where the value is at the bound.
+    fn most(&self, sign: f64) -> Option<f64> {
+        let (low, high) = self.end.unknowns[self.place].bounds;
+        let bound = if sign < 0.0 { low } else { high };
+        let value = self.end.values[self.place];
+        if self.is_nothing() {
+            return (sign > 0.0).then(|| ((bound - value) / self.rise.half).ln_1p().min(FAR));
+        }
+        Some(if bound > 0.0 { (bound / value).ln().abs().min(FAR) } else { FAR })
+    }
+
+    /// The value so far along the way: a factor's logarithm, or that of so many halves and one.
+    fn at(&self, along: f64) -> f64 {
+        let value = self.end.values[self.place];
+        match self.is_nothing() {
+            true => value + self.rise.half * along.exp_m1(),
+            false => value * along.exp(),
+        }
+    }
+
+    fn is_nothing(&self) -> bool {
+        let least = self.end.unknowns[self.place].bounds.0;
+        least <= 0.0 && self.end.values[self.place] < NOTHING * self.rise.half
     }
 
     /// By how much the sum of squares has risen beyond `rise`, in units of it, with the parameter
@@ -131,7 +167,7 @@ impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
             ..Settings::default()
         };
         let at = self.end.coordinates.one(self.place, value);
-        let mut held = Held { model: &mut *self.model, place: self.place, at };
+        let mut held = Holding { model: &mut *self.model, held: vec![(self.place, at)] };
         let squares = if self.others.is_empty() {
             held.evaluate(&[], false).ok()?.0.iter().map(|r| r * r).sum()
         } else {
@@ -139,33 +175,7 @@ impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
             self.others = found.parameters;
             found.squares
         };
-        let excess = (squares - self.end.squares) / self.rise - 1.0;
+        let excess = (squares - self.end.squares) / self.rise.of - 1.0;
         excess.is_finite().then_some(excess)
-    }
-}
-
-/// The same residuals with one parameter held.
-struct Held<'h, 'a> {
-    model: &'h mut Model<'a>,
-    place: usize,
-    /// Its coordinate.
-    at: f64,
-}
-
-impl Residuals for Held<'_, '_> {
-    fn parameters(&self) -> usize {
-        self.model.parameters() - 1
-    }
-
-    fn evaluate(&mut self, p: &[f64], derivatives: bool) -> Evaluated {
-        let mut all = p.to_vec();
-        all.insert(self.place, self.at);
-        let (residuals, mut jacobian): (_, Vec<f64>) =
-            Residuals::evaluate(self.model, &all, derivatives)?;
-        if jacobian.len() < residuals.len() * all.len() {
-            return Err(LeastSquaresError::Interrupted);
-        }
-        jacobian.drain(self.place * residuals.len()..(self.place + 1) * residuals.len());
-        Ok((residuals, jacobian))
     }
 }

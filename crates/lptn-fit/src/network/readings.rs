@@ -161,7 +161,9 @@ impl Reader<'_> {
     }
 
     fn followed(&self, course: Vec<f64>, held: Held) -> Followed {
-        match held.lag > 0.0 {
+        // a lag that is sought may come to 0, and has a derivative there
+        let has_lag = |unknown: &Unknown| matches!(unknown.of, UnknownOf::Lag { .. });
+        match held.lag > 0.0 || self.unknowns.iter().any(has_lag) {
             true => follow(&self.rows.times, &course, held.lag),
             false => Followed { course, by_lag: Vec::new() },
         }

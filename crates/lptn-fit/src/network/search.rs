@@ -3,6 +3,7 @@
 use lptn_solve::{Gradient, SensitiveError};
 
 use crate::least_squares::{LeastSquaresFit, Settings, Stop, Termination, minimise};
+use crate::network::accuracy;
 use crate::network::coordinates::Coordinates;
 use crate::network::error::NetworkFitError;
 use crate::network::model::Model;
@@ -16,7 +17,7 @@ const COARSE_ROWS: usize = 150;
 const TOLERANCES: [f64; 2] = [1e-6, 1e-7];
 
 /// Sums of squares that differ by less than this part are those of one minimum.
-const SAME: f64 = 1e-3;
+pub(crate) const SAME: f64 = 1e-3;
 
 /// Seed of the starts between the bounds.
 const SEED: u32 = 6;
@@ -41,6 +42,10 @@ pub(crate) struct Found<'a> {
     pub(crate) outcome: Result<(), Stop>,
     pub(crate) starts: Starts,
     pub(crate) gradient: Gradient,
+    /// Whether no derivative is a difference.
+    pub(crate) exact: bool,
+    /// How accurate derivatives are, relative.
+    pub(crate) accuracy: f64,
     /// With all rows.
     pub(crate) model: Model<'a>,
     /// How often the runs of all records were computed before.
@@ -73,16 +78,8 @@ pub(crate) fn search<'a>(
     }
     coarse.without_value().map_or(Ok(()), Err)?;
     let gradient = coarse.gradient.unwrap_or(Gradient::Exact);
-    let settings = |gradient: f64, step: f64, error: f64| Settings {
-        bounds: coordinates.bounds(),
-        gradient,
-        step,
-        error,
-        iterations: 200,
-        ..Settings::default()
-    };
     let mut ends = Vec::new();
-    let roughly = settings(1e-4, 1e-6, coarse.error());
+    let roughly = settings(coordinates, (1e-4, 1e-6), coarse.error());
     for (i, start) in starts.iter().enumerate() {
         coarse.stage.search = i + 1;
         let search = minimise(&mut coarse, &coordinates.of(start), &roughly);
@@ -96,21 +93,33 @@ pub(crate) fn search<'a>(
     );
     model.best = Some((f64::INFINITY, coordinates.values(&ends[best].parameters).0));
     model.stage = FitStage { search: 0, ..coarse.stage_now() };
-    let floor = model.error();
-    let exact = match gradient {
-        Gradient::Exact => settings(1e-7, 1e-10, floor),
-        Gradient::Differences(_) => settings(1e-5, 1e-8, floor),
-    };
     // rows that the searches did not look at may be where an expression has no value
     let begins = coordinates.values(&ends[best].parameters).0;
     if model.at(&begins).is_ok() {
         model.without_value().map_or(Ok(()), Err)?;
     }
+    let exact = exactly(coordinates, (gradient, model.error()));
     let estimate = minimise(&mut model, &ends[best].parameters, &exact);
     let estimate = estimate.map_err(|error| model.ended(error))?;
     let exact = gradient == Gradient::Exact && !task.has_inputs_sought(unknowns);
-    let outcome = outcome(&estimate, floor, exact);
-    Ok(Found { estimate, outcome, starts, gradient, searches: coarse.evaluations, model })
+    let outcome = outcome(&estimate, model.error(), exact);
+    let accuracy = accuracy(gradient);
+    let searches = coarse.evaluations;
+    Ok(Found { estimate, outcome, starts, gradient, exact, accuracy, searches, model })
+}
+
+fn settings(coordinates: &Coordinates, (gradient, step): (f64, f64), error: f64) -> Settings {
+    let bounds = coordinates.bounds();
+    Settings { bounds, gradient, step, error, iterations: 200, ..Settings::default() }
+}
+
+/// How the last search goes on, with runs that are off by `error`.
+pub(crate) fn exactly(coordinates: &Coordinates, (gradient, error): (Gradient, f64)) -> Settings {
+    let ends = match gradient {
+        Gradient::Exact => (1e-7, 1e-10),
+        Gradient::Differences(_) => (1e-5, 1e-8),
+    };
+    settings(coordinates, ends, error)
 }
 
 /// The own values, then points of a scrambled Sobol sequence between the bounds (A. B. Owen, in
@@ -154,7 +163,7 @@ fn removable(end: &LeastSquaresFit) -> f64 {
 
 /// A search that gets no further because what is left to remove is less than the errors of the runs
 /// is at its minimum.
-fn outcome(end: &LeastSquaresFit, floor: f64, exact: bool) -> Result<(), Stop> {
+pub(crate) fn outcome(end: &LeastSquaresFit, floor: f64, exact: bool) -> Result<(), Stop> {
     /// Differences of runs are no more accurate than this.
     const DIFFERENCES: f64 = 1e-3;
     match end.outcome {

@@ -157,6 +157,14 @@ impl NetworkFitTask<'_> {
         let first = all.next()?.dimension;
         all.all(|ty| ty.dimension == first).then_some(Type::of(first))
     }
+
+    /// The largest of what an instrument read, whatever its sign: over 0 degC of a temperature.
+    pub(crate) fn largest_of(&self, sensor: usize) -> f64 {
+        let columns = self.runs.iter().flat_map(|run| &run.columns);
+        let own = columns.filter(|column| column.sensor == Some(sensor));
+        let sizes = own.flat_map(|column| column.values.iter().map(|v| (v - column.zero()).abs()));
+        sizes.fold(0.0, f64::max)
+    }
 }
 
 impl MeasuredRun {

@@ -109,6 +109,8 @@ impl NetworkFitTask<'_> {
     fn unknowns_of(&self, sensor: usize, instrument: &Instrument) -> Vec<Unknown> {
         const ABOVE: (f64, f64) = (f64::MIN_POSITIVE, f64::INFINITY);
         const ANY: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
+        // an instrument may follow at once
+        const FROM_0: (f64, f64) = (0.0, f64::INFINITY);
         let measures = |run: &usize| self.runs[*run].reads(sensor).is_some();
         let records: Vec<Option<usize>> = match instrument.per_record {
             true => (0..self.runs.len()).filter(measures).map(Some).collect(),
@@ -126,7 +128,11 @@ impl NetworkFitTask<'_> {
             of,
             name: format!("{}.{}", instrument.name, word(of)),
             own: value.value,
-            bounds: if matches!(of, UnknownOf::Offset { .. }) { ANY } else { ABOVE },
+            bounds: match of {
+                UnknownOf::Offset { .. } => ANY,
+                UnknownOf::Lag { .. } => FROM_0,
+                UnknownOf::Gain { .. } | UnknownOf::Parameter(_) => ABOVE,
+            },
             prior: match value.certainty {
                 Certainty::Deviation(deviation) => Some(deviation),
                 Certainty::Exact | Certainty::Free => None,

@@ -41,8 +41,8 @@ use crate::network::design::sets::{BestSet, best_sets};
 use crate::network::design::space::{Leg, Space};
 use crate::network::identify::Identifiability;
 use crate::network::model::Model;
-use crate::network::told_apart;
 use crate::network::unknown::Unknown;
+use crate::network::{accuracy, told_apart};
 
 /// Rows of a run that are looked at to see what no record tells.
 const FEW_ROWS: usize = 150;
@@ -317,7 +317,7 @@ fn never(
     let mut model = Model::new((&task.fit, &observed), (&unknowns, &coordinates), (FEW_ROWS, 1e-7));
     let Ok(at) = model.at(&values).cloned() else { return Ok(None) };
     let Some(gradient) = model.gradient else { return Ok(None) };
-    let told = told_apart(&unknowns, &at, &mut model, &gradient);
+    let told = told_apart((&task.fit, &unknowns), (&at, accuracy(gradient)), &mut model);
     if model.interrupted {
         return Err(DesignError::Interrupted);
     }

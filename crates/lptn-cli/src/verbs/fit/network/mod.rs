@@ -158,6 +158,7 @@ pub(crate) fn record_place<'s>(study: &'s FitStudy, error: &NetworkFitError) -> 
         }
         NetworkFitError::Times { record, .. }
         | NetworkFitError::Start { record, .. }
+        | NetworkFitError::InitialLong { record, .. }
         | NetworkFitError::Signal { record, .. } => {
             study.records.iter().find(|own| own.csv == *record).map(|own| &own.span)
         }

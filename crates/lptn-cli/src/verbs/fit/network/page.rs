@@ -65,11 +65,12 @@ impl Page for Answer<'_> {
             parameter(i).half_width.map_or(f64::NAN, |half| self.shown_difference(i, half))
         };
         table.column("half_width_95", "unit", |&i| half(i));
-        let end = |i: usize, of: fn(Profile) -> Option<f64>| {
-            parameter(i).profile.and_then(of).map_or(f64::NAN, |si| self.shown(i, si))
+        let end = |i: usize, side: usize| {
+            let end = interval(parameter(i)).and_then(|ends| ends[side]);
+            end.map_or(f64::NAN, |si| self.shown(i, si))
         };
-        table.column("low_95", "unit", |&i| end(i, |profile| profile.low));
-        table.column("high_95", "unit", |&i| end(i, |profile| profile.high));
+        table.column("low_95", "unit", |&i| end(i, 0));
+        table.column("high_95", "unit", |&i| end(i, 1));
         table.column("start", "unit", |&i| self.shown(i, parameter(i).start));
         table.done().into()
     }

@@ -33,6 +33,14 @@ pub(super) fn unfound(task: &NetworkFitTask<'_>, (stop, fit): (Stop, &NetworkFit
     let part = |fitted: &FittedParameter| (fitted.value / fitted.start).abs();
     let ends = task.unknowns().into_iter().zip(fit.parameters.iter().map(part));
     match ends.min_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((unknown, part))
+            if stop == Stop::Edge && part < 1e-2 && unknown.sensor().is_some() =>
+        {
+            format!(
+                "the records would have `{}` be nothing: hold it, or leave it out of its sensor",
+                unknown.name
+            )
+        }
         Some((unknown, part)) if stop == Stop::Edge && part < 1e-2 => format!(
             "the records would have `{}` be nothing, or less: give it a least value with `from`, \
              which the fit may then name as its end, or hold it",
@@ -51,6 +59,10 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
         let determined =
             answer.fit.identifiability.as_ref().is_some_and(|known| known.determines(i));
         let (Some(side), true) = (parameter.on_bound, determined) else { continue };
+        if answer.unknowns[i].sensor().is_some() {
+            doubts.push(no_lag(answer, i));
+            continue;
+        }
         let end = if side == Side::Lower { "least" } else { "greatest" };
         let message = format!(
             "`{}` sits on the {end} value of its range: it has no standard error, and those of the \
@@ -83,6 +95,17 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
     doubts.extend(drifting(answer));
     doubts.extend(differing(answer));
     doubts
+}
+
+/// That an instrument, as far as the records say, follows at once.
+fn no_lag(answer: &Answer<'_>, i: usize) -> Diagnostic {
+    let name = answer.name(i);
+    let message = format!(
+        "the records speak for no lag: `{name}` comes to 0 s and has no standard error, and those \
+         of the others hold only if that is right"
+    );
+    let doubt = Diagnostic::warning("fit::on_bound", message).at(answer.place(i).clone(), "");
+    doubt.help("leave `lag` out of the sensor, or give it from a test of its own")
 }
 
 /// An interval of more standard errors to each side is worth a word: many values have two.
