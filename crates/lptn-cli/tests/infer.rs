@@ -80,9 +80,62 @@ fn what_cannot_be_followed_says_what_to_write() {
     let folder = folder(SAID);
     let follow = |text: &str| folder.run_with(&["infer", "body.toml", "--follow"], text).exits(2);
     follow("").says("record::no_rows");
-    follow("t [s],ring [degC]\n0,25\n0,26\n").says("record::time_reversed").says("line 3");
-    follow("t [s],ring [degC]\n0,25\n5,abc\n").says("record::not_a_number").says("line 3");
+    follow("t [s],ring [degC]\n0,25\n0,26\n").says("record::time_repeated").says("<stdin>:3:1");
+    follow("t [s],ring [degC]\n5,25\n0,26\n").says("record::time_reversed").says("<stdin>:3:1");
+    follow("t [s],ring [degC]\n0,25\n5,abc\n").says("record::not_a_number").says("<stdin>:3:3");
     follow("t [s],rung [degC]\n0,25\n").says("ring");
+    follow("# bench\nt [s],ring [degC]\n\n0,25\nabc,26\n")
+        .says("<stdin>:5:1")
+        .says("`#` before it");
+    follow("t [s],ring [degC]\n0,25\n5\n10,26\n").says("record::short_row").says("<stdin>:3:1");
+    follow("t [s],ring [degC]\n0,25\n").says("infer::short");
+    let text = b"t [s],ring [degC]\n0,25\n5,25 \xb0C\n";
+    let latin = |text: &[u8]| folder.run_bytes(&["infer", "body.toml", "--follow"], text).exits(2);
+    latin(text).says("netlist::not_text").says("<stdin>:3:6");
+    for options in [["--format", "json"], ["--plot", "p.svg"], ["--report", "-q"]] {
+        let all = [["infer", "body.toml", "--follow"].as_slice(), &options].concat();
+        folder.run_with(&all, &record()).exits(2).says("infer::follow_output").says(options[0]);
+    }
+}
+
+/// As in a record that is read as a whole.
+#[test]
+fn gaps_rows_that_stand_twice_and_a_last_row_that_breaks_off_are_followed() {
+    let folder = folder(SAID);
+    let with = |text: &str| folder.run_with(&["infer", "body.toml", "--follow"], text).exits(0);
+    let plain = "t [s],ring [degC]\n0,25\n10,25.5\n20,26\n40,27\n";
+    let expected = with(plain).out;
+    let twice =
+        with("\u{feff}t [s],ring [degC]\r\n0,25\r\n10,25.5\r\n10,25.5\r\n20,26\r\n40,27\r\n");
+    assert_eq!(twice.says("record::same_row").says("<stdin>:4:1").out, expected);
+    let broken = with(&format!("{plain}5"));
+    assert_eq!(broken.says("record::broken_off").says("<stdin>:6:1").out, expected);
+    let (_, rows) = csv(&with(&plain.replace("40,", "30,NaN\n40,")).out);
+    assert_eq!(rows.len(), 5);
+    assert!(rows[3][6].is_nan() && rows[3][3] - rows[3][2] > rows[2][3] - rows[2][2]);
+}
+
+/// What is said of `data` is no word about stdin, and what nobody would expect is.
+#[test]
+fn a_wild_reading_that_comes_is_left_out_where_that_is_asked() {
+    let study = SAID.replace("sigma", "outliers = \"drop\"\nsigma");
+    let wild = |time: &str| {
+        let line = |line: &str| match line.split_once(',') {
+            Some((own, _)) if own == time => format!("{own},200,27\n"),
+            _ => format!("{line}\n"),
+        };
+        record().lines().map(line).collect::<String>()
+    };
+    for (study, done) in [(study.as_str(), "it is left out"), (SAID, "it is taken in")] {
+        let folder = folder(study);
+        folder.write("record.csv", &wild("600"));
+        let run = folder.run_with(&["infer", "body.toml", "--follow"], &wild("300")).exits(0);
+        let run = run.says("infer::unexpected").says("<stdin>, line 32").says(done);
+        assert!(!run.err.contains("at 600 s"), "{}", run.err);
+        let (_, rows) = csv(&run.out);
+        assert_eq!((rows[29][1] - rows[31][1]).abs() < 50.0, done == "it is left out");
+        assert!(rows[30][6] > 1e3, "{:?}", rows[30]);
+    }
 }
 
 /// The offset of the only instrument is free, and the start unknown: any power may be.

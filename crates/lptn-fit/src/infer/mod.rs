@@ -10,6 +10,7 @@
 //! estimated along, so what is not known of them widens every band.
 
 mod answer;
+mod carried;
 mod discrete;
 mod error;
 mod follow;
@@ -32,7 +33,7 @@ mod task;
 
 pub use answer::infer;
 pub use error::InferError;
-pub use follow::{Followed, Follower, Row};
+pub use follow::{Followed, Follower, Row, Unexpected};
 pub use inferred::{
     Band, Inferred, InferredColumn, InferredCourse, InferredJump, InferredSensor, Known,
 };

@@ -39,13 +39,18 @@ pub(crate) struct Answer<'a> {
 }
 
 pub(crate) fn infer(args: &InferArgs, console: &Console) -> Result<Exit, Failure> {
+    if args.follow {
+        follow::possible(args, console)?;
+    }
     let input = Input::load(&Source { set: args.set.clone(), ..Source::of(args.file.clone()) })?;
     let infers = &input.netlist.studies.infers;
     let study = STUDIES.find(&input, (infers, |study| &study.name), args.name.as_deref())?;
-    console.warn(&input.netlist.files, &input.netlist.warnings);
     if args.follow {
+        let own = input.netlist.warnings.iter().filter(|warning| follow::counts(study, warning));
+        console.warn(&input.netlist.files, &own.cloned().collect::<Vec<_>>());
         return follow::follow((&input, study), console);
     }
+    console.warn(&input.netlist.files, &input.netlist.warnings);
     let task =
         InferTask::of(&input.netlist, study).map_err(|error| failed(&input, study, &error))?;
     let folder = args.output.clone().map(Folder::prepare).transpose()?;
