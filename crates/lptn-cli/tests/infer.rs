@@ -89,6 +89,7 @@ fn what_cannot_be_followed_says_what_to_write() {
         .says("`#` before it");
     follow("t [s],ring [degC]\n0,25\n5\n10,26\n").says("record::short_row").says("<stdin>:3:1");
     follow("t [s],ring [degC]\n0,25\n").says("infer::short");
+    follow("t [s],ring [degC]\n-10,25\n0,25\n").says("fit::record_times").says("<stdin>");
     let text = b"t [s],ring [degC]\n0,25\n5,25 \xb0C\n";
     let latin = |text: &[u8]| folder.run_bytes(&["infer", "body.toml", "--follow"], text).exits(2);
     latin(text).says("netlist::not_text").says("<stdin>:3:6");
@@ -136,6 +137,13 @@ fn a_wild_reading_that_comes_is_left_out_where_that_is_asked() {
         assert_eq!((rows[29][1] - rows[31][1]).abs() < 50.0, done == "it is left out");
         assert!(rows[30][6] > 1e3, "{:?}", rows[30]);
     }
+}
+
+#[test]
+fn a_record_that_begins_before_the_run_is_refused() {
+    let folder = folder(STUDY);
+    folder.write("record.csv", &record().replace("\n0,", "\n-10,24.9,27\n0,"));
+    folder.run(&["infer", "body.toml"]).exits(2).says("fit::record_times").says("set `start`");
 }
 
 /// The offset of the only instrument is free, and the start unknown: any power may be.

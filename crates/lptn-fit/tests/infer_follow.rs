@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_fit::infer::{Followed, Follower, InferError, InferTask, Row};
+use lptn_fit::network::NetworkFitError;
 use lptn_netlist::{Netlist, parse_with};
 use lptn_units::statistics::NORMAL_95;
 
@@ -138,4 +139,11 @@ fn gaps_in_the_first_rows_are_waited_out() {
     let mut alone = self::follower(&netlist);
     assert!(alone.row(row((0, &[20.0, 20.0]))).unwrap().is_empty());
     assert!(matches!(alone.end().unwrap_err(), InferError::Short));
+}
+
+#[test]
+fn a_row_before_the_start_of_the_run_is_refused() {
+    let netlist = netlist(&format!("{BODY}[run]\nstart = \"1 min\"\nstop = \"2 min\"\n"));
+    let error = follower(&netlist).row(row((0, &[20.0, 20.0]))).unwrap_err();
+    assert!(matches!(error, InferError::Record(NetworkFitError::Times { .. })), "{error}");
 }
