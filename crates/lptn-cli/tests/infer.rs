@@ -166,6 +166,25 @@ fn an_offset_that_nothing_determines_is_a_verdict() {
     folder.run(&["infer", "body.toml"]).exits(1).prints("not determined");
 }
 
+/// A walk by 60 W in a minute leaves far more than noise does, and that is an answer: 35.640694 W by
+/// the algebraic Riccati equation of temperature and power (SciPy 1.17, `solve_discrete_are`, noise by
+/// the exponential of C. F. Van Loan's matrix). A free offset of the only instrument, and one of 300 K
+/// (which is 1000 W through 0.3 K/W), leave no answer.
+#[test]
+fn a_band_that_is_as_wide_as_is_said_is_an_answer() {
+    let white = "0.3 K\"\ndrift = \"0 K\"\ndrift_time = \"1 s\"";
+    let study = SAID.replace("0.03 K\"", white);
+    let run = folder(&study).run(&["infer", "body.toml", "--format", "json"]).exits(0).json();
+    let deviation = run["courses"]["P"]["end"]["sd"].as_f64().unwrap();
+    assert!((deviation - 35.640_694).abs() < 1e-4, "{deviation}");
+    for (offset, code) in [("free", 1), ("0 ± 3 K", 0), ("0 ± 300 K", 1)] {
+        let sensor = format!("[sensor]\ntc = {{ offset = \"{offset}\" }}\n");
+        let of = SAID.replace("\"body.T\"", "{ of = \"body.T\", sensor = \"tc\" }");
+        let folder = folder(&format!("{sensor}{of}initial = \"free\"\n"));
+        folder.run(&["infer", "body.toml"]).exits(code);
+    }
+}
+
 #[test]
 fn a_start_that_the_record_contradicts_is_named() {
     let folder = folder(STUDY);

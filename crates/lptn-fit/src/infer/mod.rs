@@ -11,6 +11,7 @@
 
 mod answer;
 mod carried;
+mod determined;
 mod discrete;
 mod error;
 mod follow;

@@ -16,7 +16,7 @@ pub(crate) struct Begins {
     /// Its change by a standard deviation of each uncertain parameter.
     by_parameter: Vec<Vec<f64>>,
     /// Whether nothing is known of it.
-    unknown: Vec<bool>,
+    pub(crate) unknown: Vec<bool>,
     /// The node of each.
     pub(crate) bodies: Vec<NodeId>,
 }

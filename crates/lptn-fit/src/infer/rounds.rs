@@ -34,6 +34,8 @@ pub(crate) struct Settled {
     pub(crate) reference: Reference,
     pub(crate) model: Model,
     pub(crate) strength: Strength,
+    /// The bodies of whose start nothing is known.
+    pub(crate) free: Vec<bool>,
     pub(crate) rounds: usize,
 }
 
@@ -65,7 +67,8 @@ pub(crate) fn settle(
         let mut next = moved((task, &begins), (&reference, &model), &smoothed, 1.0);
         let far = distance((task, &model), (&reference, &next), &smoothed);
         if far < SETTLED {
-            return Ok(Settled { moments, reference, model, strength, rounds: round });
+            let free = begins.unknown.clone();
+            return Ok(Settled { moments, reference, model, strength, free, rounds: round });
         }
         let mut there = at(&next, &sizes);
         for halves in 1..=HALVES {

@@ -134,18 +134,4 @@ impl Answer<'_> {
     fn shown_difference(&self, course: usize, si: f64) -> f64 {
         si / self.units[course].scale
     }
-
-    /// Whether a band says something: at the middle of the record it is far narrower than what was
-    /// known at the start.
-    fn is_known(&self, course: usize) -> bool {
-        /// Shares of what was known before.
-        const NARROW: f64 = 0.1;
-        let (found, positive) = (&self.found.courses[course], self.task.sought[course].positive);
-        let least = |(low, high): (f64, f64)| {
-            let width = if positive { (high / low).ln() } else { high - low };
-            width / (2.0 * lptn_units::statistics::NORMAL_95)
-        };
-        let deviations = found.band.iter().map(|band| least(band.ends));
-        deviations.fold(f64::INFINITY, f64::min) < NARROW * found.before.deviation
-    }
 }
