@@ -192,3 +192,35 @@ fn a_start_that_the_record_contradicts_is_named() {
     folder.run(&["infer", "body.toml"]).exits(0).says("infer::start").says("initial = \"free\"");
     folder.run(&["infer", "body.toml", "flow"]).exits(2).says("infer::no_study");
 }
+
+/// Noise of which each reading holds 0.15 of the one before: neighbours correlate by
+/// 0.15 / (1 + 0.15^2) = 0.147, which is 9 standard deviations of chance in 4000 rows.
+#[test]
+fn neighbours_that_are_off_together_are_told_where_there_are_many() {
+    let mut seed = 1_u64;
+    // the sum of twelve even numbers less 6 is as good as normal, with a variance of 1
+    let mut noise = || {
+        let one = |_| {
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        (0..12).map(one).sum::<f64>() - 6.0
+    };
+    let (mut last, mut text) = (0.0, "t [s],ring [degC]\n".to_owned());
+    for k in 0..4000 {
+        let (t, own) = (f64::from(k), noise());
+        let rise = -45.0 * f64::exp_m1(-t / (0.3 * 2659.0));
+        writeln!(text, "{t},{:.5}", 25.0 + rise + 0.1 * (own + 0.15 * last)).unwrap();
+        last = own;
+    }
+    let study = SAID
+        .replace("60 W", "1 W")
+        .replace("0.03 K\"", "0.1 K\"\ndrift = \"0 K\"\ndrift_time = \"1 s\"");
+    let folder = folder(&study);
+    folder.write("record.csv", &text);
+    let run = folder.run(&["infer", "body.toml"]).exits(0).says("infer::surprised");
+    let run = run.says("neighbours correlate by 0.1").says("than `drift` says");
+    assert!(!run.err.contains("`sigma` is larger"), "{}", run.err);
+}
