@@ -13,7 +13,7 @@ use crate::infer::reference::{InferObserver, Reference};
 use crate::infer::rounds::{Settled, settle};
 use crate::infer::strength::Strength;
 use crate::infer::surprise;
-use crate::infer::task::InferTask;
+use crate::infer::task::{InferTask, Uncertain};
 use crate::kalman::Smoother;
 
 /// Infers courses from a record.
@@ -60,9 +60,10 @@ fn told(task: &InferTask<'_>, settled: &Settled) -> Inferred {
         let before = Known { value: read.known.0, deviation: read.known.1 };
         InferredSensor { sensor: read.sensor, gain: read.gain, before, now }
     };
-    let parameter = |(k, (_, deviation)): (usize, &(_, f64))| {
-        let moved = alone(states.parameter(k), *deviation);
-        Known { value: reference.parameters[k] + moved.value, ..moved }
+    let parameter = |(k, own): (usize, &Uncertain)| {
+        let moved = alone(states.parameter(k), 1.0);
+        let value = own.moved(reference.parameters[k], moved.value);
+        Known { value, deviation: own.unit(value) * moved.deviation }
     };
     let still = still(task, (reference, model), strength);
     let courses = (0..task.sought.len()).map(|j| asked.course(j, &mixed, still[j])).collect();

@@ -27,7 +27,7 @@ pub(crate) fn carried(
     let next = Reference {
         courses: courses.collect(),
         parameters: (reference.parameters.iter().enumerate())
-            .map(|(i, own)| own + task.uncertain[i].1 * mean[states.parameter(i)])
+            .map(|(i, own)| task.uncertain[i].moved(*own, mean[states.parameter(i)]))
             .collect(),
         initial: begins.bodies.iter().map(|id| (*id, temperature(id.index()))).collect(),
         reads: (reference.reads.iter().enumerate())

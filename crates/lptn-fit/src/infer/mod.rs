@@ -39,4 +39,4 @@ pub use inferred::{
     Band, Inferred, InferredColumn, InferredCourse, InferredJump, InferredSensor, Known,
 };
 pub use reference::InferObserver;
-pub use task::{Drift, InferTask, Sought, Start};
+pub use task::{Drift, InferTask, Sought, Start, Uncertain};

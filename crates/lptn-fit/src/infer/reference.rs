@@ -91,7 +91,7 @@ impl Reference {
         changed: Changed,
     ) -> Result<Network, InferError> {
         let mut parameters = task.run.parameters.clone();
-        for (k, ((id, _), value)) in task.uncertain.iter().zip(&self.parameters).enumerate() {
+        for (k, (own, value)) in task.uncertain.iter().zip(&self.parameters).enumerate() {
             let more = if let Changed::Parameter(of, by) = changed
                 && of == k
             {
@@ -99,7 +99,7 @@ impl Reference {
             } else {
                 0.0
             };
-            parameters.set(*id, value + more);
+            parameters.set(own.parameter, value + more);
         }
         let network = task.network.with(&parameters).map_err(ChangeError::from)?;
         let mut signals = task.inputs();

@@ -261,10 +261,11 @@ impl Answer<'_> {
     pub(super) fn uncertain(&self) -> Vec<(String, lptn_units::Unit, Known, Known)> {
         let network = &self.input.netlist.network;
         let all = self.task.uncertain.iter().zip(&self.found.parameters);
-        all.map(|((id, deviation), now)| {
+        all.map(|(own, now)| {
+            let (id, value) = (own.parameter, network.parameter_value(own.parameter));
             let name = network.parameters()[id.index()].name.clone();
-            let before = Known { value: network.parameter_value(*id), deviation: *deviation };
-            (name, self.input.unit_of(*id), before, *now)
+            let before = Known { value, deviation: own.unit(value) };
+            (name, self.input.unit_of(id), before, *now)
         })
         .collect()
     }
