@@ -134,3 +134,22 @@ fn a_factor_that_is_not_known_moves_by_its_logarithm() {
     assert!((skin.value - 0.303_545_831).abs() < 1e-3 * 0.0655, "{skin:?}");
     assert!((skin.deviation - 0.065_534_254).abs() < 1e-3 * 0.0655, "{skin:?}");
 }
+
+/// A time constant far below the rounding of the times is none.
+#[test]
+fn a_lag_that_no_time_can_tell_is_none() {
+    let with = |lag: &str| {
+        let text = BENCH.replace(", lag = \"20 s\"", lag);
+        let netlist = parse_with("bench.toml", &text, &mut |_| Ok(RECORD.as_bytes().to_vec()))
+            .unwrap_or_else(|rejected| panic!("{rejected}"));
+        let task = InferTask::of(&netlist, &netlist.studies.infers[0]).unwrap();
+        infer(&task, &|_| Proceed::Continue).unwrap().courses[0].band[35]
+    };
+    let none = with("");
+    for lag in ["1e-300 s", "1e-60 s", "1e-14 s", "1e-9 s"].map(|lag| format!(", lag = \"{lag}\""))
+    {
+        let band = with(&lag);
+        let near = |found: f64, expected: f64| (found - expected).abs() < 1e-5 * expected.abs();
+        assert!(near(band.value, none.value) && near(band.ends.1, none.ends.1), "{lag}: {band:?}");
+    }
+}

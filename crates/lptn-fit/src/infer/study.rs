@@ -8,7 +8,7 @@ use lptn_units::Dimension;
 use crate::infer::error::InferError;
 use crate::infer::task::{Drift, InferTask, Sought, Start, Uncertain};
 use crate::network::plan::weights;
-use crate::network::{NetworkFitError, NetworkFitTask};
+use crate::network::{Instrument, NetworkFitError, NetworkFitTask};
 
 impl<'a> InferTask<'a> {
     /// The task of a study. Every parameter with a `±`, its own or that of a posterior, is
@@ -48,6 +48,10 @@ impl<'a> InferTask<'a> {
             }),
         })?;
         let run = read.runs.swap_remove(0);
+        // what no time of the record can tell is none, and rates by it would be beyond all numbers
+        let latest = run.times.iter().fold(0.0, |latest: f64, time| latest.max(time.abs()));
+        let prompt = |sensor: &&mut Instrument| sensor.lag.value < f64::EPSILON * latest;
+        read.sensors.iter_mut().filter(prompt).for_each(|sensor| sensor.lag.value = 0.0);
         let believed = netlist.overrides();
         let given = network.with(&run.parameters).map_err(ChangeError::from)?;
         let known = |(id, spread)| Uncertain::new(id, given.parameter_value(id), spread);
