@@ -80,9 +80,70 @@ fn what_cannot_be_followed_says_what_to_write() {
     let folder = folder(SAID);
     let follow = |text: &str| folder.run_with(&["infer", "body.toml", "--follow"], text).exits(2);
     follow("").says("record::no_rows");
-    follow("t [s],ring [degC]\n0,25\n0,26\n").says("record::time_reversed").says("line 3");
-    follow("t [s],ring [degC]\n0,25\n5,abc\n").says("record::not_a_number").says("line 3");
+    follow("t [s],ring [degC]\n0,25\n0,26\n").says("record::time_repeated").says("<stdin>:3:1");
+    follow("t [s],ring [degC]\n5,25\n0,26\n").says("record::time_reversed").says("<stdin>:3:1");
+    follow("t [s],ring [degC]\n0,25\n5,abc\n").says("record::not_a_number").says("<stdin>:3:3");
     follow("t [s],rung [degC]\n0,25\n").says("ring");
+    follow("# bench\nt [s],ring [degC]\n\n0,25\nabc,26\n")
+        .says("<stdin>:5:1")
+        .says("`#` before it");
+    follow("t [s],ring [degC]\n0,25\n5\n10,26\n").says("record::short_row").says("<stdin>:3:1");
+    follow("t [s],ring [degC]\n0,25\n").says("infer::short");
+    follow("t [s],ring [degC]\n-10,25\n0,25\n").says("fit::record_times").says("<stdin>");
+    let text = b"t [s],ring [degC]\n0,25\n5,25 \xb0C\n";
+    let latin = |text: &[u8]| folder.run_bytes(&["infer", "body.toml", "--follow"], text).exits(2);
+    latin(text).says("netlist::not_text").says("<stdin>:3:6");
+    for options in [["--format", "json"], ["--plot", "p.svg"], ["--report", "-q"]] {
+        let all = [["infer", "body.toml", "--follow"].as_slice(), &options].concat();
+        folder.run_with(&all, &record()).exits(2).says("infer::follow_output").says(options[0]);
+    }
+}
+
+/// As in a record that is read as a whole.
+#[test]
+fn gaps_rows_that_stand_twice_and_a_last_row_that_breaks_off_are_followed() {
+    let folder = folder(SAID);
+    let with = |text: &str| folder.run_with(&["infer", "body.toml", "--follow"], text).exits(0);
+    let plain = "t [s],ring [degC]\n0,25\n10,25.5\n20,26\n40,27\n";
+    let expected = with(plain).out;
+    let twice =
+        with("\u{feff}t [s],ring [degC]\r\n0,25\r\n10,25.5\r\n10,25.5\r\n20,26\r\n40,27\r\n");
+    assert_eq!(twice.says("record::same_row").says("<stdin>:4:1").out, expected);
+    let broken = with(&format!("{plain}5"));
+    assert_eq!(broken.says("record::broken_off").says("<stdin>:6:1").out, expected);
+    let (_, rows) = csv(&with(&plain.replace("40,", "30,NaN\n40,")).out);
+    assert_eq!(rows.len(), 5);
+    assert!(rows[3][6].is_nan() && rows[3][3] - rows[3][2] > rows[2][3] - rows[2][2]);
+}
+
+/// What is said of `data` is no word about stdin, and what nobody would expect is.
+#[test]
+fn a_wild_reading_that_comes_is_left_out_where_that_is_asked() {
+    let study = SAID.replace("sigma", "outliers = \"drop\"\nsigma");
+    let wild = |time: &str| {
+        let line = |line: &str| match line.split_once(',') {
+            Some((own, _)) if own == time => format!("{own},200,27\n"),
+            _ => format!("{line}\n"),
+        };
+        record().lines().map(line).collect::<String>()
+    };
+    for (study, done) in [(study.as_str(), "it is left out"), (SAID, "it is taken in")] {
+        let folder = folder(study);
+        folder.write("record.csv", &wild("600"));
+        let run = folder.run_with(&["infer", "body.toml", "--follow"], &wild("300")).exits(0);
+        let run = run.says("infer::unexpected").says("<stdin>, line 32").says(done);
+        assert!(!run.err.contains("at 600 s"), "{}", run.err);
+        let (_, rows) = csv(&run.out);
+        assert_eq!((rows[29][1] - rows[31][1]).abs() < 50.0, done == "it is left out");
+        assert!(rows[30][6] > 1e3, "{:?}", rows[30]);
+    }
+}
+
+#[test]
+fn a_record_that_begins_before_the_run_is_refused() {
+    let folder = folder(STUDY);
+    folder.write("record.csv", &record().replace("\n0,", "\n-10,24.9,27\n0,"));
+    folder.run(&["infer", "body.toml"]).exits(2).says("fit::record_times").says("set `start`");
 }
 
 /// The offset of the only instrument is free, and the start unknown: any power may be.
@@ -105,10 +166,61 @@ fn an_offset_that_nothing_determines_is_a_verdict() {
     folder.run(&["infer", "body.toml"]).exits(1).prints("not determined");
 }
 
+/// A walk by 60 W in a minute leaves far more than noise does, and that is an answer: 35.640694 W by
+/// the algebraic Riccati equation of temperature and power (SciPy 1.17, `solve_discrete_are`, noise by
+/// the exponential of C. F. Van Loan's matrix). A free offset of the only instrument, and one of 300 K
+/// (which is 1000 W through 0.3 K/W), leave no answer.
+#[test]
+fn a_band_that_is_as_wide_as_is_said_is_an_answer() {
+    let white = "0.3 K\"\ndrift = \"0 K\"\ndrift_time = \"1 s\"";
+    let study = SAID.replace("0.03 K\"", white);
+    let run = folder(&study).run(&["infer", "body.toml", "--format", "json"]).exits(0).json();
+    let deviation = run["courses"]["P"]["end"]["sd"].as_f64().unwrap();
+    assert!((deviation - 35.640_694).abs() < 1e-4, "{deviation}");
+    for (offset, code) in [("free", 1), ("0 ± 3 K", 0), ("0 ± 300 K", 1)] {
+        let sensor = format!("[sensor]\ntc = {{ offset = \"{offset}\" }}\n");
+        let of = SAID.replace("\"body.T\"", "{ of = \"body.T\", sensor = \"tc\" }");
+        let folder = folder(&format!("{sensor}{of}initial = \"free\"\n"));
+        folder.run(&["infer", "body.toml"]).exits(code);
+    }
+}
+
 #[test]
 fn a_start_that_the_record_contradicts_is_named() {
     let folder = folder(STUDY);
     folder.write("record.csv", &record().replace("\n0,24.9", "\n0,29.9"));
     folder.run(&["infer", "body.toml"]).exits(0).says("infer::start").says("initial = \"free\"");
     folder.run(&["infer", "body.toml", "flow"]).exits(2).says("infer::no_study");
+}
+
+/// Noise of which each reading holds 0.15 of the one before: neighbours correlate by
+/// 0.15 / (1 + 0.15^2) = 0.147, which is 9 standard deviations of chance in 4000 rows.
+#[test]
+fn neighbours_that_are_off_together_are_told_where_there_are_many() {
+    let mut seed = 1_u64;
+    // the sum of twelve even numbers less 6 is as good as normal, with a variance of 1
+    let mut noise = || {
+        let one = |_| {
+            seed = seed
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (seed >> 11) as f64 / (1_u64 << 53) as f64
+        };
+        (0..12).map(one).sum::<f64>() - 6.0
+    };
+    let (mut last, mut text) = (0.0, "t [s],ring [degC]\n".to_owned());
+    for k in 0..4000 {
+        let (t, own) = (f64::from(k), noise());
+        let rise = -45.0 * f64::exp_m1(-t / (0.3 * 2659.0));
+        writeln!(text, "{t},{:.5}", 25.0 + rise + 0.1 * (own + 0.15 * last)).unwrap();
+        last = own;
+    }
+    let study = SAID
+        .replace("60 W", "1 W")
+        .replace("0.03 K\"", "0.1 K\"\ndrift = \"0 K\"\ndrift_time = \"1 s\"");
+    let folder = folder(&study);
+    folder.write("record.csv", &text);
+    let run = folder.run(&["infer", "body.toml"]).exits(0).says("infer::surprised");
+    let run = run.says("neighbours correlate by 0.1").says("than `drift` says");
+    assert!(!run.err.contains("`sigma` is larger"), "{}", run.err);
 }

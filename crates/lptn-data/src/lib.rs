@@ -2,9 +2,10 @@
 //! [`Diagnostic`], and the one reader of CSV files. Headers carry units, `speed [rpm]`; what is
 //! wrong is named by its line.
 //!
-//! A file is read in four ways, by the same header , numbers and checks of its form: as columns
+//! A file is read in four ways, by the same header, numbers and checks of its form: as columns
 //! over time ([`read_record`]), as points without an order ([`read_sheet`]), one column after the
-//! other ([`CsvFile`]), or row by row without being held ([`CsvRows`]).
+//! other ([`CsvFile`]), or row by row without being held ([`CsvRows`]). A record that grows is read
+//! line by line ([`RecordLines`]).
 //!
 //! Diagnostics stand here and not in a crate below: they point into texts, and nothing below this
 //! crate has one.
@@ -29,8 +30,8 @@ pub use limits::{
     MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, ReadError, Rejected, read_bytes, read_named, shorten,
 };
 pub use record::{
-    DataSheet, Record, RecordColumn, RecordName, RecordQuery, Saturation, read_record, read_sheet,
-    read_text,
+    DataSheet, Record, RecordColumn, RecordLine, RecordLines, RecordName, RecordQuery, RecordRow,
+    Saturation, read_record, read_sheet, read_text,
 };
 pub use rows::{CsvRows, Marks};
 pub use text::CsvText;

@@ -103,8 +103,9 @@ pub use infer::{InferStart, InferStudy, SoughtSignal};
 pub use initial::InitialState;
 pub use lptn_data::{
     CsvText, DataSheet, Diagnostic, FileId, Files, Label, MOST_BYTES, MOST_CSV_BYTES,
-    MOST_PROBLEMS, ReadError, Record, RecordColumn, RecordName, RecordQuery, Rejected, Saturation,
-    Severity, Span, read_bytes, read_record, read_sheet, read_text,
+    MOST_PROBLEMS, ReadError, Record, RecordColumn, RecordLine, RecordLines, RecordName,
+    RecordQuery, RecordRow, Rejected, Saturation, Severity, Span, read_bytes, read_record,
+    read_sheet, read_text,
 };
 pub use lptn_network::{RunSettings, WindowSettings};
 pub use near_file::similar_file;

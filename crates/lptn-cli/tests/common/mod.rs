@@ -102,10 +102,15 @@ impl Folder {
 
     /// Runs with a text on stdin. A program that refuses the study may end before it has read it.
     pub fn run_with(&self, arguments: &[&str], stdin: &str) -> Ran {
+        self.run_bytes(arguments, stdin.as_bytes())
+    }
+
+    /// The same with bytes that need not be text.
+    pub fn run_bytes(&self, arguments: &[&str], stdin: &[u8]) -> Ran {
         let mut command = self.command(arguments);
         command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();
-        let wrote = child.stdin.take().unwrap().write_all(stdin.as_bytes());
+        let wrote = child.stdin.take().unwrap().write_all(stdin);
         let left = |error: std::io::Error| error.kind() == std::io::ErrorKind::BrokenPipe;
         assert!(wrote.map_or_else(left, |()| true));
         Ran::of(child.wait_with_output().unwrap())

@@ -22,11 +22,13 @@
 mod cells;
 mod columns;
 mod doubts;
+mod lines;
 mod rows;
 mod sheet;
 mod spikes;
 mod times;
 
+pub use lines::{RecordLine, RecordLines, RecordRow};
 pub use sheet::{DataSheet, read_sheet};
 
 use std::path::Path;
@@ -166,7 +168,7 @@ pub fn read_record(
 /// # Errors
 /// Every problem, each with a code `record::problem` and its line.
 pub fn read_text(text: &CsvText, query: &RecordQuery) -> Result<Record, Vec<Diagnostic>> {
-    let mut record = rows::read(text, query)?;
+    let mut record = rows::read(text, query, rows::Extent::Whole)?;
     let text = &text.text;
     let holes = times::holes(&record, text);
     record.warnings.extend(holes);

@@ -26,8 +26,20 @@ struct Work<'t> {
     timeless: Counted,
 }
 
+/// How much of a record a text holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Extent {
+    Whole,
+    /// Some rows of it: that there are none, or none with a value of a column, says nothing.
+    Part,
+}
+
 /// The numbers of a record, in SI units.
-pub(crate) fn read(text: &CsvText, query: &RecordQuery) -> Result<Record, Vec<Diagnostic>> {
+pub(crate) fn read(
+    text: &CsvText,
+    query: &RecordQuery,
+    extent: Extent,
+) -> Result<Record, Vec<Diagnostic>> {
     let mut reader = reader(&text.text);
     let mut rows = reader.records().filter_map(Result::ok).peekable();
     let head =
@@ -38,7 +50,7 @@ pub(crate) fn read(text: &CsvText, query: &RecordQuery) -> Result<Record, Vec<Di
     while let Some(cells) = rows.next() {
         work.row(cells, rows.peek().is_none());
     }
-    work.finish()
+    work.finish(extent)
 }
 
 impl<'t> Work<'t> {
@@ -102,10 +114,14 @@ impl<'t> Work<'t> {
                 .at(row.place(self.record.file, index), "")
                 .help("remove the row: when it was measured cannot be told");
         }
-        self.cells.head.no_number(row, (index, wrong), &Asked::default())
+        let problem = self.cells.head.no_number(row, (index, wrong), &Asked::default());
+        match row.cell(index).chars().any(|c| c.is_ascii_digit()) {
+            true => problem,
+            false => problem.help("remove the row, or put `#` before it: every row has its time"),
+        }
     }
 
-    fn finish(self) -> Result<Record, Vec<Diagnostic>> {
+    fn finish(self, extent: Extent) -> Result<Record, Vec<Diagnostic>> {
         let (mut problems, columns, head) = self.cells.finish();
         let mut record = Record { columns, ..self.record };
         problems.extend(self.timeless.told("cell of this column"));
@@ -113,6 +129,9 @@ impl<'t> Work<'t> {
         let (reversed, warning) = self.order.told();
         problems.extend(reversed);
         record.warnings.extend(warning);
+        if extent == Extent::Part {
+            return if problems.is_empty() { Ok(record) } else { Err(problems) };
+        }
         if problems.is_empty() && record.time.is_empty() {
             problems.push(match range {
                 Some((from, to)) => outside(&head, (&from, &to)),

@@ -3,16 +3,17 @@
 use lptn_network::NodeId;
 use lptn_units::statistics::NORMAL_95;
 
+use crate::infer::determined;
 use crate::infer::error::InferError;
 use crate::infer::inferred::{Band, Inferred, InferredCourse, InferredSensor, Known};
-use crate::infer::jumps::told;
+use crate::infer::jumps;
 use crate::infer::model::{Model, coordinates};
 use crate::infer::open::mixture;
 use crate::infer::reference::{InferObserver, Reference};
 use crate::infer::rounds::{Settled, settle};
 use crate::infer::strength::Strength;
 use crate::infer::surprise;
-use crate::infer::task::InferTask;
+use crate::infer::task::{InferTask, Uncertain};
 use crate::kalman::Smoother;
 
 /// Infers courses from a record.
@@ -25,10 +26,27 @@ use crate::kalman::Smoother;
 /// # Errors
 /// [`InferError`]
 pub fn infer(task: &InferTask<'_>, observer: &InferObserver<'_>) -> Result<Inferred, InferError> {
-    let settled = settle(task, observer)?;
-    let Settled { model, strength, reference, moments, .. } = &settled;
+    let mut settled = settle(task, observer)?;
+    let mut found = told(task, &settled);
+    let Settled { model, strength, free, .. } = &mut settled;
+    let sizes = (0..task.sought.len()).map(|j| size(task.sought[j].positive, &found.courses[j]));
+    let sizes: Vec<f64> = sizes.collect();
+    let known = determined::courses(task, free, (model, strength), &sizes);
+    found.courses.iter_mut().zip(known).for_each(|(course, known)| course.determined = known);
+    Ok(found)
+}
+
+/// How large the coordinate of a course comes to be: a factor of e where it is the logarithm.
+fn size(positive: bool, course: &InferredCourse) -> f64 {
+    let largest = course.band.iter().map(|band| band.value.abs()).fold(0.0, f64::max);
+    if positive { 1.0 } else { largest }
+}
+
+/// All that follows from where the rounds ended, but for whether courses are determined.
+fn told(task: &InferTask<'_>, settled: &Settled) -> Inferred {
+    let Settled { model, strength, reference, moments, .. } = settled;
     let (smoother, surprises) = model.smoothed(strength);
-    let asked = Asked::new(task, &settled);
+    let asked = Asked::new(task, settled);
     let mixed = asked.mixed();
     let states = &model.states;
     let final_state = smoother.filter().state();
@@ -42,13 +60,14 @@ pub fn infer(task: &InferTask<'_>, observer: &InferObserver<'_>) -> Result<Infer
         let before = Known { value: read.known.0, deviation: read.known.1 };
         InferredSensor { sensor: read.sensor, gain: read.gain, before, now }
     };
-    let parameter = |(k, (_, deviation)): (usize, &(_, f64))| {
-        let moved = alone(states.parameter(k), *deviation);
-        Known { value: reference.parameters[k] + moved.value, ..moved }
+    let parameter = |(k, own): (usize, &Uncertain)| {
+        let moved = alone(states.parameter(k), 1.0);
+        let value = own.moved(reference.parameters[k], moved.value);
+        Known { value, deviation: own.unit(value) * moved.deviation }
     };
     let still = still(task, (reference, model), strength);
     let courses = (0..task.sought.len()).map(|j| asked.course(j, &mixed, still[j])).collect();
-    Ok(Inferred {
+    Inferred {
         times: moments.times.clone(),
         before: moments.before,
         courses,
@@ -57,9 +76,9 @@ pub fn infer(task: &InferTask<'_>, observer: &InferObserver<'_>) -> Result<Infer
         parameters: task.uncertain.iter().enumerate().map(parameter).collect(),
         columns: surprise::columns(model, strength, &surprises),
         log_likelihood: smoother.filter().log_likelihood(),
-        jumps: told(model, strength),
+        jumps: jumps::told(model, strength),
         rounds: settled.rounds,
-    })
+    }
 }
 
 /// Each course if none changes.
@@ -151,6 +170,7 @@ impl<'a> Asked<'a> {
         };
         InferredCourse {
             band: (0..count).map(band).collect(),
+            determined: true,
             mean: (!positive).then(mean),
             before: self.before(j),
             intensity: self.settled.strength.intensities[2 * j],

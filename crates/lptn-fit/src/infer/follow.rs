@@ -6,6 +6,7 @@
 use lptn_solve::Proceed;
 use lptn_units::statistics::NORMAL_95;
 
+use crate::infer::carried::carried;
 use crate::infer::error::InferError;
 use crate::infer::inferred::{Band, Known};
 use crate::infer::model::{Model, coordinates};
@@ -24,8 +25,30 @@ pub struct Row {
     pub time: f64,
     /// A value in K for each column; NaN where nothing was measured.
     pub values: Vec<f64>,
-    /// A value in SI units for each signal that follows a column of the record.
+    /// A value in SI units for each signal that follows a column of the record; where it is NaN the
+    /// signal holds the value before.
     pub signals: Vec<f64>,
+}
+
+/// A surprise beyond so many standard deviations is no chance.
+const BEYOND: f64 = 10.0;
+
+/// So many readings of a column in a row may be left out; the next is believed: the course jumped.
+const IN_A_ROW: usize = 3;
+
+/// A reading that nobody would expect.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Unexpected {
+    /// The place of its column.
+    pub column: usize,
+    /// In K.
+    pub value: f64,
+    /// By how many standard deviations it surprised.
+    pub surprise: f64,
+    /// How many of its column there were in a row, with it.
+    pub in_a_row: usize,
+    /// Whether it was left out.
+    pub left_out: bool,
 }
 
 /// What is known at a row.
@@ -39,6 +62,8 @@ pub struct Followed {
     pub nodes: Vec<Known>,
     /// By how many standard deviations each column surprised; NaN where nothing was measured.
     pub surprises: Vec<f64>,
+    /// The readings that surprised by more than 10.
+    pub unexpected: Vec<Unexpected>,
 }
 
 /// Follows a record row by row.
@@ -46,8 +71,12 @@ pub struct Followed {
 pub struct Follower<'a> {
     /// What is sought, without rows.
     task: InferTask<'a>,
+    /// Whether readings that nobody would expect are left out.
+    drops: bool,
     waiting: Vec<Row>,
     now: Option<Now>,
+    /// How many readings of each column that nobody would expect came last, in a row.
+    in_a_row: Vec<usize>,
 }
 
 /// What is known at the last row.
@@ -79,53 +108,138 @@ impl<'a> Follower<'a> {
         if let Some(column) = task.run.columns.iter().find(|column| column.sigma.is_none()) {
             return Err(InferError::Noise { column: column.name.clone() });
         }
-        Ok(Self { task, waiting: Vec::new(), now: None })
+        let in_a_row = vec![0; task.run.columns.len()];
+        Ok(Self { task, drops: false, waiting: Vec::new(), now: None, in_a_row })
     }
 
-    /// Takes a row in. Rows wait until there are two moments, and are answered together then.
+    /// The same that leaves out up to three readings of a column in a row, each of which surprises
+    /// by more than 10 standard deviations. The fourth is believed. In the first rows, which are
+    /// answered together, nothing is left out: nothing is known of the course before them.
+    pub fn dropping(self) -> Self {
+        Self { drops: true, ..self }
+    }
+
+    /// Takes a row in. Rows wait until there are two moments and something was read behind the
+    /// first, and are answered together then. What was not measured is left out.
     ///
     /// # Errors
-    /// [`InferError`] where the network has no run or rates there.
-    pub fn row(&mut self, row: Row) -> Result<Vec<Followed>, InferError> {
-        let Some(now) = self.now.take() else { return self.begin(row) };
+    /// [`InferError`] where the network has no run or rates there, and [`InferError::Record`] for a
+    /// row before the start of the run.
+    pub fn row(&mut self, mut row: Row) -> Result<Vec<Followed>, InferError> {
+        let before = self.now.as_ref().map(|now| &now.last).or(self.waiting.last());
+        if let Some(before) = before {
+            let held = row.signals.iter_mut().zip(&before.signals);
+            held.filter(|(own, _)| own.is_nan()).for_each(|(own, before)| *own = *before);
+        }
+        let Some(now) = &self.now else { return self.begin(row) };
+        let (mut taken, mut left) = (row.clone(), vec![f64::NAN; row.values.len()]);
+        let (mut followed, now) = loop {
+            let (followed, next) = self.go_on(now, &taken)?;
+            let Some(column) = self.to_leave_out(&followed) else { break (followed, next) };
+            left[column] = followed.surprises[column];
+            taken.values[column] = f64::NAN;
+        };
+        self.now = Some(now);
+        self.note(&row, &mut followed, &left);
+        Ok(vec![followed])
+    }
+
+    /// Where no more rows come.
+    ///
+    /// # Errors
+    /// [`InferError::Short`] where no row could be answered.
+    pub fn end(self) -> Result<(), InferError> {
+        if self.now.is_some() || self.waiting.is_empty() { Ok(()) } else { Err(InferError::Short) }
+    }
+
+    /// From the last row to the next.
+    fn go_on(&self, now: &Now, row: &Row) -> Result<(Followed, Now), InferError> {
         let times = vec![now.last.time, row.time];
-        let task = self.of_rows(&times, &[&now.last, &row]);
+        let task = self.of_rows(&times, &[&now.last, row]);
         let moments = Moments { times, before: 0 };
         let reference = now.reference.twice();
         let at = (&reference, &now.own);
         let model =
             Model::new(&task, (&moments, &now.begins), at, (&now.sizes, &|_| Proceed::Continue))?;
-        let mut filter = Filter::new(now.state);
+        let mut filter = Filter::new(now.state.clone());
         let followed = step(&task, (&model, &reference), (&mut filter, 1), row.time);
         let (reference, state) = carried(&task, (&model, &reference), (&filter, &now.begins, 1));
-        let Now { own, begins, sizes, .. } = now;
-        self.now = Some(Now { last: row, reference, own, begins, sizes, state });
-        Ok(vec![followed])
+        let (own, begins, sizes) = (now.own.clone(), now.begins.clone(), now.sizes.clone());
+        Ok((followed, Now { last: row.clone(), reference, own, begins, sizes, state }))
+    }
+
+    /// The first column whose reading is to be left out.
+    fn to_leave_out(&self, followed: &Followed) -> Option<usize> {
+        let beyond = |i: &usize| followed.surprises[*i].abs() > BEYOND;
+        let mut columns = (0..self.in_a_row.len()).filter(|i| self.in_a_row[*i] < IN_A_ROW);
+        columns.find(beyond).filter(|_| self.drops)
+    }
+
+    /// Counts readings that nobody would expect; `left` are the surprises of those that were left
+    /// out.
+    fn note(&mut self, row: &Row, followed: &mut Followed, left: &[f64]) {
+        for (column, count) in self.in_a_row.iter_mut().enumerate() {
+            let left_out = !left[column].is_nan();
+            if left_out {
+                followed.surprises[column] = left[column];
+            }
+            let (value, surprise) = (row.values[column], followed.surprises[column]);
+            if surprise.abs() > BEYOND {
+                *count += 1;
+                let told = Unexpected { column, value, surprise, in_a_row: *count, left_out };
+                followed.unexpected.push(told);
+            } else if !surprise.is_nan() {
+                *count = 0;
+            }
+        }
     }
 
     /// The first moments.
     fn begin(&mut self, row: Row) -> Result<Vec<Followed>, InferError> {
         self.waiting.push(row);
-        let rows: Vec<&Row> = self.waiting.iter().collect();
+        let Some((mut answers, now)) = self.first(&self.waiting)? else { return Ok(Vec::new()) };
+        self.now = Some(now);
+        let left = vec![f64::NAN; self.in_a_row.len()];
+        for (row, followed) in std::mem::take(&mut self.waiting).iter().zip(&mut answers) {
+            self.note(row, followed, &left);
+        }
+        Ok(answers)
+    }
+
+    /// Answers the first rows; `None` where more have to come.
+    fn first(&self, rows: &[Row]) -> Result<Option<(Vec<Followed>, Now)>, InferError> {
+        let Some(last) = rows.last() else { return Ok(None) };
+        let all: Vec<&Row> = rows.iter().collect();
         let times: Vec<f64> = rows.iter().map(|row| row.time).collect();
-        let task = self.of_rows(&times, &rows);
+        let task = self.of_rows(&times, &all);
         let moments = match Moments::of(&task) {
-            Err(InferError::Short) => return Ok(Vec::new()),
+            Err(InferError::Short) => return Ok(None),
             moments => moments?,
         };
+        let behind = &rows[1 - moments.before..];
+        let read = |i: usize| behind.iter().any(|row| !row.values[i].is_nan());
+        let columns = last.values.len();
+        let followed = |i: usize| !last.signals[i].is_nan();
+        if !(0..columns).any(read) || !(0..last.signals.len()).all(followed) {
+            return Ok(None);
+        }
         let (own, begins) = begun(&task, &moments)?;
-        let observer = |_: lptn_solve::Progress| Proceed::Continue;
-        let model = Model::new(&task, (&moments, &begins), (&own, &own), (&[], &observer))?;
+        let model =
+            Model::new(&task, (&moments, &begins), (&own, &own), (&[], &|_| Proceed::Continue));
+        let model = match model {
+            // the column that feels it may have gaps still
+            Err(InferError::Unfelt { .. }) if !(0..columns).all(read) => return Ok(None),
+            model => model?,
+        };
         let mut filter = Filter::new(model.begin(&noises(&task)));
-        let last = moments.times.len() - 1;
         let each = moments.times.iter().enumerate();
         let answers = each.map(|(k, time)| step(&task, (&model, &own), (&mut filter, k), *time));
-        let answers: Vec<Followed> = answers.skip(moments.before).collect();
-        let (reference, state) = carried(&task, (&model, &own), (&filter, &begins, last));
-        let sizes = model.sizes;
-        let Some(row) = self.waiting.pop() else { return Ok(answers) };
-        self.now = Some(Now { last: row, reference, own, begins, sizes, state });
-        Ok(answers)
+        let answers: Vec<Followed> = answers.collect();
+        let end = (&filter, &begins, answers.len() - 1);
+        let (reference, state) = carried(&task, (&model, &own), end);
+        let (last, sizes) = (last.clone(), model.sizes);
+        let now = Now { last, reference, own, begins, sizes, state };
+        Ok(Some((answers.into_iter().skip(moments.before).collect(), now)))
     }
 
     /// The task of some rows: where a row was answered before, only its signals count.
@@ -196,60 +310,6 @@ fn step(
         courses: own.iter().enumerate().map(band).collect(),
         nodes: (0..model.reference[k].len()).map(node).collect(),
         surprises,
+        unexpected: Vec::new(),
     }
-}
-
-/// What is known of a moment as the reference of the next, and how the states stand to it.
-fn carried(
-    task: &InferTask<'_>,
-    (model, reference): (&Model, &Reference),
-    (filter, begins, k): (&Filter, &Begins, usize),
-) -> (Reference, Gaussian) {
-    let states = &model.states;
-    let Gaussian { mean, mut covariance } = filter.state().clone();
-    let nodes = &model.reference[k];
-    let temperature = |i: usize| -> f64 {
-        let moved = model.nodes[k][i].iter().map(|(place, weight)| weight * mean[*place]);
-        nodes[i] + moved.sum::<f64>()
-    };
-    let courses = coordinates(task, reference, k).into_iter().zip(&task.sought).enumerate();
-    let courses = courses.map(|(j, (own, sought))| {
-        let there = own + mean[states.course(j)];
-        vec![if sought.positive { there.exp() } else { there }]
-    });
-    let next = Reference {
-        courses: courses.collect(),
-        parameters: (reference.parameters.iter().enumerate())
-            .map(|(i, own)| own + task.uncertain[i].1 * mean[states.parameter(i)])
-            .collect(),
-        initial: begins.bodies.iter().map(|id| (*id, temperature(id.index()))).collect(),
-        reads: (reference.reads.iter().enumerate())
-            .map(|(r, own)| own + mean[states.read(r)])
-            .collect(),
-    };
-    let mut moved = vec![0.0; mean.len()];
-    for (column, _) in &states.slow {
-        let Some(place) = states.shown(*column) else { continue };
-        let of = task.run.columns[*column].nodes().iter();
-        let there: f64 = of.map(|(id, factor)| factor * temperature(id.index())).sum();
-        moved[place] = model.shown[*column][k] + mean[place] - there;
-    }
-    let drifts = states.drifts.iter().filter_map(|column| states.drift(*column));
-    drifts.for_each(|place| moved[place] = mean[place]);
-    // a body begins anew as its temperature; integrals begin at 0
-    let size = |i: usize| match i {
-        i if i < states.bodies => {
-            let own = &model.nodes[k][begins.bodies[i].index()];
-            own.iter().find(|(place, _)| *place == i).map_or(1.0, |(_, slope)| *slope)
-        }
-        i if (0..states.sought).any(|j| states.area(j) == i) => 0.0,
-        _ => 1.0,
-    };
-    let count = mean.len();
-    for i in 0..count {
-        for j in 0..count {
-            covariance[i * count + j] *= size(i) * size(j);
-        }
-    }
-    (next, Gaussian { mean: moved, covariance })
 }

@@ -42,6 +42,10 @@ pub struct InferredCourse {
     /// Its most probable value at each moment, in SI units, and the band that holds it with a
     /// probability of 95 %.
     pub band: Vec<Band>,
+    /// Whether the record tells it: the band does not hang on what was taken for something of which
+    /// nothing is known, and what is known with a `±` does not make it wider than the course is
+    /// large.
+    pub determined: bool,
     /// Its mean over the record; `None` where it is the logarithm that walks.
     pub mean: Option<Known>,
     /// What was known of it at the start, or of its logarithm: next to nothing.

@@ -54,10 +54,8 @@ impl Systems {
             let size = if task.sought[j].positive { least } else { most };
             changed.push(both(&|by| Changed::Course(j, by), size));
         }
-        for (k, ((_, deviation), value)) in
-            task.uncertain.iter().zip(&reference.parameters).enumerate()
-        {
-            let size = value.abs().max(*deviation);
+        for (k, (own, value)) in task.uncertain.iter().zip(&reference.parameters).enumerate() {
+            let size = value.abs().max(own.unit(*value));
             changed.push(both(&|by| Changed::Parameter(k, by), size));
         }
         let changed = changed.into_iter().collect::<Result<_, InferError>>()?;

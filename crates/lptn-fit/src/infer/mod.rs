@@ -10,6 +10,8 @@
 //! estimated along, so what is not known of them widens every band.
 
 mod answer;
+mod carried;
+mod determined;
 mod discrete;
 mod error;
 mod follow;
@@ -32,9 +34,9 @@ mod task;
 
 pub use answer::infer;
 pub use error::InferError;
-pub use follow::{Followed, Follower, Row};
+pub use follow::{Followed, Follower, Row, Unexpected};
 pub use inferred::{
     Band, Inferred, InferredColumn, InferredCourse, InferredJump, InferredSensor, Known,
 };
 pub use reference::InferObserver;
-pub use task::{Drift, InferTask, Sought, Start};
+pub use task::{Drift, InferTask, Sought, Start, Uncertain};

@@ -82,7 +82,8 @@ impl Model {
             let bodies = look.carried(there)?;
             let courses = task.sought.iter().zip(&reference.courses);
             let slopes = courses.map(|(sought, course)| slope(sought.positive, course[k]));
-            let deviations = task.uncertain.iter().map(|(_, deviation)| *deviation);
+            let uncertain = task.uncertain.iter().zip(&reference.parameters);
+            let deviations = uncertain.map(|(own, value)| own.unit(*value));
             let slopes: Vec<f64> = slopes.chain(deviations).collect();
             all.push(look.at((time, &bodies), &slopes)?);
         }

@@ -5,7 +5,7 @@ use lptn_network::NodeId;
 use crate::infer::error::InferError;
 use crate::infer::reference::{Changed, Reference};
 use crate::infer::states::{States, UNKNOWN_KELVIN};
-use crate::infer::task::{InferTask, Start};
+use crate::infer::task::{InferTask, Start, Uncertain};
 use crate::kalman::Gaussian;
 
 /// The start of the network itself, with its uncertain parameters at their own values.
@@ -16,7 +16,7 @@ pub(crate) struct Begins {
     /// Its change by a standard deviation of each uncertain parameter.
     by_parameter: Vec<Vec<f64>>,
     /// Whether nothing is known of it.
-    unknown: Vec<bool>,
+    pub(crate) unknown: Vec<bool>,
     /// The node of each.
     pub(crate) bodies: Vec<NodeId>,
 }
@@ -30,13 +30,13 @@ impl Begins {
             let network = own.network(task, times, changed)?;
             Ok(bodies.iter().map(|&id| network.initial(id)).collect())
         };
-        let change = |(k, (_, deviation)): (usize, &(_, f64))| {
-            let by = 0.5 * deviation;
+        let change = |(k, (uncertain, value)): (usize, (&Uncertain, &f64))| {
+            let by = 0.5 * uncertain.unit(*value);
             let (below, above) = (at(Changed::Parameter(k, -by))?, at(Changed::Parameter(k, by))?);
             Ok(above.iter().zip(below).map(|(above, below)| above - below).collect())
         };
         let by_parameter: Result<_, InferError> =
-            task.uncertain.iter().enumerate().map(change).collect();
+            task.uncertain.iter().zip(&own.parameters).enumerate().map(change).collect();
         // a difference of two temperatures says of neither where it begins
         let absolute = task.run.columns.iter().filter(|column| column.ty.absolute);
         let measured: Vec<NodeId> =
@@ -97,8 +97,8 @@ impl Begins {
             root(&entries);
         }
         for k in 0..uncertain {
-            let deviation = task.uncertain[k].1;
-            mean[states.parameter(k)] = (own.parameters[k] - reference.parameters[k]) / deviation;
+            let (known, now) = (own.parameters[k], reference.parameters[k]);
+            mean[states.parameter(k)] = task.uncertain[k].beyond(known, now);
         }
         for (j, (course, spread)) in courses.iter().zip(spreads).enumerate() {
             root(&[(states.course(j), *spread)]);

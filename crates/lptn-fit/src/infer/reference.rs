@@ -6,7 +6,7 @@ use lptn_solve::{Proceed, Progress, RecordedNodes, RunStatus, Solution, Transien
 
 use crate::infer::error::InferError;
 use crate::infer::task::{InferTask, Start};
-use crate::network::{follow, line, refined};
+use crate::network::{NetworkFitError, follow, line, refined};
 
 /// Is called after every step of a run, and may interrupt it.
 pub type InferObserver<'a> = dyn Fn(Progress) -> Proceed + 'a;
@@ -26,6 +26,13 @@ pub(crate) struct Moments {
 impl Moments {
     pub(crate) fn of(task: &InferTask<'_>) -> Result<Self, InferError> {
         let (start, mut times) = (task.run.settings.start, task.run.times.clone());
+        let span = (times.first().copied(), times.last().copied());
+        if let (Some(first), Some(last)) = span
+            && first < start
+        {
+            let (record, span) = (task.run.name.clone(), (first, last));
+            return Err(NetworkFitError::Times { record, span, start }.into());
+        }
         let behind = times.first().is_some_and(|first| *first > start);
         let before = usize::from(task.start == Start::Known && behind);
         if before > 0 {
@@ -84,7 +91,7 @@ impl Reference {
         changed: Changed,
     ) -> Result<Network, InferError> {
         let mut parameters = task.run.parameters.clone();
-        for (k, ((id, _), value)) in task.uncertain.iter().zip(&self.parameters).enumerate() {
+        for (k, (own, value)) in task.uncertain.iter().zip(&self.parameters).enumerate() {
             let more = if let Changed::Parameter(of, by) = changed
                 && of == k
             {
@@ -92,7 +99,7 @@ impl Reference {
             } else {
                 0.0
             };
-            parameters.set(*id, value + more);
+            parameters.set(own.parameter, value + more);
         }
         let network = task.network.with(&parameters).map_err(ChangeError::from)?;
         let mut signals = task.inputs();

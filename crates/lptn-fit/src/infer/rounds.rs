@@ -15,7 +15,8 @@ use crate::network::{Certainty, unknown_input};
 /// The most rounds.
 const MOST: usize = 25;
 
-/// Nothing moves where no course does by more than this part of its standard deviation.
+/// Nothing moves where no course, parameter or instrument does by more than this part of its standard
+/// deviation.
 const SETTLED: f64 = 1e-4;
 
 /// Behind so many rounds strengths stay as they are: searched again they would differ by what the
@@ -34,6 +35,8 @@ pub(crate) struct Settled {
     pub(crate) reference: Reference,
     pub(crate) model: Model,
     pub(crate) strength: Strength,
+    /// The bodies of whose start nothing is known.
+    pub(crate) free: Vec<bool>,
     pub(crate) rounds: usize,
 }
 
@@ -65,7 +68,8 @@ pub(crate) fn settle(
         let mut next = moved((task, &begins), (&reference, &model), &smoothed, 1.0);
         let far = distance((task, &model), (&reference, &next), &smoothed);
         if far < SETTLED {
-            return Ok(Settled { moments, reference, model, strength, rounds: round });
+            let free = begins.unknown.clone();
+            return Ok(Settled { moments, reference, model, strength, free, rounds: round });
         }
         let mut there = at(&next, &sizes);
         for halves in 1..=HALVES {
@@ -121,7 +125,8 @@ fn own(task: &InferTask<'_>, moments: &Moments) -> Result<Reference, InferError>
         }
     };
     let courses = task.sought.iter().map(course).collect::<Result<_, _>>()?;
-    let parameters = task.uncertain.iter().map(|(id, _)| network.parameter_value(*id)).collect();
+    let parameters = task.uncertain.iter();
+    let parameters = parameters.map(|own| network.parameter_value(own.parameter)).collect();
     let reads = crate::infer::states::reads(task).iter().map(|read| read.known.0).collect();
     Ok(Reference { courses, parameters, initial: Vec::new(), reads })
 }
@@ -143,8 +148,8 @@ fn moved(
         }
     }
     let (first, last) = (&smoothed[0].mean, &smoothed[smoothed.len() - 1].mean);
-    for (k, (_, deviation)) in task.uncertain.iter().enumerate() {
-        next.parameters[k] += share * deviation * last[states.parameter(k)];
+    for (k, own) in task.uncertain.iter().enumerate() {
+        next.parameters[k] = own.moved(next.parameters[k], share * last[states.parameter(k)]);
     }
     for (r, read) in next.reads.iter_mut().enumerate() {
         *read += share * last[states.read(r)];
@@ -157,14 +162,14 @@ fn moved(
     next
 }
 
-/// How far a round has moved anything that is sought, over its standard deviation.
+/// How far a round has moved anything that is not known, over its standard deviation.
 fn distance(
     (task, model): (&InferTask<'_>, &Model),
     (reference, next): (&Reference, &Reference),
     smoothed: &[Gaussian],
 ) -> f64 {
     let states = &model.states;
-    let mut far: f64 = 0.0;
+    let mut far = unmoving((task, model), (reference, next), &smoothed[smoothed.len() - 1]);
     for (k, known) in smoothed.iter().enumerate() {
         let (from, to) = (coordinates(task, reference, k), coordinates(task, next, k));
         for j in 0..states.sought {
@@ -175,4 +180,23 @@ fn distance(
         }
     }
     far
+}
+
+/// The same of what stands still: parameters, and values of instruments.
+fn unmoving(
+    (task, model): (&InferTask<'_>, &Model),
+    (reference, next): (&Reference, &Reference),
+    last: &Gaussian,
+) -> f64 {
+    let states = &model.states;
+    let over = |moved: f64, place: usize| {
+        let deviation = last.covariance[place * (states.count() + 1)].max(0.0).sqrt();
+        moved.abs() / deviation.max(1e-300)
+    };
+    let parameters = task.uncertain.iter().enumerate().map(|(k, own)| {
+        over(own.beyond(next.parameters[k], reference.parameters[k]), states.parameter(k))
+    });
+    let reads =
+        (0..states.reads.len()).map(|r| over(next.reads[r] - reference.reads[r], states.read(r)));
+    parameters.chain(reads).fold(0.0, f64::max)
 }

@@ -84,7 +84,7 @@ impl States {
         (0..self.sought).flat_map(|j| [self.course(j), self.slope(j)]).collect()
     }
 
-    /// An uncertain parameter, over its standard deviation.
+    /// An uncertain parameter, or the logarithm of one, over its standard deviation.
     pub(crate) fn parameter(&self, k: usize) -> usize {
         self.area(self.sought) + k
     }

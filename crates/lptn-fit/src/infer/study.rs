@@ -1,13 +1,14 @@
 //! From an `[infer.NAME]` of a netlist to a task.
 
+use lptn_assembly::ChangeError;
 use lptn_netlist::{InferStart, InferStudy, Netlist, SoughtSignal};
 use lptn_network::ParameterId;
 use lptn_units::Dimension;
 
 use crate::infer::error::InferError;
-use crate::infer::task::{Drift, InferTask, Sought, Start};
+use crate::infer::task::{Drift, InferTask, Sought, Start, Uncertain};
 use crate::network::plan::weights;
-use crate::network::{NetworkFitError, NetworkFitTask};
+use crate::network::{Instrument, NetworkFitError, NetworkFitTask};
 
 impl<'a> InferTask<'a> {
     /// The task of a study. Every parameter with a `±`, its own or that of a posterior, is
@@ -47,10 +48,15 @@ impl<'a> InferTask<'a> {
             }),
         })?;
         let run = read.runs.swap_remove(0);
+        // what no time of the record can tell is none, and rates by it would be beyond all numbers
+        let latest = run.times.iter().fold(0.0, |latest: f64, time| latest.max(time.abs()));
+        let prompt = |sensor: &&mut Instrument| sensor.lag.value < f64::EPSILON * latest;
+        read.sensors.iter_mut().filter(prompt).for_each(|sensor| sensor.lag.value = 0.0);
         let believed = netlist.overrides();
-        let uncertain: Vec<(ParameterId, f64)> =
-            believed.uncertain().into_iter().map(|(id, spread)| (id, spread.sigma)).collect();
-        let ids: Vec<ParameterId> = uncertain.iter().map(|(id, _)| *id).collect();
+        let given = network.with(&run.parameters).map_err(ChangeError::from)?;
+        let known = |(id, spread)| Uncertain::new(id, given.parameter_value(id), spread);
+        let uncertain: Vec<Uncertain> = believed.uncertain().into_iter().map(known).collect();
+        let ids: Vec<ParameterId> = uncertain.iter().map(|own| own.parameter).collect();
         let together = believed.correlations_of(&ids);
         Ok(Self { network, run, sensors: read.sensors, sought, uncertain, together, start, drift })
     }

@@ -1,7 +1,7 @@
 //! What is to be inferred from what.
 
 use lptn_network::{Course, Network, ParameterId, SignalId};
-use lptn_units::Correlations;
+use lptn_units::{Correlations, Distribution, Spread};
 
 use crate::network::{Held, Instrument, MeasuredRun};
 
@@ -16,9 +16,8 @@ pub struct InferTask<'a> {
     pub sensors: Vec<Instrument>,
     /// What is sought; each signal once.
     pub sought: Vec<Sought>,
-    /// Parameters that are not known exactly, with their standard deviations in SI units. The
-    /// record tells of them too.
-    pub uncertain: Vec<(ParameterId, f64)>,
+    /// Parameters that are not known exactly. The record tells of them too.
+    pub uncertain: Vec<Uncertain>,
     /// What is known of them together.
     pub together: Correlations,
     /// What is known of the start.
@@ -32,6 +31,43 @@ impl InferTask<'_> {
     pub(crate) fn inputs(&self) -> Vec<(SignalId, Course)> {
         let held = |sensor: Option<usize>| Held::of(sensor.and_then(|i| self.sensors.get(i)));
         self.run.signals.iter().map(|s| (s.signal, s.course(held(s.sensor)))).collect()
+    }
+}
+
+/// A parameter that is not known exactly. Its coordinate counts standard deviations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Uncertain {
+    /// The parameter.
+    pub parameter: ParameterId,
+    /// Standard deviation in SI units, above 0; of a lognormal one that of its logarithm.
+    pub deviation: f64,
+    /// Whether it is its logarithm that is normal, so that it stays above 0.
+    pub lognormal: bool,
+}
+
+impl Uncertain {
+    /// With what is known of a parameter of this value.
+    pub fn new(parameter: ParameterId, value: f64, spread: Spread) -> Self {
+        let lognormal = spread.distribution == Distribution::Lognormal && value > 0.0;
+        let deviation = if lognormal { spread.of_logarithm(value) } else { spread.sigma };
+        Self { parameter, deviation, lognormal }
+    }
+
+    /// What a standard deviation is in SI units at a value, to first order.
+    pub fn unit(&self, value: f64) -> f64 {
+        if self.lognormal { self.deviation * value } else { self.deviation }
+    }
+
+    /// The value so many standard deviations beyond another.
+    pub(crate) fn moved(&self, value: f64, by: f64) -> f64 {
+        let far = self.deviation * by;
+        if self.lognormal { value * far.exp() } else { value + far }
+    }
+
+    /// How many standard deviations a value is beyond another.
+    pub(crate) fn beyond(&self, value: f64, other: f64) -> f64 {
+        let far = if self.lognormal { (value / other).ln() } else { value - other };
+        far / self.deviation
     }
 }
 

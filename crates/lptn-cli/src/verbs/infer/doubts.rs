@@ -1,6 +1,6 @@
 //! What is to be said about an inference beside its bands.
 
-use lptn_fit::infer::{InferredColumn, Start};
+use lptn_fit::infer::{Drift, InferredColumn, Start};
 use lptn_netlist::{Diagnostic, Observed};
 use lptn_report::{duration, significant};
 
@@ -11,6 +11,9 @@ const FAR: f64 = 5.0;
 
 /// Readings that scatter so many times as far as was expected.
 const WIDE: f64 = 1.3;
+
+/// Neighbours that correlate by less make bands no narrower than they should be by more than a tenth.
+const ALIKE: f64 = 0.08;
 
 pub(super) fn of(answer: &Answer<'_>) -> Vec<Diagnostic> {
     let observed = &answer.study.reads.observed;
@@ -25,11 +28,8 @@ pub(super) fn of(answer: &Answer<'_>) -> Vec<Diagnostic> {
     let most = columns().max_by(|a, b| drift(a.0).total_cmp(&drift(b.0)));
     let drifted = most.filter(|(column, _)| drift(column) > FAR);
     doubts.extend(drifted.and_then(|(column, observed)| drifts(answer, column, observed)));
-    let odd = columns().filter(|(column, _)| {
-        let chance = (column.readings as f64).sqrt();
-        column.rms > WIDE || (column.neighbours * chance).abs() > FAR && column.neighbours > 0.2
-    });
-    doubts.extend(odd.map(|(column, observed)| surprised(column, observed)));
+    let odd = columns().enumerate().filter(|(_, (column, _))| is_wide(column) || is_alike(column));
+    doubts.extend(odd.map(|(i, (column, observed))| surprised((answer, i), column, observed)));
     doubts
 }
 
@@ -65,7 +65,20 @@ fn drifts(answer: &Answer<'_>, column: &InferredColumn, observed: &Observed) -> 
     ))
 }
 
-fn surprised(column: &InferredColumn, observed: &Observed) -> Diagnostic {
+fn is_wide(column: &InferredColumn) -> bool {
+    column.rms > WIDE
+}
+
+/// Whether neighbours are off together, and not by chance.
+fn is_alike(column: &InferredColumn) -> bool {
+    column.neighbours * (column.readings as f64).sqrt() > FAR && column.neighbours > ALIKE
+}
+
+fn surprised(
+    (answer, i): (&Answer<'_>, usize),
+    column: &InferredColumn,
+    observed: &Observed,
+) -> Diagnostic {
     let message = format!(
         "column `{}`: readings are {} times as far from what was expected as they should be, and \
          neighbours correlate by {}",
@@ -73,9 +86,20 @@ fn surprised(column: &InferredColumn, observed: &Observed) -> Diagnostic {
         significant(column.rms, 3),
         significant(column.neighbours, 2)
     );
-    let at = Diagnostic::warning("infer::surprised", message).at(observed.span.clone(), "");
-    at.help(
-        "the bands are too narrow: `sigma` is larger than is said, what is sought changes faster than \
-         `change` says, or the network lacks something",
-    )
+    let task = &answer.task;
+    let mut reasons: Vec<&str> = Vec::new();
+    if is_wide(column) && task.run.columns[i].sigma.is_some() {
+        reasons.push("`sigma` is larger than is said");
+    }
+    if is_alike(column) && matches!(task.drift, Drift::Known { .. }) {
+        reasons.push("a slow part of the noise is larger than `drift` says");
+    }
+    if task.sought.iter().any(|sought| sought.intensity.is_some()) {
+        reasons.push("what is sought changes faster than `change` says");
+    }
+    let mut help = "the bands are too narrow: ".to_owned();
+    reasons.iter().for_each(|reason| help += &format!("{reason}, "));
+    help += if reasons.is_empty() { "the network " } else { "or the network " };
+    help += "lacks something";
+    Diagnostic::warning("infer::surprised", message).at(observed.span.clone(), "").help(help)
 }

@@ -39,13 +39,18 @@ pub(crate) struct Answer<'a> {
 }
 
 pub(crate) fn infer(args: &InferArgs, console: &Console) -> Result<Exit, Failure> {
+    if args.follow {
+        follow::possible(args, console)?;
+    }
     let input = Input::load(&Source { set: args.set.clone(), ..Source::of(args.file.clone()) })?;
     let infers = &input.netlist.studies.infers;
     let study = STUDIES.find(&input, (infers, |study| &study.name), args.name.as_deref())?;
-    console.warn(&input.netlist.files, &input.netlist.warnings);
     if args.follow {
+        let own = input.netlist.warnings.iter().filter(|warning| follow::counts(study, warning));
+        console.warn(&input.netlist.files, &own.cloned().collect::<Vec<_>>());
         return follow::follow((&input, study), console);
     }
+    console.warn(&input.netlist.files, &input.netlist.warnings);
     let task =
         InferTask::of(&input.netlist, study).map_err(|error| failed(&input, study, &error))?;
     let folder = args.output.clone().map(Folder::prepare).transpose()?;
@@ -128,19 +133,5 @@ impl Answer<'_> {
     /// A difference of two.
     fn shown_difference(&self, course: usize, si: f64) -> f64 {
         si / self.units[course].scale
-    }
-
-    /// Whether a band says something: at the middle of the record it is far narrower than what was
-    /// known at the start.
-    fn is_known(&self, course: usize) -> bool {
-        /// Shares of what was known before.
-        const NARROW: f64 = 0.1;
-        let (found, positive) = (&self.found.courses[course], self.task.sought[course].positive);
-        let least = |(low, high): (f64, f64)| {
-            let width = if positive { (high / low).ln() } else { high - low };
-            width / (2.0 * lptn_units::statistics::NORMAL_95)
-        };
-        let deviations = found.band.iter().map(|band| least(band.ends));
-        deviations.fold(f64::INFINITY, f64::min) < NARROW * found.before.deviation
     }
 }

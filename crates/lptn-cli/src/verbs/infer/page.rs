@@ -115,7 +115,7 @@ impl Answer<'_> {
     }
 
     fn is_whole(&self) -> bool {
-        (0..self.task.sought.len()).all(|j| self.is_known(j))
+        self.found.courses.iter().all(|course| course.determined)
     }
 
     /// Every moment: courses with the ends of their bands, temperatures with their deviations.
@@ -261,10 +261,11 @@ impl Answer<'_> {
     pub(super) fn uncertain(&self) -> Vec<(String, lptn_units::Unit, Known, Known)> {
         let network = &self.input.netlist.network;
         let all = self.task.uncertain.iter().zip(&self.found.parameters);
-        all.map(|((id, deviation), now)| {
+        all.map(|(own, now)| {
+            let (id, value) = (own.parameter, network.parameter_value(own.parameter));
             let name = network.parameters()[id.index()].name.clone();
-            let before = Known { value: network.parameter_value(*id), deviation: *deviation };
-            (name, self.input.unit_of(*id), before, *now)
+            let before = Known { value, deviation: own.unit(value) };
+            (name, self.input.unit_of(id), before, *now)
         })
         .collect()
     }
@@ -371,7 +372,7 @@ impl Answer<'_> {
     }
 
     fn verdict(&self) -> String {
-        let known: Vec<bool> = (0..self.task.sought.len()).map(|j| self.is_known(j)).collect();
+        let known: Vec<bool> = self.found.courses.iter().map(|own| own.determined).collect();
         let name = |j: usize| &self.task.sought[j].name;
         let lacking: Vec<&str> =
             (0..known.len()).filter(|j| !known[*j]).map(|j| &**name(j)).collect();
@@ -389,8 +390,9 @@ impl Answer<'_> {
             return text.collect::<Vec<_>>().join("; ");
         }
         format!(
-            "not determined: the record cannot tell {} from what else is not known; give an offset, a \
-             start or a parameter a smaller `±`, or measure a further node",
+            "not determined: the record cannot tell {} from what else is not known; say more closely \
+             what is known of an offset, a gain, the start or a parameter (`±`), or measure a further \
+             node",
             lacking.join(", ")
         )
     }

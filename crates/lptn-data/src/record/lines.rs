@@ -1,0 +1,155 @@
+//! A record whose rows come one after the other, of which only the header and the last row are kept.
+
+use crate::diagnostic::Diagnostic;
+use crate::file::Files;
+use crate::limits::Rejected;
+use crate::record::rows::{Extent, read};
+use crate::record::{Record, RecordQuery};
+use crate::text::CsvText;
+
+/// Reads a record line by line. Comments, gaps, units, rows that stand twice and a last row that
+/// breaks off are treated as in a record that is read as a whole; what can be told only from all
+/// rows together (holes, outliers, a sensor at its end) is not looked for.
+#[derive(Debug)]
+pub struct RecordLines {
+    name: String,
+    query: RecordQuery,
+    /// How many lines have come.
+    count: usize,
+    /// The header, the last row, and one behind it that breaks off, each with the number of its
+    /// line.
+    kept: Vec<(usize, String)>,
+    /// Whether the last of them breaks off.
+    broken: bool,
+    /// How many rows have come.
+    rows: usize,
+}
+
+/// A row that came.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordRow {
+    /// The number of its line, from 1.
+    pub line: usize,
+    /// In s.
+    pub time: f64,
+    /// A value in SI units for each column that was asked for, absolute temperatures in K; NaN for
+    /// a gap.
+    pub values: Vec<f64>,
+}
+
+/// What a line says.
+#[derive(Debug, Default)]
+pub struct RecordLine {
+    /// Its row, if it is one that counts.
+    pub row: Option<RecordRow>,
+    /// What is doubtful about it, and the texts that the places of that refer to.
+    pub warnings: (Files, Vec<Diagnostic>),
+}
+
+impl RecordLines {
+    /// Before the first line; `name` is what diagnostics call the record.
+    pub fn new(name: impl Into<String>, query: RecordQuery) -> Self {
+        let (kept, name) = (Vec::new(), name.into());
+        Self { name, query, count: 0, kept, broken: false, rows: 0 }
+    }
+
+    /// How many rows have come.
+    pub fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Takes a line in, with or without its end.
+    ///
+    /// # Errors
+    /// [`Rejected`] with what is wrong with it and its place.
+    pub fn take(&mut self, bytes: &[u8]) -> Result<RecordLine, Rejected> {
+        self.count += 1;
+        let bytes = bytes.strip_suffix(b"\n").unwrap_or(bytes);
+        let bytes = bytes.strip_suffix(b"\r").unwrap_or(bytes);
+        let mark: &[u8] = if self.count == 1 { "\u{feff}".as_bytes() } else { &[] };
+        let line = self.line(bytes.strip_prefix(mark).unwrap_or(bytes))?;
+        if line.trim().is_empty() || line.starts_with('#') {
+            return Ok(RecordLine::default());
+        }
+        self.kept.push((self.count, line));
+        if self.kept.len() == 1 {
+            return Ok(RecordLine::default());
+        }
+        let sound = self.read(false).ok().filter(|(_, record)| record.warnings.is_empty());
+        // where something is to be said, places are those of all lines
+        let (files, record) = sound.map_or_else(|| self.read(true), Ok)?;
+        Ok(self.answer(files, &record))
+    }
+
+    /// What is to be said where no more lines come: that the last one breaks off.
+    ///
+    /// # Errors
+    /// [`Rejected`] with what else is wrong with it.
+    pub fn end(self) -> Result<(Files, Vec<Diagnostic>), Rejected> {
+        if !self.broken {
+            return Ok((Files::new(), Vec::new()));
+        }
+        let (files, record) = self.read(true)?;
+        Ok((files, record.warnings))
+    }
+
+    /// The text of a line.
+    fn line(&self, bytes: &[u8]) -> Result<String, Rejected> {
+        if let Some(line) = std::str::from_utf8(bytes).ok().filter(|line| !line.contains('\0')) {
+            return Ok(line.to_owned());
+        }
+        let (mut files, mut all) = (Files::new(), vec![b'\n'; self.count - 1]);
+        all.extend_from_slice(bytes);
+        let text = CsvText::of(&mut files, self.name.clone(), &all);
+        text.map(|text| text.text.to_string())
+            .map_err(|problem| Rejected::new(files, vec![problem]))
+    }
+
+    /// What is kept, one line behind the other or each at its own line.
+    fn text(&self, placed: bool) -> String {
+        let mut text = String::new();
+        let mut at = 1;
+        for (line, kept) in &self.kept {
+            if placed {
+                text.extend(std::iter::repeat_n('\n', line - at));
+            }
+            at = line + 1;
+            text.push_str(kept);
+            text.push('\n');
+        }
+        text
+    }
+
+    fn read(&self, placed: bool) -> Result<(Files, Record), Rejected> {
+        let mut files = Files::new();
+        let text = CsvText::of(&mut files, self.name.clone(), self.text(placed).as_bytes());
+        match text
+            .map_err(|problem| vec![problem])
+            .and_then(|text| read(&text, &self.query, Extent::Part))
+        {
+            Ok(record) => Ok((files, record)),
+            Err(problems) => Err(Rejected::new(files, problems)),
+        }
+    }
+
+    /// What the last line was, of what is kept as a record.
+    fn answer(&mut self, files: Files, record: &Record) -> RecordLine {
+        let before = usize::from(self.rows > 0);
+        let broke = record.warnings.iter().any(|warning| warning.code == "record::broken_off");
+        if broke {
+            // another line may come: then it is an error, and a warning at the end only
+            self.broken = true;
+            return RecordLine::default();
+        }
+        let place = record.time.len().checked_sub(1).filter(|place| *place >= before);
+        let Some(place) = place else {
+            self.kept.pop();
+            return RecordLine { row: None, warnings: (files, record.warnings.clone()) };
+        };
+        self.rows += 1;
+        self.kept.drain(1..self.kept.len() - 1);
+        let values = record.columns.iter().map(|column| column.values[place]).collect();
+        let row = RecordRow { line: self.count, time: record.time[place], values };
+        RecordLine { row: Some(row), warnings: (files, record.warnings.clone()) }
+    }
+}
