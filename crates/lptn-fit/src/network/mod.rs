@@ -12,6 +12,7 @@
 //! left over they are no smaller than the standard deviations say. [`Identifiability`] tells what
 //! the records cannot separate.
 
+mod apart;
 mod between;
 mod combination;
 mod coordinates;
@@ -62,29 +63,17 @@ pub use task::{
 pub use undetermined::{Combination, Unseparated};
 pub use unknown::{Unknown, UnknownOf};
 
-use lptn_solve::{Gradient, Proceed};
+use lptn_solve::Proceed;
 
 use crate::Covariance;
 use crate::least_squares::LeastSquaresFit;
+use crate::network::apart::told_apart;
 use crate::network::coordinates::Coordinates;
 use crate::network::errors::Errors;
-use crate::network::identify::identify;
 use crate::network::model::{Evaluated, Model};
 use crate::network::open::settled;
 use crate::network::profile::{End, Rise, misleads, profile};
 use crate::network::search::{Found, search};
-use crate::network::undetermined::Place;
-
-/// The size of a temperature as a parameter, in K: its zero says nothing.
-const TEMPERATURE: f64 = 10.0;
-
-/// A value below this part of a parameter's size does not measure it.
-const SMALL: f64 = 0.1;
-
-/// How accurate derivatives are, relative: those that come with runs at a tolerance of 1e-7 K, and
-/// differences.
-const EXACT: f64 = 1e-6;
-const DIFFERENCES: f64 = 1e-4;
 
 /// Fits the parameters of a task.
 ///
@@ -220,16 +209,6 @@ fn one_sided(
     (0..parameters.len()).filter_map(|i| Some((i, one(i)?))).collect()
 }
 
-/// What counts as the size of an unknown, in SI units.
-fn size(unknown: &Unknown) -> f64 {
-    if unknown.ty.absolute {
-        return TEMPERATURE;
-    }
-    let (low, high) = unknown.bounds;
-    let all = [unknown.own.abs(), unknown.prior.unwrap_or(0.0), high - low];
-    all.into_iter().find(|size| size.is_finite() && *size > 0.0).unwrap_or(1.0)
-}
-
 fn check(task: &NetworkFitTask<'_>, unknowns: &[Unknown]) -> Result<(), NetworkFitError> {
     if unknowns.is_empty() {
         return Err(NetworkFitError::NoParameter);
@@ -262,39 +241,6 @@ fn check(task: &NetworkFitTask<'_>, unknowns: &[Unknown]) -> Result<(), NetworkF
         Some(parameter) => Err(NetworkFitError::StartOutside { parameter }),
         None => Ok(()),
     }
-}
-
-/// How accurate derivatives that are had so are, relative.
-fn accuracy(gradient: Gradient) -> f64 {
-    if gradient == Gradient::Exact { EXACT } else { DIFFERENCES }
-}
-
-/// What the residuals and their derivatives where the search ended tell of the parameters.
-fn told_apart(
-    (task, unknowns): (&NetworkFitTask<'_>, &[Unknown]),
-    (at_end, accuracy): (&Evaluated, f64),
-    model: &mut Model<'_>,
-) -> Option<Identifiability> {
-    // in units of its own value a parameter is seen as its logarithm, unless it drifted to nearly
-    // nothing
-    let scale = |(unknown, value): (&Unknown, &f64)| match (size(unknown), value.abs()) {
-        // an offset of which next to nothing is known is no larger than what was read
-        (size, _) if unknown.is_shift() => {
-            let read = unknown.sensor().map_or(f64::INFINITY, |sensor| task.largest_of(sensor));
-            if read > 0.0 { size.min(read) } else { size }
-        }
-        (size, value) if value > SMALL * size => value,
-        (size, _) => SMALL * size,
-    };
-    let scales: Vec<f64> = unknowns.iter().zip(&at_end.values).map(scale).collect();
-    let place = Place {
-        jacobian: &at_end.jacobian,
-        values: &at_end.values,
-        scales: &scales,
-        accuracy,
-        addable: &|i, j| unknowns[i].ty == unknowns[j].ty && !unknowns[i].ty.absolute,
-    };
-    identify(&place, &mut |values| model.at(values).ok().map(|found| found.residuals.clone()))
 }
 
 /// Over standard deviations where the columns have no unit in common: then each has one.

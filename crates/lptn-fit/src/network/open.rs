@@ -7,6 +7,7 @@
 //! and the records leave a direction open there too.
 
 use crate::least_squares::{LeastSquaresFit, Residuals, minimise};
+use crate::network::apart::{DIFFERENCES, told_apart};
 use crate::network::coordinates::Coordinates;
 use crate::network::error::NetworkFitError;
 use crate::network::holding::Holding;
@@ -14,7 +15,6 @@ use crate::network::identify::Identifiability;
 use crate::network::search::{Found, SAME, exactly, outcome};
 use crate::network::task::NetworkFitTask;
 use crate::network::unknown::Unknown;
-use crate::network::{DIFFERENCES, told_apart};
 
 /// What the records determine at values in SI units, as [`told_apart`] says.
 type ToldApart<'t, 'a> = dyn Fn(&mut Found<'a>, &[f64]) -> Option<Identifiability> + 't;

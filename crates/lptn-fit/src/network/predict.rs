@@ -2,13 +2,13 @@
 
 use lptn_solve::SensitiveError;
 
+use crate::network::apart::told_apart;
 use crate::network::coordinates::Coordinates;
 use crate::network::error::NetworkFitError;
 use crate::network::model::Model;
 use crate::network::open::settled;
 use crate::network::search::search;
 use crate::network::task::{FitObserver, NetworkFitTask};
-use crate::network::told_apart;
 
 /// Tolerance in K of the runs.
 const TOLERANCE: f64 = 1e-7;

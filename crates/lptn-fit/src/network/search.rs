@@ -3,7 +3,7 @@
 use lptn_solve::{Gradient, SensitiveError};
 
 use crate::least_squares::{LeastSquaresFit, Settings, Stop, Termination, minimise};
-use crate::network::accuracy;
+use crate::network::apart::accuracy;
 use crate::network::coordinates::Coordinates;
 use crate::network::error::NetworkFitError;
 use crate::network::model::Model;

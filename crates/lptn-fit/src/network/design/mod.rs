@@ -33,6 +33,7 @@ pub use sensitive::DesignObserver;
 pub use sets::{MOST_PLACES, Searched};
 pub use task::{DesignPlace, DesignRun, DesignTask, Known};
 
+use crate::network::apart::{accuracy, told_apart};
 use crate::network::coordinates::Coordinates;
 use crate::network::design::choice::{Choice, choose};
 pub(crate) use crate::network::design::information::Information;
@@ -42,7 +43,6 @@ use crate::network::design::space::{Leg, Space};
 use crate::network::identify::Identifiability;
 use crate::network::model::Model;
 use crate::network::unknown::Unknown;
-use crate::network::{accuracy, told_apart};
 
 /// Rows of a run that are looked at to see what no record tells.
 const FEW_ROWS: usize = 150;

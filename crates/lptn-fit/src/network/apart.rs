@@ -1,0 +1,63 @@
+//! What of the parameters can be told apart where a search ended.
+
+use lptn_solve::Gradient;
+
+use crate::network::identify::{Identifiability, identify};
+use crate::network::model::{Evaluated, Model};
+use crate::network::task::NetworkFitTask;
+use crate::network::undetermined::Place;
+use crate::network::unknown::Unknown;
+
+/// The size of a temperature as a parameter, in K: its zero says nothing.
+const TEMPERATURE: f64 = 10.0;
+
+/// A value below this part of a parameter's size does not measure it.
+const SMALL: f64 = 0.1;
+
+/// How accurate derivatives are, relative: those that come with runs at a tolerance of 1e-7 K, and
+/// differences.
+const EXACT: f64 = 1e-6;
+pub(crate) const DIFFERENCES: f64 = 1e-4;
+
+/// What counts as the size of an unknown, in SI units.
+fn size(unknown: &Unknown) -> f64 {
+    if unknown.ty.absolute {
+        return TEMPERATURE;
+    }
+    let (low, high) = unknown.bounds;
+    let all = [unknown.own.abs(), unknown.prior.unwrap_or(0.0), high - low];
+    all.into_iter().find(|size| size.is_finite() && *size > 0.0).unwrap_or(1.0)
+}
+
+/// How accurate derivatives that are had so are, relative.
+pub(crate) fn accuracy(gradient: Gradient) -> f64 {
+    if gradient == Gradient::Exact { EXACT } else { DIFFERENCES }
+}
+
+/// What the residuals and their derivatives where the search ended tell of the parameters.
+pub(crate) fn told_apart(
+    (task, unknowns): (&NetworkFitTask<'_>, &[Unknown]),
+    (at_end, accuracy): (&Evaluated, f64),
+    model: &mut Model<'_>,
+) -> Option<Identifiability> {
+    // in units of its own value a parameter is seen as its logarithm, unless it drifted to nearly
+    // nothing
+    let scale = |(unknown, value): (&Unknown, &f64)| match (size(unknown), value.abs()) {
+        // an offset of which next to nothing is known is no larger than what was read
+        (size, _) if unknown.is_shift() => {
+            let read = unknown.sensor().map_or(f64::INFINITY, |sensor| task.largest_of(sensor));
+            if read > 0.0 { size.min(read) } else { size }
+        }
+        (size, value) if value > SMALL * size => value,
+        (size, _) => SMALL * size,
+    };
+    let scales: Vec<f64> = unknowns.iter().zip(&at_end.values).map(scale).collect();
+    let place = Place {
+        jacobian: &at_end.jacobian,
+        values: &at_end.values,
+        scales: &scales,
+        accuracy,
+        addable: &|i, j| unknowns[i].ty == unknowns[j].ty && !unknowns[i].ty.absolute,
+    };
+    identify(&place, &mut |values| model.at(values).ok().map(|found| found.residuals.clone()))
+}
