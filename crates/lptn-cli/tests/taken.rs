@@ -91,3 +91,18 @@ fn a_fit_beside_a_posterior_says_what_it_holds() {
     let varied = ran("[\"R\", \"C\"]");
     assert!(!varied.err.contains("other_posterior"), "{}", varied.err);
 }
+
+/// `--set "P=200 ± 1 W"` of a fit left the `±` of the file: P was known to 10 W. The record tells P R,
+/// and what is known of P beforehand is all that tells P.
+#[test]
+fn a_fit_counts_what_is_set() {
+    let folder = folder(UNSURE, &format!("{FIT}vary = [\"R\", \"C\", \"P\"]"));
+    for (set, expected) in
+        [("P=200 ± 1 W", 1.0), ("P=200 W ± 2 % (lognormal)", 4.0), ("R=0.3 K/W", 10.0)]
+    {
+        let words = ["fit", "network", "body.toml", "--format", "json", "--set", set];
+        let json = folder.run(&words).exits(0).json();
+        let found = json["parameters"]["P"]["standard_error"].as_f64().expect("a number");
+        assert!((found / expected - 1.0).abs() < 0.01, "{set}: {found}");
+    }
+}

@@ -88,13 +88,15 @@ impl NetworkFitTask<'_> {
     pub fn unknowns(&self) -> Vec<Unknown> {
         let parameter = |varied: &lptn_network::Varied| {
             let parameter = &self.network.parameters()[varied.parameter.index()];
+            let set = self.runs.first().and_then(|run| run.parameters.deviation(varied.parameter));
+            let spread = set.or(parameter.deviation);
             Unknown {
                 of: UnknownOf::Parameter(varied.parameter),
                 name: parameter.name.clone(),
                 own: self.network.parameter_value(varied.parameter),
                 bounds: varied.bounds,
                 prior: varied.prior,
-                distribution: parameter.deviation.map_or_else(Default::default, |d| d.distribution),
+                distribution: spread.map_or_else(Default::default, |spread| spread.distribution),
                 ty: parameter.ty,
             }
         };

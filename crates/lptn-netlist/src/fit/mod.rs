@@ -236,7 +236,8 @@ impl FitStudy {
             let Ok(parameter) = network.parameter(&entry.name) else { continue };
             let from = entry.from.as_ref().map_or(Ok(f64::NEG_INFINITY), &mut at)?;
             let to = entry.to.as_ref().map_or(Ok(f64::INFINITY), &mut at)?;
-            let deviation = network.parameters()[parameter.index()].deviation;
+            let own = network.parameters()[parameter.index()].deviation;
+            let deviation = set.deviation(parameter).or(own);
             let prior = deviation.map(|spread| spread.sigma).filter(|sigma| *sigma > 0.0);
             varied.push(Varied { parameter, bounds: (from, to), prior });
         }
