@@ -221,7 +221,10 @@ fn a_law_is_carried_on_under_the_names_of_its_coefficients() {
     folder.run(&records.collect::<Vec<_>>()).exits(2).says("fit::law_posterior");
     let exact = "omega [rpm],P [W]\n1000,1\n2000,2\n";
     folder.write("points.csv", exact);
+    // what an earlier law left there is not that of this one
+    assert!(folder.path().join("law.json").exists());
     folder.run(&written).says("no posterior is written");
+    assert!(!folder.path().join("law.json").exists());
 }
 
 /// P = C dT / t_RC and R = t_RC / C, so that the covariances with C are P/C and -R/C times its

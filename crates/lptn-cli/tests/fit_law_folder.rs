@@ -175,6 +175,19 @@ fn what_is_missing_is_said() {
 /// The shipped records: the truth is stated in their README, and the study is judged in
 /// `tests/synthetic_records.rs`.
 #[test]
+fn regression_a_speed_that_cannot_be_read_is_not_passed_over() {
+    let hertz = folder(&[("1000rpm.csv", "# omega = 50 Hz\n", 1000.0)]);
+    hertz.run(&RUN).exits(2).says("fit::law_comment").says("`# omega = 1000 rpm`");
+    let bare = folder(&[("1000rpm.csv", "# omega = 1000\n", 1000.0)]);
+    bare.run(&RUN).exits(2).says("fit::law_comment");
+    let sheet = whole();
+    sheet.write("records/runs.csv", "file,omega [rpm]\nc.csv,3000\nff.csv,6000\n");
+    sheet.run(&RUN).exits(2).says("fit::law_runs").says("did you mean `f.csv`?");
+    let two = folder(&[("1000rpm.csv", "# omega = 2000 rpm\n", 1000.0)]);
+    two.run(&RUN).exits(2).says("2000 rpm, 1000 rpm");
+}
+
+#[test]
 fn the_shipped_records_choose_their_law() {
     let ran =
         Folder::empty().run(&["fit", "law", SHIPPED, "--capacity", "2659 J/K ± 5 %", "--no-files"]);

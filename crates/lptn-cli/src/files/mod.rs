@@ -191,6 +191,15 @@ pub(crate) fn write_new(path: &Path, text: &str, exists: &'static str) -> Result
     })
 }
 
+/// Takes a file away that would be taken for a result; whether there was one.
+pub(crate) fn take_away(path: &Path) -> Result<bool, Failure> {
+    match fs::remove_file(path) {
+        Ok(()) => Ok(true),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
+        Err(error) => Err(cannot_create(path, &error)),
+    }
+}
+
 fn link_new(path: &Path, text: &str) -> io::Result<()> {
     let name =
         path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());

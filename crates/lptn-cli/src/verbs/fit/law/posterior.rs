@@ -9,6 +9,7 @@ use super::args::LawArgs;
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::files;
 
 /// Refuses before anything is computed what could not be written afterwards.
 pub(crate) fn possible(args: &LawArgs, points: &Path) -> Result<(), Failure> {
@@ -44,7 +45,12 @@ pub(crate) fn write(
     let stem = points.file_stem().map(|stem| stem.to_string_lossy().into_owned());
     let posterior = law.posterior(&stem.unwrap_or_default(), &law.law.to_string());
     let Some(posterior) = posterior else {
-        console.message("no posterior is written: nothing tells the errors of the coefficients");
+        let why = "no posterior is written: nothing tells the errors of the coefficients";
+        // what stands there would be taken for that of this law
+        match files::take_away(file)? {
+            true => console.message(&format!("{why}; {} is taken away", file.display())),
+            false => console.message(why),
+        }
         return Ok(());
     };
     crate::verbs::fit::posterior::write(&posterior, file, console)

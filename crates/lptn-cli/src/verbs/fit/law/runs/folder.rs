@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use lptn_fit::law::Run;
 use lptn_netlist::{Diagnostic, Files, Record, RecordQuery, read_record, read_sheet};
+use lptn_report::significant;
 use lptn_study::FileHash;
 use lptn_units::{Dimension, Type, parse_quantity};
 
@@ -42,7 +43,7 @@ pub(crate) fn read(folder: &Path) -> Result<Folder, Failure> {
     };
     let sheet = folder.join(RUNS);
     let speeds = if sheet.is_file() {
-        listed(&sheet, &mut found)?
+        listed(&sheet, &paths, &mut found)?
     } else {
         Speeds { by_file: Vec::new(), unit: None }
     };
@@ -90,7 +91,7 @@ fn records(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 /// The speeds of `runs.csv`: a column of file names, and one of speeds.
-fn listed(path: &Path, found: &mut Folder) -> Result<Speeds, Failure> {
+fn listed(path: &Path, records: &[PathBuf], found: &mut Folder) -> Result<Speeds, Failure> {
     let bytes = lptn_netlist::read_bytes(path)?;
     found.inputs.push(hash(path, &bytes));
     let (sheet, files) = read_sheet(path, &bytes)?;
@@ -103,6 +104,17 @@ fn listed(path: &Path, found: &mut Folder) -> Result<Speeds, Failure> {
         let problem = problem.at(sheet.header.clone(), "").help("begin it with `file,omega [rpm]`");
         return Err(Failure::at(Exit::Input, files, problem));
     };
+    let there: Vec<String> = records.iter().map(|record| file_name(record)).collect();
+    if let Some(name) = names.iter().find(|name| !there.contains(name)) {
+        let message = format!("the sheet gives a speed to `{name}`, which is not in the folder");
+        let problem = Diagnostic::error("fit::law_runs", message).at(sheet.header.clone(), "");
+        let near = lptn_units::suggest(name, there.iter().map(String::as_str));
+        let help = near.map_or_else(
+            || "take its row out of the sheet, or put the record into the folder".to_owned(),
+            |near| format!("did you mean `{near}`?"),
+        );
+        return Err(Failure::at(Exit::Input, files, problem.help(help)));
+    }
     let by_file = names.iter().cloned().zip(column.values.iter().copied()).collect();
     Ok(Speeds { by_file, unit: Some(SpeedUnit(column.unit.clone())) })
 }
@@ -113,11 +125,17 @@ fn speed(path: &Path, (record, files): (&Record, &Files), speeds: &Speeds) -> Re
     let name = file_name(path);
     let listed = speeds.by_file.iter().find(|(file, _)| *file == name).map(|(_, speed)| *speed);
     let said = record.comments.iter().find_map(|comment| of_comment(comment));
+    let unread = record.comments.iter().find(|comment| is_speed(comment));
     let found: Vec<f64> =
         [listed, said, of_name(&name)].into_iter().flatten().filter(|s| !s.is_nan()).collect();
     let refused = |code, message: String, help: &str| {
         Err(Failure::at(Exit::Input, files.clone(), Diagnostic::error(code, message).help(help)))
     };
+    if let (None, Some(comment)) = (said, unread) {
+        let message = format!("{}: `# {}` gives no speed", path.display(), comment.trim());
+        let help = "write a rotation with its unit, for example `# omega = 1000 rpm`";
+        return refused("fit::law_comment", message, help);
+    }
     match found.as_slice() {
         [] => refused(
             "fit::law_no_speed",
@@ -131,14 +149,28 @@ fn speed(path: &Path, (record, files): (&Record, &Files), speeds: &Speeds) -> Re
             refused(
                 "fit::law_two_speeds",
                 format!(
-                    "{}: its name, its comments or runs.csv give different speeds",
-                    path.display()
+                    "{}: its name, its comments or runs.csv give different speeds: {}",
+                    path.display(),
+                    in_rpm(&found)
                 ),
                 "correct the wrong one",
             )
         }
         [first, ..] => Ok(*first),
     }
+}
+
+/// Speeds in rad/s, as they are told.
+fn in_rpm(speeds: &[f64]) -> String {
+    let unit = SpeedUnit::rpm().0;
+    let all = speeds.iter().map(|s| format!("{} rpm", significant(unit.from_si(*s), 6)));
+    all.collect::<Vec<String>>().join(", ")
+}
+
+/// Whether a comment means to say the speed: `omega = 50 Hz`.
+fn is_speed(comment: &str) -> bool {
+    let name = comment.split_once(['=', ':']).map(|(name, _)| name.trim());
+    name.is_some_and(|name| ["omega", "speed"].contains(&name))
 }
 
 /// `omega = 1000 rpm`.
@@ -160,7 +192,7 @@ fn of_name(name: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{of_comment, of_name};
+    use super::{is_speed, of_comment, of_name};
 
     #[test]
     fn speeds_stand_in_names_and_comments() {
@@ -171,6 +203,7 @@ mod tests {
         near(of_comment("omega = 1000 rpm"), 1000.0);
         near(of_comment("speed: 2 rev/s"), 120.0);
         assert!(of_name("first.csv").is_none() && of_name("rpm.csv").is_none());
+        assert!(is_speed("omega = 50 Hz") && is_speed("speed: 2000") && !is_speed("C = 5 J/K"));
         assert!(of_comment("C = 5 J/K").is_none() && of_comment("a remark").is_none());
     }
 }
