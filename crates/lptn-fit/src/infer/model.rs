@@ -225,6 +225,11 @@ impl Model {
 
     /// The logarithm of the probability density of what was read, where walks and noises are these.
     pub(crate) fn log_likelihood(&self, strength: &Strength) -> f64 {
+        self.filtered(strength).log_likelihood()
+    }
+
+    /// What is known of the last moment.
+    pub(crate) fn filtered(&self, strength: &Strength) -> Filter {
         let mut filter = Filter::new(self.begin(&strength.noises));
         let mut walks = Walks { model: self, strength, last: None };
         for (k, readings) in self.readings.iter().enumerate() {
@@ -235,7 +240,7 @@ impl Model {
                 filter.update(&read.reading(&strength.noises));
             });
         }
-        filter.log_likelihood()
+        filter
     }
 
     /// What is known of every moment, and by how much each reading surprised.

@@ -97,6 +97,9 @@ impl<'a> Open<'a> {
     /// The walks with which a start is most likely, of few that are far apart: from none to strong,
     /// of the course or of its slope.
     pub(crate) fn roughly(&self, start: &Strength) -> (f64, Strength) {
+        if self.walks.is_empty() {
+            return (self.model.log_likelihood(start), start.clone());
+        }
         let steps = [-6, -3, -1, 1, 3].map(|step| 3.0 * f64::from(step));
         let weak = steps[0];
         let pairs = steps.iter().flat_map(|step| [[*step, weak], [weak, *step]]);
@@ -105,7 +108,7 @@ impl<'a> Open<'a> {
             (self.model.log_likelihood(&there), there)
         });
         let best = all.max_by(|a, b| a.0.total_cmp(&b.0));
-        best.unwrap_or_else(|| (self.model.log_likelihood(start), start.clone()))
+        best.unwrap_or_else(|| (f64::NEG_INFINITY, start.clone()))
     }
 
     /// Walks stand still where the record is as likely so.

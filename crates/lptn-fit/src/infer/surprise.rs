@@ -40,8 +40,7 @@ pub(crate) fn columns(
 fn drift(model: &Model, strength: &Strength, column: usize) -> Known {
     let drifting = model.drifting(column, UNKNOWN_KELVIN);
     let known = |strength: &Strength| {
-        let (smoother, _) = drifting.smoothed(strength);
-        let last = smoother.filter();
+        let last = drifting.filtered(strength);
         let (value, deviation) = last.state().of(&[(model.states.count(), 1.0)]);
         (last.log_likelihood(), Known { value, deviation })
     };
