@@ -164,3 +164,228 @@ held = { of = 'ring.margin', above = '0 K' }
     assert!((warm - 92.24).abs() < 0.1, "lost at {warm} degC");
     assert!((broken - 672.41).abs() < 0.05, "lost after {broken} s");
 }
+
+/// Two bodies that are joined and one by itself, in closed form, over air of 20 degC.
+struct Bodies {
+    c: [f64; 3],
+    g: [f64; 3],
+    power: [f64; 3],
+    start: [f64; 3],
+}
+
+/// Numbers that look random: the same on every machine (D. E. Knuth, MMIX).
+struct Numbers(u64);
+
+impl Numbers {
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        low + (high - low) * ((self.0 >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+}
+
+impl Bodies {
+    fn random(numbers: &mut Numbers) -> Self {
+        let mut three = |low, high| [0; 3].map(|_| numbers.between(low, high));
+        let (c, g) = (three(200.0, 3000.0), three(0.5, 20.0));
+        Self { c, g, power: three(-60.0, 400.0), start: three(10.0, 120.0) }
+    }
+
+    fn text(&self) -> String {
+        let Self { c, g, power, start } = self;
+        let node = |i: usize| format!("{{ C = \"{} J/K\", T0 = \"{} degC\" }}", c[i], start[i]);
+        let source = |to: &str, i: usize| format!("{{ into = \"{to}\", P = \"{} W\" }}", power[i]);
+        format!(
+            "format = 1\n[node]\na = {}\nb = {}\nc = {}\n[boundary]\nair = {{ T = \"20 degC\" }}\n\
+             [resistor]\nab = {{ from = \"a\", to = \"b\", G = \"{} W/K\" }}\n\
+             b_air = {{ from = \"b\", to = \"air\", G = \"{} W/K\" }}\n\
+             c_air = {{ from = \"c\", to = \"air\", G = \"{} W/K\" }}\n\
+             [source]\npa = {}\npb = {}\npc = {}\n",
+            node(0),
+            node(1),
+            node(2),
+            g[0],
+            g[1],
+            g[2],
+            source("a", 0),
+            source("b", 1),
+            source("c", 2)
+        )
+    }
+
+    /// Temperatures in degC: a sum of exponentials from the characteristic equation.
+    fn at(&self, t: f64) -> [f64; 3] {
+        let Self { c, g, power, start } = self;
+        let (a11, a12) = (-g[0] / c[0], g[0] / c[0]);
+        let (a21, a22) = (g[0] / c[1], -(g[0] + g[1]) / c[1]);
+        let (half, det) = (0.5 * (a11 + a22), a11 * a22 - a12 * a21);
+        let root = (half * half - det).sqrt();
+        let rates = [half + root, half - root];
+        let steady_b = (power[0] + power[1]) / g[1];
+        let steady = [steady_b + power[0] / g[0], steady_b];
+        let rest = [start[0] - 20.0 - steady[0], start[1] - 20.0 - steady[1]];
+        let v = rates.map(|r| [a12, r - a11]);
+        let det_v = v[0][0] * v[1][1] - v[1][0] * v[0][1];
+        let w = [
+            (rest[0] * v[1][1] - rest[1] * v[1][0]) / det_v,
+            (rest[1] * v[0][0] - rest[0] * v[0][1]) / det_v,
+        ];
+        let joined = |i: usize| {
+            20.0 + steady[i] + (0..2).map(|k| w[k] * v[k][i] * (rates[k] * t).exp()).sum::<f64>()
+        };
+        let alone = power[2] / g[2];
+        let third = 20.0 + alone + (start[2] - 20.0 - alone) * (-g[2] / c[2] * t).exp();
+        [joined(0), joined(1), third]
+    }
+}
+
+/// An expression with bends, as it is written and in numbers. Temperatures are in degC.
+type Bent = (String, Box<dyn Fn([f64; 3]) -> f64>);
+
+/// A table of a rising temperature whose values go up and down by as many kelvin as its points lie
+/// apart, so that errors of temperatures count about once.
+fn table(numbers: &mut Numbers, range: (f64, f64)) -> (String, Vec<(f64, f64)>) {
+    let count = numbers.between(3.0, 14.0).floor();
+    let gap = (range.1 - range.0 + 2.0) / count;
+    let mut points = Vec::new();
+    let mut x = range.0 - 1.0;
+    while x < range.1 + 1.0 + gap {
+        points.push((x, numbers.between(0.0, gap)));
+        x += gap * numbers.between(0.3, 1.0);
+    }
+    let list = |of: &dyn Fn(&(f64, f64)) -> f64| {
+        points.iter().map(|point| of(point).to_string()).collect::<Vec<_>>().join(", ")
+    };
+    let text = format!(
+        "[table]\nloss = {{ x = [{}], y = [{}], x_unit = \"degC\", y_unit = \"W\", outside = \
+         \"hold\" }}\n",
+        list(&|point| point.0),
+        list(&|point| point.1)
+    );
+    (text, points)
+}
+
+fn interpolated(points: &[(f64, f64)], x: f64) -> f64 {
+    let k = points.partition_point(|point| point.0 <= x).clamp(1, points.len() - 1);
+    let [(x0, y0), (x1, y1)] = [points[k - 1], points[k]];
+    if x <= points[0].0 {
+        points[0].1
+    } else if x >= points[points.len() - 1].0 {
+        points[points.len() - 1].1
+    } else {
+        y0 + (y1 - y0) * ((x - x0) / (x1 - x0))
+    }
+}
+
+fn bent(kind: usize, numbers: &mut Numbers, seen: &[[f64; 3]]) -> (String, Bent) {
+    let range = |i: usize| {
+        let of = seen.iter().map(|t| t[i]);
+        (of.clone().fold(f64::INFINITY, f64::min), of.fold(f64::NEG_INFINITY, f64::max))
+    };
+    let inside = |numbers: &mut Numbers, i: usize| {
+        let (low, high) = range(i);
+        numbers.between(low - 0.05 * (high - low), high + 0.05 * (high - low))
+    };
+    let (x, y) = (inside(numbers, 0), inside(numbers, 2));
+    let none = String::new();
+    match kind {
+        0 => (none, (format!("abs(a.T - {x} [degC])"), Box::new(move |t| (t[0] - x).abs()))),
+        1 => (none, ("kelvin(min(a.T, c.T))".into(), Box::new(|t| t[0].min(t[2]) + 273.15))),
+        2 => {
+            let text = format!("kelvin(max(a.T, b.T, c.T, {y} [degC]))");
+            (none, (text, Box::new(move |t| t[0].max(t[1]).max(t[2]).max(y) + 273.15)))
+        }
+        3 => {
+            let text = format!("abs(min(a.T, c.T) - {x} [degC]) - 0.5 * abs(b.T - {y} [degC])");
+            let value = move |t: [f64; 3]| (t[0].min(t[2]) - x).abs() - 0.5 * (t[1] - y).abs();
+            (none, (text, Box::new(value)))
+        }
+        _ => {
+            let (text, points) = table(numbers, range(0));
+            let written = "loss(a.T) * 1 [K/W] - 0.3 * abs(a.T - c.T)".to_owned();
+            let value = move |t: [f64; 3]| interpolated(&points, t[0]) - 0.3 * (t[0] - t[2]).abs();
+            (text, (written, Box::new(value)))
+        }
+    }
+}
+
+/// Looks of the closed form: the least value between any two of them is that of a bend or of a
+/// parabola, found on a finer set.
+const LOOKS: u32 = 4000;
+
+/// The least value over the run and the mean, by looking often; near the least value, more often.
+fn by_looking(of: &dyn Fn(f64) -> f64, stop: f64) -> (f64, f64) {
+    let at = |k: f64, from: f64, to: f64| from + (to - from) * k / f64::from(LOOKS);
+    let (mut from, mut to, mut least) = (0.0, stop, (f64::INFINITY, 0.0));
+    let mut sum = 0.0;
+    for round in 0..4 {
+        for k in 0..=LOOKS {
+            let time = at(f64::from(k), from, to);
+            let value = of(time);
+            if round == 0 {
+                sum += if k == 0 || k == LOOKS { 0.5 * value } else { value };
+            }
+            if value < least.0 {
+                least = (value, time);
+            }
+        }
+        let around = 2.0 * (to - from) / f64::from(LOOKS);
+        (from, to) = ((least.1 - around).max(0.0), (least.1 + around).min(stop));
+    }
+    (least.0, sum / f64::from(LOOKS))
+}
+
+/// Limits on random expressions with bends over steps as long as a linear network takes them: the
+/// margins are those of the closed form to ten tolerances, and so are windows, whose mean is looked
+/// up on a coarse set.
+#[test]
+fn limits_with_bends_are_as_good_as_temperatures() {
+    const TOLERANCE: f64 = 1e-5;
+    let mut numbers = Numbers(34);
+    let mut broken = 0;
+    for case in 0..300 {
+        let bodies = Bodies::random(&mut numbers);
+        let stop = numbers.between(20.0, 2000.0);
+        let seen: Vec<[f64; 3]> = (0..=50).map(|k| bodies.at(stop * f64::from(k) / 50.0)).collect();
+        let (table, (text, value)) = bent(case % 5, &mut numbers, &seen);
+        let of = |t: f64| value(bodies.at(t));
+        let (least, mean) = by_looking(&of, stop);
+        let bound = least + numbers.between(-0.5, 0.5) + 0.02;
+        let net = format!(
+            "{}{table}[limit]\nbent = {{ of = \"{text}\", above = \"{bound} K\" }}\n[run]\nstop = \
+             \"{stop} s\"\nreport = {{ bent = \"{text}\" }}\nwindow = {{ all = {{ from = \"0 s\", \
+             to = \"{stop} s\" }} }}\n",
+            bodies.text()
+        );
+        let netlist =
+            lptn::netlist::parse("net.toml", &net).unwrap_or_else(|e| panic!("{e}\n{net}"));
+        let network = &netlist.network;
+        let transient = Transient::of(network, netlist.run.as_ref().unwrap()).at(&[]);
+        let of_report = lptn::solve::Selection::matching(network, &["bent"]).unwrap();
+        let window = lptn::solve::Window { name: "all".into(), from: 0.0, to: stop, of: of_report };
+        let transient = Transient { windows: vec![window], tolerance: TOLERANCE, ..transient };
+        let system = ThermalSystem::assemble(network).unwrap();
+        let solution = transient.solve(&system).unwrap();
+        let [limit] = solution.limits() else { panic!("one limit") };
+        let column = &solution.windows()[0].columns[0];
+        let within = 10.0 * TOLERANCE;
+        let told = format!("case {case}\n{net}");
+        assert!((column.min.0 - least).abs() < within, "min {} {least} {told}", column.min.0);
+        let margin = least - bound;
+        let found = if limit.margin.abs() < within { margin } else { limit.margin };
+        assert!((found - margin).abs() < within, "margin {} {margin} {told}", limit.margin);
+        assert_eq!(limit.broken_at.is_some(), limit.margin < 0.0, "{told}");
+        broken += usize::from(limit.broken_at.is_some());
+        if let Some(time) = limit.broken_at.filter(|time| *time > 0.0) {
+            assert!((of(time) - bound).abs() < within, "broken at {time} {told}");
+        }
+        // a thousandth of the range, which a coarse set is good for
+        let range = seen
+            .iter()
+            .map(|t| value(*t))
+            .fold((f64::MAX, f64::MIN), |r, v| (r.0.min(v), r.1.max(v)));
+        let apart = (column.mean - mean).abs();
+        assert!(apart < within + 1e-5 * (range.1 - range.0), "mean {} {mean} {told}", column.mean);
+    }
+    assert!((60..240).contains(&broken), "{broken}");
+}

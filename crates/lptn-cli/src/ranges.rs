@@ -4,7 +4,7 @@ use lptn_laws::Group;
 use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Item, Network, list_of};
 use lptn_report::{Claim, duration, significant};
-use lptn_solve::{OutOfRange, Snapshot};
+use lptn_solve::OutOfRange;
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
@@ -108,12 +108,6 @@ fn when(stretches: &[OutOfRange]) -> String {
     }
     let all: f64 = stretches.iter().map(|stretch| stretch.to - stretch.from).sum();
     format!("in {} stretches {span}, {} in all", stretches.len(), duration(all, 3))
-}
-
-/// What of a steady state is outside; nothing where that cannot be told, since then there is no
-/// steady state.
-pub(crate) fn of_steady(network: &Network, steady: &Snapshot) -> Vec<OutOfRange> {
-    OutOfRange::of_steady(network, steady).unwrap_or_default()
 }
 
 /// Whether every law stayed where it is known, for a report.

@@ -3,15 +3,18 @@
 use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Item, ZERO_CELSIUS};
 use lptn_report::{duration, significant};
-use lptn_solve::{Beyond, Solution, SteadyState};
+use lptn_solve::{Beyond, OutOfRange, Solution, SteadyState};
 
 use crate::ranges;
 
 /// What makes no sense of a steady state.
-pub(crate) fn of_steady(netlist: &Netlist, steady: &SteadyState) -> Vec<Diagnostic> {
+pub(crate) fn of_steady(
+    netlist: &Netlist,
+    steady: &SteadyState,
+    outside: &[OutOfRange],
+) -> Vec<Diagnostic> {
     let beyond = Beyond::of_steady(&netlist.network, steady);
-    let outside = ranges::of_steady(&netlist.network, steady);
-    told(netlist, beyond.as_ref(), ranges::warnings(netlist, &outside, false))
+    told(netlist, beyond.as_ref(), ranges::warnings(netlist, outside, false))
 }
 
 /// What makes no sense of a run.

@@ -33,6 +33,9 @@ impl Elaboration<'_> {
             }
             Text::Expression(expression) => expression,
         };
+        if expression.called().any(|called| called == ("mean", 1)) {
+            return self.no_mean(place);
+        }
         self.learn(&expression);
         self.learn_lubricants(&expression, &place.raw.span);
         self.learn_fans(&expression, &place.raw.span);
@@ -75,7 +78,25 @@ impl Elaboration<'_> {
     }
 }
 
+/// What the mean over time is taken of, where an expression as a whole is one: `mean(x)`, as in
+/// `[sweep]`. The mean of several values is one of every moment.
+pub(crate) fn mean_over_time(expression: &Expression) -> Option<Expression> {
+    let (name, mut arguments) = expression.split_call()?;
+    (name == "mean" && arguments.len() == 1).then(|| arguments.pop()).flatten()
+}
+
 impl Elaboration<'_> {
+    /// Refuses the mean over time where a value of one moment is due.
+    fn no_mean(&mut self, place: Place<'_>) -> Option<Given> {
+        let message =
+            format!("{} has a mean over time where a value of one moment is due", place.words());
+        let help = "let it stand around the whole `of` of `[limit]`, a whole side of `require` or a \
+                    report of `[sweep]`, or give `[run]` a window; the mean of several values at \
+                    every moment is `mean(a.T, b.T)`";
+        self.refuse("netlist::mean_over_time", message, &place.raw.span, help);
+        None
+    }
+
     /// Tells the names of imported elements from unknown ones.
     fn learn(&mut self, expression: &Expression) {
         for (name, _) in expression.names() {

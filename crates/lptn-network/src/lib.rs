@@ -8,6 +8,7 @@
 //! Units: SI inside, temperatures in K. Sign: heat is positive from `from` to `to`, and into a
 //! node.
 
+mod bends;
 mod breakpoints;
 mod build_error;
 mod builder;
@@ -41,6 +42,7 @@ mod typed;
 mod value;
 mod variant;
 
+pub use bends::Bends;
 pub use breakpoints::same_time;
 pub use build_error::{BuildError, BuildErrors};
 pub use builder::grid::GridBlock;

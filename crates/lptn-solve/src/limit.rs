@@ -1,12 +1,12 @@
 //! Limits in results: how near each came to being broken, and when it first was.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{Evaluation, InputError, LimitId, Network};
+use lptn_network::{Bends, Evaluation, InputError, Item, LimitId, Network};
 use lptn_units::Dimension;
 
 use crate::events::{Event, EventKind};
+use crate::limit_look::LimitLook;
 use crate::reading::Reading;
-use crate::watch::top;
 
 /// How a limit fared in a run, between the rows too.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,7 +14,8 @@ pub struct LimitSeen {
     /// The limit.
     pub limit: LimitId,
     /// Its least margin in SI units, positive if it was kept all the time; see
-    /// [`Network::limit_margin`]. Zero where a temperature passes it by less than ten times the
+    /// [`Network::limit_margin`]. That of the mean over time for [`lptn_network::Limit::of_mean`].
+    /// Zero where a temperature passes it by less than ten times the
     /// tolerance, which is the error of a run.
     pub margin: f64,
     /// When that was, in s.
@@ -29,17 +30,39 @@ pub struct LimitSeen {
 const ROUNDING: f64 = 1e-9;
 
 /// A time in s with a margin.
-type Point = (f64, f64);
+pub(crate) type Point = (f64, f64);
+
+impl LimitSeen {
+    /// The same with the mean of its margin, known at the end.
+    fn of_mean(self, (time, margin): Point) -> Self {
+        let broken_at = (margin < 0.0).then_some(time);
+        Self { margin, worst_at: time, broken_at, ..self }
+    }
+
+    /// Takes in the next point.
+    pub(crate) fn take_in(&mut self, (time, margin): Point) {
+        if margin < self.margin {
+            (self.margin, self.worst_at) = (margin, time);
+        }
+        if margin < 0.0 {
+            self.broken_at.get_or_insert(time);
+        }
+    }
+}
 
 /// All limits of a network during a run.
 pub(crate) struct LimitWatch<'a> {
     network: &'a Network,
     reading: Reading<'a>,
-    seen: Vec<LimitSeen>,
-    /// For each limit the last point, then those of the present step.
-    points: Vec<Vec<Point>>,
+    /// Where their sides bend.
+    bends: Bends,
+    look: LimitLook,
     /// For each limit the point at the start.
     first: Vec<Option<Point>>,
+    /// The last time with the margins, and what tells where they bend.
+    last: (f64, Vec<f64>),
+    /// For each limit the largest absolute value of a side: its margin is rounded by a share of it.
+    sizes: Vec<f64>,
 }
 
 impl<'a> LimitWatch<'a> {
@@ -47,121 +70,100 @@ impl<'a> LimitWatch<'a> {
         let network = system.network();
         let nothing =
             |limit| LimitSeen { limit, margin: f64::INFINITY, worst_at: f64::NAN, broken_at: None };
+        let count = network.limits().len();
+        let bends = network.bends(network.limit_ids().map(Item::Limit));
+        let seen = network.limit_ids().map(nothing).collect();
+        let of_mean: Vec<bool> = network.limits().iter().map(|limit| limit.of_mean).collect();
         Self {
             network,
             reading: Reading::new(system),
-            seen: network.limit_ids().map(nothing).collect(),
-            points: vec![Vec::new(); network.limits().len()],
-            first: vec![None; network.limits().len()],
+            look: LimitLook::new(seen, &of_mean, bends.levels().to_vec()),
+            bends,
+            first: vec![None; count],
+            last: (f64::NAN, Vec::new()),
+            sizes: vec![0.0; count],
         }
     }
 
     pub(crate) fn is_empty(&self) -> bool {
-        self.seen.is_empty()
-    }
-
-    pub(crate) fn ids(&self) -> impl Iterator<Item = LimitId> + use<> {
-        self.network.limit_ids()
+        self.sizes.is_empty()
     }
 
     /// Begins a segment: what comes before it is no part of a curve that goes on.
     pub(crate) fn enter(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
-        self.points.iter_mut().for_each(Vec::clear);
-        self.sample(work, at)?;
-        for (first, points) in self.first.iter_mut().zip(&self.points) {
-            *first = first.or(points.first().copied());
+        let margins = self.values(work, at)?;
+        for ((seen, first), &margin) in self.look.seen.iter_mut().zip(&mut self.first).zip(&margins)
+        {
+            first.get_or_insert((at.0, margin));
+            seen.take_in((at.0, margin));
         }
-        self.ids().for_each(|id| self.take_in(id, None));
+        self.last = (at.0, margins);
         Ok(())
     }
 
-    /// Adds a point for each limit; `at` is the time and a time inside the segment.
-    pub(crate) fn sample(
+    /// The margin of every limit where the workspace stands, then what tells where they bend; `at`
+    /// is the time and a time inside the segment.
+    pub(crate) fn values(
         &mut self,
         work: &mut Workspace,
         at: (f64, f64),
-    ) -> Result<(), InputError> {
+    ) -> Result<Vec<f64>, InputError> {
         if self.is_empty() {
-            return Ok(());
+            return Ok(Vec::new());
         }
         self.reading.place(work, at)?;
-        for id in self.ids() {
-            let margin = self.network.limit_margin(id, &mut self.reading.scope)?;
-            self.points[id.index()].push((at.0, margin));
+        let mut values = Vec::with_capacity(self.sizes.len() + self.bends.levels().len());
+        for (id, size) in self.network.limit_ids().zip(&mut self.sizes) {
+            let [low, high] = self.network.limit_sides(id, &mut self.reading.scope)?;
+            *size = size.max(low.abs()).max(high.abs());
+            values.push(high - low);
         }
-        Ok(())
+        self.bends.read(&mut self.reading.scope, &mut values);
+        Ok(values)
     }
 
-    /// The margin of one limit.
-    pub(crate) fn margin(
-        &mut self,
-        id: LimitId,
-        work: &mut Workspace,
-        at: (f64, f64),
-    ) -> Result<f64, InputError> {
-        self.reading.place(work, at)?;
-        self.network.limit_margin(id, &mut self.reading.scope)
+    /// The last of those that were handed over or begun with.
+    pub(crate) fn last(&self) -> Vec<f64> {
+        self.last.1.clone()
     }
 
-    /// The times between the points at which a limit may be nearest to being broken.
-    pub(crate) fn valleys(&self, id: LimitId) -> Vec<f64> {
-        let turned = |&(time, margin): &Point| (time, -margin);
-        let found = self.points[id.index()]
-            .windows(3)
-            .filter_map(|w| top([turned(&w[0]), turned(&w[1]), turned(&w[2])]));
-        found.map(|(_, time)| time).collect()
+    /// What is known of the limits, to look at a step with.
+    pub(crate) fn take_look(&mut self) -> LimitLook {
+        let mut look = std::mem::take(&mut self.look);
+        look.sizes.clone_from(&self.sizes);
+        look
     }
 
-    /// Adds a point between the others.
-    pub(crate) fn insert(&mut self, id: LimitId, point: Point) {
-        let points = &mut self.points[id.index()];
-        let place = points.partition_point(|p| p.0 < point.0);
-        points.insert(place, point);
-    }
-
-    /// Two points next to each other between which a limit is first broken.
-    pub(crate) fn break_between(&self, id: LimitId) -> Option<(f64, f64)> {
-        if self.seen[id.index()].broken_at.is_some() {
-            return None;
-        }
-        let pair = self.points[id.index()].windows(2).find(|w| w[0].1 >= 0.0 && w[1].1 < 0.0)?;
-        Some((pair[0].0, pair[1].0))
-    }
-
-    /// Takes the points into account and keeps the last; `broken_at` is where they go below zero.
-    pub(crate) fn take_in(&mut self, id: LimitId, broken_at: Option<f64>) {
-        let (seen, points) = (&mut self.seen[id.index()], &mut self.points[id.index()]);
-        for &(time, margin) in points.iter() {
-            if margin < seen.margin {
-                (seen.margin, seen.worst_at) = (margin, time);
-            }
-        }
-        let below = points.iter().find(|p| p.1 < 0.0).map(|p| p.0);
-        seen.broken_at = seen.broken_at.or(broken_at).or(below);
-        points.drain(..points.len().saturating_sub(1));
+    /// Takes in what came of it; the step ends with these values.
+    pub(crate) fn looked(&mut self, look: LimitLook, end: (f64, Vec<f64>)) {
+        (self.look, self.last) = (look, end);
     }
 
     /// What was seen. A worst that the tolerance in K cannot tell from the start or from the end is
     /// there, and a limit that it cannot tell from being reached and not passed is not broken; a
-    /// start that breaks it is exact.
+    /// start that breaks it is exact. A mean is known at the end, and there it is broken.
     pub(crate) fn into_seen(mut self, tolerance: f64) -> Vec<LimitSeen> {
-        let ends = self.first.iter().zip(&self.points);
-        for (seen, (first, points)) in self.seen.iter_mut().zip(ends) {
+        let (end, margins) = self.last;
+        let mut all = std::mem::take(&mut self.look.seen);
+        let points = self.first.iter().zip(margins.into_iter().map(|margin| (end, margin)));
+        for (i, (seen, (first, last))) in all.iter_mut().zip(points).enumerate() {
             let temperature = is_temperature(self.network, seen.limit);
-            let same = |point: &&Point| temperature && point.1 - seen.margin <= 10.0 * tolerance;
-            if let Some(&(time, _)) = first.iter().chain(points.last()).find(same) {
-                seen.worst_at = time;
+            let length = end - first.map_or(end, |(time, _)| time);
+            let mut exact = first.is_some_and(|(_, margin)| margin < -ROUNDING);
+            if let Some(integral) = self.look.integral(i).filter(|_| length > 0.0) {
+                exact = false;
+                *seen = seen.of_mean((end, integral / length));
+            } else if temperature {
+                let same = |point: &&Point| point.1 - seen.margin <= 10.0 * tolerance;
+                let end = first.iter().chain([&last]).find(same);
+                seen.worst_at = end.map_or(seen.worst_at, |(time, _)| *time);
             }
-            let exact = first.is_some_and(|(_, margin)| margin < -ROUNDING);
-            if temperature
-                && !exact
-                && seen.margin < 0.0
-                && seen.margin >= -ROUNDING.max(10.0 * tolerance)
-            {
+            let reached = -ROUNDING.max(10.0 * tolerance)..0.0;
+            if temperature && !exact && reached.contains(&seen.margin) {
                 (seen.margin, seen.broken_at) = (0.0, None);
             }
         }
-        self.seen
+        all
     }
 }
 

@@ -4,7 +4,6 @@
 use lptn_network::{Curve, InputError, Item, Network, same_time};
 
 use crate::cells::{Stretch, stretches};
-use crate::curved::longest_gap;
 use crate::quantity::Quantity;
 use crate::times::{Segment, segments, snap};
 use crate::window::Window;
@@ -137,16 +136,17 @@ impl Around<'_> {
         })
     }
 
+    /// Whatever rows there are: what is seen between them does not depend on them.
     fn curved(&self, curves: &[Curve], breakpoints: &[f64]) -> Vec<f64> {
         let segments = segments(self.span.0, self.span.1, breakpoints);
-        let stretches = stretches(self.network, curves, &segments, longest_gap(self.rows));
+        let stretches = stretches(self.network, curves, &segments, f64::INFINITY);
         let times = stretches.iter().flat_map(parts);
         times.filter(|time| *time > self.span.0 && *time < self.span.1).collect()
     }
 }
 
 /// The beginnings of the steps in a stretch.
-fn parts(stretch: &Stretch) -> impl Iterator<Item = f64> + use<> {
+pub(crate) fn parts(stretch: &Stretch) -> impl Iterator<Item = f64> + use<> {
     let Stretch { from, to, step } = *stretch;
     let count = ((to - from) / step - 1e-6).ceil().max(1.0);
     (0..)

@@ -12,6 +12,7 @@ use crate::error::{StopReason, TransientError};
 use crate::events::Event;
 use crate::extremes::Extremes;
 use crate::heat::Heat;
+use crate::interval::POINTS;
 use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::{LimitWatch, with_limits};
@@ -55,8 +56,8 @@ pub(crate) struct Recorder<'a> {
     extremes: Extremes,
     watch: Vec<Watch>,
     seen: Vec<Watched>,
-    /// For each watched node the points of the present step.
-    points: Vec<Vec<(f64, f64)>>,
+    /// The temperatures of the watched nodes in K at each point of the present step.
+    looked: [Vec<f64>; POINTS],
     limits: LimitWatch<'a>,
     ranges: RangeWatch<'a>,
     windows: Vec<Tracked>,
@@ -107,7 +108,7 @@ impl<'a> Recorder<'a> {
             recorded,
             watch: settings.watch.clone(),
             seen: Vec::new(),
-            points: vec![Vec::new(); settings.watch.len()],
+            looked: Default::default(),
             limits: LimitWatch::new(system),
             ranges: RangeWatch::new(system),
             windows: windows.collect(),
@@ -269,9 +270,10 @@ impl<'a> Recorder<'a> {
         self.push()
     }
 
-    /// The workspace at `time`, for a system without state.
-    pub(crate) fn at(&mut self, time: f64) -> Result<&mut Workspace, StopReason> {
-        self.inside = self.readings.inside(time);
+    /// The workspace at `time`, for a system without state, with inputs as they are in the stretch
+    /// around `middle`.
+    pub(crate) fn at(&mut self, time: f64, middle: f64) -> Result<&mut Workspace, StopReason> {
+        self.inside = self.readings.inside(middle);
         self.place(time)?;
         Ok(&mut self.work)
     }

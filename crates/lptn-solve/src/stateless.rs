@@ -3,13 +3,15 @@
 use lptn_integrate::Statistics;
 
 use crate::balance::Books;
+use crate::driving::parts_of;
 use crate::error::{StopReason, TransientError};
-use crate::quadrature::GAUSS;
+use crate::quadrature::Quadrature;
 use crate::recorder::Recorder;
 use crate::solution::{RunStatus, Solution};
 use crate::times::Segment;
 
-/// Evaluates every row; the ledger integrates between rows by the Gauss rule.
+/// Looks at every part of the inputs and evaluates every row; what is seen between rows, and the
+/// ledger, do not depend on them.
 pub(crate) fn solve(
     mut recorder: Recorder<'_>,
     segments: &[Segment],
@@ -39,47 +41,54 @@ pub(crate) fn solve(
 fn rows(
     recorder: &mut Recorder<'_>,
     segments: &[Segment],
-    (books, integrals): (&Books, &mut [f64]),
+    books: (&Books, &mut [f64]),
 ) -> Result<(), (f64, StopReason)> {
     let times = recorder.rows().to_vec();
     if recorder.system().network().has_events() {
         return Err((times[0], StopReason::NothingSwitches));
     }
-    let last = times.len() - 1;
+    let (books, integrals) = books;
+    let mut sums = Quadrature::new(vec![0; integrals.len()]);
     let mut row = 0;
-    for (i, &segment) in segments.iter().enumerate() {
-        recorder.enter(segment, None);
+    for (segment, parts) in segments.iter().zip(parts_of(recorder.system(), segments)) {
+        recorder.enter(*segment, None);
         recorder.start(&[], &[]).map_err(|e| (segment.from, e))?;
         row += usize::from(times[row].to_bits() == segment.from.to_bits());
-        let mut from = segment.from;
-        while row <= last && (times[row] < segment.to || (i + 1 == segments.len() && row == last)) {
-            interval(recorder, (from, times[row]), (books, integrals)).map_err(|e| (from, e))?;
-            from = times[row];
-            recorder.push_without_state(from).map_err(|e| (from, e))?;
-            row += 1;
-        }
-        if from < segment.to {
-            interval(recorder, (from, segment.to), (books, integrals)).map_err(|e| (from, e))?;
+        sums.jump();
+        for (from, to) in parts {
+            recorder.look_without_state(from, to).map_err(|e| (from, e))?;
+            integrate(recorder, (from, to), (books, &mut sums)).map_err(|e| (from, e))?;
+            // a row at the end of a segment is left to the next one
+            while times.get(row).is_some_and(|time| *time < to || is_end(&times, row, to)) {
+                recorder.push_without_state(times[row]).map_err(|e| (times[row], e))?;
+                row += 1;
+            }
         }
     }
+    integrals.copy_from_slice(&sums.integral);
     Ok(())
 }
 
-fn interval(
+/// Whether a row is the last of all and at the end of the part that ends at `to`.
+fn is_end(times: &[f64], row: usize, to: f64) -> bool {
+    row + 1 == times.len() && times[row] <= to
+}
+
+/// Adds the running integrals of the books over a part of a segment.
+fn integrate(
     recorder: &mut Recorder<'_>,
     (from, to): (f64, f64),
-    (books, integrals): (&Books, &mut [f64]),
+    (books, sums): (&Books, &mut Quadrature),
 ) -> Result<(), StopReason> {
-    recorder.look_without_state(from, to)?;
     let system = recorder.system();
-    let mut q = vec![0.0; integrals.len()];
-    let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
-    for (x, weight) in GAUSS {
-        let work = recorder.at(middle + half * x)?;
+    let middle = from.midpoint(to);
+    let mut at = |time: f64| {
+        let work = recorder.at(time, middle)?;
         let mut unknowns = vec![0.0; system.unknowns().len()];
         system.unknown_temperatures(system.node_temperatures(work), &mut unknowns);
+        let mut q = vec![0.0; books.integrals(system)];
         books.integrands(system, work, &unknowns, &mut q).map_err(StopReason::Input)?;
-        integrals.iter_mut().zip(&q).for_each(|(sum, q)| *sum += half * weight * q);
-    }
-    Ok(())
+        Ok(q)
+    };
+    sums.step((from, to), (&[], &mut at), &mut |_, _| {})
 }

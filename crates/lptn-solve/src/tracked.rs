@@ -1,10 +1,11 @@
 //! Means and extremes over windows of time, from the integrator's own curve and not from rows.
 
-use lptn_network::Network;
+use lptn_network::{Bends, Item, Network};
 use lptn_units::Type;
 
 use crate::error::StopReason;
-use crate::quadrature::{Interval, POINTS, Quadrature};
+use crate::interval::{Interval, POINTS};
+use crate::quadrature::Quadrature;
 use crate::quantity::{Quantity, Shown};
 use crate::selection::Selection;
 use crate::watch::{LASTS, REFINEMENTS, first_there, is_same, top};
@@ -18,6 +19,8 @@ const SAME: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub(crate) struct Tracked {
     pub(crate) window: Window,
+    /// Where its columns bend.
+    pub(crate) bends: Bends,
     reached: f64,
     sums: Quadrature,
     min: Vec<(f64, f64)>,
@@ -27,14 +30,20 @@ pub(crate) struct Tracked {
     last: Vec<f64>,
 }
 
-/// Writes the value of every column of a window at a time inside the present step.
+/// Writes the value of every column of a window at a time inside the present step, then what tells
+/// where they bend.
 pub(crate) type Columns<'a> =
-    dyn FnMut(f64, &Selection, &mut Vec<f64>) -> Result<(), StopReason> + 'a;
+    dyn FnMut(f64, (&Selection, &Bends), &mut Vec<f64>) -> Result<(), StopReason> + 'a;
 
 impl Tracked {
     pub(crate) fn new(window: Window, network: &Network) -> Self {
         let count = window.of.quantities().len();
+        let reports = window.of.quantities().iter().filter_map(|quantity| match quantity {
+            Quantity::Report(id) => Some(Item::Report(*id)),
+            _ => None,
+        });
         Self {
+            bends: network.bends(reports),
             reached: window.from,
             sums: Quadrature::new(kinds(&window.of, network)),
             window,
@@ -61,12 +70,12 @@ impl Tracked {
         if from >= to {
             return Ok(());
         }
-        let Self { window, sums, min, max, positive, first, last, .. } = self;
+        let Self { window, bends, sums, min, max, positive, first, last, .. } = self;
         let mut at = |time: f64| {
             let mut values = Vec::with_capacity(window.of.quantities().len());
-            columns(time, &window.of, &mut values).map(|()| values)
+            columns(time, (&window.of, bends), &mut values).map(|()| values)
         };
-        sums.step((from, to), &mut at, &mut |interval, smooth| {
+        sums.step((from, to), (bends.levels(), &mut at), &mut |interval, smooth| {
             if first.is_empty() {
                 first.clone_from(&interval.values[0]);
             }

@@ -2,6 +2,8 @@
 
 use lptn_network::NodeId;
 
+use crate::interval::{POINTS, interpolated};
+
 /// A node to watch at every step of the integrator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Watch {
@@ -23,9 +25,6 @@ pub struct Watched {
     first: f64,
     last: (f64, f64),
 }
-
-/// Points looked at inside each step, besides its ends.
-pub(crate) const SAMPLES: u32 = 8;
 
 /// How often the top of a curve is approached by another parabola.
 pub(crate) const REFINEMENTS: usize = 4;
@@ -97,13 +96,50 @@ impl Watched {
         }
     }
 
-    /// A time inside the points where the curve promises to be higher than the peak so far.
+    /// A time inside the points where the curve promises to be higher than the peak so far: the top
+    /// of a parabola near the highest of them. No curve that its points tell leaves their range by
+    /// as much again.
     pub(crate) fn promising(&self, points: &[(f64, f64)]) -> Option<f64> {
-        let tops = points.windows(3).filter_map(|p| top([p[0], p[1], p[2]]));
+        let (mut low, mut high, mut at) = (f64::INFINITY, f64::NEG_INFINITY, 0);
+        for (k, &(_, temperature)) in points.iter().enumerate() {
+            low = low.min(temperature);
+            if temperature > high {
+                (high, at) = (temperature, k);
+            }
+        }
+        if high + (high - low) <= self.peak.0 {
+            return None;
+        }
+        let near = &points[at.saturating_sub(2)..(at + 3).min(points.len())];
+        let tops = near.windows(3).filter_map(|p| top([p[0], p[1], p[2]]));
         let (height, time) = tops.max_by(|a, b| a.0.total_cmp(&b.0))?;
         let known =
-            points.iter().any(|p| is_same(p.0, time, (points[0].0, points[points.len() - 1].0)));
+            near.iter().any(|p| is_same(p.0, time, (points[0].0, points[points.len() - 1].0)));
         (height > self.peak.0 && !known).then_some(time)
+    }
+
+    /// The highest temperature of a step and its time, where the polynomial through its points is
+    /// higher than the peak so far between them.
+    pub(crate) fn top(
+        &self,
+        step: (f64, f64),
+        values: &[f64; POINTS],
+        points: &[(f64, f64)],
+    ) -> Option<(f64, f64)> {
+        let first = self.promising(points)?;
+        let mut points = points.to_vec();
+        let (mut best, mut next) = ((self.peak.0, f64::NAN), Some(first));
+        for _ in 0..REFINEMENTS {
+            let Some(time) = next else { break };
+            let value = interpolated(step, values, time);
+            if value > best.0 {
+                best = (value, time);
+            }
+            let place = points.partition_point(|p| p.0 < time);
+            points.insert(place, (time, value));
+            next = Self { peak: best, ..*self }.promising(&points);
+        }
+        (!best.1.is_nan()).then_some(best)
     }
 
     /// Takes in the temperature after a jump: a massless node may leap over its level in no time.

@@ -6,8 +6,9 @@ use lptn_units::Type;
 
 use crate::fields::Fields;
 use crate::format::{Role, SectionDeclaration, key};
-use crate::place::{Given, Place, Wanted};
+use crate::place::{Given, Place, Text, Wanted};
 use crate::raw::{RawEntry, RawKind};
+use crate::value::mean_over_time;
 use crate::work::{Elaboration, stand_in};
 
 pub(crate) const LIMIT: SectionDeclaration = SectionDeclaration {
@@ -39,20 +40,30 @@ impl<'a> Elaboration<'a> {
 
     fn limit(&mut self, entry: &'a RawEntry) -> Option<()> {
         let fields = self.fields(&LIMIT, entry)?;
-        let (of, ty, text) = self.limited(&fields);
+        let (of, ty, text, of_mean) = self.limited(&fields);
         let (bound, value) = self.bound(&fields, ty);
         let severity = self.severity(&fields);
         let id = self.builder.limit(&entry.key, (of, &text), (bound, value), severity);
+        if of_mean {
+            self.builder.limit_of_mean(id);
+        }
         self.note(Item::Limit(id), &entry.key_span, &fields, &[Field::Of, bound.field()]);
         Some(())
     }
 
-    /// What is limited, its type where that is known, and how it is written.
-    fn limited(&mut self, fields: &Fields<'a>) -> (Input, Option<Type>, String) {
-        let nothing = || (stand_in(Type::ABSOLUTE_TEMPERATURE), None, String::new());
+    /// What is limited, its type where that is known, how it is written, and whether its mean is.
+    fn limited(&mut self, fields: &Fields<'a>) -> (Input, Option<Type>, String, bool) {
+        let nothing = || (stand_in(Type::ABSOLUTE_TEMPERATURE), None, String::new(), false);
         let Some(raw) = self.require(fields, "of") else { return nothing() };
         let place = Place { owner: &fields.owner, key: "of", raw };
-        match self.given(place, Wanted::of_results()) {
+        let text = self.names.text(place, None);
+        let Some(text) = self.kept(text) else { return nothing() };
+        let mean = match &text {
+            Text::Expression(expression) => mean_over_time(expression),
+            Text::Quantity(_) => None,
+        };
+        let (of_mean, text) = (mean.is_some(), mean.map_or(text, Text::Expression));
+        match self.resolve(place, text, Wanted::of_results()) {
             Some(Given::Quantity(_)) => {
                 self.report(
                     Diagnostic::error(
@@ -66,7 +77,8 @@ impl<'a> Elaboration<'a> {
             }
             Some(Given::Expression(program)) => {
                 let (ty, text) = (program.ty(), program.text().trim().to_owned());
-                (program.into(), Some(ty), text)
+                let text = if of_mean { format!("mean({text})") } else { text };
+                (program.into(), Some(ty), text, of_mean)
             }
             None => nothing(),
         }

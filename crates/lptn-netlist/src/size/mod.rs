@@ -164,6 +164,8 @@ pub struct Requirement {
     pub ty: Type,
     low: Value,
     high: Value,
+    /// Whether the means over time of both sides are compared, and not their values at every moment.
+    of_mean: bool,
 }
 
 impl Requirement {
@@ -191,6 +193,7 @@ impl Requirement {
             bound: Bound::Below,
             value: self.high.clone(),
             compares: true,
+            of_mean: self.of_mean,
             severity: LimitSeverity::Error,
             text: self.text.clone(),
         }

@@ -12,6 +12,7 @@ use crate::setting::{Setting, TIME};
 use crate::size::{
     Catalogue, Goal, Objective, Over, Requirement, SIZE, SizeRange, SizeStudy, VARY,
 };
+use crate::value::mean_over_time;
 use crate::work::Elaboration;
 
 impl<'a> Elaboration<'a> {
@@ -214,6 +215,8 @@ impl<'a> Elaboration<'a> {
         let Some((left, comparison, right)) = expression.split_comparison() else {
             return self.no_comparison(place);
         };
+        let (means, of_mean) = self.means(place, [left, right])?;
+        let [left, right] = means;
         let (left, right) = self.sides(place, left, right)?;
         let ty = left.ty();
         let (left, right) = (left.value(), right.value());
@@ -222,7 +225,33 @@ impl<'a> Elaboration<'a> {
             Comparison::Greater | Comparison::GreaterEqual => (right, left),
             Comparison::Equal | Comparison::NotEqual => return self.no_comparison(place),
         };
-        Some(Requirement { text: expression.text().trim().to_owned(), ty, low, high })
+        Some(Requirement { text: expression.text().trim().to_owned(), ty, low, high, of_mean })
+    }
+
+    /// What the means over time of both sides are taken of, and whether they are means: beside a
+    /// mean stands another one, or what does not change.
+    fn means(
+        &mut self,
+        place: Place<'_>,
+        sides: [Expression; 2],
+    ) -> Option<([Expression; 2], bool)> {
+        let means = [mean_over_time(&sides[0]), mean_over_time(&sides[1])];
+        let of_mean = means.iter().any(Option::is_some);
+        let constant =
+            |side: &Expression| side.names().iter().all(|(name, _)| self.names.is_parameter(name));
+        let fits = sides.iter().zip(&means).all(|(side, mean)| mean.is_some() || constant(side));
+        if of_mean && !fits {
+            let message = format!(
+                "{} compares a mean over time with what is not the same all the time",
+                place.words()
+            );
+            let help = "compare it with a value or with another mean: `mean(a.T) <= mean(b.T)`";
+            self.refuse("netlist::mean_over_time", message, &place.raw.span, help);
+            return None;
+        }
+        let [left, right] = means;
+        let [first, second] = sides;
+        Some(([left.unwrap_or(first), right.unwrap_or(second)], of_mean))
     }
 
     /// Both sides, of one type.

@@ -279,11 +279,17 @@ impl NetworkBuilder {
             bound,
             value,
             compares: false,
+            of_mean: false,
             severity,
             text,
         });
         self.register(&name, Item::Limit(id));
         id
+    }
+
+    /// Lets a limit that was added be kept by the mean over time of its quantity.
+    pub fn limit_of_mean(&mut self, id: LimitId) {
+        self.parts.limits[id.index()].of_mean = true;
     }
 
     /// Checks everything and gives the network.

@@ -22,13 +22,23 @@ impl Network {
     /// # Errors
     /// [`InputError`] if an expression fails or gives no number.
     pub fn limit_margin(&self, id: LimitId, scope: &mut Evaluation) -> Result<f64, InputError> {
+        let [low, high] = self.limit_sides(id, scope)?;
+        Ok(high - low)
+    }
+
+    /// The two sides of a limit where `scope` stands, in SI units: what has to be below, and what
+    /// has to be above it.
+    ///
+    /// # Errors
+    /// As [`Network::limit_margin`].
+    pub fn limit_sides(&self, id: LimitId, scope: &mut Evaluation) -> Result<[f64; 2], InputError> {
         let limit = &self.limits()[id.index()];
         let item = Item::Limit(id);
         let of = self.number(item, Field::Of, &limit.of, scope)?;
         let value = self.number(item, limit.bound.field(), &limit.value, scope)?;
         Ok(match limit.bound {
-            Bound::Below => value - of,
-            Bound::Above => of - value,
+            Bound::Below => [of, value],
+            Bound::Above => [value, of],
         })
     }
 

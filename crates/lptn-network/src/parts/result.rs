@@ -50,6 +50,9 @@ pub struct Limit {
     /// Whether `value` is a result too: what a study requires compares any two. A limit of the
     /// builder does not.
     pub compares: bool,
+    /// Whether it is the mean over time that has to be kept, and not every moment: `of` and `value`
+    /// are then what the mean is taken of.
+    pub of_mean: bool,
     /// What it means if it is broken.
     pub severity: LimitSeverity,
     /// `of` as it was written.

@@ -1,14 +1,13 @@
 //! What is looked at between the rows: watched nodes, limits and windows.
 
-use lptn_network::LimitId;
-
 use super::{Recorder, StateAt};
 use crate::error::StopReason;
+use crate::interval::{Interval, POINTS, time_of};
 use crate::readings::pieces;
-use crate::watch::{REFINEMENTS, SAMPLES};
 
-/// Halvings of the interval in which a limit is first broken: to the rounding of its length.
-const BISECTIONS: usize = 53;
+/// Nodes that are placed to find the tops of watched ones in a step: where there are more of both,
+/// what the points of the step tell is taken for it.
+const MOST_PLACED: usize = 4096;
 
 impl Recorder<'_> {
     /// Whether something is to be looked at between the rows.
@@ -49,7 +48,7 @@ impl Recorder<'_> {
     fn track(&mut self, step: (f64, f64), state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
         let mut windows = std::mem::take(&mut self.windows);
         let outcome = windows.iter_mut().try_for_each(|window| {
-            window.step(step, &mut |time, of, values| {
+            window.step(step, &mut |time, (of, bends), values| {
                 self.place_at(time, state_at)?;
                 let at = (time, self.inside);
                 self.reading.place(&mut self.work, at).map_err(StopReason::Input)?;
@@ -57,6 +56,7 @@ impl Recorder<'_> {
                     let value = self.reading.value(&mut self.work, quantity);
                     values.push(value.map_err(StopReason::Input)?);
                 }
+                bends.read(&mut self.reading.scope, values);
                 Ok(())
             })
         });
@@ -64,83 +64,96 @@ impl Recorder<'_> {
         outcome
     }
 
-    fn look(
+    fn look(&mut self, step: (f64, f64), state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
+        if self.seen.is_empty() && self.limits.is_empty() && self.ranges.is_slow() {
+            self.place_at(step.1, state_at)?;
+            return self.ranges.sample(&mut self.work, step.1).map_err(StopReason::Input);
+        }
+        let mut values: [Vec<f64>; POINTS] = Default::default();
+        values[0] = self.limits.last();
+        self.looked[0].clear();
+        self.looked[0].extend(self.seen.iter().map(|seen| seen.last_point().1));
+        for (point, values) in values.iter_mut().enumerate().skip(1) {
+            *values = self.look_at(step, point, state_at)?;
+        }
+        self.look_at_watched(step, state_at)?;
+        self.look_at_limits(Interval { from: step.0, to: step.1, values }, state_at)
+    }
+
+    /// Looks at one point of a step, and before it, for laws that may leave their range in between,
+    /// at the middle of a wide gap; gives what limits say.
+    fn look_at(
         &mut self,
-        (from, to): (f64, f64),
+        step: (f64, f64),
+        point: usize,
+        state_at: &mut StateAt<'_>,
+    ) -> Result<Vec<f64>, StopReason> {
+        let time = time_of(step, point);
+        let last = point + 1 == POINTS;
+        if point > 1 && !last && !self.ranges.is_slow() {
+            let middle = time_of(step, point - 1).midpoint(time);
+            self.place_at(middle, state_at)?;
+            self.ranges.sample_inside(&mut self.work, middle).map_err(StopReason::Input)?;
+        }
+        self.place_at(time, state_at)?;
+        let nodes = self.system.node_temperatures(&self.work);
+        let watched = &mut self.looked[point];
+        watched.clear();
+        watched.extend(self.seen.iter().map(|seen| nodes[seen.watch.node.index()]));
+        let looked = match last {
+            true => self.ranges.sample(&mut self.work, time),
+            false => self.ranges.sample_inside(&mut self.work, time),
+        };
+        looked.map_err(StopReason::Input)?;
+        self.limits.values(&mut self.work, (time, self.inside)).map_err(StopReason::Input)
+    }
+
+    /// Takes in the points of the watched nodes, and the tops between them.
+    fn look_at_watched(
+        &mut self,
+        step: (f64, f64),
         state_at: &mut StateAt<'_>,
     ) -> Result<(), StopReason> {
-        let ends = self.seen.is_empty() && self.limits.is_empty() && self.ranges.is_slow();
-        let count = if ends { 1 } else { SAMPLES + 1 };
-        for (points, seen) in self.points.iter_mut().zip(&self.seen) {
-            points.clear();
-            points.push(seen.last_point());
+        let times: [f64; POINTS] = std::array::from_fn(|point| time_of(step, point));
+        let mut tops = Vec::new();
+        for (i, seen) in self.seen.iter_mut().enumerate() {
+            let values: [f64; POINTS] = std::array::from_fn(|point| self.looked[point][i]);
+            let points: [(f64, f64); POINTS] = std::array::from_fn(|k| (times[k], values[k]));
+            seen.look(&points);
+            tops.extend(seen.top(step, &values, &points).map(|top| (i, top)));
         }
-        for k in 1..=count {
-            let time =
-                if k == count { to } else { from + (to - from) * f64::from(k) / f64::from(count) };
-            self.place_at(time, state_at)?;
-            let nodes = self.system.node_temperatures(&self.work);
-            for (list, seen) in self.points.iter_mut().zip(&self.seen) {
-                list.push((time, nodes[seen.watch.node.index()]));
-            }
-            let at = (time, self.inside);
-            self.limits.sample(&mut self.work, at).map_err(StopReason::Input)?;
-            let looked = match k == count {
-                true => self.ranges.sample(&mut self.work, time),
-                false => self.ranges.sample_inside(&mut self.work, time),
-            };
-            looked.map_err(StopReason::Input)?;
-        }
-        for i in 0..self.seen.len() {
-            self.seen[i].look(&self.points[i]);
-            self.refine(i, state_at)?;
-        }
-        self.limits.ids().try_for_each(|id| self.look_at_limit(id, state_at))
-    }
-
-    /// Evaluates the watched node where a parabola has its top, until the peak stands still.
-    fn refine(&mut self, i: usize, state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
-        for _ in 0..REFINEMENTS {
-            let Some(time) = self.seen[i].promising(&self.points[i]) else { break };
-            self.place_at(time, state_at)?;
-            let nodes = self.system.node_temperatures(&self.work);
-            let point = (time, nodes[self.seen[i].watch.node.index()]);
-            self.seen[i].peak_at(point);
-            let place = self.points[i].partition_point(|p| p.0 < time);
-            self.points[i].insert(place, point);
-        }
-        Ok(())
-    }
-
-    /// Looks where a limit is nearest to being broken, and finds when it first was.
-    fn look_at_limit(&mut self, id: LimitId, state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
-        for time in self.limits.valleys(id) {
-            let margin = self.margin_at(id, time, state_at)?;
-            self.limits.insert(id, (time, margin));
-        }
-        let mut broken_at = None;
-        if let Some((mut kept, mut broken)) = self.limits.break_between(id) {
-            for _ in 0..BISECTIONS {
-                let middle = kept + 0.5 * (broken - kept);
-                match self.margin_at(id, middle, state_at)? < 0.0 {
-                    true => broken = middle,
-                    false => kept = middle,
+        let nodes = self.system.network().nodes().len();
+        for (i, (temperature, time)) in tops.iter().copied() {
+            let exact = match tops.len() * nodes <= MOST_PLACED {
+                true => {
+                    self.place_at(time, state_at)?;
+                    let node = self.seen[i].watch.node.index();
+                    self.system.node_temperatures(&self.work)[node]
                 }
-            }
-            broken_at = Some(broken);
+                false => temperature,
+            };
+            self.seen[i].peak_at((time, exact));
         }
-        self.limits.take_in(id, broken_at);
         Ok(())
     }
 
-    fn margin_at(
+    /// Looks at the limits over a step whose points are known.
+    fn look_at_limits(
         &mut self,
-        id: LimitId,
-        time: f64,
+        step: Interval,
         state_at: &mut StateAt<'_>,
-    ) -> Result<f64, StopReason> {
-        self.place_at(time, state_at)?;
-        let at = (time, self.inside);
-        self.limits.margin(id, &mut self.work, at).map_err(StopReason::Input)
+    ) -> Result<(), StopReason> {
+        if self.limits.is_empty() {
+            return Ok(());
+        }
+        let end = (step.to, step.values[POINTS - 1].clone());
+        let mut look = self.limits.take_look();
+        let outcome = look.step(step, &mut |time| {
+            self.place_at(time, state_at)?;
+            let at = (time, self.inside);
+            self.limits.values(&mut self.work, at).map_err(StopReason::Input)
+        });
+        self.limits.looked(look, end);
+        outcome
     }
 }

@@ -138,7 +138,7 @@ impl Candidate {
             capacity: capacity(network),
             mass: mass(network),
             beyond: Beyond::of_steady(network, &steady),
-            out_of_range: OutOfRange::of_steady(network, &steady).unwrap_or_default(),
+            out_of_range: OutOfRange::of_steady(network, &steady).map_err(CompareError::Input)?,
             several: Some(steady).filter(is_doubtful),
             scatter: None,
         })

@@ -80,11 +80,7 @@ impl Settled {
 fn transient(system: &ThermalSystem, cycle: &RunSettings) -> Transient {
     let network = system.network();
     let of = Transient::of(network, cycle);
-    // a network without states takes no steps: it is looked at between rows only
-    let output = match system.states().is_empty() {
-        true => of.output.clone(),
-        false => OutputTimes::At(vec![cycle.stop]),
-    };
+    let output = OutputTimes::At(vec![cycle.stop]);
     let windows = heat::window(network, (cycle.start, cycle.stop)).into_iter().collect();
     Transient {
         output,

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lptn_assembly::AssemblyError;
-use lptn_network::{BuildErrors, Changing, ParameterId};
+use lptn_network::{BuildErrors, Changing, InputError, ParameterId};
 use lptn_solve::{LedgerError, PeriodicError, SteadyError, TransientError};
 use lptn_units::{Class, EvalError, format_six};
 
@@ -89,6 +89,8 @@ pub enum TrialError {
             Some(error) => format!("`{text}` has no value: {error}"),
             None => format!("`{text}` has no finite value"),
         };
+    /// Whether its laws stay in the ranges in which they are known cannot be told.
+    Range => InputError;
     /// What is sought has no value; why not, or `None` if it gave no finite number.
     Objective(error: Option<EvalError>) = "size::objective",
         match error {

@@ -298,7 +298,7 @@ impl<'a> Judge<'a> {
         Ok(Judged {
             margins,
             worst_at: vec![None; requirements.len()],
-            out_of_range: OutOfRange::of_steady(network, &steady).unwrap_or_default(),
+            out_of_range: OutOfRange::of_steady(network, &steady).map_err(TrialError::Range)?,
             objective: sought.map_err(TrialError::Objective)?,
             ..Judged::default()
         })
@@ -347,16 +347,11 @@ fn finite(found: Result<f64, EvalError>) -> Result<f64, Option<EvalError>> {
     }
 }
 
-/// The run without its rows, between which limits are looked at anyway. A network without states
-/// takes no steps: it is looked at between rows only.
+/// The run without its rows, between which limits are looked at anyway.
 fn transient(system: &ThermalSystem, run: &RunSettings) -> Transient {
     let transient = Transient::of(system.network(), run);
-    let output = match system.states().is_empty() {
-        true => transient.output.clone(),
-        false => OutputTimes::At(Vec::new()),
-    };
     let record = RecordedNodes::Nodes(Vec::new());
-    Transient { output, record, ..transient }
+    Transient { output: OutputTimes::At(Vec::new()), record, ..transient }
 }
 
 /// What is left of every requirement in the network as it is.

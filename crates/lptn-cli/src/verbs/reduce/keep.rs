@@ -10,7 +10,7 @@ use lptn_reduce::{
     Allowed, Kept, KeptErrors, KeptReference, NortonEquivalent, Projected, ReduceError, port,
 };
 use lptn_report::{Format, plain, significant};
-use lptn_solve::Transient;
+use lptn_solve::{Transient, largest_of_inputs};
 use lptn_units::Unit;
 
 use super::args::{ReduceArgs, ReduceFormat};
@@ -139,12 +139,11 @@ fn largest(
     let mut most = 0.0_f64;
     for &node in nodes {
         let norton = NortonEquivalent::new(system, node)?;
-        let varies = system.network().has_time_dependent_inputs();
-        let mut times = vec![run.map_or(0.0, |run| run.start)];
-        times.extend(run.filter(|_| varies).and_then(|run| run.rows().ok()).unwrap_or_default());
-        for time in times {
-            most = most.max(norton.inputs(system, time).map_err(ReduceError::Input)?.heat);
-        }
+        let span = run.map_or((0.0, 0.0), |run| (run.start, run.stop));
+        let heat = largest_of_inputs(system, span, &|system, work| {
+            norton.heat(system.source_powers(work))
+        });
+        most = most.max(heat.map_err(ReduceError::Input)?);
     }
     Ok(if most > 0.0 { most } else { 1.0 })
 }

@@ -5,7 +5,7 @@ use std::path::Path;
 use lptn_assembly::ThermalSystem;
 use lptn_reduce::{Allowed, Deviation, Dynamics, Judge, Nodes, ReduceError, Reduction, Stretch};
 use lptn_report::{Text, TextTable, duration, fixed, plain, significant};
-use lptn_solve::Transient;
+use lptn_solve::{Transient, largest_of_inputs};
 use lptn_units::Dimension;
 use serde_json::{Value, json};
 
@@ -281,14 +281,14 @@ fn exact(nodes: &Nodes) -> bool {
 
 /// The largest heat at the port over the run, or at its start; 1 W where there is none.
 fn largest(asked: &Asked<'_>, reduction: &Reduction) -> Result<f64, lptn_network::InputError> {
-    let start = reduction.inputs.heat;
-    let mut most = start;
-    if let Some(run) = asked.run.filter(|_| asked.system.network().has_time_dependent_inputs()) {
-        let rows = run.rows().unwrap_or_default();
-        for time in rows {
-            most = most.max(reduction.norton.inputs(asked.system, time)?.heat);
-        }
-    }
+    let norton = &reduction.norton;
+    let most = match asked.run {
+        Some(run) => largest_of_inputs(asked.system, (run.start, run.stop), &|system, work| {
+            norton.heat(system.source_powers(work))
+        })?,
+        None => reduction.inputs.heat,
+    };
+    let most = most.max(reduction.inputs.heat);
     Ok(if most > 0.0 { most } else { 1.0 })
 }
 

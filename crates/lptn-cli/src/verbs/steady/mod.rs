@@ -9,7 +9,7 @@ pub(crate) use args::SteadyArgs;
 use lptn_netlist::RunSettings;
 use lptn_network::{Item, LimitId};
 use lptn_report::Format;
-use lptn_solve::{Selection, SteadyError, SteadyState, Table};
+use lptn_solve::{OutOfRange, Selection, SteadyError, SteadyState, Table};
 use lptn_units::Unit;
 use view::View;
 
@@ -38,9 +38,12 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
     let limits = limits(&input, &steady, start)?;
     let table = table(&input, &steady, &selection, &unit)?;
     let balance = balance.map(|of| steady.balance(&netlist.network, of));
+    let outside = OutOfRange::of_steady(&netlist.network, &steady);
+    let outside = outside.map_err(|error| failed(&input, &SteadyError::Input(error)))?;
     let view = View {
         input: &input,
         steady: &steady,
+        outside: &outside,
         table: &table,
         unit: &unit,
         limits: &limits,
@@ -56,7 +59,7 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
         hidden.iter().for_each(|hidden| console.note(hidden));
         console.warn(&netlist.files, &view.doubts());
     }
-    console.warn(&netlist.files, &sense::of_steady(netlist, &steady));
+    console.warn(&netlist.files, &sense::of_steady(netlist, &steady, &outside));
     Ok(limits::conclude(&view.judgement(), console))
 }
 

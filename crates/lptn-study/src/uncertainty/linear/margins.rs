@@ -42,9 +42,31 @@ pub(super) fn effects(
         Transient { output, record: RecordedNodes::All, watch: Vec::new(), ..task.watched() };
     let run = sensitive_run(task.network, &settings, &ids(line.inputs))?;
     let all = |limit: &LimitSeen| {
-        line.inputs.iter().map(|input| of_expression(task, &run, (limit, input))).collect()
+        let of_mean = task.network.limits()[limit.limit.index()].of_mean;
+        let one = |input: &Uncertain| match of_mean {
+            true => of_runs(task, (limit, input)),
+            false => of_expression(task, &run, (limit, input)),
+        };
+        line.inputs.iter().map(one).collect()
     };
     seen.iter().map(all).collect()
+}
+
+/// Half the difference of a margin between runs with the parameter one standard deviation to both
+/// sides: a mean has no moment at which it is least.
+fn of_runs(
+    task: &UncertaintyTask<'_>,
+    (limit, input): (&LimitSeen, &Uncertain),
+) -> Result<f64, UncertaintyError> {
+    let moved = |change: f64| -> Result<f64, UncertaintyError> {
+        let mut parameters = task.parameters.clone();
+        parameters.set(input.parameter, input.value + change);
+        let system = ThermalSystem::of(task.network, &parameters)?;
+        let settings = Transient { watch: Vec::new(), ..task.watched() };
+        let solution = settings.solve(&system).map_err(Box::new)?;
+        Ok(solution.limits()[limit.limit.index()].margin)
+    };
+    Ok(0.5 * (moved(input.deviation)? - moved(-input.deviation)?))
 }
 
 /// The margin at the time at which it is least, with the parameter and the temperatures moved to

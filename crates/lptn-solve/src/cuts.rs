@@ -1,0 +1,188 @@
+//! The times inside an interval at which curves bend: some quantity passes one of its levels.
+
+use crate::error::StopReason;
+use crate::interval::{Interval, POINTS};
+use crate::resolve::{At, Levels};
+use crate::watch::{is_same, top};
+
+/// A quantity that is nearer to a level at an end of an interval than this share of its range stands
+/// there: the interval was cut at that level.
+const AT_THE_LEVEL: f64 = 1e-9;
+
+/// Tops between the points that are looked at, for each quantity and side.
+const TOPS: usize = 4;
+
+/// Halvings of the gap between two points in which a curve passes a level.
+const GUESSES: usize = 50;
+
+/// A time is found to this share of the interval.
+const ENOUGH: f64 = 1e-14;
+
+/// Looks for the time at which a curve passes a level.
+const MOST_LOOKS: usize = 120;
+
+/// A time with the values of all curves there.
+type End = (f64, Vec<f64>);
+
+/// The times strictly inside an interval at which it has to be cut, ascending, with the values
+/// there.
+pub(crate) fn cuts(
+    interval: &Interval,
+    levels: Levels<'_>,
+    at: &mut At<'_>,
+) -> Result<Vec<End>, StopReason> {
+    let mut found = Vec::new();
+    for (i, levels_of) in levels.of.iter().enumerate() {
+        one(interval, (levels.count + i, levels_of), at, &mut found)?;
+    }
+    found.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let ends = (interval.from, interval.to);
+    let apart = |a: f64, b: f64| (a - b).abs() > 1e-12 * (ends.1 - ends.0) && !is_same(a, b, ends);
+    found.retain(|(time, _)| apart(*time, ends.0) && apart(*time, ends.1));
+    found.dedup_by(|b, a| !apart(a.0, b.0));
+    Ok(found)
+}
+
+/// Those of one quantity.
+fn one(
+    interval: &Interval,
+    (column, levels): (usize, &[f64]),
+    at: &mut At<'_>,
+    found: &mut Vec<End>,
+) -> Result<(), StopReason> {
+    let values = interval.of(column);
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for value in values {
+        (low, high) = (low.min(value), high.max(value));
+    }
+    let spread = high - low;
+    // no curve that its points tell leaves their range by as much again
+    let within = |level: &f64| (low - spread..=high + spread).contains(level);
+    let near: Vec<f64> = levels.iter().copied().filter(within).collect();
+    if near.is_empty() || spread.partial_cmp(&0.0) != Some(std::cmp::Ordering::Greater) {
+        return Ok(());
+    }
+    let mut points: Vec<(f64, f64)> = interval.times().into_iter().zip(values).collect();
+    for sign in [1.0, -1.0] {
+        look_at_tops((column, &near, sign), at, &mut points)?;
+    }
+    for level in near {
+        let above = sides(&points, level, AT_THE_LEVEL * spread);
+        for k in (1..points.len()).filter(|k| above[k - 1] != above[*k]) {
+            let gap = [points[k - 1], points[k]];
+            let guess = guess(interval, (column, level), gap);
+            let enough = ENOUGH * (interval.to - interval.from);
+            found.push(passing(at, (column, level), (gap, guess), enough)?);
+        }
+    }
+    Ok(())
+}
+
+/// Whether each point is above a level; one of the ends that stands there counts as its neighbour.
+fn sides(points: &[(f64, f64)], level: f64, margin: f64) -> Vec<bool> {
+    let mut above: Vec<bool> = points.iter().map(|point| point.1 > level).collect();
+    let last = points.len() - 1;
+    for (end, next) in [(0, 1), (last, last - 1)] {
+        if (points[end].1 - level).abs() <= margin {
+            above[end] = above[next];
+        }
+    }
+    above
+}
+
+/// Adds points where a parabola through three of them has its top (`sign` 1) or bottom (-1), as long
+/// as a level may be passed there that no point has passed.
+fn look_at_tops(
+    (column, levels, sign): (usize, &[f64], f64),
+    at: &mut At<'_>,
+    points: &mut Vec<(f64, f64)>,
+) -> Result<(), StopReason> {
+    for _ in 0..TOPS {
+        let ends = (points[0].0, points[points.len() - 1].0);
+        let promising = points.windows(3).find_map(|w| {
+            let turned = [w[0], w[1], w[2]].map(|(time, value)| (time, sign * value));
+            let (height, time) = top(turned)?;
+            let known = turned.iter().fold(f64::NEG_INFINITY, |most, point| most.max(point.1));
+            let reach = height + 0.5 * (height - known);
+            let passed = levels.iter().any(|level| (known..reach).contains(&(sign * level)));
+            (passed && !w.iter().any(|point| is_same(point.0, time, ends))).then_some(time)
+        });
+        let Some(time) = promising else { break };
+        let place = points.partition_point(|point| point.0 < time);
+        points.insert(place, (time, at(time)?[column]));
+    }
+    Ok(())
+}
+
+/// Where the polynomial through the points of an interval passes a level between two times; the
+/// middle where it does not.
+fn guess(
+    interval: &Interval,
+    (column, level): (usize, f64),
+    [before, after]: [(f64, f64); 2],
+) -> f64 {
+    let rises = after.1 > before.1;
+    let passed = |time: f64| (interval.interpolated(column, time) > level) == rises;
+    let (mut before, mut after) = (before.0, after.0);
+    for _ in 0..GUESSES {
+        let middle = before + 0.5 * (after - before);
+        match passed(middle) {
+            true => after = middle,
+            false => before = middle,
+        }
+    }
+    before + 0.5 * (after - before)
+}
+
+/// Finds the moment at which a curve passes a level between two points (time in s, value): the first
+/// time behind it that was looked at, with the values of all curves there. It is not further away
+/// than `enough` in s unless rounding is more. By the secant method in an interval that shrinks (N.
+/// Anderson, A. Björck, BIT 13 (1973) 253), from a guess.
+pub(crate) fn passing(
+    at: &mut At<'_>,
+    (column, level): (usize, f64),
+    ([mut before, mut after], guess): ([(f64, f64); 2], f64),
+    enough: f64,
+) -> Result<End, StopReason> {
+    let rises = after.1 > before.1;
+    let (mut sides, mut last) = ([before.1 - level, after.1 - level], None);
+    let (mut found, mut next, mut width) = (None, guess, after.0 - before.0);
+    for look in 1..=MOST_LOOKS {
+        let (a, b) = (before.0, after.0);
+        let least = enough.max(2.0 * f64::EPSILON * b.abs());
+        if b - a <= least || sides[1] == 0.0 {
+            break;
+        }
+        let slow = look % 3 == 0 && b - a > 0.5 * std::mem::replace(&mut width, b - a);
+        // a good guess is closed in from its other side
+        let time = match next > a && next < b && !slow {
+            true => next.clamp(a + 0.5 * least, b - 0.5 * least),
+            false => a + 0.5 * (b - a),
+        };
+        let values = at(time)?;
+        let side = values[column] - level;
+        let passed = if rises { side > 0.0 } else { side < 0.0 };
+        let (near, far) = if passed { (1, 0) } else { (0, 1) };
+        if last == Some(passed) {
+            let share = 1.0 - side / sides[near];
+            sides[far] *= if share > 0.0 { share } else { 0.5 };
+        }
+        (sides[near], last) = (side, Some(passed));
+        match passed {
+            true => (after, found) = ((time, side), Some(values)),
+            false => before = (time, side),
+        }
+        next = before.0 + (after.0 - before.0) * (sides[0] / (sides[0] - sides[1]));
+    }
+    let values = match found {
+        Some(values) => values,
+        None => at(after.0)?,
+    };
+    Ok((after.0, values))
+}
+
+/// The points of a curve over an interval.
+pub(crate) fn points(interval: &Interval, column: usize) -> [(f64, f64); POINTS] {
+    let (times, values) = (interval.times(), interval.of(column));
+    std::array::from_fn(|point| (times[point], values[point]))
+}

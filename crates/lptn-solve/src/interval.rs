@@ -1,0 +1,156 @@
+//! Several curves over an interval, by their values at a few points of it.
+
+use crate::error::StopReason;
+use crate::resolve::At;
+
+/// Nodes and weights of the Gauss-Legendre rule of order 10 on (-1, 1)
+/// (Abramowitz and Stegun, Handbook of Mathematical Functions, table 25.4, n = 5).
+pub(crate) const GAUSS: [(f64, f64); 5] = [
+    (-0.906_179_845_938_664, 0.236_926_885_056_189_1),
+    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+    (0.0, 0.568_888_888_888_888_9),
+    (0.538_469_310_105_683_1, 0.478_628_670_499_366_5),
+    (0.906_179_845_938_664, 0.236_926_885_056_189_1),
+];
+
+/// So many points of every interval are looked at: its ends and the nodes of the Gauss rule between
+/// them.
+pub(crate) const POINTS: usize = 7;
+
+/// Where they are on (-1, 1).
+const NODES: [f64; POINTS] =
+    [-1.0, GAUSS[0].0, GAUSS[1].0, GAUSS[2].0, GAUSS[3].0, GAUSS[4].0, 1.0];
+
+/// The Gauss rule on these points.
+const RULE: [f64; POINTS] = [0.0, GAUSS[0].1, GAUSS[1].1, GAUSS[2].1, GAUSS[3].1, GAUSS[4].1, 0.0];
+
+/// The rule of order 6 that interpolates at the ends, the middle and the two nodes beside it. The
+/// temperature inside a step is a polynomial of degree 5 at most, which both integrate exactly;
+/// what both agree on is smooth.
+const OTHER_RULE: [f64; POINTS] = {
+    let square = NODES[2] * NODES[2];
+    let beside = 2.0 / 15.0 / (square * (1.0 - square));
+    let ends = 1.0 / 3.0 - beside * square;
+    [ends, 0.0, beside, 2.0 - 2.0 * (ends + beside), beside, 0.0, ends]
+};
+
+/// Of the interpolation through the points (Berrut and Trefethen, SIAM Review 46, 2004, eq. 3.2).
+const BARYCENTRIC: [f64; POINTS] = {
+    let mut weights = [1.0; POINTS];
+    let mut at = 0;
+    while at < POINTS * POINTS {
+        let (j, k) = (at / POINTS, at % POINTS);
+        if j != k {
+            weights[j] /= NODES[j] - NODES[k];
+        }
+        at += 1;
+    }
+    weights
+};
+
+/// Curves over an interval: the values of all at each of its points, in the order of time.
+#[derive(Clone, Debug)]
+pub(crate) struct Interval {
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+    pub(crate) values: [Vec<f64>; POINTS],
+}
+
+impl Interval {
+    pub(crate) fn new(
+        (from, to): (f64, f64),
+        ends: [Vec<f64>; 2],
+        at: &mut At<'_>,
+    ) -> Result<Self, StopReason> {
+        let [first, last] = ends;
+        let time = |point: usize| time_of((from, to), point);
+        let values =
+            [first, at(time(1))?, at(time(2))?, at(time(3))?, at(time(4))?, at(time(5))?, last];
+        Ok(Self { from, to, values })
+    }
+
+    /// The times of all points.
+    pub(crate) fn times(&self) -> [f64; POINTS] {
+        std::array::from_fn(|point| self.time(point))
+    }
+
+    /// The values of a curve at all points.
+    pub(crate) fn of(&self, curve: usize) -> [f64; POINTS] {
+        std::array::from_fn(|point| self.values[point][curve])
+    }
+
+    /// When a point is.
+    pub(crate) fn time(&self, point: usize) -> f64 {
+        time_of((self.from, self.to), point)
+    }
+
+    /// A curve between the points, by the polynomial through them.
+    pub(crate) fn interpolated(&self, curve: usize, time: f64) -> f64 {
+        interpolated((self.from, self.to), &self.of(curve), time)
+    }
+
+    /// The middle is a point already, so that a half needs five new ones.
+    pub(crate) fn halves(self, at: &mut At<'_>) -> Result<[Self; 2], StopReason> {
+        let middle = self.time(POINTS / 2);
+        let [first, _, _, centre, _, _, last] = self.values;
+        let left = Self::new((self.from, middle), [first, centre.clone()], at)?;
+        Ok([left, Self::new((middle, self.to), [centre, last], at)?])
+    }
+
+    /// The parts between some times inside, ascending, with the values there.
+    pub(crate) fn cut(
+        self,
+        cuts: Vec<(f64, Vec<f64>)>,
+        at: &mut At<'_>,
+    ) -> Result<Vec<Self>, StopReason> {
+        let [first, .., last] = self.values;
+        let mut begin = (self.from, first);
+        let mut parts = Vec::with_capacity(cuts.len() + 1);
+        for end in cuts.into_iter().chain([(self.to, last)]) {
+            parts.push(Self::new((begin.0, end.0), [begin.1, end.1.clone()], at)?);
+            begin = end;
+        }
+        Ok(parts)
+    }
+
+    /// For each of the first curves its integral, how far the other rule is off, and the integral
+    /// of its absolute value.
+    pub(crate) fn integrals(&self, count: usize) -> Vec<[f64; 3]> {
+        let mut sums = vec![[0.0; 3]; count];
+        let half = 0.5 * (self.to - self.from);
+        for ((values, weight), other) in self.values.iter().zip(RULE).zip(OTHER_RULE) {
+            let (weight, apart) = (half * weight, half * (weight - other));
+            for (sum, value) in sums.iter_mut().zip(values) {
+                *sum = [
+                    sum[0] + weight * value,
+                    sum[1] + apart * value,
+                    sum[2] + weight * value.abs(),
+                ];
+            }
+        }
+        sums
+    }
+}
+
+/// When a point of the interval between two times is.
+pub(crate) fn time_of((from, to): (f64, f64), point: usize) -> f64 {
+    match point {
+        0 => from,
+        p if p + 1 == POINTS => to,
+        p => from + 0.5 * (NODES[p] + 1.0) * (to - from),
+    }
+}
+
+/// A curve between the points of the interval between two times, by the polynomial through them.
+pub(crate) fn interpolated((from, to): (f64, f64), values: &[f64; POINTS], time: f64) -> f64 {
+    let x = 2.0 * (time - from) / (to - from) - 1.0;
+    let (mut above, mut below) = (0.0, 0.0);
+    for ((node, weight), value) in NODES.iter().zip(BARYCENTRIC).zip(values) {
+        let share = weight / (x - node);
+        if !share.is_finite() {
+            return *value;
+        }
+        (above, below) = (above + share * value, below + share);
+    }
+    above / below
+}

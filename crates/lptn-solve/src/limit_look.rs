@@ -1,0 +1,125 @@
+//! Limits over a step: where they are nearest to being broken, and when they first are.
+
+use crate::cuts::{passing, points};
+use crate::error::StopReason;
+use crate::interval::Interval;
+use crate::limit::{LimitSeen, Point};
+use crate::quadrature::{AGREEMENT, Halvings, ROUNDING};
+use crate::resolve::{At, Levels, Resolved, resolve};
+use crate::watch::{is_same, top};
+
+/// How often the valley of a margin is approached by another parabola.
+const REFINEMENTS: usize = 12;
+
+/// A time is found to this share of the gap between two points.
+const ENOUGH: f64 = 1e-15;
+
+/// What is known of limits, to look at a step.
+#[derive(Default)]
+pub(crate) struct LimitLook {
+    /// Where they bend.
+    levels: Vec<Vec<f64>>,
+    /// For each limit that its mean has to keep the integral of its margin so far.
+    means: Vec<Option<f64>>,
+    pub(crate) seen: Vec<LimitSeen>,
+    /// Sizes of what is compared.
+    pub(crate) sizes: Vec<f64>,
+    halvings: Halvings,
+}
+
+impl LimitLook {
+    pub(crate) fn new(seen: Vec<LimitSeen>, of_mean: &[bool], levels: Vec<Vec<f64>>) -> Self {
+        let means = of_mean.iter().map(|of_mean| of_mean.then_some(0.0)).collect();
+        Self { levels, means, seen, sizes: Vec::new(), halvings: Halvings::default() }
+    }
+
+    /// The integral of a margin so far, if its mean has to be kept.
+    pub(crate) fn integral(&self, limit: usize) -> Option<f64> {
+        self.means[limit]
+    }
+
+    /// Looks at a step.
+    pub(crate) fn step(&mut self, step: Interval, at: &mut At<'_>) -> Result<(), StopReason> {
+        let levels = Levels { count: self.seen.len(), of: &self.levels };
+        let mut judge = |interval: &Interval| self.wanting(interval);
+        let parts = resolve(step, levels, self.halvings.0, (at, &mut judge))?;
+        self.halvings.after(parts.iter().all(|part| part.told));
+        for Resolved { interval, .. } in &parts {
+            let integrals = interval.integrals(self.seen.len());
+            for (limit, seen) in self.seen.iter_mut().enumerate() {
+                match &mut self.means[limit] {
+                    Some(sum) => *sum += integrals[limit][0],
+                    None => of_limit(interval, (limit, self.sizes[limit]), seen, at)?,
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// How far the two rules of an interval are apart for the worst limit that counts, over what is
+    /// allowed; 0 where they agree.
+    fn wanting(&self, interval: &Interval) -> f64 {
+        let length = interval.to - interval.from;
+        let integrals = interval.integrals(self.seen.len());
+        let one = |(limit, [_, apart, absolute]): (usize, [f64; 3])| {
+            let allowed = (AGREEMENT * absolute).max(ROUNDING * self.sizes[limit] * length);
+            let open = apart.abs() > allowed
+                && (self.means[limit].is_some() || counts(&self.seen[limit], &interval.of(limit)));
+            if open { apart.abs() / allowed } else { 0.0 }
+        };
+        integrals.into_iter().enumerate().map(one).fold(0.0, f64::max)
+    }
+}
+
+/// Whether a margin with these values may become the least one so far, or the first below zero. No
+/// curve that its points tell leaves their range by as much again.
+fn counts(seen: &LimitSeen, values: &[f64]) -> bool {
+    let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+    for &value in values {
+        (low, high) = (low.min(value), high.max(value));
+    }
+    let reach = low - (high - low);
+    reach < seen.margin || (seen.broken_at.is_none() && reach < 0.0)
+}
+
+/// Takes in one limit over an interval.
+fn of_limit(
+    interval: &Interval,
+    (limit, size): (usize, f64),
+    seen: &mut LimitSeen,
+    at: &mut At<'_>,
+) -> Result<(), StopReason> {
+    if !counts(seen, &interval.of(limit)) {
+        return Ok(());
+    }
+    let mut points = points(interval, limit).to_vec();
+    for _ in 0..REFINEMENTS {
+        let Some(time) = valley(&points, seen, ROUNDING * size) else { break };
+        let place = points.partition_point(|point| point.0 < time);
+        points.insert(place, (time, at(time)?[limit]));
+    }
+    let breaks = points.windows(2).find(|pair| pair[0].1 >= 0.0 && pair[1].1 < 0.0);
+    if let (Some(pair), None) = (breaks, seen.broken_at) {
+        let (gap, between) = ([pair[0], pair[1]], pair[1].0 - pair[0].0);
+        let guess = pair[0].0 + between * (pair[0].1 / (pair[0].1 - pair[1].1));
+        let (time, values) = passing(at, (limit, 0.0), (gap, guess), ENOUGH * between)?;
+        seen.take_in((time, values[limit].min(-f64::MIN_POSITIVE)));
+    }
+    points.into_iter().for_each(|point| seen.take_in(point));
+    Ok(())
+}
+
+/// The time of the deepest valley that the points promise, if it may be the least margin so far or
+/// the first below zero.
+fn valley(points: &[Point], seen: &LimitSeen, rounding: f64) -> Option<f64> {
+    let ends = (points[0].0, points[points.len() - 1].0);
+    let turned = |&(time, margin): &Point| (time, -margin);
+    let tops = points.windows(3).filter_map(|w| top([turned(&w[0]), turned(&w[1]), turned(&w[2])]));
+    let known = |time: f64| points.iter().any(|point| is_same(point.0, time, ends));
+    let (height, time) =
+        tops.filter(|(_, time)| !known(*time)).max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let least = points.iter().map(|point| point.1).fold(seen.margin, f64::min);
+    let deeper = -height < least - rounding;
+    let first = seen.broken_at.is_none() && least >= 0.0 && height > 0.0;
+    (deeper || first).then_some(time)
+}
