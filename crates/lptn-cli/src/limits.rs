@@ -33,7 +33,7 @@ pub(crate) struct Judged {
 
 impl Judged {
     pub(crate) fn of_run(seen: &LimitSeen) -> Self {
-        let LimitSeen { limit, margin, worst_at, broken_at } = *seen;
+        let LimitSeen { limit, margin, worst_at, broken_at, .. } = *seen;
         Self { limit, margin, worst_at: Some(worst_at), broken_at }
     }
 

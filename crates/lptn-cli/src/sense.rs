@@ -20,7 +20,36 @@ pub(crate) fn of_steady(
 /// What makes no sense of a run.
 pub(crate) fn of_run(netlist: &Netlist, solution: &Solution) -> Vec<Diagnostic> {
     let beyond = Beyond::of_run(solution);
-    told(netlist, beyond.as_ref(), ranges::warnings(netlist, solution.out_of_range(), true))
+    let outside = ranges::warnings(netlist, solution.out_of_range(), true);
+    told(netlist, beyond.as_ref(), [outside, open(netlist, solution)].concat())
+}
+
+/// Results that change faster than steps are looked at.
+fn open(netlist: &Netlist, solution: &Solution) -> Vec<Diagnostic> {
+    let network = &netlist.network;
+    let limits = solution.limits().iter().filter(|seen| seen.open > 0.0).map(|seen| {
+        let limit = &network.limits()[seen.limit.index()];
+        let (by, unit) = (significant(seen.open, 2), limit.ty.dimension.si_unit());
+        let message = format!(
+            "`{}` changes faster than a run looks: the margin of limit `{}` may be off by {by} {unit}",
+            limit.text, limit.name
+        );
+        Diagnostic::warning("run::unresolved", message)
+            .at(netlist.source_map.name(Item::Limit(seen.limit)), "")
+    });
+    let columns = solution.windows().iter().flat_map(|window| {
+        window.columns.iter().filter(|column| column.is_open()).map(|column| {
+            let by = significant(100.0 * column.open, 2);
+            let message = format!(
+                "`{}` changes faster than a run looks: its mean over `{}` may be off by {by} %",
+                column.name, window.name
+            );
+            Diagnostic::warning("run::unresolved", message)
+        })
+    });
+    let help = "write what jumps over the time as a signal or with `if(t < ..)`: these times are \
+                met exactly";
+    limits.chain(columns).map(|warning| warning.help(help)).collect()
 }
 
 /// What is beyond sense, then laws outside their ranges.

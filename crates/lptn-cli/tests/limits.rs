@@ -189,3 +189,59 @@ fn check_names_the_stiffness_and_the_specific_heat_of_the_paper() {
     let json = folder.run(&["check", "two.toml", "--format", "json"]).exits(0).json();
     assert_eq!(json["stiffness"]["ratio"]["value"], 50.0);
 }
+
+/// A junction without capacity over 1 K/W follows a pulse of 100 W: 120 degC at its top, 20 K above
+/// the limit, which it passes 30 s sqrt(ln(10/8)) before, and 100 W 30 s sqrt(pi) = 5317.36 J.
+#[test]
+fn what_a_network_without_capacity_does_between_rows_does_not_depend_on_them() {
+    let net = "format = 1\nnode.junction = { massless = true }\nboundary.air = { T = \"20 degC\" }\n\
+               resistor.out = { from = \"junction\", to = \"air\", R = \"1 K/W\" }\n\
+               source.loss = { into = \"junction\", \
+               P = \"100 [W] * exp(-((t - 1234 [s]) / 30 [s])^2)\" }\n\
+               limit.hot = { of = \"junction.T\", below = \"100 degC\" }\nrun.stop = \"1 h\"\n";
+    let folder = Folder::with("net.toml", net);
+    let near = |value: &serde_json::Value, exact: f64, within: f64| {
+        let found = value["value"].as_f64().unwrap_or(f64::NAN);
+        assert!((found - exact).abs() < within, "{value} {exact}");
+    };
+    let passes = 1234.0 - 30.0 * (100.0_f64 / 80.0).ln().sqrt();
+    for every in ["1h", "17min", "12s", "1s"] {
+        let run = ["run", "net.toml", "--no-files", "--format", "json", "--every", every];
+        let json = folder.run(&run).exits(1).json();
+        near(&json["limits"]["hot"]["margin"], -20.0, 1e-6);
+        near(&json["limits"]["hot"]["broken_at"], passes, 1e-5);
+        folder.run(&["run", "net.toml", "--no-files", "--every", every]).prints("5.317 kJ");
+    }
+    let csv = folder.run(&["compare", "net.toml", "--format", "csv"]).exits(1).out;
+    let mut lines = csv.lines().map(|line| line.split(',').collect::<Vec<_>>());
+    let (head, row) = (lines.next().unwrap(), lines.next().unwrap());
+    let number = |name: &str| -> f64 {
+        let place = head.iter().position(|column| column.starts_with(name)).unwrap();
+        row[place].parse().unwrap()
+    };
+    assert!((number("hot.margin") + 20.0).abs() < 1e-6, "{csv}");
+    let heat = 3000.0 * std::f64::consts::PI.sqrt();
+    assert!((number("heat") - heat).abs() < 1e-6 * heat, "{csv}");
+}
+
+/// A body that warms evenly by 0.6 K/min for 10 min has 3 K more than at the start in the mean.
+#[test]
+fn the_mean_of_one_value_is_that_over_the_run() {
+    let net = "format = 1\n[param]\nP = \"10 W\"\n[node]\na = { C = \"1 kJ/K\", T0 = \"20 degC\" }\n\
+               [source]\ns = { into = \"a\", P = \"P\" }\n[run]\nstop = \"10 min\"\n[limit]\n\
+               mean = { of = \"mean(a.T)\", below = \"22 degC\" }\n\
+               most = { of = \"a.T\", below = \"25 degC\" }\n\
+               [size.most]\nmaximise = \"P\"\nvary = { P = { from = \"1 W\", to = \"100 W\" } }\n\
+               require = [\"mean(a.T) <= 24 [degC]\"]\nover = \"run\"\n";
+    let folder = Folder::with("net.toml", net);
+    let json = folder.run(&["run", "net.toml", "--no-files", "--format", "json"]).exits(1).json();
+    let near = |value: &serde_json::Value, exact: f64| {
+        let found = value["value"].as_f64().unwrap_or(f64::NAN);
+        assert!((found - exact).abs() < 1e-4, "{value} {exact}");
+    };
+    near(&json["limits"]["mean"]["margin"], -1.0);
+    near(&json["limits"]["mean"]["broken_at"], 600.0);
+    near(&json["limits"]["most"]["margin"], -1.0);
+    near(&json["limits"]["most"]["broken_at"], 500.0);
+    folder.run(&["size", "net.toml"]).exits(0).prints("P = 13.333");
+}

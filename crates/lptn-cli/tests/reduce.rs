@@ -336,3 +336,23 @@ outer = { from = "wall", to = "air", R = "0.1 K/W" }
     let written = folder.run(&[&reduce[..], &["--format", "toml"]].concat()).exits(0).out;
     assert!(written.contains("port = { massless = true }"), "{written}");
 }
+
+/// A pulse of 1000 W beside 1 W that lasts 2 s between two rows: the loads go up to 1001 W.
+#[test]
+fn the_largest_load_is_that_of_the_run_and_not_of_its_rows() {
+    let net = "format = 1\n[default]\nT0 = \"20 degC\"\n[node]\na = { C = \"100 J/K\" }\nb = { C = \
+               \"900 J/K\" }\n[boundary]\nair = { T = \"20 degC\" }\n[resistor]\n\
+               ab = { from = \"a\", to = \"b\", R = \"0.1 K/W\" }\n\
+               out = { from = \"b\", to = \"air\", R = \"0.3 K/W\" }\n[source]\nloss = { into = \"a\", \
+               P = \"1 [W] + 1000 [W] * exp(-((t - 1237 [s]) / 2 [s])^2)\" }\n\
+               [run]\nstop = \"1 h\"\n";
+    let folder = Folder::with("peak.toml", net);
+    for asked in [["--port", "a"], ["--keep", "a,b"]] {
+        let all = ["reduce", "peak.toml", "--format", "json", "--max-error", "90%"];
+        let ran = folder.run(&[&all[..], &asked[..]].concat());
+        let json = ran.json();
+        let power = json["any_load"]["power"]["value"].as_f64();
+        let power = power.or(json["power"]["value"].as_f64()).unwrap();
+        assert!((power - 1001.0).abs() < 1e-9, "{power}");
+    }
+}

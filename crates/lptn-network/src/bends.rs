@@ -1,22 +1,30 @@
-//! Where results bend by what they read of temperatures and heat flows: inside a step, at times that
-//! nobody knows beforehand.
+//! Where results bend by what they read of temperatures and heat flows: inside a step, at times
+//! that nobody knows beforehand.
 
-use lptn_units::Program;
+use std::sync::Arc;
+
+use lptn_units::{Degree, Program, Taylor};
 
 use crate::evaluation::Evaluation;
 use crate::id::Item;
 use crate::network::Network;
+use crate::parts::layout::Holds;
 use crate::value::Value;
 
 /// The places at which some results bend: the arguments of `abs`, the differences of the arguments
 /// of `min` and `max`, and the arguments of tables, as far as they read temperatures or heat flows.
 /// Between two times at which none of them passes one of its levels the results are smooth wherever
-/// temperatures and heat flows are.
+/// temperatures and heat flows are. Results that are not straight in what they read may still be
+/// narrow there; [`Bends::enclose`] bounds them.
 #[derive(Clone, Debug, Default)]
 pub struct Bends {
     programs: Vec<Program>,
     /// For each of them the values at which a result bends, rising.
     levels: Vec<Vec<f64>>,
+    /// Results that are not straight in a temperature or heat flow.
+    curved: Vec<Arc<Program>>,
+    /// The slots that move in these.
+    moved: Vec<u32>,
 }
 
 impl Network {
@@ -44,22 +52,61 @@ impl Bends {
         &self.levels
     }
 
-    /// Adds the value of each quantity where `scope` stands, in SI units; NaN for one that has none,
-    /// as in a branch that is not taken.
+    /// How many numbers move in results that are not straight in what they read.
+    pub fn moved(&self) -> usize {
+        self.moved.len()
+    }
+
+    /// All slots where `scope` stands, for [`Bends::enclose`]; none where there is nothing to bound.
+    pub fn slots(&self, scope: &mut Evaluation) -> Vec<f64> {
+        if self.curved.is_empty() { Vec::new() } else { scope.plain().0.to_vec() }
+    }
+
+    /// Bounds on each result that is not straight in what it reads, while the numbers that move in
+    /// it (`moved`, as many as [`Bends::moved`] and in the order of [`Bends::read`]) go a way by
+    /// one variable; the rest is as in `slots`.
+    pub fn enclose(&self, moved: &[Taylor], slots: &[f64]) -> Vec<Taylor> {
+        let known = |slot: u32| self.moved.binary_search(&slot).ok().map(|place| moved[place]);
+        self.curved.iter().map(|program| program.enclose_along(&known, slots)).collect()
+    }
+
+    /// Adds the value of each quantity that is followed where `scope` stands, in SI units; NaN for
+    /// one that has none, as in a branch that is not taken. Then the numbers that move in results
+    /// that are not straight.
     pub fn read(&self, scope: &mut Evaluation, values: &mut Vec<f64>) {
         let (slots, stack) = scope.plain();
         let value = |program: &Program| program.eval(slots, stack).unwrap_or(f64::NAN);
         values.extend(self.programs.iter().map(value));
+        values.extend(self.moved.iter().map(|slot| scope.slot(*slot)));
     }
 
     fn add_all(&mut self, network: &Network, value: &Value) {
         for program in value.programs() {
+            self.add_curved(network, program);
             program.kinks().iter().for_each(|kink| self.add(network, kink, &[0.0]));
             for call in program.table_calls() {
                 let axes = (0..call.table.dimension()).map(|axis| call.table.knots(axis));
                 let arguments = call.arguments.iter().zip(axes);
                 arguments.for_each(|(argument, knots)| self.add(network, argument, knots));
             }
+        }
+    }
+
+    fn add_curved(&mut self, network: &Network, program: &Arc<Program>) {
+        let holds = |slot: u32| network.parts.layout.holds(slot);
+        let is_result = |slot: &u32| {
+            matches!(holds(*slot), Holds::Temperature(_) | Holds::Heat(_) | Holds::Grid(_))
+        };
+        let slots = program.slots();
+        let curves = |slot: &u32| is_result(slot) && program.degree_in(*slot) > Degree::Affine;
+        if slots.iter().any(curves) {
+            let moves = |slot: &u32| {
+                is_result(slot) || matches!(holds(*slot), Holds::Time | Holds::Signal(_))
+            };
+            self.moved.extend(slots.iter().copied().filter(moves));
+            self.moved.sort_unstable();
+            self.moved.dedup();
+            self.curved.push(Arc::clone(program));
         }
     }
 

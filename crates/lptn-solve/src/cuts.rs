@@ -5,8 +5,8 @@ use crate::interval::{Interval, POINTS};
 use crate::resolve::{At, Levels};
 use crate::watch::{is_same, top};
 
-/// A quantity that is nearer to a level at an end of an interval than this share of its range stands
-/// there: the interval was cut at that level.
+/// A quantity that is nearer to a level at an end of an interval than this share of its range
+/// stands there: the interval was cut at that level.
 const AT_THE_LEVEL: f64 = 1e-9;
 
 /// Tops between the points that are looked at, for each quantity and side.

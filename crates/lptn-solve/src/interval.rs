@@ -18,7 +18,7 @@ pub(crate) const GAUSS: [(f64, f64); 5] = [
 pub(crate) const POINTS: usize = 7;
 
 /// Where they are on (-1, 1).
-const NODES: [f64; POINTS] =
+pub(crate) const NODES: [f64; POINTS] =
     [-1.0, GAUSS[0].0, GAUSS[1].0, GAUSS[2].0, GAUSS[3].0, GAUSS[4].0, 1.0];
 
 /// The Gauss rule on these points.

@@ -22,6 +22,7 @@ mod events;
 mod exact;
 mod extremes;
 mod heat;
+mod hidden;
 mod interval;
 mod last;
 mod ledger;

@@ -22,6 +22,9 @@ pub struct LimitSeen {
     pub worst_at: f64,
     /// When it was first broken, in s.
     pub broken_at: Option<f64>,
+    /// By how much in SI units the margin may be off beside the error of temperatures, because its
+    /// quantity changes faster than steps are looked at; 0 where it does not.
+    pub open: f64,
 }
 
 /// A temperature that passes its limit by less than this, in K, does so by rounding: a temperature
@@ -68,8 +71,13 @@ pub(crate) struct LimitWatch<'a> {
 impl<'a> LimitWatch<'a> {
     pub(crate) fn new(system: &'a ThermalSystem) -> Self {
         let network = system.network();
-        let nothing =
-            |limit| LimitSeen { limit, margin: f64::INFINITY, worst_at: f64::NAN, broken_at: None };
+        let nothing = |limit| LimitSeen {
+            limit,
+            margin: f64::INFINITY,
+            worst_at: f64::NAN,
+            broken_at: None,
+            open: 0.0,
+        };
         let count = network.limits().len();
         let bends = network.bends(network.limit_ids().map(Item::Limit));
         let seen = network.limit_ids().map(nothing).collect();
@@ -77,7 +85,7 @@ impl<'a> LimitWatch<'a> {
         Self {
             network,
             reading: Reading::new(system),
-            look: LimitLook::new(seen, &of_mean, bends.levels().to_vec()),
+            look: LimitLook::new(seen, &of_mean, bends.clone()),
             bends,
             first: vec![None; count],
             last: (f64::NAN, Vec::new()),
@@ -131,6 +139,7 @@ impl<'a> LimitWatch<'a> {
     pub(crate) fn take_look(&mut self) -> LimitLook {
         let mut look = std::mem::take(&mut self.look);
         look.sizes.clone_from(&self.sizes);
+        look.slots = self.bends.slots(&mut self.reading.scope);
         look
     }
 

@@ -1,7 +1,10 @@
 //! Limits over a step: where they are nearest to being broken, and when they first are.
 
+use lptn_network::Bends;
+
 use crate::cuts::{passing, points};
 use crate::error::StopReason;
+use crate::hidden::Hidden;
 use crate::interval::Interval;
 use crate::limit::{LimitSeen, Point};
 use crate::quadrature::{AGREEMENT, Halvings, ROUNDING};
@@ -17,8 +20,9 @@ const ENOUGH: f64 = 1e-15;
 /// What is known of limits, to look at a step.
 #[derive(Default)]
 pub(crate) struct LimitLook {
-    /// Where they bend.
-    levels: Vec<Vec<f64>>,
+    /// Where they bend, and what stands still while they are looked at.
+    bends: Bends,
+    pub(crate) slots: Vec<f64>,
     /// For each limit that its mean has to keep the integral of its margin so far.
     means: Vec<Option<f64>>,
     pub(crate) seen: Vec<LimitSeen>,
@@ -28,9 +32,9 @@ pub(crate) struct LimitLook {
 }
 
 impl LimitLook {
-    pub(crate) fn new(seen: Vec<LimitSeen>, of_mean: &[bool], levels: Vec<Vec<f64>>) -> Self {
+    pub(crate) fn new(seen: Vec<LimitSeen>, of_mean: &[bool], bends: Bends) -> Self {
         let means = of_mean.iter().map(|of_mean| of_mean.then_some(0.0)).collect();
-        Self { levels, means, seen, sizes: Vec::new(), halvings: Halvings::default() }
+        Self { bends, means, seen, ..Self::default() }
     }
 
     /// The integral of a margin so far, if its mean has to be kept.
@@ -40,13 +44,18 @@ impl LimitLook {
 
     /// Looks at a step.
     pub(crate) fn step(&mut self, step: Interval, at: &mut At<'_>) -> Result<(), StopReason> {
-        let levels = Levels { count: self.seen.len(), of: &self.levels };
-        let mut judge = |interval: &Interval| self.wanting(interval);
+        let levels = Levels { count: self.seen.len(), of: self.bends.levels() };
+        let mut hidden = Hidden::new((&self.bends, &self.slots), self.seen.len());
+        let mut judge = |interval: &Interval| self.wanting(interval).max(hidden.wanting(interval));
         let parts = resolve(step, levels, self.halvings.0, (at, &mut judge))?;
         self.halvings.after(parts.iter().all(|part| part.told));
-        for Resolved { interval, .. } in &parts {
+        for Resolved { interval, open, .. } in &parts {
+            let hides = *open && hidden.wanting(interval) > 0.0;
             let integrals = interval.integrals(self.seen.len());
             for (limit, seen) in self.seen.iter_mut().enumerate() {
+                if *open {
+                    seen.leave_open(&interval.of(limit), (self.sizes[limit], hides));
+                }
                 match &mut self.means[limit] {
                     Some(sum) => *sum += integrals[limit][0],
                     None => of_limit(interval, (limit, self.sizes[limit]), seen, at)?,
@@ -68,6 +77,25 @@ impl LimitLook {
             if open { apart.abs() / allowed } else { 0.0 }
         };
         integrals.into_iter().enumerate().map(one).fold(0.0, f64::max)
+    }
+}
+
+/// A margin that changes by less than this share of what is compared, in a part of a step that is not
+/// looked at any closer, is rounding.
+const ROUNDED: f64 = 1e-6;
+
+impl LimitSeen {
+    /// Takes in that a part of a step with these margins, of sides of this size, is not looked at
+    /// any closer, and that something may hide in it.
+    fn leave_open(&mut self, margins: &[f64], (size, hides): (f64, bool)) {
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for &margin in margins {
+            (low, high) = (low.min(margin), high.max(margin));
+        }
+        let by = if hides { size } else { high - low };
+        if by > ROUNDED * size && (hides || counts(self, margins)) {
+            self.open = self.open.max(by);
+        }
     }
 }
 

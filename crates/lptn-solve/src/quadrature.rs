@@ -1,6 +1,9 @@
 //! Integrals over a step by the Gauss rule, halved where a curve has a kink.
 
+use lptn_network::Bends;
+
 use crate::error::StopReason;
+use crate::hidden::Hidden;
 use crate::interval::Interval;
 use crate::resolve::{At, Levels, Resolved, resolve};
 
@@ -74,7 +77,7 @@ impl Quadrature {
     pub(crate) fn step(
         &mut self,
         (from, to): (f64, f64),
-        (levels, at): (&[Vec<f64>], &mut At<'_>),
+        (along, at): ((&Bends, &[f64]), &mut At<'_>),
         look: &mut dyn FnMut(&Interval, bool),
     ) -> Result<(), StopReason> {
         let known = self.last.take().filter(|(time, _)| time.to_bits() == from.to_bits());
@@ -85,17 +88,20 @@ impl Quadrature {
         let last = at(to)?;
         let whole = Interval::new((from, to), [first, last.clone()], at)?;
         let (kinds, count) = (&self.kinds, self.kinds.len());
-        let mut judge = |interval: &Interval| wanting(kinds, &interval.integrals(count));
-        let levels = Levels { count, of: levels };
+        let mut hidden = Hidden::new(along, count);
+        let mut judge = |interval: &Interval| {
+            wanting(kinds, &interval.integrals(count)).max(hidden.wanting(interval))
+        };
+        let levels = Levels { count, of: along.0.levels() };
         let parts = resolve(whole, levels, self.halvings.0, (at, &mut judge))?;
         self.halvings.after(parts.iter().all(|part| part.told));
-        for Resolved { interval, told } in &parts {
+        for Resolved { interval, told, open } in &parts {
             let integrals = interval.integrals(count);
             let sums = self.integral.iter_mut().zip(&mut self.sizes);
             for ((sum, size), [integral, apart, absolute]) in sums.zip(integrals) {
                 *sum += integral;
                 size[0] += absolute;
-                size[1] += if *told { 0.0 } else { apart.abs() };
+                size[1] += if *open { apart.abs() } else { 0.0 };
             }
             look(interval, *told);
         }
@@ -120,6 +126,8 @@ fn wanting(kinds: &[usize], integrals: &[[f64; 3]]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use lptn_network::Bends;
+
     use super::Quadrature;
 
     /// The integral, and how often the curve was evaluated.
@@ -131,7 +139,7 @@ mod tests {
             Ok(vec![curve(time)])
         };
         let mut end = from;
-        sum.step((from, to), (&[], &mut at), &mut |interval, _| {
+        sum.step((from, to), ((&Bends::default(), &[]), &mut at), &mut |interval, _| {
             assert!(interval.time(0) >= end);
             end = interval.time(crate::interval::POINTS - 1);
         })
@@ -174,13 +182,19 @@ mod tests {
                 calls += 1;
                 Ok(vec![(1e9 * time).sin()])
             };
-            sum.step((f64::from(k), f64::from(k + 1)), (&[], &mut at), &mut |_, _| {}).unwrap();
+            sum.step(
+                (f64::from(k), f64::from(k + 1)),
+                ((&Bends::default(), &[]), &mut at),
+                &mut |_, _| {},
+            )
+            .unwrap();
         }
         assert!(calls < 8000, "{calls}");
         assert_eq!(sum.halvings.0, 0);
         sum.jump();
         let mut smooth = |time: f64| Ok(vec![time]);
-        sum.step((1000.0, 1001.0), (&[], &mut smooth), &mut |_, _| {}).unwrap();
+        sum.step((1000.0, 1001.0), ((&Bends::default(), &[]), &mut smooth), &mut |_, _| {})
+            .unwrap();
         assert_eq!(sum.halvings.0, super::HALVINGS);
     }
 
@@ -188,12 +202,16 @@ mod tests {
     fn the_polynomial_between_the_points_is_theirs() {
         let curve = |t: f64| 300.0 + 3.0 * t.powi(5) - 7.0 * t.powi(3) + t;
         let mut sum = Quadrature::new(vec![0]);
-        sum.step((1.0, 3.0), (&[], &mut |t| Ok(vec![curve(t)])), &mut |interval, agrees| {
-            assert!(agrees);
-            for t in [1.0, 1.1, 1.7, 2.0, 2.9, 3.0] {
-                assert!((interval.interpolated(0, t) - curve(t)).abs() < 1e-10);
-            }
-        })
+        sum.step(
+            (1.0, 3.0),
+            ((&Bends::default(), &[]), &mut |t| Ok(vec![curve(t)])),
+            &mut |interval, agrees| {
+                assert!(agrees);
+                for t in [1.0, 1.1, 1.7, 2.0, 2.9, 3.0] {
+                    assert!((interval.interpolated(0, t) - curve(t)).abs() < 1e-10);
+                }
+            },
+        )
         .unwrap();
     }
 }

@@ -1,7 +1,7 @@
 //! Quantities of the results, read where a workspace stands.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{Evaluation, HeatOf, InputError};
+use lptn_network::{Evaluation, HeatOf, InputError, Item, Network};
 
 use crate::quantity::Quantity;
 
@@ -10,6 +10,8 @@ use crate::quantity::Quantity;
 pub(crate) struct Reading<'a> {
     system: &'a ThermalSystem,
     pub(crate) scope: Evaluation,
+    /// Whether anything reads temperatures there: results, or what laws tell of themselves.
+    reads: bool,
     unknowns: Vec<f64>,
     boundary_heat: Vec<f64>,
     /// The heat flows that expressions of results name.
@@ -21,6 +23,7 @@ impl<'a> Reading<'a> {
         Self {
             system,
             scope: system.network().evaluation(),
+            reads: reads_temperatures(system.network()),
             unknowns: vec![f64::NAN; system.unknowns().len()],
             boundary_heat: vec![f64::NAN; system.network().boundaries().len()],
             named: Vec::new(),
@@ -30,7 +33,7 @@ impl<'a> Reading<'a> {
     /// Goes where the workspace is; `at` is the time and a time inside the segment, in s. Where a
     /// temperature is not known (NaN), what follows from it is NaN.
     pub(crate) fn place(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
-        let Self { system, scope, unknowns, boundary_heat, named } = self;
+        let Self { system, scope, reads, unknowns, boundary_heat, named } = self;
         let network = system.network();
         let nodes = system.node_temperatures(work);
         let known = !nodes.iter().any(|t| t.is_nan());
@@ -38,7 +41,9 @@ impl<'a> Reading<'a> {
             scope.set_positions(work.positions());
         }
         scope.set_time(at.0, at.1);
-        scope.set_temperatures(nodes, system.boundary_temperatures(work));
+        if *reads {
+            scope.set_temperatures(nodes, system.boundary_temperatures(work));
+        }
         if !known {
             boundary_heat.fill(f64::NAN);
             return Ok(());
@@ -75,6 +80,15 @@ impl<'a> Reading<'a> {
             Quantity::Report(id) => self.system.network().report_value(id, &mut self.scope),
         }
     }
+}
+
+/// Whether there is a result, or a law that tells something of itself.
+fn reads_temperatures(network: &Network) -> bool {
+    let conductors = network.conductor_ids().map(Item::Conductor);
+    let mut laws = conductors.chain(network.source_ids().map(Item::Source));
+    !(network.limits().is_empty() && network.reports().is_empty())
+        || network.named_heats().len() > 0
+        || laws.any(|item| network.told_of(item).next().is_some())
 }
 
 fn heat_of(

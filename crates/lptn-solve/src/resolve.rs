@@ -28,6 +28,8 @@ pub(crate) struct Levels<'a> {
 pub(crate) struct Resolved {
     pub(crate) interval: Interval,
     pub(crate) told: bool,
+    /// Whether halvings came to an end before it was so short that it is known to rounding.
+    pub(crate) open: bool,
 }
 
 /// The parts of an interval in the order of time. It is cut where curves bend; parts that `judge`
@@ -51,9 +53,9 @@ pub(crate) fn resolve(
                 continue;
             }
             match judge(&interval) {
-                0.0 => done.push(Resolved { interval, told: true }),
+                0.0 => done.push(Resolved { interval, told: true, open: false }),
                 _ if interval.to - interval.from <= shortest => {
-                    done.push(Resolved { interval, told: false });
+                    done.push(Resolved { interval, told: false, open: false });
                 }
                 wanting => open.push((wanting, interval)),
             }
@@ -63,7 +65,8 @@ pub(crate) fn resolve(
         halvings -= 1;
         fresh.extend(open.swap_remove(worst).1.halves(at)?);
     }
-    done.extend(open.into_iter().map(|(_, interval)| Resolved { interval, told: false }));
+    let left = open.into_iter().map(|(_, interval)| interval);
+    done.extend(left.map(|interval| Resolved { interval, told: false, open: true }));
     done.sort_by(|a, b| a.interval.from.total_cmp(&b.interval.from));
     Ok(done)
 }

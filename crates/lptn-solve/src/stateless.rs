@@ -1,6 +1,7 @@
 //! A run of a network whose nodes are all massless: it has no state, so nothing is integrated.
 
 use lptn_integrate::Statistics;
+use lptn_network::Bends;
 
 use crate::balance::Books;
 use crate::driving::parts_of;
@@ -90,5 +91,5 @@ fn integrate(
         books.integrands(system, work, &unknowns, &mut q).map_err(StopReason::Input)?;
         Ok(q)
     };
-    sums.step((from, to), (&[], &mut at), &mut |_, _| {})
+    sums.step((from, to), ((&Bends::default(), &[]), &mut at), &mut |_, _| {})
 }

@@ -1,6 +1,6 @@
 //! Means and extremes over windows of time, from the integrator's own curve and not from rows.
 
-use lptn_network::{Bends, Item, Network};
+use lptn_network::{Bends, Evaluation, Item, Network};
 use lptn_units::Type;
 
 use crate::error::StopReason;
@@ -20,7 +20,9 @@ const SAME: f64 = 1e-9;
 pub(crate) struct Tracked {
     pub(crate) window: Window,
     /// Where its columns bend.
-    pub(crate) bends: Bends,
+    bends: Bends,
+    /// What stands still while they are looked at.
+    slots: Vec<f64>,
     reached: f64,
     sums: Quadrature,
     min: Vec<(f64, f64)>,
@@ -44,6 +46,7 @@ impl Tracked {
         });
         Self {
             bends: network.bends(reports),
+            slots: Vec::new(),
             reached: window.from,
             sums: Quadrature::new(kinds(&window.of, network)),
             window,
@@ -53,6 +56,11 @@ impl Tracked {
             first: Vec::new(),
             last: Vec::new(),
         }
+    }
+
+    /// Takes what stands still from where results are read.
+    pub(crate) fn stand(&mut self, scope: &mut Evaluation) {
+        self.slots = self.bends.slots(scope);
     }
 
     /// The columns may jump here.
@@ -70,12 +78,12 @@ impl Tracked {
         if from >= to {
             return Ok(());
         }
-        let Self { window, bends, sums, min, max, positive, first, last, .. } = self;
+        let Self { window, bends, slots, sums, min, max, positive, first, last, .. } = self;
         let mut at = |time: f64| {
             let mut values = Vec::with_capacity(window.of.quantities().len());
             columns(time, (&window.of, bends), &mut values).map(|()| values)
         };
-        sums.step((from, to), (bends.levels(), &mut at), &mut |interval, smooth| {
+        sums.step((from, to), ((&*bends, slots), &mut at), &mut |interval, smooth| {
             if first.is_empty() {
                 first.clone_from(&interval.values[0]);
             }
@@ -105,7 +113,8 @@ impl Tracked {
             let shown = Shown::of(*quantity, network);
             let (min, max) = (settle(self.min[i]), settle(self.max[i]));
             let (last, positive) = (self.last[i], self.positive[i]);
-            ColumnSeen { name, ty, mean, min, max, last, positive, shown }
+            let open = self.sums.open(i);
+            ColumnSeen { name, ty, mean, min, max, last, positive, open, shown }
         };
         (length > 0.0).then(|| WindowSeen {
             name: self.window.name.clone(),

@@ -118,6 +118,22 @@ impl Watched {
         (height > self.peak.0 && !known).then_some(time)
     }
 
+    /// Whether nothing in a step with these temperatures counts: no curve that its points tell
+    /// leaves their range by as much again.
+    pub(crate) fn passes_over(&self, values: &[f64; POINTS]) -> bool {
+        let (mut low, mut high) = (values[0], values[0]);
+        for &value in values {
+            (low, high) = (low.min(value), high.max(value));
+        }
+        let crossed = self.watch.level.is_none() || self.crossed.is_some();
+        crossed && high + (high - low) <= self.peak.0
+    }
+
+    /// Goes on to where the curve stands now.
+    pub(crate) fn go_to(&mut self, point: (f64, f64)) {
+        self.last = point;
+    }
+
     /// The highest temperature of a step and its time, where the polynomial through its points is
     /// higher than the peak so far between them.
     pub(crate) fn top(

@@ -35,10 +35,22 @@ pub struct ColumnSeen {
     pub last: f64,
     /// For how long it is above zero, in s.
     pub positive: f64,
+    /// The share of it by which the mean may be off beside the error of the run, because it changes
+    /// faster than steps are looked at.
+    pub open: f64,
     pub(crate) shown: Shown,
 }
 
 impl ColumnSeen {
+    /// The share of a mean that is rounding.
+    const ROUNDED: f64 = 1e-6;
+
+    /// Whether it changes faster than steps are looked at, so that the mean may be off by more than
+    /// rounding.
+    pub fn is_open(&self) -> bool {
+        self.open > Self::ROUNDED
+    }
+
     /// The unit that its values are shown in: `temperature` for points on the scale, that of a
     /// signal which has one, else SI; `1` for a number.
     pub fn unit(&self, temperature: &Unit) -> String {

@@ -48,6 +48,7 @@ impl Recorder<'_> {
     fn track(&mut self, step: (f64, f64), state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
         let mut windows = std::mem::take(&mut self.windows);
         let outcome = windows.iter_mut().try_for_each(|window| {
+            window.stand(&mut self.reading.scope);
             window.step(step, &mut |time, (of, bends), values| {
                 self.place_at(time, state_at)?;
                 let at = (time, self.inside);
@@ -118,6 +119,10 @@ impl Recorder<'_> {
         let mut tops = Vec::new();
         for (i, seen) in self.seen.iter_mut().enumerate() {
             let values: [f64; POINTS] = std::array::from_fn(|point| self.looked[point][i]);
+            if seen.passes_over(&values) {
+                seen.go_to((step.1, values[POINTS - 1]));
+                continue;
+            }
             let points: [(f64, f64); POINTS] = std::array::from_fn(|k| (times[k], values[k]));
             seen.look(&points);
             tops.extend(seen.top(step, &values, &points).map(|top| (i, top)));

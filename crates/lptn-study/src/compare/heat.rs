@@ -81,6 +81,9 @@ impl HeatOut {
         let Ledger { boundaries, streams, stored, .. } = solution.ledger();
         let seen = solution.windows().iter().find(|window| window.name == WINDOW);
         let heat = |path: &Path| {
+            if let (true, End::Boundary(id)) = (is_alone(network, path), path.to) {
+                return Some(-boundaries[id.index()]);
+            }
             let window = seen?;
             let name = path.column(network);
             let column = window.columns.iter().find(|column| column.name == name)?;
@@ -124,9 +127,12 @@ impl HeatOut {
     }
 }
 
-/// The window over a run that [`HeatOut::over_time`] reads; none where no path is told.
+/// The window over a run that [`HeatOut::over_time`] reads; none where no path is told, or each is
+/// the only one to its boundary, whose heat the ledger knows.
 pub(crate) fn window(network: &Network, (from, to): (f64, f64)) -> Option<Window> {
-    let columns: Vec<String> = paths(network).iter().map(|path| path.column(network)).collect();
+    let paths = paths(network);
+    let shared = paths.iter().filter(|path| !is_alone(network, path));
+    let columns: Vec<String> = shared.map(|path| path.column(network)).collect();
     let of = Selection::matching(network, &columns).ok().filter(|_| !columns.is_empty())?;
     Some(Window { name: WINDOW.to_owned(), from, to, of })
 }
@@ -144,6 +150,18 @@ impl Path {
     fn column(&self, network: &Network) -> String {
         format!("{}.Q", network.name_of(self.item))
     }
+}
+
+/// Whether nothing else touches the boundary of a path.
+fn is_alone(network: &Network, path: &Path) -> bool {
+    let conductors = network.conductors();
+    let touches = |id: lptn_network::ConductorId| {
+        let conductor = &conductors[id.index()];
+        conductor.from == path.to || conductor.to == path.to
+    };
+    let joints = network.shared_face_paths();
+    let joints = joints.filter_map(|id| network.face_paths()[id.index()].conductors().next());
+    network.outer_conductors().chain(joints).filter(|id| touches(*id)).count() == 1
 }
 
 /// The paths by which heat may leave, but for streams, in the order of the network; none where they

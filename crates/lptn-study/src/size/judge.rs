@@ -116,7 +116,8 @@ pub struct Judged {
     pub out_of_range: Vec<OutOfRange>,
     /// What is sought where it reads results, in SI units: of several load cases the worst.
     pub objective: Option<f64>,
-    /// By how much in K its temperatures may be off; 0 in steady state, which is refined to rounding.
+    /// By how much in K its temperatures may be off, or in SI units a margin that changes faster than
+    /// steps are looked at; 0 in steady state, which is refined to rounding.
     pub error: f64,
 }
 
@@ -328,6 +329,7 @@ impl<'a> Judge<'a> {
         solution.ledger().check()?;
         let own = solution.limits().len().saturating_sub(self.demand.requirements.len());
         let seen = &solution.limits()[own..];
+        let error = seen.iter().map(|seen| seen.open).fold(error, f64::max);
         Ok(Judged {
             margins: seen.iter().map(|seen| seen.margin).collect(),
             worst_at: seen.iter().map(|seen| Some(seen.worst_at)).collect(),

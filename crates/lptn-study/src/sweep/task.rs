@@ -265,6 +265,9 @@ impl<'a> SweepTask<'a> {
                 Functional::Value => measure.of.at(&mut scope).map_err(failed)?,
                 functional => {
                     let column = seen.next().ok_or(Lost::Failed(NOT_FINITE))?;
+                    if column.is_open() {
+                        return Err(Lost::Failed("run::unresolved"));
+                    }
                     let life = measure.life.as_ref().map(|life| life.at(&mut scope));
                     let life = life.transpose().map_err(failed)?;
                     taken(functional, &of_column(column), (length, life))

@@ -16,12 +16,19 @@ impl Program {
     /// the others stand still. They hold for every number of the interval, whatever the expression
     /// does between any two of them: where [`Taylor::range`] is known, every evaluation succeeds.
     pub fn enclose(&self, slot: u32, over: [f64; 2], slots: &[f64]) -> Taylor {
+        let variable = Taylor::variable(over[0], over[1]);
+        self.enclose_along(&|of| (of == slot).then_some(variable), slots)
+    }
+
+    /// Bounds on the result, and on its derivatives, along a way: `known` gives the bounds of the
+    /// slots that move on it, by one variable; the others stand still. They hold as those of
+    /// [`Program::enclose`] do.
+    pub fn enclose_along(&self, known: &dyn Fn(u32) -> Option<Taylor>, slots: &[f64]) -> Taylor {
         if self.slots.last().is_some_and(|last| *last as usize >= slots.len()) {
             return Taylor::unknown();
         }
         let mut forks = FORKS;
-        let variable = Taylor::variable(over[0], over[1]);
-        let mut run = Run { program: self, variable: (slot, variable), slots, stack: Vec::new() };
+        let mut run = Run { program: self, known, slots, stack: Vec::new() };
         run.from(0, Taylor::constant(0.0), &mut forks)
     }
 }
@@ -30,7 +37,7 @@ impl Program {
 #[derive(Clone)]
 struct Run<'a> {
     program: &'a Program,
-    variable: (u32, Taylor),
+    known: &'a dyn Fn(u32) -> Option<Taylor>,
     slots: &'a [f64],
     stack: Vec<Taylor>,
 }
@@ -39,10 +46,9 @@ impl Run<'_> {
     fn load(&self, operand: Operand) -> Taylor {
         match operand {
             Operand::Constant(value) => Taylor::constant(value),
-            Operand::Slot(slot) if slot == self.variable.0 => self.variable.1,
-            Operand::Slot(slot) => {
+            Operand::Slot(slot) => (self.known)(slot).unwrap_or_else(|| {
                 self.slots.get(slot as usize).map_or(Taylor::unknown(), |v| Taylor::constant(*v))
-            }
+            }),
         }
     }
 

@@ -52,6 +52,17 @@ impl Taylor {
         variable
     }
 
+    /// A function whose value and Taylor coefficients are between these bounds at every point of an
+    /// interval, from the value on; those that are not given are 0.
+    pub fn between(terms: &[[f64; 2]]) -> Self {
+        let mut all = Self::flat(Interval::ZERO);
+        for (term, [low, high]) in all.terms.iter_mut().zip(terms) {
+            *term = Interval::new(*low, *high);
+        }
+        all.degree = terms.len().saturating_sub(1).min(Self::ORDER);
+        all
+    }
+
     /// A number of which only bounds are known.
     fn flat(value: Interval) -> Self {
         let mut terms = [Interval::ZERO; ORDERS];

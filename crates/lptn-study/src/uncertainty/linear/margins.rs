@@ -45,7 +45,10 @@ pub(super) fn effects(
         let of_mean = task.network.limits()[limit.limit.index()].of_mean;
         let one = |input: &Uncertain| match of_mean {
             true => of_runs(task, (limit, input)),
-            false => of_expression(task, &run, (limit, input)),
+            false => match of_expression(task, &run, (limit, input))? {
+                Some(effect) => Ok(effect),
+                None => of_runs(task, (limit, input)),
+            },
         };
         line.inputs.iter().map(one).collect()
     };
@@ -53,7 +56,7 @@ pub(super) fn effects(
 }
 
 /// Half the difference of a margin between runs with the parameter one standard deviation to both
-/// sides: a mean has no moment at which it is least.
+/// sides: a mean has no moment at which it is least, and at a bend the moment moves too.
 fn of_runs(
     task: &UncertaintyTask<'_>,
     (limit, input): (&LimitSeen, &Uncertain),
@@ -69,13 +72,19 @@ fn of_runs(
     Ok(0.5 * (moved(input.deviation)? - moved(-input.deviation)?))
 }
 
+/// A margin bends where its slopes to both sides differ by more than this share.
+const BENT: f64 = 0.05;
+
+/// What is less than this beside 1 and the margin is rounding.
+const ROUNDING: f64 = 1e-10;
+
 /// The margin at the time at which it is least, with the parameter and the temperatures moved to
-/// both sides.
+/// both sides; `None` where it bends there, as `min(a.T, b.T)` where both are equal.
 fn of_expression(
     task: &UncertaintyTask<'_>,
     run: &SensitiveRun,
     (limit, input): (&LimitSeen, &Uncertain),
-) -> Result<f64, UncertaintyError> {
+) -> Result<Option<f64>, UncertaintyError> {
     let times = run.solution.times();
     let distance = |place: &usize| (times[*place] - limit.worst_at).abs();
     let place = (0..times.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
@@ -97,7 +106,10 @@ fn of_expression(
         margin(task, &parameters, (limit.limit, times[place]), &temperatures)
     };
     let change = PART * input.deviation;
-    Ok((moved(change)? - moved(-change)?) / (2.0 * PART))
+    let (low, here, high) = (moved(-change)?, moved(0.0)?, moved(change)?);
+    let bends = (high + low - 2.0 * here).abs();
+    let straight = bends <= BENT * (high - low).abs() + ROUNDING * (1.0 + here.abs());
+    Ok(straight.then_some((high - low) / (2.0 * PART)))
 }
 
 fn margin(
