@@ -19,9 +19,17 @@ impl Program {
         if self.slots.last().is_some_and(|last| *last as usize >= slots.len()) {
             return Taylor::unknown();
         }
-        let mut forks = FORKS;
         let variable = Taylor::variable(over[0], over[1]);
-        let mut run = Run { program: self, variable: (slot, variable), slots, stack: Vec::new() };
+        self.enclosed(&|read| match read == slot {
+            true => variable,
+            false => slots.get(read as usize).map_or(Taylor::unknown(), |v| Taylor::constant(*v)),
+        })
+    }
+
+    /// Bounds on the result for bounds on each slot.
+    pub(crate) fn enclosed(&self, of: &dyn Fn(u32) -> Taylor) -> Taylor {
+        let mut forks = FORKS;
+        let mut run = Run { program: self, of, stack: Vec::new() };
         run.from(0, Taylor::constant(0.0), &mut forks)
     }
 }
@@ -30,8 +38,8 @@ impl Program {
 #[derive(Clone)]
 struct Run<'a> {
     program: &'a Program,
-    variable: (u32, Taylor),
-    slots: &'a [f64],
+    /// What is known of each slot.
+    of: &'a dyn Fn(u32) -> Taylor,
     stack: Vec<Taylor>,
 }
 
@@ -39,10 +47,7 @@ impl Run<'_> {
     fn load(&self, operand: Operand) -> Taylor {
         match operand {
             Operand::Constant(value) => Taylor::constant(value),
-            Operand::Slot(slot) if slot == self.variable.0 => self.variable.1,
-            Operand::Slot(slot) => {
-                self.slots.get(slot as usize).map_or(Taylor::unknown(), |v| Taylor::constant(*v))
-            }
+            Operand::Slot(slot) => (self.of)(slot),
         }
     }
 
@@ -60,7 +65,7 @@ impl Run<'_> {
                 Op::Jump(target) => next = target,
                 Op::JumpUnlessSet(slot, target) => {
                     self.pop();
-                    if self.slots.get(slot as usize) == Some(&0.0) {
+                    if (self.of)(slot).range() == Some([0.0; 2]) {
                         next = target;
                     }
                 }
