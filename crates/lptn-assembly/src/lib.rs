@@ -16,6 +16,7 @@ mod monotone;
 mod pattern;
 mod radiation;
 mod slopes;
+mod sweep;
 mod switching;
 mod system;
 mod tangent;

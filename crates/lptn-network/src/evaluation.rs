@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lptn_units::{Dual, EvalError, Program};
+use lptn_units::{Dual, EvalError, Program, Scalar, Traced};
 
 use crate::id::SignalId;
 use crate::input_error::InputProblem;
@@ -26,6 +26,9 @@ pub struct Evaluation {
     /// The same on dual numbers; empty until derivatives are asked for.
     duals: Vec<Slope>,
     dual_stack: Vec<Slope>,
+    /// The same on numbers that remember their pieces; empty until these are asked for.
+    traced: Vec<Traced>,
+    traced_stack: Vec<Traced>,
     /// The first signal that has no value at the present time.
     failure: Option<(SignalId, InputProblem)>,
     /// The segment for which the points of signals were read.
@@ -44,6 +47,8 @@ impl Evaluation {
             stack: Vec::new(),
             duals: Vec::new(),
             dual_stack: Vec::new(),
+            traced: Vec::new(),
+            traced_stack: Vec::new(),
             failure: None,
             read_for: None,
         };
@@ -136,6 +141,9 @@ impl Evaluation {
         if let Some(dual) = self.duals.get_mut(slot as usize) {
             *dual = Slope::constant(value);
         }
+        if let Some(traced) = self.traced.get_mut(slot as usize) {
+            *traced = Traced::from_f64(value);
+        }
     }
 
     pub(crate) fn plain(&mut self) -> (&mut [f64], &mut Vec<f64>) {
@@ -147,6 +155,13 @@ impl Evaluation {
             self.duals = self.slots.iter().map(|&value| Slope::constant(value)).collect();
         }
         (&mut self.duals, &mut self.dual_stack)
+    }
+
+    pub(crate) fn traced(&mut self) -> (&mut [Traced], &mut Vec<Traced>) {
+        if self.traced.is_empty() {
+            self.traced = self.slots.iter().map(|&value| Traced::from_f64(value)).collect();
+        }
+        (&mut self.traced, &mut self.traced_stack)
     }
 
     /// A program's value at `time` in s.

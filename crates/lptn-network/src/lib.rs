@@ -37,6 +37,7 @@ mod run;
 mod scope;
 pub mod slot;
 mod stream;
+mod sweeps;
 mod tangent;
 mod typed;
 mod value;
@@ -83,6 +84,7 @@ pub use positions::Positions;
 pub use run::{IntegratorChoice, OutputTimes, RunSettings, Varied, WindowSettings};
 pub use scope::{Context, NetworkScope};
 pub use stream::{Outlet, Passing};
+pub use sweeps::Reader;
 pub use tangent::{NoTangents, Tangents};
 pub use typed::{
     Area, Conductance, FilmCoefficient, HeatCapacity, HeatFlow, Resistance, Temperature, Time,

@@ -1,6 +1,8 @@
 //! A thermal system as the integrator sees it: `M y' = f` with M the capacities and f the heat
 //! flows.
 
+mod look;
+
 use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::{OdeSystem, Pattern, Retry};
 use lptn_network::Positions;

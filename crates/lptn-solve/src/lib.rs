@@ -21,6 +21,7 @@ mod error;
 mod events;
 mod exact;
 mod extremes;
+mod guard;
 mod heat;
 mod hidden;
 mod interval;

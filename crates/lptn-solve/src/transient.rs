@@ -12,6 +12,7 @@ use crate::balance::Books;
 use crate::curved::Curved;
 use crate::error::{StopReason, TransientError};
 use crate::events::{Switching, Trouble, find_crossings};
+use crate::guard::{Guard, Verdict};
 use crate::heat::Heat;
 use crate::method::Method;
 use crate::readings::Readings;
@@ -140,6 +141,8 @@ pub(crate) struct Run<'a> {
     due: Vec<usize>,
     /// Only where an input curves.
     curved: Option<Curved>,
+    /// Only where tables, kinks or functions that turn read temperatures.
+    guard: Option<Guard>,
     /// Only where something switches.
     switching: Option<Switching<'a>>,
     /// Steps in a row that were refused before they became so short that they lead nowhere.
@@ -181,6 +184,7 @@ impl<'a> Run<'a> {
         let finer = system.network().has_events() || care == Care::Leaps;
         let care = if finer { Care::Leaps } else { care };
         let options = settings.options(system, finer, curved.as_ref());
+        let guard = Guard::of(system, options.tolerance);
         let straight = curved.is_none() && system.network().inputs_are_straight();
         let choice = (settings.integrator, !straight);
         let (mut integrator, method) = stepper(heat, (settings.start, &initial), &options, choice)?;
@@ -198,6 +202,7 @@ impl<'a> Run<'a> {
             due: Vec::new(),
             switching,
             curved,
+            guard,
             crawled: 0,
             stuck: 0,
             care,
@@ -263,6 +268,7 @@ impl<'a> Run<'a> {
     /// Enters a segment, or what an event left of it.
     fn enter(&mut self, segment: Segment) -> Result<(), Break> {
         self.stand()?;
+        self.guard_begins();
         self.recorder.enter(segment, self.switching.as_ref().map(|switching| &switching.positions));
         if self.method == Method::OneStep {
             self.integrator.system_mut().draw_line((segment.from, segment.to));
@@ -277,16 +283,17 @@ impl<'a> Run<'a> {
     fn step(&mut self, segment: Segment) -> Result<(), Break> {
         let armed =
             self.switching.as_ref().map_or(f64::INFINITY, |s| s.next_armed(self.integrator.time()));
-        self.integrator.set_stop(segment.to.min(armed));
-        if let Some(curved) = &self.curved {
-            self.integrator.set_longest_step(curved.longest(self.integrator.time()));
-        }
+        self.hold_step(segment.to.min(armed));
         let step = match self.integrator.step() {
             Ok(step) => step,
             Err(error) => return self.leap_or_fail(segment, error),
         };
         self.stuck = 0;
         self.check_crawl(step.to - step.from)?;
+        let verdict = self.judged(&step)?;
+        if verdict == Verdict::Back {
+            return Ok(());
+        }
         let (mut due, crossed) = self.crossings(&step)?;
         let to = self.reaches(step.from, crossed)?;
         if to < crossed {
@@ -302,6 +309,7 @@ impl<'a> Run<'a> {
         }
         if to < step.to {
             self.integrator.rewind(to).map_err(|e| self.failed(e))?;
+            self.guard_begins();
         }
         if to >= segment.to {
             self.due = due; // the next segment begins with it
@@ -312,7 +320,43 @@ impl<'a> Run<'a> {
             self.integrator.restart(None).map_err(|e| self.failed(e))?;
             return self.enter(Segment { from: to, to: segment.to });
         }
+        if verdict == Verdict::BeginsAnew && to >= step.to {
+            self.integrator.restart(None).map_err(|e| self.failed(e))?;
+            self.guard_begins();
+        }
         self.stand_or_leap(segment)
+    }
+
+    /// Says when the next step has to end at the latest, `stop` among other reasons.
+    fn hold_step(&mut self, stop: f64) {
+        let mut stop = stop;
+        if let Some(guard) = &mut self.guard {
+            stop = stop.min(guard.end_of_step(self.integrator.as_mut()));
+        }
+        self.integrator.set_stop(stop);
+        if let Some(curved) = &self.curved {
+            self.integrator.set_longest_step(curved.longest(self.integrator.time()));
+        }
+    }
+
+    /// What is to be done about a step, for the sake of what depends on temperature; a step that
+    /// does not stand is taken back.
+    fn judged(&mut self, step: &Step) -> Result<Verdict, Break> {
+        let Some(guard) = &mut self.guard else { return Ok(Verdict::Stands) };
+        let verdict = guard.judge(self.integrator.as_mut(), step);
+        if verdict == Verdict::Back {
+            self.integrator.rewind(step.from).map_err(|e| self.failed(e))?;
+            self.integrator.system_mut().fold = None;
+            self.guard_begins();
+        }
+        Ok(verdict)
+    }
+
+    /// The integrator begins, anew or for the first time.
+    fn guard_begins(&mut self) {
+        if let Some(guard) = &mut self.guard {
+            guard.begin(self.integrator.as_mut());
+        }
     }
 
     /// What has to switch inside a step or at its end, and when that is.

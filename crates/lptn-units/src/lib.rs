@@ -45,6 +45,7 @@ pub mod statistics;
 mod suggest;
 pub mod table;
 mod taylor;
+mod traced;
 mod types;
 mod unit;
 mod unit_parser;
@@ -72,6 +73,7 @@ pub use table::{
     TableSymbol,
 };
 pub use taylor::Taylor;
+pub use traced::Traced;
 pub use types::Type;
 pub use unit::Unit;
 pub use value::{Written, parse_value};

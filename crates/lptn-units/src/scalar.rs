@@ -19,6 +19,9 @@ pub trait Scalar:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
+    /// Whether it is told which piece of a table it is on: see [`Scalar::on_piece`].
+    const IN_PIECES: bool = false;
+
     /// A constant.
     fn from_f64(value: f64) -> Self;
     /// The value without its derivatives.
@@ -49,6 +52,12 @@ pub trait Scalar:
     fn chain(self, value: f64, slope: f64) -> Self;
     /// A function of this and another number, from its value and its slopes along each.
     fn chain2(self, other: Self, value: f64, slopes: [f64; 2]) -> Self;
+
+    /// The same number, which comes from this piece of a table.
+    #[must_use]
+    fn on_piece(self, _piece: usize) -> Self {
+        self
+    }
 
     /// The smaller; the first of equal values; no number if one of them is none.
     fn min(self, other: Self) -> Self {

@@ -271,3 +271,44 @@ fn a_kink_bounds_no_slope() {
         assert!(over(text, 0.0, 0.1).largest(2) < 1e3 || text.starts_with("if"), "{text}");
     }
 }
+
+/// Where an expression turns on the way of `x` between two numbers.
+fn turns(text: &str, from: f64, to: f64) -> Vec<f64> {
+    let way = |slot: u32| if slot == 0 { [from, to] } else { [A; 2] };
+    let turns = program(text).turns(&way, 1e-7);
+    turns.iter().map(|[a, b]| from + a.midpoint(*b) * (to - from)).collect()
+}
+
+#[test]
+fn a_peak_or_dip_is_found_however_narrow_it_is() {
+    for width in [30.0, 1.0, 0.01] {
+        for text in [
+            format!("100 + exp(-((x - 47.3) / {width})^2)"),
+            format!("1 / (1 + ((x - 47.3) / {width})^2)"),
+            format!("a * (tanh((x - 47.3) / {width} + 1) - tanh((x - 47.3) / {width} - 1))"),
+            format!("x - x + max(0, 1 - abs(x - 47.3) / {width})"),
+        ] {
+            let found = turns(&text, -100.0, 500.0);
+            assert_eq!(found.len(), 1, "{text}: {found:?}");
+            assert!((found[0] - 47.3).abs() < 0.5 * width, "{text}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn turns_of_tables_are_at_their_knots_and_flat_parts_are_none() {
+    let found = turns("lines(x)", -5.0, 6.0);
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!((found[0] - 2.0).abs() < 0.3, "{found:?}");
+    let back = turns("lines(1 - x)", 7.0, -4.0);
+    assert!(back.len() == 1 && (back[0] + 1.0).abs() < 0.3, "{back:?}");
+    assert!(turns("smooth(x)", -30.0, 30.0).len() <= 1, "nothing is told outside");
+}
+
+#[test]
+fn what_goes_one_way_has_no_turn() {
+    for text in ["exp(x / 7)", "tanh(x * 1000)", "x + abs(x)", "3 * x - 7", "a", "max(x, a)^3"] {
+        assert_eq!(turns(text, -20.0, 33.0), Vec::<f64>::new(), "{text}");
+    }
+    assert_eq!(turns("sin(x)", 0.0, 20.0).len(), 6);
+}

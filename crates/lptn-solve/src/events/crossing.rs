@@ -8,9 +8,14 @@ use crate::heat::Heat;
 /// An integrator on the way.
 type Stepping<'a> = dyn Integrator<Heat<'a>> + 'a;
 
-/// Looks inside a step, besides those of the integrator at its ends: what comes and goes between
-/// them is found too.
-const LOOKS: u32 = 4;
+/// Parts of a step at whose ends is looked first.
+const PARTS: usize = 4;
+
+/// Halvings of such a part in search of what comes and goes within it ..
+const HALVINGS: usize = 40;
+
+/// .. and looks into one step for that, at most.
+const LOOKS: usize = 400;
 
 /// Halvings of the interval in which something begins to be due: to the rounding of the time.
 const BISECTIONS: usize = 60;
@@ -35,23 +40,29 @@ impl From<StopReason> for Trouble {
 
 /// What has to switch inside a step or at its end, by its position, and when that is; nothing at
 /// the end of a step without an event.
+///
+/// What begins to be due and ends again between two looks is searched: where an excess may have a
+/// top above zero, as its second difference tells, is looked closer.
 pub(crate) fn find(
     integrator: &mut Stepping<'_>,
     step: &Step,
 ) -> Result<(Vec<usize>, f64), Trouble> {
-    let mut look = Look::new(integrator);
-    let mut before = step.from;
-    for k in 1..=LOOKS {
-        let last = k == LOOKS;
-        if last && step.roots {
-            break; // the integrator knows better
+    let mut search = Search::new(integrator);
+    let place = |k: usize| match k {
+        PARTS => step.to,
+        _ => step.from + k as f64 / PARTS as f64 * (step.to - step.from),
+    };
+    let mut before = search.at(integrator, step.from)?;
+    for k in (2..=PARTS).step_by(2) {
+        let middle = search.at(integrator, place(k - 1))?;
+        let after = search.at(integrator, place(k))?;
+        // at a root the integrator knows better
+        let counts = !(k == PARTS && step.roots);
+        let found = search.first([&before, &middle, &after], (HALVINGS, counts), integrator)?;
+        if let Some(between) = found {
+            return search.narrow(integrator, between);
         }
-        let share = f64::from(k) / f64::from(LOOKS);
-        let time = if last { step.to } else { step.from + share * (step.to - step.from) };
-        if look.is_due(integrator, time)? {
-            return look.first(integrator, (before, time));
-        }
-        before = time;
+        before = after;
     }
     let rising =
         integrator.root_directions().iter().enumerate().filter(|(_, direction)| **direction > 0);
@@ -59,39 +70,91 @@ pub(crate) fn find(
     Ok((due, step.to))
 }
 
-/// Evaluates what switches inside a step.
+/// How far everything that switches is beyond the point where it does at a time.
 struct Look {
-    state: Vec<f64>,
+    time: f64,
     excess: Vec<f64>,
 }
 
 impl Look {
-    fn new(integrator: &Stepping<'_>) -> Self {
-        let count = integrator.system().gates.count();
-        Self { state: integrator.state().to_vec(), excess: vec![0.0; count] }
+    fn is_due(&self) -> bool {
+        self.excess.iter().any(|excess| *excess > 0.0)
     }
 
-    fn is_due(&mut self, integrator: &mut Stepping<'_>, time: f64) -> Result<bool, Trouble> {
+    fn due(&self) -> Vec<usize> {
+        let due = self.excess.iter().enumerate().filter(|(_, excess)| **excess > 0.0);
+        due.map(|(position, _)| position).collect()
+    }
+}
+
+/// Evaluates what switches inside a step.
+struct Search {
+    state: Vec<f64>,
+    /// What is less than this does not count.
+    rooms: Vec<f64>,
+    looks: usize,
+}
+
+impl Search {
+    fn new(integrator: &Stepping<'_>) -> Self {
+        let rooms = integrator.system().gates.rooms();
+        Self { state: integrator.state().to_vec(), rooms, looks: 0 }
+    }
+
+    fn at(&mut self, integrator: &mut Stepping<'_>, time: f64) -> Result<Look, Trouble> {
+        self.looks += 1;
         integrator.interpolate(time, &mut self.state)?;
-        integrator.system_mut().excess(time, &self.state, &mut self.excess)?;
-        Ok(self.excess.iter().any(|excess| *excess > 0.0))
+        let mut excess = vec![0.0; self.rooms.len()];
+        integrator.system_mut().excess(time, &self.state, &mut excess)?;
+        Ok(Look { time, excess })
+    }
+
+    /// Two times between which something begins to be due: not at the first, but at the second.
+    /// Whether the last of three looks at even distances counts is said.
+    fn first(
+        &mut self,
+        [before, middle, after]: [&Look; 3],
+        (halvings, counts): (usize, bool),
+        integrator: &mut Stepping<'_>,
+    ) -> Result<Option<(f64, f64)>, Trouble> {
+        if halvings > 0 && self.looks < LOOKS && self.may_rise([before, middle, after]) {
+            let left = self.at(integrator, before.time.midpoint(middle.time))?;
+            let found = self.first([before, &left, middle], (halvings - 1, true), integrator)?;
+            if found.is_some() {
+                return Ok(found);
+            }
+            let right = self.at(integrator, middle.time.midpoint(after.time))?;
+            return self.first([middle, &right, after], (halvings - 1, counts), integrator);
+        }
+        let pairs = [(before, middle, true), (middle, after, counts)];
+        let due = pairs.into_iter().find(|(_, look, counts)| *counts && look.is_due());
+        Ok(due.map(|(before, after, _)| (before.time, after.time)))
+    }
+
+    /// Whether something that is due at none of three looks may be due between them. A parabola
+    /// through them rises above the highest by no more than an eighth of their second difference.
+    fn may_rise(&self, [before, middle, after]: [&Look; 3]) -> bool {
+        let one = |(i, room): (usize, &f64)| {
+            let [a, b, c] = [before, middle, after].map(|look| look.excess[i]);
+            let (highest, bend) = (a.max(b).max(c), (a - 2.0 * b + c).abs());
+            highest <= 0.0 && highest + bend > 0.0 && bend > *room
+        };
+        self.rooms.iter().enumerate().any(one)
     }
 
     /// The first moment between a time at which nothing is due and one at which something is.
-    fn first(
+    fn narrow(
         &mut self,
         integrator: &mut Stepping<'_>,
         (mut before, mut after): (f64, f64),
     ) -> Result<(Vec<usize>, f64), Trouble> {
         for _ in 0..BISECTIONS {
             let middle = before + 0.5 * (after - before);
-            match self.is_due(integrator, middle)? {
+            match self.at(integrator, middle)?.is_due() {
                 true => after = middle,
                 false => before = middle,
             }
         }
-        self.is_due(integrator, after)?;
-        let due = self.excess.iter().enumerate().filter(|(_, excess)| **excess > 0.0);
-        Ok((due.map(|(position, _)| position).collect(), after))
+        Ok((self.at(integrator, after)?.due(), after))
     }
 }

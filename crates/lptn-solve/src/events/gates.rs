@@ -14,6 +14,8 @@ pub(crate) struct Gates {
     pub(crate) armed: Vec<bool>,
     /// For each comparison how far its sides have to be apart.
     pub(crate) margins: Vec<f64>,
+    /// What a control is beyond its threshold by less than this, in K, does not count.
+    room: f64,
 }
 
 impl Gates {
@@ -22,12 +24,19 @@ impl Gates {
         Self {
             armed: vec![true; network.controls().len()],
             margins: vec![0.0; network.switches().len()],
+            room: 0.0,
         }
     }
 
     /// How many there are.
     pub(crate) fn count(&self) -> usize {
         self.armed.len() + self.margins.len()
+    }
+
+    /// The excess of each below which nothing is looked for.
+    pub(crate) fn rooms(&self) -> Vec<f64> {
+        let controls = self.armed.iter().map(|_| self.room);
+        controls.chain(self.margins.iter().copied()).collect()
     }
 
     /// Writes how far each is beyond the point where it switches, positive if it has to; from the
@@ -63,6 +72,7 @@ impl Gates {
         work: &mut Workspace,
         tolerance: f64,
     ) -> Result<(), InputError> {
+        self.room = MARGIN * tolerance;
         for (id, margin) in system.network().switch_ids().zip(&mut self.margins) {
             let (difference, slope) = system.switch_difference(work, id)?;
             // a side that hardly depends on temperature here still has digits to lose

@@ -27,8 +27,17 @@ impl Program {
         if self.slots.last().is_some_and(|last| *last as usize >= slots.len()) {
             return Taylor::unknown();
         }
+        self.enclosed(&|slot| {
+            let still =
+                || slots.get(slot as usize).map_or(Taylor::unknown(), |v| Taylor::constant(*v));
+            known(slot).unwrap_or_else(still)
+        })
+    }
+
+    /// Bounds on the result for bounds on each slot.
+    pub(crate) fn enclosed(&self, of: &dyn Fn(u32) -> Taylor) -> Taylor {
         let mut forks = FORKS;
-        let mut run = Run { program: self, known, slots, stack: Vec::new() };
+        let mut run = Run { program: self, of, stack: Vec::new() };
         run.from(0, Taylor::constant(0.0), &mut forks)
     }
 }
@@ -37,8 +46,8 @@ impl Program {
 #[derive(Clone)]
 struct Run<'a> {
     program: &'a Program,
-    known: &'a dyn Fn(u32) -> Option<Taylor>,
-    slots: &'a [f64],
+    /// What is known of each slot.
+    of: &'a dyn Fn(u32) -> Taylor,
     stack: Vec<Taylor>,
 }
 
@@ -46,9 +55,7 @@ impl Run<'_> {
     fn load(&self, operand: Operand) -> Taylor {
         match operand {
             Operand::Constant(value) => Taylor::constant(value),
-            Operand::Slot(slot) => (self.known)(slot).unwrap_or_else(|| {
-                self.slots.get(slot as usize).map_or(Taylor::unknown(), |v| Taylor::constant(*v))
-            }),
+            Operand::Slot(slot) => (self.of)(slot),
         }
     }
 
@@ -66,7 +73,7 @@ impl Run<'_> {
                 Op::Jump(target) => next = target,
                 Op::JumpUnlessSet(slot, target) => {
                     self.pop();
-                    if self.slots.get(slot as usize) == Some(&0.0) {
+                    if (self.of)(slot).range() == Some([0.0; 2]) {
                         next = target;
                     }
                 }

@@ -153,6 +153,10 @@ impl Program {
             LookupTable::Two(_) => None,
         };
         match found {
+            Some((value, slope)) if S::IN_PIECES => {
+                let piece = self.named(table).table.piece(0, argument.value());
+                Ok(argument.chain(value, slope).on_piece(piece))
+            }
             Some((value, slope)) => Ok(argument.chain(value, slope)),
             None => self.outside(index, table, &[argument]),
         }
@@ -171,6 +175,11 @@ impl Program {
             LookupTable::One(_) | LookupTable::DoubleLog(_) | LookupTable::PowerLaw(_) => None,
         };
         match found {
+            Some((value, slopes)) if S::IN_PIECES => {
+                let table = &self.named(table).table;
+                let [i, j] = [table.piece(0, x.value()), table.piece(1, y.value())];
+                Ok(x.on_piece(i).chain2(y.on_piece(j), value, slopes))
+            }
             Some((value, slopes)) => Ok(x.chain2(y, value, slopes)),
             None => self.outside(index, table, &arguments),
         }

@@ -20,6 +20,7 @@ mod scope;
 mod split;
 mod tree;
 mod trend;
+mod turns;
 
 use std::ops::Range;
 

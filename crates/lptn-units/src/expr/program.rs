@@ -150,6 +150,26 @@ impl Program {
         self.slots.dedup();
     }
 
+    /// Whether there may be something narrow in it: a table, a kink, a quotient, or a function that
+    /// is not about a straight line or a low power.
+    pub fn may_be_narrow(&self) -> bool {
+        let narrow = |op: &Op| match *op {
+            Op::Table(_)
+            | Op::PoppedTable(_)
+            | Op::PoppedPower
+            | Op::RealPower(_)
+            | Op::Left(Arithmetic::Divide, _)
+            | Op::Popped(Arithmetic::Divide | Arithmetic::Min | Arithmetic::Max)
+            | Op::Right(Arithmetic::Min | Arithmetic::Max, _)
+            | Op::Left(Arithmetic::Min | Arithmetic::Max, _) => true,
+            Op::WholePower(power) => !(0..=3).contains(&power),
+            Op::Right(Arithmetic::Divide, Operand::Slot(_)) => true,
+            Op::Call(function) => !matches!(function, Function::Kelvin | Function::Absolute),
+            _ => false,
+        };
+        self.code.iter().any(narrow)
+    }
+
     /// How the two sides of each of [`Program::comparisons`] are compared.
     pub fn relations(&self) -> &[Comparison] {
         &self.relations

@@ -60,6 +60,12 @@ impl LookupTable {
         }
     }
 
+    /// How many of the knots along one argument are not above `value`: the same number within one
+    /// smooth piece.
+    pub(crate) fn piece(&self, argument: usize, value: f64) -> usize {
+        self.knots(argument).partition_point(|knot| *knot <= value)
+    }
+
     /// Has it a value where this argument is `value`, as far as that one counts?
     pub(crate) fn reaches(&self, argument: usize, value: f64) -> bool {
         place(self.knots(argument), value, self.outside()).is_some()

@@ -63,6 +63,22 @@ impl Taylor {
         all
     }
 
+    /// A part of the straight way from one number to another: both as shares of it, from 0 to 1.
+    pub(crate) fn on_way([from, to]: [f64; 2], [first, last]: [f64; 2]) -> Self {
+        let [a, b] = [first, last].map(|share| from + share * (to - from));
+        let mut way = Self::flat(Interval::new(a.min(b), a.max(b)));
+        if from.to_bits() != to.to_bits() {
+            way.terms[1] = Interval::point(to - from);
+            way.degree = 1;
+        }
+        way
+    }
+
+    /// Bounds on the derivative.
+    pub(crate) fn slope(&self) -> Interval {
+        self.terms[1]
+    }
+
     /// A number of which only bounds are known.
     fn flat(value: Interval) -> Self {
         let mut terms = [Interval::ZERO; ORDERS];

@@ -1,0 +1,100 @@
+//! What a step that carries temperatures over a range is to be asked: which pieces of tables and
+//! kinks its elements go through, and their heat.
+
+use std::sync::Arc;
+
+use lptn_network::{Evaluation, Formula, InputError, Value};
+use lptn_units::Program;
+
+use crate::element::Kind;
+use crate::system::ThermalSystem;
+use crate::workspace::Workspace;
+
+impl ThermalSystem {
+    /// How many elements there are that are neither a constant conductance nor radiation of a
+    /// constant area.
+    pub fn element_count(&self) -> usize {
+        self.elements.len()
+    }
+
+    /// Whether the heat of an element may have kinks over temperature.
+    pub fn has_pieces(&self, element: usize) -> bool {
+        let law = match self.elements[element].kind {
+            Kind::Stream(_) => return false,
+            Kind::Conductor(id) => &self.network.conductors()[id.index()].law,
+            Kind::Source(id) => &self.network.sources()[id.index()].law,
+        };
+        let plain = [
+            Formula::Resistance,
+            Formula::Conductance,
+            Formula::Film,
+            Formula::ExchangeArea,
+            Formula::Given,
+            Formula::CapacityRate,
+        ];
+        let bends = |program: &Arc<Program>| {
+            !(program.kinks().is_empty() && program.table_calls().is_empty())
+        };
+        !plain.contains(&law.formula())
+            || law.fluid().is_some()
+            || law.values().iter().flat_map(Value::programs).any(bends)
+    }
+
+    /// A number for the pieces of tables, kinks and laws that the heat of an element goes through,
+    /// from inputs read and temperatures placed; 0 if there is only one. The number is another on
+    /// the other side of a kink.
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::flow`].
+    pub fn pieces(&self, work: &mut Workspace, element: usize) -> Result<u64, InputError> {
+        let kind = self.elements[element].kind;
+        let (scope, temperature) = work.current();
+        match kind {
+            Kind::Stream(_) => Ok(0),
+            Kind::Conductor(id) => self.network.pieces_of_exchange(id, scope, temperature),
+            Kind::Source(id) => self.network.pieces_of_source(id, scope, temperature),
+        }
+    }
+
+    /// Adds the heat of an element to that of every vertex in W, from inputs read and temperatures
+    /// placed.
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::flow`].
+    pub fn add_heat_of(
+        &self,
+        work: &mut Workspace,
+        element: usize,
+        heat: &mut [f64],
+    ) -> Result<(), InputError> {
+        let element = &self.elements[element];
+        if let Kind::Source(id) = element.kind {
+            let (scope, temperature) = work.current();
+            let power = self.network.source_heat(id, scope, temperature)?;
+            for (&vertex, share) in element.receivers.iter().zip(&element.shares) {
+                heat[vertex as usize] += share * power;
+            }
+            return Ok(());
+        }
+        let received = element.received(&self.network, work)?;
+        for (&vertex, q) in element.receivers.iter().zip(received) {
+            heat[vertex as usize] += q;
+        }
+        Ok(())
+    }
+
+    /// Temperatures of all vertices in K, nodes then boundaries, as last placed.
+    pub fn vertex_temperatures<'a>(&self, work: &'a Workspace) -> &'a [f64] {
+        &work.temperature
+    }
+
+    /// Takes the temperatures of all vertices in K.
+    pub fn place_vertices(&self, work: &mut Workspace, temperatures: &[f64]) {
+        work.temperature.copy_from_slice(temperatures);
+    }
+
+    /// What expressions read beside temperatures, as last read.
+    pub fn scope<'a>(&self, work: &'a mut Workspace) -> &'a Evaluation {
+        work.current().0
+    }
+}

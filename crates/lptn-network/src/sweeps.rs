@@ -1,0 +1,211 @@
+//! Values that read temperatures, to be looked at before a step carries a temperature past what
+//! they do: the twin of [`Network::curves`](crate::Network::curves).
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use lptn_units::{Degree, Program, Traced};
+
+use crate::evaluation::Evaluation;
+use crate::id::{ConductorId, Item, SourceId};
+use crate::input_error::InputError;
+use crate::law::At;
+use crate::network::Network;
+use crate::network::flow::{name, place};
+use crate::parts::dependence::Dependence;
+use crate::parts::layout::Holds;
+use crate::slot;
+
+/// An expression that drives a heat flow, or decides what switches, and reads temperatures in a way that is not a straight
+/// line.
+#[derive(Clone, Debug)]
+pub struct Reader {
+    program: Arc<Program>,
+    reads: Vec<(u32, Read)>,
+    /// Readers of one number are alike if it is the only thing that changes in their expression.
+    family: Option<usize>,
+}
+
+/// A number that an expression makes of temperatures, by their vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Read {
+    One(usize),
+    Mean(usize, usize),
+    Difference(usize, usize),
+}
+
+impl Read {
+    fn of(self, temperatures: &[f64]) -> f64 {
+        match self {
+            Self::One(a) => temperatures[a],
+            Self::Mean(a, b) => 0.5 * (temperatures[a] + temperatures[b]),
+            Self::Difference(a, b) => temperatures[a] - temperatures[b],
+        }
+    }
+}
+
+impl Reader {
+    /// Which of the readers it turns like, if it reads one number of temperatures and nothing else
+    /// that changes.
+    pub fn family(&self) -> Option<usize> {
+        self.family
+    }
+
+    /// The first number that it reads, in K, at these temperatures of all vertices.
+    pub fn number(&self, temperatures: &[f64]) -> f64 {
+        self.reads[0].1.of(temperatures)
+    }
+
+    /// The vertices that it reads are all among those for which this holds.
+    pub fn reads_only(&self, holds: impl Fn(usize) -> bool) -> bool {
+        self.reads.iter().all(|(_, read)| match *read {
+            Read::One(a) => holds(a),
+            Read::Mean(a, b) | Read::Difference(a, b) => holds(a) && holds(b),
+        })
+    }
+}
+
+impl Network {
+    /// The expressions that drive a heat flow, or decide what switches, and may turn while temperatures go one way.
+    pub fn readers(&self) -> Vec<Reader> {
+        let mut readers = Vec::new();
+        for (item, _, value) in self.inputs() {
+            let Some(dependence) = self.dependence_of(item) else { continue };
+            let programs = value.programs().into_iter();
+            readers.extend(programs.filter_map(|program| self.reader(program, dependence)));
+        }
+        // what switches is to be seen too
+        let comparing = self
+            .switches()
+            .iter()
+            .filter_map(|switch| self.reader(&switch.difference, self.dependence_of(switch.item)?));
+        readers.extend(comparing);
+        self.group(&mut readers);
+        readers
+    }
+
+    /// Says which of them turn alike.
+    fn group(&self, readers: &mut [Reader]) {
+        let mut families = BTreeMap::new();
+        for reader in readers.iter_mut() {
+            if self.stands_still_beside(reader) {
+                let key = (Arc::as_ptr(&reader.program).addr(), reader.reads[0].0);
+                let next = families.len();
+                reader.family = Some(*families.entry(key).or_insert(next));
+            }
+        }
+    }
+
+    fn dependence_of(&self, item: Item) -> Option<&Dependence> {
+        match item {
+            Item::Conductor(id) => Some(self.parts.dependence(id)),
+            Item::Source(id) => Some(&self.parts.source_dependence[id.index()]),
+            _ => None,
+        }
+    }
+
+    fn reader(&self, program: &Arc<Program>, of: &Dependence) -> Option<Reader> {
+        let vertex = |position: usize| of.vertices.get(position).map(|vertex| *vertex as usize);
+        let read = |slot: u32| {
+            if let Some((_, position)) = of.named.iter().find(|(named, _)| *named == slot) {
+                return vertex(*position).map(Read::One);
+            }
+            let (from, to) = (vertex(0)?, vertex(1)?);
+            match slot {
+                slot::FROM => Some(Read::One(from)),
+                slot::TO => Some(Read::One(to)),
+                slot::MEAN | slot::OWN => Some(Read::Mean(from, to)),
+                slot::DIFFERENCE => Some(Read::Difference(from, to)),
+                _ => None,
+            }
+        };
+        let slots = program.slots();
+        let reads: Vec<(u32, Read)> =
+            slots.into_iter().filter_map(|slot| Some((slot, read(slot)?))).collect();
+        let straight = reads.iter().all(|(slot, _)| program.degree_in(*slot) <= Degree::Affine);
+        let narrow = !reads.is_empty() && program.may_be_narrow() && !straight;
+        narrow.then(|| Reader { program: Arc::clone(program), reads, family: None })
+    }
+
+    fn stands_still_beside(&self, reader: &Reader) -> bool {
+        let other = |slot: &u32| *slot != reader.reads[0].0;
+        let fixed = |slot: u32| matches!(self.parts.layout.holds(slot), Holds::Parameter(_));
+        reader.reads.len() == 1
+            && reader.program.slots().iter().filter(|s| other(s)).all(|s| fixed(*s))
+    }
+
+    /// Where an expression turns while the temperatures of all vertices go from one state to
+    /// another, in K: see [`Program::turns`]. Everything else that it reads is as `scope` says.
+    pub fn turns(
+        &self,
+        reader: &Reader,
+        scope: &Evaluation,
+        [from, to]: [&[f64]; 2],
+        least: f64,
+    ) -> Vec<[f64; 2]> {
+        let way = |slot: u32| match reader.reads.iter().find(|(read, _)| *read == slot) {
+            Some((_, read)) => [read.of(from), read.of(to)],
+            None => [scope.slot(slot); 2],
+        };
+        reader.program.turns(&way, least)
+    }
+
+    /// The same for the first number that it reads, which goes between two others in K.
+    pub fn turns_between(
+        &self,
+        reader: &Reader,
+        scope: &Evaluation,
+        between: [f64; 2],
+        least: f64,
+    ) -> Vec<[f64; 2]> {
+        let own = reader.reads[0].0;
+        let way = |slot: u32| if slot == own { between } else { [scope.slot(slot); 2] };
+        reader.program.turns(&way, least)
+    }
+
+    /// A number for the pieces of tables, kinks and laws that the heat of a conductor goes through
+    /// at these temperatures of all vertices in K; 0 if there is only one.
+    ///
+    /// # Errors
+    /// As [`Network::exchange`].
+    pub fn pieces_of_exchange(
+        &self,
+        id: ConductorId,
+        scope: &mut Evaluation,
+        temperatures: &[f64],
+    ) -> Result<u64, InputError> {
+        let conductor = &self.conductors()[id.index()];
+        let dependence = self.parts.dependence(id);
+        let at = |k: usize| Traced::variable(temperatures[dependence.vertices[k] as usize]);
+        let result = {
+            let (slots, stack) = scope.traced();
+            place(slots, dependence, &at);
+            self.received(conductor, At { slots, stack }, at(0), at(1))
+        };
+        let [from, to] =
+            result.map_err(|failed| self.failed(Item::Conductor(id), failed, scope))?;
+        Ok(from.trace().wrapping_add(to.trace()))
+    }
+
+    /// The same for the heat of a source.
+    ///
+    /// # Errors
+    /// As [`Network::source_heat`].
+    pub fn pieces_of_source(
+        &self,
+        id: SourceId,
+        scope: &mut Evaluation,
+        temperatures: &[f64],
+    ) -> Result<u64, InputError> {
+        let source = &self.sources()[id.index()];
+        let dependence = &self.parts.source_dependence[id.index()];
+        let at = |k: usize| Traced::variable(temperatures[dependence.vertices[k] as usize]);
+        let result = {
+            let (slots, stack) = scope.traced();
+            name(slots, dependence, &at);
+            At { slots, stack }.heat(&source.law)
+        };
+        let heat = result.map_err(|failed| self.failed(Item::Source(id), failed, scope))?;
+        Ok(heat.trace())
+    }
+}

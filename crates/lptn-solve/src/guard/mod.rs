@@ -1,0 +1,166 @@
+//! What depends on temperature is looked at after each step and before the next.
+//!
+//! The integrator sees a law at the ends of its steps. A peak of a table over temperature that has
+//! passed by the end of a step was never evaluated, and a kink inside a step leaves an error that
+//! the integrator's own estimate takes for a smaller one. So, as with what curves over time
+//! (`curved.rs`),
+//!
+//! - no step carries what an expression reads past a place where the expression turns (`turns.rs`),
+//!   and
+//! - where the heat bends within a step by more than the tolerance bears, the run goes back to the
+//!   start of the step, ends a step at the kink and begins anew there (`corners.rs`).
+//!
+//! Networks without tables, kinks and functions that turn have no guard.
+
+mod corners;
+mod turns;
+
+use lptn_assembly::ThermalSystem;
+use lptn_integrate::{Integrator, Step};
+
+use crate::heat::Heat;
+use corners::Corners;
+use turns::Turns;
+
+/// An integrator on the way.
+pub(crate) type Stepping<'a> = dyn Integrator<Heat<'a>> + 'a;
+
+/// So many times in a row a step is taken back at most.
+const ATTEMPTS: usize = 40;
+
+/// By how much a step that was held short may grow from one to the next.
+const GROWTH: f64 = 1.5;
+
+/// The part of a step over which the rates at its end are taken.
+const END: f64 = 0.05;
+
+/// A guard of what depends on temperature.
+pub(crate) struct Guard {
+    corners: Corners,
+    turns: Turns,
+    /// Temperatures of all vertices at the start of the next step in K, and how they change in K/s.
+    now: Vec<f64>,
+    rates: Vec<f64>,
+    /// Where the next step has to end at the latest, because a kink is there, in s.
+    kink: f64,
+    /// How long it may be, in s.
+    longest: f64,
+    /// Whether the integrator has begun anew there.
+    fresh: bool,
+    /// Length of the last step in s; 0 if there is none.
+    last: f64,
+    attempts: usize,
+}
+
+/// What is to be done about a step.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(crate) enum Verdict {
+    /// It stands.
+    Stands,
+    /// It stands, and the integrator has to begin anew at its end.
+    BeginsAnew,
+    /// It has to be taken back.
+    Back,
+}
+
+impl Guard {
+    /// `None` if nothing in the network needs it. `tolerance` is that of the integrator in K.
+    pub(crate) fn of(system: &ThermalSystem, tolerance: f64) -> Option<Self> {
+        let (corners, turns) = (Corners::of(system, tolerance), Turns::of(system));
+        let needed = !(corners.are_none() && turns.are_none());
+        let vertices = system.network().nodes().len() + system.network().boundaries().len();
+        needed.then(|| Self {
+            corners,
+            turns,
+            now: vec![f64::NAN; vertices],
+            rates: vec![0.0; vertices],
+            kink: f64::INFINITY,
+            longest: f64::INFINITY,
+            fresh: true,
+            last: 0.0,
+            attempts: 0,
+        })
+    }
+
+    /// Looks at the state in which the integrator begins, anew or for the first time.
+    pub(crate) fn begin(&mut self, integrator: &mut Stepping<'_>) {
+        let (time, state) = (integrator.time(), integrator.state().to_vec());
+        self.fresh = true;
+        self.last = 0.0;
+        if self.kink <= time {
+            self.kink = f64::INFINITY;
+        }
+        let heat = integrator.system_mut();
+        self.rates.fill(0.0);
+        if !self.turns.are_none() {
+            heat.rates(time, &state, &mut self.rates);
+        }
+        if let Some(temperatures) = heat.look(time, &state) {
+            self.now.copy_from_slice(temperatures);
+            self.corners.begin(heat);
+        }
+    }
+
+    /// When the next step has to end at the latest, in s.
+    pub(crate) fn end_of_step(&mut self, integrator: &mut Stepping<'_>) -> f64 {
+        let time = integrator.time();
+        let mut longest = self.longest;
+        if !self.turns.are_none() {
+            let course = turns::Course { now: &self.now, rates: &self.rates, last: self.last };
+            let scope = integrator.system_mut().scope();
+            longest = longest.min(self.turns.longest(course, scope));
+        }
+        self.kink.min(time + longest)
+    }
+
+    /// What is to be done about the step that was taken last.
+    pub(crate) fn judge(&mut self, integrator: &mut Stepping<'_>, step: &Step) -> Verdict {
+        let length = step.to - step.from;
+        let state = integrator.state().to_vec();
+        let Some(after) = integrator.system_mut().look(step.to, &state).map(<[f64]>::to_vec) else {
+            return Verdict::Stands;
+        };
+        self.attempts += 1;
+        let patient = self.attempts <= ATTEMPTS;
+        if let Some(share) = self.turns.passed([&self.now, &after]).filter(|_| patient) {
+            self.longest = share * length;
+            return Verdict::Back;
+        }
+        let bend = self.corners.bend(integrator, step, ([&self.now, &after], self.fresh));
+        let mut verdict = Verdict::Stands;
+        match bend.filter(|_| patient) {
+            Some(corners::Bend::In { kink, longest }) => {
+                (self.kink, self.longest) = (self.kink.min(kink), longest.min(self.longest));
+                return Verdict::Back;
+            }
+            Some(corners::Bend::Behind) => verdict = Verdict::BeginsAnew,
+            None => {}
+        }
+        if step.to >= self.kink {
+            self.kink = f64::INFINITY;
+            verdict = Verdict::BeginsAnew;
+        }
+        self.goes_on(integrator, step, after);
+        verdict
+    }
+
+    fn goes_on(&mut self, integrator: &mut Stepping<'_>, step: &Step, after: Vec<f64>) {
+        let length = step.to - step.from;
+        if !self.turns.are_none() && length > 0.0 {
+            let mut state = integrator.state().to_vec();
+            let time = (step.to - END * length).clamp(step.from, step.to);
+            let read = time < step.to && integrator.interpolate(time, &mut state).is_ok();
+            let before = integrator.system_mut().look(time, &state).filter(|_| read);
+            let (before, way) = match before {
+                Some(before) => (before, step.to - time),
+                None => (&self.now[..], length),
+            };
+            let changes = after.iter().zip(before).map(|(after, before)| (after - before) / way);
+            self.rates.iter_mut().zip(changes).for_each(|(rate, change)| *rate = change);
+        }
+        self.now = after;
+        self.corners.accept();
+        (self.fresh, self.last, self.attempts) = (false, length, 0);
+        self.longest *= GROWTH;
+    }
+}

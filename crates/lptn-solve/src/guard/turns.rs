@@ -1,0 +1,160 @@
+//! Places where an expression of temperatures turns: no step goes past one unseen.
+
+use lptn_assembly::ThermalSystem;
+use lptn_network::{Evaluation, Network, Reader};
+
+/// How far to both sides of a temperature turns are looked for, in K.
+const AROUND: f64 = 100.0;
+
+/// The narrowest that is looked for there, in K.
+const NARROWEST: f64 = 1e-3;
+
+/// What changes by less than this in the next steps, in K, passes nothing.
+const STILL: f64 = 0.01;
+
+/// The longest way of a temperature in the first step, in K, if something else than one number is
+/// read.
+const FIRST: f64 = 5.0;
+
+/// How many times as long as the last step the next may be there ..
+const LONGER: f64 = 2.0;
+
+/// .. and how much further is looked.
+const FURTHER: f64 = 1.5;
+
+/// The expressions that turn.
+pub(super) struct Turns {
+    network: Network,
+    /// Those that read one number, each with its family.
+    single: Vec<(Reader, usize)>,
+    families: Vec<Family>,
+    /// All others.
+    several: Vec<Reader>,
+}
+
+/// Where the expressions of a family turn.
+#[derive(Clone, Debug)]
+struct Family {
+    reader: Reader,
+    /// Looked at from here to there.
+    range: [f64; 2],
+    /// Ascending.
+    turns: Vec<[f64; 2]>,
+}
+
+/// How temperatures go on.
+#[derive(Clone, Copy)]
+pub(super) struct Course<'a> {
+    pub(super) now: &'a [f64],
+    pub(super) rates: &'a [f64],
+    /// Length of the last step in s; 0 if there was none.
+    pub(super) last: f64,
+}
+
+impl Turns {
+    pub(super) fn of(system: &ThermalSystem) -> Self {
+        let network = system.network().clone();
+        let given = network.nodes().len();
+        let mut turns =
+            Self { network, single: Vec::new(), families: Vec::new(), several: Vec::new() };
+        let mut known = std::collections::BTreeMap::new();
+        for reader in turns.network.readers() {
+            // of temperatures that are given those over time take care
+            if reader.reads_only(|vertex| vertex >= given) {
+                continue;
+            }
+            let Some(family) = reader.family() else {
+                turns.several.push(reader);
+                continue;
+            };
+            let next = turns.families.len();
+            let place = *known.entry(family).or_insert(next);
+            if place == next {
+                let family = Family { reader: reader.clone(), range: [f64::NAN; 2], turns: vec![] };
+                turns.families.push(family);
+            }
+            turns.single.push((reader, place));
+        }
+        turns
+    }
+
+    pub(super) fn are_none(&self) -> bool {
+        self.single.is_empty() && self.several.is_empty()
+    }
+
+    /// How long the next step may be in s, so that it ends where something turns.
+    pub(super) fn longest(&mut self, course: Course<'_>, scope: &Evaluation) -> f64 {
+        let mut longest = f64::INFINITY;
+        for (reader, family) in &self.single {
+            let (number, rate) = (reader.number(course.now), reader.number(course.rates));
+            let family = &mut self.families[*family];
+            family.reach(&self.network, scope, number);
+            if rate != 0.0 {
+                longest = longest.min((family.next(number, rate > 0.0) - number) / rate);
+            }
+        }
+        if self.several.is_empty() { longest } else { longest.min(self.of_several(course, scope)) }
+    }
+
+    fn of_several(&self, Course { now, rates, last }: Course<'_>, scope: &Evaluation) -> f64 {
+        let fastest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
+        let way = if last > 0.0 { LONGER * last } else { FIRST / fastest };
+        if !way.is_finite() || way * fastest < STILL {
+            return if last > 0.0 { way.max(STILL / fastest) } else { f64::INFINITY };
+        }
+        let far = FURTHER * way;
+        let ahead: Vec<f64> = now.iter().zip(rates).map(|(now, rate)| now + far * rate).collect();
+        let least = NARROWEST / (far * fastest);
+        let mut longest = way;
+        for reader in &self.several {
+            let turns = self.network.turns(reader, scope, [now, &ahead], least);
+            if let Some([from, to]) = turns.first() {
+                longest = longest.min(far * from.midpoint(*to)).max(STILL / fastest);
+            }
+        }
+        longest
+    }
+
+    /// If a step has carried something past a turn: the share of the step after which it was there.
+    pub(super) fn passed(&self, [before, after]: [&[f64]; 2]) -> Option<f64> {
+        let mut first: Option<f64> = None;
+        for (reader, family) in &self.single {
+            let (from, to) = (reader.number(before), reader.number(after));
+            let (low, high) = (from.min(to), from.max(to));
+            for [a, b] in &self.families[*family].turns {
+                if low < *a && high > *b {
+                    let share = (a.midpoint(*b) - from) / (to - from);
+                    first = Some(first.map_or(share, |first| first.min(share)));
+                }
+            }
+        }
+        first
+    }
+}
+
+impl Family {
+    /// Looks for turns around a number, unless that was done.
+    fn reach(&mut self, network: &Network, scope: &Evaluation, number: f64) {
+        let [low, high] = self.range;
+        if (number - low).min(high - number) >= 0.1 * AROUND || !number.is_finite() {
+            return;
+        }
+        let range = [number - AROUND, number + AROUND];
+        let least = NARROWEST / (2.0 * AROUND);
+        let turns = network.turns_between(&self.reader, scope, range, least);
+        let place = |share: f64| range[0] + share * (range[1] - range[0]);
+        self.turns = turns.into_iter().map(|turn| turn.map(place)).collect();
+        self.range = range;
+    }
+
+    /// The next turn, or the end of the range that was looked at.
+    fn next(&self, number: f64, rises: bool) -> f64 {
+        let middle = |turn: &[f64; 2]| turn[0].midpoint(turn[1]);
+        if rises {
+            let next = self.turns.iter().find(|turn| turn[0] > number);
+            return next.map_or(self.range[1], middle);
+        }
+        let next = self.turns.iter().rev().find(|turn| turn[1] < number);
+        next.map_or(self.range[0], middle)
+    }
+}

@@ -1,0 +1,138 @@
+//! Where a result turns: rises no longer and falls from there on, or the other way round.
+
+use super::program::Program;
+use crate::taylor::Taylor;
+
+/// A part of a way, as shares of it from 0 to 1.
+type Part = [f64; 2];
+
+/// Bounds are asked for so many times at most.
+const LOOKS: usize = 20_000;
+
+/// Values that differ by less than this part of their size are one value.
+const SAME: f64 = 1e-8;
+
+/// Beside a turn a value is that of the turn up to this part of what it falls or rises there.
+const NEAR: f64 = 0.1;
+
+/// Halvings in search of how far that is.
+const HALVINGS: usize = 40;
+
+impl Program {
+    /// Where the result turns while each slot that it reads goes straight from the first number of
+    /// `ways` to the second: the part of the way, between 0 and 1 and ascending, in which it is
+    /// about what it is at the turn, which lies inside. Between two of them it never falls, or
+    /// never rises. That follows from bounds, not from looks at some places, so that nothing can
+    /// hide which is wider than `least`, a share of the way.
+    ///
+    /// Where bounds are not known, as behind the end of a table, nothing is told.
+    pub fn turns(&self, ways: &dyn Fn(u32) -> [f64; 2], least: f64) -> Vec<[f64; 2]> {
+        let mut walk =
+            Walk { program: self, ways, least, looks: LOOKS, last: None, turns: Vec::new() };
+        let ends = self.corners(ways);
+        ends.windows(2).for_each(|part| walk.look([part[0], part[1]]));
+        let turns = std::mem::take(&mut walk.turns);
+        let place = |k: usize| turns.get(k).map_or(1.0, |turn| turn[0]);
+        let widened = turns.iter().enumerate().map(|(k, &[from, to])| {
+            let before = k.checked_sub(1).map_or(0.0, |k| turns[k][1]);
+            [walk.beside(from, before), walk.beside(to, place(k + 1))]
+        });
+        widened.collect()
+    }
+
+    /// The ends of the way and the shares at which an argument that goes straight meets a kink or
+    /// a knot, ascending.
+    fn corners(&self, ways: &dyn Fn(u32) -> [f64; 2]) -> Vec<f64> {
+        let mut corners = vec![0.0, 1.0];
+        let mut add = |argument: &Program, knots: &[f64]| {
+            let [a, b] = [0, 1].map(|end| argument.at_slots(&|slot| ways(slot)[end]));
+            let shares = knots.iter().map(|knot| (knot - a) / (b - a));
+            corners.extend(shares.filter(|share| *share > 0.0 && *share < 1.0));
+        };
+        self.kinks.iter().for_each(|kink| add(kink, &[0.0]));
+        for call in &self.table_calls {
+            for (axis, argument) in call.arguments.iter().enumerate() {
+                add(argument, call.table.knots(axis));
+            }
+        }
+        corners.sort_by(f64::total_cmp);
+        corners.dedup();
+        corners
+    }
+
+    /// The result for these numbers; NaN if it has none.
+    fn at_slots(&self, of: &dyn Fn(u32) -> f64) -> f64 {
+        let size = self.slots.last().map_or(0, |last| *last as usize + 1);
+        let mut slots = vec![f64::NAN; size];
+        self.slots.iter().for_each(|&slot| slots[slot as usize] = of(slot));
+        self.eval(&slots, &mut Vec::new()).unwrap_or(f64::NAN)
+    }
+}
+
+struct Walk<'a> {
+    program: &'a Program,
+    ways: &'a dyn Fn(u32) -> [f64; 2],
+    least: f64,
+    looks: usize,
+    /// Where it last rose or fell, and whether it rose.
+    last: Option<(f64, bool)>,
+    turns: Vec<Part>,
+}
+
+impl Walk<'_> {
+    fn value(&self, share: f64) -> f64 {
+        self.program.at_slots(&|slot| {
+            let [from, to] = (self.ways)(slot);
+            from + share * (to - from)
+        })
+    }
+
+    /// Takes in the next part of the way.
+    fn look(&mut self, [from, to]: Part) {
+        self.looks = self.looks.saturating_sub(1);
+        let bounds = self.program.enclosed(&|slot| Taylor::on_way((self.ways)(slot), [from, to]));
+        let slope = bounds.slope();
+        if bounds.value().is_bounded() {
+            if bounds.value().width() <= SAME * bounds.value().magnitude() {
+                return;
+            }
+        } else if [from, to].iter().all(|share| self.value(*share).is_nan()) {
+            return;
+        }
+        if slope.low >= 0.0 || slope.high <= 0.0 {
+            return self.goes([from, to], slope.low >= 0.0);
+        }
+        if to - from > self.least && self.looks > 0 {
+            let middle = from.midpoint(to);
+            self.look([from, middle]);
+            return self.look([middle, to]);
+        }
+        let (a, b) = (self.value(from), self.value(to));
+        if (b - a).abs() > SAME * a.abs().max(b.abs()) {
+            self.goes([from, to], b > a);
+        }
+    }
+
+    fn goes(&mut self, [from, to]: Part, rises: bool) {
+        if let Some((end, rose)) = self.last
+            && rose != rises
+        {
+            self.turns.push([end, from]);
+        }
+        self.last = Some((to, rises));
+    }
+
+    /// How far from a turn towards another place the value is about the same.
+    fn beside(&self, turn: f64, other: f64) -> f64 {
+        let top = self.value(turn);
+        let all = (self.value(other) - top).abs();
+        let mut way = other - turn;
+        for _ in 0..HALVINGS {
+            way *= 0.5;
+            if (self.value(turn + way) - top).abs() <= NEAR * all {
+                break;
+            }
+        }
+        turn + way
+    }
+}
