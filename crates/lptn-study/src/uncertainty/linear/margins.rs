@@ -1,9 +1,8 @@
 //! How the margins of limits change with the parameters.
 
-use lptn_assembly::ThermalSystem;
 use lptn_network::{LimitId, OutputTimes};
 use lptn_solve::{
-    Gradient, LimitSeen, RecordedNodes, SensitiveRun, Solution, Transient, limit_margins_at,
+    Gradient, LimitSeen, RecordedNodes, SensitiveRun, Solution, Transient, on_both_sides, own_side,
     sensitive_run,
 };
 
@@ -36,13 +35,18 @@ pub(super) fn effects(
             |limit: &LimitSeen| line.inputs.iter().map(|input| of_runs(limit, input)).collect();
         return Ok(seen.iter().map(all).collect());
     }
-    let ends = [task.run.start, task.run.stop];
-    let output = OutputTimes::At(joined(&ends, seen.iter().map(|limit| limit.worst_at)));
+    let ends = (task.run.start, task.run.stop);
+    let worst = on_both_sides(seen.iter().map(|limit| limit.worst_at), ends);
+    let output = OutputTimes::At(joined(&[ends.0, ends.1], worst.into_iter()));
     let settings =
         Transient { output, record: RecordedNodes::All, watch: Vec::new(), ..task.watched() };
     let run = sensitive_run(task.network, &settings, &ids(line.inputs))?;
     let all = |limit: &LimitSeen| {
-        line.inputs.iter().map(|input| of_expression(task, &run, (limit, input))).collect()
+        let margin = |row: usize| run.margin_in_row(limit.limit, row).unwrap_or(f64::NAN);
+        let worst = (limit.worst_at, limit.margin);
+        let row = own_side((run.solution.times(), margin), worst, ends);
+        let one = |input: &Uncertain| of_expression(&run, (limit.limit, row), input);
+        line.inputs.iter().map(one).collect()
     };
     seen.iter().map(all).collect()
 }
@@ -50,40 +54,10 @@ pub(super) fn effects(
 /// The margin at the time at which it is least, with the parameter and the temperatures moved to
 /// both sides.
 fn of_expression(
-    task: &UncertaintyTask<'_>,
     run: &SensitiveRun,
-    (limit, input): (&LimitSeen, &Uncertain),
+    limit: (LimitId, usize),
+    input: &Uncertain,
 ) -> Result<f64, UncertaintyError> {
-    let times = run.solution.times();
-    let distance = |place: &usize| (times[*place] - limit.worst_at).abs();
-    let place = (0..times.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
-    let slopes: Vec<f64> = task
-        .network
-        .node_ids()
-        .map(|node| run.sensitivity(input.parameter, node).map_or(0.0, |slopes| slopes[place]))
-        .collect();
-    let moved = |change: f64| {
-        let mut parameters = task.parameters.clone();
-        parameters.set(input.parameter, input.value + change);
-        let temperatures: Vec<f64> = run
-            .solution
-            .row(place)
-            .iter()
-            .zip(&slopes)
-            .map(|(t, slope)| t + slope * change)
-            .collect();
-        margin(task, &parameters, (limit.limit, times[place]), &temperatures)
-    };
-    let change = PART * input.deviation;
-    Ok((moved(change)? - moved(-change)?) / (2.0 * PART))
-}
-
-fn margin(
-    task: &UncertaintyTask<'_>,
-    parameters: &lptn_network::Parameters,
-    (limit, time): (LimitId, f64),
-    temperatures: &[f64],
-) -> Result<f64, UncertaintyError> {
-    let system = ThermalSystem::of(task.network, parameters)?;
-    Ok(limit_margins_at(&system, time, temperatures)?[limit.index()])
+    let by = PART * input.deviation;
+    Ok(run.margin_slope_in_row((input.parameter, by), limit)? * input.deviation)
 }
