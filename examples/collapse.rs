@@ -19,9 +19,12 @@ fn main() -> Result<(), lptn::Error> {
         let (system, steel, _) = gearbox(ratio * 0.3)?;
         let reduction = Reduction::new(&system, steel, &ReductionOptions::default())?;
         let pairs = reduction.dynamics.expect("the gearbox stores heat").pairs;
-        let error = |i: usize| pairs[i].step.and_then(|step| step.relative).unwrap_or(0.0);
-        let now = [Definition::Sum, Definition::FirstMoment, Definition::DominantPole]
-            .map(|d| Definition::ALL.iter().position(|other| *other == d).map_or(0.0, error));
+        let error = |definition: Definition| {
+            let pair = pairs.iter().find(|pair| pair.definition == definition);
+            let step = pair.and_then(|pair| pair.step).and_then(|step| step.relative);
+            step.expect("a network without streams has the error of a step for each definition")
+        };
+        let now = [Definition::Sum, Definition::FirstMoment, Definition::DominantPole].map(error);
         let order =
             |i: usize| before.map_or(String::new(), |b| format!("{:.2}", (now[i] / b[i]).log10()));
         let cell = |i: usize| format!("{:.4} ({:>4})", 100.0 * now[i], order(i));

@@ -378,3 +378,26 @@ fn csv_has_both_ends_of_every_interval() {
         assert!((value + half - high).abs() <= 1e-9 * value, "{line}");
     }
 }
+
+/// A room that is sought: JSON gives it in degC, as the text does, and its errors in K. With all else
+/// known the record is that of a room of 25.5 degC.
+#[test]
+fn a_fitted_temperature_is_in_the_unit_of_the_text() {
+    let param = "P = \"224 W\"\nR = \"0.3 K/W\"\nC = \"2700 J/K\"\nT_room = \"20 ± 8 degC\"";
+    let folder = folder(param, "sigma = \"0.1 K\"\nvary = [\"T_room\"]");
+    let text = netlist(param, "sigma = \"0.1 K\"\nvary = [\"T_room\"]");
+    folder.write("body.toml", &text.replace("\"25.5 degC\"", "\"T_room\""));
+    let run = folder.run(&["fit", "network", "body.toml"]).exits(0);
+    assert!(run.out.lines().any(|line| line.starts_with("T_room") && line.contains("degC")));
+    let json = folder.run(&["fit", "network", "body.toml", "--format", "json"]).exits(0).json();
+    let room = &json["parameters"]["T_room"];
+    assert_eq!(room["unit"], "degC");
+    near(&room["value"], 25.5, 1e-4);
+    near(&room["start"], 20.0, 1e-12);
+    near(&room["prior"], 8.0, 1e-12);
+    let error = room["standard_error"].as_f64().unwrap();
+    assert!(error < 0.1, "{error} K");
+    let [low, high] = [0, 1].map(|end| room["interval_95"][end].as_f64().unwrap());
+    assert!(low <= 25.51 && 25.49 <= high && high - low < 1.0, "{low} to {high} degC");
+    assert_eq!(json["shared_noise"], serde_json::json!([]));
+}

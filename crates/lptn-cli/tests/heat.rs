@@ -304,3 +304,64 @@ fn networks_that_make_sense_are_left_alone() {
     }
     assert!(seen > 60, "{seen}");
 }
+
+/// Two hot bodies and two cold ones, each pair exchanging 1.3e308 J: every sum of heats that is
+/// stored is beyond what a number holds, so the balance cannot close, while temperatures can be
+/// computed as of any network.
+fn unbalanced() -> Folder {
+    let text = "format = 1\n[param]\nk = '1 ± 0.1'\n[signal]\nP = '0 W'\n[node]\n\
+        c1 = { C = '1e307 J/K', T0 = '20 degC' }\nc2 = { C = '1e307 J/K', T0 = '20 degC' }\n\
+        h1 = { C = '1e307 J/K', T0 = '46 degC' }\nh2 = { C = '1e307 J/K', T0 = '46 degC' }\n\
+        [boundary]\nair = { T = '20 degC' }\n[resistor]\n\
+        r1 = { from = 'h1', to = 'c1', G = 'k * 1e305 [W/K]' }\n\
+        r2 = { from = 'h2', to = 'c2', G = '1e305 W/K' }\n\
+        s1 = { from = 'c1', to = 'air', G = '1e303 W/K' }\n\
+        s2 = { from = 'c2', to = 'air', G = '1e303 W/K' }\n\
+        [source]\ns = { into = 'h1', P = 'P' }\n[limit]\nhot = { of = 'h1.T', below = '50 degC' }\n\
+        [run]\nstop = '1000 s'\n\
+        [fit.f]\ndata = 'r.csv'\ncolumn = { x = 'h1.T' }\nvary = { k = { from = 0.1, to = 10 } }\n\
+        [infer.i]\ndata = 'r.csv'\ncolumn = { x = 'h1.T' }\nsigma = '0.1 K'\nfind = ['P']\n\
+        [sweep.w]\nmethod = 'grid'\nover = 'run'\naxes.k = [1, 2]\nreport.top = 'max(h1.T)'\n\
+        [size.z]\nminimise = 'k'\nover = 'run'\nvary = { k = { from = 0.1, to = 5 } }\n\
+        require = ['h1.T <= 48 [degC]']\n";
+    let folder = Folder::with("x.toml", text);
+    let row = |k: u32| {
+        let t = 10.0 * f64::from(k);
+        format!("{t},{}\n", 33.0 + 13.0 * f64::exp(-0.02 * t))
+    };
+    let rows: String = (0..=100).map(row).collect();
+    folder.write("r.csv", &format!("t [s],x [degC]\n{rows}"));
+    let settled = text.replace(
+        "P = '0 W'\n",
+        "P = { t = [0, 50], v = [0, 1], t_unit = 's', v_unit = 'W', interp = 'previous', after_end = \
+         'repeat', period = '100 s' }\n",
+    );
+    let (before, rest) = settled.split_once("[infer.i]").unwrap();
+    let (_, after) = rest.split_once("[sweep.w]").unwrap();
+    folder.write("cycle.toml", &format!("{before}[sweep.w]{after}"));
+    folder
+}
+
+/// One place asks whether the energy balance of a run closes, so whoever computes one is told.
+#[test]
+fn a_run_whose_balance_does_not_close_is_no_result_of_any_verb() {
+    let folder = unbalanced();
+    for words in [
+        "run x.toml --no-files",
+        "run x.toml --no-files --uncertainty linear",
+        "fit network x.toml",
+        "infer x.toml",
+        "reduce x.toml --port h1",
+        "rank x.toml --over run",
+        "size x.toml",
+        "compare x.toml x.toml",
+        "compare x.toml x.toml --uncertainty",
+        "compare cycle.toml cycle.toml",
+        "verify x.toml",
+        "graph x.toml --at 500s",
+    ] {
+        let words: Vec<&str> = words.split(' ').collect();
+        folder.run(&words).exits(3).says("run::ledger");
+    }
+    folder.run(&["sweep", "x.toml"]).exits(3).prints("2 candidates failed with run::ledger");
+}

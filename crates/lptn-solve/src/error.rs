@@ -4,6 +4,7 @@ use lptn_integrate::{FactorError, IntegrateError};
 use lptn_network::{Field, InputError, Item, NodeId, ZERO_CELSIUS, list_of, list_of_names};
 use lptn_units::{Class, format_six as six_digits};
 
+use crate::ledger::LedgerError;
 use crate::settings_error::SettingsError;
 use crate::solution::Solution;
 use crate::unsolved::Unsolved;
@@ -100,6 +101,9 @@ pub enum TransientError {
             StopReason::NothingSwitches => Class::Input,
             _ => Class::Numbers,
         };
+    /// The run reached its stop, but its energy balance does not close; the run is whole.
+    Open { open: LedgerError, solution: Box<Solution> } = open.code(), open, source open,
+        help open.help(), class Class::Numbers;
 }
 }
 

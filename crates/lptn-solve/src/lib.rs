@@ -57,6 +57,7 @@ mod sensitivity_rows;
 mod settings;
 mod settings_error;
 mod several;
+mod sides;
 mod snapshot;
 mod solution;
 mod stability;
@@ -87,7 +88,7 @@ pub use events::{ControlState, Event, EventKind};
 pub use exact::{Difference, ExactError, ExactSolution};
 pub use last::LastState;
 pub use ledger::{Ledger, LedgerError};
-pub use limit::{LimitSeen, limit_margins_at};
+pub use limit::LimitSeen;
 pub use linearised::{Linearised, LinearisedError, Tried};
 #[cfg(feature = "cvodes")]
 pub use lptn_cvodes::{Linkage, linked};
@@ -106,11 +107,13 @@ pub use runaway::Feedback;
 pub use selection::{RecordedNodes, Selection, name_matches};
 pub use sense::Beyond;
 pub use sensitive_run::{
-    Gradient, SensitiveError, SensitiveRun, sensitive_run, sensitive_run_observed,
+    Gradient, MarginError, SensitiveError, SensitiveRun, can_move, sensitive_run,
+    sensitive_run_observed,
 };
 pub use settings::{Proceed, Progress, Transient};
 pub use settings_error::SettingsError;
 pub use several::Others;
+pub use sides::{on_both_sides, own_side};
 pub use snapshot::Snapshot;
 pub use solution::{RunStatus, Solution, SolutionError, Unbounded};
 pub use state::State;

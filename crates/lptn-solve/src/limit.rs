@@ -176,26 +176,6 @@ impl<'a> LimitWatch<'a> {
     }
 }
 
-/// The margin of each limit in SI units where the nodes have these temperatures in K, with inputs
-/// as they are at `time` in s and everything that switches as it stands at the start; see
-/// [`Network::limit_margin`].
-///
-/// # Errors
-/// [`InputError`] if an input or a limit has no value.
-pub fn limit_margins_at(
-    system: &ThermalSystem,
-    time: f64,
-    temperatures: &[f64],
-) -> Result<Vec<f64>, InputError> {
-    let mut work = system.workspace();
-    system.read_inputs(&mut work, time, time)?;
-    system.place(&mut work, temperatures);
-    let mut reading = Reading::new(system);
-    reading.place(&mut work, (time, time))?;
-    let network = system.network();
-    network.limit_ids().map(|id| network.limit_margin(id, &mut reading.scope)).collect()
-}
-
 /// Events with the limits that were broken, in the order of time.
 pub(crate) fn with_limits(mut events: Vec<Event>, limits: &[LimitSeen]) -> Vec<Event> {
     let broken = limits.iter().filter_map(|seen| Some((seen.limit, seen.broken_at?)));

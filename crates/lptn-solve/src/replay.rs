@@ -1,7 +1,7 @@
 //! The rows of a run, one after the other, as they were.
 
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::{ConductorId, Positions, Received, Value};
+use lptn_network::{ConductorId, InputError, LimitId, Positions, Received, Value};
 
 use crate::quantity::Quantity;
 use crate::reading::Reading;
@@ -12,14 +12,14 @@ pub(crate) struct Replay<'a> {
     system: &'a ThermalSystem,
     work: Workspace,
     reading: Reading<'a>,
-    /// Whether its values can be had.
-    known: bool,
+    /// Why its values cannot be had, if they cannot.
+    known: Result<(), InputError>,
 }
 
 impl<'a> Replay<'a> {
     /// At no row yet.
     pub(crate) fn new(system: &'a ThermalSystem) -> Self {
-        Self { system, work: system.workspace(), reading: Reading::new(system), known: false }
+        Self { system, work: system.workspace(), reading: Reading::new(system), known: Ok(()) }
     }
 
     /// What stands in other positions from here on.
@@ -32,20 +32,29 @@ impl<'a> Replay<'a> {
     pub(crate) fn go_to(&mut self, at: (f64, f64), nodes: &[f64]) {
         let read = self.system.read_inputs(&mut self.work, at.0, at.1);
         self.system.place(&mut self.work, nodes);
-        self.known = read.and_then(|()| self.reading.place(&mut self.work, at)).is_ok();
+        self.known = read.and_then(|()| self.reading.place(&mut self.work, at));
     }
 
     /// One quantity in SI units. What could be evaluated in the run can be here.
     pub(crate) fn value(&mut self, quantity: Quantity) -> f64 {
-        let value =
-            if self.known { self.reading.value(&mut self.work, quantity).ok() } else { None };
+        let value = if self.known.is_ok() {
+            self.reading.value(&mut self.work, quantity).ok()
+        } else {
+            None
+        };
         value.unwrap_or(f64::NAN)
     }
 
     /// An expression of results in SI units, compiled for this network.
     pub(crate) fn result(&mut self, value: &Value) -> f64 {
-        let found = if self.known { value.at(&mut self.reading.scope).ok() } else { None };
+        let found = if self.known.is_ok() { value.at(&mut self.reading.scope).ok() } else { None };
         found.unwrap_or(f64::NAN)
+    }
+
+    /// The margin of a limit in SI units.
+    pub(crate) fn margin(&mut self, limit: LimitId) -> Result<f64, InputError> {
+        self.known.clone()?;
+        self.system.network().limit_margin(limit, &mut self.reading.scope)
     }
 
     /// The workspace of this row.
@@ -59,6 +68,7 @@ impl<'a> Replay<'a> {
         self.system.unknown_temperatures(self.system.node_temperatures(&self.work), &mut unknowns);
         let taken = self
             .known
+            .is_ok()
             .then(|| Snapshot::of_workspace(self.system, &mut self.work, &unknowns, (time, false)));
         taken?.ok()
     }

@@ -1,7 +1,7 @@
 //! A run together with how its temperatures change with parameters.
 
 use lptn_assembly::{ChangeError, ThermalSystem};
-use lptn_network::{LimitId, Network, NoTangents, NodeId, ParameterId, Value};
+use lptn_network::{InputError, LimitId, Network, NoTangents, NodeId, ParameterId, Value};
 
 use crate::error::TransientError;
 use crate::settings::{Proceed, Progress, Transient};
@@ -35,9 +35,33 @@ pub struct SensitiveRun {
     pub solution: Solution,
     /// How the sensitivities were had.
     pub gradient: Gradient,
-    /// For each parameter the solutions below and above with the distance of the two, where they
-    /// are differences.
-    differences: Vec<(ParameterId, [Solution; 2], f64)>,
+    /// The runs beside it, where sensitivities are differences.
+    differences: Vec<Difference>,
+}
+
+/// Runs with other values of one parameter: the sum of what they say, each times its weight in 1
+/// over the parameter's SI unit, is a derivative.
+#[derive(Clone, Debug)]
+struct Difference {
+    parameter: ParameterId,
+    runs: Vec<(f64, Solution)>,
+}
+
+impl Difference {
+    fn slope(&self, of: impl Fn(&Solution) -> Option<f64>) -> Option<f64> {
+        self.runs.iter().map(|(weight, run)| Some(weight * of(run)?)).sum()
+    }
+
+    /// Row by row.
+    fn slopes(&self, of: impl Fn(&Solution) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
+        let mut sum = Vec::new();
+        for (weight, run) in &self.runs {
+            let values = of(run)?;
+            sum.resize(values.len(), 0.0);
+            sum.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
+        }
+        Some(sum)
+    }
 }
 
 lptn_units::errors! {
@@ -50,6 +74,17 @@ pub enum SensitiveError {
     Change => ChangeError;
     /// It was interrupted.
     Interrupted = "run::interrupted", "the run was interrupted";
+}
+}
+
+lptn_units::errors! {
+/// Why a margin has no slope.
+#[derive(Debug)]
+pub enum MarginError {
+    /// The network with the parameter changed.
+    Change => ChangeError;
+    /// The limit has no value.
+    Input => InputError;
 }
 }
 
@@ -86,14 +121,15 @@ pub fn sensitive_run_observed(
     match run(&system, &settings.clone().sensitivities(parameters)) {
         Err(SensitiveError::Run(TransientError::Settings(SettingsError::Sensitivity(why)))) => {
             let solution = run(&system, &settings.clone().sensitivities(&[]))?;
-            let one = |&id: &ParameterId| {
-                let (value, step) = (network.parameter_value(id), step(network, id));
-                let at = |value: f64| {
+            let one = |&parameter: &ParameterId| {
+                let (own, step) = (network.parameter_value(parameter), step(network, parameter));
+                let at = |steps: f64| {
                     let mut changed = network.given();
-                    changed.set(id, value);
+                    changed.set(parameter, own + steps * step);
                     run(&system.with(&changed)?, settings)
                 };
-                Ok((id, [at(value - step)?, at(value + step)?], 2.0 * step))
+                let runs = difference(at, (&solution, step))?;
+                Ok(Difference { parameter, runs })
             };
             let differences = parameters.iter().map(one).collect::<Result<_, SensitiveError>>()?;
             Ok(SensitiveRun { solution, gradient: Gradient::Differences(why), differences })
@@ -104,6 +140,46 @@ pub fn sensitive_run_observed(
             differences: Vec::new(),
         }),
     }
+}
+
+/// The runs of a central difference, `at` so many steps from the own value; where one side has no
+/// run, because the value is at the end of its range, those of a difference to the other side,
+/// which is of the second order too.
+fn difference(
+    at: impl Fn(f64) -> Result<Solution, SensitiveError>,
+    (own, step): (&Solution, f64),
+) -> Result<Vec<(f64, Solution)>, SensitiveError> {
+    let one_sided = |side: f64, near: Solution| {
+        let unit = side / step;
+        match at(2.0 * side) {
+            Ok(far) => Ok(vec![(-1.5 * unit, own.clone()), (2.0 * unit, near), (-0.5 * unit, far)]),
+            Err(SensitiveError::Interrupted) => Err(SensitiveError::Interrupted),
+            Err(_) => Ok(vec![(-unit, own.clone()), (unit, near)]),
+        }
+    };
+    match (at(-1.0), at(1.0)) {
+        (Err(SensitiveError::Interrupted), _) | (_, Err(SensitiveError::Interrupted)) => {
+            Err(SensitiveError::Interrupted)
+        }
+        (Ok(below), Ok(above)) => Ok(vec![(-0.5 / step, below), (0.5 / step, above)]),
+        (Ok(below), Err(_)) => one_sided(-1.0, below),
+        (Err(_), Ok(above)) => one_sided(1.0, above),
+        (Err(refused), Err(_)) => Err(refused),
+    }
+}
+
+/// That a parameter may be a little larger or smaller than it is: a count may not.
+///
+/// # Errors
+/// [`ChangeError`] of the larger value if the network takes neither.
+pub fn can_move(network: &Network, parameter: ParameterId) -> Result<(), ChangeError> {
+    let (own, step) = (network.parameter_value(parameter), step(network, parameter));
+    let at = |value: f64| {
+        let mut changed = network.given();
+        changed.set(parameter, value);
+        network.with(&changed).map(drop).map_err(ChangeError::from)
+    };
+    at(own + step).or_else(|refused| at(own - step).map_err(|_| refused))
 }
 
 fn step(network: &Network, id: ParameterId) -> f64 {
@@ -117,17 +193,24 @@ fn step(network: &Network, id: ParameterId) -> f64 {
     CHANGE * size
 }
 
+/// A margin bends where its slopes to both sides differ by more than this share.
+const BENT: f64 = 0.05;
+
+/// Differences of margins below this share of 1 and the margin are rounding.
+const ROUNDING: f64 = 1e-10;
+
 impl SensitiveRun {
+    fn difference(&self, parameter: ParameterId) -> Option<&Difference> {
+        self.differences.iter().find(|difference| difference.parameter == parameter)
+    }
+
     /// How the temperature of a node changes with a parameter over the rows, in K per SI unit of
     /// the parameter; `None` for a node that was not recorded or another parameter.
     pub fn sensitivity(&self, parameter: ParameterId, node: NodeId) -> Option<Vec<f64>> {
         if self.gradient == Gradient::Exact {
             return self.solution.sensitivity(parameter, node);
         }
-        let (_, solutions, distance) =
-            self.differences.iter().find(|(id, _, _)| *id == parameter)?;
-        let [below, above] = solutions.each_ref().map(|solution| solution.temperature(node));
-        Some(below?.iter().zip(above?).map(|(below, above)| (above - below) / distance).collect())
+        self.difference(parameter)?.slopes(|solution| solution.temperature(node))
     }
 
     /// How an expression of results, compiled for this network, changes with a parameter over the
@@ -138,48 +221,76 @@ impl SensitiveRun {
     /// Where temperatures have exact sensitivities, it is that of the expression along them: a
     /// difference in every row, without a run, good to 1e-8 of itself or so.
     pub fn result_slope(&self, parameter: ParameterId, value: &Value) -> Option<Vec<f64>> {
-        let slope = |below: &[f64], above: &[f64], distance: f64| {
-            below.iter().zip(above).map(|(below, above)| (above - below) / distance).collect()
-        };
         if self.gradient != Gradient::Exact {
-            let (_, solutions, distance) =
-                self.differences.iter().find(|(id, _, _)| *id == parameter)?;
-            let [below, above] = solutions.each_ref().map(|solution| solution.result(value));
-            return Some(slope(&below, &above, *distance));
+            return self.difference(parameter)?.slopes(|solution| Some(solution.result(value)));
         }
-        let network = self.solution.network();
-        let own = network.parameter_value(parameter);
-        let by = FINER * step(network, parameter);
-        // at the end of a parameter's range there is one side only
-        let side = |to: f64| {
-            let beside = self.solution.result_beside(value, (parameter, to)).ok();
-            beside.map_or_else(|| (self.solution.result(value), own), |found| (found, to))
-        };
-        let ((below, from), (above, to)) = (side(own - by), side(own + by));
-        (to > from).then(|| slope(&below, &above, to - from))
+        let by = FINER * step(self.solution.network(), parameter);
+        let beside = |to| self.solution.result_beside(value, (parameter, to));
+        let (below, above, distance) =
+            self.both_sides((parameter, by), beside, || self.solution.result(value)).ok()?;
+        Some(below.iter().zip(above).map(|(below, above)| (above - below) / distance).collect())
+    }
+
+    /// What `beside` says with a parameter lower and higher by `by`, and how far the two are apart:
+    /// at the end of its range there is one side only, and its `own` value on the other.
+    fn both_sides<T>(
+        &self,
+        (parameter, by): (ParameterId, f64),
+        beside: impl Fn(f64) -> Result<T, ChangeError>,
+        own: impl Fn() -> T,
+    ) -> Result<(T, T, f64), ChangeError> {
+        let value = self.solution.network().parameter_value(parameter);
+        match (beside(value - by), beside(value + by)) {
+            (Ok(below), Ok(above)) => Ok((below, above, 2.0 * by)),
+            (Ok(below), Err(_)) => Ok((below, own(), by)),
+            (Err(_), Ok(above)) => Ok((own(), above, by)),
+            (Err(refused), Err(_)) => Err(refused),
+        }
+    }
+
+    /// The margin of a limit in a row of the run, in SI units of its quantity; see
+    /// [`Network::limit_margin`]. NaN unless every node was recorded.
+    ///
+    /// # Errors
+    /// [`InputError`] if it has no value there.
+    pub fn margin_in_row(&self, limit: LimitId, row: usize) -> Result<f64, InputError> {
+        self.solution.margin_in_row(limit, row)
+    }
+
+    /// How that margin changes with a parameter along exact sensitivities, in SI units per SI unit
+    /// of the parameter: a difference over `by` to both sides, without a run. `None` where the
+    /// margin bends, as `min(a.T, b.T)` where both are equal.
+    ///
+    /// # Errors
+    /// [`MarginError`] if the network takes a value on neither side, or the limit has none there.
+    pub fn margin_slope_in_row(
+        &self,
+        (parameter, by): (ParameterId, f64),
+        (limit, row): (LimitId, usize),
+    ) -> Result<Option<f64>, MarginError> {
+        let beside = |to| self.solution.margin_beside((limit, row), (parameter, to));
+        let own = || self.solution.margin_in_row(limit, row);
+        let (below, above, distance) = self.both_sides((parameter, by), beside, own)?;
+        let (below, here, above) = (below?, own()?, above?);
+        let bend = if distance > 1.5 * by { (above + below - 2.0 * here).abs() } else { 0.0 };
+        let straight = bend <= BENT * (above - below).abs() + ROUNDING * (1.0 + here.abs());
+        Ok(straight.then_some((above - below) / distance))
     }
 
     /// How the highest temperature of a watched node changes with a parameter, in K per SI unit of
     /// the parameter, as a difference of runs; `None` where the gradient is exact, or the node was
     /// not watched.
     pub fn peak(&self, parameter: ParameterId, node: NodeId) -> Option<f64> {
-        let (_, solutions, distance) =
-            self.differences.iter().find(|(id, _, _)| *id == parameter)?;
         let peak = |solution: &Solution| {
             solution.watched().iter().find(|seen| seen.watch.node == node).map(|seen| seen.peak.0)
         };
-        let [below, above] = solutions.each_ref().map(peak);
-        Some((above? - below?) / distance)
+        self.difference(parameter)?.slope(peak)
     }
 
     /// How the least margin of a limit changes with a parameter, in SI units of its quantity per SI
     /// unit of the parameter, as a difference of runs; `None` where the gradient is exact: it is
     /// one of temperatures.
     pub fn margin(&self, parameter: ParameterId, limit: LimitId) -> Option<f64> {
-        let (_, solutions, distance) =
-            self.differences.iter().find(|(id, _, _)| *id == parameter)?;
-        let [below, above] =
-            solutions.each_ref().map(|solution| solution.limits()[limit.index()].margin);
-        Some((above - below) / distance)
+        self.difference(parameter)?.slope(|solution| Some(solution.limits()[limit.index()].margin))
     }
 }

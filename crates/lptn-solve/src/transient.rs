@@ -33,7 +33,8 @@ impl Transient {
     /// Runs to the stop.
     ///
     /// # Errors
-    /// [`TransientError`]; a run that breaks off hands over what it computed.
+    /// [`TransientError`]; a run that breaks off hands over what it computed, and so does one whose
+    /// energy balance does not close: no solution that reached its stop has an open one.
     pub fn solve(&self, system: &ThermalSystem) -> Result<Solution, TransientError> {
         self.solve_observed(system, &mut |_| Proceed::Continue)
     }
@@ -67,7 +68,7 @@ impl Transient {
         let mut care = Care::Untried;
         loop {
             if let Some(solution) = self.attempt(system, from, (care, &mut *observer))? {
-                return Ok(solution);
+                return solution.closed();
             }
             if !self.sensitivities.is_empty() {
                 return Err(TransientError::Settings(SettingsError::Sensitivity(

@@ -1,11 +1,11 @@
 //! What to change first: by how much one temperature answers every value of a network.
 
-use lptn_assembly::ThermalSystem;
+use lptn_assembly::{ChangeError, ThermalSystem};
 use lptn_network::{Field, InputError, Item, Network, NodeId, OutputTimes, ParameterId, Value};
 use lptn_solve::{
-    Adjoint, AdjointError, Feedback, Gradient, Influence, LedgerError, Modes, ParameterSlopes,
-    Proceed, Progress, RecordedNodes, RunStatus, SensitiveError, SteadyError, SteadyState,
-    Transient, TransientError, Watch, sensitive_run_observed,
+    Adjoint, AdjointError, Feedback, Gradient, Influence, Modes, ParameterSlopes, Proceed,
+    Progress, RecordedNodes, RunStatus, SensitiveError, SteadyError, SteadyState, Transient,
+    TransientError, Watch, can_move, on_both_sides, own_side, sensitive_run_observed,
 };
 
 use crate::compare::hottest;
@@ -30,8 +30,6 @@ pub enum RankError {
     Run => Box<TransientError>;
     /// The run with its sensitivities.
     Sensitive => SensitiveError;
-    /// The books of one of them do not close.
-    Ledger => LedgerError;
     /// There is no node.
     NoNode = "rank::no_node", "the network has no node whose temperature could answer",
         help "add a [node]";
@@ -51,6 +49,9 @@ pub struct Ranking {
     pub parameters: Vec<Influence>,
     /// Why parameters are not ranked, where the network has no derivatives by them.
     pub not_ranked: Option<String>,
+    /// Parameters that can be neither a little larger nor a little smaller, such as numbers of
+    /// teeth, and why; they are not ranked.
+    pub fixed: Vec<(ParameterId, ChangeError)>,
     /// What values of elements and boundaries do, the most first; of steady states only.
     pub elements: Vec<Influence>,
     /// How much of the heat of sources comes back as more heat, if any does.
@@ -78,7 +79,7 @@ impl Ranking {
         let node = node.or_else(|| hottest(temperatures).map(|(id, _)| id));
         let node = node.ok_or(RankError::NoNode)?;
         let adjoint = Adjoint::of(system, state, node)?;
-        let ids = free(network);
+        let (ids, fixed) = free(network);
         let (slopes, not_ranked) = match adjoint.by_parameters(&ids) {
             Ok(slopes) => (slopes, None),
             Err(ParameterSlopes::Input(error)) => return Err(error.into()),
@@ -96,6 +97,7 @@ impl Ranking {
             at: None,
             parameters: sorted(parameters, temperature),
             not_ranked,
+            fixed,
             elements: sorted(adjoint.influences()?, temperature),
             feedback,
             slowest,
@@ -105,7 +107,8 @@ impl Ranking {
 
     /// Of the highest temperature of `node`, or of the hottest one, in a run: what parameters do to
     /// it, followed along with the temperatures (forward sensitivities). A highest temperature
-    /// changes as the temperature does at its time; `observer` is called after every step and may
+    /// changes as the temperature does at its time, on the side where it stands if something jumps
+    /// there; `observer` is called after every step and may
     /// interrupt.
     ///
     /// # Errors
@@ -116,36 +119,19 @@ impl Ranking {
         observer: &dyn Fn(Progress) -> Proceed,
     ) -> Result<Self, RankError> {
         let network = system.network();
-        let nodes: Vec<NodeId> = node.map_or_else(|| network.node_ids().collect(), |id| vec![id]);
-        let watch: Vec<Watch> = nodes.iter().map(|&node| Watch { node, level: None }).collect();
-        let ends = OutputTimes::At(vec![settings.start, settings.stop]);
+        let (run, peak) = highest(system, (settings, node), observer)?;
+        let Highest { node, temperature, at } = peak;
+        let ends = (settings.start, settings.stop);
         let run = Transient {
-            output: ends,
-            record: RecordedNodes::Nodes(Vec::new()),
-            watch: watch.clone(),
-            windows: Vec::new(),
-            balance: None,
-            ..settings.clone()
-        };
-        let seen = run.solve_observed(system, &mut |progress| observer(progress));
-        let seen = seen.map_err(|error| RankError::Run(Box::new(error)))?;
-        if let RunStatus::Interrupted(_) = seen.end() {
-            return Err(RankError::Sensitive(SensitiveError::Interrupted));
-        }
-        seen.ledger().check()?;
-        let peaks = nodes.iter().zip(seen.watched().iter().map(|watched| watched.peak));
-        let peak = hottest(peaks.map(|(&node, (temperature, at))| ((node, at), temperature)));
-        let ((node, at), temperature) = peak.ok_or(RankError::NoNode)?;
-        let (times, place) = with((settings.start, settings.stop), at);
-        let run = Transient {
-            output: OutputTimes::At(times),
+            output: OutputTimes::At(with(ends, at)),
             record: RecordedNodes::Nodes(vec![node]),
             watch: vec![Watch { node, level: None }],
             ..run
         };
-        let ids = free(network);
+        let (ids, fixed) = free(network);
         let run = sensitive_run_observed(network, (&run, &ids), observer)?;
-        run.solution.ledger().check()?;
+        let rows = run.solution.temperature(node).unwrap_or_default();
+        let place = own_side((run.solution.times(), |row| rows[row]), (at, temperature), ends);
         let slope = |id: ParameterId| {
             let of_runs = run.peak(id, node);
             let at_peak = || run.sensitivity(id, node).and_then(|row| row.get(place).copied());
@@ -163,12 +149,48 @@ impl Ranking {
             at: Some(at),
             parameters,
             not_ranked: None,
+            fixed,
             elements: Vec::new(),
             feedback: None,
             slowest: None,
             differences,
         })
     }
+}
+
+/// The highest temperature of a run.
+struct Highest {
+    node: NodeId,
+    /// In K.
+    temperature: f64,
+    /// In s.
+    at: f64,
+}
+
+/// That of `node` or of the hottest one, and the run that looks for it.
+fn highest(
+    system: &ThermalSystem,
+    (settings, node): (&Transient, Option<NodeId>),
+    observer: &dyn Fn(Progress) -> Proceed,
+) -> Result<(Transient, Highest), RankError> {
+    let nodes = node.map_or_else(|| system.network().node_ids().collect(), |id| vec![id]);
+    let run = Transient {
+        output: OutputTimes::At(vec![settings.start, settings.stop]),
+        record: RecordedNodes::Nodes(Vec::new()),
+        watch: nodes.iter().map(|&node| Watch { node, level: None }).collect(),
+        windows: Vec::new(),
+        balance: None,
+        ..settings.clone()
+    };
+    let seen = run.solve_observed(system, &mut |progress| observer(progress));
+    let seen = seen.map_err(|error| RankError::Run(Box::new(error)))?;
+    if let RunStatus::Interrupted(_) = seen.end() {
+        return Err(RankError::Sensitive(SensitiveError::Interrupted));
+    }
+    let peaks = nodes.iter().zip(seen.watched().iter().map(|watched| watched.peak));
+    let peak = hottest(peaks.map(|(&node, (temperature, at))| ((node, at), temperature)));
+    let ((node, at), temperature) = peak.ok_or(RankError::NoNode)?;
+    Ok((run, Highest { node, temperature, at }))
 }
 
 fn of_parameter(network: &Network, id: ParameterId, slope: f64) -> Influence {
@@ -179,22 +201,27 @@ fn of_parameter(network: &Network, id: ParameterId, slope: f64) -> Influence {
     Influence { of: Item::Parameter(id), field: Field::Value, value, change, ty, absolute }
 }
 
-/// The ends of a run with a time of it, and the place of that among them; one that is next to an end
-/// is the end.
-fn with((start, stop): (f64, f64), at: f64) -> (Vec<f64>, usize) {
+/// The ends of a run with both sides of a time of it; one that is next to an end is the end.
+fn with((start, stop): (f64, f64), at: f64) -> Vec<f64> {
     let same = SAME * (stop - start);
-    match at {
-        at if at - start <= same => (vec![start, stop], 0),
-        at if stop - at <= same => (vec![start, stop], 1),
-        at => (vec![start, at, stop], 1),
-    }
+    let inside = Some(at).filter(|at| at - start > same && stop - at > same);
+    let both = on_both_sides(inside.into_iter(), (start, stop));
+    [start].into_iter().chain(both).chain([stop]).collect()
 }
 
-/// The parameters that are numbers: the others follow from them.
-fn free(network: &Network) -> Vec<ParameterId> {
+/// The parameters that are numbers and may be a little larger or smaller, for the others follow from
+/// them; and those that may not.
+fn free(network: &Network) -> (Vec<ParameterId>, Vec<(ParameterId, ChangeError)>) {
     let is_number =
         |id: &ParameterId| matches!(network.parameters()[id.index()].value, Value::Constant(_));
-    network.parameter_ids().filter(is_number).collect()
+    let (mut free, mut fixed) = (Vec::new(), Vec::new());
+    for id in network.parameter_ids().filter(is_number) {
+        match can_move(network, id) {
+            Ok(()) => free.push(id),
+            Err(why) => fixed.push((id, why)),
+        }
+    }
+    (free, fixed)
 }
 
 /// What does something, the most first; those that do alike stay in their order.

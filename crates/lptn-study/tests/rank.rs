@@ -169,3 +169,77 @@ fn a_body_has_one_conductivity() {
     let area = ranking.elements.iter().find(|influence| influence.field.key() == "area").unwrap();
     near(area.value, 0.2);
 }
+
+/// As in `uncertainty_linear.rs`: P_high warms the chip by R_pad + R_skin (1 - exp(-2)) each W before
+/// it falls to P_low, which comes too late.
+#[test]
+fn a_peak_before_a_jump_is_ranked_on_its_own_side() {
+    let netlist = read(
+        "format = 1\n[param]\nP_high = \"100 W\"\nP_low = \"60 W\"\n[node]\nbody = { C = \"1 kJ/K\", T0 \
+         = \"20 degC\" }\nchip = { massless = true }\n[boundary]\nair = { T = \"20 degC\" }\n\
+         [resistor]\npad = { from = \"chip\", to = \"body\", R = \"0.5 K/W\" }\nskin = { from = \
+         \"body\", to = \"air\", R = \"0.3 K/W\" }\n[source]\nloss = { into = \"chip\", P = \"if(t < 10 \
+         [min], P_high, P_low)\" }\n[run]\nstop = \"20 min\"\n",
+    );
+    let ranking = of_run(&netlist).unwrap();
+    let exact = 10.0 * (0.5 - 0.3 * f64::exp_m1(-2.0));
+    assert!((change(&netlist, &ranking.parameters, "P_high") - exact).abs() < 1e-4);
+    assert_eq!(ranking.parameters.len(), 1, "P_low does nothing");
+}
+
+/// Teeth are counted, so no value next to theirs has a run; the rest is ranked, in steady state, with
+/// exact sensitivities and by differences alike.
+#[test]
+fn counts_are_left_out_and_the_rest_is_ranked() {
+    let text = |skin: &str, fan: &str| {
+        format!(
+            "format = 1\n[param]\nteeth = 20\nG = \"1 W/K\"\n[node]\ngears = {{ C = \"2 kJ/K\", T0 = \"20 \
+             degC\" }}\n[boundary]\nair = {{ T = \"20 degC\" }}\n{fan}[resistor]\nskin = {{ from = \
+             \"gears\", to = \"air\", G = \"{skin}\" }}\n[mesh.pair]\ninto = \"gears\"\nspeed = \"1500 \
+             rpm\"\ntorque = \"30 N m\"\nz1 = \"teeth\"\nz2 = 60\nmodule = \"3 mm\"\nwidth = \"30 mm\"\n\
+             Ra = \"0.5 um\"\nnu = \"60 mm^2/s\"\ndensity = \"860 kg/m^3\"\nmodel = \"external\"\n\
+             [run]\nstop = \"30 min\"\n"
+        )
+    };
+    let fan =
+        "[control]\nfan = { sense = \"gears\", on_above = \"90 degC\", off_below = \"80 degC\" }\n";
+    for (netlist, over_run) in [
+        (read(&text("G", "")), false),
+        (read(&text("G", "")), true),
+        (read(&text("G * (1 + fan)", fan)), true),
+    ] {
+        let ranking = if over_run { of_run(&netlist).unwrap() } else { steady(&netlist, None) };
+        let names = |ids: Vec<Item>| -> Vec<String> {
+            ids.into_iter().map(|id| netlist.network.name_of(id).into_owned()).collect()
+        };
+        let fixed = ranking.fixed.iter().map(|(id, _)| Item::Parameter(*id)).collect();
+        assert_eq!(names(fixed), ["teeth"]);
+        assert_eq!(names(ranking.parameters.iter().map(|i| i.of).collect()), ["G"]);
+    }
+}
+
+/// A value at the end of its range has a slope to one side, of the second order: m = 0 and
+/// k <= 0 by differences of runs, since the heater switches. At t << tau the rise is P t / C.
+#[test]
+fn a_value_at_the_end_of_its_range_is_moved_to_the_other_side() {
+    let netlist = read(
+        "format = 1\n[param]\nsolid = \"50 degC\"\nliquid = \"50 degC\"\nP = \"100 W\"\n[material]\nwax = \
+         { cp = \"2 kJ/(kg K)\", solidus = \"solid\", liquidus = \"liquid\", latent_heat = \"200 \
+         kJ/kg\" }\n[node]\nw = { material = \"wax\", mass = \"0.1 kg\", T0 = \"20 degC\" }\n\
+         [boundary]\nair = { T = \"20 degC\" }\n[resistor]\nskin = { from = \"w\", to = \"air\", R = \
+         \"1 K/W\" }\n[control]\nheater = { sense = \"w\", on_below = \"30 degC\", off_above = \"200 \
+         degC\", start = \"on\" }\n[source]\nloss = { into = \"w\", P = \"P * heater\" }\n[run]\nstop = \
+         \"200 s\"\ntolerance = \"1e-7 K\"\n",
+    );
+    let ranking = of_run(&netlist).unwrap();
+    assert!(ranking.differences.is_some() && ranking.fixed.is_empty());
+    // still melting at the end, at 50 degC: with the liquidus higher it is part of the way up to it
+    assert!((ranking.temperature - 323.15).abs() < 1e-3, "{}", ranking.temperature);
+    let tau = 200.0;
+    let melts = -tau * f64::ln(1.0 - 30.0 / 100.0);
+    let molten = (100.0 - 30.0) * (tau - melts) / 20_000.0;
+    for (name, expected) in [("solid", 1.0 - molten), ("liquid", molten)] {
+        let found = change(&netlist, &ranking.parameters, name);
+        assert!((found - expected).abs() < 0.03, "{name}: {found} is not {expected}");
+    }
+}

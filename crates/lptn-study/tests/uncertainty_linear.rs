@@ -191,3 +191,146 @@ fn regression_a_parameter_without_effect_has_no_share() {
     let end = answer(&found, |of| matches!(of, AnswerOf::End(_)));
     assert_eq!((end.deviation.value, end.ranking[0].share.value), (0.0, 0.0));
 }
+
+/// A junction without mass is hottest just before its load falls, and so is the limit of the heat
+/// that leaves it least kept: T = T_air + P_high (R_pad + R_skin (1 - exp(-t / tau))), tau = 300 s.
+#[test]
+fn analytic_an_extreme_before_a_jump_has_the_slope_of_its_own_side() {
+    let text = "[node]\nbody = { C = \"1 kJ/K\", T0 = \"20 degC\" }\nchip = { massless = true }\n\
+        [boundary]\nair = { T = \"20 degC\" }\n[resistor]\npad = { from = \"chip\", to = \"body\", R \
+        = \"0.5 K/W\" }\nskin = { from = \"body\", to = \"air\", R = \"0.3 K/W\" }\n[source]\nloss = \
+        { into = \"chip\", P = \"if(t < 10 [min], P_high, P_low)\" }\n[limit]\nhot = { of = \
+        \"chip.T\", below = \"90 degC\" }\nheat = { of = \"pad.Q\", below = \"120 W\" }\n[run]\nstop \
+        = \"20 min\"\n";
+    let found = linear(&parsed(text, "P_high = \"100 ± 5 W\"\nP_low = \"60 ± 12 W\""));
+    let slope = 0.5 - 0.3 * f64::exp_m1(-2.0);
+    let hottest = |of: &AnswerOf| matches!(of, AnswerOf::Max(_));
+    let chip = found.answers.iter().rfind(|answer| hottest(&answer.of)).unwrap();
+    all_near(&effects(chip), &[5.0 * slope, 0.0]);
+    let margins: Vec<&Answer> =
+        found.answers.iter().filter(|answer| matches!(answer.of, AnswerOf::Margin(_))).collect();
+    all_near(&effects(margins[0]), &[-5.0 * slope, 0.0]);
+    all_near(&effects(margins[1]), &[-5.0, 0.0]);
+    // SciPy: norm.sf(-5.940 / 3.797)
+    assert!((margins[0].below_zero.value - 0.941_1).abs() < 1e-3, "{:?}", margins[0]);
+}
+
+/// Numbers from 0 to 1 in an order that is always the same (Marsaglia's xorshift, 2003).
+struct Chance(u64);
+
+impl Chance {
+    fn next(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+
+    fn of<T: Copy>(&mut self, all: &[T]) -> T {
+        all[(self.next() * all.len() as f64) as usize]
+    }
+}
+
+/// Nodes with and without mass in a tree towards the air, with loads, a room and limits that jump.
+fn jumping(chance: &mut Chance) -> String {
+    use std::fmt::Write as _;
+    let count = 2 + (chance.next() * 3.0) as usize;
+    let mut text = format!(
+        "[signal]\nduty = {{ t = [0, 40, 130], v = [{:.3}, {:.3}, {:.3}], t_unit = \"s\", v_unit = \
+         \"1\", interp = \"previous\", after_end = \"hold\" }}\n[boundary]\nair = {{ T = \"{}\" }}\n[node]\n",
+        chance.next(),
+        chance.between(0.0, 2.0),
+        chance.next(),
+        chance.of(&["T_amb", "if(t < 70 [s], T_amb, T_amb + 15 [K])"])
+    );
+    for i in 0..count {
+        let mass = match i > 0 && chance.next() < 0.6 {
+            true => "massless = true".to_owned(),
+            false => format!("C = \"{:.3} J/K\", T0 = \"T_amb\"", chance.between(20.0, 200.0)),
+        };
+        writeln!(text, "n{i} = {{ {mass} }}").unwrap();
+    }
+    text += "[resistor]\n";
+    for i in 0..count {
+        let to = if i == 0 {
+            "air".to_owned()
+        } else {
+            format!("n{}", (chance.next() * i as f64) as usize)
+        };
+        let law = chance.of(&["R = \"R\"", "R = \"2 * R\"", "G = \"1.3 [W/K]\""]);
+        writeln!(text, "r{i} = {{ from = \"n{i}\", to = \"{to}\", {law} }}").unwrap();
+    }
+    text += "[source]\n";
+    for k in 0..2 {
+        let into = (chance.next() * count as f64) as usize;
+        let at = chance.between(20.0, 180.0);
+        let load = chance.of(&["P_a * duty", "if(t < AT, P_a, P_b)", "if(t >= AT, P_b, 0 [W])"]);
+        let load = load.replace("AT", &format!("{at:.2} [s]"));
+        writeln!(text, "s{k} = {{ into = \"n{into}\", P = \"{load}\" }}").unwrap();
+    }
+    let last = count - 1;
+    write!(
+        text,
+        "[limit]\nhot = {{ of = \"n{last}.T\", below = \"60 degC\" }}\nheat = {{ of = \"r{last}.Q\", \
+         below = \"70 W\" }}\nloss = {{ of = \"s0.P\", above = \"3 W\" }}\nboth = {{ of = \"if(t <= \
+         100 [s], n0.T, n{last}.T) - air.T\", below = \"20 K\" }}\n[run]\nstop = \"200 s\"\n\
+         tolerance = \"1e-8 K\"\n"
+    )
+    .unwrap();
+    text
+}
+
+/// What a run with this value of a parameter answers: maxima, then margins.
+fn extremes(netlist: &Netlist, name: &str, value: f64) -> Vec<f64> {
+    use lptn_assembly::ThermalSystem;
+    use lptn_solve::{Transient, Watch};
+    let network = &netlist.network;
+    let mut given = network.given();
+    given.set(network.parameter(name).unwrap(), value);
+    let system = ThermalSystem::of(network, &given).unwrap();
+    let watch = network.node_ids().map(|node| Watch { node, level: None }).collect();
+    let run = Transient::of(network, netlist.run.as_ref().unwrap());
+    let run = Transient { watch, ..run }.solve(&system).unwrap();
+    let peaks = run.watched().iter().map(|seen| seen.peak.0);
+    peaks.chain(run.limits().iter().map(|seen| seen.margin)).collect()
+}
+
+/// Slopes of maxima and of least margins against differences of runs, where loads, rooms and limits
+/// jump: between the slopes to the two sides, which differ where another moment takes over.
+#[test]
+fn random_slopes_of_extremes_are_those_of_runs_beside() {
+    let parameters = "P_a = \"40 ± 4 W\"\nP_b = \"70 ± 7 W\"\nR = \"0.5 ± 0.05 K/W\"\nT_amb = \"20 ± \
+                      2 degC\"";
+    for seed in 1..=60 {
+        let mut chance = Chance(0x9E37_79B9_7F4A_7C15_u64.wrapping_mul(seed));
+        let text = jumping(&mut chance);
+        let netlist = parsed(&text, parameters);
+        let found = linear(&netlist);
+        let asked = found.answers.iter().filter(|a| !matches!(a.of, AnswerOf::End(_)));
+        let found_effects: Vec<Vec<f64>> = asked.map(effects).collect();
+        for (i, (name, own, sigma)) in
+            [("P_a", 40.0, 4.0), ("P_b", 70.0, 7.0), ("R", 0.5, 0.05), ("T_amb", 293.15, 2.0)]
+                .into_iter()
+                .enumerate()
+        {
+            let step = 1e-4 * sigma;
+            let [below, here, above] =
+                [-step, 0.0, step].map(|by| extremes(&netlist, name, own + by));
+            for (k, own_effects) in found_effects.iter().enumerate() {
+                let left = (here[k] - below[k]) / step * sigma;
+                let right = (above[k] - here[k]) / step * sigma;
+                let room = 2e-3 * (1.0 + left.abs().max(right.abs()));
+                let sides = left.min(right) - room..=left.max(right) + room;
+                let effect = own_effects[i];
+                assert!(
+                    sides.contains(&effect),
+                    "seed {seed}: answer {k} by {name}: {effect}, not {sides:?}\n{text}"
+                );
+            }
+        }
+    }
+}

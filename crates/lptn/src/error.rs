@@ -81,7 +81,7 @@ made_of! {
     lptn_reduce::FitError, lptn_reduce::ReduceError,
     lptn_solve::AdjointError, lptn_solve::ExactError, lptn_solve::LedgerError,
     lptn_solve::LinearisedError, lptn_solve::ModesError,
-    lptn_solve::NearError, lptn_solve::ParameterSlopes,
+    lptn_solve::MarginError, lptn_solve::NearError, lptn_solve::ParameterSlopes,
     lptn_solve::PeriodicError, lptn_solve::ResponseError, lptn_solve::SensitiveError,
     lptn_solve::SettingsError, lptn_solve::SolutionError, lptn_solve::SteadyError,
     lptn_solve::TransientError, lptn_solve::Unsolved,

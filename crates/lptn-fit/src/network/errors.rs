@@ -6,8 +6,9 @@ use crate::network::fitted::ColumnMisfit;
 use crate::network::hint::{Hint, Missed};
 use crate::network::identify::Identifiability;
 use crate::network::model::{Block, Evaluated, Model};
+use crate::network::shared::{Shared, SharedNoise};
 use crate::network::task::NetworkFitTask;
-use crate::noise::{Middle, Noise, degrees_of, student_95};
+use crate::noise::{Middle, Noise, Whitened, degrees_of, student_95};
 
 /// With fewer values than this left over, residuals alone do not tell the noise.
 const FEW: usize = 10;
@@ -21,6 +22,8 @@ pub(crate) struct Errors<'a> {
     /// The parameters that have a standard error, and those that are held for it.
     free: Vec<usize>,
     columns: Vec<ColumnNoise<'a>>,
+    /// What the columns of each record have in common.
+    shared: Vec<Shared>,
     /// `(J^T J)^-1` of the free parameters.
     inverse: Option<Covariance>,
     /// How the records differ in each free parameter, where enough of them tell it.
@@ -33,6 +36,8 @@ struct ColumnNoise<'a> {
     noise: Noise,
     /// `J^T Omega J` of the free parameters.
     middle: Middle,
+    /// The same noise as independent values, where the record has other columns.
+    whitened: Option<Whitened>,
 }
 
 impl<'a> Errors<'a> {
@@ -55,10 +60,11 @@ impl<'a> Errors<'a> {
             true => None,
             false => Covariance::inverse(&at_end.jacobian, at_end.residuals.len(), &free),
         };
-        let (data, columns, between) = (model.data(), Vec::new(), Vec::new());
-        let mut errors = Self { task, at_end, data, free, columns, inverse, between };
+        let (data, columns, shared, between) = (model.data(), vec![], vec![], vec![]);
+        let mut errors = Self { task, at_end, data, free, columns, shared, inverse, between };
         let blocks = model.blocks.iter().filter(|block| !block.range.is_empty());
         errors.columns = blocks.map(|block| errors.noise_of(block)).collect();
+        errors.shared = (0..task.runs.len()).filter_map(|run| errors.shared_in(run)).collect();
         errors.between = errors.free.iter().map(|&i| errors.scatter(i)).collect();
         errors
     }
@@ -80,7 +86,20 @@ impl<'a> Errors<'a> {
             _ => Noise::estimate(&times, residuals, &slopes),
         };
         let middle = noise.middle(&times, &slopes);
-        ColumnNoise { block, noise, middle }
+        let alone = run.columns.len() < 2;
+        let whitened = (!alone).then(|| noise.whitened(&times, (residuals, &slopes)));
+        ColumnNoise { block, noise, middle, whitened }
+    }
+
+    /// What the columns of a record have in common.
+    fn shared_in(&self, run: usize) -> Option<Shared> {
+        let own = self.columns.iter().enumerate().filter(|(_, column)| column.block.run == run);
+        Shared::of(run, own.filter_map(|(i, c)| Some((i, c.whitened.as_ref()?))).collect())
+    }
+
+    /// The records whose columns are off together by more than chance explains.
+    pub(crate) fn shared_noise(&self) -> Vec<SharedNoise> {
+        self.shared.iter().filter_map(Shared::told).collect()
     }
 
     /// Of all residuals by one parameter.
@@ -135,7 +154,7 @@ impl<'a> Errors<'a> {
     /// and where none are given and nothing is left over there are none.
     pub(crate) fn covariance(&self) -> Option<Covariance> {
         let inverse = self.inverse.as_ref().filter(|_| self.data > 0)?;
-        let found = self.with_records(inverse.sandwich(&self.middle()));
+        let found = self.with_records(self.of_noise(inverse, &self.prior()));
         let given = self.columns.iter().all(|column| self.sigma(column).is_some());
         match self.left_over() {
             0 => given.then(|| inverse.clone()),
@@ -144,42 +163,96 @@ impl<'a> Errors<'a> {
         }
     }
 
+    /// The covariance that the noise of the records and this more of `J^T Omega J` make. What
+    /// columns share widens it only: a difference of them may be known better, but how much better
+    /// is an estimate.
+    fn of_noise(&self, inverse: &Covariance, more: &[f64]) -> Covariance {
+        let alone: Vec<f64> = self.noise().iter().zip(more).map(|(a, b)| a + b).collect();
+        let mut all = alone.clone();
+        for shared in &self.shared {
+            all.iter_mut().zip(shared.middle()).for_each(|(sum, part)| *sum += part);
+        }
+        let found = inverse.sandwich(&alone);
+        if self.shared.is_empty() { found } else { inverse.sandwich(&all).at_least(&found) }
+    }
+
     /// Half the width of the 95 % interval of a free parameter, and the degrees of freedom of the
     /// quantile of Student's t that it takes: each column tells the variance that it brings in with
     /// those of its own noise, and what is known beforehand is known (F. E. Satterthwaite,
     /// Biometrics Bulletin 2 (1946) 110). Slow drift of several columns adds up in the squares of
-    /// half the widths that it alone has.
+    /// half the widths that it alone has; what columns share widens all of it.
     pub(crate) fn interval(&self, covariance: &Covariance, parameter: usize) -> Option<(f64, f64)> {
         let error = covariance.standard_error(parameter)?;
         let inverse = self.inverse.as_ref()?;
         if self.left_over() == 0 {
             return Some((student_95(f64::INFINITY) * error, f64::INFINITY));
         }
-        let gradient = self.unit(parameter);
         let found = inverse.sandwich(&self.middle()).standard_error(parameter)?;
-        let (mut known, mut uncertain, mut drift) = (found * found, 0.0, 0.0);
-        for column in &self.columns {
-            let (variance, degrees) = column.middle.variance(inverse, &gradient);
+        let (mut known, mut drift) = (found * found, 0.0);
+        let each = self.variances(inverse, parameter);
+        for (column, (variance, degrees)) in self.columns.iter().zip(&each) {
             if column.noise.drifts() {
                 known -= variance;
-                drift += variance * student_95(degrees).powi(2);
-            } else {
-                uncertain += variance * variance / degrees;
+                drift += variance * student_95(*degrees).powi(2);
             }
         }
-        let known = known.max(0.0);
+        let (wider, more) = self.in_common(parameter, found * found)?;
+        let known = wider * known.max(0.0);
+        let uncertain = wider * wider * self.uncertain(&each) + more;
         let degrees = if uncertain > 0.0 { known * known / uncertain } else { f64::INFINITY };
-        let half = (known * student_95(degrees).powi(2) + drift).sqrt();
-        let degrees = if drift > 0.0 { degrees_of(half / found) } else { degrees };
+        let half = (known * student_95(degrees).powi(2) + wider * drift).sqrt();
+        let degrees = if drift > 0.0 { degrees_of(half / (found * wider.sqrt())) } else { degrees };
         // where few values are left over, the errors that `sigma` says are known
         let inside = (half.max(student_95(f64::INFINITY) * error), degrees);
         Some(self.widened(parameter, inside).unwrap_or(inside))
     }
 
+    /// The variance of a parameter that each column brings in, and its degrees of freedom.
+    fn variances(&self, inverse: &Covariance, parameter: usize) -> Vec<(f64, f64)> {
+        let gradient = self.unit(parameter);
+        self.columns.iter().map(|column| column.middle.variance(inverse, &gradient)).collect()
+    }
+
+    /// Half of how uncertain the variances of all columns together are, as a variance, but for those
+    /// that drift. Columns whose noise is the same are one estimate, not several.
+    fn uncertain(&self, each: &[(f64, f64)]) -> f64 {
+        let of = |column: usize| match self.columns[column].noise.drifts() {
+            true => 0.0,
+            false => each[column].0 / each[column].1.sqrt(),
+        };
+        let alone: f64 = (0..each.len()).map(|column| of(column).powi(2)).sum();
+        let pairs = |shared: &Shared| -> f64 {
+            let columns = || shared.columns.iter().enumerate();
+            let pair = |(c, i): (usize, &usize)| -> f64 {
+                let others = columns().filter(|(d, _)| *d != c);
+                others.map(|(d, j)| shared.alike(c, d).powi(2) * of(*i) * of(*j)).sum()
+            };
+            columns().map(pair).sum()
+        };
+        alone + self.shared.iter().map(pairs).sum::<f64>()
+    }
+
+    /// By which factor the variance of a parameter is larger since columns share noise, at least 1,
+    /// and half of how uncertain that is, as a variance.
+    fn in_common(&self, parameter: usize, variance: f64) -> Option<(f64, f64)> {
+        let weights = self.weights(parameter)?;
+        let all = self.shared.iter().map(|shared| shared.variance(&weights));
+        let (adds, uncertain) = all.fold((0.0, 0.0), |sum, one| (sum.0 + one.0, sum.1 + one.1));
+        let wider = if variance > 0.0 { 1.0 + adds / variance } else { 1.0 };
+        Some(if wider > 1.0 { (wider, uncertain) } else { (1.0, 0.0) })
+    }
+
+    /// How `J^T r` moves a free parameter.
+    fn weights(&self, parameter: usize) -> Option<Vec<f64>> {
+        let inverse = self.inverse.as_ref()?;
+        self.free.iter().map(|&i| inverse.between(parameter, i)).collect()
+    }
+
     /// An interval from how the records scatter, where that is more than their noise says.
     fn widened(&self, parameter: usize, (half, _): (f64, f64)) -> Option<(f64, f64)> {
         let between = self.between(parameter)?;
-        let noise = self.inverse.as_ref()?.sandwich(&self.noise());
+        let none = vec![0.0; self.free.len() * self.free.len()];
+        let noise = self.of_noise(self.inverse.as_ref()?, &none);
         let prior = self.inverse.as_ref()?.sandwich(&self.prior()).standard_error(parameter)?;
         let scatter = between.standard_error;
         if scatter <= noise.standard_error(parameter)? {
@@ -198,8 +271,7 @@ impl<'a> Errors<'a> {
     fn scatter(&self, parameter: usize) -> Option<BetweenRecords> {
         let inverse = self.inverse.as_ref().filter(|_| self.task.runs.len() > 2)?;
         let gradient = self.unit(parameter);
-        let weights: Vec<f64> =
-            self.free.iter().map(|&i| inverse.between(parameter, i)).collect::<Option<_>>()?;
+        let weights = self.weights(parameter)?;
         let mut records = vec![Told::default(); self.task.runs.len()];
         for column in &self.columns {
             let told = &mut records[column.block.run];
@@ -210,6 +282,9 @@ impl<'a> Errors<'a> {
                 told.pull += weight * self.at_end.residuals[row];
                 told.share += weight * self.derivatives(parameter)[row];
             }
+        }
+        for shared in &self.shared {
+            records[shared.run].variance += shared.variance(&weights).0.max(0.0);
         }
         BetweenRecords::of(&records)
     }

@@ -9,6 +9,7 @@ use crate::network::hint::Hint;
 use crate::network::identify::Identifiability;
 use crate::network::profile::Profile;
 use crate::network::search::Starts;
+use crate::network::shared::SharedNoise;
 
 /// What came of a fit of a network.
 #[derive(Clone, Debug)]
@@ -20,6 +21,9 @@ pub struct NetworkFit {
     pub parameters: Vec<FittedParameter>,
     /// The columns of every record, in the order of the task.
     pub columns: Vec<ColumnMisfit>,
+    /// The records whose columns are off together by more than chance explains; the errors count
+    /// it, and less of it too.
+    pub shared_noise: Vec<SharedNoise>,
     /// Root of the mean of the squares of all misfits: in the SI unit of the columns, or over their
     /// standard deviations where they have no unit in common ([`NetworkFitTask::unit`]).
     ///

@@ -35,6 +35,7 @@ mod profile;
 mod readings;
 mod recorded;
 mod search;
+mod shared;
 mod taken;
 mod task;
 mod undetermined;
@@ -56,6 +57,7 @@ pub use profile::Profile;
 pub(crate) use recorded::{Held, line};
 pub use recorded::{RecordedSignal, RecordedStart};
 pub use search::Starts;
+pub use shared::SharedNoise;
 pub use taken::{Moved, Off};
 pub use task::{
     FitObserver, FitStage, Instrument, Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask,
@@ -109,7 +111,7 @@ pub fn fit_network_observed(
     }
     let errors = Errors::new(task, &model, (&at_end, &estimate.free(), identifiability.as_ref()));
     let covariance = errors.covariance();
-    let columns = errors.columns();
+    let (columns, shared_noise) = (errors.columns(), errors.shared_noise());
     let known = identifiability.as_ref();
     let mut parameters =
         fitted_parameters((&errors, covariance.as_ref(), known), (&values, &own, &estimate));
@@ -141,6 +143,7 @@ pub fn fit_network_observed(
         parameters,
         rms: rms_of(&columns, task.unit().is_some()),
         columns,
+        shared_noise,
         covariance,
         left_over,
         identifiability,

@@ -254,13 +254,13 @@ impl Likelihood {
 
 /// The filter's numbers for every sample: how much of the state is left, gain, and weight of what
 /// was not predicted.
-struct Gains {
-    steps: Vec<[f64; 3]>,
+pub(super) struct Gains {
+    pub(super) steps: Vec<[f64; 3]>,
     determinant: f64,
 }
 
 impl Gains {
-    fn new(times: &[f64], shape: Shape) -> Self {
+    pub(super) fn new(times: &[f64], shape: Shape) -> Self {
         let (c, white) = (shape.correlated, 1.0 - shape.correlated);
         let mut steps = Vec::with_capacity(times.len());
         let (mut determinant, mut logarithm) = (0.0, 0.0);

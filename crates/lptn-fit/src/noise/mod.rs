@@ -34,6 +34,7 @@ mod quantile;
 mod resolution;
 mod slow;
 pub(crate) mod stretches;
+mod whitened;
 
 pub(crate) use likelihood::orthonormal;
 use likelihood::{Likelihood, Possible, Shape};
@@ -41,6 +42,7 @@ pub use middle::Middle;
 pub use quantile::student_95;
 pub(crate) use quantile::{chi_square_999, degrees_of};
 pub use resolution::resolution;
+pub(crate) use whitened::Whitened;
 
 /// So few means do not tell white noise from slow noise.
 const FEW: f64 = 100.0;

@@ -178,7 +178,6 @@ impl Candidate {
         if let RunStatus::Interrupted(time) = solution.end() {
             return Err(CompareError::Interrupted(time));
         }
-        solution.ledger().check()?;
         let nodes = Summary::new(&solution, steady.as_ref()).nodes;
         let node = hottest(nodes.iter().map(|node| (node, node.peak.0))).map(|(node, _)| node);
         Ok(Self {

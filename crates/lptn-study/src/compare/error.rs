@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lptn_network::InputError;
-use lptn_solve::{LedgerError, PeriodicError, SteadyError, TransientError, Unsolved};
+use lptn_solve::{PeriodicError, SteadyError, TransientError, Unsolved};
 use lptn_units::Class;
 
 lptn_units::errors! {
@@ -26,8 +26,6 @@ pub enum CompareError {
     NoPeriod = "periodic::no_period",
         "its inputs change with time and no signal is repeated, so there is no settled cycle",
         help "let a signal go on for ever: after_end = \"repeat\"";
-    /// Its books do not close.
-    Ledger => LedgerError;
     /// Its run was interrupted at this time in s: peaks and limits of a part would read like those
     /// of the whole.
     Interrupted(time: f64) = "run::interrupted", format!("the run was interrupted at {time} s"),

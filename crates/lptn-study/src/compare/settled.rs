@@ -5,7 +5,8 @@ use std::sync::Arc;
 use lptn_assembly::ThermalSystem;
 use lptn_network::{OutputTimes, RunSettings};
 use lptn_solve::{
-    Periodic, PeriodicError, Proceed, Progress, RecordedNodes, Solution, Summary, Transient, Watch,
+    Periodic, PeriodicError, Proceed, Progress, RecordedNodes, Solution, Summary, Transient,
+    TransientError, Watch,
 };
 
 use crate::compare::error::CompareError;
@@ -50,11 +51,13 @@ impl Settled {
         let cycle = RunSettings::cycle(run, period);
         match Periodic::find_observed(system, &transient(system, &cycle), observer) {
             Ok(found) => {
-                found.solution.ledger().check()?;
                 let (settled, solution) = (Self::of(&found, &cycle), found.solution);
                 Ok(Some(Ok(Found { settled, solution })))
             }
             Err(PeriodicError::Interrupted { .. }) => Err(CompareError::Interrupted(cycle.start)),
+            Err(PeriodicError::Cycle(open @ TransientError::Open { .. })) => {
+                Err(CompareError::Run(Box::new(open)))
+            }
             Err(reason) => Ok(Some(Err(Arc::new(reason)))),
         }
     }

@@ -2,7 +2,7 @@
 
 use lptn_assembly::{AssemblyError, ChangeError};
 use lptn_network::{BuildErrors, InputError};
-use lptn_solve::{SensitiveError, TransientError};
+use lptn_solve::{MarginError, SensitiveError, TransientError};
 use lptn_units::Class;
 
 use crate::uncertainty::lost::Lost;
@@ -61,6 +61,15 @@ impl From<ChangeError> for UncertaintyError {
         match error {
             ChangeError::Network(errors) => Self::Network(errors),
             ChangeError::Assembly(error) => Self::Assembly(error),
+        }
+    }
+}
+
+impl From<MarginError> for UncertaintyError {
+    fn from(error: MarginError) -> Self {
+        match error {
+            MarginError::Change(error) => error.into(),
+            MarginError::Input(error) => error.into(),
         }
     }
 }

@@ -21,7 +21,7 @@ impl UncertaintyTask<'_> {
     /// `(dT/dp sigma)^2`, with twice the correlation times their product for each pair that is
     /// correlated, its band 1.96 standard deviations to each side of the value (ISO/IEC Guide 98-3,
     /// 5.1.2 and 5.2.2). A maximum changes as the temperature does at its time, a margin as it
-    /// does when it is least. Where a network has no exact sensitivities they are differences of
+    /// does when it is least: on the side where it stands, if something jumps there. Where a network has no exact sensitivities they are differences of
     /// runs, and the method says so.
     ///
     /// # Errors

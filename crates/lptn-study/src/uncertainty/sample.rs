@@ -60,10 +60,6 @@ impl NoSample {
         Self::lost((error.code(), ""), false, error.to_string())
     }
 
-    pub(crate) fn ledger() -> Self {
-        Self::lost(("run::ledger", ""), false, "its books do not close".into())
-    }
-
     fn lost((code, name): (&'static str, &str), refused: bool, message: String) -> Self {
         Self::Lost {
             key: format!("{code} {name}"),

@@ -55,10 +55,8 @@ impl UncertaintyTask<'_> {
             .map_err(|error| NoSample::refused(&error))?;
         let solution =
             self.solve(&system, rows, control).map_err(|error| NoSample::failed(&error))?;
-        let ledger = solution.ledger();
         match solution.end() {
             RunStatus::Interrupted(_) => Err(NoSample::Interrupted),
-            _ if !ledger.closes() => Err(NoSample::ledger()),
             _ => Ok(Sample::of(&solution, rows)),
         }
     }

@@ -1,6 +1,6 @@
 //! What a plan says in words.
 
-use lptn_fit::network::design::{DesignPlan, MOST_LEGS, Never};
+use lptn_fit::network::design::{DesignPlan, GivenFit, MOST_LEGS, Never};
 use lptn_report::significant;
 
 use super::Answer;
@@ -35,6 +35,7 @@ pub(super) fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
         let of = answer.study.given.join(", ");
         notes.push(("known", format!("{} of {of}", count(task.given(), "record"))));
     }
+    notes.extend(shared(answer).map(|shared| ("shared noise", shared)));
     notes.extend(rough(answer).map(|rough| ("rough", rough)));
     notes.extend(unverified(&answer.input.netlist.network).map(|unsure| ("note", unsure)));
     if !design.exact {
@@ -44,6 +45,23 @@ pub(super) fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
         notes.push(("never known", lost(answer, never)));
     }
     notes
+}
+
+/// That columns of records which are there are off together, which a plan does not count.
+fn shared(answer: &Answer<'_>) -> Option<String> {
+    let of_fit = |given: &GivenFit<'_>| {
+        let sizes = given.fit.shared_noise.iter().map(|shared| shared.correlation.abs());
+        Some((given.name.clone(), sizes.reduce(f64::max)?))
+    };
+    let all: Vec<(String, f64)> = answer.task.given_fits.iter().filter_map(of_fit).collect();
+    let most = all.iter().map(|(_, size)| *size).reduce(f64::max)?;
+    let names: Vec<&str> = all.iter().map(|(name, _)| name.as_str()).collect();
+    Some(format!(
+        "columns of {} are off together, correlation up to {}; the plan takes places as independent, \
+         so the errors of several will be larger",
+        names.join(", "),
+        significant(most, 2)
+    ))
 }
 
 /// What is hardly known: far from the values a network answers otherwise.

@@ -2,6 +2,7 @@
 
 use std::io;
 
+use lptn_network::{Item, list_of_names};
 use lptn_plot::Figure;
 use lptn_report::{Json, Page, Report, Rows, Text, TextTable, duration, shortened, significant};
 use lptn_solve::{Influence, Table};
@@ -73,6 +74,7 @@ impl View<'_> {
         if let Some(why) = &self.ranking.not_ranked {
             notes.push(format!("parameters are not ranked: {why}"));
         }
+        notes.extend(self.fixed());
         if let Some(why) = &self.ranking.differences {
             notes.push(format!("by differences of runs, since {why}"));
         }
@@ -83,6 +85,23 @@ impl View<'_> {
             );
         }
         notes
+    }
+
+    /// Parameters that are not ranked, because a part of them cannot be added.
+    fn fixed(&self) -> Option<String> {
+        let network = &self.input.netlist.network;
+        let names: Vec<String> = self
+            .ranking
+            .fixed
+            .iter()
+            .map(|(id, _)| network.name_of(Item::Parameter(*id)).into())
+            .collect();
+        (!names.is_empty()).then(|| {
+            format!(
+                "not ranked: {}, for no value next to theirs is allowed; compare others with --set",
+                list_of_names(&names)
+            )
+        })
     }
 
     fn verdict(&self) -> String {

@@ -153,6 +153,8 @@ pub(crate) fn observed(
     line.clear();
     match outcome {
         Ok(solution) => Ok((solution, None)),
+        // the rows are shown; the verdict asks its energy balance
+        Err(TransientError::Open { solution, .. }) => Ok((*solution, None)),
         Err(error) => {
             let problem = explain(input, &error);
             match error {

@@ -1,7 +1,7 @@
 //! A run with its sensitivities at the rows and where temperatures are highest.
 
 use lptn_network::{NodeId, OutputTimes, ParameterId};
-use lptn_solve::{Gradient, SensitiveRun, Solution, Transient, sensitive_run};
+use lptn_solve::{Gradient, SensitiveRun, Solution, Transient, on_both_sides, sensitive_run};
 
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::input::{Inputs, Uncertain};
@@ -21,14 +21,17 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// The run at its rows and at the times at which `solution` saw the nodes highest.
+    /// The run at its rows and at the times at which `solution` saw the nodes highest, on both sides
+    /// of those.
     pub(super) fn new(
         task: &UncertaintyTask<'_>,
         inputs: &'a Inputs,
         solution: &Solution,
     ) -> Result<Self, UncertaintyError> {
         let rows = task.times()?;
-        let times = joined(&rows, solution.watched().iter().map(|seen| seen.peak.1));
+        let peaks = solution.watched().iter().map(|seen| seen.peak.1);
+        let peaks = on_both_sides(peaks, (task.run.start, task.run.stop));
+        let times = joined(&rows, peaks.into_iter());
         let places = rows.iter().map(|row| times.partition_point(|time| time < row)).collect();
         let run = Transient { output: OutputTimes::At(times), ..task.watched() };
         let run = sensitive_run(task.network, &run, &ids(inputs))?;

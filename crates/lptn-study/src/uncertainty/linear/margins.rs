@@ -1,10 +1,9 @@
 //! How the margins of limits change with the parameters.
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{LimitId, OutputTimes};
+use lptn_network::OutputTimes;
 use lptn_solve::{
-    Gradient, LimitSeen, RecordedNodes, SensitiveRun, Solution, Transient, limit_margins_at,
-    sensitive_run,
+    Gradient, LimitSeen, RecordedNodes, Solution, Transient, on_both_sides, own_side, sensitive_run,
 };
 
 use crate::uncertainty::error::UncertaintyError;
@@ -36,19 +35,24 @@ pub(super) fn effects(
             |limit: &LimitSeen| line.inputs.iter().map(|input| of_runs(limit, input)).collect();
         return Ok(seen.iter().map(all).collect());
     }
-    let ends = [task.run.start, task.run.stop];
-    let output = OutputTimes::At(joined(&ends, seen.iter().map(|limit| limit.worst_at)));
+    let ends = (task.run.start, task.run.stop);
+    let worst = on_both_sides(seen.iter().map(|limit| limit.worst_at), ends);
+    let output = OutputTimes::At(joined(&[ends.0, ends.1], worst.into_iter()));
     let settings =
         Transient { output, record: RecordedNodes::All, watch: Vec::new(), ..task.watched() };
     let run = sensitive_run(task.network, &settings, &ids(line.inputs))?;
     let all = |limit: &LimitSeen| {
+        let margin = |row: usize| run.margin_in_row(limit.limit, row).unwrap_or(f64::NAN);
+        let worst = (limit.worst_at, limit.margin);
+        let row = own_side((run.solution.times(), margin), worst, ends);
         let of_mean = task.network.limits()[limit.limit.index()].of_mean;
-        let one = |input: &Uncertain| match of_mean {
-            true => of_runs(task, (limit, input)),
-            false => match of_expression(task, &run, (limit, input))? {
-                Some(effect) => Ok(effect),
-                None => of_runs(task, (limit, input)),
-            },
+        let one = |input: &Uncertain| {
+            let by = PART * input.deviation;
+            let slope = match of_mean {
+                true => None,
+                false => run.margin_slope_in_row((input.parameter, by), (limit.limit, row))?,
+            };
+            slope.map_or_else(|| of_runs(task, (limit, input)), |s| Ok(s * input.deviation))
         };
         line.inputs.iter().map(one).collect()
     };
@@ -70,54 +74,4 @@ fn of_runs(
         Ok(solution.limits()[limit.limit.index()].margin)
     };
     Ok(0.5 * (moved(input.deviation)? - moved(-input.deviation)?))
-}
-
-/// A margin bends where its slopes to both sides differ by more than this share.
-const BENT: f64 = 0.05;
-
-/// What is less than this beside 1 and the margin is rounding.
-const ROUNDING: f64 = 1e-10;
-
-/// The margin at the time at which it is least, with the parameter and the temperatures moved to
-/// both sides; `None` where it bends there, as `min(a.T, b.T)` where both are equal.
-fn of_expression(
-    task: &UncertaintyTask<'_>,
-    run: &SensitiveRun,
-    (limit, input): (&LimitSeen, &Uncertain),
-) -> Result<Option<f64>, UncertaintyError> {
-    let times = run.solution.times();
-    let distance = |place: &usize| (times[*place] - limit.worst_at).abs();
-    let place = (0..times.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
-    let slopes: Vec<f64> = task
-        .network
-        .node_ids()
-        .map(|node| run.sensitivity(input.parameter, node).map_or(0.0, |slopes| slopes[place]))
-        .collect();
-    let moved = |change: f64| {
-        let mut parameters = task.parameters.clone();
-        parameters.set(input.parameter, input.value + change);
-        let temperatures: Vec<f64> = run
-            .solution
-            .row(place)
-            .iter()
-            .zip(&slopes)
-            .map(|(t, slope)| t + slope * change)
-            .collect();
-        margin(task, &parameters, (limit.limit, times[place]), &temperatures)
-    };
-    let change = PART * input.deviation;
-    let (low, here, high) = (moved(-change)?, moved(0.0)?, moved(change)?);
-    let bends = (high + low - 2.0 * here).abs();
-    let straight = bends <= BENT * (high - low).abs() + ROUNDING * (1.0 + here.abs());
-    Ok(straight.then_some((high - low) / (2.0 * PART)))
-}
-
-fn margin(
-    task: &UncertaintyTask<'_>,
-    parameters: &lptn_network::Parameters,
-    (limit, time): (LimitId, f64),
-    temperatures: &[f64],
-) -> Result<f64, UncertaintyError> {
-    let system = ThermalSystem::of(task.network, parameters)?;
-    Ok(limit_margins_at(&system, time, temperatures)?[limit.index()])
 }

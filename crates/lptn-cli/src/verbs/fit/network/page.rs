@@ -3,7 +3,9 @@
 use std::io;
 
 use lptn_fit::least_squares::Side;
-use lptn_fit::network::{ColumnMisfit, Combination, FittedParameter, Profile, Unseparated};
+use lptn_fit::network::{
+    ColumnMisfit, Combination, FittedParameter, Profile, SharedNoise, Unseparated,
+};
 use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Report, Rows, Text, TextTable, decimals, differing, fixed, significant,
@@ -109,6 +111,7 @@ impl Page for Answer<'_> {
         json.member("rms", &SiValue::new(fit.rms, &common(&self.task)))?;
         json.member("samples", &fit.samples())?;
         json.member("columns", &columns(self))?;
+        json.member("shared_noise", &shared_noise(self))?;
         json.member("correlation", &correlation)?;
         json.member("identifiable", &self.is_whole())?;
         json.member("rank", &known.map(|known| known.rank))?;
@@ -313,6 +316,7 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
         }
     };
     notes.push(("gradient", format!("{how}; all records were run {} times", fit.evaluations)));
+    notes.extend(shared(answer).map(|said| ("shared noise", said)));
     if let Some(known) = &fit.identifiability {
         let values: Vec<String> =
             known.singular_values.iter().map(|value| significant(*value, 3)).collect();
@@ -329,27 +333,63 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
     notes
 }
 
+/// That columns of a record are off together, for the records in which chance does not explain it.
+fn shared(answer: &Answer<'_>) -> Option<String> {
+    let runs = &answer.task.runs;
+    let records: Vec<String> = runs.iter().map(|run| run.name.clone()).collect();
+    let records = differing(&records);
+    let one = |shared: &SharedNoise| {
+        let correlation = fixed(shared.correlation, 2);
+        if runs.len() > 1 {
+            format!("{correlation} ({})", records[shared.run])
+        } else {
+            correlation
+        }
+    };
+    let all: Vec<String> = answer.fit.shared_noise.iter().map(one).collect();
+    (!all.is_empty()).then(|| {
+        format!(
+            "columns of one record are off together, correlation up to {}; the errors count it",
+            all.join(", ")
+        )
+    })
+}
+
+fn shared_noise(answer: &Answer<'_>) -> Value {
+    let one = |shared: &SharedNoise| {
+        json!({
+            "record": answer.task.runs[shared.run].name,
+            "correlation": SiValue::new(shared.correlation, "1"),
+        })
+    };
+    answer.fit.shared_noise.iter().map(one).collect()
+}
+
+/// In SI units; a temperature is in the unit in which it is shown, as all of an object are.
 pub(crate) fn parameter(answer: &Answer<'_>, i: usize) -> Value {
     let (fitted, varied) = (&answer.fit.parameters[i], &answer.unknowns[i]);
-    let unit = varied.ty.dimension.si_unit();
-    let finite = |value: f64| value.is_finite().then_some(value);
+    let shown = varied.ty.absolute;
+    let unit = if shown { answer.units[i].text.clone() } else { varied.ty.dimension.si_unit() };
+    let value = |si: f64| if shown { answer.shown(i, si) } else { si };
+    let apart = |si: f64| if shown { answer.shown_difference(i, si) } else { si };
+    let finite = |si: f64| si.is_finite().then(|| value(si));
     let side = fitted.on_bound.map(|side| if side == Side::Lower { "from" } else { "to" });
     json!({
-        "value": fitted.value,
+        "value": value(fitted.value),
         "unit": unit,
-        "standard_error": fitted.standard_error,
-        "interval_95": interval(fitted),
+        "standard_error": fitted.standard_error.map(apart),
+        "interval_95": interval(fitted).map(|ends| ends.map(|end| end.map(value))),
         "degrees_of_freedom": fitted.degrees_of_freedom.filter(|degrees| degrees.is_finite()),
         "between_records": fitted.between.map(|between| json!({
             "ratio": between.ratio,
-            "standard_error": between.standard_error,
+            "standard_error": apart(between.standard_error),
             "degrees_of_freedom": between.degrees_of_freedom,
             "differ": between.differ,
         })),
-        "start": fitted.start,
+        "start": value(fitted.start),
         "from": finite(varied.bounds.0),
         "to": finite(varied.bounds.1),
-        "prior": varied.prior,
+        "prior": varied.prior.map(apart),
         "on_bound": side,
     })
 }

@@ -1,0 +1,59 @@
+//! Rows on both sides of a moment at which something may jump.
+
+/// A row in front of a moment is so far from it, as a part of the run: far below any thermal time,
+/// far above what makes two times one.
+const BEFORE: f64 = 2e-9;
+
+/// The least number of doubles between the two.
+const DOUBLES: f64 = 32.0;
+
+/// The times, and in front of each another one whose row has the values from before a jump: a row
+/// has those that hold from its time on, but an extreme may stand where one ends. Ascending,
+/// without those outside of the run, which goes from `start` to `stop` in s.
+pub fn on_both_sides(times: impl Iterator<Item = f64>, (start, stop): (f64, f64)) -> Vec<f64> {
+    let inside = times.filter(|time| (start..=stop).contains(time));
+    let both = inside.flat_map(|time| [before(time, (start, stop)), time]);
+    let mut all: Vec<f64> = both.filter(|time| *time > start).collect();
+    all.sort_by(f64::total_cmp);
+    all.dedup();
+    all
+}
+
+fn before(time: f64, (start, stop): (f64, f64)) -> f64 {
+    let double = f64::EPSILON * start.abs().max(stop.abs());
+    time - (BEFORE * (stop - start)).max(DOUBLES * double)
+}
+
+/// Of the rows at `times` the one whose value is nearest to `value`, among those on either side of
+/// the moment `at`, in a run from `start` to `stop` in s: that where an extreme stands. If both are,
+/// the later one.
+pub fn own_side(
+    (times, value_of): (&[f64], impl Fn(usize) -> f64),
+    (at, value): (f64, f64),
+    ends: (f64, f64),
+) -> usize {
+    let far = 1.5 * (at - before(at, ends));
+    let near = |row: &usize| (times[*row] - at).abs() <= far;
+    let miss = |row: usize| (value_of(row) - value).abs();
+    let rows = (0..times.len()).rev().filter(near);
+    let best = rows.min_by(|&a, &b| miss(a).total_cmp(&miss(b)));
+    best.unwrap_or_else(|| times.partition_point(|time| *time < at).min(times.len() - 1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{on_both_sides, own_side};
+
+    #[test]
+    fn a_row_in_front_of_each_moment() {
+        let found = on_both_sides([5.0, 0.0, 5.0, 12.0].into_iter(), (0.0, 10.0));
+        assert_eq!(found, [5.0 - 2e-8, 5.0]);
+    }
+
+    #[test]
+    fn the_side_is_that_of_the_value() {
+        let (times, values) = ([0.0, 5.0 - 2e-8, 5.0, 10.0], [0.0, 7.0, 3.0, 7.0]);
+        let side = |value: f64| own_side((&times, |row| values[row]), (5.0, value), (0.0, 10.0));
+        assert_eq!((side(7.0), side(3.0), side(5.0)), (1, 2, 2));
+    }
+}
