@@ -111,6 +111,22 @@ fn results_are_drawn_as_the_run_that_wrote_them() {
     a.says("hot broken");
 }
 
+/// Found by random networks: `air.T - lump.T` is -10 K in the end, which is not below absolute zero.
+#[test]
+fn differences_of_temperatures_are_drawn_as_differences() {
+    let text = LUMP.replace("output =", "report = { fall = 'air.T - lump.T' }\noutput =");
+    let folder = Folder::with("lump.toml", &text);
+    for unit in ["degC", "K", "degF"] {
+        folder.run(&["run", "lump.toml", "--temperature-unit", unit]).exits(0);
+        folder.run(&["report", "out/lump"]).exits(0);
+        folder.run(&["plot", "out/lump", "--select", "fall", "-o", "fall.svg"]).exits(0);
+        let curve = Picture::read(&folder.read("fall.svg")).lines("fall [K]", "series0").remove(0);
+        for (minutes, kelvin) in curve {
+            assert!((kelvin + rise(60.0 * minutes)).abs() < 0.02, "{unit}: {kelvin} at {minutes}");
+        }
+    }
+}
+
 /// Found by use: a last number that was cut off, -55.7 to -5, was drawn without a word.
 #[test]
 fn results_that_were_cut_off_are_not_drawn_in_silence() {

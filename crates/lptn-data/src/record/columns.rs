@@ -17,7 +17,7 @@ pub(crate) fn choose(
     let time = time(head, query.time.as_ref());
     let position = time.as_ref().map(|time| time.index).ok();
     let chosen = match query.columns.as_slice() {
-        [] => each(all(head, first, position).map(|index| of_any(head, index))),
+        [] => each(all(head, first, position).map(|index| of_any(head, index, query.of_run))),
         names => each(names.iter().map(|name| named(head, name))),
     };
     match (time, chosen) {
@@ -76,12 +76,14 @@ fn named(head: &Head, asked: &RecordName) -> Result<CsvColumn, Diagnostic> {
     head.numbers(&asked.name, asked.ty, &Asked { words: String::new(), span: asked.span.clone() })
 }
 
-/// One of all columns.
-pub(crate) fn of_any(head: &Head, index: usize) -> Result<CsvColumn, Diagnostic> {
+/// One of all columns; see [`RecordQuery::of_run`].
+pub(crate) fn of_any(head: &Head, index: usize, of_run: bool) -> Result<CsvColumn, Diagnostic> {
     let (name, nobody) = (&head.columns[index].name, Asked::default());
+    let difference = of_run && head.columns[index].unit.as_deref() == Some("K");
+    let wanted = (difference && !name.ends_with(".T")).then_some(Type::of(Dimension::TEMPERATURE));
     match head.columns[..index].iter().position(|header| header.name == *name) {
         Some(first) => Err(head.two_columns(first, index, &nobody)),
-        None => head.column(index, None, &nobody),
+        None => head.column(index, wanted, &nobody),
     }
 }
 

@@ -73,6 +73,9 @@ pub struct RecordQuery {
     pub to: Option<f64>,
     /// Whether values that no course explains become gaps.
     pub drop_outliers: bool,
+    /// Whether it is the result of a run, where `K` alone is a difference but in columns named
+    /// `NODE.T`. A sensor measures none.
+    pub of_run: bool,
 }
 
 /// Columns of numbers over time.

@@ -62,7 +62,7 @@ fn parse(files: &mut Files, name: &str, bytes: &[u8]) -> Result<DataSheet, Vec<D
         (0..head.columns.len()).filter(|index| !numbers.contains(index)).collect();
     let mut words: Vec<(String, Vec<String>)> =
         spoken.iter().map(|&index| (head.columns[index].name.clone(), Vec::new())).collect();
-    let chosen = each(numbers.into_iter().map(|index| of_any(&head, index)))?;
+    let chosen = each(numbers.into_iter().map(|index| of_any(&head, index, false)))?;
     let (mut cells, mut rows) = (Cells::new(head, chosen), Vec::new());
     for record in records {
         let row = row(record, &text.text);

@@ -1,7 +1,7 @@
 //! The linear model of the residuals at one point.
 
 use faer::{Mat, MatRef};
-use lptn_integrate::dense;
+use lptn_integrate::{dense, kernels};
 
 /// The triangular factor of `[J r]`: `|J s + r|^2 = |R s + q|^2 + rest^2`.
 pub(crate) struct Triangle {
@@ -25,7 +25,8 @@ impl Triangle {
 
     /// Length of every column of J.
     pub(crate) fn norms(&self) -> Vec<f64> {
-        (0..self.inside.len()).map(|j| self.factor.col(j).norm_l2()).collect()
+        let column = |j: usize| self.factor.col_as_slice(j);
+        (0..self.inside.len()).map(|j| kernels::dot(column(j), column(j)).sqrt()).collect()
     }
 
     /// `J^T (J s + r)`.

@@ -11,9 +11,10 @@
 //!
 //! in the largest temperature: without heat that never grows.
 
+use lptn_integrate::dense::Symmetric;
+
 use super::modes::Modes;
 use super::star::{Plan, Star};
-use super::symmetric::Symmetric;
 
 /// The step of the operator over the longest stretch between bends of the inputs: about where the
 /// start and the end of a stretch take as many vectors.

@@ -8,7 +8,6 @@ mod krylov;
 mod modes;
 mod run;
 mod star;
-mod symmetric;
 
 use lptn_network::{End, Followed, HeatOf, Network, ParameterId, Value, Variants};
 

@@ -1,7 +1,8 @@
 //! The modes of one candidate after the other.
 
+use lptn_integrate::dense::Symmetric;
+
 use super::star::{Plan, Star};
-use super::symmetric::Symmetric;
 
 /// Rates and shapes: the rise of a network without heat is a sum of shapes that decay at them.
 #[derive(Clone, Debug, Default)]

@@ -168,9 +168,11 @@ fn columns(path: &Path, args: &PlotArgs, console: &Console) -> Result<Table, Fai
     let scale = args.scale.temperature_unit.as_deref();
     let scale = scale.map(|scale| input::scale_of("--temperature-unit", scale)).transpose()?;
     let text = input::read(path)?;
-    let (record, files) = read_record(Path::new(&text.name), &text.bytes, &RecordQuery::default())?;
+    let of_run = path.file_name().is_some_and(|name| name == RESULT);
+    let query = RecordQuery { of_run, ..RecordQuery::default() };
+    let (record, files) = read_record(Path::new(&text.name), &text.bytes, &query)?;
     // our own results need no doubts
-    if path.file_name().is_none_or(|name| name != RESULT) {
+    if !of_run {
         console.warn(&files, &record.warnings);
     }
     let wanted = |column: &&RecordColumn| {

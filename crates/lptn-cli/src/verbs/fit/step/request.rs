@@ -118,6 +118,7 @@ fn query(args: &StepArgs) -> Result<RecordQuery, Failure> {
         from,
         to,
         drop_outliers: args.drop_outliers,
+        of_run: false,
     })
 }
 

@@ -1,10 +1,11 @@
 //! Eigenvalues and vectors of small symmetric matrices: Householder's reduction to a tridiagonal
 //! matrix and the QL method with implicit shifts, as `tred2` and `tql2` of EISPACK (B. T. Smith et
 //! al., Matrix Eigensystem Routines, 1976; in the form of JAMA, which NIST put in the public
-//! domain). A library would choose its kernels by the processor, and with them the last digits.
+//! domain).
 
-use lptn_integrate::kernels::dot_in;
-use pulp::Arch;
+use pulp::{Arch, NullaryFnOnce};
+
+use crate::kernels::dot_in;
 
 /// Partial sums of products of short rows.
 const LANES: usize = 4;
@@ -12,30 +13,62 @@ const LANES: usize = 4;
 /// Rotations that an eigenvalue may take.
 const MOST_ITERATIONS: usize = 60;
 
+/// So many turns are taken together, by so many elements of the vectors.
+const MOST_TURNS: usize = 8192;
+const AT_ONCE: usize = 64;
+
 /// Room for one matrix after the other.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Symmetric {
+pub struct Symmetric {
     n: usize,
-    /// The matrix, then the vectors one after the other.
-    pub(crate) vectors: Vec<f64>,
-    /// The eigenvalue of each.
-    pub(crate) values: Vec<f64>,
+    /// The matrix, then the orthonormal vectors one after the other.
+    pub vectors: Vec<f64>,
+    /// The eigenvalue of each, in no order.
+    pub values: Vec<f64>,
     /// What stands beside the diagonal.
     beside: Vec<f64>,
+    /// Turns that the vectors still have to take: the first of two, cosine and sine.
+    turns: Vec<(usize, f64, f64)>,
+}
+
+struct Whole<'a>(&'a mut Symmetric);
+
+impl NullaryFnOnce for Whole<'_> {
+    type Output = Option<()>;
+
+    #[inline(always)]
+    fn call(self) -> Option<()> {
+        self.0.reduce();
+        self.0.accumulate();
+        self.0.beside.rotate_left(1);
+        self.0.diagonalise()
+    }
+}
+
+struct Rest<'a>(&'a mut Symmetric);
+
+impl NullaryFnOnce for Rest<'_> {
+    type Output = Option<()>;
+
+    #[inline(always)]
+    fn call(self) -> Option<()> {
+        self.0.diagonalise()
+    }
 }
 
 impl Symmetric {
     /// Begins with a matrix of zeros.
-    pub(crate) fn begin(&mut self, n: usize) {
+    pub fn begin(&mut self, n: usize) {
         self.n = n;
         self.vectors.clear();
         self.vectors.resize(n * n, 0.0);
         self.values.resize(n, 0.0);
         self.beside.resize(n, 0.0);
+        self.turns.clear();
     }
 
     /// Adds to an element and to the one across the diagonal.
-    pub(crate) fn add(&mut self, i: usize, j: usize, value: f64) {
+    pub fn add(&mut self, i: usize, j: usize, value: f64) {
         self.vectors[i * self.n + j] += value;
         if i != j {
             self.vectors[j * self.n + i] += value;
@@ -43,18 +76,14 @@ impl Symmetric {
     }
 
     /// Finds values and vectors; `None` where that does not come to an end.
-    pub(crate) fn solve(&mut self) -> Option<()> {
+    #[must_use]
+    pub fn solve(&mut self) -> Option<()> {
         // wider vectors where the processor has them: the same sums in the same order
-        Arch::new().dispatch(|| {
-            self.reduce();
-            self.accumulate();
-            self.beside.rotate_left(1);
-            self.diagonalise()
-        })
+        Arch::new().dispatch(Whole(self))
     }
 
-    /// Finds those of a tridiagonal matrix; what is `beside` the last element does not belong to it.
-    pub(crate) fn tridiagonal(&mut self, diagonal: &[f64], beside: &[f64]) -> Option<()> {
+    /// Finds those of a tridiagonal matrix, `None` where that does not come to an end; what is `beside` the last element does not belong to it.
+    pub fn tridiagonal(&mut self, diagonal: &[f64], beside: &[f64]) -> Option<()> {
         self.begin(diagonal.len());
         self.values.copy_from_slice(diagonal);
         self.beside.copy_from_slice(beside);
@@ -64,11 +93,12 @@ impl Symmetric {
         if let Some(last) = self.vectors.last_mut() {
             *last = 1.0;
         }
-        Arch::new().dispatch(|| self.diagonalise())
+        Arch::new().dispatch(Rest(self))
     }
 
-    /// The vector of a value.
-    pub(crate) fn vector(&self, k: usize) -> &[f64] {
+    /// The vector of value `k`, a number per row.
+    #[must_use]
+    pub fn vector(&self, k: usize) -> &[f64] {
         &self.vectors[k * self.n..(k + 1) * self.n]
     }
 
@@ -82,7 +112,26 @@ impl Symmetric {
             self.values[l] += shift;
             self.beside[l] = 0.0;
         }
+        self.turn();
         Some(())
+    }
+
+    /// Turns the vectors, some elements of all of them after the others, which stay in the cache.
+    #[inline(always)]
+    fn turn(&mut self) {
+        let n = self.n;
+        for from in (0..n).step_by(AT_ONCE) {
+            let to = n.min(from + AT_ONCE);
+            for &(i, c, s) in &self.turns {
+                let (low, high) = self.vectors[i * n..(i + 2) * n].split_at_mut(n);
+                for (a, b) in low[from..to].iter_mut().zip(&mut high[from..to]) {
+                    let h = *b;
+                    *b = s * *a + c * h;
+                    *a = c * *a - s * h;
+                }
+            }
+        }
+        self.turns.clear();
     }
 
     /// To a tridiagonal matrix, from the last row on: each row is taken to two elements by a mirror,
@@ -145,6 +194,9 @@ impl Symmetric {
                 return None;
             }
             self.rotate(l, m, shift);
+            if self.turns.len() >= MOST_TURNS {
+                self.turn();
+            }
         }
         Some(())
     }
@@ -152,8 +204,7 @@ impl Symmetric {
     /// One implicit QL step on the block from `l` to `m`.
     #[inline(always)]
     fn rotate(&mut self, l: usize, m: usize, shift: &mut f64) {
-        let n = self.n;
-        let Self { vectors: v, values: d, beside: e, .. } = self;
+        let Self { values: d, beside: e, turns, .. } = self;
         let g = d[l];
         let p = (d[l + 1] - g) / (2.0 * e[l]);
         let root = (p * p + 1.0).sqrt();
@@ -173,12 +224,7 @@ impl Symmetric {
             (s, c) = (e[i] / r, p / r);
             p = c * d[i] - s * g;
             d[i + 1] = h + s * (c * g + s * d[i]);
-            let (low, high) = v[i * n..(i + 2) * n].split_at_mut(n);
-            for (a, b) in low.iter_mut().zip(high) {
-                let h = *b;
-                *b = s * *a + c * h;
-                *a = c * *a - s * h;
-            }
+            turns.push((i, c, s));
         }
         p = -s * s2 * c3 * first * e[l] / next;
         e[l] = s * p;

@@ -1,25 +1,57 @@
-//! What is asked of dense matrices, by faer. Each is compiled here once: faer is generic, and a
-//! crate that calls it compiles its decompositions anew, ten seconds of them.
+//! What is asked of dense matrices. A library would choose its kernels by the processor, and with
+//! them the last digits: here every sum has one order. Its loops run along columns and are compiled
+//! for wider vectors too, which changes no sum; nothing is fused.
 
-use faer::linalg::solvers::{Solve as _, SolveLstsq as _};
-use faer::{Mat, MatRef, Side};
+mod cholesky;
+mod columns;
+mod lu;
+mod mirror;
+mod product;
+mod schur;
+mod singular;
+mod symmetric;
+#[cfg(test)]
+mod tests;
+
+use faer::{Mat, MatRef};
+
+use columns::Columns;
+use schur::Schur;
+
+pub use symmetric::Symmetric;
 
 /// Eigenvalues of a symmetric matrix, ascending, and its orthonormal eigenvectors in the columns
 /// that go with them; the lower triangle is read. `None` where they are not found.
 #[must_use]
 pub fn symmetric_eigen(a: MatRef<'_, f64>) -> Option<(Vec<f64>, Mat<f64>)> {
-    let eigen = a.self_adjoint_eigen(Side::Lower).ok()?;
-    Some((eigen.S().column_vector().iter().copied().collect(), eigen.U().to_owned()))
+    let (n, mut room) = (a.nrows(), Symmetric::default());
+    if n == 0 {
+        return Some((Vec::new(), Mat::zeros(0, 0)));
+    }
+    // from small to large, as the method wants it where rates are decades apart
+    let mut rows: Vec<usize> = (0..n).collect();
+    rows.sort_by(|&i, &j| a[(i, i)].abs().total_cmp(&a[(j, j)].abs()));
+    let entry = |i: usize, j: usize| a[(rows[i].max(rows[j]), rows[i].min(rows[j]))];
+    room.begin(n);
+    (0..n).for_each(|j| (j..n).for_each(|i| room.add(i, j, entry(i, j))));
+    room.solve()?;
+    let mut place = vec![0; n];
+    rows.iter().enumerate().for_each(|(at, &row)| place[row] = at);
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&a, &b| room.values[a].total_cmp(&room.values[b]));
+    let values: Vec<f64> = order.iter().map(|&k| room.values[k]).collect();
+    let finite = values.iter().all(|value| value.is_finite());
+    finite.then(|| (values, Mat::from_fn(n, n, |i, k| room.vector(order[k])[place[i]])))
 }
 
 /// Magnitudes of the eigenvalues of a square matrix. `None` where they are not found.
 #[must_use]
 pub fn eigenvalue_magnitudes(a: MatRef<'_, f64>) -> Option<Vec<f64>> {
-    Some(a.eigenvalues().ok()?.iter().map(|z| z.re.hypot(z.im)).collect())
+    Some(Schur::of(Columns::of(a))?.values.iter().map(|z| z.re.hypot(z.im)).collect())
 }
 
 /// A complex number.
-pub type Complex = faer::c64;
+pub type Complex = num_complex::Complex<f64>;
 
 /// Eigenvalues of a square matrix with their vectors in the columns that go with them; those of a
 /// pair stand beside each other, the one with the positive imaginary part first.
@@ -45,59 +77,67 @@ impl GeneralEigen {
 /// Eigenvalues and right eigenvectors of a square matrix. `None` where they are not found.
 #[must_use]
 pub fn general_eigen(a: MatRef<'_, f64>) -> Option<GeneralEigen> {
-    let eigen = a.eigen().ok()?;
-    let values = eigen.S().column_vector().iter().copied().collect();
-    Some(GeneralEigen { values, vectors: eigen.U().to_owned() })
+    Schur::of(Columns::of(a))?.vectors()
 }
 
 /// The inverse of a square matrix. `None` where it is singular to rounding.
 #[must_use]
 pub fn complex_inverse(a: &Mat<Complex>) -> Option<Mat<Complex>> {
     let size = a.nrows();
-    let inverse = a.partial_piv_lu().solve(Mat::<Complex>::identity(size, size));
-    let finite = (0..size).all(|j| (0..size).all(|i| inverse[(i, j)].norm().is_finite()));
-    finite.then_some(inverse)
+    let identity = |i, j| Complex::new(f64::from(u8::from(i == j)), 0.0);
+    let one = Columns::from_fn(size, size, identity);
+    let inverse = lu::solve(Columns::from_fn(size, size, |i, j| a[(i, j)]), one);
+    let inverse = Mat::from_fn(size, size, |i, j| inverse[(i, j)]);
+    inverse.is_all_finite().then_some(inverse)
 }
 
 /// `A^-1 B` for a square matrix. `None` where it is singular to rounding.
 #[must_use]
 pub fn solve(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Option<Mat<f64>> {
-    let x = a.partial_piv_lu().solve(b);
-    let finite = (0..x.ncols()).all(|j| (0..x.nrows()).all(|i| x[(i, j)].is_finite()));
-    finite.then_some(x)
+    let x = lu::solve(Columns::of(a), Columns::of(b));
+    x.is_finite().then(|| x.matrix())
 }
 
 /// `A^-1 B` for a symmetric matrix A, of which the lower triangle is read. `None` where it is not
 /// positive definite.
 #[must_use]
 pub fn cholesky_solve(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Option<Mat<f64>> {
-    Some(a.llt(Side::Lower).ok()?.solve(b))
+    let (factor, mut x) = (cholesky::factor(Columns::of(a))?, Columns::of(b));
+    (0..x.count).for_each(|j| cholesky::solve(&factor, x.column_mut(j)));
+    Some(x.matrix())
 }
 
 /// `A B`
 #[must_use]
 pub fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
-    a * b
+    product::product(&Columns::of(a), &Columns::of(b)).matrix()
 }
 
 /// The diagonal of the Cholesky factor of a symmetric matrix, of which the lower triangle is read.
 /// `None` where it is not positive definite.
 #[must_use]
 pub fn cholesky_diagonal(a: MatRef<'_, f64>) -> Option<Vec<f64>> {
-    let factor = a.llt(Side::Lower).ok()?;
-    Some((0..a.nrows()).map(|j| factor.L()[(j, j)]).collect())
+    let factor = cholesky::factor(Columns::of(a))?;
+    Some((0..a.nrows()).map(|j| factor[(j, j)]).collect())
 }
 
 /// The triangular factor R of `A = Q R`, with as many rows as the smaller side of A.
 #[must_use]
 pub fn triangle(a: MatRef<'_, f64>) -> Mat<f64> {
-    a.qr().thin_R().to_owned()
+    let (mut r, mut nothing) = (Columns::of(a), Columns::zeros(a.nrows(), 0));
+    mirror::triangle(&mut r, &mut nothing);
+    let size = a.nrows().min(a.ncols());
+    Mat::from_fn(size, a.ncols(), |i, j| if i <= j { r[(i, j)] } else { 0.0 })
 }
 
 /// The x that makes `|A x - b|` least, for A with at least as many rows as columns, by QR.
 #[must_use]
 pub fn least_squares(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
-    a.qr().solve_lstsq(b)
+    let (mut r, mut x) = (Columns::of(a), Columns::of(b));
+    mirror::triangle(&mut r, &mut x);
+    let n = a.ncols();
+    (0..x.count).for_each(|j| mirror::backwards(&r, &mut x.column_mut(j)[..n]));
+    Mat::from_fn(n, x.count, |i, j| x[(i, j)])
 }
 
 /// `A = U diag(values) V^T`
@@ -113,7 +153,9 @@ pub struct Singular {
 /// The singular values of a matrix with their vectors. `None` where they are not found.
 #[must_use]
 pub fn singular(a: MatRef<'_, f64>) -> Option<Singular> {
-    let svd = a.thin_svd().ok()?;
-    let values = svd.S().column_vector().iter().copied().collect();
-    Some(Singular { u: svd.U().to_owned(), values, v: svd.V().to_owned() })
+    if a.nrows() < a.ncols() {
+        let Singular { u, values, v } = singular(a.transpose())?;
+        return Some(Singular { u: v, values, v: u });
+    }
+    singular::singular(Columns::of(a))
 }
