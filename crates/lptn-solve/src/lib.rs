@@ -19,6 +19,7 @@ mod error;
 mod events;
 mod exact;
 mod extremes;
+mod growth;
 mod guard;
 mod heat;
 mod last;
