@@ -146,6 +146,13 @@ impl Network {
             && self.source_ids().all(|id| self.course_of_source(id) < Degree::Nonlinear)
     }
 
+    /// Whether no input changes with time between [`Network::breakpoints`] but through
+    /// temperatures.
+    pub fn stands_still(&self) -> bool {
+        let mut driving = self.inputs().filter(|(item, _, _)| !matches!(item, Item::Signal(_)));
+        driving.all(|(_, _, value)| self.course(value) == Degree::Constant)
+    }
+
     /// How a value goes over time between [`Network::breakpoints`], temperatures held.
     pub fn course(&self, value: &Value) -> Degree {
         self.parts.course(value)

@@ -21,6 +21,7 @@ mod error;
 mod events;
 mod exact;
 mod extremes;
+mod growth;
 mod guard;
 mod heat;
 mod hidden;

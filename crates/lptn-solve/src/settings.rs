@@ -8,6 +8,7 @@ use lptn_network::{
 
 use crate::curved::Curved;
 use crate::events::ControlState;
+use crate::growth;
 use crate::selection::RecordedNodes;
 use crate::settings_error::SettingsError;
 use crate::times;
@@ -182,16 +183,16 @@ impl Transient {
     }
 
     /// The options of the integrator, with what curved inputs ask for; `switches`: something does,
-    /// or leaps.
+    /// or leaps; `grows`: by how much errors do.
     pub(crate) fn options(
         &self,
         system: &ThermalSystem,
-        switches: bool,
+        (switches, grows): (bool, f64),
         curved: Option<&Curved>,
     ) -> Options {
         let network = system.network();
-        let switching =
-            if switches { SWITCHING.max(FINEST / self.tolerance).min(1.0) } else { 1.0 };
+        let switching = if switches { SWITCHING } else { 1.0 };
+        let switching = (switching * growth::share(grows)).max(self.finest()).min(1.0);
         Options {
             sensitivity_scales: self.sensitivities.iter().map(|&id| scale(network, id)).collect(),
             tolerance: self.tolerance * curved.map_or(1.0, |c| c.share).min(switching),
@@ -202,6 +203,14 @@ impl Transient {
             },
             ..Options::default()
         }
+    }
+}
+
+impl Transient {
+    /// The smallest share of the tolerance that the integrator gets where something switches or
+    /// errors grow.
+    pub(crate) fn finest(&self) -> f64 {
+        FINEST / self.tolerance
     }
 }
 

@@ -15,6 +15,7 @@ use crate::curved::MOST_REMEMBERED;
 use crate::error::TransientError;
 use crate::events::{ControlState, Event, EventKind};
 use crate::extremes::Extremes;
+use crate::growth::TELLING;
 use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::LimitSeen;
@@ -81,6 +82,9 @@ pub struct Solution {
     pub(crate) end: RunStatus,
     pub(crate) tolerance: f64,
     pub(crate) remembered: f64,
+    /// By how much errors grow, and how much of it the tolerance of the integrator makes up for.
+    pub(crate) growth: f64,
+    pub(crate) made_up: f64,
     pub(crate) end_state: State,
     pub(crate) sensitivities: SensitivityRows,
 }
@@ -418,6 +422,12 @@ impl Solution {
         self.why_unbounded().is_none()
     }
 
+    /// By how much an error of a temperature has grown along the run at most; 1 where errors are
+    /// forgotten, and where it is not known because inputs change with time.
+    pub fn growth(&self) -> f64 {
+        self.growth
+    }
+
     /// Why the tolerance does not bound the error, if it does not.
     pub fn why_unbounded(&self) -> Option<Unbounded> {
         let ungrounded: Vec<NodeId> = self.network().ungrounded().into_iter().flatten().collect();
@@ -427,6 +437,9 @@ impl Solution {
         let steps = self.remembered;
         if steps > MOST_REMEMBERED {
             return Some(Unbounded::LongMemory { steps });
+        }
+        if self.growth > TELLING * self.made_up {
+            return Some(Unbounded::Grows { factor: self.growth });
         }
         let count =
             self.events.iter().filter(|event| !matches!(event.kind, EventKind::Limit(_))).count();
@@ -443,6 +456,12 @@ pub enum Unbounded {
     LongMemory {
         /// How many.
         steps: f64,
+    },
+    /// Heat grows faster with temperature than it is carried off, or is carried off the better the
+    /// colder a body is: errors grow with it.
+    Grows {
+        /// By how much at most.
+        factor: f64,
     },
     /// What switches decides by itself when it does: an error in the time of one switch is not
     /// forgotten but moves all that follow. There were more of them than the tolerance is tightened

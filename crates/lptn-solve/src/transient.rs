@@ -12,6 +12,7 @@ use crate::balance::Books;
 use crate::curved::Curved;
 use crate::error::{StopReason, TransientError};
 use crate::events::{Switching, Trouble, find_crossings};
+use crate::growth::{self, Growth};
 use crate::guard::{Guard, Verdict};
 use crate::heat::Heat;
 use crate::method::Method;
@@ -65,10 +66,15 @@ impl Transient {
         if !state::fits(system, from) {
             return Err(TransientError::Settings(SettingsError::State));
         }
-        let mut care = Care::Untried;
+        let (mut care, mut grows) = (Care::Untried, 1.0);
         loop {
-            if let Some(solution) = self.attempt(system, from, (care, &mut *observer))? {
-                return solution.closed();
+            let effort = Effort { care, grows };
+            if let Some(solution) = self.attempt(system, from, (effort, &mut *observer))? {
+                if grows > 1.0 || !self.can_make_up_for(&solution) {
+                    return solution.closed();
+                }
+                grows = solution.growth;
+                continue;
             }
             if !self.sensitivities.is_empty() {
                 return Err(TransientError::Settings(SettingsError::Sensitivity(
@@ -84,7 +90,7 @@ impl Transient {
         &self,
         system: &ThermalSystem,
         from: &State,
-        (care, observer): (Care, &mut dyn FnMut(Progress) -> Proceed),
+        (effort, observer): (Effort, &mut dyn FnMut(Progress) -> Proceed),
     ) -> Result<Option<Solution>, TransientError> {
         let rows = self.rows().map_err(TransientError::Settings)?;
         let network = system.network();
@@ -104,7 +110,8 @@ impl Transient {
             return stateless::solve(recorder, &segments, &Books::new(network, self.balance))
                 .map(Some);
         }
-        Run::new(recorder, (segments[0], curved), (self, care), from)?.through(&segments, observer)
+        Run::new(recorder, (segments[0], curved), (self, effort), from)?
+            .through(&segments, observer)
     }
 }
 
@@ -120,6 +127,22 @@ enum Care {
     Leaps,
     /// Not at all: only where they lead to is asked.
     Way,
+}
+
+/// How much a run has to make up for.
+#[derive(Clone, Copy)]
+struct Effort {
+    care: Care,
+    /// By how much errors grow, as far as that is known.
+    grows: f64,
+}
+
+impl Transient {
+    /// Whether errors of a run grow by more than is borne, and a smaller tolerance makes up for it.
+    fn can_make_up_for(&self, solution: &Solution) -> bool {
+        let needed = growth::share(solution.growth);
+        needed < 1.0 && needed >= self.finest() && solution.end() == RunStatus::Reached
+    }
 }
 
 /// What ends a run before its stop.
@@ -144,6 +167,10 @@ pub(crate) struct Run<'a> {
     curved: Option<Curved>,
     /// Only where tables, kinks or functions that turn read temperatures.
     guard: Option<Guard>,
+    /// Only where errors may grow.
+    growth: Option<Growth>,
+    /// The growth that the tolerance makes up for.
+    grows: f64,
     /// Only where something switches.
     switching: Option<Switching<'a>>,
     /// Steps in a row that were refused before they became so short that they lead nowhere.
@@ -159,7 +186,7 @@ impl<'a> Run<'a> {
     fn new(
         mut recorder: Recorder<'a>,
         (first, curved): (Segment, Option<Curved>),
-        (settings, care): (&Transient, Care),
+        (settings, effort): (&Transient, Effort),
         from: &State,
     ) -> Result<Self, TransientError> {
         let system = recorder.system();
@@ -182,10 +209,13 @@ impl<'a> Run<'a> {
             .network()
             .has_events()
             .then(|| Switching::new(system, &settings.controls, settings.tolerance));
+        let care = effort.care;
         let finer = system.network().has_events() || care == Care::Leaps;
         let care = if finer { Care::Leaps } else { care };
-        let options = settings.options(system, finer, curved.as_ref());
+        let grows = effort.grows;
+        let options = settings.options(system, (finer, grows), curved.as_ref());
         let guard = Guard::of(system, options.tolerance);
+        let growth = Growth::of(system, options.tolerance);
         let straight = curved.is_none() && system.network().inputs_are_straight();
         let choice = (settings.integrator, !straight);
         let (mut integrator, method) = stepper(heat, (settings.start, &initial), &options, choice)?;
@@ -204,6 +234,8 @@ impl<'a> Run<'a> {
             switching,
             curved,
             guard,
+            growth,
+            grows,
             crawled: 0,
             stuck: 0,
             care,
@@ -270,6 +302,9 @@ impl<'a> Run<'a> {
     fn enter(&mut self, segment: Segment) -> Result<(), Break> {
         self.stand()?;
         self.guard_begins();
+        if let Some(growth) = &mut self.growth {
+            growth.begin(self.integrator.state());
+        }
         self.recorder.enter(segment, self.switching.as_ref().map(|switching| &switching.positions));
         if self.method == Method::OneStep {
             self.integrator.system_mut().draw_line((segment.from, segment.to));
@@ -311,6 +346,9 @@ impl<'a> Run<'a> {
         if to < step.to {
             self.integrator.rewind(to).map_err(|e| self.failed(e))?;
             self.guard_begins();
+        }
+        if let Some(growth) = &mut self.growth {
+            growth.step(to - step.from, self.integrator.state());
         }
         if to >= segment.to {
             self.due = due; // the next segment begins with it
@@ -403,6 +441,11 @@ impl<'a> Run<'a> {
         let stood = self.recorder.branch().to_vec();
         let end_state = State::of_carried(self.integrator.state().to_vec()).standing(stood);
         let solution = self.recorder.into_solution(books, (statistics, events), end);
-        Ok(Solution { end_state, controls, method: Some(self.method), ..solution })
+        let growth = self.growth.as_ref().map_or(1.0, Growth::most);
+        // the errors of the steps through something narrow add up too
+        let narrow = self.guard.as_ref().is_some_and(Guard::met_narrow);
+        let growth = if narrow { growth.max(growth::NARROW) } else { growth };
+        let (method, made_up) = (Some(self.method), self.grows);
+        Ok(Solution { end_state, controls, method, growth, made_up, ..solution })
     }
 }

@@ -31,8 +31,10 @@ const ATTEMPTS: usize = 40;
 /// By how much a step that was held short may grow from one to the next.
 const GROWTH: f64 = 1.5;
 
-/// The part of a step over which the rates at its end are taken.
+/// The part of a step over which the rates at its end are taken, where something turns within so
+/// many steps.
 const END: f64 = 0.05;
+const NEAR: f64 = 4.0;
 
 /// A guard of what depends on temperature.
 pub(crate) struct Guard {
@@ -113,6 +115,11 @@ impl Guard {
         self.kink.min(time + longest)
     }
 
+    /// Whether something was so narrow that steps would have passed it whole.
+    pub(crate) fn met_narrow(&self) -> bool {
+        self.turns.were_narrow()
+    }
+
     /// What is to be done about the step that was taken last.
     pub(crate) fn judge(&mut self, integrator: &mut Stepping<'_>, step: &Step) -> Verdict {
         let length = step.to - step.from;
@@ -147,20 +154,33 @@ impl Guard {
     fn goes_on(&mut self, integrator: &mut Stepping<'_>, step: &Step, after: Vec<f64>) {
         let length = step.to - step.from;
         if !self.turns.are_none() && length > 0.0 {
-            let mut state = integrator.state().to_vec();
-            let time = (step.to - END * length).clamp(step.from, step.to);
-            let read = time < step.to && integrator.interpolate(time, &mut state).is_ok();
-            let before = integrator.system_mut().look(time, &state).filter(|_| read);
-            let (before, way) = match before {
-                Some(before) => (before, step.to - time),
-                None => (&self.now[..], length),
-            };
-            let changes = after.iter().zip(before).map(|(after, before)| (after - before) / way);
-            self.rates.iter_mut().zip(changes).for_each(|(rate, change)| *rate = change);
+            self.take_rates([&self.now.clone(), &after], length);
+            let course = turns::Course { now: &after, rates: &self.rates, last: length };
+            let scope = integrator.system_mut().scope();
+            if self.turns.longest(course, scope) < NEAR * length {
+                self.take_rates_at_end(integrator, step, &after);
+            }
         }
         self.now = after;
         self.corners.accept();
         (self.fresh, self.last, self.attempts) = (false, length, 0);
         self.longest *= GROWTH;
+    }
+
+    fn take_rates(&mut self, [before, after]: [&[f64]; 2], way: f64) {
+        let changes = after.iter().zip(before).map(|(after, before)| (after - before) / way);
+        self.rates.iter_mut().zip(changes).for_each(|(rate, change)| *rate = change);
+    }
+
+    fn take_rates_at_end(&mut self, integrator: &mut Stepping<'_>, step: &Step, after: &[f64]) {
+        let time = (step.to - END * (step.to - step.from)).clamp(step.from, step.to);
+        let mut state = integrator.state().to_vec();
+        if time >= step.to || integrator.interpolate(time, &mut state).is_err() {
+            return;
+        }
+        let before = integrator.system_mut().look(time, &state).map(<[f64]>::to_vec);
+        if let Some(before) = before {
+            self.take_rates([&before, after], step.to - time);
+        }
     }
 }

@@ -3,8 +3,10 @@
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Evaluation, Network, Reader};
 
-/// How far to both sides of a temperature turns are looked for, in K.
+/// How far to both sides of a temperature turns are looked for, in K, and as a share of it where it
+/// is far from all that a machine has.
 const AROUND: f64 = 100.0;
+const FAR: f64 = 0.3;
 
 /// The narrowest that is looked for there, in K.
 const NARROWEST: f64 = 1e-3;
@@ -30,6 +32,8 @@ pub(super) struct Turns {
     families: Vec<Family>,
     /// All others.
     several: Vec<Reader>,
+    /// Whether a step as long as the one before would have passed a turn whole.
+    narrow: bool,
 }
 
 /// Where the expressions of a family turn.
@@ -55,8 +59,13 @@ impl Turns {
     pub(super) fn of(system: &ThermalSystem) -> Self {
         let network = system.network().clone();
         let given = network.nodes().len();
-        let mut turns =
-            Self { network, single: Vec::new(), families: Vec::new(), several: Vec::new() };
+        let mut turns = Self {
+            network,
+            single: Vec::new(),
+            families: Vec::new(),
+            several: Vec::new(),
+            narrow: false,
+        };
         let mut known = std::collections::BTreeMap::new();
         for reader in turns.network.readers() {
             // of temperatures that are given those over time take care
@@ -90,13 +99,21 @@ impl Turns {
             let family = &mut self.families[*family];
             family.reach(&self.network, scope, number);
             if rate != 0.0 {
-                longest = longest.min((family.next(number, rate > 0.0) - number) / rate);
+                let [from, to] = family.next(number, rate > 0.0).map(|end| (end - number) / rate);
+                // the end of what was looked at has no width
+                self.narrow |= from.to_bits() != to.to_bits() && from.max(to) < course.last;
+                longest = longest.min(from.midpoint(to));
             }
         }
         if self.several.is_empty() { longest } else { longest.min(self.of_several(course, scope)) }
     }
 
-    fn of_several(&self, Course { now, rates, last }: Course<'_>, scope: &Evaluation) -> f64 {
+    /// Whether a step as long as the one before would have passed a turn whole.
+    pub(super) fn were_narrow(&self) -> bool {
+        self.narrow
+    }
+
+    fn of_several(&mut self, Course { now, rates, last }: Course<'_>, scope: &Evaluation) -> f64 {
         let fastest = rates.iter().fold(0.0_f64, |most, rate| most.max(rate.abs()));
         let way = if last > 0.0 { LONGER * last } else { FIRST / fastest };
         if !way.is_finite() || way * fastest < STILL {
@@ -109,6 +126,7 @@ impl Turns {
         for reader in &self.several {
             let turns = self.network.turns(reader, scope, [now, &ahead], least);
             if let Some([from, to]) = turns.first() {
+                self.narrow |= far * to < last;
                 longest = longest.min(far * from.midpoint(*to)).max(STILL / fastest);
             }
         }
@@ -136,11 +154,12 @@ impl Family {
     /// Looks for turns around a number, unless that was done.
     fn reach(&mut self, network: &Network, scope: &Evaluation, number: f64) {
         let [low, high] = self.range;
-        if (number - low).min(high - number) >= 0.1 * AROUND || !number.is_finite() {
+        let around = AROUND.max(FAR * number.abs());
+        if (number - low).min(high - number) >= 0.1 * around || !number.is_finite() {
             return;
         }
-        let range = [number - AROUND, number + AROUND];
-        let least = NARROWEST / (2.0 * AROUND);
+        let range = [number - around, number + around];
+        let least = NARROWEST / (2.0 * around);
         let turns = network.turns_between(&self.reader, scope, range, least);
         let place = |share: f64| range[0] + share * (range[1] - range[0]);
         self.turns = turns.into_iter().map(|turn| turn.map(place)).collect();
@@ -148,13 +167,11 @@ impl Family {
     }
 
     /// The next turn, or the end of the range that was looked at.
-    fn next(&self, number: f64, rises: bool) -> f64 {
-        let middle = |turn: &[f64; 2]| turn[0].midpoint(turn[1]);
-        if rises {
-            let next = self.turns.iter().find(|turn| turn[0] > number);
-            return next.map_or(self.range[1], middle);
-        }
-        let next = self.turns.iter().rev().find(|turn| turn[1] < number);
-        next.map_or(self.range[0], middle)
+    fn next(&self, number: f64, rises: bool) -> [f64; 2] {
+        let next = match rises {
+            true => self.turns.iter().find(|turn| turn[0] > number),
+            false => self.turns.iter().rev().find(|turn| turn[1] < number),
+        };
+        next.copied().unwrap_or([self.range[usize::from(rises)]; 2])
     }
 }

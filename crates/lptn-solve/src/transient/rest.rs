@@ -14,7 +14,7 @@ use crate::selection::RecordedNodes;
 use crate::settings::Transient;
 use crate::state::State;
 use crate::times::{Segment, just_after};
-use crate::transient::{Care, Run};
+use crate::transient::{Care, Effort, Run};
 
 /// Tolerance in K: what it decides is which way the network goes, not where it comes to rest.
 const TOLERANCE: f64 = 1e-4;
@@ -36,6 +36,9 @@ const NEAR: f64 = 1e-3;
 
 /// Steps between two looks at whether it rests.
 const EVERY: usize = 4;
+
+/// No more of it: see [`Care::Way`].
+const EFFORT: Effort = Effort { care: Care::Way, grows: 1.0 };
 
 /// Where a network is.
 pub(crate) struct Rest {
@@ -107,7 +110,7 @@ impl<'a> Run<'a> {
                 .ok()?;
         recorder.idle = true;
         let mut run =
-            Self::new(recorder, (segment, None), (&settings, Care::Way), &State::initial(system))
+            Self::new(recorder, (segment, None), (&settings, EFFORT), &State::initial(system))
                 .ok()?;
         run.integrator.system_mut().held = Some((time, just_after(time)));
         Some((segment, run))

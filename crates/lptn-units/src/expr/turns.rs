@@ -27,17 +27,18 @@ impl Program {
     ///
     /// Where bounds are not known, as behind the end of a table, nothing is told.
     pub fn turns(&self, ways: &dyn Fn(u32) -> [f64; 2], least: f64) -> Vec<[f64; 2]> {
-        let mut walk =
-            Walk { program: self, ways, least, looks: LOOKS, last: None, turns: Vec::new() };
+        let mut walk = Walk {
+            program: self,
+            ways,
+            least,
+            looks: LOOKS,
+            last: None,
+            turns: Vec::new(),
+            flats: Vec::new(),
+        };
         let ends = self.corners(ways);
         ends.windows(2).for_each(|part| walk.look([part[0], part[1]]));
-        let turns = std::mem::take(&mut walk.turns);
-        let place = |k: usize| turns.get(k).map_or(1.0, |turn| turn[0]);
-        let widened = turns.iter().enumerate().map(|(k, &[from, to])| {
-            let before = k.checked_sub(1).map_or(0.0, |k| turns[k][1]);
-            [walk.beside(from, before), walk.beside(to, place(k + 1))]
-        });
-        widened.collect()
+        walk.turns.iter().enumerate().map(|(k, turn)| walk.widened(*turn, walk.around(k))).collect()
     }
 
     /// The ends of the way and the shares at which an argument that goes straight meets a kink or
@@ -77,6 +78,8 @@ struct Walk<'a> {
     /// Where it last rose or fell, and whether it rose.
     last: Option<(f64, bool)>,
     turns: Vec<Part>,
+    /// Where it is level.
+    flats: Vec<Part>,
 }
 
 impl Walk<'_> {
@@ -94,7 +97,7 @@ impl Walk<'_> {
         let slope = bounds.slope();
         if bounds.value().is_bounded() {
             if bounds.value().width() <= SAME * bounds.value().magnitude() {
-                return;
+                return self.flats.push([from, to]);
             }
         } else if [from, to].iter().all(|share| self.value(*share).is_nan()) {
             return;
@@ -122,14 +125,33 @@ impl Walk<'_> {
         self.last = Some((to, rises));
     }
 
-    /// How far from a turn towards another place the value is about the same.
-    fn beside(&self, turn: f64, other: f64) -> f64 {
+    /// The next places to both sides of a turn where it turns or is level, or the ends of the way.
+    fn around(&self, turn: usize) -> Part {
+        let [from, to] = self.turns[turn];
+        let before = turn.checked_sub(1).map_or(0.0, |before| self.turns[before][1]);
+        let behind = self.turns.get(turn + 1).map_or(1.0, |behind| behind[0]);
+        let first = self.flats.partition_point(|flat| flat[1] <= from);
+        let next = first + self.flats[first..].partition_point(|flat| flat[0] < to);
+        let level = first.checked_sub(1).map_or(0.0, |flat| self.flats[flat][1]);
+        let falls_to = self.flats.get(next).map_or(1.0, |flat| flat[0]);
+        [before.max(level), behind.min(falls_to)]
+    }
+
+    /// A turn with what is about the same beside it, as the smaller of the two falls or rises to
+    /// its neighbours says.
+    fn widened(&self, turn: Part, others: Part) -> Part {
+        let falls = [0, 1].map(|side| (self.value(others[side]) - self.value(turn[side])).abs());
+        let most = NEAR * falls[0].min(falls[1]);
+        [self.beside(turn[0], others[0], most), self.beside(turn[1], others[1], most)]
+    }
+
+    /// How far from a turn towards another place the value changes by no more than so much.
+    fn beside(&self, turn: f64, other: f64, most: f64) -> f64 {
         let top = self.value(turn);
-        let all = (self.value(other) - top).abs();
         let mut way = other - turn;
         for _ in 0..HALVINGS {
             way *= 0.5;
-            if (self.value(turn + way) - top).abs() <= NEAR * all {
+            if (self.value(turn + way) - top).abs() <= most {
                 break;
             }
         }

@@ -8,7 +8,7 @@ use super::{Taylor, number};
 impl Taylor {
     pub(super) fn reciprocal(self) -> Self {
         let first = self.value().reciprocal();
-        Self::recurrence(first, |k, terms| -(self.folded(k, terms, |_| 1.0) * first))
+        Self::recurrence(first, self.orders, |k, terms| -(self.folded(k, terms, |_| 1.0) * first))
     }
 
     /// Exponential.
@@ -49,12 +49,12 @@ impl Taylor {
         if self.degree == 0 {
             return pair;
         }
-        for k in 1..=Self::ORDER {
+        for k in 1..=self.orders {
             let over = number(k).recip();
             let terms = pair.map(|one| self.folded(k, &one.terms, |j| j) * over);
             (pair[0].terms[k], pair[1].terms[k]) = (terms[1], -terms[0]);
         }
-        pair.iter_mut().for_each(|one| one.degree = Self::ORDER);
+        pair.iter_mut().for_each(|one| (one.degree, one.orders) = (self.orders, self.orders));
         pair
     }
 
@@ -101,7 +101,22 @@ impl Taylor {
                 self.folded(k, terms, |j| (exponent * j - (order - j)) / order) * over
             });
         }
-        if low == 0.0 && exponent > 0.0 { Self::rough(first) } else { Self::unknown() }
+        match low == 0.0 && exponent > 0.0 {
+            true => self.from_zero(first),
+            false => Self::unknown(),
+        }
+    }
+
+    /// A power from zero on, which rises or falls as its base does, however steep.
+    fn from_zero(self, value: Interval) -> Self {
+        let mut power = Self::rough(value);
+        let slope = self.slope();
+        if slope.low >= 0.0 {
+            power.terms[1] = Interval { low: 0.0, ..Interval::ALL };
+        } else if slope.high <= 0.0 {
+            power.terms[1] = Interval { high: 0.0, ..Interval::ALL };
+        }
+        power
     }
 
     fn whole_power(self, exponent: u32) -> Self {
@@ -169,7 +184,7 @@ impl Taylor {
         } else if self.degree == 0 {
             Self::flat(first)
         } else {
-            Self::recurrence(first, next)
+            Self::recurrence(first, self.orders, next)
         }
     }
 }

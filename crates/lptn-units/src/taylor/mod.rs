@@ -31,8 +31,10 @@ const ORDERS: usize = 10;
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Taylor {
     terms: [Interval; ORDERS],
-    /// All terms after this one are zero.
+    /// All terms after this one are zero ..
     degree: usize,
+    /// .. up to this one; those behind it are not known.
+    orders: usize,
 }
 
 impl Taylor {
@@ -64,6 +66,7 @@ impl Taylor {
     }
 
     /// A part of the straight way from one number to another: both as shares of it, from 0 to 1.
+    /// Bounds on the value and the derivative follow, no others.
     pub(crate) fn on_way([from, to]: [f64; 2], [first, last]: [f64; 2]) -> Self {
         let [a, b] = [first, last].map(|share| from + share * (to - from));
         let mut way = Self::flat(Interval::new(a.min(b), a.max(b)));
@@ -71,6 +74,7 @@ impl Taylor {
             way.terms[1] = Interval::point(to - from);
             way.degree = 1;
         }
+        way.orders = 1;
         way
     }
 
@@ -83,7 +87,7 @@ impl Taylor {
     fn flat(value: Interval) -> Self {
         let mut terms = [Interval::ZERO; ORDERS];
         terms[0] = value;
-        let flat = Self { terms, degree: 0 };
+        let flat = Self { terms, degree: 0, orders: Self::ORDER };
         if value == Interval::ALL { Self::rough(value) } else { flat }
     }
 
@@ -91,7 +95,7 @@ impl Taylor {
     pub(crate) fn rough(value: Interval) -> Self {
         let mut terms = [Interval::ALL; ORDERS];
         terms[0] = value;
-        Self { terms, degree: Self::ORDER }
+        Self { terms, degree: Self::ORDER, orders: Self::ORDER }
     }
 
     /// Nothing is known: the function may not even have a value everywhere.
@@ -125,13 +129,17 @@ impl Taylor {
     }
 
     /// The function whose terms follow from those before: `next(k, terms)` is number k from 1 on.
-    fn recurrence(first: Interval, next: impl Fn(usize, &[Interval; ORDERS]) -> Interval) -> Self {
+    fn recurrence(
+        first: Interval,
+        orders: usize,
+        next: impl Fn(usize, &[Interval; ORDERS]) -> Interval,
+    ) -> Self {
         let mut all = Self::flat(first);
         if all.is_unknown() {
             return all;
         }
-        all.degree = Self::ORDER;
-        for k in 1..ORDERS {
+        (all.degree, all.orders) = (orders, orders);
+        for k in 1..=orders {
             all.terms[k] = next(k, &all.terms);
         }
         all
@@ -161,8 +169,9 @@ impl Add for Taylor {
         if self.is_unknown() || other.is_unknown() {
             return Self::unknown();
         }
-        self.degree = self.degree.max(other.degree);
-        for k in 0..=other.degree {
+        self.orders = self.orders.min(other.orders);
+        self.degree = self.degree.max(other.degree).min(self.orders);
+        for k in 0..=other.degree.min(self.orders) {
             self.terms[k] = self.terms[k] + other.terms[k];
         }
         self
@@ -194,7 +203,8 @@ impl Mul for Taylor {
             return Self::unknown();
         }
         let mut product = Self::flat(Interval::ZERO);
-        product.degree = (self.degree + other.degree).min(Self::ORDER);
+        product.orders = self.orders.min(other.orders);
+        product.degree = (self.degree + other.degree).min(product.orders);
         for k in 0..=product.degree {
             let from = k.saturating_sub(other.degree);
             product.terms[k] = (from..=k.min(self.degree))

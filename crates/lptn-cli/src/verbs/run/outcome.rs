@@ -313,6 +313,11 @@ pub(super) fn not_bounded(solution: &Solution) -> Option<String> {
              smaller --tolerance",
             significant(steps, 1)
         ),
+        Unbounded::Grows { factor } => format!(
+            "errors grow by up to a factor of {} where heat rises faster with temperature than it \
+             is carried off; compare with a smaller --tolerance",
+            significant(factor, 1)
+        ),
         Unbounded::Switches { count } => {
             format!(
                 "each of {count} switches shifts the times of the next ones; compare with a \

@@ -1,0 +1,129 @@
+//! How errors grow along a run.
+//!
+//! Where heat rises faster with temperature than it is carried off, or a film grows as a body
+//! cools, two states that differ a little come to differ more, and so does a computed state from
+//! the exact one. Where nothing changes by itself, the speed `dT/dt` obeys the same linear
+//! equation along the solution as such a difference does. So the speed tells by how much an error
+//! has grown: at most as much as the largest speed has grown since. In networks that only lose
+//! heat it never grows.
+
+use lptn_assembly::ThermalSystem;
+
+/// What changes no state by more than so many tolerances tells only that the speed is not larger.
+const TOLD: f64 = 50.0;
+
+/// Errors that grow by no more than this need no smaller tolerance.
+const BORNE: f64 = 1.15;
+
+/// So much counts as the growth where steps pass something narrow over temperature, whose errors
+/// have no time to be forgotten.
+pub(crate) const NARROW: f64 = 1.2;
+
+/// By how much more than an error grows the tolerance is tightened: nothing is forgotten meanwhile,
+/// so that the errors of the steps add up, all of one sign. A heat of reaction that nearly doubles
+/// the speed was measured to make ten tolerances of them.
+const SPARE: f64 = 4.0;
+
+/// Errors that grow by more than this beyond what the tolerance makes up for are told.
+pub(crate) const TELLING: f64 = 4.0;
+
+/// The growth of errors.
+#[derive(Clone, Debug)]
+pub(crate) struct Growth {
+    tolerance: f64,
+    /// The state since which the next speed is taken, and the time since then in s.
+    before: Vec<f64>,
+    elapsed: f64,
+    /// The largest change of a state in K/s; unknown behind a jump.
+    speed: Option<f64>,
+    /// By how much errors have grown since they were smallest, and the most of it.
+    now: f64,
+    most: f64,
+}
+
+impl Growth {
+    /// `None` for a network in which no error grows, and for one whose inputs change by themselves
+    /// between two jumps: there the speed tells nothing. `tolerance` is that of the integrator in
+    /// K.
+    pub(crate) fn of(system: &ThermalSystem, tolerance: f64) -> Option<Self> {
+        let told = !system.is_proportional() && system.network().stands_still();
+        told.then(|| Self {
+            tolerance,
+            before: Vec::new(),
+            elapsed: 0.0,
+            speed: None,
+            now: 1.0,
+            most: 1.0,
+        })
+    }
+
+    /// Begins at a state, behind a jump or for the first time.
+    pub(crate) fn begin(&mut self, state: &[f64]) {
+        self.before = state.to_vec();
+        self.speed = None;
+        self.elapsed = 0.0;
+    }
+
+    /// Takes in a step of so many s to a state. Short steps are taken together.
+    pub(crate) fn step(&mut self, length: f64, state: &[f64]) {
+        self.elapsed += length;
+        let changes = state.iter().zip(&self.before).map(|(now, before)| (now - before).abs());
+        let change = changes.fold(0.0, f64::max);
+        let least = TOLD * self.tolerance;
+        if self.elapsed <= 0.0 {
+            return;
+        }
+        if change < least {
+            let most = least / self.elapsed;
+            self.speed = self.speed.map(|speed| speed.min(most));
+            return;
+        }
+        let speed = change / self.elapsed;
+        self.now = (self.now * speed / self.speed.unwrap_or(speed)).max(1.0);
+        self.most = self.most.max(self.now);
+        self.speed = Some(speed);
+        self.before.copy_from_slice(state);
+        self.elapsed = 0.0;
+    }
+
+    /// By how much an error has grown at most.
+    pub(crate) fn most(&self) -> f64 {
+        self.most
+    }
+}
+
+/// The share of the tolerance that makes up for errors that grow by a factor.
+pub(crate) fn share(factor: f64) -> f64 {
+    if factor > BORNE { (SPARE * factor).recip() } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Growth;
+
+    /// The growth of a run with one state over time, in steps of 1 s.
+    fn growth(of: impl Fn(f64) -> f64) -> f64 {
+        let (before, speed) = (vec![], None);
+        let mut growth =
+            Growth { tolerance: 1e-5, before, elapsed: 0.0, speed, now: 1.0, most: 1.0 };
+        growth.begin(&[of(0.0)]);
+        (1..=50).for_each(|k| growth.step(1.0, &[of(f64::from(k))]));
+        growth.most()
+    }
+
+    #[test]
+    fn an_error_grows_as_the_speed_does() {
+        let exact = 4.9_f64.exp();
+        let grown = growth(|t| (0.1 * t).exp());
+        assert!((grown / exact - 1.0).abs() < 1e-9, "{grown} {exact}");
+        assert!((growth(|t| (-0.1 * t).exp()) - 1.0).abs() < 1e-12);
+        assert!((growth(|t| 300.0 + 0.5 * t) - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn noise_of_a_state_that_rests_is_not_growth() {
+        let noise = |t: f64| if t % 2.0 < 0.5 { 0.0 } else { 2e-5 };
+        let grown = growth(|t| 100.0 * (-t).exp() + noise(t));
+        assert!((grown - 1.0).abs() < 1e-12, "{grown}");
+    }
+}

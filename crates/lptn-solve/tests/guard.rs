@@ -1,0 +1,326 @@
+//! What depends on temperature is seen, however narrow: random bodies whose heat has tables, kinks
+//! and narrow functions of temperature, against the quadrature `t = C int dT / q(T)`.
+
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
+#![allow(clippy::print_stdout, reason = "the measured figures, shown with --nocapture")]
+
+use std::sync::Arc;
+
+use lptn_assembly::ThermalSystem;
+use lptn_network::{
+    Conductance, Context, HeatCapacity, Network, NetworkBuilder, Path, Temperature, Time,
+};
+use lptn_solve::{EventKind, Solution, Transient, Unbounded};
+use lptn_units::{Interpolation, LookupTable, Outside, Table1, TableSymbol, Type};
+
+const ZERO: f64 = 273.15;
+
+/// Errors beyond so many tolerances have to be told.
+const FACTOR: f64 = 10.0;
+
+/// How many random bodies are tried; `LPTN_GUARD_CASES` gives another number.
+const CASES: u64 = 120;
+
+/// Numbers between 0 and 1 that look random.
+struct Dice(u64);
+
+impl Dice {
+    fn roll(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.roll()
+    }
+
+    fn in_ratio(&mut self, low: f64, high: f64) -> f64 {
+        self.between(low.ln(), high.ln()).exp()
+    }
+
+    fn one_of(&mut self, count: u64) -> u64 {
+        (0..count).find(|k| self.roll() * ((count - k) as f64) < 1.0).unwrap_or(count - 1)
+    }
+}
+
+/// Something narrow around a temperature in degC, at most 1 high.
+#[derive(Clone, Debug)]
+enum Shape {
+    Gauss,
+    Tanh,
+    Tent,
+    Ramp,
+    Table(Vec<f64>),
+}
+
+#[derive(Clone, Debug)]
+struct Feature {
+    shape: Shape,
+    at: f64,
+    width: f64,
+    size: f64,
+}
+
+impl Feature {
+    fn random(dice: &mut Dice, (low, high): (f64, f64)) -> Self {
+        let shape = match dice.one_of(5) {
+            0 => Shape::Gauss,
+            1 => Shape::Tanh,
+            2 => Shape::Tent,
+            3 => Shape::Ramp,
+            _ => Shape::Table((0..7).map(|_| dice.roll()).collect()),
+        };
+        let size =
+            if dice.roll() < 0.5 { dice.between(0.3, 5.0) } else { dice.between(-0.3, -0.05) };
+        Self { shape, at: dice.between(low, high), width: dice.in_ratio(0.1, 20.0), size }
+    }
+
+    fn of(&self, celsius: f64) -> f64 {
+        let x = (celsius - self.at) / self.width;
+        let shape = match &self.shape {
+            Shape::Gauss => (-x * x).exp(),
+            Shape::Tanh => 0.5 * ((4.0 * x + 2.0).tanh() - (4.0 * x - 2.0).tanh()),
+            Shape::Tent => (1.0 - x.abs()).max(0.0),
+            Shape::Ramp => x.clamp(0.0, 1.0),
+            Shape::Table(y) => {
+                let place = (x + 1.0).clamp(0.0, 2.0) * 4.0;
+                let all = |k: usize| if k == 0 || k == 8 { 0.0 } else { y[k - 1] };
+                let k = (0_usize..8).rfind(|k| *k as f64 <= place).unwrap_or(0);
+                all(k) + (place - k as f64) * (all(k + 1) - all(k))
+            }
+        };
+        self.size * shape
+    }
+
+    /// The temperatures in degC at which it has corners.
+    fn corners(&self) -> Vec<f64> {
+        let places = match self.shape {
+            Shape::Gauss | Shape::Tanh => vec![],
+            Shape::Tent => vec![-1.0, 0.0, 1.0],
+            Shape::Ramp => vec![0.0, 1.0],
+            Shape::Table(_) => (0..9).map(|k| 0.25 * f64::from(k) - 1.0).collect(),
+        };
+        places.into_iter().map(|x| self.at + x * self.width).collect()
+    }
+
+    fn text(&self, number: usize, temperature: &str) -> String {
+        let Self { at, width, size, .. } = self;
+        let x = format!("(({temperature} - {at:?} [degC]) / {width:?} [K])");
+        let shape = match &self.shape {
+            Shape::Gauss => format!("exp(-{x}^2)"),
+            Shape::Tanh => format!("0.5 * (tanh(4 * {x} + 2) - tanh(4 * {x} - 2))"),
+            Shape::Tent => format!("max(1 - abs({x}), 0)"),
+            Shape::Ramp => format!("min(max({x}, 0), 1)"),
+            Shape::Table(_) => format!("shape{number}({x})"),
+        };
+        format!("{size:?} * {shape}")
+    }
+
+    fn add_table(&self, number: usize, b: &mut NetworkBuilder) {
+        let Shape::Table(values) = &self.shape else { return };
+        let x = (0..9).map(|k| 0.25 * f64::from(k) - 1.0).collect();
+        let y = [&[0.0], &values[..], &[0.0]].concat();
+        let table = Table1::new(x, y, Interpolation::Linear, Outside::Hold).unwrap();
+        let table = Arc::new(LookupTable::One(table));
+        let symbol =
+            TableSymbol { table, arguments: vec![Type::SCALAR], ty: Type::SCALAR, units: vec![] };
+        b.table(&format!("shape{number}"), symbol);
+    }
+}
+
+/// A body of 1 kJ/K that is heated from 20 degC by about 100 W, or cools from 600 degC.
+struct Body {
+    features: Vec<Feature>,
+    cools: bool,
+}
+
+const C: f64 = 1000.0;
+
+impl Body {
+    fn random(dice: &mut Dice) -> Self {
+        let cools = dice.roll() < 0.3;
+        let range = if cools { (150.0, 550.0) } else { (30.0, 100.0) };
+        let count = 1 + dice.one_of(3);
+        Self { features: (0..count).map(|_| Feature::random(dice, range)).collect(), cools }
+    }
+
+    fn start(&self) -> f64 {
+        if self.cools { 600.0 } else { 20.0 }
+    }
+
+    fn factor(&self, celsius: f64) -> f64 {
+        1.0 + self.features.iter().map(|feature| feature.of(celsius)).sum::<f64>()
+    }
+
+    /// Heat that it receives in W.
+    fn heat(&self, celsius: f64) -> f64 {
+        let loss = if self.cools { 5.0 * self.factor(celsius) } else { 1e-3 };
+        let power = if self.cools { 0.0 } else { 100.0 * self.factor(celsius) };
+        power - loss * (celsius - 20.0)
+    }
+
+    fn network(&self) -> Network {
+        let mut b = NetworkBuilder::new();
+        let body = b.node("body", HeatCapacity(C), Temperature::celsius(self.start()));
+        let air = b.boundary("air", Temperature::celsius(20.0));
+        self.features.iter().enumerate().for_each(|(k, feature)| feature.add_table(k, &mut b));
+        let terms = self
+            .features
+            .iter()
+            .enumerate()
+            .map(|(k, feature)| feature.text(k, if self.cools { "body.T" } else { "T" }));
+        let factor = format!("(1 + {})", terms.collect::<Vec<String>>().join(" + "));
+        if self.cools {
+            let text = format!("5 [W/K] * {factor}");
+            let g = b.expression_in(Context::Link, &text, None).unwrap();
+            b.resistor("skin", body, air, Path::conductance(g));
+        } else {
+            b.resistor("skin", body, air, Conductance(1e-3));
+            let text = format!("100 [W] * {factor}");
+            let power = b.expression_in(Context::Source, &text, None).unwrap();
+            b.source("heater", body, power);
+        }
+        b.build().unwrap()
+    }
+
+    /// Times at which it has the temperatures of a fine grid, up to a stop in s.
+    fn course(&self) -> Vec<(f64, f64)> {
+        let sign = if self.cools { -1.0 } else { 1.0 };
+        let end = if self.cools { 60.0 } else { 130.0 };
+        let mut grid: Vec<f64> = self.features.iter().flat_map(Feature::corners).collect();
+        let cells = 20_000;
+        let part = |k: i32| self.start() + (end - self.start()) * f64::from(k) / f64::from(cells);
+        grid.extend((0..=cells).map(part));
+        grid.retain(|t| (t - self.start()) * sign >= 0.0 && (end - t) * sign >= 0.0);
+        grid.sort_by(|a, b| (a * sign).total_cmp(&(b * sign)));
+        grid.dedup();
+        let mut course = vec![(0.0, grid[0])];
+        for pair in grid.windows(2) {
+            let time = course[course.len() - 1].0 + self.takes(pair[0], pair[1]);
+            course.push((time, pair[1]));
+        }
+        course
+    }
+
+    /// Time in s from one temperature in degC to another, by Gauss's quadrature at three points.
+    fn takes(&self, from: f64, to: f64) -> f64 {
+        let (middle, half) = (0.5 * (from + to), 0.5 * (to - from));
+        let at = |x: f64| C / self.heat(middle + half * x);
+        let edge = 0.6_f64.sqrt();
+        half / 9.0 * (5.0 * (at(-edge) + at(edge)) + 8.0 * at(0.0))
+    }
+
+    /// The temperature in degC at a time.
+    fn at(&self, course: &[(f64, f64)], time: f64) -> f64 {
+        let place = course.partition_point(|point| point.0 <= time).clamp(1, course.len() - 1);
+        let (before, from) = course[place - 1];
+        let mut found = from;
+        for _ in 0..5 {
+            found += (time - before - self.takes(from, found)) * self.heat(found) / C;
+        }
+        found
+    }
+}
+
+/// The largest error over the tolerance, and whether growth is told.
+fn error_of(body: &Body, tolerance: f64) -> (f64, Solution) {
+    let course = body.course();
+    let stop = 0.999 * course[course.len() - 1].0;
+    let system = ThermalSystem::assemble(&body.network()).unwrap();
+    let run = Transient::until(Time(stop)).every(Time(stop / 100.0)).tolerance(tolerance);
+    let solution = run.solve(&system).unwrap();
+    let node = solution.network().node("body").unwrap();
+    let temperatures = solution.temperature(node).unwrap();
+    let error = solution
+        .times()
+        .iter()
+        .zip(&temperatures)
+        .map(|(time, kelvin)| (kelvin - ZERO - body.at(&course, *time)).abs() / tolerance);
+    (error.fold(0.0, f64::max), solution)
+}
+
+#[test]
+fn nothing_narrow_over_temperature_is_passed_unseen() {
+    let cases = std::env::var("LPTN_GUARD_CASES").ok().and_then(|text| text.parse().ok());
+    let mut failed = Vec::new();
+    let (mut worst, mut told, mut steps) = (0.0_f64, 0, 0);
+    for seed in 1..=cases.unwrap_or(CASES) {
+        let mut dice = Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+        (0..8).for_each(|_| drop(dice.roll()));
+        let body = Body::random(&mut dice);
+        let tolerance = [1e-3, 1e-4, 1e-5][usize::try_from(seed % 3).unwrap()];
+        let (error, solution) = error_of(&body, tolerance);
+        steps += solution.statistics().steps;
+        match solution.why_unbounded() {
+            None => worst = worst.max(error),
+            Some(_) => told += 1,
+        }
+        if error > FACTOR && solution.error_is_bounded() {
+            failed.push(seed);
+            println!(
+                "seed {seed}: {error:.1} tolerances of {tolerance:e} K, grown {:.2}; {:?}",
+                solution.growth(),
+                body.features
+            );
+        }
+    }
+    println!("worst {worst:.2} tolerances, {told} told, {steps} steps");
+    assert!(failed.is_empty(), "{failed:?}");
+}
+
+/// A body of 1 kJ/K with a heat in W, almost without loss, after 900 s in degC.
+fn after(power: &str) -> (f64, Solution) {
+    let mut b = NetworkBuilder::new();
+    let body = b.node("body", HeatCapacity(C), Temperature::celsius(20.0));
+    let air = b.boundary("air", Temperature::celsius(20.0));
+    b.resistor("skin", body, air, Conductance(1e-9));
+    let power = b.expression_in(Context::Source, power, None).unwrap();
+    b.source("heater", body, power);
+    let system = ThermalSystem::assemble(&b.build().unwrap()).unwrap();
+    let solution = Transient::until(Time(900.0)).solve(&system).unwrap();
+    let end = solution.temperature(body).unwrap();
+    (end[end.len() - 1] - ZERO, solution)
+}
+
+#[test]
+fn a_band_that_a_step_would_pass_switches_twice() {
+    let (band, widths) = ("100 [W] - if(abs(T - 61.37 [degC]) < ", [2.0, 0.5, 0.01]);
+    for width in widths {
+        let (end, solution) = after(&format!("{band}{width} [K], 90 [W], 0 [W])"));
+        let compared = |event: &&lptn_solve::Event| matches!(event.kind, EventKind::Comparison(_));
+        assert_eq!(solution.events().iter().filter(compared).count(), 2, "{width}");
+        // at 10 W instead of 100 it takes ten times as long through the band
+        let right = 110.0 - 9.0 * 2.0 * width;
+        assert!((end - right).abs() < 1e-4, "{width}: {end} for {right}");
+    }
+}
+
+/// `dT/dt = (1 W + 2 W/K (T - 20 degC) - 1 W/K (T - 20 degC)) / C`: the rise is `e^(t/tau) - 1` K.
+#[test]
+fn errors_that_grow_are_made_up_for_or_told() {
+    for (stop, bounded) in [(500.0, true), (1500.0, false)] {
+        let mut b = NetworkBuilder::new();
+        let body = b.node("body", HeatCapacity(100.0), Temperature::celsius(20.0));
+        let air = b.boundary("air", Temperature::celsius(20.0));
+        b.resistor("skin", body, air, Conductance(1.0));
+        let text = "1 [W] + 2 [W/K] * (T - 20 [degC])";
+        let power = b.expression_in(Context::Source, text, None).unwrap();
+        b.source("leakage", body, power);
+        let system = ThermalSystem::assemble(&b.build().unwrap()).unwrap();
+        let solution = Transient::until(Time(stop)).solve(&system).unwrap();
+        let rows = solution.times().iter().zip(solution.temperature(body).unwrap());
+        let error = rows.map(|(t, kelvin)| (kelvin - ZERO - 19.0 - (t / 100.0).exp()).abs());
+        let error = error.fold(0.0, f64::max) / solution.tolerance();
+        println!("{stop} s: {error:.1} tolerances, {:?}", solution.why_unbounded());
+        match solution.why_unbounded() {
+            None => assert!(bounded && error < FACTOR, "{error}"),
+            Some(Unbounded::Grows { factor }) => {
+                let grown = (stop / 100.0).exp();
+                assert!(!bounded && (factor / grown - 1.0).abs() < 0.5, "{factor} {grown}");
+            }
+            Some(other) => panic!("{other:?}"),
+        }
+    }
+}
