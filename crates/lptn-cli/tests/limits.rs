@@ -229,7 +229,7 @@ fn what_a_network_without_capacity_does_between_rows_does_not_depend_on_them() {
 fn the_mean_of_one_value_is_that_over_the_run() {
     let net = "format = 1\n[param]\nP = \"10 W\"\n[node]\na = { C = \"1 kJ/K\", T0 = \"20 degC\" }\n\
                [source]\ns = { into = \"a\", P = \"P\" }\n[run]\nstop = \"10 min\"\n[limit]\n\
-               mean = { of = \"mean(a.T)\", below = \"22 degC\" }\n\
+               average = { of = \"mean(a.T)\", below = \"22 degC\" }\n\
                most = { of = \"a.T\", below = \"25 degC\" }\n\
                [size.most]\nmaximise = \"P\"\nvary = { P = { from = \"1 W\", to = \"100 W\" } }\n\
                require = [\"mean(a.T) <= 24 [degC]\"]\nover = \"run\"\n";
@@ -239,8 +239,8 @@ fn the_mean_of_one_value_is_that_over_the_run() {
         let found = value["value"].as_f64().unwrap_or(f64::NAN);
         assert!((found - exact).abs() < 1e-4, "{value} {exact}");
     };
-    near(&json["limits"]["mean"]["margin"], -1.0);
-    near(&json["limits"]["mean"]["broken_at"], 600.0);
+    near(&json["limits"]["average"]["margin"], -1.0);
+    near(&json["limits"]["average"]["broken_at"], 600.0);
     near(&json["limits"]["most"]["margin"], -1.0);
     near(&json["limits"]["most"]["broken_at"], 500.0);
     folder.run(&["size", "net.toml"]).exits(0).prints("P = 13.333");

@@ -8,7 +8,7 @@ use crate::hidden::Hidden;
 use crate::interval::Interval;
 use crate::limit::{LimitSeen, Point};
 use crate::quadrature::{AGREEMENT, Halvings, ROUNDING};
-use crate::resolve::{At, Levels, Resolved, resolve};
+use crate::resolve::{At, Judged, Levels, Resolved, resolve};
 use crate::watch::{is_same, top};
 
 /// How often the valley of a margin is approached by another parabola.
@@ -46,7 +46,10 @@ impl LimitLook {
     pub(crate) fn step(&mut self, step: Interval, at: &mut At<'_>) -> Result<(), StopReason> {
         let levels = Levels { count: self.seen.len(), of: self.bends.levels() };
         let mut hidden = Hidden::new((&self.bends, &self.slots), self.seen.len());
-        let mut judge = |interval: &Interval| self.wanting(interval).max(hidden.wanting(interval));
+        let mut judge = |interval: &Interval| Judged {
+            wanting: self.wanting(interval),
+            hides: hidden.wanting(interval),
+        };
         let parts = resolve(step, levels, self.halvings.0, (at, &mut judge))?;
         self.halvings.after(parts.iter().all(|part| part.told));
         for Resolved { interval, open, .. } in &parts {

@@ -5,7 +5,7 @@ use lptn_network::Bends;
 use crate::error::StopReason;
 use crate::hidden::Hidden;
 use crate::interval::Interval;
-use crate::resolve::{At, Levels, Resolved, resolve};
+use crate::resolve::{At, Judged, Levels, Resolved, resolve};
 
 /// The two rules agree to this share of the integral of the absolute value, or the interval is
 /// halved.
@@ -89,8 +89,10 @@ impl Quadrature {
         let whole = Interval::new((from, to), [first, last.clone()], at)?;
         let (kinds, count) = (&self.kinds, self.kinds.len());
         let mut hidden = Hidden::new(along, count);
-        let mut judge = |interval: &Interval| {
-            wanting(kinds, &interval.integrals(count)).max(hidden.wanting(interval))
+        let mut sizes = vec![0.0; count];
+        let mut judge = |interval: &Interval| Judged {
+            wanting: wanting(kinds, &interval.integrals(count), &mut sizes),
+            hides: hidden.wanting(interval),
         };
         let levels = Levels { count, of: along.0.levels() };
         let parts = resolve(whole, levels, self.halvings.0, (at, &mut judge))?;
@@ -111,17 +113,20 @@ impl Quadrature {
 }
 
 /// How far the two rules are apart for the worst curve, over what is allowed; 0 where they agree. A
-/// curve that has no number somewhere has none by halving.
-fn wanting(kinds: &[usize], integrals: &[[f64; 3]]) -> f64 {
+/// curve that has no number somewhere has none by halving. `sizes` are the largest integrals of
+/// absolute values in the step so far, beside which an interval may be nothing.
+fn wanting(kinds: &[usize], integrals: &[[f64; 3]], sizes: &mut [f64]) -> f64 {
     let mut largest = vec![0.0_f64; kinds.iter().max().map_or(0, |kind| kind + 1)];
-    for (&kind, [_, _, size]) in kinds.iter().zip(integrals) {
+    for ((&kind, [_, _, size]), known) in kinds.iter().zip(integrals).zip(sizes.iter_mut()) {
+        *known = known.max(*size);
         largest[kind] = largest[kind].max(*size);
     }
-    let one = |(&kind, [_, apart, size]): (&usize, &[f64; 3])| {
-        let allowed = (AGREEMENT * size).max(ROUNDING * largest[kind]);
+    let one = |((&kind, [_, apart, size]), known): ((&usize, &[f64; 3]), &f64)| {
+        let rounding = ROUNDING * largest[kind].max(*known);
+        let allowed = (AGREEMENT * size).max(rounding);
         if apart.abs() > allowed { apart.abs() / allowed } else { 0.0 }
     };
-    kinds.iter().zip(integrals).map(one).fold(0.0, f64::max)
+    kinds.iter().zip(integrals).zip(&*sizes).map(one).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -231,7 +231,5 @@ fn capacity(network: &Network) -> f64 {
 /// A part whose material is not known makes the whole unknown: a sum without it would look like a
 /// light design.
 fn mass(network: &Network) -> Option<f64> {
-    let nodes = network.node_ids().filter(|id| network.capacity(*id) > 0.0);
-    let masses: Vec<Option<f64>> = nodes.map(|id| network.mass(id)).collect();
-    if masses.is_empty() { None } else { masses.into_iter().sum() }
+    network.whole_mass()
 }
