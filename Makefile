@@ -8,6 +8,8 @@
 # make mutants installs cargo-mutants if it is missing, breaks lptn-assembly, -reduce, -network and -units in one place after
 #              another (5,496 in all) and runs the tests of the crate each time: some ten hours on two cores. Results go to
 #              target/mutants/CRATE. MUTANTS="--shard 1/40" takes every fortieth place, in a quarter of an hour.
+# make metamorphic    asks every relation and every verb of random networks: METAMORPHIC (2000) of them from the seed
+#              METAMORPHIC_FROM (1000) on, about an hour on two cores; the smallest network that differs is printed
 # make fuzz    feeds six readers with inputs guided by coverage, FUZZ_MINUTES (5) each; fuzz/run says how
 # make dist    packs one program that runs on any Linux for x86-64, with manual pages, completions and networks, and a
 #              Python wheel of it: target/dist. See docs/install.md
@@ -19,7 +21,7 @@ SUNDIALS ?= system
 export SUNDIALS
 features = $(if $(filter bundled,$(SUNDIALS)),--features lptn-cli/bundled)
 
-.PHONY: demo test test-kills test-slurm test-hyperqueue build dist book setup setup-tests setup-bench bench bench-all bench-micro audit fuzz mutants check-wasm clean
+.PHONY: demo test test-kills test-slurm test-hyperqueue build dist book setup setup-tests setup-bench bench bench-all bench-micro audit fuzz metamorphic mutants check-wasm clean
 
 demo: build
 	./target/release/lptn run networks/gearbox.toml
@@ -61,6 +63,12 @@ mutants: setup-tests
 	    cargo mutants --package $$crate --output target/mutants/$$crate $(MUTANTS); \
 	    case $$? in 0|2|3) ;; *) exit 1 ;; esac; \
 	done
+
+METAMORPHIC ?= 2000
+METAMORPHIC_FROM ?= 1000
+metamorphic: setup-tests
+	LPTN_METAMORPHIC=$(METAMORPHIC) LPTN_METAMORPHIC_FROM=$(METAMORPHIC_FROM) \
+	    cargo test --locked $(features) -p lptn-cli --test metamorphic -- --nocapture
 
 fuzz:
 	@./fuzz/run

@@ -3,9 +3,8 @@
 //! within ten times the tolerance.
 //!
 //! Each of 300 networks is asked for every second relation.
-//! `LPTN_METAMORPHIC=5000 cargo test -p lptn-cli --test metamorphic` takes so many networks, and
-//! all relations; `LPTN_METAMORPHIC_FROM=17` begins at that seed, so that one network alone can be
-//! looked at.
+//! `make metamorphic METAMORPHIC=5000 METAMORPHIC_FROM=17` takes so many networks from that seed on,
+//! and all relations. `LPTN_METAMORPHIC=1 LPTN_METAMORPHIC_FROM=17` looks at one network alone.
 
 #![allow(clippy::print_stdout, reason = "how many networks a relation changes")]
 
@@ -23,6 +22,7 @@ use random::random::Random;
 use random::relations::{RELATIONS, Relation, Variant, included, reordered, superposed, templated};
 use random::results::{Results, read, results};
 use random::shrink::smallest;
+use random::verbs::Study;
 use random::write::{MAIN, Texts};
 
 /// Each kind of element, table, signal and so on stands in at least so many of a hundred networks.
@@ -118,11 +118,19 @@ impl Asked {
 /// Asks one network in `every`, which is not a multiple of 3, for every third is linear; shows the
 /// smallest of at most three that differ.
 fn hold(name: &str, every: u64, check: Check<'_>) -> Asked {
-    let every = if std::env::var_os("LPTN_METAMORPHIC").is_some() { 1 } else { every };
+    let long = std::env::var_os("LPTN_METAMORPHIC").is_some();
+    let every = if long { 1 } else { every };
     let first = name.len() as u64;
     let tried: Vec<&Case> =
         cases().cases.iter().filter(|case| (case.seed + first).is_multiple_of(every)).collect();
-    let outcomes = in_parallel(&tried, available_threads(), |case| check(case));
+    let outcomes = in_parallel(&tried, available_threads(), |case| {
+        let outcome = check(case);
+        if let (true, Some(Err((difference, _)))) = (long, &outcome) {
+            // hours before the smallest are shown
+            println!("seed {}, {name}: {difference}", case.seed);
+        }
+        outcome
+    });
     let failed = tried.iter().zip(&outcomes).filter(|(_, outcome)| matches!(outcome, Some(Err(_))));
     let failed: Vec<&Case> = failed.map(|(case, _)| *case).collect();
     let changed = outcomes.iter().flatten().count();
@@ -226,7 +234,7 @@ fn expansions_are_the_same() {
 #[test]
 fn relations_hold_one_after_the_other() {
     let first: [Relation; 3] = [templated, included, reordered];
-    hold("one after the other", 4, &|case| {
+    hold("one after the other", 7, &|case| {
         let mut random = dice(case.seed, "first");
         let net = random.pick(&first)(&case.net, &mut random)?.net;
         let case = match Case::new(case.seed, net.clone()) {
@@ -282,7 +290,7 @@ fn linear_networks_superpose() {
 /// bounds it.
 #[test]
 fn a_tighter_tolerance_changes_no_more_than_is_promised() {
-    hold("with a tighter tolerance", 4, &|case| {
+    hold("with a tighter tolerance", 5, &|case| {
         let mut variant = Variant::of(&case.net);
         let tight = random::model::constant(
             0.01 * random::model::TOLERANCE,
@@ -298,7 +306,7 @@ fn a_tighter_tolerance_changes_no_more_than_is_promised() {
 /// Twice the same bytes.
 #[test]
 fn runs_repeat_to_the_last_digit() {
-    hold("again", 4, &|case| {
+    hold("again", 8, &|case| {
         let (texts, variant) =
             (case.net.texts(), Variant { exact: true, ..Variant::of(&case.net) });
         let outcome = results(&texts).and_then(|found| same(case, &variant, &found));
@@ -318,6 +326,16 @@ fn all_formats_show_the_same_numbers() {
 #[test]
 fn runs_in_two_parts_are_the_same() {
     hold("in two parts", 5, &|case| Some(program::in_two_parts(case)));
+}
+
+/// `run`, `compare`, `sweep`, `rank`, `size` at its answer, bands and the page of a report agree on
+/// the hottest, the margin of a limit, heats and the verdict.
+#[test]
+fn verbs_agree() {
+    let asked = hold("verb against verb", 40, &|case| {
+        Some(Study::of(case, &mut dice(case.seed, "verbs"))?.agrees())
+    });
+    asked.at_least(60);
 }
 
 /// Few networks cannot be run or have no useful bound, and every kind of element is there.

@@ -11,4 +11,5 @@ pub mod relations;
 pub mod results;
 pub mod shrink;
 pub mod units;
+pub mod verbs;
 pub mod write;

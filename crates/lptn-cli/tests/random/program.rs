@@ -14,7 +14,7 @@ use crate::common::{Folder, csv};
 /// Columns by name.
 type Columns = BTreeMap<String, Vec<f64>>;
 
-fn folder(texts: &Texts) -> Folder {
+pub fn folder(texts: &Texts) -> Folder {
     let folder = Folder::empty();
     texts.iter().for_each(|(name, text)| folder.write(name, text));
     folder
@@ -116,10 +116,15 @@ pub fn in_two_parts(case: &Case) -> Result<(), (String, Texts)> {
 
 fn two_parts(case: &Case, texts: &Texts, stop: f64) -> Result<(), String> {
     let folder = folder(texts);
-    let ran = folder.run(&["run", "first.toml"]);
+    let ran = folder.run(&["run", "first.toml", "--format", "json"]);
     if ran.code != Some(0) {
         return Err(format!("the first part ends with {:?}: {}", ran.code, ran.err));
     }
+    margins(
+        case,
+        &ran.out,
+        &folder.run(&["run", "second.toml", "--no-files", "--format", "json"]).out,
+    )?;
     let found = as_csv(&folder, "second.toml", &["--select", "*.T"])?;
     let rows = case.results.times.iter().filter(|time| **time >= 0.5 * stop).count();
     for (name, values) in found.iter().filter(|(name, _)| *name != "time") {
@@ -136,10 +141,26 @@ fn two_parts(case: &Case, texts: &Texts, stop: f64) -> Result<(), String> {
     Ok(())
 }
 
-/// The network over a part of its run, without windows and the like.
+/// The margins of a run are the smaller ones of its parts.
+fn margins(case: &Case, first: &str, second: &str) -> Result<(), String> {
+    let parts = [first, second].map(serde_json::from_str::<serde_json::Value>);
+    let [Ok(first), Ok(second)] = parts else { return Err("no JSON of a part".into()) };
+    for (name, whole) in &case.results.margins {
+        let of = |part: &serde_json::Value| {
+            part["limits"][name]["margin"]["value"].as_f64().unwrap_or(f64::NAN)
+        };
+        let least = f64::min(of(&first), of(&second));
+        if (least - whole).abs() > case.bound() {
+            return Err(format!("margin of {name} is {whole} in one run and {least} in two"));
+        }
+    }
+    Ok(())
+}
+
+/// The network over a part of its run, without windows and reports.
 fn part(net: &Net, (from, to): (f64, f64)) -> Net {
     let mut net = net.clone();
-    net.entries.retain(|entry| !matches!(&*entry.section, "window" | "report" | "limit"));
+    net.entries.retain(|entry| !matches!(&*entry.section, "window" | "report"));
     let interval = net.run_value("stop") / 16.0;
     let rows = constant(interval, Kind::Time);
     let run = net.run();
