@@ -13,7 +13,8 @@ use crate::watch::top;
 pub struct LimitSeen {
     /// The limit.
     pub limit: LimitId,
-    /// Its least margin in SI units, positive if it was kept all the time; see
+    /// Its least margin in SI units, positive if it was kept all the time; NaN if it could not be
+    /// [judged](Network::is_judged) at any moment; see
     /// [`Network::limit_margin`]. Zero where a temperature passes it by less than ten times the
     /// tolerance, which is the error of a run.
     pub margin: f64,
@@ -40,6 +41,8 @@ pub(crate) struct LimitWatch<'a> {
     points: Vec<Vec<Point>>,
     /// For each limit the point at the start.
     first: Vec<Option<Point>>,
+    /// For each limit whether it could be judged at some moment.
+    judged: Vec<bool>,
 }
 
 impl<'a> LimitWatch<'a> {
@@ -53,6 +56,7 @@ impl<'a> LimitWatch<'a> {
             seen: network.limit_ids().map(nothing).collect(),
             points: vec![Vec::new(); network.limits().len()],
             first: vec![None; network.limits().len()],
+            judged: vec![false; network.limits().len()],
         }
     }
 
@@ -88,6 +92,9 @@ impl<'a> LimitWatch<'a> {
         for id in self.ids() {
             let margin = self.network.limit_margin(id, &mut self.reading.scope)?;
             self.points[id.index()].push((at.0, margin));
+            if !self.judged[id.index()] {
+                self.judged[id.index()] = self.network.is_judged(id, &mut self.reading.scope)?;
+            }
         }
         Ok(())
     }
@@ -161,6 +168,11 @@ impl<'a> LimitWatch<'a> {
                 (seen.margin, seen.broken_at) = (0.0, None);
             }
         }
+        for (seen, judged) in self.seen.iter_mut().zip(&self.judged) {
+            if !judged && seen.margin.is_finite() {
+                (seen.margin, seen.broken_at) = (f64::NAN, None);
+            }
+        }
         self.seen
     }
 }
@@ -198,10 +210,13 @@ fn is_temperature(network: &Network, id: LimitId) -> bool {
 }
 
 /// The margin of each limit in SI units where `scope` stands, zero where a temperature passes it by
-/// rounding only.
+/// rounding only, NaN if it cannot be [judged](Network::is_judged) there.
 pub(crate) fn margins(network: &Network, scope: &mut Evaluation) -> Result<Vec<f64>, InputError> {
     let margin = |id: LimitId| {
         let margin = network.limit_margin(id, scope)?;
+        if !network.is_judged(id, scope)? {
+            return Ok(f64::NAN);
+        }
         let rounding = is_temperature(network, id) && (-ROUNDING..0.0).contains(&margin);
         Ok(if rounding { 0.0 } else { margin })
     };
