@@ -73,9 +73,7 @@ impl Network {
             let Some(dependence) = self.dependence_of(item) else { continue };
             // a path that takes the mean of a property reads it at both ends
             let ends = match (item, field) {
-                (Item::Conductor(id), Field::Law(law))
-                    if law.along && self.along(id).is_some() =>
-                {
+                (Item::Conductor(id), Field::Law(law)) if law.along && self.along(id).is_some() => {
                     &[Some(0), Some(1)][..]
                 }
                 _ => &[None],
@@ -87,10 +85,9 @@ impl Network {
             }
         }
         // what switches is to be seen too
-        let comparing = self
-            .switches()
-            .iter()
-            .filter_map(|switch| self.reader(&switch.difference, self.dependence_of(switch.item)?, None));
+        let comparing = self.switches().iter().filter_map(|switch| {
+            self.reader(&switch.difference, self.dependence_of(switch.item)?, None)
+        });
         readers.extend(comparing);
         self.group(&mut readers);
         readers
