@@ -34,6 +34,9 @@ pub(crate) struct Judged {
 impl Judged {
     pub(crate) fn of_run(seen: &LimitSeen) -> Self {
         let LimitSeen { limit, margin, worst_at, broken_at, .. } = *seen;
+        if margin.is_nan() {
+            return Self::open(limit);
+        }
         Self { limit, margin, worst_at: Some(worst_at), broken_at }
     }
 
@@ -49,8 +52,8 @@ impl Judged {
         Self { limit, margin, worst_at: None, broken_at: None }
     }
 
-    /// One that a steady state says nothing about, since it depends on inputs that change with
-    /// time.
+    /// One that nothing is said about: in a steady state, since it depends on inputs that change
+    /// with time; or since it is of gears that carry no load.
     pub(crate) fn open(limit: LimitId) -> Self {
         Self::of_steady(limit, f64::NAN)
     }

@@ -130,3 +130,55 @@ fn a_picture_and_a_report_show_every_part() {
         assert!(text.contains("first.lip") && text.contains("second.lip"), "{file}");
     }
 }
+
+/// A mesh that may scuff, with a torque over time.
+fn flanks(torque: &str) -> Folder {
+    let text = format!(
+        "format = 1\n[node]\ngears = {{ C = \"1 kJ/K\", T0 = \"60 degC\" }}\n[boundary]\n\
+         air = {{ T = \"20 degC\" }}\n[resistor]\nskin = {{ from = \"gears\", to = \"air\", G = \"20 W/K\" }}\n\
+         [signal]\nload = {{ t = [\"0 s\", \"60 s\"], v = {torque}, after_end = \"hold\" }}\n[mesh.pair]\n\
+         into = \"gears\"\nmodel = \"external\"\nspeed = \"1500 rpm\"\ntorque = \"load\"\nz1 = 20\nz2 = 60\n\
+         module = \"3 mm\"\nwidth = \"30 mm\"\nRa = \"0.5 um\"\nnu = \"60 mm^2/s\"\ndensity = \"860 kg/m^3\"\n\
+         scuffing = \"200 degC\"\n[limit]\nflanks = {{ of = \"pair.margin\", above = \"20 K\" }}\n[run]\n\
+         stop = \"60 s\"\n"
+    );
+    Folder::with("flanks.toml", &text)
+}
+
+/// Without load nothing scuffs, however hot it is: that is not a limit that is kept.
+#[test]
+fn a_limit_of_flanks_without_load_is_not_judged() {
+    let idle = flanks("[\"0 N m\", \"0 N m\"]");
+    for words in [["run", "--no-files"], ["steady", "--quiet"]] {
+        let ran = idle.run(&[words[0], "flanks.toml", words[1]]).exits(0);
+        let ran = ran.prints("not judged");
+        assert!(!ran.out.contains("kept"), "{}", ran.out);
+    }
+    let json = idle.run(&["run", "flanks.toml", "--no-files", "--format", "json"]).exits(0).json();
+    assert!(json["limits"][0]["margin"].is_null(), "{}", json["limits"]);
+    idle.run(&["compare", "flanks.toml"]).exits(0).prints("not judged");
+    let loaded = flanks("[\"0 N m\", \"50 N m\"]");
+    loaded.run(&["run", "flanks.toml", "--no-files"]).exits(0).prints("kept");
+}
+
+/// The pair of gears C of FZG, shifted to a centre distance of 91.5 mm: 388.9 W are predicted, and
+/// 280.0 W are right.
+#[test]
+fn shifted_profiles_are_warned_of() {
+    let pair = |addenda: [f64; 2], model: &str| {
+        let text = format!(
+            "format = 1\n[node]\ngears = {{ massless = true }}\n[boundary]\noil = {{ T = \"60 degC\" }}\n\
+             [resistor]\nspray = {{ from = \"gears\", to = \"oil\", G = \"1000 W/K\" }}\n[mesh.pair]\n\
+             into = \"gears\"\nmodel = \"{model}\"\nspeed = \"1500 rpm\"\ntorque = \"200 N m\"\nz1 = 20\nz2 = 60\n\
+             module = \"4.5 mm\"\nwidth = \"14 mm\"\naddendum_1 = {}\naddendum_2 = {}\nRa = \"0.355 um\"\n\
+             nu = \"15.12 mm^2/s\"\ndensity = \"878 kg/m^3\"\n",
+            addenda[0], addenda[1]
+        );
+        Folder::with("pair.toml", &text).run(&["steady", "pair.toml"]).exits(0).err
+    };
+    let warns = |addenda, model| pair(addenda, model).contains("netlist::profile_shift");
+    assert!(warns([1.1817, 1.1715], "external") && warns([0.9, 0.95], "external"));
+    assert!(!warns([1.3, 0.7], "external") && !warns([1.0, 1.0], "external"));
+    // shorter teeth of a ring are common, and no shift
+    assert!(warns([1.2, 1.0], "internal") && !warns([1.0, 0.7], "internal"));
+}

@@ -93,13 +93,30 @@ fn what_cannot_be_asked_is_said() {
     refused(&["--port", "bdy"], "did you mean `body`?");
     refused(&["--port", "body", "--to", "air"], "reduce::boundary_port");
     refused(&["--port", "loose"], "response::no_ground");
-    refused(&["--port", "body", "--time", "2s,1s"], "impedance::list");
+    refused(&["--port", "body", "--omega", "2 Hz,-1 Hz"], "impedance::list");
     refused(&["--port", "body", "--time", "0s"], "impedance::list");
     refused(&["--port", "body", "--omega", "3 K"], "--omega");
     refused(&["--port", "body", "--duty", "1.5"], "impedance::duty");
     refused(&["--port", "body", "--to", "loose", "--duty", "0.5"], "impedance::pulses_elsewhere");
     let loose = ["impedance", "body.toml", "--port", "loose", "--omega", "1 rad/s"];
     folder.run(&loose).exits(0).prints("0.2").prints("-90");
+}
+
+/// The curve is drawn through them: they come in order, and that is told.
+#[test]
+fn lists_are_shown_in_order_and_that_is_told() {
+    let folder = Folder::with("body.toml", BODY);
+    let ask = |list: [&str; 2]| {
+        folder.run(&["impedance", "body.toml", "--port=body", list[0], list[1], "--format=csv"])
+    };
+    for (given, ascending) in [
+        (["--time", "2s,1s,2s"], ["--time", "1s,2s"]),
+        (["--omega", "2 Hz, 1 rad/s"], ["--omega", "1 rad/s,2 Hz"]),
+    ] {
+        let (moved, ran) = (ask(given).exits(0), ask(ascending).exits(0));
+        assert_eq!(moved.out, ran.out);
+        assert!(moved.err.contains("ascending order") && !ran.err.contains("ascending"));
+    }
 }
 
 /// Two bodies behind a junction. Conductances 4, 2 W/K and capacities 2, 4 J/K: the squared rates of

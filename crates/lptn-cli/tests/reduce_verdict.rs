@@ -100,6 +100,7 @@ fn as_few_nodes_are_taken_as_keep_a_limit_over_every_load() {
     let reduce =
         |more: &[&str]| folder.run(&[&["reduce", "long.toml", "--port", "s"], more].concat());
     let ran = reduce(&["--error", "0.1K", "--power", "200W", "--write", "two.toml"]).exits(0);
+    let ran = ran.says("wrote  two.toml: 2 nodes that replace long.toml");
     assert!(ran.out.starts_with("2 nodes keep 0.1K over every load up to 200 W (exactly)\n"));
     let text = folder.read("two.toml");
     for part in ["n2 = { C = \"14", "R_2 = { from = \"s\", to = \"n2\"", "R_end = { from = \"n2\""]

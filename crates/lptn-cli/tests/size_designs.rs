@@ -165,3 +165,40 @@ fn several_parameters_are_sized_and_written() {
     folder.run(&["steady", "b.toml"]).exits(0);
     folder.run(&["size", "a.toml", "--plot", "a.svg"]).exits(0);
 }
+
+/// A planetary stage of 18/42/102 teeth: neither a sun of 19 nor one of 20 meshes with the others.
+const STAGE: &str = "format = 1
+[param]
+z_sun = 18
+[node]
+gears = { C = \"500 J/K\", T0 = \"20 degC\" }
+[boundary]
+air = { T = \"20 degC\" }
+[resistor]
+skin = { from = \"gears\", to = \"air\", R = \"0.3 K/W\" }
+[gearbox.stage]
+teeth = { sun = \"z_sun\", planet = 42, ring = 102 }
+planets = 3
+held = \"ring\"
+speed = \"3000 rpm\"
+into = \"gears\"
+seal = { lip = { on = \"sun\", model = \"shaft\", d = \"20 mm\" } }
+[size.s]
+maximise = \"z_sun\"
+catalogue = \"suns.csv\"
+require = [\"gears.T <= 90 [degC]\"]
+";
+
+/// It answered with the sun of 20 teeth, which `run --set` and `sweep` refuse.
+#[test]
+fn gears_that_do_not_mesh_are_not_the_answer() {
+    let folder = Folder::with("stage.toml", STAGE);
+    folder.write("suns.csv", "part,z_sun\ns18,18\ns19,19\ns20,20\n");
+    folder.run(&["steady", "stage.toml", "--set", "z_sun=20"]).exits(2).says("netlist::gear_mesh");
+    let json = folder.run(&["size", "stage.toml", "--format", "json"]).exits(0).json();
+    assert_eq!(json["values"]["z_sun"]["value"], 18.0);
+    let csv = folder.run(&["size", "stage.toml", "--format", "csv"]).exits(0);
+    assert_eq!(csv.out.matches("netlist::gear_mesh").count(), 2, "{}", csv.out);
+    folder.write("suns.csv", "part,z_sun\ns19,19\ns20,20\n");
+    folder.run(&["size", "stage.toml"]).exits(2).says("netlist::gear_mesh");
+}

@@ -35,6 +35,7 @@ pub(crate) const Conduction: KindDeclaration = KindDeclaration {
 const CONDUCTIVITY: FieldDeclaration = FieldDeclaration {
     hints: Hints::PROPERTY,
     property: Some(Substance::Material),
+    along: true,
     ..FieldDeclaration::new(
         "k",
         Type::of(Dimension::CONDUCTIVITY),

@@ -41,6 +41,13 @@ pub trait Law {
         Vec::new()
     }
 
+    /// Whether its [results](Law::RESULTS) judge anything for these values; without load no flank
+    /// scuffs, however hot it is.
+    fn judges(values: &[f64], ends: [f64; 2]) -> bool {
+        let _ = (values, ends);
+        true
+    }
+
     /// The key of the capacity rate of a stream that comes to `from` out of what the law describes, so
     /// that streams have to bring as much there; `None` where `from` is no outlet.
     const OUTLET: Option<&'static str> = None;
@@ -207,6 +214,9 @@ pub struct FieldDeclaration {
     /// What it is a property of, if it is one: a material, fluid or lubricant may be named in its
     /// place. Of a path its expression may read `T` then, the mean temperature of the ends.
     pub property: Option<Substance>,
+    /// Whether it is the conductivity of a body through which heat flows from one end to the other:
+    /// its mean over the temperatures between the ends counts.
+    pub along: bool,
 }
 
 /// What has properties, by the key that names it.
@@ -240,7 +250,18 @@ impl FieldDeclaration {
         example: &'static str,
     ) -> Self {
         let (range, hints) = (Range::Positive, Hints::SIGN);
-        Self { key, ty, range, default: None, meaning, example, hints, words: &[], property: None }
+        Self {
+            key,
+            ty,
+            range,
+            default: None,
+            meaning,
+            example,
+            hints,
+            words: &[],
+            property: None,
+            along: false,
+        }
     }
 
     /// A length or an area of a body.

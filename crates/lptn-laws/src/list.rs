@@ -62,6 +62,13 @@ macro_rules! declare {
                 }
             }
 
+            /// Whether its results judge anything, as [`Law::judges`].
+            pub fn judges(self, values: &[f64], ends: [f64; 2]) -> bool {
+                match self {
+                    $($(Self::$law => <crate::$module::$law as Law>::judges(values, ends),)*)*
+                }
+            }
+
             /// What its groups are, as [`Law::groups`].
             pub fn groups(self, values: &[f64], ends: [f64; 2]) -> Vec<Option<f64>> {
                 match self {

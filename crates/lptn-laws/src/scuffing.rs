@@ -288,6 +288,10 @@ impl Law for MeshExternalScuffing {
     fn results(values: &[f64], ends: [f64; 2]) -> Vec<f64> {
         results(values, ends, false)
     }
+
+    fn judges(values: &[f64], _: [f64; 2]) -> bool {
+        is_loaded(values)
+    }
 }
 
 /// A pinion or planet in a ring that may scuff.
@@ -318,6 +322,16 @@ impl Law for MeshInternalScuffing {
     fn results(values: &[f64], ends: [f64; 2]) -> Vec<f64> {
         results(values, ends, true)
     }
+
+    fn judges(values: &[f64], _: [f64; 2]) -> bool {
+        is_loaded(values)
+    }
+}
+
+/// Whether flanks slide under load: there is no flash temperature without.
+fn is_loaded(values: &[f64]) -> bool {
+    let [speed, torque] = [values[0], values[1]];
+    speed != 0.0 && torque != 0.0
 }
 
 fn results(values: &[f64], [bulk, _]: [f64; 2], internal: bool) -> Vec<f64> {

@@ -63,6 +63,15 @@ impl Netlist {
         if gears.is_empty() { Ok(run) } else { Err(gears) }
     }
 
+    /// Whether the gears of a network with other parameters mesh, as `--set` asks.
+    ///
+    /// # Errors
+    /// The first stage whose wheels cannot be put together.
+    pub fn meshes(&self, network: &Network) -> Result<(), Box<Diagnostic>> {
+        let first = gearbox::check(&self.gearboxes, network).into_iter().next();
+        first.map_or(Ok(()), |problem| Err(Box::new(problem)))
+    }
+
     fn assign(
         &self,
         assignments: &[String],

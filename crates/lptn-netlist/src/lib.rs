@@ -30,6 +30,7 @@
 
 mod adrift;
 mod assign;
+mod assumed;
 mod believe;
 mod case;
 mod csv_files;

@@ -12,6 +12,7 @@ use lptn_data::{
 use lptn_network::{Network, Parameters, RunSettings, Value};
 use lptn_units::Unit;
 
+use crate::assumed;
 use crate::csv_files::CsvFiles;
 use crate::elaborate::{Elaborated, elaborate};
 use crate::foreign;
@@ -84,6 +85,8 @@ impl Netlist {
         all.extend(streams::wrong_outlets(network, map, start));
         all.extend(plausible::materials(network, map));
         all.extend(plausible::neighbours(network, map));
+        all.extend(assumed::shifted_gears(network, map));
+        all.extend(assumed::mean_conductivities(network, map));
         all.extend(
             self.initial
                 .iter()

@@ -334,7 +334,7 @@ fn assignments_that_break_an_element_are_named() {
                 area = \"1 m^2\", thickness = \"thick\" }\n\
                 [radiation]\nr = { from = \"a\", to = \"b\", emissivity = \"eps\", area = \"1 \
                 m^2\" }\n\
-                [advection]\ns = { from = \"a\", to = \"b\", fluid = \"water\", flow = \"m\" }\n\
+                [advection]\ns = { from = \"a\", to = \"b\", fluid = \"engine_oil\", flow = \"m\" }\n\
                 [source]\nP = { into = \"a\", P = \"course\" }\n";
     let mut netlist = parse("a.toml", text).unwrap_or_else(|r| panic!("{r}"));
     let mut refused = |assignments: &[&str]| -> Vec<(String, Vec<String>)> {
@@ -357,7 +357,7 @@ fn assignments_that_break_an_element_are_named() {
     );
     netlist.set(&["m=-2kg/s".into(), "d=1mm".into()]).unwrap();
     let Item::Conductor(s) = netlist.network.item("s").unwrap() else { panic!() };
-    assert_eq!(netlist.network.flow(s), ConductorFlow::Stream(-2.0 * 4181.0));
+    assert_eq!(netlist.network.flow(s), ConductorFlow::Stream(-2.0 * 2076.0));
 }
 
 #[test]

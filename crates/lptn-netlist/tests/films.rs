@@ -112,3 +112,29 @@ fn a_film_outside_the_tables_of_its_fluid_is_refused() {
         "{error}"
     );
 }
+
+/// Air that is measured at 20 degC, out of an oven at 100 degC and of a furnace at 1000 degC: the
+/// density and the differences of enthalpy are those of CoolProp 8.0 for dry air at 101325 Pa. A
+/// stream had its density and heat capacity at 25 degC, wherever it was measured.
+#[test]
+fn a_stream_carries_the_enthalpies_of_its_tables() {
+    let text = "format = 1\n[node]\nbox = { C = \"1 kJ/K\", T0 = \"25 degC\" }\n[boundary]\n\
+        hot = { T = \"100 degC\" }\n[advection]\nfeed = { from = \"hot\", to = \"box\", fluid = \"air\", \
+        flow = \"100 m^3/h\", flow_T = \"20 degC\" }\n[convection]\nfilm = { from = \"box\", to = \"hot\", \
+        correlation = \"vertical_plate\", fluid = \"air\", height = \"1 m\", area = \"1 m^2\" }\n";
+    let network = parse("box.toml", text).unwrap().network;
+    let flow = 100.0 / 3600.0 * 1.204_575_182_493_15;
+    let feed = network.conductor_ids().find(|id| network.conductors()[id.index()].law.is_stream());
+    for (node, hot, enthalpies) in
+        [(298.15, 373.15, 75_628.495_456_444_2), (293.15, 1273.15, 1_071_098.274_276_19)]
+    {
+        let scope = &mut network.evaluation();
+        let [left, entered] = network.exchange(feed.unwrap(), scope, &[node, hot]).unwrap();
+        assert_eq!(left, 0.0);
+        let heat = flow * enthalpies;
+        assert!((entered / heat - 1.0).abs() < 2e-5, "{entered} is not {heat}");
+    }
+    // the film has no density or heat capacity of its own
+    let keys: Vec<&str> = network.fluids()[0].film.iter().map(|(field, _)| field.key()).collect();
+    assert_eq!(keys, ["k", "viscosity", "expansion"]);
+}

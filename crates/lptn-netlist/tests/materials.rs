@@ -124,3 +124,106 @@ fn every_solid_of_the_library_can_be_used() {
         assert!(netlist.warnings.is_empty());
     }
 }
+
+/// Stainless steel 304 and copper of a residual resistance ratio of 100 between 4 and 300 K, as the
+/// NIST database of cryogenic materials fits them.
+const NIST: [(&str, &str, f64); 2] = [
+    (
+        "exp(ln(10) * (-1.4087 + 1.3982 * L + 0.2543 * L^2 - 0.6260 * L^3 + 0.2334 * L^4 + 0.4256 * \
+         L^5 - 0.4658 * L^6 + 0.1650 * L^7 - 0.0199 * L^8))",
+        "shape = \"rod\", diameter = \"10 mm\", length = \"0.2 m\"",
+        1.190_209_491_848_93,
+    ),
+    (
+        "exp(ln(10) * (2.2154 - 0.88068 * X^0.5 + 0.29505 * X - 0.04831 * X^1.5 + 0.003207 * X^2) / \
+         (1 - 0.47461 * X^0.5 + 0.13871 * X - 0.02043 * X^1.5 + 0.001281 * X^2))",
+        "shape = \"slab\", area = \"1 mm^2\", thickness = \"0.1 m\"",
+        1.943_306_334_144_57,
+    ),
+];
+
+/// The heat in W from 300 K to 4 K of a body with this conductivity.
+fn cold(k: &str, shape: &str, ends: [f64; 2]) -> f64 {
+    let text = format!(
+        "[node]\na = {{ C = \"1 J/K\" }}\n[material.m]\nk = {k}\n[boundary.stage]\nT = \"4 K\"\n\
+         [boundary.flange]\nT = \"300 K\"\n[conduction]\nbody = {{ from = \"flange\", to = \
+         \"stage\", material = \"m\", {shape} }}\n"
+    );
+    let network = good(&text).network;
+    let Ok(Item::Conductor(body)) = network.item("body") else { panic!("no body") };
+    let temperatures = [298.15, 298.15, ends[1], ends[0]];
+    let received = network.exchange(body, &mut network.evaluation(), &temperatures).unwrap();
+    assert!(received[0] == -received[1]);
+    received[1]
+}
+
+/// The integrals by SciPy: k at the mean is 9.7 % too high and 36 % too low.
+#[test]
+fn cold_supports_conduct_as_their_integrals_say() {
+    for (k, shape, heat) in NIST {
+        let x = "(kelvin(T) / 1 [K])";
+        let k = k.replace('L', &format!("(ln{x} / ln(10))")).replace('X', x);
+        let found = cold(&format!("\"1 [W/(m K)] * {k}\""), shape, [300.0, 4.0]);
+        assert!((found / heat - 1.0).abs() < 1e-11, "{found} is not {heat}");
+        assert!(
+            (cold(&format!("\"1 [W/(m K)] * {k}\""), shape, [4.0, 300.0]) + found).abs() == 0.0
+        );
+    }
+}
+
+/// Integrals of the table by SciPy 1.17 (`numpy.interp` and `PchipInterpolator`).
+#[test]
+fn tables_of_conductivity_are_integrated_in_closed_form() {
+    for (interp, integrals) in [
+        ("linear", [2996.15, 1_609.104_166_666_67, 23.921_917_808_219_2]),
+        ("pchip", [3_072.691_219_105_55, 1_645.724_937_122_39, 24.002_511_125_130_1]),
+    ] {
+        let k = format!(
+            "{{ x = [4, 20, 77, 150, 300], x_unit = \"K\", y = [0.3, 2, 7.9, 11.5, 15], y_unit = \
+             \"W/(m K)\", interp = \"{interp}\" }}"
+        );
+        for (ends, integral) in
+            [[300.0, 4.0], [200.0, 10.0], [80.0, 77.0]].into_iter().zip(integrals)
+        {
+            let found = cold(&k, "shape = \"slab\", area = \"1 m^2\", thickness = \"1 m\"", ends);
+            assert!(
+                (found / integral - 1.0).abs() < 1e-12,
+                "{interp} {ends:?}: {found} {integral}"
+            );
+        }
+    }
+}
+
+/// `T_mean` in `k` is the mean of the ends: exact as long as k is straight in it, and told otherwise
+/// with the text that takes the integral.
+#[test]
+fn a_conductivity_that_curves_over_the_mean_is_told() {
+    let body = |k: &str| {
+        good(&format!(
+            "[node]\na = {{ C = \"1 J/K\" }}\n[conduction]\nbody = {{ from = \"a\", to = \"air\", {k}, \
+             shape = \"slab\", area = \"1 m^2\", thickness = \"1 m\" }}\n"
+        ))
+    };
+    let straight = "k = \"2 [W/(m K)] * (1 + 0.01 [1/K] * (T_mean - 20 [degC]))\"";
+    assert!(body(straight).warnings.is_empty());
+    let curved = body("k = \"2 [W/(m K)] * exp((T_mean - 20 [degC]) / 50 [K])\"");
+    let [warning] = curved.warnings.as_slice() else { panic!("{:?}", curved.warnings) };
+    assert_eq!(warning.code, "netlist::mean_conductivity");
+    let help = warning.help.as_ref().unwrap();
+    let quoted: Vec<&str> = help.split('`').collect();
+    let text = format!(
+        "{}\n{}\n[node]\na = {{ C = \"1 J/K\" }}\n[conduction]\nbody = {{ from = \"a\", to = \"air\", {}, \
+         shape = \"slab\", area = \"1 m^2\", thickness = \"1 m\" }}\n",
+        quoted[1], quoted[3], quoted[5]
+    );
+    let mended = good(&text);
+    assert!(mended.warnings.is_empty(), "{:?}", mended.warnings);
+    let heat = |netlist: &Netlist| {
+        let network = &netlist.network;
+        let Ok(Item::Conductor(body)) = network.item("body") else { panic!("no body") };
+        network.exchange(body, &mut network.evaluation(), &[393.15, 293.15]).unwrap()[1]
+    };
+    // 2 W/m * 50 K (e^2 - 1) over 100 K, and at the mean 200 e W
+    close(heat(&mended), 100.0 * (2.0_f64.exp() - 1.0));
+    close(heat(&curved), 200.0 * 1.0_f64.exp());
+}

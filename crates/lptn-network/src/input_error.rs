@@ -59,6 +59,14 @@ pub enum InputProblem {
     /// A quantity that cannot be negative, in SI units.
     Negative(value: f64) = INPUT, format!("is negative: {value} (SI units)"),
         help "keep it positive: `max(x, 0)` with its unit";
+    /// A property that a path takes the mean of, at a temperature in K where there is none.
+    NoMean { temperature: f64 } = INPUT,
+        format!(
+            "has no mean over the temperatures of the path: near {} degC it changes too quickly, \
+             or is not known",
+            six_digits(temperature - ZERO_CELSIUS)
+        ),
+        help "write it as a table, or as an expression that is smooth there";
     /// A volume flow of a fluid whose density is not known.
     NoDensity = INPUT, "has no density, which a volume flow needs",
         help "add `density` to the fluid, or give a mass flow";

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use lptn_laws::{Carries, Formula, Range};
 use lptn_units::{Dimension, EvalError, Scalar, Type};
 
+use crate::along::Along;
 use crate::evaluation::Evaluation;
 use crate::id::{Field, FluidId};
 use crate::input_error::InputProblem;
@@ -97,6 +98,12 @@ impl<V> Law<V> {
     /// The value of the field of this key.
     pub fn value(&self, key: &str) -> Option<&V> {
         self.values().get(self.formula.position(key)?)
+    }
+
+    /// The value of which it takes the mean along its path.
+    pub(crate) fn along(&self) -> Option<&V> {
+        let fields = self.formula.declaration().fields;
+        self.values().get(fields.iter().position(|field| field.along)?)
     }
 
     /// The same law with other values.
@@ -194,8 +201,7 @@ impl Law {
     /// What the evaluation of an expression reports; a value that its field cannot have counts as
     /// no number.
     pub fn conductance_at(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
-        let (slots, stack) = scope.plain();
-        At { slots, stack }.conductance(self).map_err(|(_, problem)| match problem {
+        At::new(scope.plain()).conductance(self).map_err(|(_, problem)| match problem {
             InputProblem::Evaluation(error) => *error,
             _ => EvalError::NotFinite { value: f64::NAN, span: 0..0 },
         })
@@ -233,17 +239,62 @@ const FEW_FIELDS: usize = 4;
 pub(crate) struct At<'a, S> {
     pub(crate) slots: &'a mut [S],
     pub(crate) stack: &'a mut Vec<S>,
+    /// The property that a path takes the mean of; without one it is taken at the mean of the ends.
+    pub(crate) along: Option<&'a Along>,
+    /// Whether the slots of more than temperatures have derivatives.
+    pub(crate) by_parameters: bool,
+}
+
+impl<'a, S> At<'a, S> {
+    /// Where slots stand, for what takes no mean along a path.
+    pub(crate) fn new((slots, stack): (&'a mut [S], &'a mut Vec<S>)) -> Self {
+        Self { slots, stack, along: None, by_parameters: false }
+    }
+
+    /// The same for a path.
+    pub(crate) fn path(slots: (&'a mut [S], &'a mut Vec<S>), along: Option<&'a Along>) -> Self {
+        Self { along, ..Self::new(slots) }
+    }
 }
 
 impl<S: Scalar> At<'_, S> {
     /// The value of a field of a law, which has to be one that it can have.
     pub(crate) fn get(&mut self, law: &Law, position: usize) -> Result<S, (Field, InputProblem)> {
         let failed = |problem| (Field::law(law.formula, position), problem);
+        let declared = &law.formula.declaration().fields[position];
+        if let (true, Some(along)) = (declared.along, self.along) {
+            let value = &law.values()[position];
+            return self.mean(along, value, declared).map_err(failed);
+        }
         let value = law.values()[position].on(self.slots, self.stack);
         let value = value.map_err(|error| failed(error.into()))?;
-        match impossible(&law.formula.declaration().fields[position], value.value()) {
+        match impossible(declared, value.value()) {
             Some(problem) => Err(failed(problem)),
             None => Ok(value),
+        }
+    }
+
+    /// The mean of a property between the temperatures of the ends.
+    fn mean(
+        &mut self,
+        along: &Along,
+        value: &Value,
+        declared: &lptn_laws::FieldDeclaration,
+    ) -> Result<S, InputProblem> {
+        let [from, to] = self.ends();
+        let ends = [from.value(), to.value()];
+        match along.mean(ends, self.slots) {
+            Ok(mean) if self.by_parameters => {
+                let change = along.change(ends, self.slots, self.stack)?;
+                Ok(from.chain2(to, mean.value, mean.slopes) + change)
+            }
+            Ok(mean) => Ok(from.chain2(to, mean.value, mean.slopes)),
+            Err(temperature) => {
+                self.slots[slot::OWN as usize] = S::from_f64(temperature);
+                let there = value.on(self.slots, self.stack)?.value();
+                let refused = impossible(declared, there);
+                Err(refused.unwrap_or(InputProblem::NoMean { temperature }))
+            }
         }
     }
 

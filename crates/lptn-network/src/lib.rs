@@ -8,6 +8,7 @@
 //! Units: SI inside, temperatures in K. Sign: heat is positive from `from` to `to`, and into a
 //! node.
 
+mod along;
 mod bends;
 mod breakpoints;
 mod build_error;

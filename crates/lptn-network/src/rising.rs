@@ -20,7 +20,12 @@ impl Network {
         if depends.vertices.len() > 2 || !depends.named.is_empty() {
             return false;
         }
-        let trend = |value: &Value| self.trend(value, &|holds, at| link(holds, at));
+        let along = conductor.law.along().filter(|_| self.along(id).is_some());
+        let trend = |value: &Value| match along.is_some_and(|along| std::ptr::eq(along, value)) {
+            // heat is the integral of what is not negative
+            true => Trend::HELD,
+            false => self.trend(value, &|holds, at| link(holds, at)),
+        };
         let declared = conductor.law.formula().declaration();
         let mut values = conductor.law.values().iter().map(trend);
         match (declared.carries, declared.form) {

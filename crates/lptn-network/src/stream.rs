@@ -67,7 +67,7 @@ impl Network {
             let rate = {
                 let (slots, stack) = scope.plain();
                 place(slots, self.parts.dependence(path), &|_| REFERENCE);
-                At { slots, stack }.get(&conductor.law, position)
+                At::new((slots, stack)).get(&conductor.law, position)
             };
             let rate = rate.map_err(|failed| self.failed(Item::Conductor(path), failed, &scope))?;
             let at = passing.iter().find(|passing| End::Node(passing.node) == conductor.from);

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use lptn_units::{Degree, Program, Traced};
 
 use crate::evaluation::Evaluation;
-use crate::id::{ConductorId, Item, SourceId};
+use crate::id::{ConductorId, Field, Item, SourceId};
 use crate::input_error::InputError;
 use crate::law::At;
 use crate::network::Network;
@@ -69,16 +69,25 @@ impl Network {
     /// The expressions that drive a heat flow, or decide what switches, and may turn while temperatures go one way.
     pub fn readers(&self) -> Vec<Reader> {
         let mut readers = Vec::new();
-        for (item, _, value) in self.inputs() {
+        for (item, field, value) in self.inputs() {
             let Some(dependence) = self.dependence_of(item) else { continue };
-            let programs = value.programs().into_iter();
-            readers.extend(programs.filter_map(|program| self.reader(program, dependence)));
+            // a path that takes the mean of a property reads it at both ends
+            let ends = match (item, field) {
+                (Item::Conductor(id), Field::Law(law)) if law.along && self.along(id).is_some() => {
+                    &[Some(0), Some(1)][..]
+                }
+                _ => &[None],
+            };
+            for (program, end) in
+                value.programs().into_iter().flat_map(|p| ends.iter().map(move |end| (p, *end)))
+            {
+                readers.extend(self.reader(program, dependence, end));
+            }
         }
         // what switches is to be seen too
-        let comparing = self
-            .switches()
-            .iter()
-            .filter_map(|switch| self.reader(&switch.difference, self.dependence_of(switch.item)?));
+        let comparing = self.switches().iter().filter_map(|switch| {
+            self.reader(&switch.difference, self.dependence_of(switch.item)?, None)
+        });
         readers.extend(comparing);
         self.group(&mut readers);
         readers
@@ -104,7 +113,13 @@ impl Network {
         }
     }
 
-    fn reader(&self, program: &Arc<Program>, of: &Dependence) -> Option<Reader> {
+    /// `end` is that whose temperature is `T`; the mean of both otherwise.
+    fn reader(
+        &self,
+        program: &Arc<Program>,
+        of: &Dependence,
+        end: Option<usize>,
+    ) -> Option<Reader> {
         let vertex = |position: usize| of.vertices.get(position).map(|vertex| *vertex as usize);
         let read = |slot: u32| {
             if let Some((_, position)) = of.named.iter().find(|(named, _)| *named == slot) {
@@ -112,6 +127,7 @@ impl Network {
             }
             let (from, to) = (vertex(0)?, vertex(1)?);
             match slot {
+                slot::OWN if end.is_some() => vertex(end?).map(Read::One),
                 slot::FROM => Some(Read::One(from)),
                 slot::TO => Some(Read::One(to)),
                 slot::MEAN | slot::OWN => Some(Read::Mean(from, to)),
@@ -180,11 +196,20 @@ impl Network {
         let result = {
             let (slots, stack) = scope.traced();
             place(slots, dependence, &at);
-            self.received(conductor, At { slots, stack }, at(0), at(1))
+            self.received(conductor, At::path((slots, stack), self.along(id)), at(0), at(1))
         };
         let [from, to] =
             result.map_err(|failed| self.failed(Item::Conductor(id), failed, scope))?;
-        Ok(from.trace().wrapping_add(to.trace()))
+        let mut trace = from.trace().wrapping_add(to.trace());
+        // what a path takes the mean of bends where it does at either end
+        if let Some(value) = conductor.law.along().filter(|_| self.along(id).is_some()) {
+            let (slots, stack) = scope.traced();
+            for end in [at(0), at(1)] {
+                slots[slot::OWN as usize] = end;
+                trace = trace.wrapping_add(value.on(slots, stack).map_or(0, |k| k.trace()));
+            }
+        }
+        Ok(trace)
     }
 
     /// The same for the heat of a source.
@@ -203,7 +228,7 @@ impl Network {
         let result = {
             let (slots, stack) = scope.traced();
             name(slots, dependence, &at);
-            At { slots, stack }.heat(&source.law)
+            At::new((slots, stack)).heat(&source.law)
         };
         let heat = result.map_err(|failed| self.failed(Item::Source(id), failed, scope))?;
         Ok(heat.trace())

@@ -52,6 +52,15 @@ impl Value {
         }
     }
 
+    /// Where it is in memory: values that share it are the same. 0 for a constant.
+    pub(crate) fn address(&self) -> usize {
+        match self {
+            Self::Constant(_) => 0,
+            Self::Expression(program) => Arc::as_ptr(program).addr(),
+            Self::Product(factors) => Arc::as_ptr(factors).addr(),
+        }
+    }
+
     /// The compiled expressions in it; none for a constant.
     pub fn programs(&self) -> Vec<&Arc<Program>> {
         match self {

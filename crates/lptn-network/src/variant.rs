@@ -267,7 +267,7 @@ impl Variants<'_> {
                 self.work.check_order(item, law);
             }
             let (slots, stack) = self.work.scope.plain();
-            let number = At { slots, stack }.value(law).unwrap_or(f64::NAN);
+            let number = At::new((slots, stack)).value(law).unwrap_or(f64::NAN);
             let last = Field::law(law.formula(), declared.fields.len() - 1);
             self.conductance[i] = self.work.in_range(item, last, number, Range::Positive);
         }

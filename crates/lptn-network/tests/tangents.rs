@@ -181,6 +181,31 @@ fn every_law_by_its_parameters() {
     agrees(&given, &[network.parameter("R2").unwrap()], 1.0, &AT);
 }
 
+/// Bodies whose conductivity depends on its own temperature and on parameters, on time too.
+#[test]
+fn conductivities_over_temperature() {
+    let mut b = NetworkBuilder::new();
+    let ids = parameters(
+        &mut b,
+        &[("k0", "15 W/(m K)"), ("c", "40 K"), ("area", "0.01 m^2"), ("T_air", "15 degC")],
+    );
+    let [x, y, z] = three(&mut b);
+    let t = time(&b, "T_air");
+    let air = b.boundary("air", t);
+    let bent = "k0 * (exp((T - absolute(300 [K])) / c) + 0.02 [1/K] * abs(T - absolute(331 [K])))";
+    let timed = "k0 * (1 + t / 9 [s]) * (kelvin(T) / 300 [K])^2";
+    for (name, k, ends) in
+        [("bar", bent, (x.into(), y.into())), ("rod", timed, (z.into(), air.into()))]
+    {
+        let values = [own(&b, k), time(&b, "area"), quantity("30 mm")];
+        b.conductor(name, ConductorKind::Conduction, ends, Path::new(Formula::Slab, values));
+    }
+    b.resistor("r", y, z, Conductance(1.0));
+    let network = b.build().unwrap();
+    agrees(&network, &ids, 2.0, &AT);
+    agrees(&network, &ids, 2.0, &[320.0, 320.0, 370.0]);
+}
+
 #[test]
 fn streams_of_fluids() {
     let mut b = NetworkBuilder::new();

@@ -13,7 +13,8 @@ use crate::reading::Reading;
 pub struct LimitSeen {
     /// The limit.
     pub limit: LimitId,
-    /// Its least margin in SI units, positive if it was kept all the time; see
+    /// Its least margin in SI units, positive if it was kept all the time; NaN if it could not be
+    /// [judged](Network::is_judged) at any moment; see
     /// [`Network::limit_margin`]. That of the mean over time for [`lptn_network::Limit::of_mean`].
     /// Zero where a temperature passes it by less than ten times the
     /// tolerance, which is the error of a run.
@@ -66,6 +67,8 @@ pub(crate) struct LimitWatch<'a> {
     last: (f64, Vec<f64>),
     /// For each limit the largest absolute value of a side: its margin is rounded by a share of it.
     sizes: Vec<f64>,
+    /// For each limit whether it could be judged at some moment.
+    judged: Vec<bool>,
 }
 
 impl<'a> LimitWatch<'a> {
@@ -90,6 +93,7 @@ impl<'a> LimitWatch<'a> {
             first: vec![None; count],
             last: (f64::NAN, Vec::new()),
             sizes: vec![0.0; count],
+            judged: vec![false; count],
         }
     }
 
@@ -125,6 +129,8 @@ impl<'a> LimitWatch<'a> {
             let [low, high] = self.network.limit_sides(id, &mut self.reading.scope)?;
             *size = size.max(low.abs()).max(high.abs());
             values.push(high - low);
+            let judged = &mut self.judged[id.index()];
+            *judged = *judged || self.network.is_judged(id, &mut self.reading.scope)?;
         }
         self.bends.read(&mut self.reading.scope, &mut values);
         Ok(values)
@@ -172,6 +178,11 @@ impl<'a> LimitWatch<'a> {
                 (seen.margin, seen.broken_at) = (0.0, None);
             }
         }
+        for (seen, judged) in all.iter_mut().zip(&self.judged) {
+            if !judged && seen.margin.is_finite() {
+                (seen.margin, seen.broken_at) = (f64::NAN, None);
+            }
+        }
         all
     }
 }
@@ -189,10 +200,13 @@ fn is_temperature(network: &Network, id: LimitId) -> bool {
 }
 
 /// The margin of each limit in SI units where `scope` stands, zero where a temperature passes it by
-/// rounding only.
+/// rounding only, NaN if it cannot be [judged](Network::is_judged) there.
 pub(crate) fn margins(network: &Network, scope: &mut Evaluation) -> Result<Vec<f64>, InputError> {
     let margin = |id: LimitId| {
         let margin = network.limit_margin(id, scope)?;
+        if !network.is_judged(id, scope)? {
+            return Ok(f64::NAN);
+        }
         let rounding = is_temperature(network, id) && (-ROUNDING..0.0).contains(&margin);
         Ok(if rounding { 0.0 } else { margin })
     };

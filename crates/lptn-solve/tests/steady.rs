@@ -386,8 +386,7 @@ fn an_island_that_melts_in_part_rests_at_the_melting_point() {
 
 #[test]
 fn conductivity_of_temperature_in_a_wall_of_cells() {
-    // Kirchhoff: the integral of k = 10 (1 + (T - 300) / 200) is linear across the wall. A cell
-    // takes k at the mean of its ends, which for k linear in T is its mean exactly
+    // Kirchhoff: the integral of k = 10 (1 + (T - 300) / 200) is linear across the wall
     let mut b = NetworkBuilder::new();
     let (hot, cold) =
         (b.boundary("hot", Temperature(600.0)), b.boundary("cold", Temperature(300.0)));

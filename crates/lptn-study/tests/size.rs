@@ -41,6 +41,7 @@ fn demand(netlist: &Netlist) -> Demand<'_> {
     let inputs: Option<&Inputs> = inputs.map(|inputs| &*Box::leak(Box::new(inputs)));
     Demand {
         network: &netlist.network,
+        netlist,
         cases: &[],
         requirements: &netlist.studies.sizes[0].requirements,
         moments: Moments::Steady(0.0),

@@ -35,6 +35,7 @@ fn solve(netlist: &Netlist) -> Result<Sizing, SizeError> {
     size(&SizeTask {
         demand: Demand {
             network: &netlist.network,
+            netlist,
             cases: &[],
             requirements: &study.requirements,
             moments,

@@ -177,29 +177,21 @@ impl<'a> Elaboration<'a> {
         let input = |value: f64, dimension| -> Input {
             Quantity { value, deviation: None, ty: Type::of(dimension) }.into()
         };
-        let density = record.density.map(|density| input(density, Dimension::DENSITY));
-        let cp = input(cp, Dimension::SPECIFIC_HEAT);
+        let density = table(record, "density")
+            .or_else(|| record.density.map(|density| input(density, Dimension::DENSITY)));
+        let known = density.is_some();
+        let cp = table(record, "cp").unwrap_or_else(|| input(cp, Dimension::SPECIFIC_HEAT));
         let id = self.builder.fluid(&record.name, density, cp, Some(record.source.clone()));
         let constant = record.k.filter(|_| record.film.is_empty());
         if let (Some(k), Some(property)) = (constant, LawField::any("k")) {
             self.builder.film_property(id, property, input(k, Dimension::CONDUCTIVITY));
         }
-        for (key, film) in &record.film {
-            let Some(property) = LawField::any(key) else { continue };
-            let symbol = TableSymbol {
-                table: Arc::new(LookupTable::One(film.clone())),
-                arguments: vec![Type::ABSOLUTE_TEMPERATURE],
-                ty: property.ty,
-                units: [Unit::parse("K"), Unit::parse(&property.ty.usual_unit())]
-                    .into_iter()
-                    .flatten()
-                    .collect(),
-            };
-            if let Some(value) = of_temperature(key, symbol, property.ty) {
+        for property in FILM.into_iter().filter_map(LawField::any) {
+            if let Some(value) = table(record, property.key) {
                 self.builder.film_property(id, property, value);
             }
         }
-        KnownFluid { id, density: record.density.is_some() }
+        KnownFluid { id, density: known }
     }
 
     fn unknown_fluid(&self, fields: &Fields<'_>, (name, raw): (&str, &RawValue)) -> Diagnostic {
@@ -221,6 +213,21 @@ impl<'a> Elaboration<'a> {
              K)\" }}`"
         ))
     }
+}
+
+/// A property of a fluid of the library over its temperature, where there is a table: one that
+/// streams and films share.
+fn table(record: &LibrarySubstance, key: &str) -> Option<Input> {
+    let (property, table) = record.film.iter().find(|(own, _)| own == key)?;
+    let ty = LawField::any(key)?.ty;
+    let units = [Unit::parse("K"), Unit::parse(&ty.usual_unit())];
+    let symbol = TableSymbol {
+        table: Arc::new(LookupTable::One(table.clone())),
+        arguments: vec![Type::ABSOLUTE_TEMPERATURE],
+        ty,
+        units: units.into_iter().flatten().collect(),
+    };
+    of_temperature(property, symbol, ty)
 }
 
 /// That a fluid has no such property; what could be given in its place.

@@ -18,8 +18,8 @@ pub struct GridBlock {
     /// How many cells there are along x, and along y and z where it is divided there too: one to
     /// three counts of at least 1, together at most [`MOST_CELLS`].
     pub cells: Vec<usize>,
-    /// Its thermal conductivity along x, y and z; it may depend on `T`, which is then the mean of
-    /// two neighbours.
+    /// Its thermal conductivity along x, y and z; it may depend on `T`: its mean over the
+    /// temperatures between two neighbours counts.
     pub conductivity: [Input; 3],
     /// Its material, or density and specific heat capacity.
     pub substance: Substance<Input>,

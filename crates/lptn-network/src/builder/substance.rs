@@ -64,8 +64,8 @@ impl NetworkBuilder {
         self.parts.nodes[node.index()].body_mut().molten = share;
     }
 
-    /// The conductivity of a material, for a [`Path`](crate::Path) of conduction; it may depend on
-    /// the temperature, which is then the mean of the ends.
+    /// The conductivity of a material, for a [`Path`](crate::Path) of conduction; if it depends on
+    /// the temperature, its mean between the ends counts.
     pub fn conductivity(&self, material: MaterialId) -> Option<Input> {
         let value = self.parts.materials[material.index()].k.clone()?;
         Some(Input { value, ty: Type::of(Dimension::CONDUCTIVITY), deviation: None, lump: None })

@@ -26,6 +26,9 @@ const EDGES: usize = 50;
 /// is smooth takes some hundreds, a jump or a kink some forty more.
 const TRIES: usize = 100_000;
 
+/// The same for [`Known::between`].
+const BLOCK_TRIES: usize = 20_000;
+
 /// Where a panel is interpolated: the zeros of Chebyshev's polynomial of degree 9.
 const POINTS: [f64; TERMS] = [
     -0.984_807_753_012_208,
@@ -79,6 +82,43 @@ pub(super) struct Fit<'a> {
     floor: f64,
     /// How many panels may still be tried.
     tries: usize,
+    /// Whether the capacity has to be positive; otherwise it may vanish.
+    positive: bool,
+}
+
+/// The panels of a value that may vanish, and where there are none.
+pub(crate) struct Known {
+    /// Ascending; their heat is not filled in.
+    pub(crate) panels: Vec<Panel>,
+    /// A temperature in K in each gap between them, ascending.
+    pub(crate) gaps: Vec<f64>,
+}
+
+impl Known {
+    /// What is known of a value between two temperatures in K: where it is neither defined and at
+    /// least 0 nor changes too quickly to be followed, is a gap. `stops` are temperatures at which
+    /// it may bend.
+    pub(crate) fn between(value: &mut dyn Capacity, [from, to]: [f64; 2], stops: &[f64]) -> Self {
+        let (panels, tries) = (Vec::new(), BLOCK_TRIES);
+        let mut fit = Fit { capacity: value, panels, floor: 0.0, tries, positive: false };
+        let mut ends: Vec<f64> = stops.iter().copied().filter(|t| *t > from && *t < to).collect();
+        ends.extend([from, to]);
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        let points = POINTS.map(|x| from + 0.5 * (to - from) * (1.0 + x));
+        let values = points.into_iter().chain(ends.iter().copied()).filter_map(|t| fit.at(t));
+        let largest = values.fold(0.0, f64::max);
+        fit.floor = FLOOR * largest;
+        ends.windows(2).for_each(|pair| fit.fill(pair[0], pair[1]));
+        let mut gaps = Vec::new();
+        let mut here = from;
+        for panel in &fit.panels {
+            gaps.extend((panel.from > here).then_some(here.midpoint(panel.from)));
+            here = panel.to;
+        }
+        gaps.extend((to > here).then_some(here.midpoint(to)));
+        Self { panels: fit.panels, gaps }
+    }
 }
 
 impl<'a> Fit<'a> {
@@ -89,7 +129,8 @@ impl<'a> Fit<'a> {
         start: f64,
         stops: &[f64],
     ) -> Result<Vec<Panel>, NoCurve> {
-        let mut fit = Self { capacity, panels: Vec::new(), floor: 0.0, tries: TRIES };
+        let (panels, tries) = (Vec::new(), TRIES);
+        let mut fit = Self { capacity, panels, floor: 0.0, tries, positive: true };
         fit.floor = FLOOR * fit.at(start).ok_or(NoCurve::Unknown)?;
         fit.walk(start, stops, -1.0);
         if fit.tries == 0 && fit.panels.is_empty() {
@@ -105,7 +146,24 @@ impl<'a> Fit<'a> {
     }
 
     fn at(&mut self, temperature: f64) -> Option<f64> {
-        self.capacity.at(temperature).filter(|c| c.is_finite() && *c > 0.0)
+        let least = |c: f64| if self.positive { c > 0.0 } else { c >= 0.0 };
+        self.capacity.at(temperature).filter(|c| c.is_finite() && least(*c))
+    }
+
+    /// Covers what can be covered between two temperatures.
+    fn fill(&mut self, from: f64, to: f64) {
+        let before = self.panels.len();
+        if self.cover(from, to).is_ok() {
+            return;
+        }
+        self.panels.truncate(before);
+        let mut points = [-1.0, 1.0].into_iter().chain(POINTS);
+        let known = points.any(|x| self.at(from + 0.5 * (to - from) * (1.0 + x)).is_some());
+        if known && to - from > NARROWEST && self.tries > 0 {
+            let middle = from.midpoint(to);
+            self.fill(from, middle);
+            self.fill(middle, to);
+        }
     }
 
     /// Covers the temperatures from `start` on in one direction with panels, as far as the capacity
@@ -198,7 +256,7 @@ impl<'a> Fit<'a> {
         let enough = ACCURACY * least.max(self.floor);
         // of a kink or jump that is left, no more than so much heat per K
         let hidden = (most - least) * (2.0 * half).min(1.0);
-        least > 0.0 && (missed <= enough || hidden <= enough)
+        (least > 0.0 || !self.positive) && (missed <= enough || hidden <= enough)
     }
 }
 

@@ -13,8 +13,8 @@ mod tests;
 use std::sync::Arc;
 
 use fit::Fit;
-pub(crate) use fit::{Capacity, NoCurve};
-use panel::Panel;
+pub(crate) use fit::{Capacity, Known, NoCurve};
+pub(crate) use panel::Panel;
 
 /// Heat content over temperature in J, or in J/kg for a fluid; zero where it was asked to be.
 #[derive(Clone, Debug)]

@@ -9,13 +9,13 @@ const RECIPROCALS: [f64; TERMS] =
 
 /// A piece of the curve. One of no width holds latent heat that is taken up at one temperature.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Panel {
-    pub(super) from: f64,
-    pub(super) to: f64,
+pub(crate) struct Panel {
+    pub(crate) from: f64,
+    pub(crate) to: f64,
     /// Heat content at `from`.
-    pub(super) heat: f64,
+    pub(crate) heat: f64,
     /// Heat taken up between `from` and `to`.
-    pub(super) rise: f64,
+    pub(crate) rise: f64,
     /// Capacity over `x`, which runs from -1 at `from` to 1 at `to`, by powers.
     capacity: [f64; TERMS],
     /// How many of them count.
@@ -55,8 +55,31 @@ impl Panel {
         self.capacity[..self.terms].iter().rev().fold(0.0, |sum, c| sum * x + c)
     }
 
-    pub(super) fn capacity_at(&self, temperature: f64) -> f64 {
+    pub(crate) fn capacity_at(&self, temperature: f64) -> f64 {
         if self.to > self.from { self.polynomial(self.x(temperature)) } else { f64::INFINITY }
+    }
+
+    /// The slope of the capacity in J/K^2.
+    pub(crate) fn slope_at(&self, temperature: f64) -> f64 {
+        if self.to <= self.from {
+            return 0.0;
+        }
+        let x = self.x(temperature);
+        let terms = self.capacity[..self.terms].iter().enumerate().skip(1).rev();
+        terms.fold(0.0, |sum, (k, c)| sum * x + k as f64 * c) / self.half()
+    }
+
+    /// The mean capacity between two temperatures inside: `x1^k + x1^(k-1) x2 + .. + x2^k` over
+    /// `k + 1` is the mean of `x^k`, which loses no digits however near they are.
+    pub(crate) fn mean(&self, from: f64, to: f64) -> f64 {
+        let (first, second) = (self.x(from), self.x(to));
+        let (mut power, mut powers, mut sum) = (1.0, 1.0, 0.0);
+        for (c, over) in self.capacity.iter().zip(RECIPROCALS).take(self.terms) {
+            sum += c * over * powers;
+            power *= second;
+            powers = powers * first + power;
+        }
+        sum
     }
 
     fn primitive(&self, x: f64) -> f64 {

@@ -42,7 +42,7 @@ impl Network {
             let result = {
                 let (slots, stack) = scope.dual();
                 place(slots, dependence, &at);
-                let mut here = At { slots, stack };
+                let mut here = At::path((slots, stack), self.along(id));
                 seeded(&mut here, &conductor.law, first).and_then(|(own, value)| {
                     let heat = self.received_of((&conductor.law, value), here, at(0), at(1))?;
                     Ok((own, heat))
@@ -75,7 +75,7 @@ impl Network {
             let result = {
                 let (slots, stack) = scope.dual();
                 name(slots, dependence, &at);
-                seeded(&mut At { slots, stack }, law, first)
+                seeded(&mut At::new((slots, stack)), law, first)
             };
             let (own, heat) =
                 result.map_err(|failed| self.failed(Item::Source(id), failed, scope))?;

@@ -3,6 +3,7 @@
 use lptn_laws::Carries;
 use lptn_units::{EvalError, Scalar};
 
+use crate::along::Along;
 use crate::enthalpy::Enthalpy;
 use crate::evaluation::{Evaluation, PASS, Slope};
 use crate::id::{ConductorId, Field, Item, NodeId, SourceId};
@@ -55,6 +56,11 @@ impl Network {
         self.numbers.enthalpy.get(id.index())?.as_deref()
     }
 
+    /// The property of which a conductor takes the mean between the temperatures of its ends.
+    pub(crate) fn along(&self, id: ConductorId) -> Option<&Along> {
+        self.numbers.along.get(id.index())?.as_deref()
+    }
+
     /// The heat that the two ends of a [`ConductorFlow::Variable`] conductor receive in W, at the
     /// time of `scope` and these temperatures of all vertices in K.
     ///
@@ -66,13 +72,13 @@ impl Network {
         scope: &mut Evaluation,
         temperatures: &[f64],
     ) -> Result<Received, InputError> {
-        let conductor = &self.conductors()[id.index()];
+        let (conductor, along) = (&self.conductors()[id.index()], self.along(id));
         let dependence = self.parts.dependence(id);
         let at = |k: usize| temperatures[dependence.vertices[k] as usize];
         let result = {
             let (slots, stack) = scope.plain();
             place(slots, dependence, &at);
-            self.received(conductor, At { slots, stack }, at(0), at(1))
+            self.received(conductor, At::path((slots, stack), along), at(0), at(1))
         };
         result.map_err(|failed| self.failed(Item::Conductor(id), failed, scope))
     }
@@ -100,7 +106,7 @@ impl Network {
         temperatures: &[f64],
         slopes: &mut Vec<Received>,
     ) -> Result<Received, InputError> {
-        let conductor = &self.conductors()[id.index()];
+        let (conductor, along) = (&self.conductors()[id.index()], self.along(id));
         let count = dependence.vertices.len();
         slopes.clear();
         let mut values = [0.0; 2];
@@ -109,7 +115,7 @@ impl Network {
             let result = {
                 let (slots, stack) = scope.dual();
                 place(slots, dependence, &at);
-                self.received(conductor, At { slots, stack }, at(0), at(1))
+                self.received(conductor, At::path((slots, stack), along), at(0), at(1))
             };
             let [from, to] =
                 result.map_err(|failed| self.failed(Item::Conductor(id), failed, scope))?;
@@ -138,7 +144,7 @@ impl Network {
         let result = {
             let (slots, stack) = scope.plain();
             name(slots, dependence, &at);
-            At { slots, stack }.heat(&source.law)
+            At::new((slots, stack)).heat(&source.law)
         };
         result.map_err(|failed| self.failed(Item::Source(id), failed, scope))
     }
@@ -165,7 +171,7 @@ impl Network {
             let result = {
                 let (slots, stack) = scope.dual();
                 name(slots, dependence, &at);
-                At { slots, stack }.heat(&source.law)
+                At::new((slots, stack)).heat(&source.law)
             };
             let heat = result.map_err(|failed| self.failed(Item::Source(id), failed, scope))?;
             value = heat.value;

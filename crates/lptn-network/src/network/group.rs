@@ -4,12 +4,13 @@
 use crate::evaluation::Evaluation;
 use lptn_laws::Formula;
 
-use crate::id::Item;
+use crate::id::{Item, LimitId};
 use crate::input_error::InputError;
 use crate::law::{At, Law};
 use crate::network::Network;
 use crate::network::flow::{name, place};
 use crate::parts::heat::HeatOf;
+use crate::value::Value;
 
 impl Network {
     /// The law of a conductor or source; `None` of anything else.
@@ -58,6 +59,28 @@ impl Network {
         Ok(told.map(|(_, value)| value).filter(|value| value.is_finite()).unwrap_or(f64::NAN))
     }
 
+    /// Whether a limit can be judged where `scope` stands, which needs temperatures: not one of
+    /// results that say nothing there, such as the margin of gears without load.
+    ///
+    /// # Errors
+    /// [`InputError`] if a value of a law fails.
+    pub fn is_judged(&self, id: LimitId, scope: &mut Evaluation) -> Result<bool, InputError> {
+        let sides = self.limits()[id.index()].sides();
+        let slots: Vec<u32> = sides.into_iter().flat_map(Value::slots).collect();
+        for (heat, slot) in self.parts.layout.heats() {
+            let HeatOf::Told(item, _) = *heat else { continue };
+            if !slots.contains(slot) {
+                continue;
+            }
+            let temperatures: Vec<f64> =
+                scope.layout().temperatures().map(|slot| scope.slot(slot)).collect();
+            if !self.of_law(item, scope, &|vertex| temperatures[vertex], Formula::judges)? {
+                return Ok(false);
+            }
+        }
+        Ok(true)
+    }
+
     /// What the law of a conductor or source tells of itself besides its heat.
     pub fn told_of(&self, item: Item) -> impl Iterator<Item = HeatOf> {
         self.parts.told_of(item)
@@ -96,7 +119,7 @@ impl Network {
             Item::Source(_) => function(law.formula(), values, heated),
             _ => function(law.formula(), values, ends),
         };
-        let result = At { slots, stack }.of_values::<{ Formula::MOST_FIELDS }, _>(law, of);
+        let result = At::new((slots, stack)).of_values::<{ Formula::MOST_FIELDS }, _>(law, of);
         result.map_err(|failed| self.failed(item, failed, scope))
     }
 }

@@ -1,7 +1,11 @@
 //! How each conductor carries heat, as far as the parameters determine it.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use lptn_laws::Carries;
 
+use crate::along::Along;
 use crate::error::BuildErrorKind;
 use crate::id::{ConductorId, Field, Item, SourceId};
 use crate::law::{At, ConductorFlow, Law};
@@ -44,7 +48,7 @@ impl Work<'_> {
             return ConductorFlow::Variable;
         }
         let (slots, stack) = self.scope.plain();
-        let number = At { slots, stack }.value(law).unwrap_or(f64::NAN);
+        let number = At::new((slots, stack)).value(law).unwrap_or(f64::NAN);
         if law.is_stream() {
             let rate = self.capacity_rate(law, number);
             return ConductorFlow::Stream(self.in_range(
@@ -61,6 +65,25 @@ impl Work<'_> {
             Carries::Radiation => ConductorFlow::Radiation(number),
             _ => ConductorFlow::Conductance(number),
         }
+    }
+
+    /// The properties of which conductors take the mean along their paths. Those that read no
+    /// parameter are shared by all candidates.
+    pub(crate) fn alongs(&mut self) -> Vec<Option<Arc<Along>>> {
+        let parts = self.parts;
+        let mut known: BTreeMap<usize, Arc<Along>> = BTreeMap::new();
+        let mut alongs = parts.along.clone();
+        for (own, conductor) in alongs.iter_mut().zip(&parts.conductors) {
+            let Some(value) = conductor.law.along().filter(|value| parts.is_along(value)) else {
+                continue;
+            };
+            if own.is_none() {
+                let slots = self.scope.plain().0;
+                let new = || Arc::new(Along::fixed(value, slots));
+                *own = Some(Arc::clone(known.entry(value.address()).or_insert_with(new)));
+            }
+        }
+        alongs
     }
 
     /// Lengths of sources that have an order.

@@ -25,6 +25,12 @@ fn at(value: &Value, temperature: f64, scope: &mut Evaluation) -> Option<f64> {
 /// Temperatures at which the tables in a value bend, as far as they are called with the bare
 /// temperature.
 fn edges(value: &Value, scope: &mut Evaluation) -> Vec<f64> {
+    let (slots, stack) = scope.plain();
+    bends(value, slots, stack)
+}
+
+/// The same where these slots stand.
+pub(crate) fn bends(value: &Value, slots: &mut [f64], stack: &mut Vec<f64>) -> Vec<f64> {
     let mut edges = Vec::new();
     for program in value.programs() {
         for call in program.table_calls() {
@@ -35,8 +41,7 @@ fn edges(value: &Value, scope: &mut Evaluation) -> Vec<f64> {
             };
             // linear in T, so two values tell where it takes that of a knot
             let mut of = |t: f64| {
-                scope.set(slot::OWN, t);
-                let (slots, stack) = scope.plain();
+                slots[slot::OWN as usize] = t;
                 argument.eval(slots, stack).ok()
             };
             if let (Some(a), Some(b)) = (of(0.0), of(1000.0)) {

@@ -8,6 +8,7 @@ pub(crate) mod substance;
 
 use std::sync::Arc;
 
+use crate::along::Along;
 use crate::build_error::BuildError;
 use crate::enthalpy::Enthalpy;
 use crate::error::BuildErrorKind;
@@ -36,6 +37,8 @@ pub(crate) struct Numbers {
     pub(crate) enthalpy: Vec<Option<Arc<Enthalpy>>>,
     /// Heat content of a kg of each fluid whose specific heat is not constant.
     pub(crate) fluids: Vec<Option<Arc<Enthalpy>>>,
+    /// The property of which each conductor takes the mean along its path, up to the last of them.
+    pub(crate) along: Vec<Option<Arc<Along>>>,
     /// How long each control stays as it is after a switch, in s.
     pub(crate) min_dwell: Vec<f64>,
 }
@@ -80,7 +83,18 @@ impl Numbers {
             enthalpy.shrink_to_fit();
             let is_given = |i: usize| overrides.get(i).is_some_and(Option::is_some);
             let given = (0..parameters.len()).map(is_given).collect();
-            Ok(Self { parameters, given, capacity, initial, flows, enthalpy, fluids, min_dwell })
+            let along = work.alongs();
+            Ok(Self {
+                parameters,
+                given,
+                capacity,
+                initial,
+                flows,
+                enthalpy,
+                fluids,
+                along,
+                min_dwell,
+            })
         } else {
             Err(work.errors)
         }

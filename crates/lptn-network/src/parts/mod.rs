@@ -23,6 +23,7 @@ use std::sync::Arc;
 
 use lptn_units::TableSymbol;
 
+use crate::along::Along;
 use crate::id::{BoundaryId, ConductorId, ControlId, Field, Item, ParameterId, SignalId, SourceId};
 use crate::name_index::NameIndex;
 use crate::parts::control::Control;
@@ -65,6 +66,9 @@ pub(crate) struct Parts {
     /// The temperatures that each conductor depends on, up to the last one that depends on any;
     /// `None` for a constant one.
     pub(crate) conductor_dependence: Vec<Option<Box<Dependence>>>,
+    /// For each conductor the property of which it takes the mean along its path, if that reads no
+    /// parameter; up to the last conductor that takes one at all.
+    pub(crate) along: Vec<Option<Arc<Along>>>,
     /// For each source the temperatures it depends on.
     pub(crate) source_dependence: Vec<Dependence>,
     /// For each control the temperatures that its thresholds depend on.

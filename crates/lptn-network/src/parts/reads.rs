@@ -1,7 +1,11 @@
 //! Finds what depends on what.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use lptn_laws::Carries;
 
+use crate::along::Along;
 use crate::id::{ConductorId, End, Item, SignalId};
 use crate::parts::Parts;
 use crate::parts::control::Control;
@@ -167,5 +171,38 @@ impl Parts {
         self.source_dependence = sources;
         self.control_dependence =
             self.controls.iter().map(|c| self.control_dependence(c)).collect();
+        self.along = self.alongs();
+    }
+
+    /// Whether a value is one that a path takes the mean of: it reads its own temperature.
+    pub(crate) fn is_along(&self, value: &Value) -> bool {
+        !matches!(value, Value::Constant(_)) && value.slots().contains(&slot::OWN)
+    }
+
+    /// The properties that paths take the mean of and that no parameter changes.
+    fn alongs(&self) -> Vec<Option<Arc<Along>>> {
+        let taken = |conductor: &Conductor| {
+            let value = conductor.law.along().filter(|value| self.is_along(value));
+            value.cloned()
+        };
+        let last = self.conductors.iter().rposition(|conductor| taken(conductor).is_some());
+        let mut known: BTreeMap<usize, Option<Arc<Along>>> = BTreeMap::new();
+        let until_last = self.conductors.iter().take(last.map_or(0, |last| last + 1));
+        let own = until_last.map(|conductor| {
+            let value = taken(conductor)?;
+            known.entry(value.address()).or_insert_with(|| self.unchanging(&value)).clone()
+        });
+        own.collect()
+    }
+
+    fn unchanging(&self, value: &Value) -> Option<Arc<Along>> {
+        let slots = value.slots();
+        let moves =
+            |slot: &u32| !matches!(self.layout.holds(*slot), Holds::Own | Holds::Parameter(_));
+        if slots.iter().any(moves) {
+            return Some(Arc::new(Along::moving(value)));
+        }
+        let own = slots.iter().all(|slot| *slot == slot::OWN);
+        own.then(|| Arc::new(Along::fixed(value, &[f64::NAN; slot::FIXED])))
     }
 }

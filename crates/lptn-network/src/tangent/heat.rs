@@ -88,7 +88,8 @@ impl Tangents {
             let dual = |vertex: usize| of_vertex(vertex, network, boundaries, temperatures);
             place_ends(slots, dependence, ends, &dual);
             let (from, to) = (dual(ends[0]), dual(ends[1]));
-            let received = network.received(conductor, At { slots, stack }, from, to);
+            let at = At { by_parameters: true, ..At::path((slots, stack), network.along(id)) };
+            let received = network.received(conductor, at, from, to);
             let received =
                 received.map_err(|failed| network.failed(Item::Conductor(id), failed, scope))?;
             for (vertex, heat) in ends.into_iter().zip(received) {
@@ -111,7 +112,7 @@ impl Tangents {
             let dependence = &network.parts.source_dependence[id.index()];
             let dual = |vertex: usize| of_vertex(vertex, network, boundaries, temperatures);
             name(slots, dependence, &|k| dual(dependence.vertices[k] as usize));
-            let power = At { slots, stack }.heat(&source.law);
+            let power = At::new((slots, stack)).heat(&source.law);
             let power = power.map_err(|failed| network.failed(Item::Source(id), failed, scope))?;
             for &(node, share) in &source.into {
                 let shared = power.derivatives.map(|d| share * d);

@@ -211,7 +211,8 @@ fn is_no_answer(error: &SizeError) -> bool {
     let SizeError::Trial { error, .. } = error else { return false };
     matches!(
         error.as_ref(),
-        TrialError::Steady(_)
+        TrialError::Gears(_)
+            | TrialError::Steady(_)
             | TrialError::Run(_)
             | TrialError::Periodic(_)
             | TrialError::Ledger(..)

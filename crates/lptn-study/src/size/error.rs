@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use lptn_assembly::AssemblyError;
+use lptn_netlist::Diagnostic;
 use lptn_network::{BuildErrors, Changing, InputError, ParameterId};
 use lptn_solve::{LedgerError, PeriodicError, SteadyError, TransientError};
 use lptn_units::{Class, EvalError, format_six};
@@ -60,6 +61,9 @@ pub enum TrialError {
     /// The network does not exist for values inside the ranges.
     Network(errors: BuildErrors) = "size::network", format!("there is no network: {errors}"),
         source errors, help LEAVE_OUT;
+    /// The gears do not mesh.
+    Gears(problem: Box<Diagnostic>) = problem.code, problem.message.clone(),
+        help problem.help.clone();
     /// The network cannot be assembled.
     Assembly => AssemblyError;
     /// The network has no steady state.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lptn_assembly::ThermalSystem;
-use lptn_netlist::Requirement;
+use lptn_netlist::{Netlist, Requirement};
 use lptn_network::{Network, OutputTimes, ParameterId, RunSettings, Value};
 use lptn_solve::{
     OutOfRange, Periodic, Proceed, Progress, RecordedNodes, RunStatus, Solution, SteadyState,
@@ -75,6 +75,8 @@ pub struct Doubt<'a> {
 pub struct Demand<'a> {
     /// The network with every parameter at its own value.
     pub network: &'a Network,
+    /// Where it was read, which knows the gears that mesh.
+    pub netlist: &'a Netlist,
     /// The cases in each of which everything has to be kept; the network as it is where there is
     /// none.
     pub cases: &'a [LoadCase],
@@ -270,6 +272,7 @@ impl<'a> Judge<'a> {
         let mut parameters = self.base.given();
         case.set.iter().chain(design).for_each(|(id, value)| parameters.set(*id, *value));
         let network = self.base.with(&parameters).map_err(TrialError::Network)?;
+        self.demand.netlist.meshes(&network).map_err(TrialError::Gears)?;
         self.count.fetch_add(1, Ordering::Relaxed);
         let settings = |of: &RunOf<'_>| {
             let run = of(&network).map_err(TrialError::Settings)?;
@@ -330,6 +333,11 @@ impl<'a> Judge<'a> {
         let own = solution.limits().len().saturating_sub(self.demand.requirements.len());
         let seen = &solution.limits()[own..];
         let error = seen.iter().map(|seen| seen.open).fold(error, f64::max);
+        let unknown = seen.iter().position(|seen| seen.margin.is_nan());
+        if let Some(i) = unknown {
+            let text = self.demand.requirements[i].text.clone();
+            return Err(TrialError::Requirement { text, error: None });
+        }
         Ok(Judged {
             margins: seen.iter().map(|seen| seen.margin).collect(),
             worst_at: seen.iter().map(|seen| Some(seen.worst_at)).collect(),

@@ -15,6 +15,7 @@ use lptn_study::{Aim, Demand, Moments};
 pub fn demand(netlist: &Netlist) -> Demand<'_> {
     Demand {
         network: &netlist.network,
+        netlist,
         cases: &[],
         requirements: &netlist.studies.sizes[0].requirements,
         moments: Moments::Steady(0.0),

@@ -295,7 +295,9 @@ pub(crate) fn answer(comparison: &Comparison) -> String {
             "no candidate has a [limit]".into()
         }
         _ if comparison.rows.iter().any(|row| row.status() == "not judged") => {
-            "limits are not judged where inputs change with time and there is no [run]".into()
+            "limits are not judged if inputs change with time and there is no [run], or if gears \
+             carry no load"
+                .into()
         }
         _ if comparison.rows.len() == 1 => "the candidate keeps its limits".into(),
         _ => "all candidates keep their limits".into(),

@@ -5,32 +5,35 @@ use std::f64::consts::TAU;
 use lptn_netlist::Diagnostic;
 use lptn_units::{Dimension, Type, parse_quantity};
 
+use super::args::ImpedanceArgs;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input;
 
 /// Positive numbers in s.
 pub(super) fn times(text: &str) -> Result<Vec<f64>, Failure> {
-    let one = |word: &str| {
-        let what = (Dimension::TIME, "impedance::list", "1ms,1s");
-        Ok(input::positive("--time", word, what)?.value)
-    };
-    ascending("--time", text, text.split(',').map(|word| one(word.trim())).collect())
+    ascending("--time", text, text.split(',').map(|word| time(word.trim())).collect())
+}
+
+fn time(word: &str) -> Result<f64, Failure> {
+    let what = (Dimension::TIME, "impedance::list", "1ms,1s");
+    Ok(input::positive("--time", word, what)?.value)
 }
 
 /// Angular frequencies in rad/s; 0 is the answer that stays.
 pub(super) fn omegas(text: &str) -> Result<Vec<f64>, Failure> {
-    let one = |word: &str| {
-        let plain = parse_quantity(word, Some(Type::of(Dimension::FREQUENCY)));
-        match plain {
-            Ok(hertz) => Ok(TAU * hertz.value),
-            Err(_) => {
-                let ty = Type::of(Dimension::ANGULAR_VELOCITY);
-                Ok(input::quantity("--omega", word, ty)?.value)
-            }
+    ascending("--omega", text, text.split(',').map(|word| omega(word.trim())).collect())
+}
+
+fn omega(word: &str) -> Result<f64, Failure> {
+    let plain = parse_quantity(word, Some(Type::of(Dimension::FREQUENCY)));
+    match plain {
+        Ok(hertz) => Ok(TAU * hertz.value),
+        Err(_) => {
+            let ty = Type::of(Dimension::ANGULAR_VELOCITY);
+            Ok(input::quantity("--omega", word, ty)?.value)
         }
-    };
-    ascending("--omega", text, text.split(',').map(|word| one(word.trim())).collect())
+    }
 }
 
 /// Shares between 0 and 1.
@@ -50,19 +53,37 @@ pub(super) fn shares(text: &str) -> Result<Vec<f64>, Failure> {
     text.split(',').map(|word| one(word.trim())).collect()
 }
 
+/// Values of at least 0 in ascending order, each once: the curve is drawn through them.
 fn ascending(
     option: &str,
     text: &str,
     values: Result<Vec<f64>, Failure>,
 ) -> Result<Vec<f64>, Failure> {
-    let values = values?;
-    let usable = values.iter().all(|value| *value >= 0.0 && value.is_finite());
-    if usable && values.windows(2).all(|pair| pair[0] < pair[1]) {
-        return Ok(values);
+    let mut values = values?;
+    if values.iter().any(|value| *value < 0.0 || !value.is_finite()) {
+        let message = format!("the values of {option} must be 0 or more, got `{text}`");
+        let help = format!("write for example {option} \"1 s, 10 s\"");
+        let help = if option == "--time" { help } else { help.replace(" s", " Hz") };
+        let problem = Diagnostic::error("impedance::list", message).help(help);
+        return Err(Failure::new(Exit::Input, problem));
     }
-    let message = format!("the values of {option} must be 0 or more and increase, got `{text}`");
-    let help = format!("write them in order: {option} \"..\" with the smallest first");
-    Err(Failure::new(Exit::Input, Diagnostic::error("impedance::list", message).help(help)))
+    values.sort_by(f64::total_cmp);
+    values.dedup();
+    Ok(values)
+}
+
+/// A note that a list is shown in another order than it was given in, or without repetitions.
+pub(super) fn reordered(args: &ImpedanceArgs) -> Option<String> {
+    let given = |text: &str, one: &dyn Fn(&str) -> Result<f64, Failure>| {
+        let values = text.split(',').filter_map(|word| one(word.trim()).ok());
+        values.collect::<Vec<f64>>().windows(2).any(|pair| pair[0] >= pair[1])
+    };
+    let option = match (&args.time, &args.omega) {
+        (Some(times), _) if given(times, &time) => "--time",
+        (None, Some(Some(omegas))) if given(omegas, &omega) => "--omega",
+        _ => return None,
+    };
+    Some(format!("note: the values of {option} are listed in ascending order, each once"))
 }
 
 /// 1, 2, 5, 10 and so on, from the last below `from` to the first above `to`.

@@ -58,6 +58,7 @@ pub(crate) fn impedance(args: &ImpedanceArgs, console: &Console) -> Result<Exit,
     if let (Some(path), Answer::Chain(chain)) = (&args.write, &view.answer) {
         files::write_new(path, &view.netlist(chain), "impedance::exists")?;
     }
+    lists::reordered(args).iter().for_each(|note| console.note(note));
     console.show(&view, args.printed.format)
 }
 

@@ -153,7 +153,11 @@ impl View<'_> {
         }
         if let Some(path) = &self.args.write {
             let name = &self.input.text.name;
-            console.note(&format!("wrote  {}: one node that stands for {name}", path.display()));
+            let nodes = match self.loads.nodes.as_ref().map_or(1, Nodes::count) {
+                1 => "one node that replaces".to_owned(),
+                many => format!("{many} nodes that replace"),
+            };
+            console.note(&format!("wrote  {}: {nodes} {name}", path.display()));
             if self.input.netlist.run.is_some() {
                 console.next(&format!("lptn run {}", quoted(&path.display().to_string())));
             }

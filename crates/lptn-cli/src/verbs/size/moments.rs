@@ -43,6 +43,7 @@ pub(super) fn demanded<T>(
     let probability = study.probability(&netlist.network).ok().flatten();
     ask(Demand {
         network: &netlist.network,
+        netlist,
         cases: &cases,
         requirements: &study.requirements,
         moments,
