@@ -31,6 +31,7 @@ mod error;
 mod error_words;
 mod expr;
 mod format;
+mod kin;
 mod kinship;
 mod naming;
 mod number;
@@ -61,6 +62,7 @@ pub use expr::{
     TableCall, Trend, is_function,
 };
 pub use format::{number as format_number, short as format_short, six as format_six};
+pub use kinship::TemperatureScale;
 pub use problems::{Class, Problem, Problems};
 pub use quantity::{Quantity, WrittenQuantity, kelvin_alone, parse_quantity, written_quantity};
 pub use rational::Rational;
