@@ -32,6 +32,7 @@ use crate::syntax;
 use crate::syntax_error::NOT_CLOSED;
 use crate::template::{self, Expanded, Structure};
 use crate::uncertainty::{self, UncertaintyPlan};
+use crate::unlikely;
 
 /// A network as a netlist describes it, with the way back to the text.
 #[derive(Clone, Debug)]
@@ -84,6 +85,7 @@ impl Netlist {
         all.extend(streams::wrong_outlets(network, map, start));
         all.extend(plausible::materials(network, map));
         all.extend(plausible::neighbours(network, map));
+        all.extend(unlikely::values(network, map));
         all.extend(
             self.initial
                 .iter()
