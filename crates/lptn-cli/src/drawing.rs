@@ -10,6 +10,7 @@ use lptn_report::{Picture, WIDTH};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files;
+use crate::verbs::DRAWN;
 
 /// Where a picture goes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,8 +67,8 @@ pub(crate) fn not_here() -> Failure {
 
 pub(crate) fn nothing() -> Failure {
     let problem = Diagnostic::error("plot::nothing", "there is no picture of this answer");
-    let help = "run, steady --periodic, modes, reduce, size, compare and the fits have one; \
-                `lptn graph` draws the network";
+    let drawn: Vec<&str> = DRAWN.iter().copied().filter(|verb| !verb.is_empty()).collect();
+    let help = format!("{} have one", drawn.join(", "));
     Failure::new(Exit::Input, problem.help(help))
 }
 
