@@ -3,7 +3,7 @@
 use std::fmt;
 use std::hash::{Hash, Hasher};
 
-use crate::kin::Kin;
+use crate::kin::{Kin, Known};
 use crate::rational::Rational;
 
 /// A physical dimension: exponents of length, mass, time, temperature, current and angle.
@@ -154,6 +154,10 @@ impl Dimension {
         self.kin
     }
 
+    fn both(self) -> Known {
+        (self.kin, self.exponents)
+    }
+
     /// That of a value in its usual unit: only a torque is more than its exponents there.
     pub(crate) fn as_written(self) -> Self {
         let torque = self.kin == Kin::Torque && self == Self::ENERGY;
@@ -176,13 +180,13 @@ impl Dimension {
     /// The dimension of a product; `None` where an exponent overflows.
     pub fn checked_mul(self, other: Self) -> Option<Self> {
         let product = self.zip(other, Rational::checked_add)?;
-        Some(product.of_kin(Kin::of_product(self, other, product)))
+        Some(product.of_kin(Kin::of_product(self.both(), other.both(), product.exponents)))
     }
 
     /// The dimension of a quotient; `None` where an exponent overflows.
     pub fn checked_div(self, other: Self) -> Option<Self> {
         let quotient = self.zip(other, Rational::checked_sub)?;
-        Some(quotient.of_kin(Kin::of_quotient(self, other, quotient)))
+        Some(quotient.of_kin(Kin::of_quotient(self.both(), other.both(), quotient.exponents)))
     }
 
     /// The dimension of a power; `None` where an exponent overflows.

@@ -1,6 +1,6 @@
 //! Words that several errors share.
 
-use crate::kinship::TemperatureScale;
+use crate::temperature::TemperatureScale;
 use crate::types::Type;
 
 /// That operands are to be of one of two types.

@@ -1,7 +1,9 @@
 //! Torques among the energies, which have the same dimension.
 
-use crate::dimension::Dimension;
 use crate::rational::Rational;
+
+/// The exponents of a dimension: length, mass, time, temperature, current, angle.
+pub(crate) type Exponents = [Rational; 6];
 
 /// What is known of a dimension beyond its exponents.
 ///
@@ -20,32 +22,34 @@ pub(crate) enum Kin {
     Turning,
 }
 
+/// A kin and the exponents beside it.
+pub(crate) type Known = (Kin, Exponents);
+
 impl Kin {
-    pub(crate) fn of_product(left: Dimension, right: Dimension, product: Dimension) -> Self {
-        match (left.kin(), right.kin()) {
-            (Self::Plain, Self::Plain) => Self::Plain,
-            (kin, Self::Plain) => kin.with(right, product),
-            (Self::Plain, kin) => kin.with(left, product),
+    pub(crate) fn of_product(left: Known, right: Known, product: Exponents) -> Self {
+        match (left.0, right.0) {
+            (kin, Self::Plain) => kin.with(right.1, product),
+            (Self::Plain, kin) => kin.with(left.1, product),
             _ => Self::Plain,
         }
     }
 
-    pub(crate) fn of_quotient(above: Dimension, below: Dimension, quotient: Dimension) -> Self {
-        match (above.kin(), below.kin()) {
-            (Self::Plain, Self::Torque) if above == Dimension::POWER => Self::Turning,
-            (kin, Self::Plain) => kin.with(below, quotient),
+    pub(crate) fn of_quotient(above: Known, below: Known, quotient: Exponents) -> Self {
+        match (above.0, below.0) {
+            (Self::Plain, Self::Torque) if is_frequency(quotient) => Self::Turning,
+            (kin, Self::Plain) => kin.with(below.1, quotient),
             _ => Self::Plain,
         }
     }
 
     /// With one more factor, or divided by one. A torque over a length is a force.
-    fn with(self, factor: Dimension, result: Dimension) -> Self {
-        let [length, mass, time, _, _, angle] = factor.exponents();
+    fn with(self, factor: Exponents, result: Exponents) -> Self {
+        let [length, mass, time, _, _, angle] = factor;
         let of_body = !length.is_zero() || !mass.is_zero();
+        let number = factor.iter().all(|exponent| exponent.is_zero());
         match self {
-            Self::Plain => Self::Plain,
-            Self::Turning if factor.is_none() => Self::Turning,
-            Self::Turning => Self::Plain,
+            Self::Turning if number => Self::Turning,
+            Self::Plain | Self::Turning => Self::Plain,
             Self::TorquePerTime if !angle.is_zero() => Self::Plain,
             Self::TorquePerTime if of_body || time.is_zero() => self,
             Self::Torque if of_body => Self::Plain,
@@ -54,10 +58,10 @@ impl Kin {
     }
 
     /// Of a dimension with a torque among its factors, and nothing else of length or mass.
-    pub(crate) fn of_torque(dimension: Dimension) -> Self {
-        let [_, _, time, _, _, angle] = dimension.exponents();
-        let [_, _, own, ..] = Dimension::ENERGY.exponents();
-        let per_time = time.checked_sub(own).is_some_and(|rest: Rational| rest.num() < 0);
+    pub(crate) fn of_torque(exponents: Exponents) -> Self {
+        let [_, _, time, _, _, angle] = exponents;
+        // a torque has 1/s^2
+        let per_time = time.checked_add(Rational::integer(2)).is_some_and(|rest| rest.num() < 0);
         match per_time {
             true if angle.is_zero() => Self::TorquePerTime,
             // a power: the radian of the speed is that of the torque
@@ -70,4 +74,9 @@ impl Kin {
     pub(crate) fn either(self, other: Self) -> Self {
         if self == Self::Plain { other } else { self }
     }
+}
+
+fn is_frequency([length, mass, time, temperature, current, angle]: Exponents) -> bool {
+    let others = [length, mass, temperature, current, angle];
+    others.iter().all(|exponent| exponent.is_zero()) && time.as_integer() == Some(-1)
 }

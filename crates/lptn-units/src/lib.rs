@@ -46,6 +46,7 @@ pub mod statistics;
 mod suggest;
 pub mod table;
 mod taylor;
+mod temperature;
 mod types;
 mod unit;
 mod unit_parser;
@@ -62,7 +63,6 @@ pub use expr::{
     TableCall, Trend, is_function,
 };
 pub use format::{number as format_number, short as format_short, six as format_six};
-pub use kinship::TemperatureScale;
 pub use problems::{Class, Problem, Problems};
 pub use quantity::{Quantity, WrittenQuantity, kelvin_alone, parse_quantity, written_quantity};
 pub use rational::Rational;
@@ -74,6 +74,7 @@ pub use table::{
     TableSymbol,
 };
 pub use taylor::Taylor;
+pub use temperature::TemperatureScale;
 pub use types::Type;
 pub use unit::Unit;
 pub use value::{Written, parse_value};

@@ -61,7 +61,7 @@ impl Factor {
     /// The dimension, which is one of a torque if the unit has a force and a length: `N m`,
     /// `lbf ft`, `N m/K`. `N m/s` is a watt, written as one.
     fn with_kin(&self) -> Dimension {
-        let kin = Kin::of_torque(self.dimension);
+        let kin = Kin::of_torque(self.dimension.exponents());
         match self.lever == [Rational::ONE; 2] && kin == Kin::Torque {
             true => self.dimension.of_kin(kin),
             false => self.dimension,

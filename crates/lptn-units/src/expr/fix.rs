@@ -7,7 +7,8 @@ use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind as Kind};
 use crate::format::{number, rounded};
 use crate::kin::Kin;
-use crate::kinship::{TemperatureScale, has_inverse, is_frequency_for_rotation, revolutions};
+use crate::kinship::{has_inverse, is_frequency_for_rotation, revolutions};
+use crate::temperature::TemperatureScale;
 use crate::types::Type;
 use crate::unit::Unit;
 
@@ -131,7 +132,7 @@ impl Source<'_> {
         let negative = || format!("-{}", self.text_of(id));
         let fix = match signed && self.literal_number(id).is_some() {
             true => Some(negative()),
-            false => self.as_difference(id).or_else(|| self.from_celsius(id)),
+            false => self.as_difference(id).or_else(|| self.less_a_point(id)),
         };
         self.absolute_operand(id, operation, fix)
     }
@@ -181,7 +182,7 @@ impl Source<'_> {
     }
 
     /// `T - 20 [K]` as `T - 20 [degC]`: the difference that was meant.
-    fn from_celsius(&self, id: Id) -> Option<String> {
+    fn less_a_point(&self, id: Id) -> Option<String> {
         match self.tree.node(id) {
             Node::Binary(Operator::Subtract, _, right) => self.as_point(*right),
             _ => None,
