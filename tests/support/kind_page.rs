@@ -82,12 +82,14 @@ fn row(kind: Kind, declared: &LawDeclaration) -> String {
     let keys: Vec<String> = chosen.into_iter().chain(keys).collect();
     let of = if declared.carries.is_of_fluid() { "`fluid`, " } else { "" };
     let pair = if pair { " (a list of two)" } else { "" };
+    // a bar of an amount would end the cell
+    let cell = |text: &str| text.replace('|', "\\|");
     format!(
         "| {of}{}{pair} | {} | {} | {} |",
         keys.join(", "),
-        declared.equation,
-        holds(declared),
-        source(declared)
+        cell(&declared.equation.to_string()),
+        cell(&holds(declared).to_string()),
+        cell(&source(declared).to_string())
     )
 }
 

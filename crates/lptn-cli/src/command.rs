@@ -47,11 +47,14 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
         }
         _ => None,
     };
-    let problem = page_without_sign(error).or_else(|| word_too_many(error)).or_else(|| {
-        verb.and_then(|verb| {
-            file_as_verb(verb).or_else(|| near_verb(verb)).or_else(|| path_as_verb(verb))
-        })
-    });
+    let problem = page_without_sign(error)
+        .or_else(|| no_such_option(error))
+        .or_else(|| word_too_many(error))
+        .or_else(|| {
+            verb.and_then(|verb| {
+                file_as_verb(verb).or_else(|| near_verb(verb)).or_else(|| path_as_verb(verb))
+            })
+        });
     let global =
         Global { quiet: false, verbose: false, color: Color::Auto, plot: None, report: None };
     let console = Console::new(&global, None);
@@ -89,6 +92,60 @@ fn page_without_sign(error: &clap::Error) -> Option<Diagnostic> {
     let message = format!("{word} stands alone: the file of a report is joined with =");
     let problem = Diagnostic::error("input::report_file", message);
     is_page.then(|| problem.help(format!("write --report={}", quoted(word))))
+}
+
+/// An option that the verb does not have, and that is not near to one of its own.
+fn no_such_option(error: &clap::Error) -> Option<Diagnostic> {
+    let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else {
+        return None;
+    };
+    let near = error.get(ContextKind::SuggestedArg).is_some();
+    if error.kind() != ErrorKind::UnknownArgument || !option.starts_with('-') || near {
+        return None;
+    }
+    let words = verb_words();
+    let verb = if words.is_empty() { String::new() } else { format!(" {}", words.join(" ")) };
+    let message = format!("`lptn{verb}` has no option `{option}`");
+    let problem = Diagnostic::error("input::no_option", message);
+    let others = verbs_with(option);
+    let help = format!("`lptn{verb} --help` lists its options");
+    Some(problem.help(match others.as_slice() {
+        [] => help,
+        verbs => format!("{help}; {option} belongs to {}", verbs.join(", ")),
+    }))
+}
+
+/// The verb of the command line, and the one inside it: `fit`, `network`.
+fn verb_words() -> Vec<String> {
+    let mut command = Args::command();
+    let mut words = Vec::new();
+    for word in std::env::args().skip(1) {
+        let Some(inner) = command.find_subcommand(&word).cloned() else { continue };
+        words.push(word);
+        command = inner;
+    }
+    words
+}
+
+/// The verbs that have this option.
+fn verbs_with(option: &str) -> Vec<String> {
+    let has = |command: &Command| {
+        command.get_arguments().any(|argument| {
+            argument.get_long().is_some_and(|long| option.strip_prefix("--") == Some(long))
+        })
+    };
+    let root = Args::command();
+    let mut found = Vec::new();
+    for verb in root.get_subcommands() {
+        let name = verb.get_name();
+        if has(verb) {
+            found.push(format!("`lptn {name}`"));
+        }
+        for inner in verb.get_subcommands().filter(|inner| has(inner)) {
+            found.push(format!("`lptn {name} {}`", inner.get_name()));
+        }
+    }
+    found
 }
 
 /// A word too many: a value without its `=`, a quantity without quotes, a second netlist.
@@ -131,7 +188,9 @@ fn is_netlist(word: &str) -> bool {
 /// The name of a file in the place of a verb.
 fn file_as_verb(word: &str) -> Option<Diagnostic> {
     let ending = Path::new(word).extension()?.to_str()?.to_lowercase();
+    let within = verb_words().into_iter().next().filter(|verb| verb == "fit");
     let (is, verb) = match ending.as_str() {
+        "toml" if within.is_some() => ("netlist", "fit network"),
         "toml" => ("netlist", "run"),
         "csv" => ("CSV file", "fit step"),
         _ => return None,
@@ -148,7 +207,8 @@ fn path_as_verb(word: &str) -> Option<Diagnostic> {
 
 fn verb_is_due(word: &str, is: &str, verb: &str) -> Diagnostic {
     let message = format!("{word} is a {is}, and a verb is due: what is to be done with it?");
-    let help = format!("`lptn {verb} {}`, or another verb: `lptn help` lists them", quoted(word));
+    let list = if verb.starts_with("fit network") { "lptn fit --help" } else { "lptn help" };
+    let help = format!("`lptn {verb} {}`, or another verb: `{list}` lists them", quoted(word));
     Diagnostic::error("input::no_verb", message).help(help)
 }
 

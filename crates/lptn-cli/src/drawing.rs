@@ -41,7 +41,7 @@ impl Drawing {
         show: impl FnOnce(&[u8]) -> Result<(), Failure>,
     ) -> Result<Option<String>, Failure> {
         if figures.iter().all(|figure| figure.panels.is_empty()) {
-            return Err(nothing());
+            return Err(nothing(&[]));
         }
         let (picture, file) = match self {
             Self::Terminal => (Picture::Text, None),
@@ -64,10 +64,14 @@ pub(crate) fn not_here() -> Failure {
     Failure::new(Exit::Input, problem.help("leave --format out, or name a file: --plot heat.svg"))
 }
 
-pub(crate) fn nothing() -> Failure {
+/// `drawn` are the verbs whose answer has a picture.
+pub(crate) fn nothing(drawn: &[&str]) -> Failure {
     let problem = Diagnostic::error("plot::nothing", "there is no picture of this answer");
-    let help = "run, steady --periodic, modes, reduce, size, compare and the fits have one; \
-                `lptn graph` draws the network";
+    let drawn: Vec<&str> = drawn.iter().copied().filter(|verb| !verb.is_empty()).collect();
+    let help = match drawn.is_empty() {
+        true => "`lptn graph` draws the network".to_owned(),
+        false => format!("{} have one", drawn.join(", ")),
+    };
     Failure::new(Exit::Input, problem.help(help))
 }
 

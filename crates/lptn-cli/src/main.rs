@@ -93,10 +93,13 @@ fn dispatch(args: &Args, console: &Console) -> Result<Exit, Failure> {
             console.message(&command::help());
             Ok(Exit::Input)
         }
-        Some(verb) if console.plot.is_some() && !verb.is_drawn() => Err(drawing::nothing()),
+        Some(verb) if console.plot.is_some() && !verb.is_drawn() => {
+            Err(drawing::nothing(verbs::DRAWN))
+        }
+        Some(verb) if console.reports() && !verb.is_reported() => Err(reporting::nothing()),
         Some(verb) => match verb.run(console)? {
             exit if exit != Exit::Interrupted && console.owes_a_picture() => {
-                Err(drawing::nothing())
+                Err(drawing::nothing(verbs::DRAWN))
             }
             exit => Ok(exit),
         },

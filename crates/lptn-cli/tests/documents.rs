@@ -17,6 +17,9 @@
 //!   one of [`BY_HAND`].
 //! - A picture `pictures/NAME.svg` that a page shows is the `NAME.svg` that its commands wrote.
 //!
+//! A block with a folder in its name is a file of the repository, so that its commands run there too:
+//! ` ```toml docs/cups.toml `. `LPTN_PAGE=gearbox` runs the pages with this in their name only.
+//!
 //! `LPTN_BLESS=1 cargo test -p lptn-cli --test documents` writes what the commands print into the
 //! pages; what it writes has to be read as one who learns from it would. A block with `..` is not
 //! written: shorten it by hand.
@@ -27,6 +30,8 @@
 mod common;
 #[path = "../../../tests/support/pages.rs"]
 mod pages;
+#[path = "../../../tests/support/prose.rs"]
+mod prose;
 
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -290,7 +295,10 @@ fn is_command(line: &str) -> bool {
 #[test]
 fn commands_in_documents_print_what_they_show() {
     let (mut count, mut wrong) = (0, String::new());
-    for path in pages(&root()) {
+    let only = std::env::var("LPTN_PAGE").ok();
+    let chosen =
+        |path: &PathBuf| only.as_ref().is_none_or(|word| path.display().to_string().contains(word));
+    for path in pages(&root()).into_iter().filter(chosen) {
         let mut page = Page::open(&path);
         count += page.run();
         page.pictures();
@@ -300,7 +308,65 @@ fn commands_in_documents_print_what_they_show() {
         }
     }
     assert!(wrong.is_empty(), "LPTN_BLESS=1 writes what is printed into the pages:\n\n{wrong}");
-    assert!(count >= 20, "only {count} blocks were found");
+    assert!(only.is_some() || count >= 20, "only {count} blocks were found");
+}
+
+/// Sixteen commands of the book named files that only the test had.
+#[test]
+fn blocks_with_a_folder_in_their_name_are_files_of_the_repository() {
+    let (mut seen, mut wrong) = (0, String::new());
+    for path in pages(&root()) {
+        let lines = pages::lines(&path);
+        for block in blocks(&lines) {
+            let ("toml" | "csv" | "python", file) = block.words() else { continue };
+            if !file.contains('/') || file.contains(' ') {
+                continue;
+            }
+            seen += 1;
+            let (kept, text) = (root().join(file), lines[block.lines.clone()].join("\n") + "\n");
+            if std::fs::read_to_string(&kept).ok().as_ref() == Some(&text) {
+                continue;
+            }
+            writeln!(wrong, "{}: {file} is another file, or missing", path.display()).unwrap();
+            if std::env::var_os("LPTN_BLESS").is_some() {
+                std::fs::write(kept, text).unwrap();
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "LPTN_BLESS=1 writes the files:\n\n{wrong}");
+    assert!(seen >= 10, "only {seen} files were found");
+}
+
+/// A law of 85.25 uW stood below a fit that prints 85.11.
+#[test]
+fn numbers_in_prose_are_those_that_the_page_prints() {
+    let odd: Vec<String> =
+        pages(&root()).iter().flat_map(|path| prose::nearly_printed(path)).collect();
+    let help = "print them, round them, or name them in tests/support/prose.rs";
+    assert!(odd.is_empty(), "nearly what the page prints; {help}:\n{}", odd.join("\n"));
+}
+
+/// A bar inside a cell ends it, and what stands behind it vanishes from the page.
+#[test]
+fn rows_of_tables_have_as_many_cells_as_their_heads() {
+    let mut wrong = String::new();
+    for path in pages(&root()) {
+        let lines = pages::lines(&path);
+        let mut head: Option<usize> = None;
+        let mut code = false;
+        for (number, line) in lines.iter().enumerate() {
+            code ^= line.starts_with("```");
+            if code || !line.starts_with('|') {
+                head = None;
+                continue;
+            }
+            let cells = line.replace("\\|", "").matches('|').count();
+            if *head.get_or_insert(cells) != cells {
+                writeln!(wrong, "{}:{}: {cells} bars", path.display(), number + 1).unwrap();
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "bars in cells are written `\\|`:\n{wrong}");
 }
 
 #[test]

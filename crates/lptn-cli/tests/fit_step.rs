@@ -287,6 +287,37 @@ fn gaps_and_a_sensor_at_its_end_are_said() {
     folder.run(&["fit", "step", "saturated.csv", "--column", "ring", "--to", "20 min"]).exits(0);
 }
 
+/// A record that heats and then cools was told to be longer, one that begins to heat after five
+/// minutes to have a second exponential.
+#[test]
+fn a_record_that_is_not_one_step_is_told_where_to_cut_it() {
+    let heats = |t: f64| 80.0 - 55.0 * (-t / 400.0).exp();
+    let write = |value: &dyn Fn(f64) -> f64| {
+        let row = |i: u32| {
+            let t = 10.0 * f64::from(i);
+            let saw = 0.02 * f64::from(i % 3) - 0.02;
+            format!("{t},{:.3}\n", value(t) + saw)
+        };
+        format!("t [s],ring [degC]\n{}", (0..240).map(row).collect::<String>())
+    };
+    let cools = |t: f64| {
+        if t < 1200.0 {
+            heats(t)
+        } else {
+            25.0 + (heats(1200.0) - 25.0) * (-(t - 1200.0) / 400.0).exp()
+        }
+    };
+    let folder = Folder::with("cools.csv", &write(&cools));
+    let ran = folder.run(&["fit", "step", "cools.csv", "--column", "ring"]);
+    ran.says("it turns back at 1200 s").says("--to \"1200 s\" or --from \"1200 s\"");
+    let late = |t: f64| heats((t - 300.0).max(0.0));
+    folder.write("late.csv", &write(&late));
+    let ran = folder.run(&["fit", "step", "late.csv", "--column", "ring"]);
+    ran.says("fit::late_start").says("--from \"300 s\"");
+    let ran = folder.run(&["fit", "step", "late.csv", "--column", "ring", "--from", "300 s"]);
+    assert!(!ran.err.contains("late_start"), "{}", ran.err);
+}
+
 /// scipy.optimize.curve_fit (1.x, Levenberg-Marquardt of MINPACK) on the same rows: T_i 25.39027054
 /// degC, T_f 92.718064 degC, t_RC 809.78630586 s, and rms 0.10615620 K.
 #[test]

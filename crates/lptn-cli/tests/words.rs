@@ -93,6 +93,39 @@ fn help_is_a_verb_and_a_file_is_none() {
     folder.run(&["motor"]).exits(2).says("motor is a file").says("`lptn run motor`");
     std::fs::create_dir(folder.path().join("results")).unwrap();
     folder.run(&["results"]).exits(2).says("`lptn report results`");
+    let fit = folder.run(&["fit", "gearbox.toml"]).exits(2);
+    fit.says("`lptn fit network gearbox.toml`");
+}
+
+/// An option of another verb was answered with a tip about `--`.
+#[test]
+fn an_option_that_a_verb_does_not_have_is_told_where_it_is() {
+    let folder = Folder::with_gearbox();
+    let ran = folder.run(&["size", "gearbox.toml", "--temperature-unit", "K"]).exits(2);
+    let ran = ran.says("`lptn size` has no option `--temperature-unit`").says("`lptn graph`");
+    assert!(!ran.err.contains("-- --"), "{}", ran.err);
+    let ran = folder.run(&["fit", "network", "gearbox.toml", "--quorum"]).exits(2);
+    ran.says("`lptn fit network` has no option `--quorum`");
+    // a slip of an option of its own is the parser's to tell
+    folder.run(&["run", "gearbox.toml", "--toleranse", "1e-5K"]).exits(2).says("--tolerance");
+}
+
+/// A file was written, and only then its report refused.
+#[test]
+fn a_verb_without_a_report_says_so_before_it_works() {
+    let folder = Folder::empty();
+    folder.run(&["new", "motor", "--report"]).exits(2).says("report::nothing");
+    assert!(folder.files().is_empty(), "{:?}", folder.files());
+}
+
+/// The list of verbs with a picture was written by hand, and seven were left out.
+#[test]
+fn verbs_with_pictures_are_those_that_draw() {
+    let ran = Folder::with_gearbox().run(&["verify", "gearbox.toml", "--plot", "x.svg"]).exits(2);
+    for verb in ["plot", "rank", "sweep", "infer", "plan", "impedance", "gear", "graph"] {
+        assert!(ran.err.contains(verb), "{verb}: {}", ran.err);
+    }
+    assert!(!ran.err.contains("verify,"), "{}", ran.err);
 }
 
 /// A path in other letters of case, or with backslashes, was only said not to be there.

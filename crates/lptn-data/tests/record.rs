@@ -176,6 +176,61 @@ fn property_saturation_is_told_from_settling() {
     }
 }
 
+fn codes(text: &str) -> Vec<&'static str> {
+    let (record, _) = parsed(text, &RecordQuery::default()).unwrap();
+    record.warnings.iter().map(|warning| warning.code).collect()
+}
+
+/// A hall that swings by 1 K over a day, to a tenth of a kelvin: no sensor is at its end.
+#[test]
+fn a_slow_swing_of_a_few_steps_is_no_sensor_at_its_end() {
+    for phase in [0.0, 1.0, 2.0, 3.0, 4.0, 5.0] {
+        let minutes = (0..2880).map(f64::from);
+        let swing = |t: f64| 20.0 + 0.5 * (t / 1440.0 * std::f64::consts::TAU + phase).sin();
+        let text = written(minutes.map(|t| (60.0 * t, swing(t))), 1);
+        assert!(codes(&text).is_empty(), "{phase}: {:?}", codes(&text));
+    }
+}
+
+/// Points at equal ratios of the time, as a thermal impedance is measured, have no holes; one that
+/// was lost from equal distances is one.
+#[test]
+fn decades_of_time_are_no_holes() {
+    for per_decade in [1, 2, 3, 10] {
+        let times = (0..=6 * per_decade)
+            .map(|i| 10.0 * 10.0_f64.powf(f64::from(i) / f64::from(per_decade)));
+        let text = written(times.map(|t| (t, 20.0 + 5.0 * t.log10())), 3);
+        assert!(codes(&text).is_empty(), "{per_decade}: {:?}", codes(&text));
+    }
+    let times = (0..100).map(f64::from).filter(|t| !(40.0..60.0).contains(t));
+    assert_eq!(codes(&written(times.map(|t| (t, exponential(t))), 3)), ["record::hole"]);
+}
+
+/// Eight columns of one logger that stopped together are one warning, another gap is its own.
+#[test]
+fn gaps_of_the_same_rows_are_told_once() {
+    let names = ["a", "b", "c", "d", "e", "f", "g"];
+    let head: String = names.iter().map(|name| format!(",{name} [degC]")).collect();
+    let row = |t: u32| {
+        let cell = |i: u32| match (t, i) {
+            (3 | 4, _) | (6, 6) => ",".to_owned(),
+            _ => format!(",{}", 20 + t * t + i),
+        };
+        format!("{t}{}\n", (0..7).map(cell).collect::<String>())
+    };
+    let text = format!("t [s]{head}\n{}", (0..10).map(row).collect::<String>());
+    let (record, _) = parsed(&text, &RecordQuery::default()).unwrap();
+    let told: Vec<&str> = record.warnings.iter().map(|w| w.message.as_str()).collect();
+    assert_eq!(
+        told,
+        [
+            "6 columns have 2 gaps, which are left out of their 10 rows: `a`, `b`, `c`, `d` and 2 \
+             more",
+            "column `g` has 3 gaps, which are left out of its 10 rows",
+        ]
+    );
+}
+
 /// What lies outside the window is not looked at: neither its gaps nor what stands in place of
 /// numbers.
 #[test]

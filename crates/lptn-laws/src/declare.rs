@@ -279,12 +279,10 @@ impl FieldDeclaration {
         Self { hints: Hints::GIVEN, ..Self::new(key, Type::SCALAR, meaning, example) }
     }
 
-    /// The unit to write it in, and how many SI units that is: an angle in degrees, a torque in N m.
+    /// The unit to write it in, and how many SI units that is: an angle in degrees.
     pub fn unit(&self) -> (String, f64) {
         match self.ty {
             ty if ty == Type::of(Dimension::ANGLE) => ("deg".to_owned(), PI / 180.0),
-            // no law takes an energy: what has its dimension is a torque
-            ty if ty == Type::of(Dimension::ENERGY) => ("N m".to_owned(), 1.0),
             ty => (ty.usual_unit(), 1.0),
         }
     }

@@ -211,7 +211,7 @@ impl Law for MeshExternal {
             SPEED,
             FieldDeclaration::new(
                 "torque",
-                Type::of(Dimension::ENERGY),
+                Type::of(Dimension::TORQUE),
                 "torque of the pinion, of either direction",
                 "\"50 N m\"",
             )

@@ -153,7 +153,7 @@ impl Law for BearingSkf {
                 hints: Hints::GIVEN,
                 ..FieldDeclaration::new(
                     "M_seal",
-                    Type::of(Dimension::ENERGY),
+                    Type::of(Dimension::TORQUE),
                     "moment of its seals",
                     "\"20 N mm\"",
                 )

@@ -88,6 +88,7 @@ mod template;
 mod toml_1_1;
 mod toml_text;
 mod uncertainty;
+mod unlikely;
 mod value;
 mod value_help;
 mod work;

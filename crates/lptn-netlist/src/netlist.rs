@@ -33,6 +33,7 @@ use crate::syntax;
 use crate::syntax_error::NOT_CLOSED;
 use crate::template::{self, Expanded, Structure};
 use crate::uncertainty::{self, UncertaintyPlan};
+use crate::unlikely;
 
 /// A network as a netlist describes it, with the way back to the text.
 #[derive(Clone, Debug)]
@@ -87,6 +88,7 @@ impl Netlist {
         all.extend(plausible::neighbours(network, map));
         all.extend(assumed::shifted_gears(network, map));
         all.extend(assumed::mean_conductivities(network, map));
+        all.extend(unlikely::values(network, map));
         all.extend(
             self.initial
                 .iter()

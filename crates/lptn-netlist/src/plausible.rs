@@ -17,6 +17,16 @@ const MOST_PAIRS: usize = 5;
 /// Conductances that meet in a node and are further apart than this.
 const DECADES: f64 = 1e9;
 
+/// Below so many W/K next to nothing flows: a path with a part that is left away has some uW/K.
+/// Others that are so weak need not be so far apart.
+const WEAK: f64 = 1e-6;
+const DECADES_OF_WEAK: f64 = 1e6;
+
+/// Whether two conductances are so far apart that one of them is hardly meant.
+fn far_apart(least: f64, most: f64) -> bool {
+    most >= DECADES * least || (least < WEAK && most >= DECADES_OF_WEAK * least)
+}
+
 /// Where a property is looked at if no node has a start, in K.
 const ROOM: f64 = 298.15;
 
@@ -135,7 +145,7 @@ fn implausible(
     })
 }
 
-/// Whether any two conductances are nine decades apart; in most large networks none are.
+/// Whether any two conductances are far apart; in most large networks none are.
 fn are_apart(network: &Network) -> bool {
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for id in network.conductor_ids() {
@@ -143,10 +153,10 @@ fn are_apart(network: &Network) -> bool {
             (least, most) = (least.min(conductance), most.max(conductance));
         }
     }
-    most >= DECADES * least
+    far_apart(least, most)
 }
 
-/// A warning for constant conductances that meet in a node and are nine decades apart.
+/// A warning for constant conductances that meet in a node and are far apart.
 pub(crate) fn neighbours(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     if !are_apart(network) {
         return Vec::new();
@@ -162,18 +172,14 @@ pub(crate) fn neighbours(network: &Network, map: &SourceMap) -> Vec<Diagnostic> 
             *most = if this.0 > most.0 { this } else { *most };
         }
     }
-    let mut pairs: Vec<[(f64, ConductorId); 2]> = extremes
-        .into_iter()
-        .flatten()
-        .filter(|[least, most]| most.0 >= DECADES * least.0)
-        .collect();
+    let mut pairs: Vec<[(f64, ConductorId); 2]> =
+        extremes.into_iter().flatten().filter(|[least, most]| far_apart(least.0, most.0)).collect();
     pairs.sort_by_key(|[least, most]| (least.1, most.1));
     pairs.dedup_by_key(|[least, most]| (least.1, most.1));
     let mut warnings: Vec<Diagnostic> =
         pairs.iter().take(MOST_PAIRS).map(|pair| apart((network, map), pair)).collect();
     if let Some(more) = pairs.len().checked_sub(MOST_PAIRS).filter(|more| *more > 0) {
-        let message =
-            format!("{more} more pairs of resistances that meet in a node are nine decades apart");
+        let message = format!("{more} more pairs of resistances that meet in a node are far apart");
         warnings.push(Diagnostic::warning("network::decades_apart", message));
     }
     warnings

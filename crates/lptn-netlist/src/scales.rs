@@ -10,6 +10,9 @@ use crate::raw::RawKind;
 /// Nobody who also writes degC writes a temperature below this many K, -100 degC, without a reason.
 const COLD: f64 = ZERO_CELSIUS - 100.0;
 
+/// Deep space, 2.725 K, however it is rounded.
+const SPACE: std::ops::RangeInclusive<f64> = 2.7..=2.73;
+
 /// The scales in which absolute temperatures are written.
 #[derive(Debug, Default)]
 pub(crate) struct Scales {
@@ -30,7 +33,9 @@ impl Scales {
         let plain = number.filter(|number| number.parse::<f64>().is_ok());
         self.celsius |= number.is_none();
         // absolute zero is meant: it stands for a sky that gives nothing back
-        if let Some(number) = plain.filter(|_| quantity.value > 0.0 && quantity.value < COLD) {
+        let space = SPACE.contains(&quantity.value);
+        let cold = quantity.value > 0.0 && quantity.value < COLD && !space;
+        if let Some(number) = plain.filter(|_| cold) {
             let celsius = format_number(((quantity.value - ZERO_CELSIUS) * 1e6).round() / 1e6);
             let message =
                 format!("{} is {} K, {celsius} degC", place.words(), format_number(quantity.value));

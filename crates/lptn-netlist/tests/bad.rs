@@ -3,7 +3,11 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+#[path = "support/fixes.rs"]
+mod fixes;
+
 use std::collections::BTreeSet;
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use lptn_netlist::{Netlist, Rejected, Severity, parse_bytes, parse_with};
@@ -22,8 +26,11 @@ fn cases() -> Vec<PathBuf> {
 
 fn parse(path: &Path) -> Result<Netlist, Rejected> {
     let name = path.file_name().unwrap().to_str().unwrap();
-    let bytes = std::fs::read(path).unwrap();
-    match std::str::from_utf8(&bytes) {
+    parse_text(name, &std::fs::read(path).unwrap())
+}
+
+fn parse_text(name: &str, bytes: &[u8]) -> Result<Netlist, Rejected> {
+    match std::str::from_utf8(bytes) {
         // the CSV files and states of a case, and what it includes, stand beside it
         Ok(text)
             if [
@@ -41,7 +48,7 @@ fn parse(path: &Path) -> Result<Netlist, Rejected> {
         {
             parse_with(name, text, &mut |path| std::fs::read(folder().join(path)))
         }
-        _ => parse_bytes(name, &bytes),
+        _ => parse_bytes(name, bytes),
     }
 }
 
@@ -107,4 +114,47 @@ fn there_are_many_cases_and_nearly_all_offer_help() {
     assert!(cases().len() >= 230);
     assert!(codes.len() >= 30, "{codes:?}");
     assert!(with_help * 10 >= all * 9, "{with_help} of {all}");
+}
+
+/// Whether a mistake of this code is still there, in what a fix has put into the text.
+fn is_left(
+    mended: &Result<Netlist, Rejected>,
+    (name, code): (&str, &str),
+    written: &Range<usize>,
+) -> bool {
+    let Err(rejected) = mended else { return false };
+    rejected.diagnostics.iter().any(|problem| {
+        let place = problem.place().filter(|place| rejected.files.name(place.file) == name);
+        problem.code == code
+            && place.is_some_and(|place| {
+                place.range.start < written.end && written.start < place.range.end
+            })
+    })
+}
+
+/// What a help says is to be written is written, and read again: the mistake is gone.
+#[test]
+fn what_helps_say_to_write_can_be_pasted() {
+    let (mut count, mut wrong) = (0, Vec::new());
+    for path in cases() {
+        let name = path.file_name().unwrap().to_str().unwrap();
+        let Ok(text) = String::from_utf8(std::fs::read(&path).unwrap()) else { continue };
+        let rejected = parse_text(name, text.as_bytes()).unwrap_err();
+        for diagnostic in &rejected.diagnostics {
+            let place = diagnostic.place().unwrap();
+            if rejected.files.name(place.file) != name {
+                continue;
+            }
+            for fix in fixes::of(diagnostic, &text, &place.range) {
+                count += 1;
+                let mended = parse_text(name, fix.applied(&text).as_bytes());
+                let written = fix.part.start..fix.part.start + fix.text.len();
+                if is_left(&mended, (name, diagnostic.code), &written) {
+                    wrong.push(format!("{name}: {}: {}", diagnostic.code, fix.text));
+                }
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "of {count}:\n{}", wrong.join("\n"));
+    assert!(count >= 150, "only {count} fixes were tried");
 }

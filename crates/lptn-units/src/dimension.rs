@@ -1,16 +1,38 @@
 //! Physical dimensions with rational exponents, the angle among them.
 
 use std::fmt;
+use std::hash::{Hash, Hasher};
 
+use crate::kin::{Kin, Known};
 use crate::rational::Rational;
 
 /// A physical dimension: exponents of length, mass, time, temperature, current and angle.
 ///
 /// The angle is a dimension of its own here, unlike in the SI: 50 Hz and 50 rad/s differ by a
 /// factor of 2π that no number shows, and only the dimension can tell them apart.
-#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+///
+/// A torque (N m) and an energy (J) are equal here, as their exponents are. A dimension remembers
+/// which of the two it is, because a frequency makes a power of an energy only; see
+/// [`Dimension::is_torque_per_time`].
+#[derive(Clone, Copy)]
 pub struct Dimension {
     exponents: [Rational; 6],
+    /// It takes no part in comparisons.
+    kin: Kin,
+}
+
+impl PartialEq for Dimension {
+    fn eq(&self, other: &Self) -> bool {
+        self.exponents == other.exponents
+    }
+}
+
+impl Eq for Dimension {}
+
+impl Hash for Dimension {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        self.exponents.hash(state);
+    }
 }
 
 /// Symbols of the base units, in the order of the exponents.
@@ -55,7 +77,7 @@ dimensions! {
     FORCE = [1, 1, -2, 0, 0, 0];
     /// Pa
     PRESSURE = [-1, 1, -2, 0, 0, 0];
-    /// J, and N m for a torque.
+    /// J; see [`Dimension::TORQUE`] for N m.
     ENERGY = [2, 1, -2, 0, 0, 0];
     /// W
     POWER = [2, 1, -3, 0, 0, 0];
@@ -117,7 +139,37 @@ impl Dimension {
                 Rational::integer(a),
                 Rational::integer(r),
             ],
+            kin: Kin::Plain,
         }
+    }
+
+    /// N m: equal to [`Dimension::ENERGY`], but no frequency makes it a power.
+    pub const TORQUE: Self = Self::ENERGY.of_kin(Kin::Torque);
+
+    pub(crate) const fn of_kin(self, kin: Kin) -> Self {
+        Self { kin, ..self }
+    }
+
+    pub(crate) const fn kin(&self) -> Kin {
+        self.kin
+    }
+
+    fn both(self) -> Known {
+        (self.kin, self.exponents)
+    }
+
+    /// That of a value in its usual unit: only a torque is more than its exponents there.
+    pub(crate) fn as_written(self) -> Self {
+        let torque = self.kin == Kin::Torque && self == Self::ENERGY;
+        if torque { self } else { self.of_kin(Kin::Plain) }
+    }
+
+    /// Did a torque times a frequency (1/s, Hz), or a torque over a time, come into it?
+    ///
+    /// A torque is an energy per radian. Times a rotational speed (rad/s) it is a power; times a
+    /// frequency of revolutions it is short of one by 2π.
+    pub fn is_torque_per_time(&self) -> bool {
+        self.kin == Kin::TorquePerTime
     }
 
     /// The exponents of length, mass, time, temperature, current and angle.
@@ -127,12 +179,14 @@ impl Dimension {
 
     /// The dimension of a product; `None` where an exponent overflows.
     pub fn checked_mul(self, other: Self) -> Option<Self> {
-        self.zip(other, Rational::checked_add)
+        let product = self.zip(other, Rational::checked_add)?;
+        Some(product.of_kin(Kin::of_product(self.both(), other.both(), product.exponents)))
     }
 
     /// The dimension of a quotient; `None` where an exponent overflows.
     pub fn checked_div(self, other: Self) -> Option<Self> {
-        self.zip(other, Rational::checked_sub)
+        let quotient = self.zip(other, Rational::checked_sub)?;
+        Some(quotient.of_kin(Kin::of_quotient(self.both(), other.both(), quotient.exponents)))
     }
 
     /// The dimension of a power; `None` where an exponent overflows.
@@ -141,7 +195,8 @@ impl Dimension {
         for e in &mut exponents {
             *e = e.checked_mul(exponent)?;
         }
-        Some(Self { exponents })
+        let kin = if exponent == Rational::ONE { self.kin } else { Kin::Plain };
+        Some(Self { exponents, kin })
     }
 
     fn zip(self, other: Self, combine: fn(Rational, Rational) -> Option<Rational>) -> Option<Self> {
@@ -149,7 +204,7 @@ impl Dimension {
         for (mine, theirs) in exponents.iter_mut().zip(other.exponents) {
             *mine = combine(*mine, theirs)?;
         }
-        Some(Self { exponents })
+        Some(Self { exponents, kin: Kin::Plain })
     }
 
     /// Is it [`Dimension::NONE`]?

@@ -4,12 +4,14 @@ use std::fmt;
 use std::ops::Range;
 
 use crate::error_words::{
-    alike, bare_number, comma, got, kinds, meant, noun, syntax_help, turning, unit_wanted, write,
+    alike, bare_number, comma, from_zero, got, kinds, meant, noun, rotation, syntax_help,
+    torque_turning, turning, unit_wanted, write,
 };
 use crate::errors;
 use crate::format::rounded;
 use crate::spread::Distribution;
 use crate::types::Type;
+use crate::unit_table::calendar;
 
 /// A mistake in a quantity, a unit or an expression, with its place in the text.
 #[derive(Clone, PartialEq, Debug)]
@@ -58,7 +60,10 @@ pub enum UnitErrorKind {
     /// No unit has this name; the string with the unit that was probably meant.
     UnknownUnit { name: String, fix: Option<String> } = "units::unknown_unit",
         format!("unknown unit `{name}`"),
-        help fix.as_deref().map(|fix| format!("did you mean \"{fix}\"?"));
+        help match fix {
+            Some(fix) => Some(format!("did you mean \"{fix}\"?")),
+            None => calendar(name).map(str::to_owned),
+        };
     /// A product after a division bar without brackets: `J/kg K`.
     AmbiguousProduct { fix: Option<String> } = "units::ambiguous_product",
         "product after `/` needs brackets",
@@ -70,6 +75,7 @@ pub enum UnitErrorKind {
     Dimension { wanted: Box<Type>, found: Box<Type>, fix: Option<String> } = "units::dimension",
         format!("must be {}, got {}", wanted.with_article(), got(found)),
         help match found.differs_by_radians(**wanted) {
+            true if found.differs_by_a_turn(**wanted) => torque_turning(fix),
             true => turning(fix),
             false => fix.as_deref().map_or_else(|| unit_wanted("value", wanted), write),
         };
@@ -81,13 +87,12 @@ pub enum UnitErrorKind {
     /// revolutions.
     Rotation { fix: Option<String> } = "units::rotation",
         "must be a rotational speed (rad/s), got a frequency: 1/s and Hz do not say what turns",
-        help match fix {
-            Some(fix) => format!("{} for revolutions, or use rad/s, deg/s or rpm", write(fix)),
-            None => "multiply the frequency by `1 [rev]`".to_owned(),
-        };
-    /// A temperature difference where an absolute temperature is due.
-    AbsoluteWanted { fix: String } = "units::absolute_wanted",
-        "must be an absolute temperature, got a temperature difference", help write(fix);
+        help rotation(fix);
+    /// A temperature difference where an absolute temperature is due. Either one text is meant, or
+    /// `fix` counts from 0 K and `celsius` from 0 degC.
+    AbsoluteWanted { fix: String, celsius: Option<String> } = "units::absolute_wanted",
+        "must be an absolute temperature, got a temperature difference",
+        help from_zero(fix, celsius.as_deref());
     /// An absolute temperature where a difference is due.
     DifferenceWanted { fix: String } = "units::difference_wanted",
         "must be a temperature difference, got an absolute temperature", help write(fix);
@@ -173,14 +178,18 @@ pub enum UnitErrorKind {
         "units::operands",
         format!("{operation} needs values of one kind, got {} and {}", got(left), got(right)),
         help match fix {
+            _ if left.differs_by_a_turn(**right) => torque_turning(fix),
             _ if left.differs_by_radians(**right) => turning(fix),
             Some(fix) => write(fix),
             None => alike(left, right),
         };
     /// An absolute temperature where only plain quantities can be used; what it cannot be, in
-    /// words: "multiplied".
-    AbsoluteOperand { operation: &'static str, fix: String } = "units::absolute_temperature",
-        format!("an absolute temperature cannot be {operation}"), help write(fix);
+    /// words: "multiplied". Either one text is meant, or `fix` counts from 0 K and `celsius` from
+    /// 0 degC.
+    AbsoluteOperand { operation: &'static str, fix: String, celsius: Option<String> } =
+        "units::absolute_temperature",
+        format!("an absolute temperature cannot be {operation}"),
+        help from_zero(fix, celsius.as_deref());
     /// A function argument of the wrong type; what it takes, in words, and the string with the
     /// argument made a plain number by a scale of its own kind.
     Argument {

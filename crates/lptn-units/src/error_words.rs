@@ -1,5 +1,6 @@
 //! Words that several errors share.
 
+use crate::temperature::TemperatureScale;
 use crate::types::Type;
 
 /// That operands are to be of one of two types.
@@ -27,6 +28,35 @@ pub(crate) fn turning(fix: &Option<String>) -> String {
     }
 }
 
+/// A torque times a frequency, where a power is due.
+pub(crate) fn torque_turning(fix: &Option<String>) -> String {
+    let speeds = "give the speed in rpm, rev/s or rad/s; an energy per cycle is written in J";
+    match fix {
+        Some(fix) if fix.contains("* 1 [rad]") => format!("{}, or {speeds}", write(fix)),
+        Some(fix) => format!("{} for revolutions, or {speeds}", write(fix)),
+        None => speeds.to_owned(),
+    }
+}
+
+/// A frequency where a rotational speed is due.
+pub(crate) fn rotation(fix: &Option<String>) -> String {
+    match fix {
+        Some(fix) if fix.contains("* 1 [rad]") => write(fix),
+        Some(fix) => format!("{} for revolutions, or use rad/s, deg/s or rpm", write(fix)),
+        None => "multiply revolutions per time by `1 [rev]`, radians per time by `1 [rad]`".into(),
+    }
+}
+
+/// The text that is meant, or two: a temperature counts from 0 K or from 0 degC.
+pub(crate) fn from_zero(fix: &str, celsius: Option<&str>) -> String {
+    match celsius {
+        Some(celsius) => {
+            format!("{} to count from 0 K, \"{celsius}\" to count from 0 degC", write(fix))
+        }
+        None => write(fix),
+    }
+}
+
 /// What a comma in a number may mean.
 pub(crate) fn comma(decimal: Option<&str>, thousands: Option<&str>) -> String {
     match (decimal, thousands) {
@@ -41,12 +71,14 @@ pub(crate) fn comma(decimal: Option<&str>, thousands: Option<&str>) -> String {
 
 /// A temperature without a unit may be in kelvin as well.
 pub(crate) fn bare_number(wanted: &Type, fix: &str) -> String {
-    match fix
-        .strip_suffix("degC")
-        .filter(|number| wanted.absolute && !number.starts_with(['-', '\u{2212}']))
-    {
-        Some(number) => format!("write \"{fix}\" or \"{number}K\""),
-        None => write(fix),
+    let Some(number) = fix.strip_suffix("degC").filter(|_| wanted.absolute) else {
+        return write(fix);
+    };
+    let value = number.split_whitespace().next().and_then(|first| first.parse().ok());
+    match value.map_or(TemperatureScale::Either, TemperatureScale::of) {
+        TemperatureScale::Celsius => write(fix),
+        TemperatureScale::Kelvin => write(&format!("{number}K")),
+        TemperatureScale::Either => format!("{} or \"{number}K\"", write(fix)),
     }
 }
 
@@ -75,6 +107,9 @@ pub(crate) fn write(fix: &str) -> String {
 
 /// How a found type is called: by its unit if it is unusual, by name and unit if it is usual.
 pub(crate) fn got(found: &Type) -> String {
+    if found.dimension.is_torque_per_time() {
+        return format!("a torque times a frequency ({})", found.dimension.si_unit());
+    }
     if found.absolute || found.dimension.quantity_name().is_some() {
         found.with_article()
     } else {

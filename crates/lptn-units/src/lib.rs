@@ -31,6 +31,7 @@ mod error;
 mod error_words;
 mod expr;
 mod format;
+mod kin;
 mod kinship;
 mod naming;
 mod number;
@@ -45,6 +46,7 @@ pub mod statistics;
 mod suggest;
 pub mod table;
 mod taylor;
+mod temperature;
 mod traced;
 mod types;
 mod unit;
@@ -73,6 +75,7 @@ pub use table::{
     TableSymbol,
 };
 pub use taylor::Taylor;
+pub use temperature::TemperatureScale;
 pub use traced::Traced;
 pub use types::Type;
 pub use unit::Unit;

@@ -23,6 +23,7 @@ const KNOWN: &[(Dimension, &str, &str)] = &[
     (Dimension::FORCE, "N", "force"),
     (Dimension::PRESSURE, "Pa", "pressure"),
     (Dimension::ENERGY, "J", "energy"),
+    (Dimension::TORQUE, "N m", "torque"),
     (Dimension::POWER, "W", "power"),
     (Dimension::CAPACITY, "J/K", "heat capacity"),
     (Dimension::CONDUCTANCE, "W/K", "thermal conductance"),
@@ -59,15 +60,23 @@ impl Dimension {
     ///
     /// [`Unit::parse`]: crate::Unit::parse
     pub fn si_unit(&self) -> String {
-        match KNOWN.iter().find(|(known, _, _)| known == self) {
+        match self.known() {
+            _ if *self == Dimension::POWER && self.is_torque_per_time() => "N m/s".to_owned(),
             Some((_, unit, _)) => (*unit).to_owned(),
             None => shortest(*self),
         }
     }
 
+    /// Its unit and its words; N m and J are told apart.
+    fn known(&self) -> Option<&'static (Dimension, &'static str, &'static str)> {
+        let of_kin = KNOWN.iter().find(|(known, ..)| known == self && known.kin() == self.kin());
+        of_kin.or_else(|| KNOWN.iter().find(|(known, ..)| known == self))
+    }
+
     /// The usual name of the quantity, `thermal resistance` for K/W, if it has one.
     pub fn quantity_name(&self) -> Option<&'static str> {
-        KNOWN.iter().find(|(known, _, _)| known == self).map(|(_, _, words)| *words)
+        let plain = || self.known().map(|(_, _, words)| *words);
+        if self.is_torque_per_time() { None } else { plain() }
     }
 }
 

@@ -50,7 +50,22 @@ impl Quantity {
 /// deviation, a temperature below absolute zero, and, with `expected`, a wrong type. Every error
 /// names its place and, where possible, the string to write.
 pub fn parse_quantity(text: &str, expected: Option<Type>) -> Result<Quantity, UnitError> {
-    read(text)?.conclude(expected)
+    read(text).map_err(|error| of_quantity(error, expected))?.conclude(expected)
+}
+
+/// The same mistake without a unit that was taken for a slip, if it measures something else than is
+/// due: `2 yd` is not meant where a time is.
+pub(crate) fn of_quantity(mut error: UnitError, expected: Option<Type>) -> UnitError {
+    let Some(wanted) = expected else { return error };
+    if let UnitErrorKind::UnknownUnit { fix, .. } = &mut error.kind {
+        let other = |fix: &String| {
+            let found = read(fix).and_then(|reading| reading.conclude(Some(wanted)));
+            let kind = found.err().map(|error| error.kind);
+            matches!(kind, Some(UnitErrorKind::Dimension { .. } | UnitErrorKind::Rotation { .. }))
+        };
+        *fix = fix.take().filter(|fix| !other(fix));
+    }
+    error
 }
 
 /// The mistake in a whole string in kelvin, such as `300 K`, where an absolute temperature is due
@@ -318,7 +333,7 @@ impl Reading<'_> {
                 fix: format!("{amount} {}{tail}", wanted.usual_unit()),
             }
         } else if wanted.absolute && found.dimension == Dimension::TEMPERATURE {
-            UnitErrorKind::AbsoluteWanted { fix: format!("{amount} degC{tail}") }
+            UnitErrorKind::AbsoluteWanted { fix: format!("{amount} degC{tail}"), celsius: None }
         } else if found.absolute && wanted.dimension == Dimension::TEMPERATURE {
             UnitErrorKind::DifferenceWanted { fix: self.as_difference() + tail }
         } else if is_frequency_for_rotation(found, wanted) {

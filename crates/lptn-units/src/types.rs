@@ -47,7 +47,8 @@ impl Type {
     /// May a value of this type stand where `wanted` is due?
     ///
     /// The types are equal, or the value has exactly one radian too many: a torque (N m) times a
-    /// rotational speed (rad/s) is a power. A rotational speed is never a frequency (1/s).
+    /// rotational speed (rad/s) is a power. A rotational speed is never a frequency (1/s), and a
+    /// torque times a frequency never a power.
     pub fn conforms_to(&self, wanted: Type) -> bool {
         let one_radian_too_many = || {
             !self.absolute
@@ -55,20 +56,37 @@ impl Type {
                 && wanted.dimension != Dimension::FREQUENCY
                 && wanted.dimension.checked_mul(Dimension::ANGLE) == Some(self.dimension)
         };
-        *self == wanted || one_radian_too_many()
+        let alike = self.dimension.is_torque_per_time() == wanted.dimension.is_torque_per_time();
+        alike && (*self == wanted || one_radian_too_many())
     }
 
-    /// Do the two differ by nothing but a power of rad? Then a frequency was probably meant to be a
-    /// rotational speed, which [`Dimension`] tells apart.
+    /// Of two types that conform the one that tells more: a torque is an energy too.
+    pub(crate) fn of_either(self, other: Type) -> Self {
+        let kin = self.dimension.kin().either(other.dimension.kin());
+        Self { dimension: self.dimension.of_kin(kin), ..self }
+    }
+
+    /// Do the two differ by nothing but a power of rad, or by that which a torque does not show?
+    /// Then a frequency was probably meant to be a rotational speed, which [`Dimension`] tells
+    /// apart.
     ///
     /// `other` is what is due.
     pub fn differs_by_radians(&self, other: Type) -> bool {
+        if self.differs_by_a_turn(other) {
+            return true;
+        }
         let apart = self.dimension.checked_div(other.dimension).map(|ratio| ratio.exponents());
         // where a frequency is due a speed is what is wrong
         let due = other.dimension == Dimension::FREQUENCY || self.absolute || other.absolute;
         apart.is_some_and(|[rest @ .., rad]| {
             rest.iter().all(|exponent| exponent.is_zero()) && !rad.is_zero()
         }) && !due
+    }
+
+    /// Is one of them a torque times a frequency, and the other not, although they are equal?
+    pub(crate) fn differs_by_a_turn(&self, other: Type) -> bool {
+        self.dimension == other.dimension
+            && self.dimension.is_torque_per_time() != other.dimension.is_torque_per_time()
     }
 
     /// With the article a sentence needs: `a thermal resistance (K/W)`.

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind};
+use crate::kin::Kin;
 use crate::rational::Rational;
 use crate::unit_table::{self, Entry};
 
@@ -33,8 +34,8 @@ pub(crate) fn parse(text: &str) -> Result<ParsedUnit, UnitError> {
         let number = text.to_owned();
         return Err(UnitError::new(UnitErrorKind::OutOfRange { number }, 0..text.len()));
     }
-    let Factor { scale, dimension, alone } = product;
-    Ok(ParsedUnit { scale, dimension, alone, names: parser.names })
+    let dimension = product.with_kin();
+    Ok(ParsedUnit { scale: product.scale, dimension, alone: product.alone, names: parser.names })
 }
 
 #[derive(Clone, Copy)]
@@ -42,9 +43,31 @@ struct Factor {
     scale: f64,
     dimension: Dimension,
     alone: Option<Entry>,
+    /// Exponents of the units of force and of length in it: both are 1 in a torque.
+    lever: [Rational; 2],
 }
 
-const ONE: Factor = Factor { scale: 1.0, dimension: Dimension::NONE, alone: None };
+const ONE: Factor =
+    Factor { scale: 1.0, dimension: Dimension::NONE, alone: None, lever: [Rational::ZERO; 2] };
+
+impl Factor {
+    fn named(entry: Entry) -> Self {
+        let Entry { scale, dimension, .. } = entry;
+        let one = |of: Dimension| if dimension == of { Rational::ONE } else { Rational::ZERO };
+        let lever = [one(Dimension::FORCE), one(Dimension::LENGTH)];
+        Self { scale, dimension, alone: Some(entry), lever }
+    }
+
+    /// The dimension, which is one of a torque if the unit has a force and a length: `N m`,
+    /// `lbf ft`, `N m/K`. `N m/s` is a watt, written as one.
+    fn with_kin(&self) -> Dimension {
+        let kin = Kin::of_torque(self.dimension.exponents());
+        match self.lever == [Rational::ONE; 2] && kin == Kin::Torque {
+            true => self.dimension.of_kin(kin),
+            false => self.dimension,
+        }
+    }
+}
 
 struct Parser<'a> {
     text: &'a str,
@@ -88,12 +111,16 @@ impl Parser<'_> {
     }
 
     fn join(&self, left: Factor, right: Factor, joint: &Joint) -> Option<Factor> {
-        let (scale, dimension) = if *joint == Joint::Over {
-            (left.scale / right.scale, left.dimension.checked_div(right.dimension)?)
+        let ([force, length], [by_force, by_length]) = (left.lever, right.lever);
+        Some(if *joint == Joint::Over {
+            let lever = [force.checked_sub(by_force)?, length.checked_sub(by_length)?];
+            let dimension = left.dimension.checked_div(right.dimension)?;
+            Factor { scale: left.scale / right.scale, dimension, alone: None, lever }
         } else {
-            (left.scale * right.scale, left.dimension.checked_mul(right.dimension)?)
-        };
-        Some(Factor { scale, dimension, alone: None })
+            let lever = [force.checked_add(by_force)?, length.checked_add(by_length)?];
+            let dimension = left.dimension.checked_mul(right.dimension)?;
+            Factor { scale: left.scale * right.scale, dimension, alone: None, lever }
+        })
     }
 
     /// What joins the factor before to the one after, if there is one after.
@@ -165,9 +192,7 @@ impl Parser<'_> {
         let written = self.text.get(start..self.at).unwrap_or_default();
         self.names.push(start..self.at);
         match unit_table::find(&unit_table::plain_name(written)) {
-            Some(entry) => {
-                Ok(Factor { scale: entry.scale, dimension: entry.dimension, alone: Some(entry) })
-            }
+            Some(entry) => Ok(Factor::named(entry)),
             None => {
                 let kind = UnitErrorKind::UnknownUnit { name: written.to_owned(), fix: None };
                 Err(UnitError::new(kind, start..self.at))
@@ -256,7 +281,9 @@ fn raise(base: Factor, exponent: Rational) -> Option<Factor> {
         Some(n) => base.scale.powi(n),
         None => base.scale.powf(exponent.to_f64()),
     };
-    Some(Factor { scale, dimension: base.dimension.checked_pow(exponent)?, alone: None })
+    let [force, length] = base.lever;
+    let lever = [force.checked_mul(exponent)?, length.checked_mul(exponent)?];
+    Some(Factor { scale, dimension: base.dimension.checked_pow(exponent)?, alone: None, lever })
 }
 
 /// `5/3`, `-1`, `0.5`.

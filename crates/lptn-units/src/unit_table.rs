@@ -187,6 +187,7 @@ const ALIASES: &[(&str, &str)] = &[
     ("knm", "kN m"),
     ("ws", "W s"),
     ("ah", "A h"),
+    ("mah", "mA h"),
     ("sqm", "m^2"),
     ("qm", "m^2"),
     ("sqmm", "mm^2"),
@@ -230,16 +231,33 @@ fn run_together(name: &str) -> Option<String> {
         find(first).map(|_| format!("{first} {last}"))
     };
     let by_time = |first: &str| ["Pa", "J", "W"].iter().any(|unit| first.ends_with(unit));
-    joined("K", &|_| true).or_else(|| joined("s", &by_time))
+    let kilogram = || name.eq_ignore_ascii_case("kgk").then(|| "kg K".to_owned());
+    joined("K", &|_| true).or_else(|| joined("s", &by_time)).or_else(kilogram)
 }
 
 /// Names that are refused because each is too near to a unit of another kind: the metric horsepower
 /// `PS` is not a pascal.
 const NO_SLIPS: [&str; 2] = ["PS", "ps"];
 
+/// Times that are not units, because nobody knows how long they are, and what to write.
+const CALENDAR: [(&str, &str); 6] = [
+    ("a", "a year of 365 days is \"8760 h\""),
+    ("yr", "a year of 365 days is \"8760 h\""),
+    ("yrs", "a year of 365 days is \"8760 h\""),
+    ("year", "a year of 365 days is \"8760 h\""),
+    ("years", "a year of 365 days is \"8760 h\""),
+    ("week", "a week is \"7 d\""),
+];
+
+/// What to write for a unit that there is not on purpose.
+pub(crate) fn calendar(name: &str) -> Option<&'static str> {
+    let lower = name.to_lowercase();
+    CALENDAR.iter().find(|(word, _)| *word == lower).map(|(_, say)| *say)
+}
+
 /// The unit that was probably meant by an unknown name.
 pub(crate) fn meant(name: &str) -> Option<String> {
-    if NO_SLIPS.contains(&name) {
+    if NO_SLIPS.contains(&name) || calendar(name).is_some() {
         return None;
     }
     let lower = name.to_lowercase();

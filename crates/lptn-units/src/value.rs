@@ -38,7 +38,7 @@ pub fn parse_value(
 ) -> Result<Written, UnitError> {
     let as_quantity = match quantity::read(text) {
         Ok(reading) => return settle(text, &reading, expected, is_parameter),
-        Err(error) => error,
+        Err(error) => quantity::of_quantity(error, expected),
     };
     let as_expression = match Expression::parse(text) {
         Ok(expression) if !is_word(text, &as_quantity) => {
@@ -97,6 +97,14 @@ fn more_helpful(
     }
     if matches!(as_expression.kind, UnitErrorKind::AmbiguousSign { .. }) {
         return as_expression;
+    }
+    let separated = matches!(
+        as_quantity.kind,
+        UnitErrorKind::DecimalComma { .. } | UnitErrorKind::DigitGroups { .. }
+    );
+    // `3,000` alone
+    if separated && !text.contains(is_name_start) && as_quantity.help().is_some() {
+        return as_quantity;
     }
     if let Some(fix) = separators::power_of_ten(text) {
         let span = 0..text.len();

@@ -6,7 +6,7 @@
 mod common;
 
 use common::{compile, program, values};
-use lptn_units::{Dimension, Type, UnitError};
+use lptn_units::{Dimension, Expression, Scope, Symbol, Type, Unit, UnitError};
 
 const SCALAR: Type = Type::SCALAR;
 const POWER: Type = Type::of(Dimension::POWER);
@@ -322,6 +322,126 @@ fn a_power_of_rad_left_over_asks_for_a_frequency_meant_as_a_speed() {
     assert_eq!(other, format!("{ask} speeds are given in rpm, rev/s or rad/s"));
 }
 
+/// Names with the units that a CSV file gives them, whatever they are worth.
+struct Columns(&'static [(&'static str, &'static str)]);
+
+impl Scope for Columns {
+    fn symbol(&self, name: &str) -> Option<Symbol> {
+        let slot = self.0.iter().position(|(known, _)| *known == name)?;
+        let ty = Unit::parse(self.0[slot].1).unwrap().ty;
+        Some(Symbol { slot: u32::try_from(slot).unwrap(), ty, in_comparison: None })
+    }
+
+    fn names(&self) -> Vec<String> {
+        self.0.iter().map(|(name, _)| (*name).to_owned()).collect()
+    }
+}
+
+const SHAFT: Columns = Columns(&[
+    ("M", "N m"),
+    ("E", "J"),
+    ("f", "1/min"),
+    ("n", "rpm"),
+    ("P", "W"),
+    ("r", "m"),
+    ("v", "m/s"),
+    ("A", "m^2"),
+    ("R", "K/W"),
+    ("K", "N m/rad"),
+    ("c", "N m s"),
+    ("T", "degC"),
+    ("dt", "s"),
+]);
+
+fn of_shaft(text: &str, wanted: Dimension) -> Result<(), String> {
+    let compiled = Expression::parse(text).unwrap().compile(&SHAFT, Some(Type::of(wanted)));
+    compiled.map(|_| ()).map_err(|errors| errors[0].help().unwrap_or_default())
+}
+
+/// A torque is a work per radian: 20 N m at 3000 revolutions a minute are 6283 W, and 1000 W by the
+/// units of 3000/min alone.
+#[test]
+fn a_torque_times_a_frequency_is_no_power() {
+    let power = Dimension::POWER;
+    for right in [
+        "0.02 * n * M",
+        "M * 2 * pi * n / (2 * pi)",
+        "E * f",
+        "0.5 * E / dt",
+        "M / r * v",
+        "M * v / r",
+        "M * n * n / n",
+        "20 [N m] * 3000 [rpm]",
+        "5 [J] * 50 [Hz]",
+        "20 [N m/s]",
+        "pi * K * (0.1 [rad])^2 * f",
+        "min(M * n, P)",
+        "M / dt * dt * n",
+        "P / M * M",
+        "c * n * n / 1 [rad]",
+    ] {
+        assert_eq!(of_shaft(right, power), Ok(()), "{right}");
+    }
+    for (wrong, wanted) in [
+        ("0.02 * f * M", power),
+        ("M * f", power),
+        ("0.5 * (M * 50 [Hz])", power),
+        ("20 [lbf ft] * f", power),
+        ("20 [kgf cm] * 50 [1/s]", power),
+        ("M / dt", power),
+        ("c * f * f", power),
+        ("max(M * f, P)", power),
+        ("P + M * f", power),
+        ("if(M * f > 5 [W], P, P)", power),
+        ("abs(M) * f", power),
+        ("(M + E) * f", power),
+        ("M * f / A", Dimension::HEAT_FLUX),
+        ("M * f * R", Dimension::TEMPERATURE),
+        ("M * f / P", Dimension::NONE),
+    ] {
+        let help = of_shaft(wrong, wanted).expect_err(wrong);
+        assert!(help.contains("rpm"), "{wrong}: {help}");
+    }
+    // a sum of temperatures is no hiding place
+    let sum = Expression::parse("T + M * f * R").unwrap();
+    assert!(sum.compile(&SHAFT, Some(ABSOLUTE)).is_err());
+}
+
+/// What is offered is a speed: revolutions, or the radians that 2π has made of them.
+#[test]
+fn the_speed_that_is_offered_is_the_one_that_is_meant() {
+    let offered = |text: &str, wanted: Dimension| {
+        let help = of_shaft(text, wanted).unwrap_err();
+        help.split('"').nth(1).map(str::to_owned)
+    };
+    let (power, speed) = (Dimension::POWER, Dimension::ANGULAR_VELOCITY);
+    for (text, wanted, fix) in [
+        ("0.02 * f * M", power, Some("0.02 * (f * 1 [rev]) * M")),
+        ("M * 3000 [1/min]", power, Some("M * 3000 [rpm]")),
+        ("2 * pi * f * M", power, Some("2 * pi * (f * 1 [rad]) * M")),
+        ("2 * pi * 50 [Hz] * M", power, Some("2 * pi * (50 [Hz] * 1 [rad]) * M")),
+        ("M * f * pi * (2 [m])^2 / A", power, None),
+        ("M / dt", power, None),
+        ("f", speed, Some("f * 1 [rev]")),
+        ("2 * pi * f", speed, Some("(2 * pi * f) * 1 [rad]")),
+        ("P / M", speed, Some("(P / M) * 1 [rad]")),
+        ("0.5 * P / M", speed, Some("(0.5 * P / M) * 1 [rad]")),
+        ("1 / dt", speed, Some("(1 / dt) * 1 [rev]")),
+    ] {
+        assert_eq!(offered(text, wanted).as_deref(), fix, "{text}");
+        assert!(fix.is_none_or(|fix| of_shaft(fix, wanted).is_ok()), "{text}");
+    }
+}
+
+#[test]
+fn torques_have_a_name_and_a_unit_of_their_own() {
+    assert_eq!(Type::of(Dimension::TORQUE).to_string(), "torque (N m)");
+    assert_eq!(Type::of(Dimension::ENERGY).to_string(), "energy (J)");
+    assert_eq!(Dimension::TORQUE, Dimension::ENERGY);
+    assert_eq!(Unit::parse("lbf ft").unwrap().ty.usual_unit(), "N m");
+    assert_eq!(Unit::parse("W s").unwrap().ty.usual_unit(), "J");
+}
+
 #[test]
 fn errors_of_rotations_and_results() {
     let resistance = Some(Type::of(Dimension::RESISTANCE));
@@ -409,17 +529,36 @@ fn errors_of_results() {
 #[test]
 fn errors_of_absolute_temperatures() {
     let code = "units::absolute_temperature";
+    macro_rules! both {
+        ($kelvin:literal, $celsius:literal) => {
+            Some(concat!(
+                "write \"",
+                $kelvin,
+                "\" to count from 0 K, \"",
+                $celsius,
+                "\" to count from 0 degC"
+            ))
+        };
+    }
     check_wrong(&[
         ("T + T_amb", None, code, "T_amb", Some("write \"kelvin(T) + kelvin(T_amb)\"")),
         ("T_amb + 5 [degC]", None, code, "5 [degC]", Some("write \"T_amb + 5 [K]\"")),
-        ("2 * T", None, code, "T", Some("write \"2 * kelvin(T)\"")),
+        ("2 * T", None, code, "T", both!("2 * kelvin(T)", "2 * (T - 0 [degC])")),
         ("2 * 20 [degC]", None, code, "20 [degC]", Some("write \"2 * 20 [K]\"")),
-        ("T^4", None, code, "T", Some("write \"kelvin(T)^4\"")),
-        ("T / 300 [K]", None, code, "T", Some("write \"kelvin(T) / 300 [K]\"")),
-        ("exp(T)", None, code, "T", Some("write \"exp(kelvin(T))\"")),
-        ("abs(T)", None, code, "T", Some("write \"abs(kelvin(T))\"")),
-        ("-T", None, code, "T", Some("write \"-kelvin(T)\"")),
-        ("5 [K] - T", None, code, "T", Some("write \"5 [K] - kelvin(T)\"")),
+        ("T^4", None, code, "T", both!("kelvin(T)^4", "(T - 0 [degC])^4")),
+        ("T / 300 [K]", None, code, "T", both!("kelvin(T) / 300 [K]", "(T - 0 [degC]) / 300 [K]")),
+        ("exp(T)", None, code, "T", both!("exp(kelvin(T))", "exp((T - 0 [degC]))")),
+        ("abs(T)", None, code, "T", both!("abs(kelvin(T))", "abs((T - 0 [degC]))")),
+        ("-T", None, code, "T", both!("-kelvin(T)", "-(T - 0 [degC])")),
+        ("5 [K] - T", None, code, "T", Some("write \"5 [degC] - T\"")),
+        ("x * (T - 20 [K])", None, code, "T - 20 [K]", Some("write \"x * (T - 20 [degC])\"")),
+        (
+            "x * (T - 293 [K])",
+            None,
+            code,
+            "T - 293 [K]",
+            Some("write \"x * (T - absolute(293 [K]))\""),
+        ),
         (
             "300 [K]",
             Some(ABSOLUTE),
@@ -436,6 +575,27 @@ fn errors_of_absolute_temperatures() {
             Some("write \"5 [K]\""),
         ),
     ]);
+}
+
+/// What is offered is evaluated: T is 350 K, T_amb 300 K, by hand.
+#[test]
+fn what_is_offered_has_the_value_that_is_meant() {
+    for (text, expected) in [
+        ("10 * (1 + 0.00393 [1/K] * (T - 20 [K]))", 10.0 * (1.0 + 0.00393 * (76.85 - 20.0))),
+        ("0.00393 [1/K] * (T - 293.15 [K])", 0.00393 * (350.0 - 293.15)),
+        ("0.5 [1/K] * (90 [K] - T)", 0.5 * (90.0 - 76.85)),
+        ("if(T > 60 [K], 1, 2)", 1.0),
+        ("if(T > 80 [K], 1, 2)", 2.0),
+        ("if(T > 340 [K], 1, 2)", 1.0),
+        ("if(T > 360, 1, 2)", 2.0),
+        ("(T + T_amb) / 2", 325.0),
+        ("0.5 * (T + T_amb)", 325.0),
+    ] {
+        let help = compile(text, None).unwrap_err()[0].help().unwrap();
+        let offered = help.split('"').nth(1).unwrap();
+        let found = program(offered).eval(&values(), &mut Vec::new()).unwrap();
+        assert!((found - expected).abs() < 1e-9, "{text}: {offered} is {found}, not {expected}");
+    }
 }
 
 #[test]

@@ -131,12 +131,13 @@ fn a_parameter_in_the_place_of_a_unit_needs_an_operator() {
 #[test]
 fn a_temperature_without_unit_may_be_in_kelvin() {
     check_wrong(&[
+        ("293.15", Some(ABSOLUTE), "units::bare_number", "293.15", Some("write \"293.15 K\"")),
         (
-            "293.15",
+            "500",
             Some(ABSOLUTE),
             "units::bare_number",
-            "293.15",
-            Some("write \"293.15 degC\" or \"293.15 K\""),
+            "500",
+            Some("write \"500 degC\" or \"500 K\""),
         ),
         ("-20", Some(ABSOLUTE), "units::bare_number", "-20", Some("write \"-20 degC\"")),
     ]);

@@ -73,7 +73,7 @@ const WRONG: [Wrong; 17] = [
         "units::argument",
         "300 [K]",
         "table `cp` takes an absolute temperature, got a temperature difference (K)",
-        "write \"cp(300 [degC])\"",
+        "write \"cp(absolute(300 [K]))\"",
     ),
     (
         "cp(T - 20 [degC])",

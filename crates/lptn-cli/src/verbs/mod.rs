@@ -38,9 +38,16 @@ fn called(path: &'static str) -> &'static str {
     path.split("::").next().unwrap_or("").trim()
 }
 
-/// Names each verb with its options, what does it, and whether there is a picture of its answer.
+/// Names each verb with its options, what does it, as what its answer is drawn and whether it is,
+/// and whether there is a page of it.
 macro_rules! verbs {
-    ($($Verb:ident($($args:ident)::*) => $($does:ident)::*, drawn $drawn:expr;)*) => {
+    ($(
+        $Verb:ident($($args:ident)::*) => $($does:ident)::*,
+        page $paged:expr, drawn $words:literal $drawn:expr;
+    )*) => {
+        /// How verbs are called whose answer has a picture.
+        pub(crate) const DRAWN: &[&str] = &[$($words),*];
+
         /// What is to be done.
         #[derive(Debug, Subcommand)]
         pub(crate) enum Verb {
@@ -81,6 +88,16 @@ macro_rules! verbs {
                 }
             }
 
+            /// Whether `--report` has something to write.
+            pub(crate) fn is_reported(&self) -> bool {
+                match self {
+                    $(Self::$Verb(args) => {
+                        let paged: fn(&$($args)::*) -> bool = $paged;
+                        paged(args)
+                    })*
+                }
+            }
+
             /// Does it.
             pub(crate) fn run(&self, console: &Console) -> Result<Exit, Failure> {
                 match self {
@@ -92,28 +109,28 @@ macro_rules! verbs {
 }
 
 verbs! {
-    Run(run::RunArgs) => run::run, drawn |_| true;
-    Plot(plot::PlotArgs) => plot::plot, drawn |_| true;
-    Report(report::ReportArgs) => report::report, drawn |_| false;
-    Steady(steady::SteadyArgs) => steady::steady, drawn |args| args.cycle.periodic;
-    Modes(modes::ModesArgs) => modes::modes, drawn |_| true;
-    Verify(verify::VerifyArgs) => verify::verify, drawn |_| false;
-    Compare(compare::CompareArgs) => compare::compare, drawn |_| true;
-    Size(size::SizeArgs) => size::size, drawn |args| args.file.is_some();
-    Rank(rank::RankArgs) => rank::rank, drawn |_| true;
-    Sweep(sweep::SweepArgs) => sweep::sweep, drawn |args| args.verb.is_none();
-    Fit(fit::FitArgs) => fit::fit, drawn |_| true;
-    Infer(infer::InferArgs) => infer::infer, drawn |_| true;
-    Plan(plan::PlanArgs) => plan::plan, drawn |_| true;
-    Reduce(reduce::ReduceArgs) => reduce::reduce, drawn |_| true;
-    Impedance(impedance::ImpedanceArgs) => impedance::impedance, drawn |_| true;
-    Gear(gear::GearArgs) => gear::gear, drawn |_| true;
-    Graph(graph::GraphArgs) => graph::graph, drawn |_| true;
-    Check(check::CheckArgs) => check::check, drawn |_| false;
-    Explain(explain::ExplainArgs) => explain::explain, drawn |_| false;
-    New(new::NewArgs) => new::new, drawn |_| false;
-    Units(units::UnitsArgs) => units::units, drawn |_| false;
-    Materials(materials::MaterialsArgs) => materials::materials, drawn |_| false;
-    Completions(completions::CompletionsArgs) => completions::completions, drawn |_| false;
-    Man(man::ManArgs) => man::man, drawn |_| false;
+    Run(run::RunArgs) => run::run, page |_| true, drawn "run" |_| true;
+    Plot(plot::PlotArgs) => plot::plot, page |_| true, drawn "plot" |_| true;
+    Report(report::ReportArgs) => report::report, page |_| true, drawn "" |_| false;
+    Steady(steady::SteadyArgs) => steady::steady, page |_| true, drawn "steady --periodic" |args| args.cycle.periodic;
+    Modes(modes::ModesArgs) => modes::modes, page |_| true, drawn "modes" |_| true;
+    Verify(verify::VerifyArgs) => verify::verify, page |_| true, drawn "" |_| false;
+    Compare(compare::CompareArgs) => compare::compare, page |_| true, drawn "compare" |_| true;
+    Size(size::SizeArgs) => size::size, page |_| true, drawn "size" |args| args.file.is_some();
+    Rank(rank::RankArgs) => rank::rank, page |_| true, drawn "rank" |_| true;
+    Sweep(sweep::SweepArgs) => sweep::sweep, page |_| true, drawn "sweep" |args| args.verb.is_none();
+    Fit(fit::FitArgs) => fit::fit, page |_| true, drawn "fit" |_| true;
+    Infer(infer::InferArgs) => infer::infer, page |_| true, drawn "infer" |_| true;
+    Plan(plan::PlanArgs) => plan::plan, page |_| true, drawn "plan" |_| true;
+    Reduce(reduce::ReduceArgs) => reduce::reduce, page |_| true, drawn "reduce" |_| true;
+    Impedance(impedance::ImpedanceArgs) => impedance::impedance, page |_| true, drawn "impedance" |_| true;
+    Gear(gear::GearArgs) => gear::gear, page |_| true, drawn "gear" |_| true;
+    Graph(graph::GraphArgs) => graph::graph, page |_| false, drawn "graph" |_| true;
+    Check(check::CheckArgs) => check::check, page |args| !args.expand, drawn "" |_| false;
+    Explain(explain::ExplainArgs) => explain::explain, page |_| true, drawn "" |_| false;
+    New(new::NewArgs) => new::new, page |_| false, drawn "" |_| false;
+    Units(units::UnitsArgs) => units::units, page |_| true, drawn "" |_| false;
+    Materials(materials::MaterialsArgs) => materials::materials, page |_| true, drawn "" |_| false;
+    Completions(completions::CompletionsArgs) => completions::completions, page |_| false, drawn "" |_| false;
+    Man(man::ManArgs) => man::man, page |_| false, drawn "" |_| false;
 }

@@ -12,6 +12,9 @@ const ZERO_CELSIUS: f64 = 273.15;
 const LEAST_RUN: usize = 8;
 const LEAST_SHARE: f64 = 0.01;
 
+/// Fewer steps of the instrument than this over its whole range say nothing of an end.
+const FEWEST_STEPS: f64 = 12.0;
+
 /// Where a column seems to be at its end, and what is to be said about its values.
 pub(crate) fn of(
     record: &Record,
@@ -22,7 +25,6 @@ pub(crate) fn of(
         (0..column.values.len()).filter(|&i| !column.values[i].is_nan()).collect();
     let line = |row: usize| record.line_in(text, row);
     let mut warnings = Vec::new();
-    warnings.extend(gaps(column, &line));
     let value = |i: usize| column.values[rows[i]];
     let constant = (1..rows.len()).all(|i| value(i).total_cmp(&value(0)).is_eq());
     if constant && rows.len() > 1 {
@@ -83,14 +85,49 @@ fn shown(column: &RecordColumn, si: f64) -> String {
     format!("{} {unit}", short(column.unit.from_si(si))).trim().to_owned()
 }
 
-fn gaps(column: &RecordColumn, line: &dyn Fn(usize) -> Span) -> Option<Diagnostic> {
-    let first = column.values.iter().position(|value| value.is_nan())?;
-    let (count, all) = (column.gaps, column.values.len());
+/// The gaps of all columns; those that are gaps in the same rows are one warning.
+pub(crate) fn gaps(record: &Record, text: &str) -> Vec<Diagnostic> {
+    let mut alike: Vec<(Vec<usize>, Vec<&str>)> = Vec::new();
+    for column in &record.columns {
+        let rows = (0..column.values.len()).filter(|&row| column.values[row].is_nan());
+        let rows: Vec<usize> = rows.collect();
+        match alike.iter_mut().find(|(known, _)| *known == rows) {
+            _ if rows.is_empty() => {}
+            Some((_, names)) => names.push(&column.name),
+            None => alike.push((rows, vec![&column.name])),
+        }
+    }
+    let all = record.time.len();
+    alike
+        .iter()
+        .map(|(rows, names)| gap((rows, all), names, &|row| record.line_in(text, row)))
+        .collect()
+}
+
+fn gap((rows, all): (&[usize], usize), names: &[&str], line: &dyn Fn(usize) -> Span) -> Diagnostic {
+    let count = rows.len();
     let which = if count == 1 { "gap, which is" } else { "gaps, which are" };
-    let message =
-        format!("column `{}` has {count} {which} left out of its {all} rows", column.name);
+    let message = match names {
+        [name] => format!("column `{name}` has {count} {which} left out of its {all} rows"),
+        names => format!(
+            "{} columns have {count} {which} left out of their {all} rows: {}",
+            names.len(),
+            several(names)
+        ),
+    };
     let label = if count == 1 { "here" } else { "the first" };
-    Some(Diagnostic::warning("record::gaps", message).at(line(first), label))
+    Diagnostic::warning("record::gaps", message).at(line(rows[0]), label)
+}
+
+/// So many names are written out.
+const NAMED: usize = 4;
+
+fn several(names: &[&str]) -> String {
+    let written = names.iter().take(NAMED).map(|name| format!("`{name}`")).collect::<Vec<_>>();
+    match names.len().checked_sub(NAMED).filter(|more| *more > 0) {
+        Some(more) => format!("{} and {more} more", written.join(", ")),
+        None => written.join(", "),
+    }
 }
 
 fn unchanging(column: &RecordColumn) -> Diagnostic {
@@ -225,6 +262,10 @@ fn is_abrupt(before: &[f64], length: usize, (extreme, range): (f64, f64)) -> boo
     let step = steps.fold(range, f64::min);
     #[expect(clippy::cast_precision_loss, reason = "counts of rows")]
     let usual = (end as f64) * step / (0.1 * range);
+    // a few steps of rounding make a plateau of every slow extreme
+    if range < FEWEST_STEPS * step {
+        return false;
+    }
     #[expect(clippy::cast_precision_loss, reason = "counts of rows")]
     let held = length as f64;
     2 * end <= 3 * (last - earlier) && held > 4.0 * usual

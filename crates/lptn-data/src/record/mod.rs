@@ -175,6 +175,8 @@ pub fn read_text(text: &CsvText, query: &RecordQuery) -> Result<Record, Vec<Diag
     let text = &text.text;
     let holes = times::holes(&record, text);
     record.warnings.extend(holes);
+    let gaps = doubts::gaps(&record, text);
+    record.warnings.extend(gaps);
     for i in 0..record.columns.len() {
         let (saturation, warnings) = doubts::of(&record, &record.columns[i], text);
         record.columns[i].saturation = saturation;

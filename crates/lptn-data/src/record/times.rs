@@ -100,6 +100,20 @@ fn repeated(time: &str, place: &Span, before: &Span) -> Diagnostic {
     .help("keep one of the two rows; times that are rounded need another digit")
 }
 
+/// Whether rows are further and further apart, as they are over decades of time: the last third of
+/// the steps is much longer than the first, and hardly one is shorter than the one before it.
+fn grows(steps: &[f64]) -> bool {
+    let third = (steps.len() / 3).max(1);
+    let middle = |part: &[f64]| {
+        let mut sorted = part.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+    };
+    let shorter = steps.windows(2).filter(|pair| pair[1] < 0.99 * pair[0]).count();
+    let (first, last) = (middle(&steps[..third]), middle(&steps[steps.len() - third..]));
+    10 * shorter <= steps.len() && last > HOLE * first
+}
+
 /// The longest time without a row, if it is long.
 pub(crate) fn holes(record: &Record, text: &str) -> Option<Diagnostic> {
     let steps: Vec<f64> = record.time.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -108,7 +122,7 @@ pub(crate) fn holes(record: &Record, text: &str) -> Option<Diagnostic> {
     let median = *sorted.get(sorted.len() / 2)?;
     let is_hole = |step: f64| step > HOLE * median;
     let (longest, &step) = steps.iter().enumerate().max_by(|a, b| a.1.total_cmp(b.1))?;
-    if steps.len() < 3 || !is_hole(step) {
+    if steps.len() < 3 || !is_hole(step) || grows(&steps) {
         return None;
     }
     let [from, to] = [longest, longest + 1].map(|row| record.time[row]);

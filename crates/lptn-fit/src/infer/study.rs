@@ -41,7 +41,7 @@ impl<'a> InferTask<'a> {
         let drift = drift.map_or(Drift::Open, |(deviation, time)| Drift::Known { deviation, time });
         // a filter follows what is linear in temperatures of nodes, and no other result
         study.reads.observed.iter().try_for_each(|observed| match observed.ty.dimension {
-            Dimension::TEMPERATURE => weights(network, observed).map(|_| ()),
+            of if of == Dimension::TEMPERATURE => weights(network, observed).map(|_| ()),
             _ => Err(NetworkFitError::NotLinear {
                 column: observed.column.clone(),
                 result: observed.text.clone(),

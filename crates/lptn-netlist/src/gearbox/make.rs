@@ -192,7 +192,7 @@ impl Writer<'_, '_> {
                 }
             };
             let name = format!("{}.torque", member.word());
-            self.value(kind, &name, value, Type::of(Dimension::ENERGY));
+            self.value(kind, &name, value, Type::of(Dimension::TORQUE));
         }
         if stage.fields.get("module").is_some() {
             let (first, here) = (stage.arrangement.wheels()[0], &self.here);

@@ -12,7 +12,7 @@ use crate::format::{Role, SectionDeclaration, key};
 use crate::library::{self, LibrarySubstance};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawValue};
-use crate::section::keys::{CP, SOURCE_OF};
+use crate::section::keys::{CP_OF_FLUID, SOURCE_OF};
 use crate::section::table::of_temperature;
 use crate::work::{Elaboration, KnownFluid, stand_in};
 
@@ -22,7 +22,7 @@ pub(crate) const FLUID: SectionDeclaration = SectionDeclaration {
     role: Role::Substance,
     keys: &[
         key("density", "kg/m^3", "density, for volume flows; may depend on `T`", "\"870 kg/m^3\""),
-        CP,
+        CP_OF_FLUID,
         key(
             "k",
             "W/(m K)",

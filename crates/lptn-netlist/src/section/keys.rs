@@ -14,6 +14,9 @@ pub(super) const CP: KeyDeclaration = key(
     "specific heat capacity; constant, an expression in `T`, or a table over it",
     "\"475 J/(kg K)\"",
 );
+/// That of a liquid: the example is water.
+pub(super) const CP_OF_FLUID: KeyDeclaration =
+    KeyDeclaration { example: "\"4180 J/(kg K)\"", ..CP };
 pub(super) const SOURCE_OF: KeyDeclaration =
     key("source", "text", "where the numbers come from", "\"where the numbers come from\"");
 

@@ -1,7 +1,10 @@
 //! `[signal]`: courses over time.
 
+use lptn_data::{Diagnostic, PlacedNumbers};
 use lptn_network::{AfterEnd, Course, Field, Item, Join};
-use lptn_units::{Dimension, Interpolation, Outside, Table1, Type, Unit, parse_quantity};
+use lptn_units::{
+    Dimension, Interpolation, Outside, Table1, Type, Unit, format_number, parse_quantity,
+};
 
 use crate::fields::Fields;
 use crate::format::{Role, SectionDeclaration, key};
@@ -134,7 +137,16 @@ impl<'a> Elaboration<'a> {
         let after = match after? {
             After::Error => AfterEnd::Error,
             After::Hold => AfterEnd::Hold,
-            After::Repeat => AfterEnd::Repeat(period?.unwrap_or(span)),
+            After::Repeat => {
+                let period = period?;
+                if let Some(problem) =
+                    period.is_none().then(|| open_round(fields, &times, &values)).flatten()
+                {
+                    self.report(problem);
+                    return None;
+                }
+                AfterEnd::Repeat(period.unwrap_or(span))
+            }
         };
         let course = match join? {
             Join::Previous => Course::Steps { times: times.numbers, values: values.numbers, after },
@@ -168,4 +180,54 @@ impl<'a> Elaboration<'a> {
             }
         }
     }
+}
+
+/// Points at equal distances that do not end as they begin: hourly rows of a day end at 23 h and
+/// repeat after 24 h, and a round that was closed by its last row ends at 24 h.
+fn open_round(
+    fields: &Fields<'_>,
+    times: &PlacedNumbers,
+    values: &PlacedNumbers,
+) -> Option<Diagnostic> {
+    let (first, last) = (*values.numbers.first()?, *values.numbers.last()?);
+    let size = values.numbers.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
+    let step = usual_step(&times.numbers)?;
+    if (first - last).abs() <= 1e-9 * size {
+        return None;
+    }
+    let span = times.numbers.last()? - times.numbers.first()?;
+    let (scale, unit) = match &times.unit {
+        Some(unit) => (unit.scale, unit.text.as_str()),
+        None => (1.0, "s"),
+    };
+    let shown = |time: f64| {
+        let rounded = format!("{:.11e}", time / scale).parse().unwrap_or(time / scale);
+        format!("{} {unit}", format_number(rounded))
+    };
+    let message = format!(
+        "{} repeats and does not end as it begins: is the last point the end of a round, or does \
+         it last as long as the others?",
+        fields.owner.words()
+    );
+    let diagnostic = Diagnostic::error("netlist::open_round", message);
+    let diagnostic = diagnostic.at(values.place(values.numbers.len() - 1), "the last value");
+    let diagnostic = diagnostic.also(values.place(0), "the first value");
+    Some(diagnostic.also(fields.place.clone(), "repeats").help(format!(
+        "write `period = \"{}\"` if the last value lasts as long as the others, or `period = \
+         \"{}\"` if the next round begins at the last point",
+        shown(span + step),
+        shown(span)
+    )))
+}
+
+/// The distance of two points, where nine of ten, and the last two, are as far apart.
+fn usual_step(times: &[f64]) -> Option<f64> {
+    let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    let mut sorted = steps.clone();
+    sorted.sort_by(f64::total_cmp);
+    let median = *sorted.get(sorted.len() / 2)?;
+    let usual = |step: &&f64| (**step - median).abs() <= 1e-6 * median;
+    let count = steps.iter().filter(usual).count();
+    let even = steps.len() >= 2 && 10 * count >= 9 * steps.len();
+    (even && steps.last().as_ref().is_some_and(usual)).then_some(median)
 }

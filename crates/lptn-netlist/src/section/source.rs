@@ -2,7 +2,7 @@
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{End, Field, Item, Path};
-use lptn_units::{Dimension, Type, parse_quantity};
+use lptn_units::{Dimension, Type, format_number, parse_quantity};
 
 use crate::fields::Fields;
 use crate::grid_part::GridPart;
@@ -46,6 +46,12 @@ impl<'a> Elaboration<'a> {
             && let RawKind::Table(table) = &raw.kind
         {
             return Some((self.shares(fields, table)?, raw));
+        }
+        if let Some(raw) = fields.get("into")
+            && let RawKind::Array(items) = &raw.kind
+        {
+            self.report(list_of_nodes(fields, raw, items));
+            return None;
         }
         if let Some(into) = self.heated_grid(fields) {
             return Some(into);
@@ -107,6 +113,30 @@ impl<'a> Elaboration<'a> {
         self.report(problem);
         None
     }
+}
+
+/// `into = ["a", "b"]`, which does not say how much each gets.
+fn list_of_nodes(fields: &Fields<'_>, raw: &RawValue, items: &[RawValue]) -> Diagnostic {
+    let words = format!(
+        "{} must be the name of a node or a table of shares, got a list",
+        fields.owner.field("into")
+    );
+    let names: Vec<&str> = items
+        .iter()
+        .filter_map(|item| match &item.kind {
+            RawKind::String { text, .. } => Some(text.trim()),
+            _ => None,
+        })
+        .collect();
+    let plain = |name: &&str| name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    let problem = Diagnostic::error("netlist::wrong_shape", words).at(raw.span.clone(), "");
+    if names.len() != items.len() || !names.iter().all(plain) || names.is_empty() {
+        return problem.help("write it like this: `into = { a = 0.5, b = 0.5 }`");
+    }
+    #[expect(clippy::cast_precision_loss, reason = "a count of nodes")]
+    let share = format_number(1.0 / names.len() as f64);
+    let shares: Vec<String> = names.iter().map(|name| format!("{name} = {share}")).collect();
+    problem.help(format!("write `into = {{ {} }}`, with the share of each", shares.join(", ")))
 }
 
 fn boundary(fields: &Fields<'_>, at: &Span) -> Diagnostic {

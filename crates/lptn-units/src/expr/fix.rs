@@ -6,7 +6,9 @@ use super::tree::{Id, Node, Operator, Tree};
 use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind as Kind};
 use crate::format::{number, rounded};
+use crate::kin::Kin;
 use crate::kinship::{has_inverse, is_frequency_for_rotation, revolutions};
+use crate::temperature::TemperatureScale;
 use crate::types::Type;
 use crate::unit::Unit;
 
@@ -82,15 +84,40 @@ impl Source<'_> {
         let same = |id: &Id| self.text_of(*id) == self.text_of(ids[0]);
         let right =
             !ids.is_empty() && ids.iter().all(same) && self.mistakes_with(&ids, SPEED) == Some(0);
-        right.then(|| {
-            let mut text = self.text.to_owned();
-            for &id in ids.iter().rev() {
-                let turned = self.literal_in_revolutions(id);
-                let turned = turned.unwrap_or_else(|| format!("({} * 1 [rev])", self.text_of(id)));
-                text.replace_range(self.tree.span(id), &turned);
-            }
-            text.trim().to_owned()
-        })
+        let unit = self.turn(Type::of(Dimension::FREQUENCY)).filter(|_| right)?;
+        let mut text = self.text.to_owned();
+        for &id in ids.iter().rev() {
+            let literal = self.literal_in_revolutions(id).filter(|_| unit == "rev");
+            let turned = literal.unwrap_or_else(|| format!("({} * 1 [{unit}])", self.text_of(id)));
+            text.replace_range(self.tree.span(id), &turned);
+        }
+        Some(text.trim().to_owned())
+    }
+
+    /// Whether a frequency of this type counts revolutions, or radians because it was multiplied
+    /// by 2π or is a power over a torque; `None` if an expression with π leaves both open.
+    fn turn(&self, ty: Type) -> Option<&'static str> {
+        if ty.dimension.kin() == Kin::Turning {
+            return Some("rad");
+        }
+        let pi = |node: &Node| matches!(node, Node::Name(name) if name == "pi");
+        if !self.tree.nodes().any(|(node, _)| pi(node)) {
+            return Some("rev");
+        }
+        let text = self.text.replace(char::is_whitespace, "");
+        let mut products = text.match_indices("2*pi");
+        let whole = |at: usize| {
+            !text[..at].ends_with(|c: char| c.is_ascii_alphanumeric() || matches!(c, '.' | '_'))
+        };
+        products.any(|(at, _)| whole(at)).then_some("rad")
+    }
+
+    /// The text with this node, a frequency, as a rotational speed.
+    fn as_speed(&self, id: Id, ty: Type) -> Option<String> {
+        let unit = self.turn(ty)?;
+        let literal = self.in_revolutions(id).filter(|_| unit == "rev");
+        let turned = || self.replace(id, &format!("{} * 1 [{unit}]", self.factor(id)));
+        Some(literal.unwrap_or_else(turned))
     }
 
     /// `[K]` for a temperature literal, or `[degR]` if it was in Fahrenheit.
@@ -102,13 +129,79 @@ impl Source<'_> {
     /// An absolute temperature that something was to be done to. `signed` tells that a literal
     /// would be right with its sign directly before it.
     pub(crate) fn absolute(&self, id: Id, operation: &'static str, signed: bool) -> UnitError {
-        let kelvin = || self.replace(id, &format!("kelvin({})", self.text_of(id)));
-        let fix = if signed && self.literal_number(id).is_some() {
-            format!("-{}", self.text_of(id))
-        } else {
-            self.as_difference(id).unwrap_or_else(kelvin)
+        let negative = || format!("-{}", self.text_of(id));
+        let fix = match signed && self.literal_number(id).is_some() {
+            true => Some(negative()),
+            false => self.as_difference(id).or_else(|| self.less_a_point(id)),
         };
-        UnitError::new(Kind::AbsoluteOperand { operation, fix }, self.tree.span(id))
+        self.absolute_operand(id, operation, fix)
+    }
+
+    /// With one correction, or with both numbers that a temperature can be.
+    fn absolute_operand(&self, id: Id, operation: &'static str, fix: Option<String>) -> UnitError {
+        let kind = match fix {
+            Some(fix) => Kind::AbsoluteOperand { operation, fix, celsius: None },
+            None => {
+                let text = self.text_of(id);
+                let celsius = Some(self.replace(id, &format!("({text} - 0 [degC])")));
+                let fix = self.replace(id, &format!("kelvin({text})"));
+                Kind::AbsoluteOperand { operation, fix, celsius }
+            }
+        };
+        UnitError::new(kind, self.tree.span(id))
+    }
+
+    /// `(a + b) / 2` and `0.5 * (a + b)` as `mean(a, b)`, which temperatures have too.
+    pub(crate) fn as_mean(&self, a: Id, b: Id) -> Option<String> {
+        let nodes = || self.tree.nodes().enumerate().map(|(id, (node, _))| (id, node));
+        let sum = nodes()
+            .find(
+                |(_, node)| matches!(node, Node::Binary(Operator::Add, x, y) if (*x, *y) == (a, b)),
+            )?
+            .0;
+        let number = |id: Id, wanted: f64| match self.tree.node(id) {
+            Node::Number { value, .. } => (value - wanted).abs() < f64::EPSILON,
+            _ => false,
+        };
+        let half = |node: &Node| match node {
+            Node::Binary(Operator::Divide, x, y) => *x == sum && number(*y, 2.0),
+            Node::Binary(Operator::Multiply, x, y) => {
+                (*x == sum && number(*y, 0.5)) || (*y == sum && number(*x, 0.5))
+            }
+            _ => false,
+        };
+        let whole = nodes().find(|(_, node)| half(node))?.0;
+        Some(self.replace(whole, &format!("mean({}, {})", self.text_of(a), self.text_of(b))))
+    }
+
+    /// `20 [K] - T` was meant to be `20 [degC] - T`.
+    pub(crate) fn subtracted_from_difference(&self, left: Id, right: Id) -> UnitError {
+        let operation = "subtracted from a temperature difference";
+        let fix = self.as_difference(right).or_else(|| self.as_point(left));
+        self.absolute_operand(right, operation, fix)
+    }
+
+    /// `T - 20 [K]` as `T - 20 [degC]`: the difference that was meant.
+    fn less_a_point(&self, id: Id) -> Option<String> {
+        match self.tree.node(id) {
+            Node::Binary(Operator::Subtract, _, right) => self.as_point(*right),
+            _ => None,
+        }
+    }
+
+    /// The text with this difference of temperatures, a literal, as the point on the scale that is
+    /// meant: `20 [K]` as `20 [degC]`, but `293 [K]` as 293 K.
+    fn as_point(&self, id: Id) -> Option<String> {
+        let Node::Literal { value, ty } = self.tree.node(id) else { return None };
+        if !ty.is_temperature() || ty.absolute {
+            return None;
+        }
+        let text = self.text_of(id);
+        match TemperatureScale::of(*value) {
+            TemperatureScale::Celsius if text.contains("degR") => self.relabel(id, "degF"),
+            TemperatureScale::Celsius => self.relabel(id, "degC"),
+            _ => Some(self.replace(id, &format!("absolute({text})"))),
+        }
     }
 
     /// A node as it can stand in a product.
@@ -122,8 +215,7 @@ impl Source<'_> {
     pub(crate) fn converted(&self, id: Id, found: Type, wanted: Type) -> Option<String> {
         let part = self.factor(id);
         if is_frequency_for_rotation(found, wanted) {
-            let turned = || self.replace(id, &format!("{part} * 1 [rev]"));
-            return Some(self.in_revolutions(id).unwrap_or_else(turned));
+            return self.as_speed(id, found);
         }
         match self.tree.node(id) {
             Node::Number { .. } => {
@@ -131,7 +223,7 @@ impl Source<'_> {
             }
             _ if wanted.absolute && found.is_temperature() => {
                 let made = || self.replace(id, &format!("absolute({})", self.text_of(id)));
-                Some(self.relabel(id, "degC").unwrap_or_else(made))
+                Some(self.as_point(id).unwrap_or_else(made))
             }
             _ if found.absolute && wanted.is_temperature() => {
                 let made = || self.replace(id, &format!("{part} - 0 [degC]"));
@@ -165,12 +257,16 @@ impl Source<'_> {
         let span = self.tree.span(root);
         let whole = self.text.get(span.clone()).unwrap_or_default();
         let kind = if is_frequency_for_rotation(found, wanted) {
-            Kind::Rotation {
-                fix: Some(self.in_revolutions(root).unwrap_or(format!("({whole}) * 1 [rev]"))),
-            }
+            Kind::Rotation { fix: self.as_speed(root, found) }
         } else if wanted.absolute && found.is_temperature() {
-            let made = || format!("absolute({whole})");
-            Kind::AbsoluteWanted { fix: self.less_a_difference(root).unwrap_or_else(made) }
+            let fix = self.less_a_difference(root);
+            let celsius = || match self.tree.node(root) {
+                Node::Literal { .. } => self.as_point(root),
+                _ => Some(format!("{whole} + 0 [degC]")),
+            };
+            let made = format!("absolute({whole})");
+            let celsius = if fix.is_none() { celsius().filter(|text| *text != made) } else { None };
+            Kind::AbsoluteWanted { fix: fix.unwrap_or(made), celsius }
         } else if found.absolute && wanted.is_temperature() {
             let fix = self.as_difference(root).unwrap_or_else(|| format!("{whole} - 0 [degC]"));
             Kind::DifferenceWanted { fix }
@@ -217,7 +313,7 @@ impl Source<'_> {
     ) -> UnitError {
         for (this, other) in [(a, b), (b, a)] {
             if is_frequency_for_rotation(this.1, other.1) {
-                let fix = self.in_revolutions(this.0);
+                let fix = self.as_speed(this.0, this.1);
                 return UnitError::new(Kind::Rotation { fix }, self.tree.span(this.0));
             }
         }
@@ -233,16 +329,22 @@ impl Source<'_> {
     fn like(&self, operation: &str, this: (Id, Type), other: Type) -> Option<String> {
         let (id, ty) = this;
         match self.tree.node(id) {
-            Node::Number { .. } if ty.is_scalar() => {
+            Node::Number { value, .. } if ty.is_scalar() => {
                 let unit = match other.absolute && matches!(operation, "`+`" | "`-`") {
                     true => self.beside_temperature(id),
                     false => other.usual_unit(),
                 };
-                Some(self.replace(id, &format!("{} [{unit}]", self.text_of(id))))
+                let kelvin = TemperatureScale::of(*value) == TemperatureScale::Kelvin;
+                let number = self.text_of(id);
+                Some(self.replace(
+                    id,
+                    &match unit == "degC" && kelvin {
+                        true => format!("absolute({number} [K])"),
+                        false => format!("{number} [{unit}]"),
+                    },
+                ))
             }
-            Node::Literal { .. } if ty.is_temperature() && other.absolute => {
-                self.relabel(id, "degC")
-            }
+            Node::Literal { .. } if ty.is_temperature() && other.absolute => self.as_point(id),
             Node::Literal { .. } if ty.absolute && other.is_temperature() => self.as_difference(id),
             _ if ty.absolute && other.is_temperature() => {
                 Some(self.replace(id, &format!("({} - 0 [degC])", self.text_of(id))))

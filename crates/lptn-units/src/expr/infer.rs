@@ -139,7 +139,7 @@ impl Inference<'_> {
                         .iter_mut()
                         .find(|(known, found)| known == name && found.is_none());
                     if let (Some((_, found)), Some(dimension)) = (open, due[id]) {
-                        *found = Some(dimension);
+                        *found = Some(dimension.as_written());
                     }
                 }
                 node => {

@@ -11,6 +11,8 @@ use crate::types::Type;
 type Operand = (Id, Type);
 type Typed = Result<Type, UnitError>;
 
+const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
+
 /// One type for two values that are added, compared or chosen from.
 pub(crate) fn common(
     source: &Source<'_>,
@@ -19,9 +21,9 @@ pub(crate) fn common(
     b: Operand,
 ) -> Typed {
     if a.1.conforms_to(b.1) {
-        Ok(b.1)
+        Ok(b.1.of_either(a.1))
     } else if b.1.conforms_to(a.1) {
-        Ok(a.1)
+        Ok(a.1.of_either(b.1))
     } else {
         Err(source.unlike(operation, a, b))
     }
@@ -35,10 +37,10 @@ pub(crate) fn sum(source: &Source<'_>, operator: Operator, a: Operand, b: Operan
         (false, false) => common(source, symbol, a, b),
         (true, true) if subtract => Ok(Type::of(Dimension::TEMPERATURE)),
         (true, true) => Err(sum_of_absolutes(source, a.0, b.0)),
-        (true, false) if b.1.is_temperature() => Ok(a.1),
-        (false, true) if a.1.is_temperature() && !subtract => Ok(b.1),
-        (false, true) if a.1.is_temperature() => {
-            Err(source.absolute(b.0, "subtracted from a temperature difference", false))
+        (true, false) if b.1.conforms_to(DIFFERENCE) => Ok(a.1),
+        (false, true) if a.1.conforms_to(DIFFERENCE) && !subtract => Ok(b.1),
+        (false, true) if a.1.conforms_to(DIFFERENCE) => {
+            Err(source.subtracted_from_difference(a.0, b.0))
         }
         _ => Err(source.unlike(symbol, a, b)),
     }
@@ -48,12 +50,18 @@ pub(crate) fn sum(source: &Source<'_>, operator: Operator, a: Operand, b: Operan
 fn sum_of_absolutes(source: &Source<'_>, a: Id, b: Id) -> UnitError {
     let operation = "added to another one";
     if let Some(fix) = source.as_difference(b).or_else(|| source.as_difference(a)) {
-        return UnitError::new(Kind::AbsoluteOperand { operation, fix }, source.tree.span(b));
+        let kind = Kind::AbsoluteOperand { operation, fix, celsius: None };
+        return UnitError::new(kind, source.tree.span(b));
+    }
+    if let Some(fix) = source.as_mean(a, b) {
+        let kind = Kind::AbsoluteOperand { operation, fix, celsius: None };
+        return UnitError::new(kind, source.tree.span(b));
     }
     let span = source.tree.span(a).start..source.tree.span(b).end;
     let both = format!("kelvin({}) + kelvin({})", source.text_of(a), source.text_of(b));
     let fix = super::lexer::splice(source.text, &span, &both);
-    UnitError::new(Kind::AbsoluteOperand { operation, fix }, source.tree.span(b))
+    let kind = Kind::AbsoluteOperand { operation, fix, celsius: None };
+    UnitError::new(kind, source.tree.span(b))
 }
 
 pub(crate) fn product(source: &Source<'_>, operator: Operator, a: Operand, b: Operand) -> Typed {

@@ -13,7 +13,7 @@ const NAMES: [(&str, Type, f64, Option<u32>); 10] = [
     ("n", Type::SCALAR, 3.0, None),
     ("fan", Type::SCALAR, 0.25, None),
     ("omega", Type::of(Dimension::ANGULAR_VELOCITY), 100.0, None),
-    ("torque", Type::of(Dimension::ENERGY), 5.0, None),
+    ("torque", Type::of(Dimension::TORQUE), 5.0, None),
     ("P", Type::of(Dimension::POWER), 220.0, None),
     ("T", Type::ABSOLUTE_TEMPERATURE, 350.0, Some(10)),
     ("T_amb", Type::ABSOLUTE_TEMPERATURE, 300.0, None),

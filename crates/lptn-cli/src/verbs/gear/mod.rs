@@ -73,7 +73,7 @@ fn blocks(args: &GearArgs, of: (&Input, &GearTask<'_>)) -> Result<Vec<Block>, Fa
         texts.iter().map(one).collect()
     };
     let mut speeds = list("--speed", &args.speed, Type::of(Dimension::ANGULAR_VELOCITY))?;
-    let torques = list("--torque", &args.torque, Type::of(Dimension::ENERGY))?;
+    let torques = list("--torque", &args.torque, Type::of(Dimension::TORQUE))?;
     let held = list("--temperature", &args.temperature, Type::ABSOLUTE_TEMPERATURE)?;
     let own = task.speed();
     if speeds.is_empty() {

@@ -6,6 +6,7 @@ use lptn_units::Dimension;
 pub(crate) const USUAL: &[(Dimension, &[&str])] = &[
     (Dimension::POWER, &["W", "mW", "kW", "BTU/h", "hp"]),
     (Dimension::ENERGY, &["J", "kJ", "MJ", "Wh", "kWh", "cal", "BTU"]),
+    (Dimension::TORQUE, &["N m", "N mm", "kN m", "lbf ft", "lbf in"]),
     (Dimension::CAPACITY, &["J/K", "kJ/K", "Wh/K", "BTU/degR"]),
     (Dimension::RESISTANCE, &["K/W", "mK/W", "degR h/BTU"]),
     (Dimension::CONDUCTANCE, &["W/K", "mW/K", "kW/K", "BTU/(h degR)"]),
@@ -44,7 +45,9 @@ pub(crate) const ABSOLUTE: &[&str] = &["degC", "degF"];
 
 /// The usual units of a dimension.
 pub(crate) fn of(dimension: Dimension) -> &'static [&'static str] {
-    USUAL.iter().find(|(known, _)| *known == dimension).map_or(&[], |(_, units)| units)
+    // a torque and an energy have one dimension and two units
+    let same = |known: &Dimension| *known == dimension && known.si_unit() == dimension.si_unit();
+    USUAL.iter().find(|(known, _)| same(known)).map_or(&[], |(_, units)| units)
 }
 
 #[cfg(test)]

@@ -194,9 +194,11 @@ impl Maker {
         entry = entry
             .with("interp", Field::Word(interp.into()))
             .with("after_end", Field::Word(after.into()));
-        if after == "repeat" && self.random.chance(0.5) {
-            entry =
-                entry.with("period", constant(self.random.between(1.05, 1.5) * reach, Kind::Time));
+        // its ends differ, so it has to say how long a round is
+        if after == "repeat" {
+            let longer = self.random.chance(0.5);
+            let part = if longer { self.random.between(1.05, 1.5) } else { 1.001 };
+            entry = entry.with("period", constant(part * reach, Kind::Time));
         }
         self.add(entry);
         name

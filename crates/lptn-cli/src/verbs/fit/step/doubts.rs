@@ -26,7 +26,10 @@ pub(crate) fn of(request: &Request, column: &Column<'_>) -> Vec<Diagnostic> {
     if let Some(problem) = cooling(request, column) {
         warnings.push(at(problem));
     }
-    if let Some(two) = &fit.second.offer {
+    let start = stands_still(&request.record.time, &column.column.values, fit.tau.value);
+    if let Some(start) = start {
+        warnings.push(at(late(name, start)));
+    } else if let Some(two) = &fit.second.offer {
         warnings.push(at(second(name, two, request)));
     }
     if fit.coarse {
@@ -150,13 +153,65 @@ fn second(name: &str, two: &TwoExponentials, request: &Request) -> Diagnostic {
     ))
 }
 
+/// A column that has come no further than this part of its whole change stands still.
+const STILL: f64 = 0.02;
+
+/// That the step begins after the record.
+fn late(name: &str, start: f64) -> Diagnostic {
+    let from = significant(start, 6);
+    let message =
+        format!("column `{name}` stands still until {from} s, and one exponential does not");
+    let help = format!("begin where the step begins, with --from \"{from} s\"");
+    Diagnostic::warning("fit::late_start", message).help(help)
+}
+
+/// When in s a column begins to change that stood still for more than a tenth of its time constant:
+/// from the start on an exponential would have left `STILL` of its change behind after 0.02 tau.
+fn stands_still(times: &[f64], values: &[f64], tau: f64) -> Option<f64> {
+    let known = || times.iter().zip(values).filter(|(_, value)| !value.is_nan());
+    let (start, first) = known().next()?;
+    let change = known().fold(0.0, |most: f64, (_, value)| most.max((value - first).abs()));
+    let still = known().take_while(|(_, value)| (*value - first).abs() <= STILL * change);
+    let (count, (end, _)) = still.enumerate().last()?;
+    (count >= 3 && end - start > 0.1 * tau).then_some(*end)
+}
+
+/// When in s a column turns back by more than a third of its range: it heats, and then it cools.
+fn turns(times: &[f64], values: &[f64]) -> Option<f64> {
+    let known: Vec<(f64, f64)> = times
+        .iter()
+        .zip(values)
+        .filter(|(_, value)| !value.is_nan())
+        .map(|(time, value)| (*time, *value))
+        .collect();
+    let (first, last) = (known.first()?.1, known.last()?.1);
+    let highest = known.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let lowest = known.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
+    let range = highest.1 - lowest.1;
+    let turn = |far: f64| 3.0 * (far - first).abs().min((far - last).abs()) > range;
+    [highest, lowest].into_iter().find(|extreme| turn(extreme.1)).map(|extreme| extreme.0)
+}
+
 /// Why a column has no fit, and how the command ends.
-pub(crate) fn failed(column: &RecordColumn, error: &StepError) -> (Exit, Diagnostic) {
+pub(crate) fn failed(
+    request: &Request,
+    column: &RecordColumn,
+    error: &StepError,
+) -> (Exit, Diagnostic) {
     let message = format!("column `{}`: {error}", column.name);
     let problem = Diagnostic { message, ..told(error) }.at(column.span.clone(), "");
     let options = match error {
         StepError::Saturated { from, to, .. } => {
             Some(format!("leave it out, with --to \"{from} s\" or --from \"{to} s\""))
+        }
+        StepError::Fit(_) | StepError::Undetermined { .. } => {
+            turns(&request.record.time, &column.values).map(|at| {
+                let at = significant(at, 6);
+                format!(
+                    "it turns back at {at} s, and one step does not: fit one part of it, with \
+                     --to \"{at} s\" or --from \"{at} s\""
+                )
+            })
         }
         _ => None,
     };

@@ -61,7 +61,7 @@ pub(crate) fn step(args: &StepArgs, console: &Console) -> Result<Exit, Failure> 
             Ok(fit) => columns.push(fit),
             Err(error) => {
                 without.push((column.name.as_str(), error.code()));
-                failures.push(doubts::failed(column, &error));
+                failures.push(doubts::failed(&request, column, &error));
             }
         }
     }
