@@ -10,6 +10,7 @@
 mod adiabatic;
 mod adjoint;
 mod balance;
+mod between;
 mod branch;
 mod cells;
 mod columns;
@@ -19,7 +20,9 @@ mod error;
 mod events;
 mod exact;
 mod extremes;
+mod growth;
 mod heat;
+mod inside;
 mod last;
 mod ledger;
 mod limit;
