@@ -300,9 +300,11 @@ pulse = { into = \"block\", P = \"if(t == 5 [s], 100 [W], 0 [W])\" }
     let netlist = lptn_netlist::parse("a.toml", text).unwrap();
     let found: Vec<String> = netlist.warnings.iter().map(|w| netlist.files.plain(w)).collect();
     let expected = "\
-warning[netlist::massless_initial]: `T0` of node `joint` has no effect: the node is massless
+warning[netlist::massless_initial]: `T0` of node `joint` is only where its balance is first tried: \
+the node is massless
  --> a.toml:4:16
-  = help: leave `T0` out: a massless node takes the temperature that its neighbours give it
+  = help: leave `T0` out, unless tables do not reach to the other temperatures, or the balance has \
+several solutions
 warning[netlist::massless_length]: `L_char` of node `joint` has no effect: the node is massless
  --> a.toml:4:53
   = help: leave it out: a junction is not a body

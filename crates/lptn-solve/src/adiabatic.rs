@@ -206,7 +206,9 @@ fn search(
             let outside = islands.iter().find_map(|island| island.outside(system, temperatures));
             return match (outside, newton.map(|mut newton| newton.unstable(work, temperatures))) {
                 (Some(outside), _) => Err(outside),
-                (None, Some(Ok(Some(unknown)))) => Err(NewtonError::Unstable { unknown }),
+                (None, Some(Ok(Some(unknown)))) => {
+                    Err(NewtonError::Unstable { unknown, swings: false })
+                }
                 _ => Ok(()),
             };
         }

@@ -13,9 +13,6 @@ use lptn_integrate::Pattern;
 
 use crate::newton::{Newton, NewtonError, largest};
 
-/// Places between two solutions at which the balances are looked at.
-const PLACES: u32 = 16;
-
 /// The longest step of a leap in K.
 const STRIDE: f64 = 0.25;
 
@@ -29,34 +26,6 @@ const LONGER: f64 = 1.5;
 const SHORTEST: f64 = 1e-12;
 
 impl Newton<'_> {
-    /// Refuses a solution between which and `start` there are temperatures at which nothing rests:
-    /// it lies on another branch. What moves moves on a straight line here, so that for one
-    /// massless node this is all there is to tell, but for a fold that fits between two of the
-    /// places.
-    ///
-    /// # Errors
-    /// [`NewtonError::Fold`]; that a value or the factorisation fails.
-    pub(crate) fn stays(
-        &mut self,
-        work: &mut Workspace,
-        start: &[f64],
-        end: &[f64],
-    ) -> Result<(), NewtonError> {
-        let mut between = end.to_vec();
-        let same = self.free.iter().all(|&i| start[i].to_bits() == end[i].to_bits());
-        let places = if same { 1 } else { PLACES };
-        for place in 1..=places {
-            let share = f64::from(place) / f64::from(places);
-            for &i in &self.free {
-                between[i] = start[i] + share * (end[i] - start[i]);
-            }
-            if let Some(unknown) = self.unstable(work, &between)? {
-                return Err(NewtonError::Fold { unknown });
-            }
-        }
-        self.factorize(work, end, 0.0)
-    }
-
     /// Goes to where the free unknowns come to rest from `temperatures` while nothing else moves:
     /// the same solution where it still is, another one where that has ended.
     ///

@@ -142,10 +142,17 @@ impl<'a> Heat<'a> {
         self.unfold.seed(branch);
     }
 
-    /// Whether massless nodes come to this state from these temperatures in K without a leap.
-    pub(crate) fn comes_to(&mut self, (time, y): (f64, &[f64]), branch: &[f64]) -> bool {
+    /// Brings massless nodes from these temperatures in K to this state without a leap.
+    ///
+    /// # Errors
+    /// Why they do not come to it.
+    pub(crate) fn comes_to(
+        &mut self,
+        (time, y): (f64, &[f64]),
+        branch: &[f64],
+    ) -> Result<(), StopReason> {
         self.unfold.seed(branch);
-        self.branch(time, y).is_ok()
+        self.branch(time, y).map(drop)
     }
 
     /// Temperatures of all unknowns in K at a state that was reached.
@@ -183,7 +190,8 @@ impl<'a> Heat<'a> {
         let before = self.unfold.algebraic().to_vec();
         self.unfold.may_leap();
         let leapt = self.place(beyond.0, beyond.1).is_ok() && self.place(here.0, here.1).is_ok();
-        if leapt && self.unfold.stays(&mut self.work, &before).is_err() {
+        // at one state two solutions at which the nodes rest are two branches, however near
+        if leapt && self.unfold.is_apart(&before) && self.branch(here.0, here.1).is_ok() {
             self.fold = None;
             return true;
         }

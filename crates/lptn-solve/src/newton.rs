@@ -28,6 +28,8 @@ pub(crate) enum NewtonError {
     Unstable {
         /// The unknown that moves most.
         unknown: usize,
+        /// Whether it swings from one side to the other.
+        swings: bool,
     },
     /// The solution that was followed ends here: beyond, the balances have another one, elsewhere.
     Fold {
@@ -51,6 +53,9 @@ const MOST_ROUNDING: f64 = 1e-5;
 
 /// Corrections to follow a solution that moves, below this in K.
 const FOLLOWED: f64 = 1e-10;
+
+/// A solution that moves further than this in K at once may be another one.
+const FAR: f64 = 1.0;
 
 /// Iterations with full or damped steps.
 const ITERATIONS: usize = 60;
@@ -128,10 +133,21 @@ impl<'a> Newton<'a> {
     ) -> Result<(), NewtonError> {
         let start = temperatures.to_vec();
         if self.ready && self.contract(work, temperatures) == Some(true) {
-            return Ok(());
+            let far = self.guarded && self.moved(&start, temperatures) > FAR;
+            if !far || self.stays(work, &start, temperatures).is_ok() {
+                return Ok(());
+            }
         }
         temperatures.copy_from_slice(&start);
-        let mut solved = self.solve(work, temperatures);
+        // of several solutions only one that is near is the same; what leads to others is a leap
+        let mut solved = match self.guarded {
+            true => self.damped(work, temperatures),
+            false => self.solve(work, temperatures),
+        };
+        if let (true, Err(NewtonError::Input(_))) = (self.guarded, &solved) {
+            temperatures.copy_from_slice(&start);
+            solved = self.solve(work, temperatures);
+        }
         if self.guarded {
             solved = match solved {
                 Ok(()) => self.stays(work, &start, temperatures),
@@ -145,6 +161,11 @@ impl<'a> Newton<'a> {
             temperatures.copy_from_slice(&start); // the next search begins where one succeeded
         }
         solved
+    }
+
+    /// How far the free unknowns moved, in K.
+    pub(crate) fn moved(&self, from: &[f64], to: &[f64]) -> f64 {
+        self.free.iter().map(|&i| (to[i] - from[i]).abs()).fold(0.0, f64::max)
     }
 
     /// Corrections with the factors at hand; whether they led to the solution. `None`: a value
@@ -172,8 +193,15 @@ impl<'a> Newton<'a> {
         work: &mut Workspace,
         temperatures: &mut [f64],
     ) -> Result<(), NewtonError> {
-        let start = temperatures.to_vec();
-        match self.damped(work, temperatures) {
+        let mut start = temperatures.to_vec();
+        let mut solved = self.damped(work, temperatures);
+        if let Err(NewtonError::Input(_)) = solved
+            && self.bring_inside(work, &mut start)
+        {
+            temperatures.copy_from_slice(&start);
+            solved = self.damped(work, temperatures).or(solved);
+        }
+        match solved {
             Ok(()) => Ok(()),
             Err(NewtonError::Factorization(error)) => Err(NewtonError::Factorization(error)),
             Err(first) => {
@@ -333,10 +361,15 @@ impl<'a> Newton<'a> {
         let jacobian =
             self.system.jacobian_at(work, temperatures, JacobianForm::Exact, &mut self.whole);
         jacobian.map_err(NewtonError::Input)?;
+        self.take_slopes();
+        Ok(())
+    }
+
+    /// Takes `-J` as it was evaluated last into the values.
+    pub(crate) fn take_slopes(&mut self) {
         for (value, &slot) in self.values.iter_mut().zip(&self.slots) {
             *value = -self.whole[slot];
         }
-        Ok(())
     }
 
     /// Factorises `-J`, with `inertia` times the size of its diagonal added.
@@ -372,10 +405,19 @@ impl<'a> Newton<'a> {
         work: &mut Workspace,
         temperatures: &[f64],
     ) -> Result<Vec<f64>, NewtonError> {
-        self.system.flow(work, temperatures, &mut self.flow).map_err(NewtonError::Input)?;
-        let mut correction: Vec<f64> = self.free.iter().map(|&i| self.flow[i]).collect();
+        let mut correction = self.residual(work, temperatures)?;
         self.factors.solve_in_place(&mut correction).map_err(NewtonError::Factorization)?;
         Ok(correction)
+    }
+
+    /// The heat that is left over at the free unknowns, in W.
+    pub(crate) fn residual(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &[f64],
+    ) -> Result<Vec<f64>, NewtonError> {
+        self.system.flow(work, temperatures, &mut self.flow).map_err(NewtonError::Input)?;
+        Ok(self.free.iter().map(|&i| self.flow[i]).collect())
     }
 
     /// The largest heat that was left over when the flow was last evaluated, in W.

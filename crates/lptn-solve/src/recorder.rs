@@ -16,6 +16,7 @@ use crate::interval::POINTS;
 use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::{LimitWatch, with_limits};
+use crate::newton::NewtonError;
 use crate::ranges::RangeWatch;
 use crate::reading::Reading;
 use crate::readings::Readings;
@@ -312,20 +313,33 @@ impl<'a> Recorder<'a> {
     /// Brings the workspace to `time` and the temperatures in `state`.
     fn place(&mut self, time: f64) -> Result<(), StopReason> {
         self.system.read_inputs(&mut self.work, time, self.inside).map_err(StopReason::Input)?;
-        if !self.branch.is_empty() {
-            self.unfold.seed(&self.branch);
-        }
-        let mut failed = self.unfold.temperatures(&mut self.work, &self.state).err();
-        if failed.is_some() && !self.branch_ahead.is_empty() {
-            // near the end of a branch it is the nearer of the two that leads there
-            self.unfold.seed(&self.branch_ahead);
-            failed = self.unfold.temperatures(&mut self.work, &self.state).err();
-        }
-        if let Some(error) = failed {
-            return Err(StopReason::Unsolved(Unsolved::new(self.system, error)));
-        }
+        self.unfold().map_err(|e| StopReason::Unsolved(Unsolved::new(self.system, e)))?;
         self.system.recover(&mut self.work, self.unfold.last());
         Ok(())
+    }
+
+    /// Finds the temperatures of massless nodes from where they stood when the step began, or where
+    /// they stand when it ends: near the end of a branch it is the nearer of the two that leads
+    /// there. The run has gone through the step, so that a node that comes from neither without a
+    /// leap leaps on the way, by less than the run has to see.
+    fn unfold(&mut self) -> Result<(), NewtonError> {
+        if self.branch.is_empty() {
+            return self.unfold.temperatures(&mut self.work, &self.state).map(drop);
+        }
+        let mut failed = None;
+        for leaps in [false, true] {
+            for seed in [&self.branch, &self.branch_ahead] {
+                self.unfold.seed(seed);
+                if leaps {
+                    self.unfold.may_leap();
+                }
+                match self.unfold.temperatures(&mut self.work, &self.state) {
+                    Ok(_) => return Ok(()),
+                    Err(error) => failed = failed.or(Some(error)),
+                }
+            }
+        }
+        failed.map_or(Ok(()), Err)
     }
 
     fn push(&mut self) -> Result<(), StopReason> {

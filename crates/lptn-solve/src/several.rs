@@ -29,14 +29,15 @@ const APART: [f64; 4] = [200.0, 50.0, -50.0, -200.0];
 /// No search begins below this temperature in K.
 const COLDEST_START: f64 = 1.0;
 
-/// Where the search for a steady state begins, in K: nodes at their start, massless ones in the
-/// middle of the boundaries.
+/// Where the search for a steady state begins, in K: nodes at their start, massless ones where they
+/// are said to begin, or in the middle of all that is known.
 pub(crate) fn start(system: &ThermalSystem, work: &Workspace) -> Vec<f64> {
     let mut temperatures = system.initial();
     let boundaries = system.boundary_temperatures(work);
     let known = boundaries.iter().chain(&temperatures).copied();
     let (sum, count) = known.fold((0.0, 0.0), |(sum, count), t| (sum + t, count + 1.0));
-    temperatures.resize(system.unknowns().len(), sum / count);
+    let begins = |id: &lptn_network::NodeId| system.network().begins(*id).unwrap_or(sum / count);
+    temperatures.extend(system.unknowns()[temperatures.len()..].iter().map(begins));
     // at 0 K radiation does not tell which way to go
     temperatures.iter_mut().for_each(|t| *t = t.max(COLDEST_START));
     temperatures
@@ -59,6 +60,7 @@ impl Others {
         for apart in APART {
             let mut other: Vec<f64> =
                 found.iter().map(|t| (t + apart).max(COLDEST_START)).collect();
+            newton.bring_inside(work, &mut other);
             let solved = newton.damped(work, &mut other).is_ok();
             if !solved || same(&other, found) || other.iter().any(|t| *t < 0.0) {
                 continue;

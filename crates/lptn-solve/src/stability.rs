@@ -5,22 +5,34 @@
 //! if some positive `x` has a positive `A x` (A. Berman and R. J. Plemmons, Nonnegative Matrices in
 //! the Mathematical Sciences, SIAM 1994, chapter 6, theorem 2.3, conditions I27 and G20), whatever
 //! the capacities are. The same test on `A` with the magnitudes of these entries is sufficient for
-//! any other network (H-matrices, the same, exercise 5.13). Where that leaves it open, small
-//! disturbances are followed with the capacities, in steps of the trapezoidal rule of many lengths:
-//! it enlarges what grows and nothing else, whatever the length.
+//! any other network (H-matrices, the same, exercise 5.13). Where that leaves it open, the capacities
+//! decide: up to [`DENSE`] unknowns by powers of a step of the trapezoidal rule (`growth.rs`), beyond
+//! that by following a disturbance in steps of many lengths until it has grown beyond all that a
+//! disturbance that turns and dies does on its way. Massless nodes follow at once; what they follow
+//! rests as long as the determinant of their own balances has not changed its sign.
 
 use lptn_assembly::Workspace;
 
 use crate::newton::{Newton, NewtonError};
+use crate::powers::Square;
 
-/// Steps that a disturbance is followed for, twice.
+/// Up to so many unknowns nothing is left open.
+const DENSE: usize = 100;
+
+/// Steps that a disturbance is followed for before its growth counts, and at least afterwards.
 const FOLLOWED: usize = 100;
+
+/// Steps that one that grows is followed for at most.
+const LONGEST: usize = 20_000;
 
 /// From one length of steps to the next.
 const LONGER: f64 = 4.0;
 
-/// A disturbance that grows by more than this in as many steps keeps growing.
+/// A disturbance that grows by less than this in as many steps is not followed further.
 const GROWTH: f64 = 1.5;
+
+/// One that has grown by this grows for ever: no disturbance that dies turns so far out of its way.
+const FOR_EVER: f64 = 1e6;
 
 /// Lengths of steps that are tried at most.
 const LENGTHS: usize = 60;
@@ -70,10 +82,23 @@ impl Newton<'_> {
     /// The place that moves most in a disturbance that grows.
     fn grows(&mut self, exact: &[f64]) -> Option<usize> {
         let mass: Vec<f64> = self.free.iter().map(|&i| self.system.mass()[i]).collect();
+        let small = mass.len() <= DENSE;
+        if let Some(place) = small.then(|| self.massless_grow(exact, &mass)).flatten() {
+            return Some(place);
+        }
         let slots = self.pattern.diagonal().iter().zip(&mass).filter(|(_, mass)| **mass > 0.0);
         let rates = slots.map(|(&slot, mass)| exact[slot].abs() / mass).filter(|rate| *rate > 0.0);
         let (slow, fast) =
             rates.fold((f64::INFINITY, 0.0_f64), |(a, b), rate| (a.min(rate), b.max(rate)));
+        if fast <= 0.0 {
+            return None;
+        }
+        if small {
+            let step = 1.0 / (slow * fast).sqrt();
+            // one that grows just as fast as a step is long makes it singular
+            let mut tried = [step, 1.3 * step].into_iter();
+            return tried.find_map(|step| self.step_of_all(step, exact, &mass))?.grows();
+        }
         let mut step = 0.1 / fast;
         for _ in 0..LENGTHS {
             if step.is_nan() || step * slow >= 1e4 {
@@ -87,18 +112,87 @@ impl Newton<'_> {
         None
     }
 
-    /// The same with steps of one length in s.
-    fn grows_in(&mut self, step: f64, exact: &[f64], mass: &[f64]) -> Option<usize> {
+    /// A place among the massless nodes if the determinant of their own balances is not positive:
+    /// it is where they rest, and changes its sign where a solution ends.
+    fn massless_grow(&self, exact: &[f64], mass: &[f64]) -> Option<usize> {
+        let massless: Vec<usize> = (0..mass.len()).filter(|&i| mass[i] <= 0.0).collect();
+        let mut own = Square::zero(massless.len());
+        for (j, &column) in massless.iter().enumerate() {
+            for slot in self.pattern.column(column) {
+                if let Ok(i) = massless.binary_search(&self.pattern.row_indices()[slot]) {
+                    own.column_mut(j)[i] = exact[slot];
+                }
+            }
+        }
+        (own.sign() <= 0.0).then(|| massless[0])
+    }
+
+    /// Whether what grows at these temperatures (all unknowns, in K) swings: where warming one node
+    /// cools another, an even number of disturbances grows if the determinant of `A` is positive.
+    pub(crate) fn swings(
+        &mut self,
+        work: &mut Workspace,
+        temperatures: &[f64],
+    ) -> Result<bool, NewtonError> {
+        self.linearize(work, temperatures)?;
+        let size = self.pattern.size();
+        let mut all = Square::zero(size.min(DENSE));
+        let mut cools = false;
+        for column in (0..size).filter(|_| size <= DENSE) {
+            for slot in self.pattern.column(column) {
+                let row = self.pattern.row_indices()[slot];
+                all.column_mut(column)[row] = self.values[slot];
+                cools |= row != column && self.values[slot] > 0.0;
+            }
+        }
+        Ok(cools && all.sign() > 0.0)
+    }
+
+    /// Makes `M + h/2 A` the matrix that is solved with; `None` where that fails.
+    fn factorize_step(&mut self, step: f64, exact: &[f64], mass: &[f64]) -> Option<()> {
         self.values.iter_mut().zip(exact).for_each(|(value, exact)| *value = 0.5 * step * exact);
         for (&slot, mass) in self.pattern.diagonal().iter().zip(mass) {
             self.values[slot] += mass;
         }
-        self.factors.factorize(&self.values).ok()?;
+        self.factors.factorize(&self.values).ok()
+    }
+
+    /// The step of one length in s that takes every disturbance further, in the roots of the heats
+    /// that the temperatures hold, which stand for them as far as they are massless.
+    fn step_of_all(&mut self, step: f64, exact: &[f64], mass: &[f64]) -> Option<Square> {
+        self.factorize_step(step, exact, mass)?;
+        let stands = |(mass, &slot): (&f64, &usize)| match *mass {
+            mass if mass > 0.0 => mass.sqrt(),
+            _ => (step * exact[slot].abs()).sqrt().max(f64::MIN_POSITIVE),
+        };
+        let root: Vec<f64> = mass.iter().zip(self.pattern.diagonal()).map(stands).collect();
+        let mut all = Square::zero(mass.len());
+        for j in 0..mass.len() {
+            let column = all.column_mut(j);
+            column[j] = mass[j];
+            for slot in self.pattern.column(j) {
+                column[self.pattern.row_indices()[slot]] -= 0.5 * step * exact[slot];
+            }
+            // the balances of massless nodes hold at the end of every step
+            column
+                .iter_mut()
+                .zip(mass)
+                .filter(|(_, mass)| **mass <= 0.0)
+                .for_each(|(x, _)| *x = 0.0);
+            self.factors.solve_in_place(column).ok()?;
+            column.iter_mut().zip(&root).for_each(|(x, of)| *x *= of / root[j]);
+        }
+        Some(all)
+    }
+
+    /// The place that moves most in a disturbance that grows in steps of one length in s.
+    fn grows_in(&mut self, step: f64, exact: &[f64], mass: &[f64]) -> Option<usize> {
+        self.factorize_step(step, exact, mass)?;
         // no pattern that a network is likely to have is orthogonal to this one
         let mut x: Vec<f64> = (0..mass.len()).map(|i| 1.0 + 0.5 * (1.7 * i as f64).sin()).collect();
         let mut heat = vec![0.0; x.len()];
         let mut grown = 1.0;
-        for k in 0..2 * FOLLOWED {
+        for k in 0..LONGEST {
             self.pattern.multiply(exact, &x, &mut heat);
             let stored = x.iter_mut().zip(mass).zip(&heat);
             stored.for_each(|((x, mass), heat)| {
@@ -113,8 +207,12 @@ impl Newton<'_> {
             if k >= FOLLOWED {
                 grown *= size;
             }
+            let known = grown > FOR_EVER || (k >= 2 * FOLLOWED && grown < GROWTH);
+            if known {
+                break;
+            }
         }
         let most = x.iter().enumerate().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()));
-        most.filter(|_| grown > GROWTH).map(|(place, _)| place)
+        most.filter(|_| grown > FOR_EVER).map(|(place, _)| place)
     }
 }

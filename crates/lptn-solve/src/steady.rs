@@ -14,7 +14,7 @@ use crate::runaway::Runaway;
 use crate::several::{Others, same, start};
 use crate::snapshot::Snapshot;
 use crate::times::just_after;
-use crate::transient::{Way, rest};
+use crate::transient::{FINE, MOVED, ROUGH, Way, rest};
 use crate::unsolved::Unsolved;
 
 /// The temperatures at which nothing is stored any more.
@@ -33,9 +33,6 @@ pub struct SteadyState {
     /// What is known of other steady states with the same inputs.
     pub others: Others,
 }
-
-/// How far from where the network was left it may come to rest, in K.
-const MOVED: f64 = 0.01;
 
 /// How far heat in and heat out of a steady state may differ, relative to the heat turned over.
 const BALANCE: f64 = 1e-9;
@@ -88,12 +85,34 @@ impl SteadyState {
     ///
     /// Unless the form of the network tells that there is one steady state at most, the network is
     /// followed from its start, and the state is the one that it comes to; others are looked for
-    /// from hotter and colder temperatures: see [`SteadyState::others`].
+    /// from hotter and colder temperatures: see [`SteadyState::others`]. Where there are several the
+    /// network is followed with less error.
     ///
     /// # Errors
     /// [`SteadyError`], in particular for nodes without a path to a boundary, and for networks that
     /// cycle.
     pub fn solve(system: &ThermalSystem, time: f64) -> Result<Self, SteadyError> {
+        let first = Self::solve_within(system, time, ROUGH)?;
+        if !matches!(first.others, Others::At(_) | Others::Unstable(_)) {
+            return Ok(first);
+        }
+        match Self::solve_within(system, time, FINE) {
+            Ok(second) if second.others != Others::NotKnown => Ok(second),
+            Err(error @ SteadyError::Runaway { .. }) => Err(error),
+            _ => Ok(first),
+        }
+    }
+
+    /// As [`SteadyState::solve`], with the network followed from its start to one tolerance in K,
+    /// which has to be positive: where it goes is that of a run with this tolerance.
+    ///
+    /// # Errors
+    /// As [`SteadyState::solve`].
+    pub fn solve_within(
+        system: &ThermalSystem,
+        time: f64,
+        tolerance: f64,
+    ) -> Result<Self, SteadyError> {
         let switches = system.network().has_events();
         let found = match switches {
             true => find_consistent(system, time),
@@ -109,7 +128,7 @@ impl SteadyState {
         if decided || unique || system.states().is_empty() {
             return found;
         }
-        match (found, Self::reached(system, time)) {
+        match (found, Self::reached(system, time, tolerance)) {
             (found, Reached::Runs(away)) => {
                 let elsewhere = found.map_or_else(
                     |_| elsewhere(system, time, |work| start(system, work)),
@@ -127,8 +146,8 @@ impl SteadyState {
     }
 
     /// The steady state that the network comes to from its start, if it could be followed there.
-    fn reached(system: &ThermalSystem, time: f64) -> Reached {
-        let rest = match rest(system, time) {
+    fn reached(system: &ThermalSystem, time: f64, tolerance: f64) -> Reached {
+        let rest = match rest(system, time, tolerance) {
             Way::Rests(rest) => rest,
             Way::Left(last) => {
                 let away = Runaway::of(system, (time, &last.positions), &last.temperatures);
@@ -322,11 +341,12 @@ fn stable(
     let start = temperatures.to_vec();
     newton.solve(work, temperatures)?;
     let Some(unknown) = newton.unstable(work, temperatures)? else { return Ok(()) };
+    let swings = newton.swings(work, temperatures)?;
     temperatures.copy_from_slice(&start);
     let settled = newton.settle(work, temperatures);
     match settled.and_then(|()| newton.unstable(work, temperatures)) {
         Ok(None) => Ok(()),
-        _ => Err(NewtonError::Unstable { unknown }),
+        _ => Err(NewtonError::Unstable { unknown, swings }),
     }
 }
 

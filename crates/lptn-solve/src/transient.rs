@@ -28,7 +28,7 @@ use crate::tangent::Tangent;
 use crate::times::{Segment, check_resolution, segments, snap};
 use crate::unsolved::Unsolved;
 
-pub(crate) use rest::{Way, rest};
+pub(crate) use rest::{FINE, MOVED, ROUGH, Way, rest};
 
 impl Transient {
     /// Runs to the stop.
@@ -175,7 +175,7 @@ pub(crate) struct Run<'a> {
     switching: Option<Switching<'a>>,
     /// Steps in a row that were refused before they became so short that they lead nowhere.
     crawled: usize,
-    /// Failed steps in a row in front of a fold.
+    /// Attempts in a row that failed in front of a fold.
     stuck: usize,
     care: Care,
     /// The last time in s and state at which massless nodes of several solutions were seen to stay.
@@ -324,7 +324,6 @@ impl<'a> Run<'a> {
             Ok(step) => step,
             Err(error) => return self.leap_or_fail(segment, error),
         };
-        self.stuck = 0;
         self.check_crawl(step.to - step.from)?;
         let verdict = self.judged(&step)?;
         if verdict == Verdict::Back {

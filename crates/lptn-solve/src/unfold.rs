@@ -8,6 +8,7 @@
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{Enthalpy, Field, InputError, InputProblem, Item};
 
+use crate::between::SHORT;
 use crate::newton::{Newton, NewtonError};
 
 /// Temperatures of all unknowns of a system, from those that are carried.
@@ -44,12 +45,14 @@ impl<'a> Unfold<'a> {
         algebraic.iter_mut().for_each(|newton| newton.guarded = !system.is_monotone());
         let mut temperatures = system.initial();
         let mean = guess(system);
-        // where a solution is the only one, it is found as well from anywhere
+        // where a solution is the only one, it is found as well from where the others are
         let guarded = algebraic.as_ref().is_some_and(|newton| newton.guarded);
-        let stood =
-            |id: &lptn_network::NodeId| network.nodes()[id.index()].stood.filter(|_| guarded);
+        let begins = |id: &lptn_network::NodeId| {
+            let stood = network.nodes()[id.index()].stood.is_some();
+            network.begins(*id).filter(|_| guarded || !stood)
+        };
         temperatures
-            .extend(system.unknowns()[states.len()..].iter().map(|id| stood(id).unwrap_or(mean)));
+            .extend(system.unknowns()[states.len()..].iter().map(|id| begins(id).unwrap_or(mean)));
         let contents = contents.collect();
         Ok(Self {
             system,
@@ -128,6 +131,12 @@ impl<'a> Unfold<'a> {
         let states = self.system.states().len();
         self.temperatures[states..].copy_from_slice(algebraic);
         self.leaps = false;
+    }
+
+    /// Whether the algebraic unknowns are elsewhere than at these temperatures in K by more than
+    /// rounding.
+    pub(crate) fn is_apart(&self, from: &[f64]) -> bool {
+        self.algebraic().iter().zip(from).any(|(a, b)| (a - b).abs() > SHORT)
     }
 
     /// Refuses the solution last found if it is not on one branch with these temperatures of the

@@ -2,7 +2,7 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::FactorError;
-use lptn_network::InputError;
+use lptn_network::{InputError, Item};
 use lptn_units::format_six as six_digits;
 
 use crate::newton::NewtonError;
@@ -14,26 +14,41 @@ pub enum Unsolved {
     /// A value of an element fails.
     Input => Box<InputError>;
     /// Nothing determines the temperature of the node: all heat flows that reach it are zero
-    /// whatever it is.
-    Undetermined { node: String } = "solve::undetermined",
-        format!(
-            "nothing determines the temperature of `{node}` and of the nodes it exchanges heat \
-             with: no heat that leaves them depends on it, as where a stream stands still"
-        ),
-        help format!(
-            "let a path lead from `{node}` to a boundary at all times; with capacities `lptn run` \
-             follows it meanwhile"
-        );
+    /// whatever it is, or an element of this name reads it and does not change with it there.
+    Undetermined { node: String, reader: Option<String> } = "solve::undetermined",
+        match reader {
+            None => format!(
+                "nothing determines the temperature of `{node}` and of the nodes it exchanges heat \
+                 with: no heat that leaves them depends on it, as where a stream stands still"
+            ),
+            Some(reader) => format!(
+                "nothing determines the temperature of `{node}` where the search came to: `{reader}` \
+                 reads it, but does not change with it there, as where a controller is saturated"
+            ),
+        },
+        help match reader {
+            None => format!(
+                "let a path lead from `{node}` to a boundary at all times; with capacities \
+                 `lptn run` follows it meanwhile"
+            ),
+            Some(reader) => format!(
+                "begin where `{reader}` changes with `{node}`, by another `T0`; `lptn run` tells \
+                 whether `{reader}` remains saturated"
+            ),
+        };
     /// The numbers could not be factorised.
     Factorization(error: FactorError) = "solve::singular",
         format!("the balances cannot be factorised: {error}"),
         source error;
     /// Heat in and out are equal at the temperatures found, but the least disturbance leads away
     /// from them.
-    Unstable { node: String } = "solve::unstable",
-        format!("the only steady state that was found is unstable: from the least disturbance on \
-            `{node}` runs away"),
-        help GROWS;
+    Unstable { node: String, swings: bool } = "solve::unstable",
+        format!(
+            "the only steady state that was found is unstable: from the least disturbance on \
+             `{node}` {}",
+            if *swings { "swings more and more" } else { "runs away" }
+        ),
+        help if *swings { SWINGS } else { GROWS };
     /// Heat in and out were equal at temperatures that end here: they are equal elsewhere only, and
     /// without a capacity nothing says how the node gets there.
     Fold { node: String } = "solve::fold",
@@ -57,6 +72,29 @@ pub enum Unsolved {
 }
 }
 
+/// The name of an element that reads the temperature of an unknown without being connected to it.
+fn reader(system: &ThermalSystem, unknown: usize) -> Option<String> {
+    let network = system.network();
+    let node = system.unknowns().get(unknown)?;
+    let reads = |variables: &[u32]| variables.iter().any(|&v| v as usize == node.index());
+    let source = network.source_ids().find(|&id| {
+        let into = &network.sources()[id.index()].into;
+        reads(network.source_variables(id)) && into.iter().all(|(other, _)| other != node)
+    });
+    if let Some(id) = source {
+        return Some(network.name_of(Item::Source(id)).into_owned());
+    }
+    let conductor = network.conductor_ids().find(|&id| {
+        // the first two are its ends
+        let variables = network.conductor_variables(id);
+        reads(variables.get(2..).unwrap_or_default())
+    });
+    conductor.map(|id| network.name_of(Item::Conductor(id)).into_owned())
+}
+
+const SWINGS: &str = "check for a controller that feels a temperature too late for its gain; \
+    `lptn run` shows how far it swings";
+
 const GROWS: &str = "check for a heat that grows faster with temperature than the cooling does";
 
 impl Unsolved {
@@ -67,8 +105,12 @@ impl Unsolved {
         };
         match error {
             NewtonError::Input(error) => Self::Input(Box::new(error)),
-            NewtonError::Singular { unknown } => Self::Undetermined { node: name(unknown) },
-            NewtonError::Unstable { unknown } => Self::Unstable { node: name(unknown) },
+            NewtonError::Singular { unknown } => {
+                Self::Undetermined { node: name(unknown), reader: reader(system, unknown) }
+            }
+            NewtonError::Unstable { unknown, swings } => {
+                Self::Unstable { node: name(unknown), swings }
+            }
             NewtonError::Fold { unknown } => Self::Fold { node: name(unknown) },
             NewtonError::Factorization(error) => Self::Factorization(error),
             NewtonError::Stalled { unknown, change } => {
@@ -82,8 +124,8 @@ impl Unsolved {
         match self {
             Self::Input(error) => &error.name,
             Self::Factorization(_) => "",
-            Self::Undetermined { node }
-            | Self::Unstable { node }
+            Self::Undetermined { node, .. }
+            | Self::Unstable { node, .. }
             | Self::Fold { node }
             | Self::NotFound { node, .. } => node,
         }

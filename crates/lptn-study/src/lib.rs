@@ -35,7 +35,7 @@ pub use rank::{RankError, Ranking, effect};
 pub use record::{LedgerRecord, SiValue, StatisticsRecord};
 pub use size::{
     Aim, Choice, ChoiceTask, Choices, Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask,
-    Demand, Design, Doubt, Judged, LoadCase, Moments, Parts, RunOf, Several, SeveralTask,
+    Demand, Design, Doubt, Edge, Judged, LoadCase, Moments, Parts, RunOf, Several, SeveralTask,
     SizeError, SizeTask, Sizing, Trial, TrialError, Verdict, Watcher, choose, judge, size,
     size_several,
 };

@@ -6,6 +6,8 @@
     reason = "each test file uses a part of it"
 )]
 
+pub mod random;
+
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

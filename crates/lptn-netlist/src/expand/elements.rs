@@ -15,7 +15,8 @@ impl Writer<'_> {
             self.capacity(&mut fields, node.capacity.as_ref(), node.lump.as_ref());
             if node.massless {
                 fields.put("massless", "true");
-            } else if let Some(initial) = &node.initial {
+            }
+            if let Some(initial) = &node.initial {
                 fields.put("T0", value(initial, Type::ABSOLUTE_TEMPERATURE));
             }
             if let Some(length) = &node.length {

@@ -57,16 +57,19 @@ impl<'a> Elaboration<'a> {
         let massless = fields.as_ref().map_or(Some(false), |fields| self.massless(fields));
         let (doubtful, massless) = (massless.is_none(), massless.unwrap_or(false));
         if let (true, None, Some(raw)) = (massless, capacity_at, initial_at) {
-            let message =
-                format!("`T0` of node `{}` has no effect: the node is massless", entry.key);
-            let help =
-                "leave `T0` out: a massless node takes the temperature that its neighbours give it";
+            let message = format!(
+                "`T0` of node `{}` is only where its balance is first tried: the node is massless",
+                entry.key
+            );
+            let help = "leave `T0` out, unless tables do not reach to the other temperatures, or the balance has \
+                 several solutions";
             self.report(Diagnostic::doubt("netlist::massless_initial", message, &raw.span, help));
         }
         let capacity = fields.as_ref().and_then(|fields| self.capacity(fields));
         let own = fields.as_ref().and_then(|fields| self.initial(fields));
         let (initial, in_state) = match self.start_of(entry, massless) {
-            Some((input, place)) => (Some(input), place),
+            Some((input, place)) => (Some(input).filter(|_| !massless), place),
+            None if massless => (own, None),
             None => (own.or_else(|| default.map(|(input, _)| input.clone())), None),
         };
         let id = self.builder.add_node(&entry.key, capacity, initial, massless);

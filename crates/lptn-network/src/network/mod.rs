@@ -104,6 +104,14 @@ impl Network {
         self.numbers.initial[id.index()]
     }
 
+    /// Where the balance of a massless node is first tried, in K: where the node stood in the state that
+    /// a run starts from, or its own `T0`. `None` if neither is known.
+    pub fn begins(&self, id: NodeId) -> Option<f64> {
+        let node = &self.nodes()[id.index()];
+        let given = || node.initial.as_ref()?.at(&mut self.evaluation()).ok();
+        node.stood.or_else(given).filter(|t| t.is_finite() && *t > 0.0)
+    }
+
     /// Conductance of a conductor in W/K; `None` if it is not constant.
     pub fn conductance(&self, id: ConductorId) -> Option<f64> {
         match self.flow(id) {

@@ -1,7 +1,7 @@
 //! Why there is no periodic state.
 
 use lptn_network::{InputError, NodeId, NotPeriodic, list_of_names};
-use lptn_units::{Class, format_six as six_digits};
+use lptn_units::{Class, format_number, format_six as six_digits};
 
 use crate::error::TransientError;
 
@@ -63,9 +63,13 @@ impl PeriodicError {
 
 fn not_periodic(found: &NotPeriodic) -> String {
     let unit = found.unit.as_ref().map_or(String::new(), |unit| format!(" {unit}"));
-    let value =
-        |value: Option<f64>| value.map_or("nothing".into(), |x| format!("{}{unit}", six_digits(x)));
-    let [now, then] = found.values.map(value);
+    let shown = |digits: fn(f64) -> String| {
+        found.values.map(|x| x.map_or("nothing".into(), |x| format!("{}{unit}", digits(x))))
+    };
+    let [now, then] = match shown(six_digits) {
+        [now, then] if now == then => shown(format_number),
+        apart => apart,
+    };
     format!(
         "`{}` does not repeat itself: it is {now} at {} s and {then} one period of {} s later",
         found.name,

@@ -22,7 +22,7 @@ const MARGIN: f64 = 0.1;
 /// The shortest distance to a fold that is looked beyond, as a part of the longest.
 const LEAST: f64 = 1e-3;
 
-/// Failed attempts in a row to get nearer to a fold.
+/// Attempts in a row that fail in front of a fold: steps, and leaps at the end of one.
 const ATTEMPTS: usize = 40;
 
 /// Halvings of a step in search of the fold in it.
@@ -71,19 +71,24 @@ impl Run<'_> {
             state.iter_mut().zip(&ahead).for_each(|(y, ahead)| *y += ahead);
             Ok(run.integrator.system_mut().comes_to((time, &state), &branch))
         };
-        if stands(self, to)? {
+        let Err(reason) = stands(self, to)? else {
+            self.stuck = 0;
             self.recorder.set_branch_ahead(self.integrator.system().algebraic().to_vec());
             return Ok(to);
+        };
+        self.stuck += 1;
+        if self.stuck > ATTEMPTS {
+            return Err(Break::Failed(reason));
         }
         let (mut good, mut bad) = (from, to);
         for _ in 0..BISECTIONS {
             let middle = good + 0.5 * (bad - good);
             match stands(self, middle)? {
-                true => good = middle,
-                false => bad = middle,
+                Ok(()) => good = middle,
+                Err(_) => bad = middle,
             }
         }
-        stands(self, good)?;
+        drop(stands(self, good)?);
         let heat = self.integrator.system_mut();
         heat.failure = None;
         heat.fold = Some(bad);
@@ -166,6 +171,7 @@ impl Run<'_> {
                 state.iter().zip(&rates).map(|(y, rate)| y + ahead * rate).collect();
             if heat.leap((time + ahead, &beyond), (time, &state)) {
                 heat.failure = None;
+                self.stuck = 0;
                 self.integrator.restart(None).map_err(|e| self.failed(e))?;
                 self.enter(Segment { from: time, to: segment.to })?;
                 return Ok(true);

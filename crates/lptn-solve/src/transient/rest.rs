@@ -16,8 +16,12 @@ use crate::state::State;
 use crate::times::{Segment, just_after};
 use crate::transient::{Care, Effort, Run};
 
-/// Tolerance in K: what it decides is which way the network goes, not where it comes to rest.
-const TOLERANCE: f64 = 1e-4;
+/// Tolerance in K of a first look: what it decides is which way the network goes, not where it comes
+/// to rest.
+pub(crate) const ROUGH: f64 = 1e-4;
+
+/// The same where there are several ways.
+pub(crate) const FINE: f64 = 1e-8;
 
 /// Longer than any network takes, in s.
 const FOR_EVER: f64 = 1e12;
@@ -33,6 +37,9 @@ const SLOW: f64 = 0.1;
 
 /// So near to where it rests, in K, a network goes there.
 const NEAR: f64 = 1e-3;
+
+/// How far from where the network was left it may come to rest, in K.
+pub(crate) const MOVED: f64 = 0.01;
 
 /// Steps between two looks at whether it rests.
 const EVERY: usize = 4;
@@ -58,14 +65,14 @@ pub(crate) enum Way {
     Lost,
 }
 
-/// Follows a network from its start with its inputs as they are at `time` in s.
-pub(crate) fn rest(system: &ThermalSystem, time: f64) -> Way {
-    followed(system, time).unwrap_or(Way::Lost)
+/// Follows a network from its start with its inputs as they are at `time` in s, to a tolerance in K.
+pub(crate) fn rest(system: &ThermalSystem, time: f64, tolerance: f64) -> Way {
+    followed(system, time, tolerance).unwrap_or(Way::Lost)
 }
 
-fn followed(system: &ThermalSystem, time: f64) -> Option<Way> {
+fn followed(system: &ThermalSystem, time: f64, tolerance: f64) -> Option<Way> {
     let mut newton = Newton::new(system, (0..system.unknowns().len()).collect()).ok()?;
-    let (segment, mut run) = Run::held(system, time)?;
+    let (segment, mut run) = Run::held(system, time, tolerance)?;
     run.begin(segment, true).ok()?;
     let mut before = run.unknowns()?;
     for step in 1..=STEPS {
@@ -95,13 +102,13 @@ fn followed(system: &ThermalSystem, time: f64) -> Option<Way> {
 
 impl<'a> Run<'a> {
     /// A run that writes nothing and has the inputs of one time for ever, with its one segment.
-    fn held(system: &'a ThermalSystem, time: f64) -> Option<(Segment, Self)> {
+    fn held(system: &'a ThermalSystem, time: f64, tolerance: f64) -> Option<(Segment, Self)> {
         let segment = Segment { from: time, to: time + FOR_EVER };
         let settings = Transient {
             start: segment.from,
             stop: segment.to,
             output: OutputTimes::At(vec![segment.to]),
-            tolerance: TOLERANCE,
+            tolerance,
             record: RecordedNodes::Nodes(Vec::new()),
             ..Transient::until(lptn_network::Time(segment.to))
         };
@@ -139,6 +146,13 @@ impl<'a> Run<'a> {
             .factorize(work, temperatures, 0.0)
             .and_then(|()| newton.correction(work, temperatures))
             .is_ok_and(|correction| largest(&correction) <= NEAR);
-        Some(near && matches!(newton.unstable(work, temperatures), Ok(None)))
+        if !near || !matches!(newton.unstable(work, temperatures), Ok(None)) {
+            return Some(false);
+        }
+        // beside the end of two steady states that meet a network all but rests, and goes on
+        let mut found = temperatures.to_vec();
+        let solved = newton.damped(work, &mut found).is_ok();
+        let there = solved && newton.moved(temperatures, &found) <= MOVED;
+        Some(there && matches!(newton.unstable(work, &found), Ok(None)))
     }
 }

@@ -23,12 +23,15 @@ use crate::uncertainty::{Inputs, Uncertain};
 const FINE: f64 = 1e-9;
 
 /// How well a design is judged; steady states are always refined to rounding.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Care {
     /// To the tolerance of the run.
     Look,
     /// As well as a run can be.
     Proof,
+    /// As a run with this tolerance in K comes out, steady states as one that follows the network
+    /// from its start.
+    Within(f64),
 }
 
 /// The error of a run is so many tolerances.
@@ -264,6 +267,26 @@ impl<'a> Judge<'a> {
         found.map_err(|error| failed(TrialError::Objective(error)))
     }
 
+    /// The temperatures of the nodes in K in steady state in each load case.
+    pub(crate) fn states(
+        &self,
+        design: &[(ParameterId, f64)],
+        time: f64,
+    ) -> Result<Vec<Vec<f64>>, TrialError> {
+        let state = |set: &[(ParameterId, f64)]| {
+            let mut parameters = self.base.given();
+            set.iter().chain(design).for_each(|(id, value)| parameters.set(*id, *value));
+            let network = self.base.with(&parameters).map_err(TrialError::Network)?;
+            let system = ThermalSystem::assemble(&network)?;
+            let steady = SteadyState::solve(&system, time).map_err(TrialError::Steady)?;
+            Ok(steady.state.temperatures)
+        };
+        match self.demand.cases {
+            [] => Ok(vec![state(&[])?]),
+            cases => cases.iter().map(|case| state(&case.set)).collect(),
+        }
+    }
+
     fn in_case(
         &self,
         (design, case): (&[(ParameterId, f64)], &LoadCase),
@@ -276,20 +299,27 @@ impl<'a> Judge<'a> {
         self.count.fetch_add(1, Ordering::Relaxed);
         let settings = |of: &RunOf<'_>| {
             let run = of(&network).map_err(TrialError::Settings)?;
-            let tolerance =
-                if care == Care::Proof { run.tolerance.min(FINE) } else { run.tolerance };
+            let tolerance = match care {
+                Care::Look => run.tolerance,
+                Care::Proof => run.tolerance.min(FINE),
+                Care::Within(tolerance) => tolerance.max(run.tolerance),
+            };
             Ok::<_, TrialError>(RunSettings { tolerance, ..run })
         };
         match self.demand.moments {
-            Moments::Steady(time) => self.steady(&network, time),
+            Moments::Steady(time) => self.steady(&network, (time, care)),
             Moments::Run(of) => self.run(&network, &settings(of)?),
             Moments::Periodic(of) => self.cycle(&network, &settings(of)?),
         }
     }
 
-    fn steady(&self, network: &Network, time: f64) -> Result<Judged, TrialError> {
+    fn steady(&self, network: &Network, (time, care): (f64, Care)) -> Result<Judged, TrialError> {
         let system = ThermalSystem::assemble(network)?;
-        let steady = SteadyState::solve(&system, time).map_err(TrialError::Steady)?;
+        let steady = match care {
+            Care::Within(tolerance) => SteadyState::solve_within(&system, time, tolerance),
+            _ => SteadyState::solve(&system, time),
+        };
+        let steady = steady.map_err(TrialError::Steady)?;
         let mut scope = steady.evaluation(network);
         let margin = |requirement: &Requirement| {
             let failed = |error| TrialError::Requirement { text: requirement.text.clone(), error };

@@ -8,8 +8,8 @@ const MOST_STEPS: usize = 3000;
 pub(crate) type Point = (f64, f64);
 
 /// Narrows a bracket between a point where `f` is not negative and one where it is, to neighbouring
-/// numbers or to a share of their size, and gives the point of the first kind: the last one at
-/// which everything is kept.
+/// numbers or to a share of their size, and gives them: the last one at which everything is kept, and
+/// the first at which something is broken.
 ///
 /// Brent's method: R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 4:
 /// inverse quadratic interpolation or the secant where they make progress, bisection where they do
@@ -21,7 +21,7 @@ pub(crate) fn last_kept<E>(
     kept: Point,
     broken: Point,
     (share, f): (f64, &mut dyn FnMut(f64) -> Result<f64, E>),
-) -> Result<Point, E> {
+) -> Result<[Point; 2], E> {
     let mut bracket = Bracket::new(broken, kept, share);
     for _ in 0..MOST_STEPS {
         bracket.arrange();
@@ -31,7 +31,7 @@ pub(crate) fn last_kept<E>(
         let x = bracket.next();
         bracket.advance((x, f(x)?));
     }
-    Ok(bracket.kept())
+    Ok(bracket.ends())
 }
 
 /// `b` is the best point so far, `a` the one before it, and `c` the last one of the other sign.
@@ -114,8 +114,9 @@ impl Bracket {
         self.b = point;
     }
 
-    fn kept(&self) -> Point {
-        if self.b.1 >= 0.0 { self.b } else { self.c }
+    /// The kept one and the broken one.
+    fn ends(&self) -> [Point; 2] {
+        if self.b.1 >= 0.0 { [self.b, self.c] } else { [self.c, self.b] }
     }
 }
 
@@ -150,7 +151,8 @@ mod tests {
             calls += 1;
             Ok::<f64, Infallible>(f(x))
         };
-        let (x, y) = last_kept((kept, f(kept)), (broken, f(broken)), (0.0, &mut counted)).unwrap();
+        let ends = last_kept((kept, f(kept)), (broken, f(broken)), (0.0, &mut counted)).unwrap();
+        let (x, y) = ends[0];
         assert!(y >= 0.0, "{x} is not kept: {y}");
         (x, calls)
     }

@@ -8,6 +8,7 @@
 use lptn_netlist::Goal;
 use lptn_network::ParameterId;
 
+use crate::size::edge::{Edge, is_not_found};
 use crate::size::error::SizeError;
 use crate::size::judge::{Care, Demand, Judge, Judged, Moments};
 use crate::size::root::{last_kept, norton_guess};
@@ -25,6 +26,9 @@ const GOLDEN_STEPS: usize = 42;
 
 /// Where margins carry the error of a run, values that differ by this share are not told apart.
 const RESOLUTION: f64 = 1e-12;
+
+/// What counts as the worst margin, as a share of its scale, of a value without a steady state.
+const NOT_KEPT: f64 = -1.0;
 
 /// Relative change of the parameter for its sensitivity.
 const NUDGE: f64 = 1e-4;
@@ -56,6 +60,8 @@ pub struct Trial {
 pub enum Verdict {
     /// A requirement binds: beyond the value it is broken.
     Bound,
+    /// A requirement is broken behind an edge, at which the network goes elsewhere.
+    Edge,
     /// The best end of the range keeps every requirement already.
     BestEnd,
     /// No value that was looked at keeps every requirement.
@@ -75,8 +81,10 @@ pub struct Sizing {
     /// Where a requirement breaks again on the far side of the value, in SI units: more is not
     /// always better.
     pub breaks_again: Option<f64>,
+    /// The edge at which the network goes elsewhere, if the verdict is [`Verdict::Edge`].
+    pub edge: Option<Edge>,
     /// Change of the closest requirement's margin, in SI units, for 1 % more of the parameter;
-    /// `None` for a temperature, of which there is no percentage, and for zero.
+    /// `None` for a temperature, of which there is no percentage, for zero, and near an edge.
     pub sensitivity: Option<f64>,
     /// By how much the value may be off, in SI units, since runs are computed to a tolerance: their
     /// error over what the closest margin changes with the value. `None` in steady state, where
@@ -119,8 +127,11 @@ pub fn size(task: &SizeTask<'_>) -> Result<Sizing, SizeError> {
     let search = Search { scale: scales(&scan), trials, scan };
     let found = search.best()?;
     let closest = search.closest(&found.trial);
-    let sensitivity = search.sensitivity(task, &found.trial, closest);
-    let Found { verdict, trial, breaks_again, first_guess } = found;
+    let sensitivity = match found.edge {
+        None => search.sensitivity(task, &found.trial, closest),
+        Some(_) => None,
+    };
+    let Found { verdict, trial, edge, breaks_again, first_guess } = found;
     let error = sensitivity.filter(|_| verdict == Verdict::Bound && trial.judged.error > 0.0);
     let error = error.map(|slope| 0.01 * trial.value.abs() * trial.judged.error / slope.abs());
     let solved = search.trials.judge.count();
@@ -130,6 +141,7 @@ pub fn size(task: &SizeTask<'_>) -> Result<Sizing, SizeError> {
         trial,
         closest,
         breaks_again,
+        edge,
         sensitivity,
         error,
         first_guess,
@@ -167,13 +179,13 @@ fn scales(scan: &[Trial]) -> Vec<f64> {
 }
 
 /// Solves the network again and again.
-struct Trials<'a> {
-    task: &'a SizeTask<'a>,
-    judge: Judge<'a>,
+pub(super) struct Trials<'a> {
+    pub(super) task: &'a SizeTask<'a>,
+    pub(super) judge: Judge<'a>,
 }
 
 impl Trials<'_> {
-    fn with(&self, value: f64, care: Care) -> Result<Trial, SizeError> {
+    pub(super) fn with(&self, value: f64, care: Care) -> Result<Trial, SizeError> {
         let judged = self.judge.judge(&[(self.task.parameter, value)], care)?;
         Ok(Trial { value, judged })
     }
@@ -184,12 +196,12 @@ impl Trials<'_> {
     }
 
     /// As well as it can be known.
-    fn at(&self, value: f64) -> Result<Trial, SizeError> {
+    pub(super) fn at(&self, value: f64) -> Result<Trial, SizeError> {
         self.with(value, Care::Proof)
     }
 
     /// Whether margins are exact to rounding.
-    fn exact(&self) -> bool {
+    pub(super) fn exact(&self) -> bool {
         matches!(self.task.demand.moments, Moments::Steady(_))
     }
 
@@ -200,8 +212,8 @@ impl Trials<'_> {
     }
 }
 
-struct Search<'a> {
-    trials: Trials<'a>,
+pub(super) struct Search<'a> {
+    pub(super) trials: Trials<'a>,
     scan: Vec<Trial>,
     scale: Vec<f64>,
 }
@@ -209,7 +221,24 @@ struct Search<'a> {
 struct Found {
     verdict: Verdict,
     trial: Trial,
+    edge: Option<Edge>,
     breaks_again: Option<f64>,
+    first_guess: Option<f64>,
+}
+
+impl Found {
+    fn without_border(verdict: Verdict, trial: Trial) -> Self {
+        Self { verdict, trial, edge: None, breaks_again: None, first_guess: None }
+    }
+}
+
+/// Where a requirement is broken.
+struct Border {
+    /// The last trial that keeps everything.
+    trial: Trial,
+    /// The first value beyond it.
+    beyond: f64,
+    /// The first guess for it.
     first_guess: Option<f64>,
 }
 
@@ -219,16 +248,16 @@ impl Search<'_> {
     }
 
     /// The least margin as a share of its scale: not negative where everything is kept.
-    fn worst(&self, trial: &Trial) -> f64 {
+    pub(super) fn worst(&self, trial: &Trial) -> f64 {
         self.shares(trial).fold(f64::INFINITY, f64::min)
     }
 
-    fn closest(&self, trial: &Trial) -> usize {
+    pub(super) fn closest(&self, trial: &Trial) -> usize {
         let shares = self.shares(trial).enumerate();
         shares.min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i)
     }
 
-    fn keeps(&self, trial: &Trial) -> bool {
+    pub(super) fn keeps(&self, trial: &Trial) -> bool {
         self.worst(trial) >= 0.0
     }
 
@@ -243,15 +272,12 @@ impl Search<'_> {
         let Some((k, broken, kept)) = first.map_or(Ok(None), |k| self.bracket(k))? else {
             return self.between_the_places();
         };
-        let (verdict, trial, first_guess) = match broken {
-            None => (Verdict::BestEnd, kept, None),
-            Some(broken) => {
-                let (trial, guess) = self.border(&broken, &kept)?;
-                (Verdict::Bound, trial, guess)
-            }
+        let mut found = match broken {
+            None => Found::without_border(Verdict::BestEnd, kept),
+            Some(broken) => self.at_border(&broken, &kept)?,
         };
-        let breaks_again = self.breaks_after(k)?;
-        Ok(Found { verdict, trial, breaks_again, first_guess })
+        found.breaks_again = self.breaks_after(k)?;
+        Ok(found)
     }
 
     /// The first place at which everything is kept, from place `k` on, which a look holds to be it;
@@ -277,9 +303,20 @@ impl Search<'_> {
         Ok(Some((0, None, kept)))
     }
 
-    /// The last trial on the way from `kept` to `broken` that keeps everything, and the first guess
-    /// for it.
-    fn border(&self, broken: &Trial, kept: &Trial) -> Result<(Trial, Option<f64>), SizeError> {
+    /// The last trial on the way from `kept` to `broken` that keeps everything; at an edge one that is
+    /// far enough from it.
+    fn at_border(&self, broken: &Trial, kept: &Trial) -> Result<Found, SizeError> {
+        let Border { trial, beyond, first_guess } = self.border(broken, kept)?;
+        let edge = self.edge(&trial, beyond)?;
+        let (verdict, trial) = match edge {
+            None => (Verdict::Bound, trial),
+            Some(_) => (Verdict::Edge, self.safe((trial, beyond), kept.value)?),
+        };
+        Ok(Found { verdict, trial, edge, breaks_again: None, first_guess })
+    }
+
+    /// The last trial on the way from `kept` to `broken` that keeps everything.
+    fn border(&self, broken: &Trial, kept: &Trial) -> Result<Border, SizeError> {
         let (mut broken, mut kept) = (broken.clone(), kept.clone());
         let middle = self.trials.at(0.5 * (broken.value + kept.value))?;
         let binding = self.closest(&broken);
@@ -295,10 +332,15 @@ impl Search<'_> {
             }
         }
         let point = |trial: &Trial| (trial.value, self.worst(trial));
-        let mut worst = |value| self.trials.at(value).map(|trial| self.worst(&trial));
+        let mut worst = |value| match self.trials.at(value) {
+            // just where two steady states end none is found
+            Err(error) if is_not_found(&error) => Ok(NOT_KEPT),
+            trial => trial.map(|trial| self.worst(&trial)),
+        };
         let resolution = if self.trials.exact() { 0.0 } else { RESOLUTION };
-        let (value, _) = last_kept(point(&kept), point(&broken), (resolution, &mut worst))?;
-        Ok((self.trials.at(value)?, guess))
+        let ends = last_kept(point(&kept), point(&broken), (resolution, &mut worst))?;
+        let [(value, _), (beyond, _)] = ends;
+        Ok(Border { trial: self.trials.at(value)?, beyond, first_guess: guess })
     }
 
     /// Where a requirement breaks behind place `k`, at which everything is kept.
@@ -309,7 +351,7 @@ impl Search<'_> {
         };
         let (kept, broken) = (self.proven(at - 1)?, self.proven(at)?);
         match (self.keeps(&kept), self.keeps(&broken)) {
-            (true, false) => self.border(&broken, &kept).map(|(trial, _)| Some(trial.value)),
+            (true, false) => self.border(&broken, &kept).map(|border| Some(border.trial.value)),
             // the border is there, as nearly as a look can tell
             (false, _) => Ok(Some(kept.value)),
             (true, true) => Ok(Some(broken.value)),
@@ -329,13 +371,11 @@ impl Search<'_> {
         let (low, high) = (&low?, &high?);
         let top = self.top((low.value, high.value), middle?)?;
         if !self.keeps(&top) {
-            let (verdict, breaks_again, first_guess) = (Verdict::Infeasible, None, None);
-            return Ok(Found { verdict, trial: top, breaks_again, first_guess });
+            return Ok(Found::without_border(Verdict::Infeasible, top));
         }
-        let (trial, first_guess) = self.border(low, &top)?;
-        let (behind, _) = self.border(high, &top)?;
-        let breaks_again = Some(behind.value);
-        Ok(Found { verdict: Verdict::Bound, trial, breaks_again, first_guess })
+        let found = self.at_border(low, &top)?;
+        let behind = self.border(high, &top)?.trial;
+        Ok(Found { breaks_again: Some(behind.value), ..found })
     }
 
     /// The best trial between two values that golden section finds; the first that keeps everything

@@ -243,7 +243,7 @@ impl<'a> Search<'a> {
         let mut worst =
             |share: f64| self.at(&way(share), Care::Proof).map(|design| self.worst(&design));
         let ends = ((0.0, self.worst(kept)), (1.0, self.worst(&found.1)));
-        let (share, _) = last_kept(ends.0, ends.1, (1e-13, &mut worst))?;
+        let [(share, _), _] = last_kept(ends.0, ends.1, (1e-13, &mut worst))?;
         let place = way(share);
         let design = self.at(&place, Care::Proof)?;
         Ok((place, design))

@@ -188,10 +188,10 @@ pub(crate) struct Answer<'a> {
 }
 
 impl Answer<'_> {
-    /// The requirement that stops the parameter; `None` where the end of the range does.
+    /// The requirement that stops the parameter; `None` if the end of the range or an edge does.
     pub(crate) fn binding(&self) -> Option<&Requirement> {
         let closest = self.kept.requirement(self.sizing.closest);
-        (self.sizing.verdict != Verdict::BestEnd).then_some(closest)
+        (!matches!(self.sizing.verdict, Verdict::BestEnd | Verdict::Edge)).then_some(closest)
     }
 
     fn closest_unit(&self) -> String {

@@ -3,6 +3,7 @@
 use std::io;
 
 use lptn_netlist::{Goal, Netlist, Over, SizeStudy};
+use lptn_network::Item;
 use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Report, Rows, Standing, Text, TextTable, duration, plain, significant,
@@ -21,6 +22,9 @@ use crate::words::{spaced, unverified};
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;
+
+/// Digits of an edge, which stands beside a value that is near to it.
+const EDGE_DIGITS: usize = 8;
 
 impl Page for Answer<'_> {
     fn text(&self) -> Text {
@@ -80,6 +84,10 @@ impl Page for Answer<'_> {
         json.member("feasible", &sizing.feasible())?;
         json.member("requirements", &requirements)?;
         json.member("over", self.study.over.word())?;
+        if let Some(edge) = &sizing.edge {
+            let beyond = SiValue::new(edge.beyond, &self.kept.unit(edge.broken));
+            json.member("edge", &json!({ "value": scalar(edge.value), "beyond": beyond }))?;
+        }
         json.member("error", &sizing.error.map(scalar))?;
         json.member("sensitivity", &sizing.sensitivity.map(of_margin))?;
         json.member("breaks_again", &sizing.breaks_again.map(scalar))?;
@@ -164,7 +172,7 @@ pub(crate) fn quantity(name: &str, si: f64, unit: &Unit) -> String {
 /// The value, rounded so that what is shown keeps the requirements.
 fn value(answer: &Answer<'_>) -> String {
     let value = answer.unit.from_si(answer.sizing.trial.value);
-    let shown = if answer.sizing.verdict == Verdict::Bound {
+    let shown = if matches!(answer.sizing.verdict, Verdict::Bound | Verdict::Edge) {
         significant(rounded(value, DIGITS, answer.study.goal == Goal::Minimise), DIGITS)
     } else {
         significant(value, DIGITS)
@@ -220,6 +228,7 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
         notes.push(("sensitivity", format!("{change} {unit} of margin for 1 % more {name}")));
     }
     notes.extend(answer.kept.doubt(&sizing.trial.judged).map(|doubt| ("scatter", doubt)));
+    notes.extend(edge(answer).map(|edge| ("edge", edge)));
     if let Some(guess) = sizing.first_guess {
         notes.push((
             "first guess",
@@ -246,11 +255,39 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
     notes
 }
 
+/// Where the network goes elsewhere, and what that does to the requirements.
+fn edge(answer: &Answer<'_>) -> Option<String> {
+    let edge = answer.sizing.edge.as_ref()?;
+    let value = significant(answer.unit.from_si(edge.value), EDGE_DIGITS);
+    let at = format!("{} = {value}{}", answer.name, spaced(&answer.unit.text));
+    let unit = answer.kept.unit(edge.broken);
+    let off = significant(-edge.beyond, 4);
+    let broken = format!("breaks `{}` by {off} {unit}", answer.kept.text(edge.broken));
+    let unit = input::temperature_unit(None, &answer.input.netlist).ok();
+    let Some(((node, [here, there]), unit)) = edge.states.zip(unit) else {
+        return Some(format!("beyond {at} the network goes another way, which {broken}"));
+    };
+    let name = answer.input.netlist.network.name_of(Item::Node(node));
+    let at_once = |kelvin: f64| format!("{} {}", significant(unit.from_si(kelvin), 4), unit.text);
+    Some(format!(
+        "several steady states: up to {at} the network comes to the one with `{name}` at {}, beyond \
+         it to one at {}, which {broken}",
+        at_once(here),
+        at_once(there)
+    ))
+}
+
 /// One sentence with the answer.
 pub(crate) fn verdict(answer: &Answer<'_>) -> String {
     let (study, sizing) = (answer.study, &answer.sizing);
     match sizing.verdict {
         Verdict::Bound => format!("{} keeps every requirement", value(answer)),
+        Verdict::Edge => {
+            format!(
+                "{} keeps every requirement; the edge is further away than runs are in error",
+                value(answer)
+            )
+        }
         Verdict::BestEnd => {
             let all =
                 if sizing.breaks_again.is_none() { " and so does the whole range" } else { "" };

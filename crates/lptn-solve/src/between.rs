@@ -1,0 +1,158 @@
+//! Temperatures between two solutions of balances: whether some of them are such that nothing rests
+//! there.
+//!
+//! Balances bend and have corners, so that places at even distances may step over a narrow stretch
+//! at which nothing rests. Between two neighbouring places the heat that is left over changes by the
+//! mean of its slopes there, if it is smooth; where it does not, places are added in the middle.
+
+use lptn_assembly::Workspace;
+
+use crate::newton::{Newton, NewtonError};
+
+/// Places between two solutions at which the balances are always evaluated.
+const PLACES: u32 = 16;
+
+/// Places that may be added.
+const MORE: usize = 96;
+
+/// The change of the heat left over may differ from what the slopes at the two ends predict by so
+/// much of it.
+const BENT: f64 = 0.02;
+
+/// A stretch shorter than this, in K, is rounding and not the end of a branch.
+pub(crate) const SHORT: f64 = 1e-6;
+
+/// The heat that is left over at a place on a straight way, with its slope along the way, both in
+/// W.
+struct Place {
+    share: f64,
+    left: Vec<f64>,
+    slope: Vec<f64>,
+}
+
+impl Place {
+    /// Whether the balances bend between two places more than a parabola does.
+    fn bends(&self, next: &Self) -> bool {
+        let step = next.share - self.share;
+        let changes = self.left.iter().zip(&next.left).map(|(a, b)| b - a);
+        let predicted = self.slope.iter().zip(&next.slope).map(|(a, b)| 0.5 * step * (a + b));
+        let (mut off, mut most) = (0.0_f64, f64::MIN_POSITIVE);
+        for (change, predicted) in changes.zip(predicted) {
+            off = off.max((change - predicted).abs());
+            most = most.max(predicted.abs());
+        }
+        off > BENT * most
+    }
+}
+
+/// A straight way from one set of temperatures to another, all unknowns in K.
+struct Way<'a> {
+    start: &'a [f64],
+    end: &'a [f64],
+    /// How far the one that moves most moves, in K.
+    length: f64,
+    /// Places that may still be added.
+    left: usize,
+}
+
+impl Newton<'_> {
+    /// Refuses a solution between which and `start` there are temperatures at which nothing rests:
+    /// it lies on another branch. What moves moves on a straight line here, so that for one
+    /// massless node this is all there is to find.
+    ///
+    /// # Errors
+    /// [`NewtonError::Fold`]; that a value or the factorisation fails.
+    pub(crate) fn stays(
+        &mut self,
+        work: &mut Workspace,
+        start: &[f64],
+        end: &[f64],
+    ) -> Result<(), NewtonError> {
+        let length = self.free.iter().map(|&i| (end[i] - start[i]).abs()).fold(0.0, f64::max);
+        let mut way = Way { start, end, length, left: MORE };
+        if length > 0.0 {
+            self.rests_along(work, &mut way)?;
+        } else {
+            self.rests_at(work, &way, 1.0)?;
+        }
+        self.factorize(work, end, 0.0)
+    }
+
+    fn rests_along(&mut self, work: &mut Workspace, way: &mut Way<'_>) -> Result<(), NewtonError> {
+        self.linearize(work, way.start)?;
+        let mut before = self.place(work, way, 0.0)?;
+        for place in 1..=PLACES {
+            let share = f64::from(place) / f64::from(PLACES);
+            self.rests_at(work, way, share)?;
+            let next = self.place(work, way, share)?;
+            self.rests_between(work, way, (&before, &next))?;
+            before = next;
+        }
+        Ok(())
+    }
+
+    /// The same between two neighbouring places.
+    fn rests_between(
+        &mut self,
+        work: &mut Workspace,
+        way: &mut Way<'_>,
+        (before, next): (&Place, &Place),
+    ) -> Result<(), NewtonError> {
+        let step = next.share - before.share;
+        if way.left == 0 || step * way.length <= SHORT || !before.bends(next) {
+            return Ok(());
+        }
+        way.left -= 1;
+        let share = before.share + 0.5 * step;
+        self.rests_at(work, way, share)?;
+        let middle = self.place(work, way, share)?;
+        self.rests_between(work, way, (before, &middle))?;
+        self.rests_between(work, way, (&middle, next))
+    }
+
+    /// The temperatures at a place, moved by so many K along the way, or all alike if it has no
+    /// length.
+    fn on(&self, way: &Way<'_>, share: f64, moved: f64) -> Vec<f64> {
+        let mut at = way.end.to_vec();
+        for &i in &self.free {
+            let along = way.end[i] - way.start[i];
+            let unit = if way.length > 0.0 { along / way.length } else { 1.0 };
+            at[i] = way.start[i] + share * along + moved * unit;
+        }
+        at
+    }
+
+    /// # Errors
+    /// [`NewtonError::Fold`] if nothing rests there nor within rounding to one side of it.
+    fn rests_at(
+        &mut self,
+        work: &mut Workspace,
+        way: &Way<'_>,
+        share: f64,
+    ) -> Result<(), NewtonError> {
+        let Some(unknown) = self.unstable(work, &self.on(way, share, 0.0))? else { return Ok(()) };
+        for moved in [-SHORT, SHORT] {
+            if self.unstable(work, &self.on(way, share, moved))?.is_some() {
+                return Err(NewtonError::Fold { unknown });
+            }
+        }
+        self.linearize(work, &self.on(way, share, 0.0))
+    }
+
+    /// What the balances are at a place at which the Jacobian was evaluated last.
+    fn place(
+        &mut self,
+        work: &mut Workspace,
+        way: &Way<'_>,
+        share: f64,
+    ) -> Result<Place, NewtonError> {
+        let at = self.on(way, share, 0.0);
+        self.take_slopes();
+        let along: Vec<f64> = self.free.iter().map(|&i| way.end[i] - way.start[i]).collect();
+        let mut slope = vec![0.0; along.len()];
+        self.pattern.multiply(&self.values, &along, &mut slope);
+        slope.iter_mut().for_each(|slope| *slope = -*slope);
+        let left = self.residual(work, &at)?;
+        Ok(Place { share, left, slope })
+    }
+}

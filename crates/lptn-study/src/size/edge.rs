@@ -1,0 +1,148 @@
+//! Edges: values at which what is left of a requirement jumps, since the network goes elsewhere.
+//!
+//! On which side of an edge a run is hangs on its error. So the answer is a value from which runs of
+//! several tolerances all go the same way.
+
+use lptn_network::NodeId;
+use lptn_solve::{SteadyError, Unsolved};
+
+use crate::size::error::{SizeError, TrialError};
+use crate::size::judge::{Care, Moments};
+use crate::size::search::{Search, Trial};
+
+/// What is left of a requirement jumps if it changes by more than this share of its scale between
+/// neighbouring values.
+const JUMP: f64 = 1e-3;
+
+/// Neighbouring values differ by less than this share.
+const NEIGHBOURS: f64 = 1e-9;
+
+/// Tolerances in K to which the network is followed to a steady state.
+const TOLERANCES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
+
+/// The first distance from an edge that is tried, as a share of the value, and how it grows.
+const FIRST: f64 = 1e-10;
+const FURTHER: f64 = 3.0;
+
+/// The share of the value beyond which no answer is sought behind an edge.
+const FURTHEST: f64 = 1e-6;
+
+/// The most distances.
+const DISTANCES: usize = 24;
+
+/// Where a network goes elsewhere.
+#[derive(Clone, Debug)]
+pub struct Edge {
+    /// The last value of the parameter on the side of the answer, in SI units.
+    pub value: f64,
+    /// The margin in SI units, just beyond it, of the requirement that is broken most there.
+    pub beyond: f64,
+    /// That requirement, by its position among the margins.
+    pub broken: usize,
+    /// In steady state the node whose temperature differs most, with its temperatures in K on the
+    /// side of the answer and beyond.
+    pub states: Option<(NodeId, [f64; 2])>,
+}
+
+/// Whether no steady state was found, which is not an answer about the network.
+pub(super) fn is_not_found(error: &SizeError) -> bool {
+    let SizeError::Trial { error, .. } = error else { return false };
+    matches!(
+        error.as_ref(),
+        TrialError::Steady(SteadyError::Unsolved(
+            Unsolved::NotFound { .. } | Unsolved::Undetermined { .. }
+        ))
+    )
+}
+
+impl Search<'_> {
+    /// The edge between a value that keeps everything and one that does not, if there is one and not
+    /// only a border.
+    pub(super) fn edge(&self, kept: &Trial, broken: f64) -> Result<Option<Edge>, SizeError> {
+        if (broken - kept.value).abs() > NEIGHBOURS * kept.value.abs() {
+            return Ok(None);
+        }
+        let beyond = self.beyond(kept.value, broken)?;
+        if self.worst(kept) - self.worst(&beyond) <= JUMP {
+            return Ok(None);
+        }
+        let closest = self.closest(&beyond);
+        let states = self.states([kept.value, beyond.value]);
+        let margin = beyond.judged.margins[closest];
+        Ok(Some(Edge { value: kept.value, beyond: margin, broken: closest, states }))
+    }
+
+    /// The first trial beyond an edge that has an answer.
+    fn beyond(&self, kept: f64, broken: f64) -> Result<Trial, SizeError> {
+        let mut distance = broken - kept;
+        loop {
+            match self.trials.at(kept + distance) {
+                Err(error) if is_not_found(&error) => distance *= 10.0,
+                other => return other,
+            }
+            if distance.abs() > FURTHEST * kept.abs() {
+                return self.trials.at(kept + distance);
+            }
+        }
+    }
+
+    /// The node whose steady temperature differs most between two values.
+    fn states(&self, values: [f64; 2]) -> Option<(NodeId, [f64; 2])> {
+        let task = self.trials.task;
+        let Moments::Steady(time) = task.demand.moments else { return None };
+        let [here, there] =
+            values.map(|value| self.trials.judge.states(&[(task.parameter, value)], time).ok());
+        let mut most = None;
+        let mut apart = 0.0;
+        for (here, there) in here?.iter().zip(&there?) {
+            for (id, (here, there)) in task.demand.network.node_ids().zip(here.iter().zip(there)) {
+                if (here - there).abs() > apart {
+                    apart = (here - there).abs();
+                    most = Some((id, [*here, *there]));
+                }
+            }
+        }
+        most
+    }
+
+    /// The trial on the way from an edge to `inside` that is twice as far from it as the edges of runs
+    /// of other tolerances are; the one at the edge where they do not differ. Where it is not known how
+    /// far that is, the first that all of them keep.
+    pub(super) fn safe(
+        &self,
+        (at_edge, broken): (Trial, f64),
+        inside: f64,
+    ) -> Result<Trial, SizeError> {
+        let room = inside - at_edge.value;
+        let (mut distance, mut first) = (0.0_f64, None);
+        for k in 0..DISTANCES {
+            if 2.0 * distance.abs() >= room.abs() {
+                break;
+            }
+            let (kept, beyond) = (at_edge.value + distance, at_edge.value - distance);
+            if self.all_runs(kept, true) {
+                first = first.or(Some(kept));
+                let outside = if k == 0 { broken } else { beyond };
+                if self.all_runs(outside, false) {
+                    return self.trials.at(kept + distance);
+                }
+            }
+            distance = match k {
+                0 => (FIRST * at_edge.value.abs()).max(f64::MIN_POSITIVE).copysign(room),
+                _ => FURTHER * distance,
+            };
+        }
+        first.map_or(Ok(at_edge), |value| self.trials.at(value))
+    }
+
+    /// Whether runs of all tolerances keep everything, or none of them does.
+    fn all_runs(&self, value: f64, keep: bool) -> bool {
+        let like = |care: &Care| match self.trials.with(value, *care) {
+            Ok(trial) => self.keeps(&trial) == keep,
+            Err(_) => !keep,
+        };
+        let as_asked = [Care::Look, Care::Proof];
+        let steady = TOLERANCES.map(Care::Within);
+        if self.trials.exact() { steady.iter().all(like) } else { as_asked.iter().all(like) }
+    }
+}
