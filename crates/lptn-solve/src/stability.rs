@@ -6,7 +6,7 @@
 //! the Mathematical Sciences, SIAM 1994, chapter 6, theorem 2.3, conditions I27 and G20), whatever
 //! the capacities are. The same test on `A` with the magnitudes of these entries is sufficient for
 //! any other network (H-matrices, the same, exercise 5.13). Where that leaves it open, the capacities
-//! decide: up to [`DENSE`] unknowns by powers of a step of the trapezoidal rule (`growth.rs`), beyond
+//! decide: up to [`DENSE`] unknowns by powers of a step of the trapezoidal rule (`powers.rs`), beyond
 //! that by following a disturbance in steps of many lengths until it has grown beyond all that a
 //! disturbance that turns and dies does on its way. Massless nodes follow at once; what they follow
 //! rests as long as the determinant of their own balances has not changed its sign.
