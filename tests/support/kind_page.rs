@@ -87,9 +87,9 @@ fn row(kind: Kind, declared: &LawDeclaration) -> String {
     format!(
         "| {of}{}{pair} | {} | {} | {} |",
         keys.join(", "),
-        cell(&declared.equation.to_string()),
-        cell(&holds(declared).to_string()),
-        cell(&source(declared).to_string())
+        cell(declared.equation),
+        cell(&holds(declared)),
+        cell(&source(declared))
     )
 }
 

@@ -66,7 +66,7 @@ fn of_code(code: &str, help: &str, text: &str, place: &Range<usize>) -> Option<F
         }
         None if name(code) && help.starts_with("did you mean") => {
             let part = place.clone();
-            let quote = text[part.clone()].starts_with('"').then_some("\"").unwrap_or_default();
+            let quote = if text[part.clone()].starts_with('"') { "\"" } else { "" };
             Some(Fix { part, text: format!("{quote}{code}{quote}") })
         }
         _ => None,
