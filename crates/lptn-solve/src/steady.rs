@@ -69,8 +69,8 @@ impl std::ops::Index<NodeId> for SteadyState {
 
 impl SteadyState {
     /// The margin of each limit in SI units, positive while it is kept, zero where a temperature
-    /// passes it by rounding only, NaN if it cannot be [judged](Network::is_judged); `t` in the limits is `time` in s, that of the steady state's
-    /// inputs.
+    /// passes it by rounding only, NaN if it cannot be [judged](Network::is_judged); `t` in the
+    /// limits is `time` in s, that of the steady state's inputs.
     ///
     /// # Errors
     /// [`InputError`] if a limit cannot be evaluated.
