@@ -67,7 +67,7 @@ impl Transient {
         let mut care = Care::Untried;
         loop {
             if let Some(solution) = self.attempt(system, from, (care, &mut *observer))? {
-                return solution.closed();
+                return closed(solution);
             }
             if !self.sensitivities.is_empty() {
                 return Err(TransientError::Settings(SettingsError::Sensitivity(
@@ -104,6 +104,17 @@ impl Transient {
                 .map(Some);
         }
         Run::new(recorder, (segments[0], curved), (self, care), from)?.through(&segments, observer)
+    }
+}
+
+/// A run, if it did not reach its stop or its energy balance closes: of what was interrupted nobody
+/// claims that.
+fn closed(solution: Solution) -> Result<Solution, TransientError> {
+    match solution.ledger().check() {
+        Err(open) if solution.end() == RunStatus::Reached => {
+            Err(TransientError::Open { open, solution: Box::new(solution) })
+        }
+        _ => Ok(solution),
     }
 }
 
