@@ -386,8 +386,8 @@ fn unbalanced() -> Folder {
         "P = { t = [0, 50], v = [0, 1], t_unit = 's', v_unit = 'W', interp = 'previous', after_end = \
          'repeat', period = '100 s' }\n",
     );
-    let (before, rest) = settled.split_once("[infer.i]").unwrap();
-    let (_, after) = rest.split_once("[sweep.w]").unwrap();
+    let (before, rest) = settled.split_once("[infer.i]").expect("it infers");
+    let (_, after) = rest.split_once("[sweep.w]").expect("it sweeps");
     folder.write("cycle.toml", &format!("{before}[sweep.w]{after}"));
     folder
 }

@@ -10,6 +10,7 @@
 mod adiabatic;
 mod adjoint;
 mod balance;
+mod beside;
 mod between;
 mod branch;
 mod cells;

@@ -2,17 +2,16 @@
 
 use std::ops::Range;
 
-use lptn_assembly::{ChangeError, ThermalSystem};
+use lptn_assembly::ThermalSystem;
 use lptn_integrate::Statistics;
 use lptn_network::{
-    BoundaryId, ConductorId, ControlId, HeatOf, InputError, LimitId, Network, NodeId, ParameterId,
-    Positions, Received, ReportId, SignalId, SourceId, Value, same_time,
+    BoundaryId, ConductorId, ControlId, HeatOf, Network, NodeId, ParameterId, Positions, Received,
+    ReportId, SignalId, SourceId, Value, same_time,
 };
 
 use crate::balance::Balance;
 use crate::columns::Columns;
 use crate::curved::MOST_REMEMBERED;
-use crate::error::TransientError;
 use crate::events::{ControlState, Event, EventKind};
 use crate::extremes::Extremes;
 use crate::growth::TELLING;
@@ -215,60 +214,6 @@ impl Solution {
         values
     }
 
-    /// The same where a parameter has another value, and every temperature has changed with it as
-    /// its sensitivity says: of that, only the first order in the change means anything.
-    ///
-    /// # Errors
-    /// [`ChangeError`] where the network does not take the value.
-    pub(crate) fn result_beside(
-        &self,
-        value: &Value,
-        changed: (ParameterId, f64),
-    ) -> Result<Vec<f64>, ChangeError> {
-        let mut values = Vec::with_capacity(self.times.len());
-        self.replay_beside(changed, 0..self.times.len(), |at| values.push(at.result(value)))?;
-        Ok(values)
-    }
-
-    /// The margin of a limit in a row, in SI units; NaN unless every node was recorded.
-    pub(crate) fn margin_in_row(&self, limit: LimitId, row: usize) -> Result<f64, InputError> {
-        let mut margin = Ok(f64::NAN);
-        self.replay_rows(row..row + 1, |at| margin = at.margin(limit));
-        margin
-    }
-
-    /// The same beside it, as [`Solution::result_beside`] has results.
-    pub(crate) fn margin_beside(
-        &self,
-        (limit, row): (LimitId, usize),
-        changed: (ParameterId, f64),
-    ) -> Result<Result<f64, InputError>, ChangeError> {
-        let mut margin = Ok(f64::NAN);
-        self.replay_beside(changed, row..row + 1, |at| margin = at.margin(limit))?;
-        Ok(margin)
-    }
-
-    fn replay_beside(
-        &self,
-        (parameter, to): (ParameterId, f64),
-        rows: Range<usize>,
-        visit: impl FnMut(&mut Replay<'_>),
-    ) -> Result<(), ChangeError> {
-        let network = self.network();
-        let by = to - network.parameter_value(parameter);
-        let mut changed = network.given();
-        changed.set(parameter, to);
-        let system = self.system.with(&changed)?;
-        let slopes: Vec<Option<Vec<f64>>> =
-            self.recorded.iter().map(|&node| self.sensitivity(parameter, node)).collect();
-        let moved = |row: usize, column: usize| {
-            let slope = slopes[column].as_ref().map_or(f64::NAN, |slopes| slopes[row]);
-            self.row(row)[column] + by * slope
-        };
-        self.replay_as((&system, &moved), rows, visit);
-        Ok(())
-    }
-
     /// Temperatures and heat flows at a row; `None` unless every node was recorded.
     ///
     /// # Panics
@@ -314,7 +259,7 @@ impl Solution {
     }
 
     /// The same with another system, and temperatures by row and place among the recorded nodes.
-    fn replay_as(
+    pub(crate) fn replay_as(
         &self,
         (system, temperature): (&ThermalSystem, &dyn Fn(usize, usize) -> f64),
         rows: Range<usize>,
@@ -384,17 +329,6 @@ impl Solution {
     /// The energy ledger from the start to the end that was reached.
     pub fn ledger(&self) -> &Ledger {
         &self.ledger
-    }
-
-    /// Itself, if it reached its stop and its energy balance closes; up to where a run was
-    /// interrupted nobody claims it.
-    pub(crate) fn closed(self) -> Result<Self, TransientError> {
-        match self.ledger.check() {
-            Err(open) if self.end == RunStatus::Reached => {
-                Err(TransientError::Open { open, solution: Box::new(self) })
-            }
-            _ => Ok(self),
-        }
     }
 
     /// The state at the end that was reached, where another run may begin.

@@ -71,7 +71,7 @@ impl Transient {
             let effort = Effort { care, grows };
             if let Some(solution) = self.attempt(system, from, (effort, &mut *observer))? {
                 if grows > 1.0 || !self.can_make_up_for(&solution) {
-                    return solution.closed();
+                    return closed(solution);
                 }
                 grows = solution.growth;
                 continue;
@@ -112,6 +112,17 @@ impl Transient {
         }
         Run::new(recorder, (segments[0], curved), (self, effort), from)?
             .through(&segments, observer)
+    }
+}
+
+/// A run, if it did not reach its stop or its energy balance closes: of what was interrupted nobody
+/// claims that.
+fn closed(solution: Solution) -> Result<Solution, TransientError> {
+    match solution.ledger().check() {
+        Err(open) if solution.end() == RunStatus::Reached => {
+            Err(TransientError::Open { open, solution: Box::new(solution) })
+        }
+        _ => Ok(solution),
     }
 }
 
