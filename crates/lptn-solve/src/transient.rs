@@ -2,6 +2,7 @@
 
 mod failed;
 mod fold;
+mod guarded;
 mod rest;
 
 use lptn_assembly::ThermalSystem;
@@ -12,7 +13,7 @@ use crate::balance::Books;
 use crate::curved::Curved;
 use crate::error::{StopReason, TransientError};
 use crate::events::{Switching, Trouble, find_crossings};
-use crate::growth::{self, Growth};
+use crate::growth::Growth;
 use crate::guard::{Guard, Verdict};
 use crate::heat::Heat;
 use crate::method::Method;
@@ -28,6 +29,7 @@ use crate::tangent::Tangent;
 use crate::times::{Segment, check_resolution, segments, snap};
 use crate::unsolved::Unsolved;
 
+use guarded::Effort;
 pub(crate) use rest::{FINE, MOVED, ROUGH, Way, rest};
 
 impl Transient {
@@ -138,22 +140,6 @@ enum Care {
     Leaps,
     /// Not at all: only where they lead to is asked.
     Way,
-}
-
-/// How much a run has to make up for.
-#[derive(Clone, Copy)]
-struct Effort {
-    care: Care,
-    /// By how much errors grow, as far as that is known.
-    grows: f64,
-}
-
-impl Transient {
-    /// Whether errors of a run grow by more than is borne, and a smaller tolerance makes up for it.
-    fn can_make_up_for(&self, solution: &Solution) -> bool {
-        let needed = growth::share(solution.growth);
-        needed < 1.0 && needed >= self.finest() && solution.end() == RunStatus::Reached
-    }
 }
 
 /// What ends a run before its stop.
@@ -312,10 +298,7 @@ impl<'a> Run<'a> {
     /// Enters a segment, or what an event left of it.
     fn enter(&mut self, segment: Segment) -> Result<(), Break> {
         self.stand()?;
-        self.guard_begins();
-        if let Some(growth) = &mut self.growth {
-            growth.begin(self.integrator.state());
-        }
+        self.begin_to_guard();
         self.recorder.enter(segment, self.switching.as_ref().map(|switching| &switching.positions));
         if self.method == Method::OneStep {
             self.integrator.system_mut().draw_line((segment.from, segment.to));
@@ -376,38 +359,6 @@ impl<'a> Run<'a> {
         self.stand_or_leap(segment)
     }
 
-    /// Says when the next step has to end at the latest, `stop` among other reasons.
-    fn hold_step(&mut self, stop: f64) {
-        let mut stop = stop;
-        if let Some(guard) = &mut self.guard {
-            stop = stop.min(guard.end_of_step(self.integrator.as_mut()));
-        }
-        self.integrator.set_stop(stop);
-        if let Some(curved) = &self.curved {
-            self.integrator.set_longest_step(curved.longest(self.integrator.time()));
-        }
-    }
-
-    /// What is to be done about a step, for the sake of what depends on temperature; a step that
-    /// does not stand is taken back.
-    fn judged(&mut self, step: &Step) -> Result<Verdict, Break> {
-        let Some(guard) = &mut self.guard else { return Ok(Verdict::Stands) };
-        let verdict = guard.judge(self.integrator.as_mut(), step);
-        if verdict == Verdict::Back {
-            self.integrator.rewind(step.from).map_err(|e| self.failed(e))?;
-            self.integrator.system_mut().fold = None;
-            self.guard_begins();
-        }
-        Ok(verdict)
-    }
-
-    /// The integrator begins, anew or for the first time.
-    fn guard_begins(&mut self) {
-        if let Some(guard) = &mut self.guard {
-            guard.begin(self.integrator.as_mut());
-        }
-    }
-
     /// What has to switch inside a step or at its end, and when that is.
     fn crossings(&mut self, step: &Step) -> Result<(Vec<usize>, f64), Break> {
         if self.switching.is_none() {
@@ -434,7 +385,7 @@ impl<'a> Run<'a> {
     }
 
     fn finish(mut self, end: RunStatus) -> Result<Solution, TransientError> {
-        let system = self.recorder.system();
+        let (growth, system) = (self.errors_grow(), self.recorder.system());
         let mut stored = vec![0.0; system.network().nodes().len()];
         let changes = self.integrator.state().iter().zip(&self.initial).zip(system.capacity());
         for (((now, before), capacity), id) in changes.zip(system.states()) {
@@ -451,10 +402,6 @@ impl<'a> Run<'a> {
         let stood = self.recorder.branch().to_vec();
         let end_state = State::of_carried(self.integrator.state().to_vec()).standing(stood);
         let solution = self.recorder.into_solution(books, (statistics, events), end);
-        let growth = self.growth.as_ref().map_or(1.0, Growth::most);
-        // the errors of the steps through something narrow add up too
-        let narrow = self.guard.as_ref().is_some_and(Guard::met_narrow);
-        let growth = if narrow { growth.max(growth::NARROW) } else { growth };
         let (method, made_up) = (Some(self.method), self.grows);
         Ok(Solution { end_state, controls, method, growth, made_up, ..solution })
     }

@@ -248,7 +248,9 @@ fn nothing_narrow_over_temperature_is_passed_unseen() {
     let (mut worst, mut told, mut steps) = (0.0_f64, 0, 0);
     for seed in 1..=cases.unwrap_or(CASES) {
         let mut dice = Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
-        (0..8).for_each(|_| drop(dice.roll()));
+        (0..8).for_each(|_| {
+            dice.roll();
+        });
         let body = Body::random(&mut dice);
         let tolerance = [1e-3, 1e-4, 1e-5][usize::try_from(seed % 3).unwrap()];
         let (error, solution) = error_of(&body, tolerance);
@@ -323,4 +325,110 @@ fn errors_that_grow_are_made_up_for_or_told() {
             Some(other) => panic!("{other:?}"),
         }
     }
+}
+
+/// Nodes in a row, each heated with features of its own temperature and joined by conductances with
+/// features of their mean, the last one to a boundary at 20 degC.
+struct Row {
+    capacities: Vec<f64>,
+    heats: Vec<(f64, Feature)>,
+    conductances: Vec<(f64, Feature)>,
+}
+
+impl Row {
+    fn random(dice: &mut Dice) -> Self {
+        let count = 2 + usize::try_from(dice.one_of(2)).unwrap();
+        let feature = |dice: &mut Dice| {
+            let feature = Feature::random(dice, (25.0, 90.0));
+            Feature { width: feature.width.max(0.5), ..feature }
+        };
+        let capacities = (0..count).map(|_| dice.in_ratio(50.0, 500.0)).collect();
+        let heats = (0..count).map(|_| (dice.between(10.0, 60.0), feature(dice))).collect();
+        let conductances = (0..count).map(|_| (dice.in_ratio(0.5, 4.0), feature(dice))).collect();
+        Self { capacities, heats, conductances }
+    }
+
+    fn network(&self) -> Network {
+        let mut b = NetworkBuilder::new();
+        let features = self.heats.iter().chain(&self.conductances);
+        features.enumerate().for_each(|(k, (_, feature))| feature.add_table(k, &mut b));
+        let air = b.boundary("air", Temperature::celsius(20.0));
+        let start = Temperature::celsius(20.0);
+        let nodes: Vec<_> = (self.capacities.iter().enumerate())
+            .map(|(i, c)| b.node(&format!("n{i}"), HeatCapacity(*c), start))
+            .collect();
+        let count = nodes.len();
+        for (i, (power, feature)) in self.heats.iter().enumerate() {
+            let text = format!("{power:?} [W] * (1 + {})", feature.text(i, "T"));
+            let power = b.expression_in(Context::Source, &text, None).unwrap();
+            b.source(&format!("q{i}"), nodes[i], power);
+        }
+        for (i, (g, feature)) in self.conductances.iter().enumerate() {
+            let text = format!("{g:?} [W/K] * (1 + {})", feature.text(count + i, "T_mean"));
+            let g = Path::conductance(b.expression_in(Context::Link, &text, None).unwrap());
+            match nodes.get(i + 1) {
+                Some(next) => b.resistor(&format!("r{i}"), nodes[i], *next, g),
+                None => b.resistor(&format!("r{i}"), nodes[i], air, g),
+            };
+        }
+        b.build().unwrap()
+    }
+
+    /// Rates in K/s at temperatures in degC.
+    fn rates(&self, celsius: &[f64]) -> Vec<f64> {
+        let mut heat: Vec<f64> = (self.heats.iter().zip(celsius))
+            .map(|((power, feature), t)| power * (1.0 + feature.of(*t)))
+            .collect();
+        for (i, (g, feature)) in self.conductances.iter().enumerate() {
+            let (from, to) = (celsius[i], celsius.get(i + 1).copied().unwrap_or(20.0));
+            let q = g * (1.0 + feature.of(0.5 * (from + to))) * (from - to);
+            heat[i] -= q;
+            heat.get_mut(i + 1).into_iter().for_each(|heat| *heat += q);
+        }
+        heat.iter().zip(&self.capacities).map(|(q, c)| q / c).collect()
+    }
+
+    /// The classical method of Runge and Kutta with a step in s.
+    fn step(&self, celsius: &[f64], step: f64) -> Vec<f64> {
+        let ahead = |rates: &[f64], part: f64| -> Vec<f64> {
+            celsius.iter().zip(rates).map(|(t, rate)| t + part * step * rate).collect()
+        };
+        let k1 = self.rates(celsius);
+        let k2 = self.rates(&ahead(&k1, 0.5));
+        let k3 = self.rates(&ahead(&k2, 0.5));
+        let k4 = self.rates(&ahead(&k3, 1.0));
+        let mean = (0..k1.len()).map(|i| (k1[i] + 2.0 * (k2[i] + k3[i]) + k4[i]) / 6.0);
+        ahead(&mean.collect::<Vec<f64>>(), 1.0)
+    }
+}
+
+#[test]
+fn rows_of_nodes_agree_with_tiny_steps() {
+    const STEPS: usize = 200;
+    let tolerance = 1e-3;
+    let mut worst = 0.0_f64;
+    for seed in 1..=10_u64 {
+        let mut dice = Dice(seed.wrapping_mul(0x2545_F491_4F6C_DD1D) | 1);
+        (0..8).for_each(|_| {
+            dice.roll();
+        });
+        let row = Row::random(&mut dice);
+        let system = ThermalSystem::assemble(&row.network()).unwrap();
+        let run = Transient::until(Time(100.0)).every(Time(1.0)).tolerance(tolerance);
+        let solution = run.solve(&system).unwrap();
+        let columns: Vec<Vec<f64>> = (solution.network().node_ids())
+            .map(|id| solution.temperature(id).unwrap().into_iter().collect())
+            .collect();
+        let mut celsius = vec![20.0; columns.len()];
+        let mut error = 0.0_f64;
+        for k in 1..columns[0].len() {
+            (0..STEPS).for_each(|_| celsius = row.step(&celsius, 1.0 / STEPS as f64));
+            let errors = columns.iter().zip(&celsius).map(|(kelvin, t)| kelvin[k] - ZERO - t);
+            error = errors.fold(error, |most, e| most.max(e.abs() / tolerance));
+        }
+        println!("row {seed}: {error:.2} tolerances, grown {:.2}", solution.growth());
+        assert!(error < FACTOR || !solution.error_is_bounded(), "row {seed}: {error}");
+        worst = worst.max(error);
+    }
+    println!("worst {worst:.2} tolerances");
 }

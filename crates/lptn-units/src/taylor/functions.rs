@@ -102,13 +102,13 @@ impl Taylor {
             });
         }
         match low == 0.0 && exponent > 0.0 {
-            true => self.from_zero(first),
+            true => self.steep_at_zero(first),
             false => Self::unknown(),
         }
     }
 
     /// A power from zero on, which rises or falls as its base does, however steep.
-    fn from_zero(self, value: Interval) -> Self {
+    fn steep_at_zero(self, value: Interval) -> Self {
         let mut power = Self::rough(value);
         let slope = self.slope();
         if slope.low >= 0.0 {

@@ -1,0 +1,76 @@
+//! How a run guards what depends on temperature, and what it makes up for.
+
+use lptn_integrate::Step;
+
+use crate::growth::{self, Growth};
+use crate::guard::{Guard, Verdict};
+use crate::settings::Transient;
+use crate::solution::{RunStatus, Solution};
+use crate::transient::{Break, Care, Run};
+
+/// How much a run has to make up for.
+#[derive(Clone, Copy)]
+pub(super) struct Effort {
+    pub(super) care: Care,
+    /// By how much errors grow, as far as that is known.
+    pub(super) grows: f64,
+}
+
+impl Transient {
+    /// Whether errors of a run grow by more than is borne, and a smaller tolerance makes up for it.
+    pub(super) fn can_make_up_for(&self, solution: &Solution) -> bool {
+        let needed = growth::share(solution.growth);
+        needed < 1.0 && needed >= self.finest() && solution.end() == RunStatus::Reached
+    }
+}
+
+impl Run<'_> {
+    /// Says when the next step has to end at the latest, `stop` among other reasons.
+    pub(super) fn hold_step(&mut self, stop: f64) {
+        let mut stop = stop;
+        if let Some(guard) = &mut self.guard {
+            stop = stop.min(guard.end_of_step(self.integrator.as_mut()));
+        }
+        self.integrator.set_stop(stop);
+        if let Some(curved) = &self.curved {
+            self.integrator.set_longest_step(curved.longest(self.integrator.time()));
+        }
+    }
+
+    /// What is to be done about a step, for the sake of what depends on temperature; a step that
+    /// does not stand is taken back.
+    pub(super) fn judged(&mut self, step: &Step) -> Result<Verdict, Break> {
+        let Some(guard) = &mut self.guard else { return Ok(Verdict::Stands) };
+        let verdict = guard.judge(self.integrator.as_mut(), step);
+        if verdict == Verdict::Back {
+            self.integrator.rewind(step.from).map_err(|e| self.failed(e))?;
+            self.integrator.system_mut().fold = None;
+            self.guard_begins();
+        }
+        Ok(verdict)
+    }
+
+    /// The integrator begins, anew or for the first time.
+    pub(super) fn guard_begins(&mut self) {
+        if let Some(guard) = &mut self.guard {
+            guard.begin(self.integrator.as_mut());
+        }
+    }
+
+    /// The same behind a jump, or for the first time: the speed is another one.
+    pub(super) fn begin_to_guard(&mut self) {
+        self.guard_begins();
+        if let Some(growth) = &mut self.growth {
+            growth.begin(self.integrator.state());
+        }
+    }
+
+    /// By how much errors have grown. Those of the steps through something narrow add up too.
+    pub(super) fn errors_grow(&self) -> f64 {
+        let growth = self.growth.as_ref().map_or(1.0, Growth::most);
+        match self.guard.as_ref().is_some_and(Guard::met_narrow) {
+            true => growth.max(growth::NARROW),
+            false => growth,
+        }
+    }
+}
