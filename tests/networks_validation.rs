@@ -67,6 +67,7 @@ fn the_fan_is_sized_as_its_case_expects() {
     let task = SizeTask {
         demand: Demand {
             network,
+            netlist: &netlist,
             cases: &[],
             requirements: &study.requirements,
             moments: Moments::Steady(0.0),

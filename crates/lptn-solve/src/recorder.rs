@@ -407,6 +407,7 @@ impl<'a> Recorder<'a> {
             tolerance: self.tolerance,
             remembered: self.remembered,
             growth: 1.0,
+            unresolved: None,
             made_up: 1.0,
             sensitivities: self.sensed.map_or_else(SensitivityRows::default, Sensed::into_rows),
             end_state: State::of_carried(Vec::new()),

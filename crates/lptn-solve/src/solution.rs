@@ -83,6 +83,8 @@ pub struct Solution {
     pub(crate) remembered: f64,
     /// By how much errors grow, and how much of it the tolerance of the integrator makes up for.
     pub(crate) growth: f64,
+    /// When a step first stood that passes a bend over temperature, in s.
+    pub(crate) unresolved: Option<f64>,
     pub(crate) made_up: f64,
     pub(crate) end_state: State,
     pub(crate) sensitivities: SensitivityRows,
@@ -372,6 +374,9 @@ impl Solution {
         if steps > MOST_REMEMBERED {
             return Some(Unbounded::LongMemory { steps });
         }
+        if let Some(at) = self.unresolved {
+            return Some(Unbounded::Unresolved { at });
+        }
         if self.growth > TELLING * self.made_up {
             return Some(Unbounded::Grows { factor: self.growth });
         }
@@ -396,6 +401,11 @@ pub enum Unbounded {
     Grows {
         /// By how much at most.
         factor: f64,
+    },
+    /// Steps over a bend of something that reads a temperature could not be made short enough.
+    Unresolved {
+        /// When that was first, in s.
+        at: f64,
     },
     /// What switches decides by itself when it does: an error in the time of one switch is not
     /// forgotten but moves all that follow. There were more of them than the tolerance is tightened

@@ -386,6 +386,7 @@ impl<'a> Run<'a> {
 
     fn finish(mut self, end: RunStatus) -> Result<Solution, TransientError> {
         let (growth, system) = (self.errors_grow(), self.recorder.system());
+        let unresolved = self.guard.as_ref().and_then(Guard::unresolved);
         let mut stored = vec![0.0; system.network().nodes().len()];
         let changes = self.integrator.state().iter().zip(&self.initial).zip(system.capacity());
         for (((now, before), capacity), id) in changes.zip(system.states()) {
@@ -403,6 +404,6 @@ impl<'a> Run<'a> {
         let end_state = State::of_carried(self.integrator.state().to_vec()).standing(stood);
         let solution = self.recorder.into_solution(books, (statistics, events), end);
         let (method, made_up) = (Some(self.method), self.grows);
-        Ok(Solution { end_state, controls, method, growth, made_up, ..solution })
+        Ok(Solution { end_state, controls, method, growth, made_up, unresolved, ..solution })
     }
 }

@@ -52,6 +52,8 @@ pub(crate) struct Guard {
     /// Length of the last step in s; 0 if there is none.
     last: f64,
     attempts: usize,
+    /// When a step first stood that should have been taken back, in s.
+    unresolved: Option<f64>,
 }
 
 /// What is to be done about a step.
@@ -81,6 +83,7 @@ impl Guard {
             fresh: true,
             last: 0.0,
             attempts: 0,
+            unresolved: None,
         })
     }
 
@@ -120,6 +123,11 @@ impl Guard {
         self.turns.were_narrow()
     }
 
+    /// When the guard first gave up on a step, in s.
+    pub(crate) fn unresolved(&self) -> Option<f64> {
+        self.unresolved
+    }
+
     /// What is to be done about the step that was taken last.
     pub(crate) fn judge(&mut self, integrator: &mut Stepping<'_>, step: &Step) -> Verdict {
         let length = step.to - step.from;
@@ -129,11 +137,15 @@ impl Guard {
         };
         self.attempts += 1;
         let patient = self.attempts <= ATTEMPTS;
-        if let Some(share) = self.turns.passed([&self.now, &after]).filter(|_| patient) {
+        let passed = self.turns.passed([&self.now, &after]);
+        if let Some(share) = passed.filter(|_| patient) {
             self.longest = share * length;
             return Verdict::Back;
         }
         let bend = self.corners.bend(integrator, step, ([&self.now, &after], self.fresh));
+        if !patient && (passed.is_some() || matches!(bend, Some(corners::Bend::In { .. }))) {
+            self.unresolved.get_or_insert(step.from);
+        }
         let mut verdict = Verdict::Stands;
         match bend.filter(|_| patient) {
             Some(corners::Bend::In { kink, longest }) => {

@@ -318,6 +318,11 @@ pub(super) fn not_bounded(solution: &Solution) -> Option<String> {
              is carried off; compare with a smaller --tolerance",
             significant(factor, 1)
         ),
+        Unbounded::Unresolved { at } => format!(
+            "a step at {} s passes a bend over temperature that could not be resolved; compare \
+             with a smaller --tolerance",
+            significant(at, 6)
+        ),
         Unbounded::Switches { count } => {
             format!(
                 "each of {count} switches shifts the times of the next ones; compare with a \
