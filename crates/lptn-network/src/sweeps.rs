@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lptn_units::{Degree, Program, Traced};
+use lptn_units::{Degree, Program, Traced, Trend};
 
 use crate::evaluation::Evaluation;
 use crate::id::{ConductorId, Field, Item, SourceId};
@@ -63,6 +63,17 @@ impl Reader {
             Read::Mean(a, b) | Read::Difference(a, b) => holds(a) && holds(b),
         })
     }
+}
+
+/// Whether the form of an expression that reads one number tells that it never turns.
+fn goes_one_way(program: &Program, reads: &[(u32, Read)]) -> bool {
+    let &[(slot, read)] = reads else { return false };
+    let own = match read {
+        Read::Difference(..) => Trend { low: f64::NEG_INFINITY, ..Trend::VARIABLE },
+        Read::One(_) | Read::Mean(..) => Trend::VARIABLE,
+    };
+    let trend = program.trend(&|other| if other == slot { own } else { Trend::HELD });
+    trend.rises || trend.falls
 }
 
 impl Network {
@@ -140,6 +151,7 @@ impl Network {
             slots.into_iter().filter_map(|slot| Some((slot, read(slot)?))).collect();
         let straight = reads.iter().all(|(slot, _)| program.degree_in(*slot) <= Degree::Affine);
         let narrow = !reads.is_empty() && program.may_be_narrow() && !straight;
+        let narrow = narrow && !goes_one_way(program, &reads);
         narrow.then(|| Reader { program: Arc::clone(program), reads, family: None })
     }
 

@@ -28,6 +28,9 @@ pub(crate) type Stepping<'a> = dyn Integrator<Heat<'a>> + 'a;
 /// So many times in a row a step is taken back at most.
 const ATTEMPTS: usize = 40;
 
+/// Steps are not held shorter than this share of the time.
+const ROUNDING: f64 = 512.0 * f64::EPSILON;
+
 /// By how much a step that was held short may grow from one to the next.
 const GROWTH: f64 = 1.5;
 
@@ -115,7 +118,8 @@ impl Guard {
             let scope = integrator.system_mut().scope();
             longest = longest.min(self.turns.longest(course, scope));
         }
-        self.kink.min(time + longest)
+        // the integrator takes a stop that is nearer than its own rounding for reached
+        self.kink.min(time + longest).max(time + ROUNDING * time.abs())
     }
 
     /// Whether something was so narrow that steps would have passed it whole.
@@ -185,9 +189,11 @@ impl Guard {
     }
 
     fn take_rates_at_end(&mut self, integrator: &mut Stepping<'_>, step: &Step, after: &[f64]) {
-        let time = (step.to - END * (step.to - step.from)).clamp(step.from, step.to);
+        let time = step.to - END * (step.to - step.from);
         let mut state = integrator.state().to_vec();
-        if time >= step.to || integrator.interpolate(time, &mut state).is_err() {
+        if !(step.from..step.to).contains(&time)
+            || integrator.interpolate(time, &mut state).is_err()
+        {
             return;
         }
         let before = integrator.system_mut().look(time, &state).map(<[f64]>::to_vec);
