@@ -102,6 +102,9 @@ impl Walk<'_> {
         } else if [from, to].iter().all(|share| self.value(*share).is_nan()) {
             return;
         }
+        if slope.low >= 0.0 && slope.high <= 0.0 {
+            return self.flats.push([from, to]);
+        }
         if slope.low >= 0.0 || slope.high <= 0.0 {
             return self.goes([from, to], slope.low >= 0.0);
         }
