@@ -8,7 +8,7 @@ use lptn_network::{NodeId, Positions};
 
 use crate::balance::Balance;
 use crate::columns::{Columns, Room};
-use crate::error::{StopReason, TransientError};
+use crate::error::TransientError;
 use crate::events::Event;
 use crate::extremes::Extremes;
 use crate::heat::Heat;
@@ -25,6 +25,7 @@ use crate::sensitivity_rows::SensitivityRows;
 use crate::settings::Transient;
 use crate::solution::{RunStatus, Solution};
 use crate::state::State;
+use crate::stop_reason::StopReason;
 use crate::times::Segment;
 use crate::tracked::Tracked;
 use crate::unfold::Unfold;

@@ -17,7 +17,7 @@ use crate::extremes::Extremes;
 use crate::growth::TELLING;
 use crate::last::LastState;
 use crate::ledger::Ledger;
-use crate::limit::LimitSeen;
+use crate::limit_seen::LimitSeen;
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::ranges::OutOfRange;
