@@ -9,7 +9,7 @@ use lptn_network::Positions;
 
 use crate::balance::Books;
 use crate::events::Gates;
-use crate::newton::NewtonError;
+use crate::newton_error::NewtonError;
 use crate::stop_reason::StopReason;
 use crate::tangent::Tangent;
 use crate::unfold::Unfold;

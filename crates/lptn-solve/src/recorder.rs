@@ -16,7 +16,7 @@ use crate::interval::POINTS;
 use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::{LimitWatch, with_limits};
-use crate::newton::NewtonError;
+use crate::newton_error::NewtonError;
 use crate::ranges::RangeWatch;
 use crate::reading::Reading;
 use crate::readings::Readings;

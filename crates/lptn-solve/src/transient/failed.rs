@@ -3,7 +3,7 @@
 use lptn_integrate::{FactorError, IntegrateError};
 
 use super::{Break, Run};
-use crate::newton::NewtonError;
+use crate::newton_error::NewtonError;
 use crate::runaway::Runaway;
 use crate::stop_reason::StopReason;
 use crate::unsolved::Unsolved;
