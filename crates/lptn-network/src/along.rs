@@ -14,7 +14,7 @@ use std::sync::OnceLock;
 use lptn_units::{EvalError, Scalar, Taylor};
 
 use crate::enthalpy::{Capacity, Known, Panel};
-use crate::numbers::content::bends;
+use crate::knots::knots;
 use crate::slot;
 use crate::value::Value;
 
@@ -261,7 +261,7 @@ impl Block {
     /// The panels of a value between two temperatures, where these slots stand.
     fn new(value: &Value, over: [f64; 2], slots: Vec<f64>) -> Self {
         let mut text = Text { value, slots, stack: Vec::new() };
-        let stops = bends(value, &mut text.slots, &mut text.stack);
+        let stops = knots(value, &mut text.slots, &mut text.stack);
         let Known { mut panels, gaps } = Known::between(&mut text, over, &stops);
         let mut integral = 0.0;
         for panel in &mut panels {

@@ -23,6 +23,7 @@ mod error_words;
 mod evaluation;
 mod id;
 mod input_error;
+mod knots;
 mod ladder;
 mod law;
 mod name_index;

@@ -5,7 +5,8 @@ use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{ConductorFlow, End, Network, NodeId};
 
 use crate::error::SteadyError;
-use crate::newton::{Newton, NewtonError};
+use crate::newton::Newton;
+use crate::newton_error::NewtonError;
 use crate::unsolved::Unsolved;
 
 /// Rounds of bringing the energy of every island to what it was at the start; a linear network

@@ -7,7 +7,8 @@
 
 use lptn_assembly::Workspace;
 
-use crate::newton::{Newton, NewtonError};
+use crate::newton::Newton;
+use crate::newton_error::NewtonError;
 
 /// Places between two solutions at which the balances are always evaluated.
 const PLACES: u32 = 16;

@@ -11,7 +11,8 @@
 use lptn_assembly::Workspace;
 use lptn_integrate::Pattern;
 
-use crate::newton::{Newton, NewtonError, largest};
+use crate::newton::{Newton, largest};
+use crate::newton_error::NewtonError;
 
 /// The longest step of a leap in K.
 const STRIDE: f64 = 0.25;

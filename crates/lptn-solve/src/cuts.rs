@@ -1,8 +1,7 @@
 //! The times inside an interval at which curves bend: some quantity passes one of its levels.
 
-use crate::error::StopReason;
-use crate::interval::{Interval, POINTS};
-use crate::resolve::{At, Levels};
+use crate::interval::{At, Interval, POINTS};
+use crate::stop_reason::StopReason;
 use crate::watch::{is_same, top};
 
 /// A quantity that is nearer to a level at an end of an interval than this share of its range
@@ -20,6 +19,15 @@ const ENOUGH: f64 = 1e-14;
 
 /// Looks for the time at which a curve passes a level.
 const MOST_LOOKS: usize = 120;
+
+/// Where curves bend: when a quantity behind the first `count` ones passes one of its levels.
+#[derive(Clone, Copy)]
+pub(crate) struct Levels<'a> {
+    /// How many curves are asked for.
+    pub(crate) count: usize,
+    /// For each of the others its levels, rising.
+    pub(crate) of: &'a [Vec<f64>],
+}
 
 /// A time with the values of all curves there.
 type End = (f64, Vec<f64>);

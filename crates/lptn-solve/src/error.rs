@@ -1,12 +1,13 @@
 //! Why an analysis has no answer.
 
 use lptn_integrate::{FactorError, IntegrateError};
-use lptn_network::{Field, InputError, Item, NodeId, ZERO_CELSIUS, list_of, list_of_names};
+use lptn_network::{Field, InputError, Item, NodeId, list_of, list_of_names};
 use lptn_units::{Class, format_six as six_digits};
 
 use crate::ledger::LedgerError;
 use crate::settings_error::SettingsError;
 use crate::solution::Solution;
+use crate::stop_reason::{COLD, RUNS_AWAY, StopReason, cold, runaway, scales};
 use crate::unsolved::Unsolved;
 
 lptn_units::errors! {
@@ -107,65 +108,6 @@ pub enum TransientError {
 }
 }
 
-lptn_units::errors! {
-/// What broke a run off.
-#[derive(Debug)]
-pub enum StopReason {
-    /// A source or boundary has no value.
-    Input => InputError;
-    /// The balances of massless nodes have no solution.
-    Unsolved => Unsolved;
-    /// A node fell below 0 K: the first such node and its temperature in K.
-    BelowAbsoluteZero { name: String, temperature: f64 } = "solve::below_absolute_zero",
-        cold(name, *temperature),
-        help COLD;
-    /// A comparison of temperatures changes again and again between two rows: with either truth the
-    /// temperatures go to where it is the other one. The element and field it stands in, in words
-    /// and as they are.
-    Chatter { name: String, changes: usize, place: (Item, Field) } = "run::chatter",
-        format!(
-            "a comparison in `{name}` changed {changes} times between two rows: the temperatures \
-             stay where it neither holds nor fails"
-        ),
-        help "give it a dead band: a [control] with `on_above` and `off_below`, or `on_below` and \
-            `off_above`, whose name is 0 or 1 in expressions; or a gradual change, `0.5 * (1 + \
-            tanh((T - 80 [degC]) / 1 [K]))`";
-    /// What switches back and forth at one moment, without time going on: controls by name,
-    /// comparisons by element and field.
-    Restless { names: Vec<String> } = "run::restless",
-        match names.as_slice() {
-            [one] => format!("`{one}` switches back and forth at this very moment"),
-            several => format!(
-                "{} switch back and forth at this very moment",
-                list_of(several, "things")
-            ),
-        },
-        help "switching changes at once what is compared: let a control feel a node with a \
-            capacity, or give it a `min_dwell`";
-    /// More events than a run may have.
-    TooManyEvents { count: usize } = "run::too_many_events",
-        format!("{count} events, more than a run may have"),
-        help "what switches this often is better replaced by its mean, or made slower by \
-            `min_dwell`";
-    /// The network switches, but has no node with a capacity.
-    NothingSwitches = "run::no_capacity",
-        "controls and comparisons of temperatures need a node with a capacity",
-        help "give the nodes that are felt a capacity";
-    /// The heat of a source grows with the temperature of a node faster than the paths carry it
-    /// off, from this temperature in K on.
-    Runaway { node: String, source: String, from: f64 } = "run::runaway",
-        runaway(node, source, *from),
-        help RUNS_AWAY;
-    /// The integrator gave up; the node with the largest error, where that is known.
-    Integrator { error: IntegrateError, node: Option<String> } = "run::integrator",
-        match node {
-            Some(node) => format!("{error} (largest error at node `{node}`)"),
-            None => error.to_string(),
-        },
-        source error;
-}
-}
-
 impl TransientError {
     /// The value that failed, if that is the reason.
     pub fn input(&self) -> Option<&InputError> {
@@ -203,26 +145,4 @@ impl TransientError {
     }
 }
 
-const COLD: &str = "less heat can be taken out than that: check the signs and sizes of the sources";
-
 const MERGE: &str = "replace the largest conductances by merging the nodes they join";
-
-const RUNS_AWAY: &str = "give it a better path to a cooler place, or less heat at the start; where the \
-    heat is limited in fact, say by what: `min(.., ..)`";
-
-fn runaway(node: &str, source: &str, from: f64) -> String {
-    format!(
-        "`{node}` runs away: above {} the heat of `{source}` grows faster with its temperature than \
-         the paths carry it off",
-        scales(from)
-    )
-}
-
-/// A temperature in degC and in K.
-fn scales(kelvin: f64) -> String {
-    format!("{} degC ({} K)", six_digits(kelvin - ZERO_CELSIUS), six_digits(kelvin))
-}
-
-fn cold(name: &str, temperature: f64) -> String {
-    format!("node `{name}` is below absolute zero: {} K", six_digits(temperature))
-}

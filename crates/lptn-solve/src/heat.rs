@@ -8,9 +8,9 @@ use lptn_integrate::{OdeSystem, Pattern, Retry};
 use lptn_network::Positions;
 
 use crate::balance::Books;
-use crate::error::StopReason;
 use crate::events::Gates;
-use crate::newton::NewtonError;
+use crate::newton_error::NewtonError;
+use crate::stop_reason::StopReason;
 use crate::tangent::Tangent;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;

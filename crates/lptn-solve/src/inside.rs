@@ -5,7 +5,8 @@ use lptn_assembly::Workspace;
 use lptn_network::{InputError, InputProblem, Item};
 use lptn_units::EvalError;
 
-use crate::newton::{Newton, NewtonError};
+use crate::newton::Newton;
+use crate::newton_error::NewtonError;
 
 /// Values that are brought into their range, one after the other.
 const ROUNDS: usize = 200;

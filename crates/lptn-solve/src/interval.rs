@@ -1,7 +1,10 @@
 //! Several curves over an interval, by their values at a few points of it.
 
-use crate::error::StopReason;
-use crate::resolve::At;
+use crate::stop_reason::StopReason;
+
+/// Evaluates all curves at a time: those that are asked for, then the quantities that tell where
+/// they bend.
+pub(crate) type At<'a> = dyn FnMut(f64) -> Result<Vec<f64>, StopReason> + 'a;
 
 /// Nodes and weights of the Gauss-Legendre rule of order 10 on (-1, 1)
 /// (Abramowitz and Stegun, Handbook of Mathematical Functions, table 25.4, n = 5).

@@ -2,13 +2,13 @@
 
 use lptn_network::Bends;
 
-use crate::cuts::{passing, points};
-use crate::error::StopReason;
+use crate::cuts::{Levels, passing, points};
 use crate::hidden::Hidden;
-use crate::interval::Interval;
-use crate::limit::{LimitSeen, Point};
+use crate::interval::{At, Interval};
+use crate::limit_seen::{LimitSeen, Point};
 use crate::quadrature::{AGREEMENT, Halvings, ROUNDING};
-use crate::resolve::{At, Judged, Levels, Resolved, resolve};
+use crate::resolve::{Judged, Resolved, resolve};
+use crate::stop_reason::StopReason;
 use crate::watch::{is_same, top};
 
 /// How often the valley of a margin is approached by another parabola.

@@ -14,7 +14,7 @@ use lptn_network::{
     NoMaterial, NodeId,
 };
 
-use crate::newton::NewtonError;
+use crate::newton_error::NewtonError;
 use crate::solution::Solution;
 use crate::times::just_after;
 use crate::unfold::Unfold;

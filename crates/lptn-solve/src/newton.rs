@@ -10,40 +10,8 @@
 use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::linear::{self, Factorization};
 use lptn_integrate::{FactorError, Pattern};
-use lptn_network::InputError;
 
-/// Why balances could not be solved.
-#[derive(Clone, Debug)]
-pub(crate) enum NewtonError {
-    /// A value of an element fails.
-    Input(InputError),
-    /// Nothing determines the temperature of an unknown.
-    Singular {
-        /// The unknown.
-        unknown: usize,
-    },
-    /// No memory, or another failure of the factorisation.
-    Factorization(FactorError),
-    /// The balances hold, but the least disturbance leads away from there.
-    Unstable {
-        /// The unknown that moves most.
-        unknown: usize,
-        /// Whether it swings from one side to the other.
-        swings: bool,
-    },
-    /// The solution that was followed ends here: beyond, the balances have another one, elsewhere.
-    Fold {
-        /// The unknown that cannot go on.
-        unknown: usize,
-    },
-    /// No solution was found.
-    Stalled {
-        /// The unknown that still moved most.
-        unknown: usize,
-        /// By how much in K.
-        change: f64,
-    },
-}
+use crate::newton_error::NewtonError;
 
 /// Corrections below this, in K, are the last: near 300 K the last digit is 6e-14 K.
 pub(crate) const SMALL: f64 = 1e-9;

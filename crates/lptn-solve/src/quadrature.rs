@@ -2,10 +2,11 @@
 
 use lptn_network::Bends;
 
-use crate::error::StopReason;
+use crate::cuts::Levels;
 use crate::hidden::Hidden;
-use crate::interval::Interval;
-use crate::resolve::{At, Judged, Levels, Resolved, resolve};
+use crate::interval::{At, Interval};
+use crate::resolve::{Judged, Resolved, resolve};
+use crate::stop_reason::StopReason;
 
 /// The two rules agree to this share of the integral of the absolute value, or the interval is
 /// halved.

@@ -1,12 +1,8 @@
 //! Cuts an interval until the points of every part tell what curves do between them.
 
-use crate::cuts::cuts;
-use crate::error::StopReason;
-use crate::interval::Interval;
-
-/// Evaluates all curves at a time: those that are asked for, then the quantities that tell where
-/// they bend.
-pub(crate) type At<'a> = dyn FnMut(f64) -> Result<Vec<f64>, StopReason> + 'a;
+use crate::cuts::{Levels, cuts};
+use crate::interval::{At, Interval};
+use crate::stop_reason::StopReason;
 
 /// Parts into which bends may cut one interval.
 const MOST_CUTS: usize = 4096;
@@ -14,15 +10,6 @@ const MOST_CUTS: usize = 4096;
 /// A part of an interval that is as short as this share of it is not halved any more: what jumps
 /// there is known to rounding.
 const SHORTEST: f64 = 1e-13;
-
-/// Where curves bend: when a quantity behind the first `count` ones passes one of its levels.
-#[derive(Clone, Copy)]
-pub(crate) struct Levels<'a> {
-    /// How many curves are asked for.
-    pub(crate) count: usize,
-    /// For each of the others its levels, rising.
-    pub(crate) of: &'a [Vec<f64>],
-}
 
 /// A part of an interval, and whether its points tell what curves are between them.
 pub(crate) struct Resolved {

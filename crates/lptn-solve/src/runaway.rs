@@ -9,10 +9,11 @@
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{Evaluation, NodeId, Positions, SourceId};
 
-use crate::error::{SteadyError, StopReason};
+use crate::error::SteadyError;
 use crate::newton::Newton;
 use crate::several::start;
 use crate::snapshot::Snapshot;
+use crate::stop_reason::StopReason;
 use crate::times::just_after;
 
 /// Parts into which the way to where a network was left is halved.

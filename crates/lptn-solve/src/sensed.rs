@@ -4,7 +4,7 @@ use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{NodeId, ParameterId};
 
 use crate::error::TransientError;
-use crate::newton::NewtonError;
+use crate::newton_error::NewtonError;
 use crate::sensitivity_rows::SensitivityRows;
 use crate::tangent::Tangent;
 use crate::unfold::Unfold;

@@ -17,13 +17,14 @@ use crate::extremes::Extremes;
 use crate::growth::TELLING;
 use crate::last::LastState;
 use crate::ledger::Ledger;
-use crate::limit::LimitSeen;
+use crate::limit_seen::LimitSeen;
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::ranges::OutOfRange;
 use crate::replay::Replay;
 use crate::sensitivity_rows::SensitivityRows;
 use crate::snapshot::Snapshot;
+use crate::solution_error::SolutionError;
 use crate::state::State;
 use crate::watch::Watched;
 use crate::window::WindowSeen;
@@ -37,17 +38,6 @@ pub enum RunStatus {
     Interrupted(f64),
     /// It broke off at this time in s; the rows up to then are whole.
     Failed(f64),
-}
-
-lptn_units::errors! {
-/// What a solution cannot answer.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum SolutionError {
-    /// The temperatures of this node were not kept.
-    NotRecorded { name: String } = "solve::not_recorded",
-        format!("the run kept no temperatures of node `{name}`"),
-        help "name the node in `Transient::record`, or leave that out to keep all of them";
-}
 }
 
 /// Temperatures over time, from which heat flows follow. Times increase strictly, one row each.

@@ -13,7 +13,8 @@
 
 use lptn_assembly::Workspace;
 
-use crate::newton::{Newton, NewtonError};
+use crate::newton::Newton;
+use crate::newton_error::NewtonError;
 use crate::powers::Square;
 
 /// Up to so many unknowns nothing is left open.

@@ -5,10 +5,11 @@ use lptn_network::Bends;
 
 use crate::balance::Books;
 use crate::driving::parts_of;
-use crate::error::{StopReason, TransientError};
+use crate::error::TransientError;
 use crate::quadrature::Quadrature;
 use crate::recorder::Recorder;
 use crate::solution::{RunStatus, Solution};
+use crate::stop_reason::StopReason;
 use crate::times::Segment;
 
 /// Looks at every part of the inputs and evaluates every row; what is seen between rows, and the

@@ -3,7 +3,7 @@
 use lptn_assembly::ThermalSystem;
 use lptn_network::NodeId;
 
-use crate::newton::NewtonError;
+use crate::newton_error::NewtonError;
 use crate::solution::Solution;
 use crate::steady::SteadyState;
 use crate::times::just_after;

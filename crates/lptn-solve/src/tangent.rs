@@ -13,7 +13,8 @@ use lptn_integrate::Pattern;
 use lptn_network::{ParameterId, Tangents};
 
 use crate::error::TransientError;
-use crate::newton::{Newton, NewtonError};
+use crate::newton::Newton;
+use crate::newton_error::NewtonError;
 use crate::settings_error::SettingsError;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;

@@ -3,11 +3,11 @@
 use lptn_network::{Bends, Evaluation, Item, Network};
 use lptn_units::Type;
 
-use crate::error::StopReason;
 use crate::interval::{Interval, POINTS};
 use crate::quadrature::Quadrature;
 use crate::quantity::{Quantity, Shown};
 use crate::selection::Selection;
+use crate::stop_reason::StopReason;
 use crate::watch::{LASTS, REFINEMENTS, first_there, is_same, top};
 use crate::window::{ColumnSeen, Window, WindowSeen};
 

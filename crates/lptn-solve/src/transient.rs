@@ -11,7 +11,7 @@ use lptn_network::NoTangents;
 
 use crate::balance::Books;
 use crate::curved::Curved;
-use crate::error::{StopReason, TransientError};
+use crate::error::TransientError;
 use crate::events::{Switching, Trouble, find_crossings};
 use crate::growth::Growth;
 use crate::guard::{Guard, Verdict};
@@ -25,6 +25,7 @@ use crate::solution::{RunStatus, Solution};
 use crate::state::{self, State};
 use crate::stateless;
 use crate::stepper::{Stepper, stepper};
+use crate::stop_reason::StopReason;
 use crate::tangent::Tangent;
 use crate::times::{Segment, check_resolution, segments, snap};
 use crate::unsolved::Unsolved;

@@ -9,7 +9,8 @@ use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{Enthalpy, Field, InputError, InputProblem, Item};
 
 use crate::between::SHORT;
-use crate::newton::{Newton, NewtonError};
+use crate::newton::Newton;
+use crate::newton_error::NewtonError;
 
 /// Temperatures of all unknowns of a system, from those that are carried.
 pub(crate) struct Unfold<'a> {

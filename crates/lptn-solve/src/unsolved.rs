@@ -5,7 +5,7 @@ use lptn_integrate::FactorError;
 use lptn_network::{InputError, Item};
 use lptn_units::format_six as six_digits;
 
-use crate::newton::NewtonError;
+use crate::newton_error::NewtonError;
 
 lptn_units::errors! {
 /// Why balances could not be solved, and the node at which it failed.

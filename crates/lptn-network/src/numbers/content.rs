@@ -9,6 +9,7 @@ use crate::enthalpy::{Capacity, Enthalpy, Latent, NoCurve};
 use crate::error::BuildErrorKind;
 use crate::evaluation::Evaluation;
 use crate::id::{Field, FluidId, Item, NodeId};
+use crate::knots::knots;
 use crate::parts::Parts;
 use crate::slot;
 use crate::value::{Lump, Size, Value};
@@ -26,31 +27,7 @@ fn at(value: &Value, temperature: f64, scope: &mut Evaluation) -> Option<f64> {
 /// temperature.
 fn edges(value: &Value, scope: &mut Evaluation) -> Vec<f64> {
     let (slots, stack) = scope.plain();
-    bends(value, slots, stack)
-}
-
-/// The same where these slots stand.
-pub(crate) fn bends(value: &Value, slots: &mut [f64], stack: &mut Vec<f64>) -> Vec<f64> {
-    let mut edges = Vec::new();
-    for program in value.programs() {
-        for call in program.table_calls() {
-            let (lptn_units::LookupTable::One(table), [argument]) =
-                (&*call.table, &call.arguments[..])
-            else {
-                continue;
-            };
-            // linear in T, so two values tell where it takes that of a knot
-            let mut of = |t: f64| {
-                slots[slot::OWN as usize] = t;
-                argument.eval(slots, stack).ok()
-            };
-            if let (Some(a), Some(b)) = (of(0.0), of(1000.0)) {
-                edges.extend(table.knots().iter().map(|knot| 1000.0 * (knot - a) / (b - a)));
-            }
-        }
-    }
-    edges.retain(|t| t.is_finite() && *t > 0.0);
-    edges
+    knots(value, slots, stack)
 }
 
 /// What the heat contents of many nodes have in common.

@@ -2,8 +2,8 @@
 
 use lptn_integrate::{IntegrateError, Integrator, Step};
 
-use crate::error::StopReason;
 use crate::heat::Heat;
+use crate::stop_reason::StopReason;
 
 /// An integrator on the way.
 type Stepping<'a> = dyn Integrator<Heat<'a>> + 'a;

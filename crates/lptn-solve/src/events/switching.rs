@@ -3,9 +3,9 @@
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Network, Positions};
 
-use crate::error::StopReason;
 use crate::events::{ControlState, Event, EventKind, Gates};
 use crate::heat::Heat;
+use crate::stop_reason::StopReason;
 
 /// The most rounds in which what switches makes other things switch at one moment.
 const ROUNDS: usize = 64;

@@ -1,9 +1,9 @@
 //! What is looked at between the rows: watched nodes, limits and windows.
 
 use super::{Recorder, StateAt};
-use crate::error::StopReason;
 use crate::interval::{Interval, POINTS, time_of};
 use crate::readings::pieces;
+use crate::stop_reason::StopReason;
 
 /// Nodes that are placed to find the tops of watched ones in a step: where there are more of both,
 /// what the points of the step tell is taken for it.

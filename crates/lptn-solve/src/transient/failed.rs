@@ -3,9 +3,9 @@
 use lptn_integrate::{FactorError, IntegrateError};
 
 use super::{Break, Run};
-use crate::error::StopReason;
-use crate::newton::NewtonError;
+use crate::newton_error::NewtonError;
 use crate::runaway::Runaway;
+use crate::stop_reason::StopReason;
 use crate::unsolved::Unsolved;
 
 /// Steps shorter than this part of the run, each after others that were refused, get nowhere ..

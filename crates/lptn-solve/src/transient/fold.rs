@@ -6,7 +6,7 @@
 
 use lptn_integrate::{IntegrateError, OdeSystem};
 
-use crate::error::StopReason;
+use crate::stop_reason::StopReason;
 use crate::times::Segment;
 use crate::transient::{Break, Care, Run};
 use crate::unsolved::Unsolved;

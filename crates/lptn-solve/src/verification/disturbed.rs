@@ -5,10 +5,11 @@ use lptn_integrate::{OdeSystem, Pattern, Retry};
 
 use super::error::NearError;
 use crate::balance::Books;
-use crate::error::{StopReason, TransientError};
+use crate::error::TransientError;
 use crate::heat::Heat;
 use crate::snapshot::Snapshot;
 use crate::state::State;
+use crate::stop_reason::StopReason;
 use crate::times::just_after;
 use crate::unsolved::Unsolved;
 

@@ -2,9 +2,10 @@
 
 use lptn_network::InputError;
 
-use crate::error::{StopReason, TransientError};
+use crate::error::TransientError;
 use crate::linearised::LinearisedError;
 use crate::modes::ModesError;
+use crate::stop_reason::StopReason;
 
 lptn_units::errors! {
 /// Why a network near a state cannot be compared with its linear one.

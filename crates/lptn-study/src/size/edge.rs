@@ -4,11 +4,11 @@
 //! several tolerances all go the same way.
 
 use lptn_network::NodeId;
-use lptn_solve::{SteadyError, Unsolved};
 
-use crate::size::error::{SizeError, TrialError};
+use crate::size::answer::{Edge, Trial};
+use crate::size::error::SizeError;
 use crate::size::judge::{Care, Moments};
-use crate::size::search::{Search, Trial};
+use crate::size::search::Search;
 
 /// What is left of a requirement jumps if it changes by more than this share of its scale between
 /// neighbouring values.
@@ -29,31 +29,6 @@ const FURTHEST: f64 = 1e-6;
 
 /// The most distances.
 const DISTANCES: usize = 24;
-
-/// Where a network goes elsewhere.
-#[derive(Clone, Debug)]
-pub struct Edge {
-    /// The last value of the parameter on the side of the answer, in SI units.
-    pub value: f64,
-    /// The margin in SI units, just beyond it, of the requirement that is broken most there.
-    pub beyond: f64,
-    /// That requirement, by its position among the margins.
-    pub broken: usize,
-    /// In steady state the node whose temperature differs most, with its temperatures in K on the
-    /// side of the answer and beyond.
-    pub states: Option<(NodeId, [f64; 2])>,
-}
-
-/// Whether no steady state was found, which is not an answer about the network.
-pub(super) fn is_not_found(error: &SizeError) -> bool {
-    let SizeError::Trial { error, .. } = error else { return false };
-    matches!(
-        error.as_ref(),
-        TrialError::Steady(SteadyError::Unsolved(
-            Unsolved::NotFound { .. } | Unsolved::Undetermined { .. }
-        ))
-    )
-}
 
 impl Search<'_> {
     /// The edge between a value that keeps everything and one that does not, if there is one and not
@@ -77,7 +52,7 @@ impl Search<'_> {
         let mut distance = broken - kept;
         loop {
             match self.trials.at(kept + distance) {
-                Err(error) if is_not_found(&error) => distance *= 10.0,
+                Err(error) if error.is_not_found() => distance *= 10.0,
                 other => return other,
             }
             if distance.abs() > FURTHEST * kept.abs() {

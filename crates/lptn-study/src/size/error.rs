@@ -5,7 +5,7 @@ use std::sync::Arc;
 use lptn_assembly::AssemblyError;
 use lptn_netlist::Diagnostic;
 use lptn_network::{BuildErrors, Changing, InputError, ParameterId};
-use lptn_solve::{LedgerError, PeriodicError, SteadyError, TransientError};
+use lptn_solve::{LedgerError, PeriodicError, SteadyError, TransientError, Unsolved};
 use lptn_units::{Class, EvalError, format_six};
 
 const LEAVE_OUT: &str = "`vary` has to leave this value out: let its range begin or end elsewhere";
@@ -45,6 +45,17 @@ impl SizeError {
     pub(crate) fn trial(design: &[(ParameterId, f64)], case: &str, error: TrialError) -> Self {
         let values = design.iter().map(|(_, value)| *value).collect();
         Self::Trial { values, case: case.to_owned(), error: Box::new(error) }
+    }
+
+    /// Whether no steady state was found, which is not an answer about the network.
+    pub(crate) fn is_not_found(&self) -> bool {
+        let Self::Trial { error, .. } = self else { return false };
+        matches!(
+            error.as_ref(),
+            TrialError::Steady(SteadyError::Unsolved(
+                Unsolved::NotFound { .. } | Unsolved::Undetermined { .. }
+            ))
+        )
     }
 }
 

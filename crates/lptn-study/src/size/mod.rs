@@ -2,6 +2,7 @@
 //! the best of several parameters and of parts.
 
 mod aim;
+mod answer;
 mod choice;
 mod coolants;
 mod cooling;
@@ -15,11 +16,11 @@ mod several;
 mod smooth;
 
 pub use aim::Aim;
+pub use answer::{Edge, SizeTask, Sizing, Trial, Verdict};
 pub use choice::{Choice, ChoiceTask, Choices, Parts, choose};
 pub use cooling::{Coolant, CoolantFlow, Cooling, CoolingError, CoolingTask};
 pub use design::Design;
-pub use edge::Edge;
 pub use error::{SizeError, TrialError};
 pub use judge::{Demand, Doubt, Judged, LoadCase, Moments, RunOf, Watcher, judge};
-pub use search::{SizeTask, Sizing, Trial, Verdict, size};
+pub use search::size;
 pub use several::{Several, SeveralTask, size_several};

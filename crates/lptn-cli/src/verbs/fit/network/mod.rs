@@ -5,6 +5,7 @@ mod figure;
 mod interrupted;
 mod output;
 mod page;
+mod shared_noise;
 mod units;
 mod words;
 mod write;

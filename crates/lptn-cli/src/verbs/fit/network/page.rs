@@ -3,9 +3,7 @@
 use std::io;
 
 use lptn_fit::least_squares::Side;
-use lptn_fit::network::{
-    ColumnMisfit, Combination, FittedParameter, Profile, SharedNoise, Unseparated,
-};
+use lptn_fit::network::{ColumnMisfit, Combination, FittedParameter, Profile, Unseparated};
 use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Report, Rows, Text, TextTable, decimals, differing, fixed, significant,
@@ -15,9 +13,9 @@ use lptn_solve::Table;
 use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
-use super::Answer;
 use super::units::common;
 use super::words::{combination, sought, state, type_of, verdict};
+use super::{Answer, shared_noise};
 use crate::about::{self, Known};
 use crate::diagnostics;
 use crate::words::{count, symbol, unverified};
@@ -111,7 +109,7 @@ impl Page for Answer<'_> {
         json.member("rms", &SiValue::new(fit.rms, &common(&self.task)))?;
         json.member("samples", &fit.samples())?;
         json.member("columns", &columns(self))?;
-        json.member("shared_noise", &shared_noise(self))?;
+        json.member("shared_noise", &shared_noise::json(self))?;
         json.member("correlation", &correlation)?;
         json.member("identifiable", &self.is_whole())?;
         json.member("rank", &known.map(|known| known.rank))?;
@@ -316,7 +314,7 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
         }
     };
     notes.push(("gradient", format!("{how}; all records were run {} times", fit.evaluations)));
-    notes.extend(shared(answer).map(|said| ("shared noise", said)));
+    notes.extend(shared_noise::text(answer).map(|said| ("shared noise", said)));
     if let Some(known) = &fit.identifiability {
         let values: Vec<String> =
             known.singular_values.iter().map(|value| significant(*value, 3)).collect();
@@ -331,38 +329,6 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
         ));
     }
     notes
-}
-
-/// That columns of a record are off together, for the records in which chance does not explain it.
-fn shared(answer: &Answer<'_>) -> Option<String> {
-    let runs = &answer.task.runs;
-    let records: Vec<String> = runs.iter().map(|run| run.name.clone()).collect();
-    let records = differing(&records);
-    let one = |shared: &SharedNoise| {
-        let correlation = fixed(shared.correlation, 2);
-        if runs.len() > 1 {
-            format!("{correlation} ({})", records[shared.run])
-        } else {
-            correlation
-        }
-    };
-    let all: Vec<String> = answer.fit.shared_noise.iter().map(one).collect();
-    (!all.is_empty()).then(|| {
-        format!(
-            "columns of one record are off together, correlation up to {}; the errors count it",
-            all.join(", ")
-        )
-    })
-}
-
-fn shared_noise(answer: &Answer<'_>) -> Value {
-    let one = |shared: &SharedNoise| {
-        json!({
-            "record": answer.task.runs[shared.run].name,
-            "correlation": SiValue::new(shared.correlation, "1"),
-        })
-    };
-    answer.fit.shared_noise.iter().map(one).collect()
 }
 
 /// In SI units; a temperature is in the unit in which it is shown, as all of an object are.
