@@ -30,6 +30,11 @@ impl<'a> Reading<'a> {
         }
     }
 
+    /// The same for expressions that the network does not hold.
+    pub(crate) fn of_any(system: &'a ThermalSystem) -> Self {
+        Self { reads: true, ..Self::new(system) }
+    }
+
     /// Goes where the workspace is; `at` is the time and a time inside the segment, in s. Where a
     /// temperature is not known (NaN), what follows from it is NaN.
     pub(crate) fn place(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {

@@ -19,7 +19,7 @@ pub(crate) struct Replay<'a> {
 impl<'a> Replay<'a> {
     /// At no row yet.
     pub(crate) fn new(system: &'a ThermalSystem) -> Self {
-        Self { system, work: system.workspace(), reading: Reading::new(system), known: Ok(()) }
+        Self { system, work: system.workspace(), reading: Reading::of_any(system), known: Ok(()) }
     }
 
     /// What stands in other positions from here on.
