@@ -12,9 +12,9 @@ pub struct LimitSeen {
     pub limit: LimitId,
     /// Its least margin in SI units, positive if it was kept all the time; NaN if it could not be
     /// [judged](lptn_network::Network::is_judged) at any moment; see
-    /// [`Network::limit_margin`](lptn_network::Network::limit_margin). That of the mean over time for [`lptn_network::Limit::of_mean`].
-    /// Zero where a temperature passes it by less than ten times the
-    /// tolerance, which is the error of a run.
+    /// [`lptn_network::Network::limit_margin`]. That of the mean over time for
+    /// [`lptn_network::Limit::of_mean`]. Zero where a temperature passes it by less than ten times
+    /// the tolerance, which is the error of a run.
     pub margin: f64,
     /// When that was, in s.
     pub worst_at: f64,

@@ -68,13 +68,13 @@ pub enum StopReason {
 pub(crate) const COLD: &str =
     "less heat can be taken out than that: check the signs and sizes of the sources";
 
-pub(crate) const RUNS_AWAY: &str = "give it a better path to a cooler place, or less heat at the start; where the \
-    heat is limited in fact, say by what: `min(.., ..)`";
+pub(crate) const RUNS_AWAY: &str = "give it a better path to a cooler place, or less heat at the \
+    start; where the heat is limited in fact, say by what: `min(.., ..)`";
 
 pub(crate) fn runaway(node: &str, source: &str, from: f64) -> String {
     format!(
-        "`{node}` runs away: above {} the heat of `{source}` grows faster with its temperature than \
-         the paths carry it off",
+        "`{node}` runs away: above {} the heat of `{source}` grows faster with its temperature \
+         than the paths carry it off",
         scales(from)
     )
 }
