@@ -243,5 +243,6 @@ fn the_mean_of_one_value_is_that_over_the_run() {
     near(&json["limits"]["average"]["broken_at"], 600.0);
     near(&json["limits"]["most"]["margin"], -1.0);
     near(&json["limits"]["most"]["broken_at"], 500.0);
-    folder.run(&["size", "net.toml"]).exits(0).prints("P = 13.333");
+    let size = folder.run(&["size", "net.toml"]).exits(0);
+    size.prints("over the run of 10 min").prints("P = 13.333");
 }

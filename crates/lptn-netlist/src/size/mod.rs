@@ -179,6 +179,11 @@ impl Requirement {
         Ok(self.high.at(scope)? - self.low.at(scope)?)
     }
 
+    /// Whether it compares means over time, and not values at every moment.
+    pub fn is_of_mean(&self) -> bool {
+        self.of_mean
+    }
+
     /// Both sides.
     pub fn sides(&self) -> [&Value; 2] {
         [&self.low, &self.high]

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use lptn_netlist::{Goal, Netlist, Over, SizeStudy};
+use lptn_netlist::{Goal, Netlist, Over, Requirement, SizeStudy};
 use lptn_network::Item;
 use lptn_plot::Figure;
 use lptn_report::{
@@ -135,7 +135,9 @@ fn over(netlist: &Netlist, study: &SizeStudy) -> Option<String> {
     };
     let what = if study.over == Over::Run { "run" } else { "settled cycle" };
     let lasts = lasts.map_or(String::new(), |lasts| format!(" of {}", duration(lasts, 6)));
-    Some(format!("at every moment of the {what}{lasts}"))
+    let means = study.requirements.iter().all(Requirement::is_of_mean);
+    let when = if means { "over" } else { "at every moment of" };
+    Some(format!("{when} the {what}{lasts}"))
 }
 
 /// What a network was solved for, in the plural.
