@@ -14,6 +14,7 @@ use std::sync::OnceLock;
 use lptn_units::{EvalError, Scalar, Taylor};
 
 use crate::enthalpy::{Capacity, Known, Panel};
+use crate::gauss::GAUSS;
 use crate::knots::knots;
 use crate::slot;
 use crate::value::Value;
@@ -32,15 +33,6 @@ const HALVED: usize = 11;
 
 /// Blocks up to [`HOTTEST`].
 const BLOCKS: usize = HALVED - 1 + (HOTTEST / BLOCK) as usize;
-
-/// Points and weights of Gauss and Legendre's rule on (-1, 1), exact to degree 9.
-const GAUSS: [(f64, f64); 5] = [
-    (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
-    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-    (0.0, 0.568_888_888_888_888_9),
-    (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-    (0.906_179_845_938_664, 0.236_926_885_056_189_08),
-];
 
 /// A property of which paths take the mean between the temperatures of their ends.
 #[derive(Debug)]

@@ -21,6 +21,7 @@ mod enthalpy;
 mod error;
 mod error_words;
 mod evaluation;
+mod gauss;
 mod id;
 mod input_error;
 mod knots;

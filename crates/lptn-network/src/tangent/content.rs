@@ -11,6 +11,7 @@ use super::refusal::NoTangents;
 use super::{Pass, Tangents};
 use crate::enthalpy::Enthalpy;
 use crate::evaluation::{PASS, Slope};
+use crate::gauss::GAUSS;
 use crate::id::NodeId;
 use crate::network::Network;
 use crate::slot;
@@ -35,15 +36,6 @@ enum Change {
     /// That of one whose parts change by themselves: integrated.
     Parts(Vec<Value>),
 }
-
-/// Points and weights of Gauss and Legendre's rule on (-1, 1), exact to degree 9.
-const GAUSS: [(f64, f64); 5] = [
-    (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
-    (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-    (0.0, 0.568_888_888_888_888_9),
-    (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
-    (0.906_179_845_938_664, 0.236_926_885_056_189_08),
-];
 
 /// The nodes with capacity whose heat content changes.
 pub(super) fn all_of(
