@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// From the ground up: a crate may use only those before it.
-const ORDER: [&str; 18] = [
+const ORDER: [&str; 19] = [
     "lptn-units",
     "lptn-plot",
     "lptn-laws",
@@ -16,6 +16,7 @@ const ORDER: [&str; 18] = [
     "lptn-integrate",
     "lptn-cvodes",
     "lptn-solve",
+    "lptn-analysis",
     "lptn-reduce",
     "lptn-fit",
     "lptn-study",
@@ -27,7 +28,7 @@ const ORDER: [&str; 18] = [
 ];
 
 /// What a crate may not use although it stands before it.
-const FORBIDDEN: [(&str, &[&str]); 8] = [
+const FORBIDDEN: [(&str, &[&str]); 9] = [
     (
         "lptn-integrate",
         &["lptn-units", "lptn-laws", "lptn-network", "lptn-netlist", "lptn-assembly"],
@@ -39,6 +40,7 @@ const FORBIDDEN: [(&str, &[&str]); 8] = [
     ("lptn-data", &["lptn-laws", "lptn-network"]),
     ("lptn-assembly", &["lptn-data", "lptn-netlist"]),
     ("lptn-solve", &["lptn-data", "lptn-netlist"]),
+    ("lptn-analysis", &["lptn-data", "lptn-netlist"]),
     ("lptn-reduce", &["lptn-data", "lptn-netlist"]),
     ("lptn-laws", &["lptn-network"]),
     ("lptn-study", &["lptn-fit"]),
@@ -130,8 +132,18 @@ fn one_crate_alone_is_unsafe() {
 }
 
 /// What runs where there is no C and no file system, in a browser for one.
-const CORE: [&str; 9] =
-    ["units", "laws", "network", "data", "netlist", "assembly", "integrate", "solve", "reduce"];
+const CORE: [&str; 10] = [
+    "units",
+    "laws",
+    "network",
+    "data",
+    "netlist",
+    "assembly",
+    "integrate",
+    "solve",
+    "analysis",
+    "reduce",
+];
 
 #[test]
 fn the_core_knows_no_c() {
@@ -168,6 +180,31 @@ fn the_core_reads_files_in_one_place() {
             !(in_core && reads) || may,
             "{name} reaches the system itself: take what is read as an argument"
         );
+    }
+}
+
+/// Who asks a network, and how, stands once: `lptn-solve` computes and `lptn-analysis` asks it.
+#[test]
+fn one_crate_alone_asks_networks() {
+    let asks = [
+        "Transient {",
+        "Transient::of(",
+        "Transient::until(",
+        "SteadyState::solve",
+        "Periodic::find",
+        "sensitive_run(",
+        "sensitive_run_observed(",
+        "Verification::observed(",
+    ];
+    let may = ["crates/lptn-solve/", "crates/lptn-analysis/", "crates/lptn/"];
+    let product = |name: &str| name.starts_with("crates/") && name.contains("/src/");
+    for (name, text) in all_sources().into_iter().filter(|(name, _)| product(name)) {
+        let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
+        let code = code.lines().filter(|line| !line.trim_start().starts_with("//"));
+        let found: Vec<&str> =
+            code.filter(|line| asks.iter().any(|ask| line.contains(ask))).collect();
+        let here = may.iter().any(|place| name.starts_with(place));
+        assert!(here || found.is_empty(), "{name} asks a network by itself: {found:?}");
     }
 }
 

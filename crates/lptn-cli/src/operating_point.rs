@@ -1,10 +1,11 @@
 //! The state of a network that is looked at: where it settles, or a time of its run.
 
 use clap::Args as Arguments;
+use lptn_analysis::RunAnalysis;
 use lptn_netlist::{Diagnostic, RunSettings, Span};
 use lptn_network::Network;
 use lptn_report::{duration, significant};
-use lptn_solve::{LinearisedError, RunStatus, Snapshot, Solution, SteadyState, Transient, Tried};
+use lptn_solve::{LinearisedError, RunStatus, Snapshot, Solution, SteadyState, Tried};
 use lptn_study::SiValue;
 use lptn_units::Unit;
 use serde_json::{Value, json};
@@ -111,12 +112,12 @@ pub(crate) fn steady(
     let network: &Network = &netlist.network;
     let system = input.assemble()?;
     let start = netlist.run.as_ref().map_or(0.0, |run: &RunSettings| run.start);
-    let steady = SteadyState::solve(&system, start).map_err(|error| failed(input, &error))?;
+    let steady = lptn_analysis::steady(&system, start).map_err(|error| failed(input, &error))?;
     let vary = inputs_vary(input, &steady, &[]);
     let doubts = [vary, adiabatic(network, &steady), others(network, &steady, unit)];
     let doubts: Vec<Diagnostic> = doubts.into_iter().flatten().collect();
     console.warn(&netlist.files, &doubts);
-    Ok(steady)
+    Ok(steady.result)
 }
 
 /// The row of the run at or before a time.
@@ -124,8 +125,8 @@ pub(crate) fn at(text: &str, input: &Input, console: &Console) -> Result<Snapsho
     let settings = input.netlist.run.as_ref().ok_or_else(|| no_run(input))?;
     let time = time_of_run(text, settings)?;
     let system = input.assemble()?;
-    let transient = Transient::of(system.network(), settings);
-    let (solution, broken) = observed(input, (&system, &transient), console)?;
+    let run = RunAnalysis::of(system.network(), settings);
+    let (solution, broken) = observed(input, (&system, &run), console)?;
     check(input, &solution, broken)?;
     console.warn(&input.netlist.files, &doubts(&solution));
     let row = solution.row_at(time).unwrap_or(0);

@@ -1,64 +1,48 @@
 //! Results that nothing real has, and laws where they are not known, in words.
 
+use lptn_analysis::{Trust, Unresolved};
 use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Item, ZERO_CELSIUS};
 use lptn_report::{duration, significant};
-use lptn_solve::{Beyond, OutOfRange, Solution, SteadyState};
+use lptn_solve::Beyond;
 
 use crate::ranges;
 
-/// What makes no sense of a steady state.
-pub(crate) fn of_steady(
-    netlist: &Netlist,
-    steady: &SteadyState,
-    outside: &[OutOfRange],
-) -> Vec<Diagnostic> {
-    let beyond = Beyond::of_steady(&netlist.network, steady);
-    told(netlist, beyond.as_ref(), ranges::warnings(netlist, outside, false))
+/// Doubts in the numbers of an answer: what is beyond sense, laws outside their ranges, results
+/// that change faster than steps are looked at. `run`: over time.
+pub(crate) fn doubts(netlist: &Netlist, trust: &Trust, run: bool) -> Vec<Diagnostic> {
+    let beyond = trust.beyond.iter().map(|beyond| warning(netlist, beyond));
+    let outside = ranges::warnings(netlist, &trust.out_of_range, run);
+    let unresolved = trust.unresolved.iter().map(|open| unresolved(netlist, open));
+    beyond.chain(outside).chain(unresolved).collect()
 }
 
-/// What makes no sense of a run.
-pub(crate) fn of_run(netlist: &Netlist, solution: &Solution) -> Vec<Diagnostic> {
-    let beyond = Beyond::of_run(solution);
-    let outside = ranges::warnings(netlist, solution.out_of_range(), true);
-    told(netlist, beyond.as_ref(), [outside, open(netlist, solution)].concat())
-}
-
-/// Results that change faster than steps are looked at.
-fn open(netlist: &Netlist, solution: &Solution) -> Vec<Diagnostic> {
-    let network = &netlist.network;
-    let limits = solution.limits().iter().filter(|seen| seen.open > 0.0).map(|seen| {
-        let limit = &network.limits()[seen.limit.index()];
-        let (by, unit) = (significant(seen.open, 2), limit.ty.dimension.si_unit());
-        let message = format!(
-            "`{}` changes faster than a run looks: the margin of limit `{}` may be off by {by} {unit}",
-            limit.text, limit.name
-        );
-        Diagnostic::warning("run::unresolved", message)
-            .at(netlist.source_map.name(Item::Limit(seen.limit)), "")
-    });
-    let columns = solution.windows().iter().flat_map(|window| {
-        window.columns.iter().filter(|column| column.is_open()).map(|column| {
-            let by = significant(100.0 * column.open, 2);
+fn unresolved(netlist: &Netlist, open: &Unresolved) -> Diagnostic {
+    let warning = match open {
+        Unresolved::Margin { limit: id, by } => {
+            let limit = &netlist.network.limits()[id.index()];
+            let (by, unit) = (significant(*by, 2), limit.ty.dimension.si_unit());
             let message = format!(
-                "`{}` changes faster than a run looks: its mean over `{}` may be off by {by} %",
-                column.name, window.name
+                "`{}` changes faster than a run looks: the margin of limit `{}` may be off by {by} \
+                 {unit}",
+                limit.text, limit.name
             );
             Diagnostic::warning("run::unresolved", message)
-        })
-    });
-    let help = "write what jumps over the time as a signal or with `if(t < ..)`: these times are \
-                met exactly";
-    limits.chain(columns).map(|warning| warning.help(help)).collect()
-}
-
-/// What is beyond sense, then laws outside their ranges.
-pub(crate) fn told(
-    netlist: &Netlist,
-    beyond: Option<&Beyond>,
-    outside: Vec<Diagnostic>,
-) -> Vec<Diagnostic> {
-    beyond.map(|beyond| warning(netlist, beyond)).into_iter().chain(outside).collect()
+                .at(netlist.source_map.name(Item::Limit(*id)), "")
+        }
+        Unresolved::Mean { column, window, share } => {
+            let by = significant(100.0 * share, 2);
+            let message = format!(
+                "`{column}` changes faster than a run looks: its mean over `{window}` may be off \
+                 by {by} %"
+            );
+            Diagnostic::warning("run::unresolved", message)
+        }
+    };
+    warning.help(
+        "write what jumps over the time as a signal or with `if(t < ..)`: these times are met \
+         exactly",
+    )
 }
 
 /// A warning that names the node, and the path and the source that probably did it.

@@ -4,12 +4,12 @@
 //! `cargo run --release -p lptn-study --example fit_speed`, under `time` for the CPU.
 #![allow(clippy::print_stdout, reason = "an example")]
 
+use lptn_analysis::RunAnalysis;
 use lptn_fit::network::{
     Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask, Varied, fit_network,
 };
 use lptn_netlist::parse;
 use lptn_network::Time;
-use lptn_solve::Transient;
 use lptn_units::{Correlations, Type};
 
 const GEARBOX: &str = "format = 1
@@ -64,7 +64,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             parameters: network.overrides(),
             signals: Vec::new(),
             initial: Vec::new(),
-            settings: Transient::until(Time(1500.0)),
+            settings: RunAnalysis::until(Time(1500.0)),
             columns: vec![column("steel", 1.7)?, column("alum", 0.0)?],
             times: times.clone(),
         }],

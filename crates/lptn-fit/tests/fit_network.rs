@@ -3,6 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+use lptn_analysis::RunAnalysis;
 use lptn_fit::least_squares::Side;
 use lptn_fit::network::{
     CombinationKind, Measurand, MeasuredColumn, MeasuredRun, NetworkFitError, NetworkFitTask,
@@ -10,7 +11,7 @@ use lptn_fit::network::{
 };
 use lptn_netlist::{Netlist, parse};
 use lptn_network::Time;
-use lptn_solve::{Gradient, Transient};
+use lptn_solve::Gradient;
 use lptn_units::{Correlations, Type};
 
 const CELSIUS: f64 = 273.15;
@@ -75,7 +76,7 @@ fn record(netlist: &Netlist, (node, values): (&str, &[f64]), set: &[(&str, &str)
         parameters,
         signals: Vec::new(),
         initial: Vec::new(),
-        settings: Transient::until(Time(1.0)),
+        settings: RunAnalysis::until(Time(1.0)),
         times: every_50_s(values.len()),
         columns: vec![MeasuredColumn {
             name: node.to_owned(),

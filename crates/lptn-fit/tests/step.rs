@@ -2,6 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
+use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
 use lptn_fit::step::{
     Capacity, Lack, ModelBias, Power, ReferenceTemperature, Sensor, StepError, StepFit,
@@ -9,7 +10,6 @@ use lptn_fit::step::{
 use lptn_netlist::parse;
 use lptn_network::Time;
 use lptn_reduce::port;
-use lptn_solve::Transient;
 
 #[track_caller]
 fn near(found: f64, expected: f64, relative: f64) {
@@ -148,7 +148,7 @@ fn the_method_is_biased_on_the_gearbox() {
     let netlist = parse("gearbox.toml", text).unwrap_or_else(|rejected| panic!("{rejected}"));
     let system = ThermalSystem::assemble(&netlist.network).unwrap();
     let steel = port(system.network(), "steel").unwrap();
-    let run = Transient::until(Time(60.0)).tolerance(1e-7);
+    let run = RunAnalysis::until(Time(60.0)).within(1e-7);
     // the record's clock does not matter
     let record: Vec<f64> = times(7501, 0.2).iter().map(|t| t + 36_000.0).collect();
     let bias = ModelBias::new(&system, steel, &run, (36_000.0, &record)).unwrap();
@@ -177,7 +177,8 @@ fn regression_a_record_that_is_cut_is_compared_with_the_same_part_of_the_run() {
     let record: Vec<f64> = times(301, 2.0).iter().map(|t| t + 36_900.0).collect();
     // the clock of the run does not matter either
     for start in [0.0, 17.3] {
-        let run = Transient { start, ..Transient::until(Time(start + 60.0)).tolerance(1e-7) };
+        let run = RunAnalysis::until(Time(start + 60.0)).lasting(start, start + 60.0);
+        let run = run.within(1e-7);
         let bias = ModelBias::new(&system, steel, &run, (36_000.0, &record)).unwrap();
         near(bias.tau.bias(), -16.041_999_72, 1e-4);
         near(bias.tau.fitted, 793.952_560_57, 1e-6);

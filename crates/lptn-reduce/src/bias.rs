@@ -1,8 +1,9 @@
 //! What the seed paper's method would say of a network whose truth is known.
 
+use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
 use lptn_network::NodeId;
-use lptn_solve::Transient;
+use lptn_solve::{Proceed, RecordedNodes};
 
 use crate::error::{FitError, ReduceError};
 use crate::fit::{ExponentialFit, fit_exponential};
@@ -41,14 +42,15 @@ impl Bias {
     pub fn new(
         system: &ThermalSystem,
         port: NodeId,
-        run: &Transient,
+        run: &RunAnalysis,
     ) -> Result<Result<Self, FitError>, ReduceError> {
         let norton = NortonEquivalent::new(system, port)?;
-        let solution = run.clone().record(&[port]).solve(system)?;
-        let times: Vec<f64> = solution.times().iter().map(|t| t - run.start).collect();
+        let asked = run.clone().keeping(RecordedNodes::Nodes(vec![port]));
+        let solution = asked.solve(system, &mut |_| Proceed::Continue)?;
+        let times: Vec<f64> = solution.times().iter().map(|t| t - run.start()).collect();
         let temperatures = solution.temperature(port).unwrap_or_default();
         let capacity = norton.capacity_sum(system.network());
-        let length = run.stop - run.start;
+        let length = run.stop() - run.start();
         let felt =
             solution.ledger().sources.iter().zip(&norton.source_weights).filter(|(_, w)| **w > 0.0);
         let heat = felt.map(|(energy, _)| energy).sum::<f64>() / length;

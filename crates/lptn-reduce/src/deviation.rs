@@ -1,8 +1,9 @@
 //! How far a one-node network is from the network it stands for.
 
+use lptn_analysis::{RunAnalysis, RunError};
 use lptn_assembly::ThermalSystem;
-use lptn_network::{NodeId, OutputTimes};
-use lptn_solve::{Transient, TransientError, top};
+use lptn_network::NodeId;
+use lptn_solve::{Proceed, RecordedNodes, TransientError, top};
 
 use crate::allowed::Allowed;
 use crate::step::StepResponse;
@@ -119,11 +120,7 @@ pub(crate) struct Record {
 
 impl Record {
     /// Runs `system` and keeps `node`.
-    pub(crate) fn of(
-        system: &ThermalSystem,
-        node: NodeId,
-        run: &Dense,
-    ) -> Result<Self, TransientError> {
+    pub(crate) fn of(system: &ThermalSystem, node: NodeId, run: &Dense) -> Result<Self, RunError> {
         Ok(Self::all(system, &[node], run)?.pop().unwrap_or_default())
     }
 
@@ -132,8 +129,9 @@ impl Record {
         system: &ThermalSystem,
         nodes: &[NodeId],
         run: &Dense,
-    ) -> Result<Vec<Self>, TransientError> {
-        let solution = run.transient.clone().record(nodes).solve(system)?;
+    ) -> Result<Vec<Self>, RunError> {
+        let asked = run.run.clone().keeping(RecordedNodes::Nodes(nodes.to_vec()));
+        let solution = asked.solve(system, &mut |_| Proceed::Continue)?;
         let record = |&node: &NodeId| Self {
             times: solution.times().to_vec(),
             temperatures: solution.temperature(node).unwrap_or_default(),
@@ -200,7 +198,7 @@ impl Record {
 /// A run with rows where errors are looked for, and its known discontinuities.
 #[derive(Clone, Debug)]
 pub(crate) struct Dense {
-    transient: Transient,
+    run: RunAnalysis,
     breaks: Vec<f64>,
 }
 
@@ -210,12 +208,13 @@ impl Dense {
     /// one just before the second, where a massless port is about to leap.
     pub(crate) fn new(
         system: &ThermalSystem,
-        run: &Transient,
+        run: &RunAnalysis,
         tolerance: f64,
-    ) -> Result<Self, TransientError> {
-        let (start, stop) = (run.start, run.stop);
-        let mut times = run.rows().map_err(TransientError::Settings)?;
-        let breaks = system.network().breakpoints(start, stop).map_err(TransientError::Input)?;
+    ) -> Result<Self, RunError> {
+        let (start, stop) = (run.start(), run.stop());
+        let mut times = run.rows()?;
+        let breaks = system.network().breakpoints(start, stop);
+        let breaks = breaks.map_err(|error| Box::new(TransientError::Input(error)))?;
         let mut from = start;
         for &to in breaks.iter().chain([&stop]) {
             let length = to - from;
@@ -230,9 +229,7 @@ impl Dense {
         };
         times.dedup_by(|next, first| *next <= *first || near(*next, *first));
         times.retain(|time| (start..=stop).contains(time));
-        let transient =
-            Transient { output: OutputTimes::At(times), watch: Vec::new(), ..run.clone() };
-        Ok(Self { transient: transient.tolerance(tolerance), breaks })
+        Ok(Self { run: run.clone().bare().at(times).within(tolerance), breaks })
     }
 }
 

@@ -1,8 +1,9 @@
 //! Why a network could not be reduced, or a record not be fitted.
 
+use lptn_analysis::RunError;
 use lptn_integrate::FactorError;
 use lptn_network::{InputError, UnknownName, list_of_names};
-use lptn_solve::{ResponseError, TransientError};
+use lptn_solve::ResponseError;
 use lptn_units::Class;
 
 lptn_units::errors! {
@@ -59,7 +60,7 @@ pub enum ReduceError {
     /// The network cannot be taken for a linear one near a state, or does not answer there.
     Response => ResponseError;
     /// A run of the network or of its equivalent failed.
-    Run => TransientError;
+    Run => RunError;
     /// The equivalent network could not be built; the text says why.
     Equivalent(why: String) = "reduce::equivalent",
         format!("the equivalent network cannot be built: {why}"), class Class::Numbers;

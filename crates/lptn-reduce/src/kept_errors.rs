@@ -1,8 +1,8 @@
 //! What it costs to believe a network of kept nodes.
 
+use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Network, NodeId};
-use lptn_solve::Transient;
 
 use crate::allowed::Allowed;
 use crate::deviation::{Dense, Deviation, Record};
@@ -49,13 +49,13 @@ impl KeptReference {
     pub fn new(
         system: &ThermalSystem,
         asked: &[NodeId],
-        (run, allowed): (Option<&Transient>, Allowed),
+        (run, allowed): (Option<&RunAnalysis>, Allowed),
     ) -> Result<Self, ReduceError> {
         asked.iter().try_for_each(|node| crate::norton::grounded(system.network(), *node))?;
         let responses = responses(system, asked)?;
-        let start = run.map_or(0.0, |run| run.start);
-        let recorded = |run: &Transient| -> Result<_, ReduceError> {
-            let tolerance = TOLERANCE.min(0.01 * run.tolerance);
+        let start = run.map_or(0.0, |run| run.start());
+        let recorded = |run: &RunAnalysis| -> Result<_, ReduceError> {
+            let tolerance = TOLERANCE.min(0.01 * run.tolerance());
             let dense = Dense::new(system, run, tolerance)?;
             let records = Record::all(system, asked, &dense)?;
             Ok((dense, records))

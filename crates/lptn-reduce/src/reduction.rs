@@ -1,8 +1,9 @@
 //! A network reduced to one node: everything there is to say about it.
 
+use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Network, NodeId};
-use lptn_solve::{EventKind, Transient, TransientError};
+use lptn_solve::EventKind;
 
 use crate::allowed::Allowed;
 use crate::capacity::least_squares;
@@ -23,7 +24,7 @@ pub const TOLERANCE: f64 = 1e-7;
 #[derive(Clone, Debug, Default)]
 pub struct ReductionOptions {
     /// The run to compare over; `None` leaves the second error out.
-    pub run: Option<Transient>,
+    pub run: Option<RunAnalysis>,
     /// Length in s of the window of [`Definition::LeastSquares`], from the step on.
     pub window: Option<f64>,
     /// What the recommended pair is to have the smallest error of.
@@ -132,7 +133,7 @@ impl Reduction {
         grounded(system.network(), port)?;
         let mut rises = Rises::new(system)?;
         let norton = NortonEquivalent::with(system, port, &mut rises)?;
-        let start = options.run.as_ref().map_or(0.0, |run| run.start);
+        let start = options.run.as_ref().map_or(0.0, |run| run.start());
         let inputs = norton.inputs(system, start).map_err(ReduceError::Input)?;
         let initial = initial(system, port, start)?;
         let step = if rises.is_symmetric() {
@@ -188,7 +189,7 @@ impl Reduction {
         &self,
         system: &ThermalSystem,
         nodes: &Nodes,
-        (run, allowed): (Option<&Transient>, Allowed),
+        (run, allowed): (Option<&RunAnalysis>, Allowed),
     ) -> Result<Option<(Judge, Deviation)>, ReduceError> {
         let whole = run.map(|run| Whole::new(self, system, run)).transpose()?;
         self.error_of(whole.as_ref(), nodes, allowed)
@@ -202,7 +203,7 @@ impl Reduction {
     pub fn fewest(
         &self,
         system: &ThermalSystem,
-        (run, allowed): (Option<&Transient>, Allowed),
+        (run, allowed): (Option<&RunAnalysis>, Allowed),
     ) -> Result<Option<(Nodes, Judge, Deviation)>, ReduceError> {
         const MOST: usize = 8;
         /// A node more has to take so much of the error away, else more will not help.
@@ -304,7 +305,7 @@ impl Reduction {
     fn compare(
         &self,
         system: &ThermalSystem,
-        run: &Transient,
+        run: &RunAnalysis,
         capacities: &[(Definition, f64)],
         options: &ReductionOptions,
     ) -> Result<Comparison, ReduceError> {
@@ -330,10 +331,10 @@ impl<'a> Whole<'a> {
     fn new(
         reduction: &'a Reduction,
         system: &'a ThermalSystem,
-        run: &Transient,
+        run: &RunAnalysis,
     ) -> Result<Self, ReduceError> {
-        let tolerance = TOLERANCE.min(0.01 * run.tolerance);
-        let mut one_node = reduction.one_node(system, run.start);
+        let tolerance = TOLERANCE.min(0.01 * run.tolerance());
+        let mut one_node = reduction.one_node(system, run.start());
         let run = Dense::new(system, run, tolerance)?;
         let record = Record::of(system, reduction.norton.port, &run)?;
         one_node.initial = record.first().unwrap_or(one_node.initial);
@@ -353,7 +354,7 @@ impl<'a> Whole<'a> {
 pub(crate) fn window(step: &StepResponse, options: &ReductionOptions) -> LeastSquaresWindow {
     match (options.window, &options.run, options.judge) {
         (Some(length), _, _) => LeastSquaresWindow::Given(length),
-        (None, Some(run), Judge::Run) => LeastSquaresWindow::Run(run.stop - run.start),
+        (None, Some(run), Judge::Run) => LeastSquaresWindow::Run(run.stop() - run.start()),
         _ => LeastSquaresWindow::TimeConstants(5.0 * step.slowest().tau),
     }
 }
@@ -380,7 +381,7 @@ pub(crate) fn initial(
     start: f64,
 ) -> Result<f64, ReduceError> {
     let stop = start + 1.0;
-    let segments = system.network().breakpoints(start, stop).map_err(TransientError::Input)?;
+    let segments = system.network().breakpoints(start, stop).map_err(ReduceError::Input)?;
     let inside = 0.5 * (start + segments.first().copied().unwrap_or(stop));
     let mut work = system.workspace();
     system.read_inputs(&mut work, start, inside).map_err(ReduceError::Input)?;

@@ -3,6 +3,7 @@
 mod common;
 
 use common::{assembled, chain, near};
+use lptn_analysis::RunAnalysis;
 use lptn_network::{
     Conductance, HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Temperature, Time,
 };
@@ -138,7 +139,7 @@ fn junctions_can_be_ports() {
     }
     b.source("heat", nodes[n - 1], HeatFlow(3.0));
     let system = assembled(b);
-    let run = Transient::until(Time(60.0));
+    let run = RunAnalysis::until(Time(60.0));
     let reduction = Reduction::new(
         &system,
         nodes[n - 1],

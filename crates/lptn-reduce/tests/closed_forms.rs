@@ -4,11 +4,11 @@
 mod common;
 
 use common::{assembled, near, two_nodes};
+use lptn_analysis::RunAnalysis;
 use lptn_network::{HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Resistance, Temperature, Time};
 use lptn_reduce::{
     Definition, Judge, LeastSquaresWindow, ReduceError, Reduction, ReductionOptions,
 };
-use lptn_solve::Transient;
 
 /// Printed values: capacity, half of its last digit, error in %, half of its last digit. Source:
 /// the numbers that the reduction was asked to reach, found with numpy and scipy.
@@ -96,7 +96,7 @@ fn check(r_int: f64, r_amb: f64, printed_tau: [f64; 2], printed: Printed) {
             && (exact.tau[1] - printed_tau[1]).abs() < 5e-3
     );
     let (system, [steel, _]) = two_nodes(c, r_int, r_amb, 220.6);
-    let run = Transient::until(Time(1500.0));
+    let run = RunAnalysis::until(Time(1500.0));
     let judge = Judge::Run;
     let options = ReductionOptions { run: Some(run), judge, ..Default::default() };
     let reduction = Reduction::new(&system, steel, &options).unwrap();
@@ -158,7 +158,7 @@ fn clearly_two_nodes() {
 fn the_pair_with_the_smallest_error_is_recommended() {
     let (system, [steel, _]) = two_nodes([1000.0, 1659.0], 0.1, 0.3, 220.6);
     let with_run =
-        ReductionOptions { run: Some(Transient::until(Time(1500.0))), ..Default::default() };
+        ReductionOptions { run: Some(RunAnalysis::until(Time(1500.0))), ..Default::default() };
     for options in [with_run, ReductionOptions::default()] {
         for judge in Judge::ALL {
             let by = if options.run.is_some() { judge } else { Judge::Step };
@@ -177,7 +177,7 @@ fn the_pair_with_the_smallest_error_is_recommended() {
 fn one_node_is_its_own_equivalent_by_all_definitions() {
     let (system, nodes) = common::chain(&[2659.0], &[3.25]);
     let options = ReductionOptions {
-        run: Some(Transient::until(Time(900.0))),
+        run: Some(RunAnalysis::until(Time(900.0))),
         window: Some(400.0),
         ..Default::default()
     };
@@ -206,7 +206,7 @@ fn the_error_of_a_pulse_is_not_that_of_a_parabola_over_its_end() {
     b.resistor("outer", wall, air, Resistance(r_amb));
     b.source("heat", port, pulse);
     let options =
-        ReductionOptions { run: Some(Transient::until(Time(600.0))), ..Default::default() };
+        ReductionOptions { run: Some(RunAnalysis::until(Time(600.0))), ..Default::default() };
     let dynamics = Reduction::new(&assembled(b), port, &options).unwrap().dynamics.unwrap();
     for pair in &dynamics.pairs {
         let tau = exact.resistance * pair.capacity;
@@ -237,7 +237,7 @@ fn the_error_of_a_leaping_port_is_largest_just_before_it_leaps() {
     b.resistor("outer", wall, air, Resistance(r_amb));
     b.source("heat", port, ramp);
     let options =
-        ReductionOptions { run: Some(Transient::until(Time(100.0))), ..Default::default() };
+        ReductionOptions { run: Some(RunAnalysis::until(Time(100.0))), ..Default::default() };
     let reduction = Reduction::new(&assembled(b), port, &options).unwrap();
     let rise = |r: f64, tau: f64, t: f64| slope * r * (t + tau * (-t / tau).exp_m1());
     // the fourth is so small a capacity that the one-node network errs by more after the leap
@@ -265,7 +265,7 @@ fn a_massless_port_may_be_best_without_capacity() {
     b.source("heat", port, lptn_network::HeatFlow(50.0));
     let system = assembled(b);
     let options =
-        ReductionOptions { run: Some(Transient::until(Time(1000.0))), ..Default::default() };
+        ReductionOptions { run: Some(RunAnalysis::until(Time(1000.0))), ..Default::default() };
     let reduction = Reduction::new(&system, port, &options).unwrap();
     let dynamics = reduction.dynamics.as_ref().unwrap();
     let pair = dynamics.pair(Definition::LeastSquares).unwrap();
@@ -310,7 +310,7 @@ fn islands_without_ground_do_not_matter_to_a_port_that_has_one() {
         b.source("P_disp", steel, HeatFlow(220.6));
         b.source("elsewhere", chain[1], HeatFlow(1000.0));
         let system = common::assembled(b);
-        let run = Some(Transient::until(Time(1500.0)));
+        let run = Some(RunAnalysis::until(Time(1500.0)));
         let options = ReductionOptions { run, judge: Judge::Run, ..Default::default() };
         let reduction = Reduction::new(&system, steel, &options).unwrap();
         near(reduction.norton.resistance, r_int + r_amb, 1e-14);
@@ -343,14 +343,12 @@ fn islands_without_ground_do_not_matter_to_a_port_that_has_one() {
 #[test]
 fn the_window_is_that_of_the_question() {
     let (system, nodes) = common::chain(&[2659.0], &[3.25]);
-    let window = |run: Option<Transient>, window: Option<f64>, judge: Judge| {
+    let window = |run: Option<RunAnalysis>, window: Option<f64>, judge: Judge| {
         let options = ReductionOptions { run, window, judge, ..Default::default() };
         let reduction = Reduction::new(&system, nodes[0], &options).unwrap();
         reduction.dynamics.unwrap().window.unwrap()
     };
-    let mut late = Transient::until(Time(1500.0));
-    late.start = 400.0;
-    let run = Some(late);
+    let run = Some(RunAnalysis::until(Time(1500.0)).lasting(400.0, 1500.0));
     assert_eq!(window(run.clone(), None, Judge::Run), LeastSquaresWindow::Run(1100.0));
     assert_eq!(window(run.clone(), Some(30.0), Judge::Run), LeastSquaresWindow::Given(30.0));
     for found in [window(None, None, Judge::Run), window(run, None, Judge::Step)] {

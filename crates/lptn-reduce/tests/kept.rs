@@ -5,6 +5,7 @@
 mod common;
 
 use common::{Random, Spectrum, assembled, chain, near};
+use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
     Conductance, HeatCapacity, HeatFlow, NetworkBuilder, NodeId, Temperature, Time,
@@ -13,7 +14,7 @@ use lptn_reduce::{
     Allowed, Kept, KeptErrors, KeptReference, NortonEquivalent, Projected, ReduceError, Reduction,
     ReductionOptions,
 };
-use lptn_solve::{SteadyState, Transient};
+use lptn_solve::SteadyState;
 
 /// `z_pq` in the end and its first moment by the library's one-port solutions, which other tests
 /// hold against closed forms.
@@ -27,7 +28,7 @@ fn kept(
     system: &ThermalSystem,
     asked: &[NodeId],
     count: usize,
-    run: Option<&Transient>,
+    run: Option<&RunAnalysis>,
 ) -> (Kept, KeptErrors) {
     let reference = KeptReference::new(system, asked, (run, Allowed::default())).unwrap();
     Kept::new(system, &reference, count).unwrap()
@@ -190,7 +191,7 @@ fn recovered_temperatures_are_the_steady_ones() {
 #[test]
 fn the_run_is_compared_at_every_node_asked_for() {
     let (system, nodes) = frame();
-    let run = Transient::until(Time(4000.0));
+    let run = RunAnalysis::until(Time(4000.0));
     let error = |count| {
         let (_, errors) = kept(&system, &[nodes[0], nodes[2]], count, Some(&run));
         errors.run.unwrap().iter().map(|(error, _)| error.kelvin).fold(0.0, f64::max)

@@ -3,13 +3,13 @@
 mod common;
 
 use common::{assembled, near};
+use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Conductance, HeatCapacity, HeatFlow, NetworkBuilder, Temperature, Time};
 use lptn_reduce::{Reduction, ReductionOptions};
-use lptn_solve::Transient;
 
 fn options(stop: f64) -> ReductionOptions {
-    ReductionOptions { run: Some(Transient::until(Time(stop))), ..Default::default() }
+    ReductionOptions { run: Some(RunAnalysis::until(Time(stop))), ..Default::default() }
 }
 
 #[test]
@@ -146,8 +146,7 @@ fn a_massless_port_starts_with_what_acts_after_the_start() {
     b.source("heat", port, heat);
     let system = assembled(b);
     for (start, heat) in [(0.0, 40.0), (100.0, 5.0), (200.0, 7.0)] {
-        let mut run = Transient::until(Time(1000.0));
-        run.start = start;
+        let run = RunAnalysis::until(Time(1000.0)).lasting(start, 1000.0);
         let reduction = Reduction::new(
             &system,
             port,
@@ -164,7 +163,7 @@ fn a_massless_port_starts_with_what_acts_after_the_start() {
 fn the_tolerance_of_the_comparison_follows_that_of_the_run() {
     let (system, [steel, _]) = common::two_nodes([1000.0, 1659.0], 0.1, 0.3, 220.6);
     for (asked, kept) in [(1e-3, lptn_reduce::TOLERANCE), (1e-6, 1e-8)] {
-        let run = Transient::until(Time(100.0)).tolerance(asked);
+        let run = RunAnalysis::until(Time(100.0)).within(asked);
         let reduction = Reduction::new(
             &system,
             steel,

@@ -4,19 +4,20 @@
 mod common;
 
 use common::{assembled, chain, near, two_nodes};
+use lptn_analysis::RunAnalysis;
 use lptn_network::{Conductance, HeatCapacity, HeatFlow, NetworkBuilder, Temperature, Time};
 use lptn_reduce::{Bias, Reduction, ReductionOptions, fit_exponential, transfer_resistance};
-use lptn_solve::{SteadyState, Transient};
+use lptn_solve::{Proceed, SteadyState};
 
 /// What the seed paper's method concludes from its fit, in the paper's own words: P = (T_f - T_i)
 /// C_eq / t_RC.
 #[test]
 fn the_bias_follows_from_the_fit() {
     let (system, nodes) = two_nodes([1235.0, 1424.0], 1.7 / 220.6, 65.5 / 220.6, 220.6);
-    let run = Transient::until(Time(1500.0)).every(Time(2.0)).tolerance(1e-7);
+    let run = RunAnalysis::until(Time(1500.0)).every(Time(2.0)).within(1e-7);
     for node in nodes {
         let bias = Bias::new(&system, node, &run).unwrap().unwrap();
-        let solution = run.clone().record(&[node]).solve(&system).unwrap();
+        let solution = run.solve(&system, &mut |_| Proceed::Continue).unwrap();
         assert_eq!(
             bias.fit,
             fit_exponential(solution.times(), &solution.temperature(node).unwrap()).unwrap()
@@ -40,8 +41,8 @@ fn the_bias_of_one_node_is_none() {
     b.resistor("s", other, bed, Conductance(0.5));
     b.source("heat", port, HeatFlow(8.0));
     b.source("elsewhere", other, HeatFlow(1000.0));
-    let mut run = Transient::until(Time(1000.0)).every(Time(2.0)).tolerance(1e-8);
-    run.start = 400.0;
+    let run = RunAnalysis::until(Time(1000.0)).lasting(400.0, 1000.0);
+    let run = run.every(Time(2.0)).within(1e-8);
     let bias = Bias::new(&assembled(b), port, &run).unwrap().unwrap();
     near(bias.length, 600.0, 1e-15);
     assert_eq!(bias.points, 301);
@@ -58,7 +59,7 @@ fn where_no_heat_is_put_in_there_is_no_bias() {
     let bed = b.boundary("bed", Temperature(300.0));
     let port = b.node("port", HeatCapacity(50.0), Temperature(350.0));
     b.resistor("r", port, bed, Conductance(0.5));
-    let run = Transient::until(Time(500.0)).every(Time(2.0)).tolerance(1e-8);
+    let run = RunAnalysis::until(Time(500.0)).every(Time(2.0)).within(1e-8);
     let bias = Bias::new(&assembled(b), port, &run).unwrap().unwrap();
     near(bias.fit.settled, 300.0, 1e-8);
     near(bias.inferred, -25.0, 1e-5);
@@ -116,7 +117,7 @@ fn nodes_that_a_boundary_joins_do_not_see_each_other() {
         b.source(&format!("q{i}"), node, HeatFlow(20.0 + 30.0 * i as f64));
     }
     let options =
-        ReductionOptions { run: Some(Transient::until(Time(1500.0))), ..Default::default() };
+        ReductionOptions { run: Some(RunAnalysis::until(Time(1500.0))), ..Default::default() };
     let reduction = Reduction::new(&assembled(b), nodes[6], &options).unwrap();
     near(reduction.norton.resistance, 1.0 / 3.25, 1e-14);
     near(reduction.inputs.heat, 200.0, 1e-14);
@@ -186,7 +187,7 @@ fn a_fit_finds_one_exponential_again_and_says_where_there_is_none() {
 fn the_table_has_a_row_a_pair() {
     let (system, nodes) = two_nodes([1000.0, 1659.0], 0.1, 0.3, 220.6);
     let options =
-        ReductionOptions { run: Some(Transient::until(Time(1500.0))), ..Default::default() };
+        ReductionOptions { run: Some(RunAnalysis::until(Time(1500.0))), ..Default::default() };
     let reduction = Reduction::new(&system, nodes[0], &options).unwrap();
     let table = reduction.table();
     let labels: Vec<&[String]> =

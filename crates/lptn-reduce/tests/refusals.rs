@@ -4,13 +4,13 @@
 mod common;
 
 use common::{assembled, chain};
+use lptn_analysis::RunAnalysis;
 use lptn_integrate::FactorError;
 use lptn_network::{
     Acts, Conductance, Context, HeatCapacity, NetworkBuilder, Temperature, Thermostat, Time,
     UnknownName,
 };
 use lptn_reduce::{NortonEquivalent, ReduceError, Reduction, ReductionOptions, port};
-use lptn_solve::Transient;
 use lptn_units::{Dimension, Type, parse_quantity};
 
 /// One node on a boundary, with a fan that a thermostat switches.
@@ -38,7 +38,7 @@ fn switched() -> NetworkBuilder {
 fn a_network_that_switches_has_no_run_of_one_node() {
     let system = assembled(switched());
     let node = system.network().node("a").unwrap();
-    let run = Some(Transient::until(Time(10.0)));
+    let run = Some(RunAnalysis::until(Time(10.0)));
     let error =
         Reduction::new(&system, node, &ReductionOptions { run, ..Default::default() }).unwrap_err();
     assert_eq!(error.code(), "reduce::switches");

@@ -5,13 +5,14 @@
 mod common;
 
 use common::{assembled, near};
+use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
     Conductance, ConductorKind, End, HeatCapacity, HeatFlow, NetworkBuilder, Path, Resistance,
     Temperature, Time,
 };
 use lptn_reduce::{Definition, Judge, Reduction, ReductionOptions};
-use lptn_solve::{SteadyState, Transient};
+use lptn_solve::SteadyState;
 
 fn stream(b: &mut NetworkBuilder, name: &str, (from, to): (End, End), rate: f64) {
     b.conductor(name, ConductorKind::Advection, (from, to), Path::stream(Conductance(rate)));
@@ -94,7 +95,7 @@ fn the_equivalent_is_the_steady_state() {
 fn the_run_judges_where_no_step_can() {
     let system = channel(false);
     let hot = system.network().node("hot").unwrap();
-    let run = Some(Transient::until(Time(2000.0)));
+    let run = Some(RunAnalysis::until(Time(2000.0)));
     let reduction = Reduction::new(&system, hot, &ReductionOptions { run, ..Default::default() });
     let dynamics = reduction.unwrap().dynamics.unwrap();
     assert_eq!(dynamics.recommended.by, Some(Judge::Run));
@@ -124,7 +125,7 @@ fn a_stream_through_one_node_is_a_conductance() {
         }
         b.source("p", steel, HeatFlow(223.0));
         let system = assembled(b);
-        let run = Some(Transient::until(Time(3600.0)));
+        let run = Some(RunAnalysis::until(Time(3600.0)));
         let options = ReductionOptions { run, ..Default::default() };
         Reduction::new(&system, steel, &options).unwrap()
     };

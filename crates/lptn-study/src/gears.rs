@@ -4,7 +4,7 @@ use lptn_assembly::{AssemblyError, ThermalSystem};
 use lptn_laws::Group;
 use lptn_netlist::{Gearbox, Member};
 use lptn_network::{BuildErrors, Evaluation, InputError, Item, Network, SignalId, SourceId};
-use lptn_solve::{SteadyError, SteadyState};
+use lptn_solve::SteadyError;
 use lptn_units::Class;
 
 /// The step of ln(speed) to each side over which exponents are taken.
@@ -180,7 +180,7 @@ impl<'a> GearTask<'a> {
     fn vertices(&self, network: &Network, held: Option<f64>) -> Result<Vec<f64>, GearError> {
         let Some(temperature) = held else {
             let system = ThermalSystem::assemble(network)?;
-            let steady = SteadyState::solve(&system, self.time)?;
+            let steady = lptn_analysis::steady(&system, self.time)?;
             return Ok([&steady.temperatures[..], &steady.boundary_temperatures].concat());
         };
         let mut vertices = vec![temperature; network.nodes().len() + network.boundaries().len()];

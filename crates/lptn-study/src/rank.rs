@@ -1,11 +1,12 @@
 //! What to change first: by how much one temperature answers every value of a network.
 
+use lptn_analysis::{RunAnalysis, RunError};
 use lptn_assembly::{ChangeError, ThermalSystem};
-use lptn_network::{Field, InputError, Item, Network, NodeId, OutputTimes, ParameterId, Value};
+use lptn_network::{Field, InputError, Item, Network, NodeId, ParameterId, RunSettings, Value};
 use lptn_solve::{
     Adjoint, AdjointError, Feedback, Gradient, Influence, Modes, ParameterSlopes, Proceed,
-    Progress, RecordedNodes, RunStatus, SensitiveError, SteadyError, SteadyState, Transient,
-    TransientError, Watch, can_move, on_both_sides, own_side, sensitive_run_observed,
+    Progress, RecordedNodes, SensitiveError, SteadyError, SteadyState, TransientError, can_move,
+    on_both_sides, own_side,
 };
 
 use crate::compare::hottest;
@@ -34,6 +35,15 @@ pub enum RankError {
     NoNode = "rank::no_node", "the network has no node whose temperature could answer",
         help "add a [node]";
 }
+}
+
+impl From<RunError> for RankError {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Failed(error) => Self::Run(error),
+            RunError::Interrupted { .. } => Self::Sensitive(SensitiveError::Interrupted),
+        }
+    }
 }
 
 /// How one temperature answers.
@@ -115,21 +125,16 @@ impl Ranking {
     /// [`RankError`]
     pub fn of_run(
         system: &ThermalSystem,
-        (settings, node): (&Transient, Option<NodeId>),
+        (settings, node): (&RunSettings, Option<NodeId>),
         observer: &dyn Fn(Progress) -> Proceed,
     ) -> Result<Self, RankError> {
         let network = system.network();
-        let (run, peak) = highest(system, (settings, node), observer)?;
-        let Highest { node, temperature, at } = peak;
+        let run = RunAnalysis::of(network, settings).bare();
+        let Highest { node, temperature, at } = highest(system, (&run, node), observer)?;
         let ends = (settings.start, settings.stop);
-        let run = Transient {
-            output: OutputTimes::At(with(ends, at)),
-            record: RecordedNodes::Nodes(vec![node]),
-            watch: vec![Watch { node, level: None }],
-            ..run
-        };
+        let run = run.at(with(ends, at)).keeping(RecordedNodes::Nodes(vec![node])).watching([node]);
         let (ids, fixed) = free(network);
-        let run = sensitive_run_observed(network, (&run, &ids), observer)?;
+        let run = run.with_slopes((network, &ids), observer)?;
         let rows = run.solution.temperature(node).unwrap_or_default();
         let place = own_side((run.solution.times(), |row| rows[row]), (at, temperature), ends);
         let slope = |id: ParameterId| {
@@ -167,30 +172,19 @@ struct Highest {
     at: f64,
 }
 
-/// That of `node` or of the hottest one, and the run that looks for it.
+/// That of `node` or of the hottest one.
 fn highest(
     system: &ThermalSystem,
-    (settings, node): (&Transient, Option<NodeId>),
+    (run, node): (&RunAnalysis, Option<NodeId>),
     observer: &dyn Fn(Progress) -> Proceed,
-) -> Result<(Transient, Highest), RankError> {
+) -> Result<Highest, RankError> {
     let nodes = node.map_or_else(|| system.network().node_ids().collect(), |id| vec![id]);
-    let run = Transient {
-        output: OutputTimes::At(vec![settings.start, settings.stop]),
-        record: RecordedNodes::Nodes(Vec::new()),
-        watch: nodes.iter().map(|&node| Watch { node, level: None }).collect(),
-        windows: Vec::new(),
-        balance: None,
-        ..settings.clone()
-    };
-    let seen = run.solve_observed(system, &mut |progress| observer(progress));
-    let seen = seen.map_err(|error| RankError::Run(Box::new(error)))?;
-    if let RunStatus::Interrupted(_) = seen.end() {
-        return Err(RankError::Sensitive(SensitiveError::Interrupted));
-    }
+    let run = run.clone().at(Vec::new()).watching(nodes.iter().copied());
+    let seen = run.solve(system, &mut |progress| observer(progress))?;
     let peaks = nodes.iter().zip(seen.watched().iter().map(|watched| watched.peak));
     let peak = hottest(peaks.map(|(&node, (temperature, at))| ((node, at), temperature)));
     let ((node, at), temperature) = peak.ok_or(RankError::NoNode)?;
-    Ok((run, Highest { node, temperature, at }))
+    Ok(Highest { node, temperature, at })
 }
 
 fn of_parameter(network: &Network, id: ParameterId, slope: f64) -> Influence {

@@ -5,7 +5,7 @@
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Netlist, parse};
 use lptn_network::Item;
-use lptn_solve::{Influence, Proceed, SteadyState, Transient};
+use lptn_solve::{Influence, Proceed, SteadyState};
 use lptn_study::{RankError, Ranking, effect};
 
 fn read(text: &str) -> Netlist {
@@ -22,8 +22,8 @@ fn steady(netlist: &Netlist, node: Option<&str>) -> Ranking {
 
 fn of_run(netlist: &Netlist) -> Result<Ranking, RankError> {
     let system = ThermalSystem::assemble(&netlist.network).unwrap();
-    let settings = Transient::of(&netlist.network, netlist.run.as_ref().unwrap());
-    Ranking::of_run(&system, (&settings, None), &|_| Proceed::Continue)
+    let settings = netlist.run.as_ref().unwrap();
+    Ranking::of_run(&system, (settings, None), &|_| Proceed::Continue)
 }
 
 /// The change for 10 % or 1 K by the name of what is changed.

@@ -150,7 +150,7 @@ fn what_cannot_be_sampled_has_a_code() {
     assert_eq!(code(sobol_with(&netlist, (63, 1, 1))), "uncertainty::samples");
     assert_eq!(code(sobol_with(&netlist, (70_000, 1, 1))), "uncertainty::samples");
     let mut large = task(&netlist);
-    large.run.output = lptn_solve::OutputTimes::Every(1e-3);
+    large.run = large.run.every(lptn_network::Time(1e-3));
     assert_eq!(code(common::sample(&large, (4096, 1, 1))), "uncertainty::too_large");
     let nonsense = parsed(ONE_NODE, "P = \"200 W\"\nT_amb = \"20 degC\"\nR = \"0.01 ± 50 K/W\"");
     let outcome = sobol_with(&nonsense, (64, 1, 1)).unwrap();

@@ -29,6 +29,7 @@
 //! says what each of them owns. All numbers are in SI units, temperatures in K, heat positive into
 //! a node and from `from` to `to`.
 
+pub use lptn_analysis as analysis;
 pub use lptn_assembly as assembly;
 pub use lptn_fit as fit;
 pub use lptn_graph as graph;

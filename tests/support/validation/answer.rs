@@ -2,6 +2,7 @@
 
 use std::cell::OnceCell;
 
+use lptn::analysis::RunAnalysis;
 use lptn::fit::network::NetworkFit;
 use lptn::network::{BoundaryId, ConductorId, End, NodeId};
 use lptn::prelude::*;
@@ -310,8 +311,8 @@ impl<'a> Laboratory<'a> {
         let node = self.node(&fit.node)?;
         let steps = fit.n.saturating_sub(1).max(1) as f64;
         if fit.t0 == 0.0 {
-            let run = Transient::until(Time(fit.t1)).every(Time(fit.t1 / steps));
-            let bias = Bias::new(self.system(), node, &run.tolerance(self.case.tolerance()))??;
+            let run = RunAnalysis::until(Time(fit.t1)).every(Time(fit.t1 / steps));
+            let bias = Bias::new(self.system(), node, &run.within(self.case.tolerance()))??;
             let counted = bias.points == fit.n;
             return if counted {
                 Ok(bias.fit)

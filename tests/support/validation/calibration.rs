@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use lptn::analysis::RunAnalysis;
 use lptn::fit::network::{
     Measurand, MeasuredColumn, MeasuredRun, NetworkFit, NetworkFitTask, Varied, fit_network,
 };
@@ -85,7 +86,7 @@ fn measured(case: &Case, calibration: &Calibration, model: &Model) -> Result<Mea
         parameters: model.system.network().overrides(),
         signals: Vec::new(),
         initial: Vec::new(),
-        settings: Transient::until(Time(1.0)),
+        settings: RunAnalysis::until(Time(1.0)),
         times: column(&calibration.time_column)?,
         columns: calibration.observations.iter().map(observe).collect::<Result<_, _>>()?,
     })

@@ -1,5 +1,6 @@
 //! Why nothing can be inferred.
 
+use lptn_analysis::RunError;
 use lptn_assembly::ChangeError;
 use lptn_solve::{TransientError, Unsolved};
 use lptn_units::{Class, EvalError};
@@ -17,7 +18,7 @@ pub enum InferError {
     /// The network, or what it is with other courses.
     Network => ChangeError;
     /// The run behind which the record is looked at.
-    Run => TransientError;
+    Run => Box<TransientError>;
     /// The rates at one of its moments.
     Rates => Unsolved as Class::of_numbers;
     /// A value of a sought signal, that of this name, is 0 or less.
@@ -73,4 +74,13 @@ pub enum InferError {
     Interrupted = "infer::interrupted", "the inference was interrupted",
         class Class::Interrupted;
 }
+}
+
+impl From<RunError> for InferError {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Failed(error) => Self::Run(error),
+            RunError::Interrupted { .. } => Self::Interrupted,
+        }
+    }
 }

@@ -252,7 +252,7 @@ impl<'a> Follower<'a> {
                 column.values[0] = f64::NAN;
             }
         }
-        let start = task.run.settings.start;
+        let start = task.run.settings.start();
         let first = if task.start == Start::Known { start.min(times[0]) } else { times[0] };
         let signals = task.run.signals.iter_mut().enumerate();
         signals.for_each(|(i, signal)| course(signal, i, (first, rows)));

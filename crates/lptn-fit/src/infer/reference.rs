@@ -1,8 +1,8 @@
 //! The run near which everything is linear.
 
 use lptn_assembly::{ChangeError, ThermalSystem};
-use lptn_network::{Network, NodeId, OutputTimes, SignalId};
-use lptn_solve::{Proceed, Progress, RecordedNodes, RunStatus, Solution, Transient};
+use lptn_network::{Network, NodeId, SignalId};
+use lptn_solve::{Proceed, Progress, RecordedNodes, Solution};
 
 use crate::infer::error::InferError;
 use crate::infer::task::{InferTask, Start};
@@ -25,7 +25,7 @@ pub(crate) struct Moments {
 
 impl Moments {
     pub(crate) fn of(task: &InferTask<'_>) -> Result<Self, InferError> {
-        let (start, mut times) = (task.run.settings.start, task.run.times.clone());
+        let (start, mut times) = (task.run.settings.start(), task.run.times.clone());
         let span = (times.first().copied(), times.last().copied());
         if let (Some(first), Some(last)) = span
             && first < start
@@ -153,22 +153,10 @@ impl Reference {
         observer: &InferObserver<'_>,
     ) -> Result<Solution, InferError> {
         let (start, stop) = (times[0], times[times.len() - 1]);
-        let settings = Transient {
-            start,
-            stop,
-            output: OutputTimes::At(times[1..times.len() - 1].to_vec()),
-            tolerance: TOLERANCES[usize::from(!system.is_proportional())],
-            record: RecordedNodes::All,
-            watch: Vec::new(),
-            windows: Vec::new(),
-            balance: None,
-            ..task.run.settings.clone()
-        };
-        let solution = settings.solve_observed(system, &mut |step| observer(step))?;
-        match solution.end() {
-            RunStatus::Interrupted(_) => Err(InferError::Interrupted),
-            _ => Ok(solution),
-        }
+        let run = task.run.settings.clone().keeping(RecordedNodes::All).lasting(start, stop);
+        let run = run.at(times[1..times.len() - 1].to_vec());
+        let run = run.within(TOLERANCES[usize::from(!system.is_proportional())]);
+        Ok(run.solve(system, &mut |step| observer(step))?.result)
     }
 
     /// Own value of a sought signal at the moments.

@@ -221,7 +221,7 @@ fn check(task: &NetworkFitTask<'_>, unknowns: &[Unknown]) -> Result<(), NetworkF
             run.times.first().copied().unwrap_or(f64::NAN),
             run.times.last().copied().unwrap_or(f64::NAN),
         );
-        let start = run.settings.start;
+        let start = run.settings.start();
         if !(span.0 >= start && span.1 > start) {
             return Err(NetworkFitError::Times { record: run.name.clone(), span, start });
         }

@@ -4,9 +4,7 @@ use std::ops::Range;
 
 use lptn_assembly::ChangeError;
 use lptn_network::{Network, ParameterId};
-use lptn_solve::{
-    Gradient, Proceed, Progress, SensitiveError, in_parallel, sensitive_run_observed,
-};
+use lptn_solve::{Gradient, Proceed, Progress, SensitiveError, in_parallel};
 
 use crate::least_squares::{self, LeastSquaresError, Residuals};
 use crate::network::coordinates::Coordinates;
@@ -210,7 +208,7 @@ impl NetworkFitTask<'_> {
         let settings = rows.settings(&self.runs[run], tolerance);
         let computed = |values: &[f64], ids: &[ParameterId]| {
             let network = self.network_of(run, (unknowns, values))?;
-            sensitive_run_observed(&network, (&settings, ids), observer)
+            settings.with_slopes((&network, ids), observer)
         };
         let ids: Vec<ParameterId> = self.parameters.iter().map(|varied| varied.parameter).collect();
         let found = computed(values, &ids)?;
@@ -222,7 +220,11 @@ impl NetworkFitTask<'_> {
                 moved[i] += by;
                 computed(&moved, &[])
             };
-            beside.push(Beside { unknown: i, runs: [moved(-by)?, moved(by)?], distance: 2.0 * by });
+            beside.push(Beside {
+                unknown: i,
+                runs: [moved(-by)?.result, moved(by)?.result],
+                distance: 2.0 * by,
+            });
         }
         let reader = Reader { task: self, run, rows, unknowns, values, beside: &beside };
         Ok(reader.measure(&found))

@@ -1,8 +1,8 @@
 //! From a `[fit.NAME]` of a netlist to a task.
 
+use lptn_analysis::RunAnalysis;
 use lptn_netlist::{FitInitial, FitRecord, FitStudy, Netlist, Observed, Sensor};
 use lptn_network::{End, Network, NodeId, Time};
-use lptn_solve::Transient;
 
 use crate::network::error::NetworkFitError;
 use crate::network::recorded::{RecordedSignal, RecordedStart};
@@ -62,7 +62,7 @@ impl<'a> NetworkFitTask<'a> {
                     values,
                 }
             };
-            let begun = Begun { study, record, sensors, start: settings.start };
+            let begun = Begun { study, record, sensors, start: settings.start() };
             runs.push(MeasuredRun {
                 signals: begun.signals(network)?,
                 initial: begun.initial(&of)?,
@@ -80,10 +80,10 @@ impl<'a> NetworkFitTask<'a> {
 }
 
 /// Start and controls of the runs of a netlist.
-pub(crate) fn settings(netlist: &Netlist) -> Transient {
+pub(crate) fn settings(netlist: &Netlist) -> RunAnalysis {
     let run = netlist.run.as_ref();
-    let of = |run| Transient::of(&netlist.network, run);
-    run.map_or_else(|| Transient::until(Time(1.0)), of)
+    let of = |run| RunAnalysis::of(&netlist.network, run);
+    run.map_or_else(|| RunAnalysis::until(Time(1.0)), of).bare()
 }
 
 /// One record, with what is known of its instruments.

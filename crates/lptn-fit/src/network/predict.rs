@@ -61,7 +61,7 @@ pub(crate) fn misses(
 ) -> Result<Vec<Misses>, SensitiveError> {
     let unknowns = task.unknowns();
     let coordinates = Coordinates::new(&unknowns);
-    let tolerance = task.runs.iter().fold(TOLERANCE, |t, run| t.min(run.settings.tolerance));
+    let tolerance = task.runs.iter().fold(TOLERANCE, |t, run| t.min(run.settings.tolerance()));
     let mut model =
         Model::new((task, observer), (&unknowns, &coordinates), (usize::MAX, tolerance));
     let found = model.at(values).map_err(|(_, error)| error)?.clone();

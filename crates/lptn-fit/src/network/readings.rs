@@ -1,7 +1,8 @@
 //! What the instruments of one record read in its run.
 
-use lptn_network::{NodeId, OutputTimes, ParameterId};
-use lptn_solve::{Gradient, SensitiveRun, Transient};
+use lptn_analysis::RunAnalysis;
+use lptn_network::{NodeId, ParameterId};
+use lptn_solve::{Gradient, SensitiveRun};
 
 use crate::network::lag::{Followed, follow, refined};
 use crate::network::recorded::Held;
@@ -23,8 +24,8 @@ impl Rows {
     pub(crate) fn new(task: &NetworkFitTask<'_>, run: &MeasuredRun, most: usize) -> Self {
         let chosen = chosen(run.times.len(), most);
         let mut times: Vec<f64> = chosen.iter().map(|&row| run.times[row]).collect();
-        if times.first().is_some_and(|first| *first > run.settings.start) {
-            times.insert(0, run.settings.start);
+        if times.first().is_some_and(|first| *first > run.settings.start()) {
+            times.insert(0, run.settings.start());
         }
         let lags = run.columns.iter().filter_map(|column| Some(task.sensors[column.sensor?].lag));
         let least = lags.map(|lag| lag.value).filter(|lag| *lag > 0.0).fold(f64::NAN, f64::min);
@@ -41,20 +42,12 @@ impl Rows {
     }
 
     /// The run that has these rows.
-    pub(crate) fn settings(&self, run: &MeasuredRun, tolerance: f64) -> Transient {
-        let (start, stop) = (run.settings.start, self.times.last().copied());
+    pub(crate) fn settings(&self, run: &MeasuredRun, tolerance: f64) -> RunAnalysis {
+        let (start, stop) = (run.settings.start(), self.times.last().copied());
         let stop = stop.unwrap_or(start);
         let between = self.times.iter().copied().filter(|&time| time > start && time < stop);
-        Transient {
-            stop,
-            output: OutputTimes::At(between.collect()),
-            tolerance,
-            record: run.kept(),
-            watch: Vec::new(),
-            windows: Vec::new(),
-            balance: None,
-            ..run.settings.clone()
-        }
+        let settings = run.settings.clone().lasting(start, stop).within(tolerance);
+        settings.at(between.collect()).keeping(run.kept())
     }
 }
 

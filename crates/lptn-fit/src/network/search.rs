@@ -59,7 +59,7 @@ pub(crate) fn search<'a>(
     own: &[f64],
 ) -> Result<Found<'a>, NetworkFitError> {
     let tolerance =
-        |least: f64| task.runs.iter().fold(least, |t, run| t.min(run.settings.tolerance));
+        |least: f64| task.runs.iter().fold(least, |t, run| t.min(run.settings.tolerance()));
     let starts = starts(task, coordinates, own);
     let mut coarse = Model::new(
         (task, observer),

@@ -136,7 +136,7 @@ impl NetworkFitTask<'_> {
             }
             let measured = &task.runs[run];
             let rows = Rows::new(&task, measured, usize::MAX);
-            let tolerance = measured.settings.tolerance.min(TOLERANCE);
+            let tolerance = measured.settings.tolerance().min(TOLERANCE);
             task.measured((run, &rows), (&unknowns, &values), (tolerance, &|_| Proceed::Continue))
         };
         in_parallel(&all, self.threads, one).into_iter().collect()

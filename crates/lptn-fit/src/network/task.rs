@@ -2,9 +2,10 @@
 
 use std::fmt;
 
+use lptn_analysis::RunAnalysis;
 use lptn_netlist::{Sensor, SensorValue};
 use lptn_network::{Network, NodeId, Parameters, Value, Varied, ZERO_CELSIUS};
-use lptn_solve::{Proceed, Progress, RecordedNodes, Transient};
+use lptn_solve::{Proceed, Progress, RecordedNodes};
 use lptn_units::{Correlations, Type};
 
 use crate::network::recorded::{RecordedSignal, RecordedStart};
@@ -65,7 +66,7 @@ pub struct MeasuredRun {
     /// Nodes that begin at another temperature than the network says.
     pub initial: Vec<RecordedStart>,
     /// Start and controls of the run; its stop, rows and tolerance follow from the record.
-    pub settings: Transient,
+    pub settings: RunAnalysis,
     /// The times of the rows in s, ascending, on the clock of the run: none before its start, at
     /// least one behind it.
     pub times: Vec<f64>,

@@ -1,9 +1,10 @@
 //! What the method gets wrong of a network that is known.
 
+use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
-use lptn_network::{NodeId, OutputTimes};
+use lptn_network::NodeId;
 use lptn_reduce::{ExponentialFit, FitError, NortonEquivalent, ReduceError, fit_exponential};
-use lptn_solve::Transient;
+use lptn_solve::{Proceed, RecordedNodes};
 
 use super::error::StepError;
 
@@ -74,13 +75,13 @@ impl ModelBias {
     pub fn new(
         system: &ThermalSystem,
         port: NodeId,
-        run: &Transient,
+        run: &RunAnalysis,
         (begin, times): (f64, &[f64]),
     ) -> Result<Self, StepError> {
         let norton = NortonEquivalent::new(system, port).map_err(StepError::Model)?;
         let port_fit = PortFit::new(system, port, run, (begin, times))?;
         let inputs = norton
-            .inputs(system, run.start)
+            .inputs(system, run.start())
             .map_err(|e| StepError::Model(ReduceError::Input(e)))?;
         let fit = &port_fit.fit;
         let massless = system.network().nodes()[port.index()].massless;
@@ -110,16 +111,18 @@ impl PortFit {
     fn new(
         system: &ThermalSystem,
         port: NodeId,
-        run: &Transient,
+        run: &RunAnalysis,
         (begin, times): (f64, &[f64]),
     ) -> Result<Self, StepError> {
         let few = || StepError::Fit(FitError::TooFew { points: times.len() });
-        let rows: Vec<f64> = times.iter().map(|t| t - begin + run.start).collect();
+        let rows: Vec<f64> = times.iter().map(|t| t - begin + run.start()).collect();
         let (&first, &stop) = rows.first().zip(rows.last()).ok_or_else(few)?;
-        let begun = begin - run.start;
-        let run = Transient { stop, output: OutputTimes::At(rows), ..run.clone() };
-        let solution =
-            run.record(&[port]).solve(system).map_err(|e| StepError::Model(ReduceError::Run(e)))?;
+        let begun = begin - run.start();
+        let run = run.clone().bare().lasting(run.start(), stop).at(rows);
+        let run = run.keeping(RecordedNodes::Nodes(vec![port]));
+        let solution = run
+            .solve(system, &mut |_| Proceed::Continue)
+            .map_err(|e| StepError::Model(ReduceError::Run(e)))?;
         let temperatures = solution.temperature(port).unwrap_or_default();
         // a run has a row at its start, whether or not it is among those that are asked for
         let skipped = solution.times().partition_point(|&t| t < first);

@@ -2,20 +2,17 @@
 
 use std::sync::Arc;
 
+use lptn_analysis::{Observer, RunAnalysis, Trust};
 use lptn_assembly::ThermalSystem;
-use lptn_netlist::RunSettings;
-use lptn_network::{LimitSeverity, Network};
-use lptn_solve::{
-    Beyond, Others, OutOfRange, OutputTimes, PeriodicError, Proceed, Progress, RecordedNodes,
-    RunStatus, SteadyState, Summary, Transient,
-};
+use lptn_network::{LimitSeverity, Network, NodeId, RunSettings};
+use lptn_solve::{Others, PeriodicError, Proceed, SteadyState, Summary};
 
 use crate::compare::doubt::Scatter;
 use crate::compare::error::CompareError;
 use crate::compare::heat::{self, HeatOut, HeatOver};
 use crate::compare::limits::{self, LimitResult};
 use crate::compare::peak::{Peak, hottest, peak};
-use crate::compare::settled::{Found, Settled};
+use crate::compare::settled::{self, Settled};
 
 /// What is compared of a candidate. Temperatures in K, times in s.
 #[derive(Clone, Debug)]
@@ -39,10 +36,8 @@ pub struct Candidate {
     pub capacity: f64,
     /// Mass of all nodes in kg; `None` where that of a node with capacity is not known.
     pub mass: Option<f64>,
-    /// A temperature that nothing real has.
-    pub beyond: Option<Beyond>,
-    /// Where laws were outside the ranges in which they are known.
-    pub out_of_range: Vec<OutOfRange>,
+    /// How far its numbers can be trusted.
+    pub trust: Trust,
     /// Its steady state, where there are others or they cannot be excluded.
     pub several: Option<SteadyState>,
     /// What the `±` of parameters do to it, where that was asked for: see [`Scatter::of_run`].
@@ -69,11 +64,11 @@ impl Candidate {
     pub fn evaluate_observed(
         system: &ThermalSystem,
         run: Option<&RunSettings>,
-        observer: &mut dyn FnMut(Progress) -> Proceed,
+        observer: &mut Observer<'_>,
     ) -> Result<Self, CompareError> {
         match run {
             Some(run) => Self::over_time(system, run, observer),
-            None => Self::in_steady_state(system, observer),
+            None => Self::without_run(system, observer),
         }
     }
 
@@ -85,13 +80,14 @@ impl Candidate {
     pub fn settled_observed(
         system: &ThermalSystem,
         run: Option<&RunSettings>,
-        observer: &mut dyn FnMut(Progress) -> Proceed,
+        observer: &mut Observer<'_>,
     ) -> Result<Self, CompareError> {
-        let network = system.network();
         match Settled::find(system, run, observer)? {
-            Some(Ok(found)) => Ok(Self::over_a_cycle(network, found)),
+            Some(Ok(found)) => Ok(Self::over_a_cycle(system, found)),
             Some(Err(reason)) => Err(CompareError::Cycle(reason)),
-            None if network.changing_inputs().is_empty() => Self::in_steady_state(system, observer),
+            None if system.network().changing_inputs().is_empty() => {
+                Self::in_steady_state(system, None)
+            }
             None => Err(CompareError::NoPeriod),
         }
     }
@@ -107,23 +103,43 @@ impl Candidate {
         of(LimitSeverity::Error).or_else(|| of(LimitSeverity::Warning))
     }
 
+    /// What every candidate has, whatever it was solved over.
+    fn of(network: &Network, limits: &[lptn_analysis::LimitResult], trust: Trust) -> Self {
+        Self {
+            hottest: None,
+            peak: None,
+            steady: None,
+            time_to_95: None,
+            limits: limits::named(network, limits),
+            settled: None,
+            heat: HeatOut::default(),
+            capacity: network.node_ids().map(|id| network.capacity(id)).sum(),
+            // a part of unknown material makes the whole unknown: a sum without it would look light
+            mass: network.whole_mass(),
+            trust,
+            several: None,
+            scatter: None,
+        }
+    }
+
+    fn without_run(
+        system: &ThermalSystem,
+        observer: &mut Observer<'_>,
+    ) -> Result<Self, CompareError> {
+        match Settled::find(system, None, observer)? {
+            Some(Ok(found)) => Ok(Self::over_a_cycle(system, found)),
+            Some(Err(reason)) => Self::in_steady_state(system, Some(Err(reason))),
+            None => Self::in_steady_state(system, None),
+        }
+    }
+
     fn in_steady_state(
         system: &ThermalSystem,
-        observer: &mut dyn FnMut(Progress) -> Proceed,
+        settled: Option<Result<Settled, Arc<PeriodicError>>>,
     ) -> Result<Self, CompareError> {
         let network = system.network();
-        let settled = match Settled::find(system, None, observer)? {
-            Some(Ok(found)) => return Ok(Self::over_a_cycle(network, found)),
-            Some(Err(reason)) => Some(Err(reason)),
-            None => None,
-        };
-        let steady = SteadyState::solve(system, 0.0).map_err(CompareError::Steady)?;
-        let mut margins = steady.limit_margins(network, 0.0).map_err(CompareError::Input)?;
-        for (limit, margin) in network.limits().iter().zip(&mut margins) {
-            if !network.changing_inputs_of(&[&limit.of, &limit.value]).is_empty() {
-                *margin = f64::NAN;
-            }
-        }
+        let steady = lptn_analysis::steady(system, 0.0)?;
+        let limits = lptn_analysis::LimitResult::of_steady(network, &steady)?;
         let constant = network.changing_inputs().is_empty();
         let hottest = hottest(network.node_ids().zip(steady.temperatures.iter().copied()));
         let temperature = hottest.map(|(_, temperature)| temperature);
@@ -131,105 +147,70 @@ impl Candidate {
             hottest: hottest.map(|(id, _)| network.nodes()[id.index()].name.clone()),
             peak: temperature.map(|temperature| Peak { temperature, at: None }),
             steady: temperature.filter(|_| constant),
-            time_to_95: None,
-            limits: limits::in_steady_state(network, &margins),
             settled,
             heat: HeatOut::in_steady_state(network, &steady),
-            capacity: capacity(network),
-            mass: mass(network),
-            beyond: Beyond::of_steady(network, &steady),
-            out_of_range: OutOfRange::of_steady(network, &steady).map_err(CompareError::Input)?,
-            several: Some(steady).filter(is_doubtful),
-            scatter: None,
+            several: doubtful(&steady),
+            ..Self::of(network, &limits, steady.trust)
         })
     }
 
     /// Where signals repeat themselves and nothing says how long a run is.
-    fn over_a_cycle(network: &Network, found: Found) -> Self {
-        let Found { settled, solution } = found;
+    fn over_a_cycle(system: &ThermalSystem, found: settled::Found) -> Self {
+        let settled::Found { settled, limits, answer } = found;
+        let network = system.network();
         Self {
             hottest: settled.hottest.clone(),
             peak: settled.peak,
-            steady: None,
-            time_to_95: None,
-            limits: settled.limits.clone(),
+            heat: HeatOut::over_time(network, &answer.solution, HeatOver::Cycle),
             settled: Some(Ok(settled)),
-            heat: HeatOut::over_time(network, &solution, HeatOver::Cycle),
-            capacity: capacity(network),
-            mass: mass(network),
-            beyond: Beyond::of_run(&solution),
-            out_of_range: solution.out_of_range().to_vec(),
-            several: None,
-            scatter: None,
+            ..Self::of(network, &limits, answer.trust)
         }
     }
 
     fn over_time(
         system: &ThermalSystem,
         run: &RunSettings,
-        observer: &mut dyn FnMut(Progress) -> Proceed,
+        observer: &mut Observer<'_>,
     ) -> Result<Self, CompareError> {
         let network = system.network();
         let constant = network.changing_inputs().is_empty();
-        let steady = if constant { SteadyState::solve(system, run.start).ok() } else { None };
-        let transient = transient(system, run, steady.as_ref())?;
-        let solution = transient.solve_observed(system, observer);
-        let solution = solution.map_err(|error| CompareError::Run(Box::new(error)))?;
-        if let RunStatus::Interrupted(time) = solution.end() {
-            return Err(CompareError::Interrupted(time));
-        }
-        let nodes = Summary::new(&solution, steady.as_ref()).nodes;
+        let steady = if constant { lptn_analysis::steady(system, run.start).ok() } else { None };
+        let steady = steady.as_deref();
+        let answer = bare(network, run)
+            .towards((system, &all_nodes(network)), steady)
+            .map_err(CompareError::Start)?
+            .solve(system, observer)?;
+        let nodes = Summary::new(&answer, steady).nodes;
         let node = hottest(nodes.iter().map(|node| (node, node.peak.0))).map(|(node, _)| node);
+        let limits: Vec<_> =
+            answer.limits().iter().map(lptn_analysis::LimitResult::of_run).collect();
         Ok(Self {
             hottest: node.map(|node| network.nodes()[node.node.index()].name.clone()),
             peak: node.map(|node| peak(node, run)),
             steady: node.and_then(|node| node.steady),
             time_to_95: node.and_then(|node| node.time_to_95),
-            limits: limits::over_time(network, solution.limits()),
             settled: Settled::find(system, Some(run), observer)?
                 .map(|found| found.map(|found| found.settled)),
-            heat: HeatOut::over_time(network, &solution, HeatOver::Run),
-            capacity: capacity(network),
-            mass: mass(network),
-            beyond: Beyond::of_run(&solution),
-            out_of_range: solution.out_of_range().to_vec(),
-            several: steady.filter(is_doubtful),
-            scatter: None,
+            heat: HeatOut::over_time(network, &answer, HeatOver::Run),
+            several: steady.and_then(doubtful),
+            ..Self::of(network, &limits, answer.trust)
         })
     }
 }
 
-fn is_doubtful(steady: &SteadyState) -> bool {
-    steady.others != Others::None
+/// A steady state that may not be the only one.
+fn doubtful(steady: &SteadyState) -> Option<SteadyState> {
+    (steady.others != Others::None).then(|| steady.clone())
 }
 
-/// The run of the file without its rows, and with every node watched: peaks and limits are looked
-/// at between rows.
-fn transient(
-    system: &ThermalSystem,
-    run: &RunSettings,
-    steady: Option<&SteadyState>,
-) -> Result<Transient, CompareError> {
-    let network = system.network();
-    let nodes: Vec<_> = network.node_ids().collect();
-    let watch = Summary::watches(system, run.start, &nodes, steady).map_err(CompareError::Start)?;
-    let of = Transient::of(network, run);
-    let windows = of.windows.iter().cloned().chain(heat::window(network, (run.start, run.stop)));
-    Ok(Transient {
-        output: OutputTimes::At(vec![run.stop]),
-        record: RecordedNodes::Nodes(Vec::new()),
-        watch,
-        windows: windows.collect(),
-        ..of
-    })
+/// A run or cycle without rows and with the windows that its heats need: peaks and limits are
+/// looked at between rows.
+pub(crate) fn bare(network: &Network, settings: &RunSettings) -> RunAnalysis {
+    let windows = heat::window(network, (settings.start, settings.stop)).into_iter().collect();
+    RunAnalysis::of(network, settings).bare().at(Vec::new()).over(windows)
 }
 
-fn capacity(network: &Network) -> f64 {
-    network.node_ids().map(|id| network.capacity(id)).sum()
-}
-
-/// A part whose material is not known makes the whole unknown: a sum without it would look like a
-/// light design.
-fn mass(network: &Network) -> Option<f64> {
-    network.whole_mass()
+/// The nodes of a network, in its order.
+pub(crate) fn all_nodes(network: &Network) -> Vec<NodeId> {
+    network.node_ids().collect()
 }

@@ -1,8 +1,7 @@
 //! How sure what is compared is, and how sure the difference of two candidates.
 
-use lptn_netlist::RunSettings;
-use lptn_network::{LimitId, Network, Parameters};
-use lptn_solve::Transient;
+use lptn_analysis::RunAnalysis;
+use lptn_network::{LimitId, Network, Parameters, RunSettings};
 
 use crate::uncertainty::normal::share_below;
 use crate::uncertainty::{Answer, AnswerOf, Inputs, UncertaintyError, UncertaintyTask, uncertain};
@@ -51,7 +50,7 @@ impl Scatter {
             inputs => inputs?,
         };
         let Ok(node) = network.node(hottest) else { return Ok(None) };
-        let (parameters, run) = (parameters.clone(), Transient::of(network, run));
+        let (parameters, run) = (parameters.clone(), RunAnalysis::of(network, run));
         let found = UncertaintyTask { network, parameters, run, nodes: vec![node] }.linear()?;
         let name = |i: usize| network.parameters()[inputs[i].parameter.index()].name.clone();
         let of = |wanted: AnswerOf| found.answers.iter().find(|answer| answer.of == wanted);

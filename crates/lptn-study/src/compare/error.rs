@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use lptn_analysis::RunError;
 use lptn_network::InputError;
 use lptn_solve::{PeriodicError, SteadyError, TransientError, Unsolved};
 use lptn_units::Class;
@@ -31,6 +32,15 @@ pub enum CompareError {
     Interrupted(time: f64) = "run::interrupted", format!("the run was interrupted at {time} s"),
         class Class::Interrupted;
 }
+}
+
+impl From<RunError> for CompareError {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Failed(error) => Self::Run(error),
+            RunError::Interrupted { time, .. } => Self::Interrupted(time),
+        }
+    }
 }
 
 impl CompareError {

@@ -1,7 +1,6 @@
 //! What became of the limits of a candidate.
 
 use lptn_network::{LimitSeverity, Network};
-use lptn_solve::LimitSeen;
 use lptn_units::{Dimension, Type};
 
 /// What became of a limit.
@@ -38,19 +37,12 @@ impl LimitResult {
     }
 }
 
-/// The limits of a network with margins and times of the first break, in the order of the network.
-fn results(network: &Network, found: impl Iterator<Item = (f64, Option<f64>)>) -> Vec<LimitResult> {
-    let one = |(limit, (margin, broken_at)): (&lptn_network::Limit, _)| {
+/// The limits of a network by name, in its order.
+pub(crate) fn named(network: &Network, found: &[lptn_analysis::LimitResult]) -> Vec<LimitResult> {
+    let one = |found: &lptn_analysis::LimitResult| {
+        let limit = &network.limits()[found.limit.index()];
         let (name, ty, severity) = (limit.name.clone(), limit.margin_type(), limit.severity);
-        LimitResult { name, ty, severity, margin, broken_at }
+        LimitResult { name, ty, severity, margin: found.margin, broken_at: found.broken_at }
     };
-    network.limits().iter().zip(found).map(one).collect()
-}
-
-pub(crate) fn in_steady_state(network: &Network, margins: &[f64]) -> Vec<LimitResult> {
-    results(network, margins.iter().map(|&margin| (margin, None)))
-}
-
-pub(crate) fn over_time(network: &Network, seen: &[LimitSeen]) -> Vec<LimitResult> {
-    results(network, seen.iter().map(|seen| (seen.margin, seen.broken_at)))
+    found.iter().map(one).collect()
 }

@@ -2,15 +2,13 @@
 
 use std::sync::Arc;
 
+use lptn_analysis::{Answer, CycleError, Observer};
 use lptn_assembly::ThermalSystem;
-use lptn_network::{OutputTimes, RunSettings};
-use lptn_solve::{
-    Periodic, PeriodicError, Proceed, Progress, RecordedNodes, Solution, Summary, Transient,
-    TransientError, Watch,
-};
+use lptn_network::RunSettings;
+use lptn_solve::{Periodic, PeriodicError, Summary};
 
+use crate::compare::candidate::{all_nodes, bare};
 use crate::compare::error::CompareError;
-use crate::compare::heat;
 use crate::compare::limits::{self, LimitResult};
 use crate::compare::peak::{Peak, hottest, peak};
 
@@ -27,10 +25,11 @@ pub struct Settled {
     pub limits: Vec<LimitResult>,
 }
 
-/// A settled cycle, and what was integrated of it.
+/// A settled cycle with its answer.
 pub(crate) struct Found {
     pub(crate) settled: Settled,
-    pub(crate) solution: Solution,
+    pub(crate) limits: Vec<lptn_analysis::LimitResult>,
+    pub(crate) answer: Answer<Periodic>,
 }
 
 /// A settled cycle, or why there is none; nothing where signals do not repeat themselves.
@@ -41,55 +40,34 @@ impl Settled {
     /// and it cannot; nothing where they do not.
     ///
     /// # Errors
-    /// [`CompareError::Interrupted`].
+    /// [`CompareError`] if it was interrupted, or its energy balance does not close.
     pub(crate) fn find(
         system: &ThermalSystem,
         run: Option<&RunSettings>,
-        observer: &mut dyn FnMut(Progress) -> Proceed,
+        observer: &mut Observer<'_>,
     ) -> Result<Search, CompareError> {
-        let Ok(Some(period)) = system.network().repeat_period() else { return Ok(None) };
+        let network = system.network();
+        let Ok(Some(period)) = network.repeat_period() else { return Ok(None) };
         let cycle = RunSettings::cycle(run, period);
-        match Periodic::find_observed(system, &transient(system, &cycle), observer) {
-            Ok(found) => {
-                let (settled, solution) = (Self::of(&found, &cycle), found.solution);
-                Ok(Some(Ok(Found { settled, solution })))
-            }
-            Err(PeriodicError::Interrupted { .. }) => Err(CompareError::Interrupted(cycle.start)),
-            Err(PeriodicError::Cycle(open @ TransientError::Open { .. })) => {
-                Err(CompareError::Run(Box::new(open)))
-            }
-            Err(reason) => Ok(Some(Err(Arc::new(reason)))),
+        let asked = bare(network, &cycle).watching(all_nodes(network));
+        match asked.cycle(system, observer) {
+            Ok(answer) => Ok(Some(Ok(Self::of(system, (answer, &cycle))))),
+            Err(CycleError::Missing(reason)) => Ok(Some(Err(Arc::from(reason)))),
+            Err(CycleError::Run(error)) => Err(error.into()),
         }
     }
 
-    fn of(found: &Periodic, cycle: &RunSettings) -> Self {
-        let (solution, network) = (&found.solution, found.solution.network());
-        let nodes = Summary::new(solution, None).nodes;
+    fn of(system: &ThermalSystem, (answer, cycle): (Answer<Periodic>, &RunSettings)) -> Found {
+        let network = system.network();
+        let nodes = Summary::new(&answer.solution, None).nodes;
         let node = hottest(nodes.iter().map(|node| (node, node.peak.0))).map(|(node, _)| node);
-        Self {
+        let limits = lptn_analysis::LimitResult::of_cycle(&answer);
+        let settled = Self {
             hottest: node.map(|node| network.nodes()[node.node.index()].name.clone()),
             peak: node.map(|node| peak(node, cycle)),
             period: cycle.stop - cycle.start,
-            // a cycle has no first time
-            limits: limits::over_time(network, solution.limits())
-                .into_iter()
-                .map(|limit| LimitResult { broken_at: None, ..limit })
-                .collect(),
-        }
-    }
-}
-
-/// The cycle without its rows, and with every node watched.
-fn transient(system: &ThermalSystem, cycle: &RunSettings) -> Transient {
-    let network = system.network();
-    let of = Transient::of(network, cycle);
-    let output = OutputTimes::At(vec![cycle.stop]);
-    let windows = heat::window(network, (cycle.start, cycle.stop)).into_iter().collect();
-    Transient {
-        output,
-        windows,
-        record: RecordedNodes::Nodes(Vec::new()),
-        watch: network.node_ids().map(|node| Watch { node, level: None }).collect(),
-        ..of
+            limits: limits::named(network, &limits),
+        };
+        Found { settled, limits, answer }
     }
 }

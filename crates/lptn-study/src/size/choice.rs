@@ -215,7 +215,6 @@ fn is_no_answer(error: &SizeError) -> bool {
             | TrialError::Steady(_)
             | TrialError::Run(_)
             | TrialError::Periodic(_)
-            | TrialError::Ledger(..)
             | TrialError::Requirement { .. }
     )
 }

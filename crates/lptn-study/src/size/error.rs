@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
+use lptn_analysis::{AnalysisError, RunError};
 use lptn_assembly::AssemblyError;
 use lptn_netlist::Diagnostic;
-use lptn_network::{BuildErrors, Changing, InputError, ParameterId};
-use lptn_solve::{LedgerError, PeriodicError, SteadyError, TransientError, Unsolved};
+use lptn_network::{BuildErrors, Changing, ParameterId};
+use lptn_solve::{PeriodicError, SteadyError, TransientError, Unsolved};
 use lptn_units::{Class, EvalError, format_six};
 
 const LEAVE_OUT: &str = "`vary` has to leave this value out: let its range begin or end elsewhere";
@@ -95,8 +96,6 @@ pub enum TrialError {
     Periodic(error: Arc<PeriodicError>) = error.code(),
         format!("there is no settled cycle: {error}"),
         source error.as_ref(), help error.help(), class not_an_answer(error.class());
-    /// The books of the run do not close.
-    Ledger => LedgerError;
     /// A requirement, as it was written, has no value; why not, or `None` if it gave no finite
     /// number.
     Requirement { text: String, error: Option<EvalError> } = "size::requirement",
@@ -104,8 +103,6 @@ pub enum TrialError {
             Some(error) => format!("`{text}` has no value: {error}"),
             None => format!("`{text}` has no finite value"),
         };
-    /// Whether its laws stay in the ranges in which they are known cannot be told.
-    Range => InputError;
     /// What is sought has no value; why not, or `None` if it gave no finite number.
     Objective(error: Option<EvalError>) = "size::objective",
         match error {
@@ -118,17 +115,13 @@ pub enum TrialError {
 }
 }
 
-impl From<Arc<TransientError>> for TrialError {
-    fn from(error: Arc<TransientError>) -> Self {
-        Self::Run(error)
-    }
-}
-
-impl From<Arc<PeriodicError>> for TrialError {
-    fn from(error: Arc<PeriodicError>) -> Self {
-        match error.as_ref() {
-            PeriodicError::Interrupted { .. } => Self::Interrupted,
-            _ => Self::Periodic(error),
+impl From<AnalysisError> for TrialError {
+    fn from(error: AnalysisError) -> Self {
+        match error {
+            AnalysisError::Steady(error) => Self::Steady(error),
+            AnalysisError::Run(RunError::Failed(error)) => Self::Run(Arc::from(error)),
+            AnalysisError::Run(RunError::Interrupted { .. }) => Self::Interrupted,
+            AnalysisError::Cycle(error) => Self::Periodic(Arc::from(error)),
         }
     }
 }

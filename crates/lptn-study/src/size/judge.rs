@@ -1,16 +1,13 @@
 //! How far requirements are from being broken: in steady state, or at every moment of a run or of a
 //! settled cycle, in every load case.
 
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use lptn_analysis::{Analysis, Answer, Found, RunAnalysis, Trust};
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Netlist, Requirement};
-use lptn_network::{Network, OutputTimes, ParameterId, RunSettings, Value};
-use lptn_solve::{
-    OutOfRange, Periodic, Proceed, Progress, RecordedNodes, RunStatus, Solution, SteadyState,
-    Transient,
-};
+use lptn_network::{Network, ParameterId, RunSettings, Value};
+use lptn_solve::{OutOfRange, Proceed, Progress, Solution, SteadyState};
 use lptn_units::EvalError;
 
 use crate::size::aim::Aim;
@@ -32,6 +29,22 @@ pub(crate) enum Care {
     /// As a run with this tolerance in K comes out, steady states as one that follows the network
     /// from its start.
     Within(f64),
+}
+
+impl Care {
+    /// The tolerance in K of a run whose settings have this one.
+    fn tolerance(self, own: f64) -> f64 {
+        match self {
+            Self::Look => own,
+            Self::Proof => own.min(FINE),
+            Self::Within(tolerance) => tolerance.max(own),
+        }
+    }
+
+    /// The tolerance in K of the run whose steady state is asked for.
+    fn within(self) -> Option<f64> {
+        if let Self::Within(tolerance) = self { Some(tolerance) } else { None }
+    }
 }
 
 /// The error of a run is so many tolerances.
@@ -278,8 +291,8 @@ impl<'a> Judge<'a> {
             set.iter().chain(design).for_each(|(id, value)| parameters.set(*id, *value));
             let network = self.base.with(&parameters).map_err(TrialError::Network)?;
             let system = ThermalSystem::assemble(&network)?;
-            let steady = SteadyState::solve(&system, time).map_err(TrialError::Steady)?;
-            Ok(steady.state.temperatures)
+            let steady = lptn_analysis::steady(&system, time).map_err(TrialError::Steady)?;
+            Ok(steady.result.state.temperatures)
         };
         match self.demand.cases {
             [] => Ok(vec![state(&[])?]),
@@ -297,30 +310,43 @@ impl<'a> Judge<'a> {
         let network = self.base.with(&parameters).map_err(TrialError::Network)?;
         self.demand.netlist.meshes(&network).map_err(TrialError::Gears)?;
         self.count.fetch_add(1, Ordering::Relaxed);
-        let settings = |of: &RunOf<'_>| {
-            let run = of(&network).map_err(TrialError::Settings)?;
-            let tolerance = match care {
-                Care::Look => run.tolerance,
-                Care::Proof => run.tolerance.min(FINE),
-                Care::Within(tolerance) => tolerance.max(run.tolerance),
-            };
-            Ok::<_, TrialError>(RunSettings { tolerance, ..run })
-        };
-        match self.demand.moments {
-            Moments::Steady(time) => self.steady(&network, (time, care)),
-            Moments::Run(of) => self.run(&network, &settings(of)?),
-            Moments::Periodic(of) => self.cycle(&network, &settings(of)?),
+        self.asked(&network, care)
+    }
+
+    /// One network, over what is asked for.
+    fn asked(&self, network: &Network, care: Care) -> Result<Judged, TrialError> {
+        let analysis = self.analysis(network, care)?;
+        let system = ThermalSystem::assemble(network)?;
+        let observer = &mut |progress| (self.demand.watcher)(progress);
+        match analysis.ask(&system, observer)? {
+            Found::Steady(answer) => self.in_steady_state(network, answer),
+            Found::Run(answer) => self.over_time((&answer, &answer.trust), 0.0),
+            Found::Cycle(answer) => self.over_time((&answer.solution, &answer.trust), answer.error),
         }
     }
 
-    fn steady(&self, network: &Network, (time, care): (f64, Care)) -> Result<Judged, TrialError> {
-        let system = ThermalSystem::assemble(network)?;
-        let steady = match care {
-            Care::Within(tolerance) => SteadyState::solve_within(&system, time, tolerance),
-            _ => SteadyState::solve(&system, time),
+    /// Limits are looked at between the rows of a run anyway.
+    fn analysis(&self, network: &Network, care: Care) -> Result<Analysis, TrialError> {
+        let run = |of: &RunOf<'_>| {
+            let settings = of(network).map_err(TrialError::Settings)?;
+            let tolerance = care.tolerance(settings.tolerance);
+            Ok::<_, TrialError>(
+                RunAnalysis::of(network, &settings).bare().at(vec![]).within(tolerance),
+            )
         };
-        let steady = steady.map_err(TrialError::Steady)?;
-        let mut scope = steady.evaluation(network);
+        Ok(match self.demand.moments {
+            Moments::Steady(time) => Analysis::Steady { time, within: care.within() },
+            Moments::Run(of) => Analysis::Run(run(of)?),
+            Moments::Periodic(of) => Analysis::Cycle(run(of)?),
+        })
+    }
+
+    fn in_steady_state(
+        &self,
+        network: &Network,
+        answer: Answer<SteadyState>,
+    ) -> Result<Judged, TrialError> {
+        let mut scope = answer.evaluation(network);
         let margin = |requirement: &Requirement| {
             let failed = |error| TrialError::Requirement { text: requirement.text.clone(), error };
             let margin = requirement.margin(&mut scope).map_err(|error| failed(Some(error)))?;
@@ -332,36 +358,22 @@ impl<'a> Judge<'a> {
         Ok(Judged {
             margins,
             worst_at: vec![None; requirements.len()],
-            out_of_range: OutOfRange::of_steady(network, &steady).map_err(TrialError::Range)?,
+            out_of_range: answer.trust.out_of_range,
             objective: sought.map_err(TrialError::Objective)?,
             ..Judged::default()
         })
     }
 
-    fn run(&self, network: &Network, run: &RunSettings) -> Result<Judged, TrialError> {
-        let system = ThermalSystem::assemble(network)?;
-        let transient = transient(&system, run);
-        let watcher = &mut |progress| (self.demand.watcher)(progress);
-        let solution = transient.solve_observed(&system, watcher).map_err(Arc::new)?;
-        self.seen(&solution, ERROR * transient.tolerance)
-    }
-
-    fn cycle(&self, network: &Network, run: &RunSettings) -> Result<Judged, TrialError> {
-        let system = ThermalSystem::assemble(network)?;
-        let transient = transient(&system, run);
-        let watcher = &mut |progress| (self.demand.watcher)(progress);
-        let found = Periodic::find_observed(&system, &transient, watcher).map_err(Arc::new)?;
-        self.seen(&found.solution, ERROR * transient.tolerance + found.error)
-    }
-
-    /// What is said of the requirements, whose limits stand behind those of the network.
-    fn seen(&self, solution: &Solution, error: f64) -> Result<Judged, TrialError> {
-        if let RunStatus::Interrupted(_) = solution.end() {
-            return Err(TrialError::Interrupted);
-        }
-        solution.ledger().check()?;
+    /// What is said of the requirements, whose limits stand behind those of the network; `more` is
+    /// the error in K besides that of the run.
+    fn over_time(
+        &self,
+        (solution, trust): (&Solution, &Trust),
+        more: f64,
+    ) -> Result<Judged, TrialError> {
         let own = solution.limits().len().saturating_sub(self.demand.requirements.len());
         let seen = &solution.limits()[own..];
+        let error = ERROR * solution.tolerance() + more;
         let error = seen.iter().map(|seen| seen.open).fold(error, f64::max);
         let unknown = seen.iter().position(|seen| seen.margin.is_nan());
         if let Some(i) = unknown {
@@ -371,7 +383,7 @@ impl<'a> Judge<'a> {
         Ok(Judged {
             margins: seen.iter().map(|seen| seen.margin).collect(),
             worst_at: seen.iter().map(|seen| Some(seen.worst_at)).collect(),
-            out_of_range: solution.out_of_range().to_vec(),
+            out_of_range: trust.out_of_range.clone(),
             error,
             ..Judged::default()
         })
@@ -385,13 +397,6 @@ fn finite(found: Result<f64, EvalError>) -> Result<f64, Option<EvalError>> {
         Ok(_) => Err(None),
         Err(error) => Err(Some(error)),
     }
-}
-
-/// The run without its rows, between which limits are looked at anyway.
-fn transient(system: &ThermalSystem, run: &RunSettings) -> Transient {
-    let transient = Transient::of(system.network(), run);
-    let record = RecordedNodes::Nodes(Vec::new());
-    Transient { output: OutputTimes::At(Vec::new()), record, ..transient }
 }
 
 /// What is left of every requirement in the network as it is.

@@ -1,20 +1,13 @@
 //! One candidate after the other: values in, numbers out.
 
-use std::cell::RefCell;
-
+use lptn_analysis::{Analysis, AnalysisError, Found, RunAnalysis, RunError};
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Functional, Measure, Netlist, SweepOver, SweepStudy};
-use lptn_network::{Network, OutputTimes, Parameters, Report, ReportId, RunSettings};
-use lptn_solve::{
-    ColumnSeen, OutOfRange, Periodic, Proceed, RecordedNodes, RunStatus, Selection, Solution,
-    SteadyState, Transient, Window,
-};
+use lptn_network::{Network, Parameters, Report, ReportId, RunSettings};
+use lptn_solve::{ColumnSeen, Proceed, Selection, Solution, SteadyState, Window};
 
 use crate::sweep::cases::Cases;
 use crate::sweep::error::SweepError;
-
-/// The tolerance in K of cycles where there is no `[run]`.
-const TOLERANCE: f64 = 1e-5;
 
 /// The code where a report is no number.
 const NOT_FINITE: &str = "sweep::not_finite";
@@ -36,6 +29,15 @@ pub struct Candidate {
 enum Lost {
     Failed(&'static str),
     Interrupted,
+}
+
+impl From<AnalysisError> for Lost {
+    fn from(error: AnalysisError) -> Self {
+        match error {
+            AnalysisError::Run(RunError::Interrupted { .. }) => Self::Interrupted,
+            error => Self::Failed(error.code()),
+        }
+    }
 }
 
 /// A sweep that is about to begin: everything that all candidates share.
@@ -166,93 +168,51 @@ impl<'a> SweepTask<'a> {
             Lost::Failed(problems.first().map_or(NOT_FINITE, |first| first.code))
         })?;
         let system = ThermalSystem::assemble(&network).map_err(failed)?;
-        let (reports, outside) = match self.study.over {
-            SweepOver::Steady => self.steady(&system)?,
-            SweepOver::Run => self.run(&system, settings.as_ref(), control)?,
-            SweepOver::Periodic => self.cycle(&system, settings.as_ref(), control)?,
+        let analysis = self.analysis(&network, settings.as_ref())?;
+        let found = analysis.ask(&system, &mut |_| control())?;
+        let reports = match &found {
+            Found::Steady(answer) => self.in_steady_state(&network, answer)?,
+            Found::Run(answer) => self.over_time(answer)?,
+            Found::Cycle(answer) => self.over_time(&answer.solution)?,
         };
         match reports.iter().all(|number| number.is_finite()) {
-            true => Ok((reports, outside)),
+            true => Ok((reports, found.trust().out_of_range.len())),
             false => Err(Lost::Failed(NOT_FINITE)),
         }
     }
 
-    fn steady(&self, system: &ThermalSystem) -> Result<(Vec<f64>, usize), Lost> {
-        let network = system.network();
-        let steady = SteadyState::solve(system, self.start()).map_err(failed)?;
-        let mut scope = steady.evaluation(network);
-        let reports: Result<Vec<f64>, Lost> = self
-            .reports
-            .iter()
-            .map(|id| network.report_value(*id, &mut scope).map_err(failed))
-            .collect();
-        let outside = OutOfRange::of_steady(network, &steady).map_err(failed)?;
-        Ok((reports?, outside.len()))
-    }
-
-    fn run(
+    fn analysis(
         &self,
-        system: &ThermalSystem,
+        network: &Network,
         settings: Option<&RunSettings>,
-        control: &dyn Fn() -> Proceed,
-    ) -> Result<(Vec<f64>, usize), Lost> {
-        let settings = settings.ok_or(Lost::Failed("run::no_run"))?;
-        let transient = self.transient(system.network(), settings);
-        let solution = transient.solve_observed(system, &mut |_| control()).map_err(failed)?;
-        self.of_solution(&solution)
-    }
-
-    fn cycle(
-        &self,
-        system: &ThermalSystem,
-        settings: Option<&RunSettings>,
-        control: &dyn Fn() -> Proceed,
-    ) -> Result<(Vec<f64>, usize), Lost> {
-        let network = system.network();
-        let period = self.period(network).ok_or(Lost::Failed("sweep::no_period"))?;
-        let start = settings.map_or(0.0, |run| run.start);
-        let settings = RunSettings {
-            start,
-            stop: start + period,
-            output: OutputTimes::Every(period / OutputTimes::USUAL_INTERVALS),
-            select: Vec::new(),
-            windows: Vec::new(),
-            tolerance: settings.map_or(TOLERANCE, |run| run.tolerance),
-            integrator: settings.map_or_else(Default::default, |run| run.integrator),
-            held: settings.map_or_else(Vec::new, |run| run.held.clone()),
-        };
-        let transient = self.transient(network, &settings);
-        let interrupted = RefCell::new(false);
-        let found = Periodic::find_observed(system, &transient, &mut |_| {
-            let proceed = control();
-            *interrupted.borrow_mut() |= proceed == Proceed::Interrupt;
-            proceed
-        });
-        if interrupted.into_inner() {
-            return Err(Lost::Interrupted);
-        }
-        self.of_solution(&found.map_err(failed)?.solution)
+    ) -> Result<Analysis, Lost> {
+        Ok(match self.study.over {
+            SweepOver::Steady => Analysis::Steady { time: self.start(), within: None },
+            SweepOver::Run => {
+                Analysis::Run(self.run(network, settings.ok_or(Lost::Failed("run::no_run"))?))
+            }
+            SweepOver::Periodic => {
+                let period = self.period(network).ok_or(Lost::Failed("sweep::no_period"))?;
+                Analysis::Cycle(self.run(network, &RunSettings::cycle(settings, period)))
+            }
+        })
     }
 
     /// A run that looks at what is reported over the whole of it, and keeps nothing else.
-    fn transient(&self, network: &Network, settings: &RunSettings) -> Transient {
-        let window = Window {
-            name: self.study.name.clone(),
-            from: settings.start,
-            to: settings.stop,
-            of: self.columns.clone(),
-        };
-        Transient {
-            record: RecordedNodes::Nodes(Vec::new()),
-            windows: if self.columns.is_empty() { Vec::new() } else { vec![window] },
-            ..Transient::of(network, settings)
-        }
+    fn run(&self, network: &Network, settings: &RunSettings) -> RunAnalysis {
+        let (name, of) = (self.study.name.clone(), self.columns.clone());
+        let window = Window { name, from: settings.start, to: settings.stop, of };
+        let windows = if self.columns.is_empty() { Vec::new() } else { vec![window] };
+        RunAnalysis::of(network, settings).bare().over(windows)
     }
 
-    fn of_solution(&self, solution: &Solution) -> Result<(Vec<f64>, usize), Lost> {
-        if let RunStatus::Interrupted(_) = solution.end() {
-            return Err(Lost::Interrupted);
-        }
+    fn in_steady_state(&self, network: &Network, steady: &SteadyState) -> Result<Vec<f64>, Lost> {
+        let mut scope = steady.evaluation(network);
+        let value = |id: &ReportId| network.report_value(*id, &mut scope).map_err(failed);
+        self.reports.iter().map(value).collect()
+    }
+
+    fn over_time(&self, solution: &Solution) -> Result<Vec<f64>, Lost> {
         let seen = solution.windows().iter().flat_map(|window| &window.columns);
         let length = solution.windows().first().map_or(0.0, |window| window.to - window.from);
         let mut scope = solution.network().evaluation();
@@ -273,7 +233,7 @@ impl<'a> SweepTask<'a> {
             };
             reports.push(number + 0.0); // no `-0` in columns
         }
-        Ok((reports, solution.out_of_range().len()))
+        Ok(reports)
     }
 }
 

@@ -1,5 +1,6 @@
 //! Why the uncertainty of a run cannot be had.
 
+use lptn_analysis::RunError;
 use lptn_assembly::{AssemblyError, ChangeError};
 use lptn_network::{BuildErrors, InputError};
 use lptn_solve::{MarginError, SensitiveError, TransientError};
@@ -54,6 +55,15 @@ pub enum UncertaintyError {
     Interrupted = "uncertainty::interrupted", "the sampling was interrupted",
         class Class::Interrupted;
 }
+}
+
+impl From<RunError> for UncertaintyError {
+    fn from(error: RunError) -> Self {
+        match error {
+            RunError::Failed(error) => Self::Run(error),
+            RunError::Interrupted { .. } => Self::Interrupted,
+        }
+    }
 }
 
 impl From<ChangeError> for UncertaintyError {

@@ -29,8 +29,7 @@ impl UncertaintyTask<'_> {
     pub fn linear(&self) -> Result<Uncertainty, UncertaintyError> {
         let inputs = uncertain(self.network, &self.parameters)?;
         let system = ThermalSystem::assemble(self.network).map_err(UncertaintyError::Assembly)?;
-        let solution = self.solve(&system, true, &|| Proceed::Continue);
-        let solution = solution.map_err(|error| UncertaintyError::Run(Box::new(error)))?;
+        let solution = self.solve(&system, true, &|| Proceed::Continue)?;
         let sample = Sample::of(&solution, true);
         let line = Line::new(self, &inputs, &solution)?;
         let margins = margins::effects(self, &line, &solution)?;

@@ -1,7 +1,8 @@
 //! What one run gives, or why it gives nothing.
 
+use lptn_analysis::RunError;
 use lptn_assembly::ChangeError;
-use lptn_solve::{Solution, TransientError};
+use lptn_solve::Solution;
 
 use crate::uncertainty::lost::Lost;
 
@@ -24,9 +25,7 @@ impl Sample {
             .map(|node| solution.temperature(*node).unwrap_or_default())
             .collect();
         let of_node = |(seen, column): (&lptn_solve::Watched, &Vec<f64>)| {
-            // a network without state is not watched between its rows
-            let max = column.iter().copied().fold(seen.peak.0, f64::max);
-            [column.last().copied().unwrap_or(f64::NAN), max]
+            [column.last().copied().unwrap_or(f64::NAN), seen.peak.0]
         };
         let nodes = solution.watched().iter().zip(&columns).flat_map(of_node);
         let answers = nodes.chain(solution.limits().iter().map(|limit| limit.margin)).collect();
@@ -56,7 +55,7 @@ impl NoSample {
         Self::lost((error.code(), name), true, message)
     }
 
-    pub(crate) fn failed(error: &TransientError) -> Self {
+    pub(crate) fn failed(error: &RunError) -> Self {
         Self::lost((error.code(), ""), false, error.to_string())
     }
 

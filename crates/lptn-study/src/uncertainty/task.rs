@@ -1,8 +1,9 @@
 //! What is asked, and one run of it.
 
+use lptn_analysis::{Answer, RunAnalysis, RunError};
 use lptn_assembly::ThermalSystem;
-use lptn_network::{Network, NodeId, OutputTimes, Parameters};
-use lptn_solve::{Proceed, RecordedNodes, RunStatus, Solution, Transient, TransientError, Watch};
+use lptn_network::{Network, NodeId, Parameters};
+use lptn_solve::{Proceed, RecordedNodes, Solution};
 
 use crate::uncertainty::answer::AnswerOf;
 use crate::uncertainty::error::UncertaintyError;
@@ -18,7 +19,7 @@ pub struct UncertaintyTask<'a> {
     /// The times, the tolerance and the controls at the start; what is recorded and watched is
     /// chosen by the method. The times stay as they are, also where they were computed from a
     /// parameter with `±`.
-    pub run: Transient,
+    pub run: RunAnalysis,
     /// The nodes whose temperatures are asked for, ascending.
     pub nodes: Vec<NodeId>,
 }
@@ -33,15 +34,13 @@ impl UncertaintyTask<'_> {
 
     /// The time of each row in s.
     pub(crate) fn times(&self) -> Result<Vec<f64>, UncertaintyError> {
-        let failed = |error| UncertaintyError::Run(Box::new(TransientError::Settings(error)));
-        self.run.rows().map_err(failed)
+        Ok(self.run.rows()?)
     }
 
     /// The run with what has to be recorded and watched.
-    pub(crate) fn watched(&self) -> Transient {
-        let watch = self.nodes.iter().map(|&node| Watch { node, level: None }).collect();
-        let (record, windows) = (RecordedNodes::Nodes(self.nodes.clone()), Vec::new());
-        Transient { record, watch, windows, balance: None, ..self.run.clone() }
+    pub(crate) fn watched(&self) -> RunAnalysis {
+        let record = RecordedNodes::Nodes(self.nodes.clone());
+        self.run.clone().bare().keeping(record).watching(self.nodes.iter().copied())
     }
 
     /// Runs the network with other parameters; without `rows` only what is asked for beside them.
@@ -53,11 +52,10 @@ impl UncertaintyTask<'_> {
     ) -> Result<Sample, NoSample> {
         let system = ThermalSystem::of(self.network, parameters)
             .map_err(|error| NoSample::refused(&error))?;
-        let solution =
-            self.solve(&system, rows, control).map_err(|error| NoSample::failed(&error))?;
-        match solution.end() {
-            RunStatus::Interrupted(_) => Err(NoSample::Interrupted),
-            _ => Ok(Sample::of(&solution, rows)),
+        match self.solve(&system, rows, control) {
+            Ok(answer) => Ok(Sample::of(&answer, rows)),
+            Err(RunError::Interrupted { .. }) => Err(NoSample::Interrupted),
+            Err(error) => Err(NoSample::failed(&error)),
         }
     }
 
@@ -67,12 +65,8 @@ impl UncertaintyTask<'_> {
         system: &ThermalSystem,
         rows: bool,
         control: &(dyn Fn() -> Proceed + Sync),
-    ) -> Result<Solution, TransientError> {
-        let mut run = self.watched();
-        // without states nothing is watched between the rows
-        if !rows && !system.states().is_empty() {
-            run.output = OutputTimes::At(vec![run.stop]);
-        }
-        run.solve_observed(system, &mut |_| control())
+    ) -> Result<Answer<Solution>, RunError> {
+        let run = if rows { self.watched() } else { self.watched().at(Vec::new()) };
+        run.solve(system, &mut |_| control())
     }
 }

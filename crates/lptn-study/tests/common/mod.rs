@@ -6,8 +6,9 @@
     reason = "each test file uses a part of it"
 )]
 
+use lptn_analysis::RunAnalysis;
 use lptn_netlist::{Netlist, parse};
-use lptn_solve::{Proceed, Transient, available_threads};
+use lptn_solve::{Proceed, available_threads};
 use lptn_study::uncertainty::{Estimate, Sobol, Uncertainty, UncertaintyError, UncertaintyTask};
 use lptn_study::{Aim, Demand, Moments};
 
@@ -64,7 +65,7 @@ pub fn parsed(network: &str, param: &str) -> Netlist {
 /// The run of the netlist, every node asked for.
 pub fn task(netlist: &Netlist) -> UncertaintyTask<'_> {
     let network = &netlist.network;
-    let run = Transient::of(network, netlist.run.as_ref().unwrap());
+    let run = RunAnalysis::of(network, netlist.run.as_ref().unwrap());
     UncertaintyTask {
         network,
         parameters: netlist.overrides(),

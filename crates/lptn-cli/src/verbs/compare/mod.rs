@@ -29,8 +29,8 @@ use crate::input::{self, Input, quoted};
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressOfAll;
+use crate::sense;
 use crate::words::unverified;
-use crate::{ranges, sense};
 
 pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Failure> {
     let files = listed(&args.files)?;
@@ -318,9 +318,7 @@ impl Comparison {
                 title = input.netlist.network.title().map_or(String::new(), plain);
                 let found = outcome.as_ref().ok();
                 let beyond = found.map_or_else(Vec::new, |found| {
-                    let run = input.netlist.run.is_some();
-                    let outside = ranges::warnings(&input.netlist, &found.out_of_range, run);
-                    sense::told(&input.netlist, found.beyond.as_ref(), outside)
+                    sense::doubts(&input.netlist, &found.trust, input.netlist.run.is_some())
                 });
                 let several = outcome.as_ref().ok().and_then(|found| found.several.as_ref());
                 let several =

@@ -9,7 +9,7 @@ pub(crate) use args::RankArgs;
 use args::Over;
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Item, NodeId};
-use lptn_solve::{AdjointError, Transient};
+use lptn_solve::AdjointError;
 use lptn_study::{RankError, Ranking};
 use lptn_units::Unit;
 
@@ -46,10 +46,9 @@ fn of_run(
     console: &Console,
 ) -> Result<Result<Ranking, RankError>, Failure> {
     let settings = input.netlist.run.as_ref().ok_or_else(|| no_run(input))?;
-    let transient = Transient::of(system.network(), settings);
     let interrupt = Interrupt::listen();
     let line = std::cell::RefCell::new(ProgressLine::new(console.quiet));
-    let ranking = Ranking::of_run(system, (&transient, node), &|progress| {
+    let ranking = Ranking::of_run(system, (settings, node), &|progress| {
         line.borrow_mut().update(progress);
         interrupt.control()
     });

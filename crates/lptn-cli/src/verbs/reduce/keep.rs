@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
+use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Derived, Diagnostic};
 use lptn_network::{NodeId, list_of};
@@ -10,7 +11,7 @@ use lptn_reduce::{
     Allowed, Kept, KeptErrors, KeptReference, NortonEquivalent, Projected, ReduceError, port,
 };
 use lptn_report::{Format, plain, significant};
-use lptn_solve::{Transient, largest_of_inputs};
+use lptn_solve::largest_of_inputs;
 use lptn_units::Unit;
 
 use super::args::{ReduceArgs, ReduceFormat};
@@ -59,7 +60,7 @@ pub(super) fn keep(args: &ReduceArgs, console: &Console, names: &str) -> Result<
     }
     let system = input.assemble()?;
     let explain = |error: ReduceError| failed(&input, &names[0], &error);
-    let run = input.netlist.run.as_ref().map(|run| Transient::of(network, run));
+    let run = input.netlist.run.as_ref().map(|run| RunAnalysis::of(network, run));
     let run = run.filter(|_| !network.has_events());
     let power = match &args.power {
         Some(text) => loads::power(text)?,
@@ -134,12 +135,12 @@ fn counted(args: &ReduceArgs, named: usize) -> Result<Option<usize>, Failure> {
 fn largest(
     system: &ThermalSystem,
     nodes: &[NodeId],
-    run: Option<&Transient>,
+    run: Option<&RunAnalysis>,
 ) -> Result<f64, ReduceError> {
     let mut most = 0.0_f64;
     for &node in nodes {
         let norton = NortonEquivalent::new(system, node)?;
-        let span = run.map_or((0.0, 0.0), |run| (run.start, run.stop));
+        let span = run.map_or((0.0, 0.0), |run| (run.start(), run.stop()));
         let heat = largest_of_inputs(system, span, &|system, work| {
             norton.heat(system.source_powers(work))
         });
@@ -151,7 +152,7 @@ fn largest(
 struct Question<'a> {
     args: &'a ReduceArgs,
     system: &'a ThermalSystem,
-    run: Option<&'a Transient>,
+    run: Option<&'a RunAnalysis>,
     limit: &'a Limit,
     power: f64,
 }

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
 use lptn_reduce::{Allowed, Deviation, Dynamics, Judge, Nodes, ReduceError, Reduction, Stretch};
 use lptn_report::{Text, TextTable, duration, fixed, plain, significant};
-use lptn_solve::{Transient, largest_of_inputs};
+use lptn_solve::largest_of_inputs;
 use lptn_units::Dimension;
 use serde_json::{Value, json};
 
@@ -41,7 +42,7 @@ pub(crate) struct Asked<'a> {
     pub(crate) args: &'a ReduceArgs,
     pub(crate) system: &'a ThermalSystem,
     /// The run that was compared.
-    pub(crate) run: Option<&'a Transient>,
+    pub(crate) run: Option<&'a RunAnalysis>,
     pub(crate) allowed: Allowed,
 }
 
@@ -283,9 +284,11 @@ fn exact(nodes: &Nodes) -> bool {
 fn largest(asked: &Asked<'_>, reduction: &Reduction) -> Result<f64, lptn_network::InputError> {
     let norton = &reduction.norton;
     let most = match asked.run {
-        Some(run) => largest_of_inputs(asked.system, (run.start, run.stop), &|system, work| {
-            norton.heat(system.source_powers(work))
-        })?,
+        Some(run) => {
+            largest_of_inputs(asked.system, (run.start(), run.stop()), &|system, work| {
+                norton.heat(system.source_powers(work))
+            })?
+        }
         None => reduction.inputs.heat,
     };
     let most = most.max(reduction.inputs.heat);

@@ -14,6 +14,7 @@ pub(crate) use args::ReduceArgs;
 
 use std::path::Path;
 
+use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Derived, Diagnostic};
 use lptn_reduce::{
@@ -58,7 +59,7 @@ pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failu
     let system = input.assemble()?;
     let explain = |error: ReduceError| failed(&input, name, &error);
     let port = port(&input.netlist.network, name).map_err(explain)?;
-    let run = run.as_ref().map(|run| lptn_solve::Transient::of(&input.netlist.network, run));
+    let run = run.as_ref().map(|run| RunAnalysis::of(&input.netlist.network, run));
     let wanted = about_the_run(args, &limit).is_some();
     let run_compared = run.clone().filter(|_| wanted || !system.network().has_events());
     let options =

@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
+use lptn_analysis::{Answer, RunAnalysis, RunError};
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, RunSettings, Span};
 use lptn_network::{End, InputError, InputProblem, Item, Network, NodeId};
 use lptn_solve::{
-    RecordedNodes, Selection, Solution, SteadyError, SteadyState, StopReason, Summary, Transient,
-    TransientError, Window,
+    RecordedNodes, Selection, Solution, SteadyError, SteadyState, StopReason, TransientError,
+    Window,
 };
 use lptn_units::{Dimension, Problem as _, Type, Unit};
 
@@ -92,39 +93,34 @@ impl<'a> Job<'a> {
         system: &ThermalSystem,
         steady: Option<&SteadyState>,
         console: &Console,
-    ) -> Result<(Solution, Option<Diagnostic>), Failure> {
-        let transient =
-            self.transient(system, steady).map_err(|error| failed(self.input, &error))?;
-        observed(self.input, (system, &transient), console)
+    ) -> Result<(Answer<Solution>, Option<Diagnostic>), Failure> {
+        let asked = self.asked(system, steady).map_err(|error| failed(self.input, &error))?;
+        observed(self.input, (system, &asked), console)
     }
 
-    fn transient(
+    fn asked(
         &self,
         system: &ThermalSystem,
         steady: Option<&SteadyState>,
-    ) -> Result<Transient, TransientError> {
-        let (mut record, mut watch) = (record(system.network(), &self.selection), Vec::new());
+    ) -> Result<RunAnalysis, TransientError> {
+        let run = RunAnalysis::of(system.network(), &self.settings);
+        let mut record = record(system.network(), &self.selection);
         if self.whole {
             record = RecordedNodes::All;
         }
+        let mut run = run;
         if self.format == Format::Table {
             let selection = Some(&self.selection).filter(|_| self.chosen);
             let shown = shown(system.network(), selection, steady);
-            watch = Summary::watches(system, self.settings.start, &shown, steady)
-                .map_err(TransientError::Start)?;
+            run = run.towards((system, &shown), steady).map_err(TransientError::Start)?;
             record = record.and(shown);
         }
         let window = |window: &lptn_netlist::WindowSettings| {
             let (name, of) = (window.name.clone(), self.selection.clone());
             Window { name, from: window.from, to: window.to, of }
         };
-        Ok(Transient {
-            record,
-            watch,
-            windows: self.settings.windows.iter().map(window).collect(),
-            balance: self.balance,
-            ..lptn_solve::Transient::of(system.network(), &self.settings)
-        })
+        let windows = self.settings.windows.iter().map(window).collect();
+        Ok(run.keeping(record).over(windows).balancing(self.balance))
     }
 }
 
@@ -141,33 +137,39 @@ pub(crate) fn record(network: &Network, selection: &Selection) -> RecordedNodes 
 /// Runs to the stop, to the first failure or to Ctrl-C, and shows how far it is.
 pub(crate) fn observed(
     input: &Input,
-    (system, transient): (&ThermalSystem, &Transient),
+    (system, run): (&ThermalSystem, &RunAnalysis),
     console: &Console,
-) -> Result<(Solution, Option<Diagnostic>), Failure> {
+) -> Result<(Answer<Solution>, Option<Diagnostic>), Failure> {
     let interrupt = Interrupt::listen();
     let mut line = ProgressLine::new(console.quiet);
-    let outcome = transient.solve_observed(system, &mut |progress| {
+    let outcome = run.solve(system, &mut |progress| {
         line.update(progress);
         interrupt.control()
     });
     line.clear();
-    match outcome {
-        Ok(solution) => Ok((solution, None)),
-        // the rows are shown; the verdict asks its energy balance
-        Err(TransientError::Open { solution, .. }) => Ok((*solution, None)),
-        Err(error) => {
-            let problem = explain(input, &error);
-            match error {
-                // nothing was computed, and nothing could be: the question does not fit the
-                // network
-                TransientError::Stopped { reason: StopReason::NothingSwitches, .. } => {
-                    Err(failed(input, &error))
-                }
-                TransientError::Stopped { partial, .. } => Ok((*partial, Some(problem))),
-                error => Err(failed(input, &error)),
-            }
-        }
+    let error = match outcome {
+        Ok(answer) => return Ok((answer, None)),
+        Err(error) => error,
+    };
+    match error.into_part() {
+        // nothing was computed, and nothing could be: the question does not fit the network
+        Ok((_, Some(error))) if switches_nothing(&error) => Err(failed(input, &error)),
+        // the rows are shown; the verdict asks their energy balance
+        Ok((part, error)) => Ok((part, error.map(|error| explain(input, &error)))),
+        Err(error) => Err(unanswered(input, &error)),
     }
+}
+
+/// A run without an answer.
+pub(crate) fn unanswered(input: &Input, error: &RunError) -> Failure {
+    match error {
+        RunError::Failed(error) => failed(input, error),
+        error @ RunError::Interrupted { .. } => input.failure(error, None),
+    }
+}
+
+fn switches_nothing(error: &TransientError) -> bool {
+    matches!(error, TransientError::Stopped { reason: StopReason::NothingSwitches, .. })
 }
 
 /// A time of the run that `--at` names, in s.

@@ -93,5 +93,5 @@ fn steady(system: &ThermalSystem, start: f64) -> Result<SteadyState, NoSteady> {
     if !system.network().changing_inputs().is_empty() {
         return Err(NoSteady::Inputs);
     }
-    SteadyState::solve(system, start).map_err(NoSteady::Network)
+    Ok(lptn_analysis::steady(system, start).map_err(NoSteady::Network)?.result)
 }

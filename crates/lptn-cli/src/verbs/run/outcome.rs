@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use lptn_analysis::Answer;
 use lptn_netlist::Diagnostic;
 use lptn_network::{Parameter, list_of_names};
 use lptn_report::{Format, WIDTH, duration, labelled, significant, words, write_csv, write_rows};
@@ -30,7 +31,7 @@ use crate::{files, lumping, ranges, scale, select, sense};
 pub(crate) struct Outcome<'a> {
     pub(crate) job: Job<'a>,
     pub(crate) steady: Result<SteadyState, NoSteady>,
-    pub(crate) solution: Solution,
+    pub(crate) solution: Answer<Solution>,
     /// How far its nodes are lumps.
     pub(crate) lumping: Lumping,
     /// Why the run broke off.
@@ -152,7 +153,7 @@ impl Outcome<'_> {
         let netlist = &self.job.input.netlist;
         let certain = self.uncertainty().map_or_else(Vec::new, |_| elsewhere(netlist));
         let lumps = lumping::warnings(netlist, &self.lumping);
-        let beyond = sense::of_run(netlist, &self.solution);
+        let beyond = sense::doubts(netlist, &self.solution.trust, true);
         gaps(netlist, &self.table).into_iter().chain(beyond).chain(lumps).chain(certain).collect()
     }
 

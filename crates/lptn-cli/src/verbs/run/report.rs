@@ -1,8 +1,9 @@
 //! What the report of a run says besides: how far it can be trusted, and where the heat goes.
 
+use lptn_analysis::RunAnalysis;
 use lptn_network::{NodeId, ParameterId};
 use lptn_report::{Claim, Report, duration, significant};
-use lptn_solve::{Gradient, Snapshot, Transient, Watch, sensitive_run};
+use lptn_solve::{Gradient, Proceed, Snapshot};
 
 use super::outcome::{Outcome, not_bounded, weak_ledger};
 use crate::about::{self, Known, Sensitivities};
@@ -84,9 +85,8 @@ impl Outcome<'_> {
             return None;
         }
         let node = self.hottest()?;
-        let watch = vec![Watch { node, level: None }];
-        let transient = Transient { watch, ..Transient::of(network, settings) };
-        let run = sensitive_run(network, &transient, &ids).ok()?;
+        let run = RunAnalysis::of(network, settings).watching([node]);
+        let run = run.with_slopes((network, &ids), &|_| Proceed::Continue).ok()?;
         let one = |&id: &ParameterId| {
             let slope = match run.gradient {
                 Gradient::Exact => *run.sensitivity(id, node)?.last()?,

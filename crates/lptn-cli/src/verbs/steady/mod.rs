@@ -9,7 +9,7 @@ pub(crate) use args::SteadyArgs;
 use lptn_netlist::RunSettings;
 use lptn_network::{Item, LimitId};
 use lptn_report::Format;
-use lptn_solve::{OutOfRange, Selection, SteadyError, SteadyState, Table};
+use lptn_solve::{Selection, SteadyError, SteadyState, Table};
 use lptn_units::Unit;
 use view::View;
 
@@ -32,18 +32,16 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
     let balance = balance::end(netlist, args.balance.as_deref(), args.shown.format)?;
     let system = phases.timed("assemble", || input.assemble())?;
     let start = netlist.run.as_ref().map_or(0.0, |run: &RunSettings| run.start);
-    let steady = phases.timed("solve", || SteadyState::solve(&system, start));
+    let steady = phases.timed("solve", || lptn_analysis::steady(&system, start));
     let steady = steady.map_err(|error| failed(&input, &error))?;
     console.warn(&netlist.files, &netlist.warnings);
     let limits = limits(&input, &steady, start)?;
     let table = table(&input, &steady, &selection, &unit)?;
     let balance = balance.map(|of| steady.balance(&netlist.network, of));
-    let outside = OutOfRange::of_steady(&netlist.network, &steady);
-    let outside = outside.map_err(|error| failed(&input, &SteadyError::Input(error)))?;
     let view = View {
         input: &input,
         steady: &steady,
-        outside: &outside,
+        trust: &steady.trust,
         table: &table,
         unit: &unit,
         limits: &limits,
@@ -59,7 +57,7 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
         hidden.iter().for_each(|hidden| console.note(hidden));
         console.warn(&netlist.files, &view.doubts());
     }
-    console.warn(&netlist.files, &sense::of_steady(netlist, &steady, &outside));
+    console.warn(&netlist.files, &sense::doubts(netlist, &steady.trust, false));
     Ok(limits::conclude(&view.judgement(), console))
 }
 

@@ -3,13 +3,14 @@
 use std::collections::HashSet;
 use std::io;
 
+use lptn_analysis::Trust;
 use lptn_netlist::Diagnostic;
 use lptn_network::{ConductorId, FacePathId, GridValue, HeatOf, Item, Network, NodeId};
 use lptn_report::{
     Claim, Clock, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, prefix, shortened,
     significant,
 };
-use lptn_solve::{Balance, OutOfRange, SteadyState, Table};
+use lptn_solve::{Balance, SteadyState, Table};
 use lptn_units::Unit;
 use serde_json::{Map, json};
 
@@ -29,8 +30,8 @@ const NOISE: f64 = 1e-9;
 pub(super) struct View<'a> {
     pub(super) input: &'a Input,
     pub(super) steady: &'a SteadyState,
-    /// The laws that are outside the ranges in which they are known.
-    pub(super) outside: &'a [OutOfRange],
+    /// How far it can be trusted.
+    pub(super) trust: &'a Trust,
     /// What is selected, in the unit that is shown.
     pub(super) table: &'a Table,
     pub(super) unit: &'a Unit,
@@ -238,7 +239,7 @@ impl View<'_> {
             true => significant(imbalance.abs() / moved, 2),
             false => "0".into(),
         };
-        let laws = about::laws(network, self.outside);
+        let laws = about::laws(network, &self.trust.out_of_range);
         let books = format!("heat in and heat out differ by {books} of the heat turned over");
         let own = [Claim::checked(true, books)].into_iter().chain(laws);
         let claims = own.chain(limits::claims(network, self.limits, unit)).collect();
@@ -298,12 +299,11 @@ impl Page for View<'_> {
         let value = |c: &lptn_solve::Column| {
             (c.name.clone(), json!({ "value": c.values[0], "unit": c.unit }))
         };
-        let found =
-            self.doubts().into_iter().chain(sense::of_steady(netlist, self.steady, self.outside));
+        let found = self.doubts().into_iter().chain(sense::doubts(netlist, self.trust, false));
         self.input.head(json, &found.collect::<Vec<_>>())?;
         json.member("values", &table.columns().iter().map(value).collect::<Map<_, _>>())?;
         json.optional("limits", limits::members(&netlist.network, self.limits, self.unit))?;
-        let outside = ranges::members(&netlist.network, self.outside, false);
+        let outside = ranges::members(&netlist.network, &self.trust.out_of_range, false);
         json.optional("out_of_range", outside)?;
         json.optional("balance", self.balance.map(|of| balance::json(&netlist.network, of)))
     }

@@ -7,12 +7,13 @@ pub(crate) use args::VerifyArgs;
 
 use std::io;
 
+use lptn_analysis::{RunAnalysis, RunError};
 use lptn_assembly::ThermalSystem;
 use lptn_network::Network;
 use lptn_report::{
     Json, Page, Report, Rows, Standing, Text, TextTable, duration, shortened, significant,
 };
-use lptn_solve::{NoReference, Reference, RunComparison, Transient, TransientError, Verification};
+use lptn_solve::{NoReference, Reference, RunComparison, Verification};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
@@ -23,7 +24,7 @@ use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
-use crate::verbs::run::job::{failed, no_run};
+use crate::verbs::run::job::{no_run, unanswered};
 use crate::words::count;
 
 /// Letters of a node's name beside the other columns.
@@ -39,12 +40,12 @@ pub(crate) fn verify(args: &VerifyArgs, console: &Console) -> Result<Exit, Failu
     let netlist = &input.netlist;
     let settings = netlist.run.as_ref().ok_or_else(|| no_run(&input))?;
     let given = args.tolerance.as_deref().map(input::tolerance).transpose()?;
-    let transient = lptn_solve::Transient::of(&netlist.network, settings);
-    let transient = Transient { tolerance: given.unwrap_or(settings.tolerance), ..transient };
+    let run = RunAnalysis::of(&netlist.network, settings);
+    let run = run.within(given.unwrap_or(settings.tolerance));
     let system = input.assemble()?;
     console.warn(&netlist.files, &netlist.warnings);
-    let found = observed(&system, &transient, console);
-    let Some(verification) = found.map_err(|error| failed(&input, &error))? else {
+    let found = observed(&system, &run, console);
+    let Some(verification) = found.map_err(|error| unanswered(&input, &error))? else {
         console.message("interrupted: nothing is verified");
         return Ok(Exit::Interrupted);
     };
@@ -59,12 +60,12 @@ pub(crate) fn verify(args: &VerifyArgs, console: &Console) -> Result<Exit, Failu
 /// The verification, with progress on a terminal; `None` after Ctrl-C.
 fn observed(
     system: &ThermalSystem,
-    settings: &Transient,
+    run: &RunAnalysis,
     console: &Console,
-) -> Result<Option<Verification>, TransientError> {
+) -> Result<Option<Verification>, RunError> {
     let interrupt = Interrupt::listen();
     let mut line = ProgressLine::new(console.quiet);
-    let found = Verification::observed(system, settings, &mut |tolerance, progress| {
+    let found = run.verify(system, &mut |tolerance, progress| {
         line.update_of(&format!("at {} K", significant(tolerance, 3)), progress);
         interrupt.control()
     });

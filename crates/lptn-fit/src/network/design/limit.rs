@@ -53,7 +53,7 @@ fn longer(
     let at = task.given() + run;
     let stride = (samples as f64 * LONGER / ROWS as f64).max(1.0);
     let mut fit = task.fit.clone();
-    let end = fit.runs[at].settings.start + task.lasts(samples);
+    let end = fit.runs[at].settings.start() + task.lasts(samples);
     go_on(&mut fit.runs[at], (end, stride * task.every));
     let measure = task.measure((&fit, at), &|step| observer(run, step))?;
     let unknowns = task.unknowns_of(at);

@@ -160,7 +160,7 @@ impl DesignTask<'_> {
             error => DesignError::Run { run: measured.name.clone(), error: Box::new(error) },
         };
         let rows = Rows::new(fit, measured, usize::MAX);
-        let tolerance = measured.settings.tolerance.min(TOLERANCE);
+        let tolerance = measured.settings.tolerance().min(TOLERANCE);
         fit.measured((run, &rows), (&unknowns, &values), (tolerance, observer)).map_err(failed)
     }
 }

@@ -1,11 +1,11 @@
 //! From a `[plan.NAME]` of a netlist to what can be computed.
 
+use lptn_analysis::RunAnalysis;
 use lptn_netlist::{
     FitRecord, FitStudy, Netlist, PlaceNumbers, PlanNumbers, PlanPlace, PlanStudy, RunNumbers,
     Sensor,
 };
 use lptn_network::{ParameterId, Varied};
-use lptn_solve::Transient;
 
 use crate::network::design::error::DesignError;
 use crate::network::design::given::{Given, GivenFit, given};
@@ -306,7 +306,7 @@ fn samples(run: &RunNumbers, every: f64) -> usize {
 /// A record that could be: what it reads does not matter.
 fn planned(
     run: &RunNumbers,
-    settings: &Transient,
+    settings: &RunAnalysis,
     (columns, every): (&[MeasuredColumn], f64),
 ) -> MeasuredRun {
     let count = samples(run, every);
@@ -317,7 +317,7 @@ fn planned(
         signals: Vec::new(),
         initial: Vec::new(),
         settings: settings.clone(),
-        times: (0..count).map(|k| settings.start + k as f64 * every).collect(),
+        times: (0..count).map(|k| settings.start() + k as f64 * every).collect(),
         columns: columns.collect(),
     }
 }

@@ -1,7 +1,8 @@
 //! A run with its sensitivities at the rows and where temperatures are highest.
 
-use lptn_network::{NodeId, OutputTimes, ParameterId};
-use lptn_solve::{Gradient, SensitiveRun, Solution, Transient, on_both_sides, sensitive_run};
+use lptn_analysis::Answer;
+use lptn_network::{NodeId, ParameterId};
+use lptn_solve::{Gradient, Proceed, SensitiveRun, Solution, on_both_sides};
 
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::input::{Inputs, Uncertain};
@@ -15,7 +16,7 @@ const SAME: f64 = 1e-9;
 /// A run with sensitivities by every uncertain parameter.
 pub(super) struct Line<'a> {
     pub(super) inputs: &'a Inputs,
-    pub(super) run: SensitiveRun,
+    pub(super) run: Answer<SensitiveRun>,
     /// The rows as places among the times of the run.
     rows: Vec<usize>,
 }
@@ -30,11 +31,11 @@ impl<'a> Line<'a> {
     ) -> Result<Self, UncertaintyError> {
         let rows = task.times()?;
         let peaks = solution.watched().iter().map(|seen| seen.peak.1);
-        let peaks = on_both_sides(peaks, (task.run.start, task.run.stop));
+        let peaks = on_both_sides(peaks, (task.run.start(), task.run.stop()));
         let times = joined(&rows, peaks.into_iter());
         let places = rows.iter().map(|row| times.partition_point(|time| time < row)).collect();
-        let run = Transient { output: OutputTimes::At(times), ..task.watched() };
-        let run = sensitive_run(task.network, &run, &ids(inputs))?;
+        let run = task.watched().at(times);
+        let run = run.with_slopes((task.network, &ids(inputs)), &|_| Proceed::Continue)?;
         Ok(Self { inputs, run, rows: places })
     }
 

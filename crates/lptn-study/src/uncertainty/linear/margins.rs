@@ -1,10 +1,7 @@
 //! How the margins of limits change with the parameters.
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::OutputTimes;
-use lptn_solve::{
-    Gradient, LimitSeen, RecordedNodes, Solution, Transient, on_both_sides, own_side, sensitive_run,
-};
+use lptn_solve::{Gradient, LimitSeen, Proceed, RecordedNodes, Solution, on_both_sides, own_side};
 
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::input::Uncertain;
@@ -35,12 +32,11 @@ pub(super) fn effects(
             |limit: &LimitSeen| line.inputs.iter().map(|input| of_runs(limit, input)).collect();
         return Ok(seen.iter().map(all).collect());
     }
-    let ends = (task.run.start, task.run.stop);
+    let ends = (task.run.start(), task.run.stop());
     let worst = on_both_sides(seen.iter().map(|limit| limit.worst_at), ends);
-    let output = OutputTimes::At(joined(&[ends.0, ends.1], worst.into_iter()));
-    let settings =
-        Transient { output, record: RecordedNodes::All, watch: Vec::new(), ..task.watched() };
-    let run = sensitive_run(task.network, &settings, &ids(line.inputs))?;
+    let times = joined(&[ends.0, ends.1], worst.into_iter());
+    let run = task.run.clone().bare().at(times).keeping(RecordedNodes::All);
+    let run = run.with_slopes((task.network, &ids(line.inputs)), &|_| Proceed::Continue)?;
     let all = |limit: &LimitSeen| {
         let margin = |row: usize| run.margin_in_row(limit.limit, row).unwrap_or(f64::NAN);
         let worst = (limit.worst_at, limit.margin);
@@ -69,8 +65,8 @@ fn of_runs(
         let mut parameters = task.parameters.clone();
         parameters.set(input.parameter, input.value + change);
         let system = ThermalSystem::of(task.network, &parameters)?;
-        let settings = Transient { watch: Vec::new(), ..task.watched() };
-        let solution = settings.solve(&system).map_err(Box::new)?;
+        let run = task.watched().watching([]);
+        let solution = run.solve(&system, &mut |_| Proceed::Continue)?;
         Ok(solution.limits()[limit.limit.index()].margin)
     };
     Ok(0.5 * (moved(input.deviation)? - moved(-input.deviation)?))

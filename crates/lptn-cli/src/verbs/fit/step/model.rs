@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
+use lptn_analysis::RunAnalysis;
 use lptn_fit::step::{ModelBias, StepError};
 use lptn_netlist::Diagnostic;
 use lptn_network::Time;
-use lptn_solve::Transient;
 use lptn_units::Problem as _;
 
 use super::StepArgs;
@@ -42,8 +42,8 @@ impl Model {
         let system = input.assemble()?;
         let length = times.last().map_or(0.0, |last| last - begin);
         let run = match &input.netlist.run {
-            Some(run) => lptn_solve::Transient::of(network, run),
-            None => Transient::until(Time(length)),
+            Some(run) => RunAnalysis::of(network, run),
+            None => RunAnalysis::until(Time(length)),
         };
         let bias = ModelBias::new(&system, node, &run, (begin, times)).map_err(explain)?;
         let (file, stem) = (input.text.name.clone(), input.text.stem.clone());

@@ -6,6 +6,7 @@ mod inputs;
 pub(crate) mod text;
 
 use args::{Method, UncertaintyArgs};
+use lptn_analysis::RunAnalysis;
 use lptn_netlist::{Diagnostic, Netlist};
 use lptn_solve::available_threads;
 use lptn_study::uncertainty::{
@@ -72,13 +73,12 @@ pub(crate) fn study(
         nodes = shown(network, None, None);
         nodes.sort_unstable();
     }
-    let (parameters, run) =
-        (netlist.overrides(), lptn_solve::Transient::of(network, &job.settings));
+    let (parameters, run) = (netlist.overrides(), RunAnalysis::of(network, &job.settings));
     let task = UncertaintyTask { network, parameters, run, nodes };
     let outcome = match method {
         Method::Linear => task.linear().map(|found| Study { found, linear: None }),
         Method::Sobol => sobol(args, &task, console).map(|found| {
-            let least = WIDTHS * task.run.tolerance;
+            let least = WIDTHS * task.run.tolerance();
             let differ = |linear: Uncertainty| discrepancies(&linear, &found, least);
             let linear = task.linear().map(differ).map_err(|error| error.to_string());
             Study { found, linear: Some(linear) }

@@ -4,13 +4,12 @@ mod page;
 
 use std::time::Instant;
 
+use lptn_analysis::{Answer, CycleError, RunAnalysis};
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
 use lptn_network::{Item, OutputTimes};
 use lptn_report::Clock;
-use lptn_solve::{
-    CycleMethod, Lumping, Periodic, PeriodicError, Table, Transient, Window, WindowSeen,
-};
+use lptn_solve::{CycleMethod, Lumping, Periodic, PeriodicError, Table, Window, WindowSeen};
 use lptn_study::SiValue;
 use lptn_units::{Problem as _, Type};
 use serde_json::{Map, Value, json};
@@ -24,7 +23,7 @@ use crate::files::names::{MANIFEST, RESULT, WINDOWS};
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
-use crate::verbs::run::job::{Job, NoSteady, explain, record};
+use crate::verbs::run::job::{Job, NoSteady, explain, record, unanswered};
 use crate::verbs::run::outcome::Outcome;
 use crate::{balance, period, scale, select, sense};
 
@@ -57,7 +56,7 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
     let begun = Instant::now();
     let found = phases.timed("integrate", || find(&job, &system, console))?;
     let wall_time = begun.elapsed().as_secs_f64();
-    let solution = found.solution.clone();
+    let solution = Answer { result: found.solution.clone(), trust: found.trust.clone() };
     let lumping = Lumping::of_run(&solution);
     let (failure, uncertainty) = (None, None);
     let steady = Err(NoSteady::Inputs);
@@ -74,13 +73,13 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
         table,
         detail: console.detail,
     };
-    let view = View { outcome: &outcome, found: &found };
+    let view = View { outcome: &outcome, found: &found.result };
     if let Some(folder) = &folder {
         outcome.write(folder)?;
         console.results_in(folder.path());
     }
     console.show(&view, args.shown.format)?;
-    console.warn(&netlist.files, &sense::of_run(netlist, &outcome.solution));
+    console.warn(&netlist.files, &sense::doubts(netlist, &found.trust, true));
     if let Some(folder) = &folder {
         let path = folder.path().join(RESULT);
         console.note(&format!("wrote  {}, {WINDOWS}, {MANIFEST}", path.display()));
@@ -106,23 +105,28 @@ fn settings(args: &SteadyArgs, input: &Input) -> Result<RunSettings, Failure> {
     Ok(RunSettings { output, tolerance, ..cycle })
 }
 
-fn find(job: &Job<'_>, system: &ThermalSystem, console: &Console) -> Result<Periodic, Failure> {
+fn find(
+    job: &Job<'_>,
+    system: &ThermalSystem,
+    console: &Console,
+) -> Result<Answer<Periodic>, Failure> {
     let RunSettings { start, stop, .. } = job.settings;
     let window = Window { name: CYCLE.into(), from: start, to: stop, of: job.selection.clone() };
-    let transient = Transient {
-        record: record(system.network(), &job.selection),
-        windows: vec![window],
-        balance: job.balance,
-        ..lptn_solve::Transient::of(system.network(), &job.settings)
-    };
+    let cycle = RunAnalysis::of(system.network(), &job.settings)
+        .keeping(record(system.network(), &job.selection))
+        .over(vec![window])
+        .balancing(job.balance);
     let interrupt = Interrupt::listen();
     let mut line = ProgressLine::new(console.quiet);
-    let found = Periodic::find_observed(system, &transient, &mut |progress| {
+    let found = cycle.cycle(system, &mut |progress| {
         line.update(progress);
         interrupt.control()
     });
     line.clear();
-    found.map_err(|error| failed(job.input, &error))
+    found.map_err(|error| match error {
+        CycleError::Missing(error) => failed(job.input, &error),
+        CycleError::Run(error) => unanswered(job.input, &error),
+    })
 }
 
 fn failed(input: &Input, error: &PeriodicError) -> Failure {

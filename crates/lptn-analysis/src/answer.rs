@@ -1,0 +1,22 @@
+//! The answer to an analysis.
+
+use std::ops::Deref;
+
+use crate::trust::Trust;
+
+/// The result of an analysis with the trust in it. It lends the fields of its result.
+#[derive(Clone, Debug)]
+pub struct Answer<T> {
+    /// The numbers.
+    pub result: T,
+    /// How far they can be trusted.
+    pub trust: Trust,
+}
+
+impl<T> Deref for Answer<T> {
+    type Target = T;
+
+    fn deref(&self) -> &T {
+        &self.result
+    }
+}

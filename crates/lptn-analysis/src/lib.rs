@@ -1,0 +1,29 @@
+//! Analyses: one question to a network, and its answer with how far it can be trusted.
+//!
+//! [`Analysis`] says over what a network is solved: its steady state, a run ([`RunAnalysis`]), or the cycle that
+//! it settles to. [`Analysis::ask`] gives an [`Answer`], whose [`Trust`] comes with the numbers. No
+//! other crate starts a run, solves a steady state or searches a cycle; studies are lists of
+//! analyses.
+//!
+//! An answer exists only if its energy balance closes, its ranges of validity could be looked at
+//! and nothing interrupted it. Its rows decide nothing: peaks, limits, heats and windows are looked
+//! at between the rows.
+//!
+//! Units: SI, temperatures in K, heat positive into a node and from `from` to `to`.
+
+mod analysis;
+mod answer;
+mod error;
+mod limits;
+mod run;
+mod slopes;
+mod steady;
+mod trust;
+
+pub use analysis::{Analysis, Found};
+pub use answer::Answer;
+pub use error::{AnalysisError, CycleError, RunError};
+pub use limits::LimitResult;
+pub use run::{Observer, RunAnalysis};
+pub use steady::{steady, steady_within};
+pub use trust::{Trust, Unresolved};

@@ -1,0 +1,61 @@
+//! What became of limits.
+
+use lptn_network::{InputError, LimitId, Network};
+use lptn_solve::{LimitSeen, Periodic, SteadyState};
+
+/// What became of a limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LimitResult {
+    /// The limit.
+    pub limit: LimitId,
+    /// Its least margin in SI units, positive while it is kept; NaN if it was not judged: in a
+    /// steady state it depends on inputs that change with time, or it is of gears that carry no
+    /// load.
+    pub margin: f64,
+    /// When that was, in s; `None` in steady state and if it was not judged.
+    pub worst_at: Option<f64>,
+    /// When it was first broken, in s; `None` if it was not, and in steady state.
+    pub broken_at: Option<f64>,
+    /// By how much in SI units the margin may be off besides the error of temperatures.
+    pub open: f64,
+}
+
+impl LimitResult {
+    /// In a run or cycle.
+    pub fn of_run(seen: &LimitSeen) -> Self {
+        let LimitSeen { limit, margin, worst_at, broken_at, open } = *seen;
+        let judged = !margin.is_nan();
+        Self { limit, margin, worst_at: judged.then_some(worst_at), broken_at, open }
+    }
+
+    /// All limits over a settled cycle, which has no first time.
+    pub fn of_cycle(found: &Periodic) -> Vec<Self> {
+        let one = |seen| Self { broken_at: None, ..Self::of_run(seen) };
+        found.solution.limits().iter().map(one).collect()
+    }
+
+    /// All limits of a network in steady state.
+    ///
+    /// # Errors
+    /// [`InputError`] if a limit has no value.
+    pub fn of_steady(network: &Network, steady: &SteadyState) -> Result<Vec<Self>, InputError> {
+        let margins = steady.limit_margins(network, steady.time)?;
+        let one = |(limit, margin): (LimitId, f64)| {
+            let own = &network.limits()[limit.index()];
+            let constant = network.changing_inputs_of(&[&own.of, &own.value]).is_empty();
+            let margin = if constant { margin } else { f64::NAN };
+            Self { limit, margin, worst_at: None, broken_at: None, open: 0.0 }
+        };
+        Ok(network.limit_ids().zip(margins).map(one).collect())
+    }
+
+    /// Whether it is neither kept nor broken, because it was not judged.
+    pub fn is_open(&self) -> bool {
+        self.margin.is_nan()
+    }
+
+    /// Whether it is broken.
+    pub fn is_broken(&self) -> bool {
+        self.margin < 0.0
+    }
+}

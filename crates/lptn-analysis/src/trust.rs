@@ -1,0 +1,85 @@
+//! How far an answer can be trusted.
+
+use lptn_network::{InputError, LimitId, Network};
+use lptn_solve::{Beyond, Others, OutOfRange, Solution, SteadyState, Unbounded};
+
+/// What a reader has to know of numbers before she believes them. Nothing of it is an error: the
+/// energy balance is one, and numbers without a closed balance are never handed out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Trust {
+    /// A temperature that nothing real has.
+    pub beyond: Option<Beyond>,
+    /// Where and when laws were outside the ranges in which they are known.
+    pub out_of_range: Vec<OutOfRange>,
+    /// Why the tolerance does not bound the error; `None` if it does, and for steady states, which
+    /// are refined to rounding.
+    pub unbounded: Option<Unbounded>,
+    /// Results that change faster than steps are looked at.
+    pub unresolved: Vec<Unresolved>,
+    /// What is known of other steady states with the same inputs; [`Others::None`] over time.
+    pub others: Others,
+}
+
+/// A result that changes faster than steps are looked at.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unresolved {
+    /// The margin of a limit.
+    Margin {
+        /// The limit.
+        limit: LimitId,
+        /// By how much in SI units it may be off.
+        by: f64,
+    },
+    /// The mean of a column over a window.
+    Mean {
+        /// The name of the column.
+        column: String,
+        /// The name of the window.
+        window: String,
+        /// The share of it by which it may be off.
+        share: f64,
+    },
+}
+
+impl Unresolved {
+    fn all_of(solution: &Solution) -> Vec<Self> {
+        let limits = solution.limits().iter().filter(|seen| seen.open > 0.0);
+        let limits = limits.map(|seen| Self::Margin { limit: seen.limit, by: seen.open });
+        let means = solution.windows().iter().flat_map(|window| {
+            let open = window.columns.iter().filter(|column| column.is_open());
+            open.map(|column| Self::Mean {
+                column: column.name.clone(),
+                window: window.name.clone(),
+                share: column.open,
+            })
+        });
+        limits.chain(means).collect()
+    }
+}
+
+impl Trust {
+    pub(crate) fn of_run(solution: &Solution) -> Self {
+        Self {
+            beyond: Beyond::of_run(solution),
+            out_of_range: solution.out_of_range().to_vec(),
+            unbounded: solution.why_unbounded(),
+            unresolved: Unresolved::all_of(solution),
+            others: Others::None,
+        }
+    }
+
+    pub(crate) fn of_steady(network: &Network, steady: &SteadyState) -> Result<Self, InputError> {
+        Ok(Self {
+            beyond: Beyond::of_steady(network, steady),
+            out_of_range: OutOfRange::of_steady(network, steady)?,
+            unbounded: None,
+            unresolved: Vec::new(),
+            others: steady.others.clone(),
+        })
+    }
+
+    /// Whether there are other steady states, or they cannot be excluded.
+    pub fn may_be_another(&self) -> bool {
+        self.others != Others::None
+    }
+}
