@@ -37,7 +37,7 @@ test: setup-tests
 
 # A sweep that is killed fifty times.
 test-kills: setup-tests
-	cargo test --workspace --locked $(features) --test sweep_resume -- --ignored
+	cargo test --workspace --locked $(features) --test all sweep_resume:: -- --ignored
 
 # A sweep as a job array of a Slurm of its own on this machine; as root.
 test-slurm: build
@@ -68,7 +68,7 @@ METAMORPHIC ?= 2000
 METAMORPHIC_FROM ?= 1000
 metamorphic: setup-tests
 	LPTN_METAMORPHIC=$(METAMORPHIC) LPTN_METAMORPHIC_FROM=$(METAMORPHIC_FROM) \
-	    cargo test --locked $(features) -p lptn-cli --test metamorphic -- --nocapture
+	    cargo test --locked $(features) -p lptn-cli --test all metamorphic:: -- --nocapture
 
 fuzz:
 	@./fuzz/run

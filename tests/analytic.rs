@@ -1,6 +1,6 @@
 //! Steady states and transients against closed forms written out here, not taken from the library.
 
-mod support;
+use crate::support;
 
 use lptn::network::{Area, FilmCoefficient, NodeId, Path};
 use lptn::prelude::*;

@@ -208,6 +208,23 @@ fn one_crate_alone_asks_networks() {
     }
 }
 
+/// A file of tests that no `main.rs` names is compiled by nobody.
+#[test]
+fn every_file_of_tests_is_run() {
+    let files: Vec<(String, String)> = all_sources();
+    for (name, _) in &files {
+        let Some((folder, file)) = name.rsplit_once('/') else { continue };
+        let is_test = folder == "tests" || folder.ends_with("/tests");
+        if !is_test || file == "main.rs" {
+            continue;
+        }
+        let main = format!("{folder}/main.rs");
+        let (_, program) = files.iter().find(|(other, _)| *other == main).expect("a program");
+        let module = format!("mod {};", file.trim_end_matches(".rs"));
+        assert!(program.lines().any(|line| line == module), "{main} has no `{module}`");
+    }
+}
+
 #[test]
 fn files_are_short() {
     for (name, text) in all_sources() {

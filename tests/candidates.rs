@@ -1,6 +1,6 @@
 //! The shipped candidates: they parse without a warning, and run as another program says.
 
-mod support;
+use crate::support;
 
 use lptn::netlist::Netlist;
 use lptn::prelude::*;

@@ -1,6 +1,6 @@
 //! Properties of random networks: energy balance, maximum principle, symmetry, invariance.
 
-mod support;
+use crate::support;
 
 use lptn::network::{End, NodeId};
 use lptn::prelude::*;

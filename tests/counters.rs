@@ -3,7 +3,7 @@
 //! the ceilings, which stand a tenth above what was counted. `--nocapture` shows the counts.
 #![allow(clippy::print_stdout, reason = "the counts")]
 
-mod support;
+use crate::support;
 
 use lptn::prelude::*;
 use support::{StiffLadder, grid, shipped, transient};

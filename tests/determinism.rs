@@ -1,6 +1,6 @@
 //! Same input, same bytes: twice in a row, and from several threads at once.
 
-mod support;
+use crate::support;
 
 use lptn::prelude::*;
 use support::{StiffLadder, grid};

@@ -2,9 +2,8 @@
 //! fragments (` ```toml
 //! fragment`) as additions to a small base. What pages show of commands is kept by `crates/lptn-cli/tests/documents.rs`.
 
-#[path = "support/pages.rs"]
-mod pages;
-mod support;
+use crate::pages;
+use crate::support;
 
 use std::path::{Path, PathBuf};
 

@@ -5,10 +5,13 @@
 //! (` ```toml`) and one table of results, whose rows begin with a quantity in quotes, `steady` or a
 //! time, and a value with its unit.
 
+#[path = "devices/mod.rs"]
 mod devices;
+#[path = "joints/mod.rs"]
 mod joints;
+#[path = "losses_pages/mod.rs"]
 mod losses_pages;
-mod support;
+use crate::support;
 
 use std::path::{Path, PathBuf};
 

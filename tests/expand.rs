@@ -1,6 +1,6 @@
 //! Expansions: a network read from its flat netlist gives the same results to the last digit.
 
-mod support;
+use crate::support;
 
 use lptn::prelude::*;
 use support::{networks, shipped, transient};

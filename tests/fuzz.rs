@@ -4,8 +4,7 @@
 
 #![allow(clippy::print_stdout, reason = "what was fed last is shown where it fails")]
 
-#[path = "../fuzz/src/targets.rs"]
-mod targets;
+use crate::targets;
 
 use std::path::{Path, PathBuf};
 

@@ -3,8 +3,7 @@
 //! derivatives are compared with differences and what is written with what is read.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-#[path = "support/kind_page.rs"]
-mod kind_page;
+use crate::kind_page;
 
 use std::path::{Path, PathBuf};
 

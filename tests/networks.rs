@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "the measured figures, shown with --nocapture")]
 
-mod support;
+use crate::support;
 
 use lptn::prelude::*;
 use lptn::solve::{Column, RecordedNodes};

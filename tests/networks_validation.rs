@@ -3,9 +3,8 @@
 
 #![allow(clippy::print_stdout, reason = "the table of results, shown with --nocapture")]
 
-mod support;
-#[path = "support/validation/mod.rs"]
-mod validation;
+use crate::support;
+use crate::validation_helper as validation;
 
 use lptn::solve::Proceed;
 use lptn::study::{Demand, Moments, SizeTask, size};

@@ -1,7 +1,7 @@
 //! What `networks/paper_bed.toml` says of itself: the two rises and the time constant that the
 //! paper prints for 7000 rpm.
 
-mod support;
+use crate::support;
 
 use lptn::prelude::*;
 use lptn::reduce::{ExponentialFit, fit_exponential};

@@ -1,6 +1,6 @@
 //! `Network::with`: other parameters without parsing, the same network as if they had been written.
 
-mod support;
+use crate::support;
 
 use lptn::prelude::*;
 use support::{networks, shipped};

@@ -2,7 +2,7 @@
 //! bearings, in their printed units, solved for the temperature by iteration; and the table of
 //! `docs/parts.md`.
 
-mod support;
+use crate::support;
 
 use lptn::prelude::*;
 use support::shipped;

@@ -1,6 +1,6 @@
 //! One test for each fixed mistake.
 
-mod support;
+use crate::support;
 
 use lptn::network::{Area, ConductorKind, Context, Path};
 use lptn::prelude::*;

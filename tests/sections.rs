@@ -58,7 +58,7 @@ fn page() -> String {
     let mut text = "# Sections and keys\n\n\
         Every section of a netlist with its keys, as they are declared. \
         [The reference](netlist.md) says\nhow they belong together. \
-        `LPTN_BLESS=1 cargo test --test sections` writes this page.\n"
+        `LPTN_BLESS=1 cargo test --test all sections::` writes this page.\n"
         .to_owned();
     for section in &format().sections {
         let name = section.name;

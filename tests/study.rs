@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-mod support;
+use crate::support;
 
 use lptn::network::NodeId;
 use lptn::prelude::*;

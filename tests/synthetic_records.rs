@@ -1,8 +1,6 @@
 //! The synthetic records of the gearbox are what their script writes.
 
-#[path = "../examples/synthetic_records.rs"]
-#[allow(dead_code, reason = "its `main` is not called here")]
-mod synthetic_records;
+use crate::synthetic_records_helper as synthetic_records;
 
 use std::f64::consts::TAU;
 use std::path::PathBuf;

@@ -2,7 +2,7 @@
 
 #![allow(clippy::print_stdout, reason = "the measured figures, shown with --nocapture")]
 
-mod support;
+use crate::support;
 
 use lptn::prelude::*;
 use support::{StiffLadder, gearbox_rise, gearbox_with_idle, grid, grid_rise};

@@ -5,8 +5,7 @@
 
 #![allow(clippy::print_stdout, reason = "the table of results, shown with --nocapture")]
 
-#[path = "support/validation/mod.rs"]
-mod validation;
+use crate::validation_helper as validation;
 
 use std::path::{Path, PathBuf};
 

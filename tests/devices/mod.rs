@@ -1,6 +1,6 @@
 //! Closed forms of the pages of what removes heat.
 
-use crate::{Closed, relaxed};
+use super::{Closed, relaxed};
 
 /// NTU = 5 and C_r = 0.7 against each other, side by side, across, in a shell, past a bath.
 fn effectivenesses() -> [f64; 5] {

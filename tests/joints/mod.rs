@@ -1,6 +1,6 @@
 //! Closed forms of the pages of joints.
 
-use crate::{Closed, relaxed, root};
+use super::{Closed, relaxed, root};
 
 pub(crate) fn contact() -> Vec<Closed> {
     let g = 5000.0 * 8e-4;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::{Closed, relaxed};
+use super::{Closed, relaxed};
 
 fn omega(rpm: f64) -> f64 {
     rpm * PI / 30.0

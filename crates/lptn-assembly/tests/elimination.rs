@@ -2,10 +2,8 @@
 //! numbers.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-#[path = "common/networks.rs"]
-mod networks;
-#[path = "common/rational.rs"]
-mod rational;
+use crate::networks;
+use crate::rational;
 
 use lptn_assembly::{AssemblyError, JacobianForm, ThermalSystem};
 use lptn_network::{Conductance, End, HeatCapacity, HeatFlow, NetworkBuilder, Temperature};

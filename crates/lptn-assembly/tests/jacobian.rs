@@ -2,8 +2,7 @@
 //! must stay finite.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-#[path = "common/networks.rs"]
-mod networks;
+use crate::networks;
 
 use lptn_assembly::{JacobianForm, ThermalSystem};
 use lptn_network::{

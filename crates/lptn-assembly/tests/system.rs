@@ -2,8 +2,7 @@
 //! temperatures.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-#[path = "common/networks.rs"]
-mod networks;
+use crate::networks;
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{

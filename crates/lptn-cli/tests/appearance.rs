@@ -1,6 +1,6 @@
 //! What is printed: text for people, JSON for programs.
 
-mod common;
+use crate::common;
 
 use common::{Folder, GEARBOX};
 use serde_json::Value;

@@ -8,7 +8,7 @@
     reason = "a test that cannot go on has failed, and one that cannot begin says why"
 )]
 
-mod common;
+use crate::common;
 
 use std::process::{Command, Output};
 

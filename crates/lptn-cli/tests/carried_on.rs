@@ -1,6 +1,6 @@
 //! Command line: what a fit found is carried on to runs, sizes and comparisons.
 
-mod common;
+use crate::common;
 
 use common::Folder;
 use serde_json::Value;

@@ -1,6 +1,6 @@
 //! Load cases: run, compared and sized together; and variants of one netlist.
 
-mod common;
+use crate::common;
 
 use common::Folder;
 

@@ -20,18 +20,16 @@
 //! A block with a folder in its name is a file of the repository, so that its commands run there too:
 //! ` ```toml docs/cups.toml `. `LPTN_PAGE=gearbox` runs the pages with this in their name only.
 //!
-//! `LPTN_BLESS=1 cargo test -p lptn-cli --test documents` writes what the commands print into the
+//! `LPTN_BLESS=1 cargo test -p lptn-cli --test all documents::` writes what the commands print into the
 //! pages; what it writes has to be read as one who learns from it would. A block with `..` is not
 //! written: shorten it by hand.
 
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-#[path = "../../../tests/support/pages.rs"]
-mod pages;
-#[path = "../../../tests/support/prose.rs"]
-mod prose;
+use crate::common;
+use crate::pages;
+use crate::prose;
 
 use std::fmt::Write as _;
 use std::ops::Range;

@@ -2,10 +2,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-#[cfg(unix)]
-#[path = "common/interrupt.rs"]
-mod interrupt;
+use crate::common;
+use crate::interrupt_helper as interrupt;
 
 use common::Folder;
 

@@ -1,6 +1,6 @@
 //! Every way a command can end.
 
-mod common;
+use crate::common;
 
 use common::{Folder, GEARBOX, Ran};
 

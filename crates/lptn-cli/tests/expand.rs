@@ -1,6 +1,6 @@
 //! `lptn check --expand`: the flat netlist goes to stdout, everything else to stderr.
 
-mod common;
+use crate::common;
 
 use common::Folder;
 

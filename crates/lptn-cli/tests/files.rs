@@ -1,6 +1,6 @@
 //! What is written, and what is not.
 
-mod common;
+use crate::common;
 
 use common::{Folder, GEARBOX, csv};
 use serde_json::Value;

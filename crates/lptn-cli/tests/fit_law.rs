@@ -2,7 +2,7 @@
 //! and closed forms.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-mod common;
+use crate::common;
 
 use common::{Folder, Ran};
 

@@ -1,7 +1,7 @@
 //! `lptn fit law FOLDER`
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-mod common;
+use crate::common;
 
 use common::Folder;
 

@@ -1,7 +1,7 @@
 //! `lptn fit network`
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
-mod common;
+use crate::common;
 
 use std::fmt::Write as _;
 

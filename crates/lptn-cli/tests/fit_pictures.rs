@@ -1,9 +1,8 @@
 //! The pictures of the fits: what `--plot` draws is what was measured and fitted.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-#[path = "common/picture.rs"]
-mod picture;
+use crate::common;
+use crate::picture;
 
 use std::fmt::Write as _;
 

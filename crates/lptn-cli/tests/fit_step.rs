@@ -1,6 +1,6 @@
 //! `lptn fit step`: one exponential through each thermocouple of a record.
 
-mod common;
+use crate::common;
 
 use common::{Folder, GEARBOX, csv};
 

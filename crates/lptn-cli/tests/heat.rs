@@ -1,6 +1,6 @@
 //! Heat contents, and values that make no sense: one test for each fixed mistake.
 
-mod common;
+use crate::common;
 
 use common::{Folder, Ran, csv};
 

@@ -1,6 +1,6 @@
 //! `lptn impedance`, as a user meets it.
 
-mod common;
+use crate::common;
 
 use common::{Folder, csv};
 use serde_json::Value;

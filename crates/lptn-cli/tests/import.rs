@@ -1,6 +1,6 @@
 //! Command line: networks from CSV files.
 
-mod common;
+use crate::common;
 
 use common::{Folder, csv};
 

@@ -1,7 +1,7 @@
 //! `lptn infer`: a heated body of which a closed form made the record.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
-mod common;
+use crate::common;
 
 use std::fmt::Write as _;
 

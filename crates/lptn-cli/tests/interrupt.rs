@@ -3,9 +3,8 @@
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-#[path = "common/interrupt.rs"]
-mod interrupt;
+use crate::common;
+use crate::interrupt_helper as interrupt;
 
 use std::io::{Read as _, Write as _};
 use std::process::{Command, Stdio};

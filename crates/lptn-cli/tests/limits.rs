@@ -1,6 +1,6 @@
 //! Limits, materials, include and what `check` adds, from the command line.
 
-mod common;
+use crate::common;
 
 use common::Folder;
 

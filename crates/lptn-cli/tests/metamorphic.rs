@@ -8,8 +8,7 @@
 
 #![allow(clippy::print_stdout, reason = "how many networks a relation changes")]
 
-mod common;
-mod random;
+use crate::random;
 
 use std::sync::OnceLock;
 

@@ -1,6 +1,6 @@
 //! Command line: reports, windows and balances of one node.
 
-mod common;
+use crate::common;
 
 use common::{Folder, GEARBOX, csv};
 

@@ -1,6 +1,6 @@
 //! Command line: `lptn steady --periodic`.
 
-mod common;
+use crate::common;
 
 use common::Folder;
 use serde_json::Value;

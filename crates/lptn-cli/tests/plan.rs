@@ -1,6 +1,6 @@
 //! `lptn plan`, as a user meets it.
 
-mod common;
+use crate::common;
 
 use common::Folder;
 

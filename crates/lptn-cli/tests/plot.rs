@@ -2,9 +2,8 @@
 //!
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
-#[path = "common/picture.rs"]
-mod picture;
+use crate::common;
+use crate::picture;
 
 use common::{Folder, Ran};
 use picture::Picture;

@@ -1,6 +1,6 @@
 //! `lptn rank`, as a user meets it.
 
-mod common;
+use crate::common;
 
 use common::Folder;
 

@@ -1,6 +1,6 @@
 //! `lptn reduce --at`, as a user meets it.
 
-mod common;
+use crate::common;
 
 use common::Folder;
 use serde_json::Value;

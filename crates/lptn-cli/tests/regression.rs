@@ -1,6 +1,6 @@
 //! One test for each fixed mistake of the command line.
 
-mod common;
+use crate::common;
 
 use common::{Folder, GEARBOX};
 

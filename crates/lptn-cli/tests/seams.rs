@@ -1,7 +1,7 @@
 //! Regression: one test for each fault found where templates, grids, imports, states and controls
 //! meet.
 
-mod common;
+use crate::common;
 
 use common::{Folder, csv};
 

@@ -1,6 +1,6 @@
 //! `lptn size`, with and without a netlist.
 
-mod common;
+use crate::common;
 
 use common::Folder;
 

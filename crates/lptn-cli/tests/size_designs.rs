@@ -1,6 +1,6 @@
 //! `lptn size` with several parameters and with catalogues.
 
-mod common;
+use crate::common;
 
 use common::Folder;
 

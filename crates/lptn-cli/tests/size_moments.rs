@@ -1,6 +1,6 @@
 //! `lptn size` over a run and over a settled cycle.
 
-mod common;
+use crate::common;
 
 use common::Folder;
 

@@ -1,6 +1,6 @@
 //! That what may be off is not taken as exact without a word.
 
-mod common;
+use crate::common;
 
 use common::Folder;
 

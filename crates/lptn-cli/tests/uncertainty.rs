@@ -1,6 +1,6 @@
 //! Command line: `lptn run --uncertainty`.
 
-mod common;
+use crate::common;
 
 use common::{Folder, csv};
 

@@ -1,6 +1,6 @@
 //! `lptn modes` and `lptn verify`, as a user meets them.
 
-mod common;
+use crate::common;
 
 use std::path::Path;
 

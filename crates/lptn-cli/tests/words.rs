@@ -1,6 +1,6 @@
 //! One test for each message that misled, drowned what mattered, or was not there.
 
-mod common;
+use crate::common;
 
 use common::{Folder, GEARBOX};
 

@@ -2,8 +2,7 @@
 //! Jacobian.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
-#[path = "common/algebraic.rs"]
-mod algebraic;
+use crate::algebraic_helper as algebraic;
 
 use algebraic::{Melting, Stream, Surfaces};
 use lptn_cvodes::Cvodes;

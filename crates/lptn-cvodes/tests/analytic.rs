@@ -2,7 +2,7 @@
 //! tolerance.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
-mod common;
+use crate::common;
 
 use common::{Linear, equal_times, largest_error, sample};
 use faer::Side;

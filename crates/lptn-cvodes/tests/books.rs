@@ -1,9 +1,8 @@
 //! The running integrals agree with what the state has gained.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
-mod common;
-#[path = "common/radiation.rs"]
-mod radiation;
+use crate::common;
+use crate::radiation;
 
 use common::{Linear, plate};
 use lptn_cvodes::Cvodes;

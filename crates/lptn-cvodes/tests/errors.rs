@@ -1,7 +1,7 @@
 //! Every error can be reached, and none of them aborts, leaks or prints.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
-mod common;
+use crate::common;
 
 use std::rc::Rc;
 

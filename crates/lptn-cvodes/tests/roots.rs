@@ -1,11 +1,8 @@
 //! Steps that end at roots: when, which way, and what the books say there.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
-#[path = "common/algebraic.rs"]
-mod algebraic;
-mod common;
-#[path = "common/rooted.rs"]
-mod rooted;
+use crate::algebraic_helper as algebraic;
+use crate::rooted;
 
 use std::f64::consts::PI;
 

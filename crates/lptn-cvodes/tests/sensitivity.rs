@@ -1,11 +1,9 @@
 //! Derivatives of the state by parameters against those of closed forms.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
-mod common;
-#[path = "common/matrix.rs"]
-mod matrix;
-#[path = "common/sensitive.rs"]
-mod sensitive;
+use crate::common;
+use crate::matrix;
+use crate::sensitive;
 
 use common::equal_times;
 use lptn_cvodes::Cvodes;

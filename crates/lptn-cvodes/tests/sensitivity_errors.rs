@@ -1,8 +1,7 @@
 //! What sensitivities may do wrong, and that an integration can go on once the reason is gone.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
-#[path = "common/sensitive.rs"]
-mod sensitive;
+use crate::sensitive;
 
 use lptn_cvodes::Cvodes;
 use lptn_integrate::{Callback, IntegrateError, Integrator, Options};

@@ -1,7 +1,7 @@
 //! Steps, stop times, restarts, dense output, the error norm, and integrators beside each other.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
-mod common;
+use crate::common;
 
 use common::{Linear, equal_times, plate, sample};
 use lptn_cvodes::{Cvodes, linked};

@@ -105,7 +105,7 @@ fn records_that_differ_are_told_and_others_are_not() {
 }
 
 #[test]
-#[ignore = "takes minutes: cargo test --release -p lptn-fit --test between -- --ignored --nocapture"]
+#[ignore = "takes minutes: cargo test --release -p lptn-fit --test all between:: -- --ignored --nocapture"]
 fn intervals_hold_where_records_differ_and_where_they_do_not() {
     let drifting = |records: usize| Bench { records, noise: 0.02, drift: 0.05, scatter: 0.0 };
     let mut all = vec![Bench { records: 2, ..EVEN }, drifting(2)];

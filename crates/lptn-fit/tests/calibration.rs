@@ -10,13 +10,9 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 #![allow(clippy::print_stdout, reason = "the figures of the pages")]
 
-#[path = "support/body.rs"]
-mod body;
-#[allow(dead_code, reason = "coverage is asked for elsewhere")]
-#[path = "support/records.rs"]
-mod records;
-#[path = "support/student.rs"]
-mod student;
+use crate::body;
+use crate::records;
+use crate::student;
 
 use lptn_fit::network::FittedParameter;
 use lptn_fit::step::{Estimated, StepFit};
@@ -117,7 +113,7 @@ fn truths_stand_anywhere_in_what_fits_of_networks_state() {
     demand(&ranks_of_bodies(100));
 }
 
-/// 1000 each: `cargo test --release -p lptn-fit --test calibration -- --ignored --nocapture`.
+/// 1000 each: `cargo test --release -p lptn-fit --test all calibration:: -- --ignored --nocapture`.
 #[test]
 #[ignore = "takes a minute"]
 fn ranks_of_a_thousand_fits() {

@@ -1,7 +1,6 @@
 //! Property: intervals hold the truth as often as they say, and noise alone asks for nothing more.
 
-#[path = "support/records.rs"]
-mod records;
+use crate::records;
 
 use records::{Truth, coverage};
 

@@ -2,8 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a test that cannot go on has failed")]
 
-#[path = "support/planned.rs"]
-mod planned;
+use crate::planned;
 
 use planned::{KINDS, Truth, predicted, scatter};
 
@@ -23,7 +22,7 @@ fn predicted_errors_are_the_scatter_of_fits() {
     agree(&Truth { samples: 101, every: 15.0, ..drift_and_offsets });
 }
 
-/// Every kind of noise: `cargo test --release --workspace --test design_scatter -- --ignored
+/// Every kind of noise: `cargo test --release --workspace --test all design_scatter:: -- --ignored
 /// --nocapture`.
 #[test]
 #[ignore = "takes a minute"]

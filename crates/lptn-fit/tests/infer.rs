@@ -3,8 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-#[path = "support/bench.rs"]
-mod bench;
+use crate::bench;
 
 use bench::{Bench, body, driven, held, inferred, noise, parse};
 use lptn_fit::infer::{Follower, InferError, InferTask, Inferred, Row};

@@ -2,8 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-#[path = "support/bench.rs"]
-mod bench;
+use crate::bench;
 
 use bench::{Bench, Slow, body, driven, held, inferred};
 use lptn_solve::{available_threads, in_parallel};
@@ -84,7 +83,7 @@ fn bands_hold_beside_noise_of_twenty_seconds() {
     assert!((92.0..=99.0).contains(&part) && odd < 1.0, "{part} %, {odd} % odd");
 }
 
-/// `cargo test --release -p lptn-fit --test infer_noise -- --ignored --nocapture`
+/// `cargo test --release -p lptn-fit --test all infer_noise:: -- --ignored --nocapture`
 #[test]
 #[ignore = "takes minutes"]
 fn bands_hold_beside_slow_noise() {

@@ -2,8 +2,7 @@
 //! the 20 % of the seed paper's time constants, and those of single fits are those of SciPy.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-#[path = "support/runs.rs"]
-mod runs;
+use crate::runs;
 
 use lptn_fit::law::{Estimate, LawStudy, LossLaw, Points, RunsStudy};
 use lptn_units::Rational;

@@ -4,8 +4,7 @@
 //! McCaffrey with whole matrices).
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-#[path = "support/runs.rs"]
-mod runs;
+use crate::runs;
 
 use lptn_fit::law::{Estimate, RunsStudy};
 

@@ -2,8 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-#[path = "support/body.rs"]
-mod body;
+use crate::body;
 
 use body::Noise;
 use lptn_fit::network::{FittedParameter, NetworkFitTask, fit_network};
@@ -46,7 +45,7 @@ fn intervals_hold_the_truth() {
     }
 }
 
-/// The same for 1000 records each: `cargo test --release -p lptn-fit --test network_intervals --
+/// The same for 1000 records each: `cargo test --release -p lptn-fit --test all network_intervals:: --
 /// --ignored --nocapture`.
 #[test]
 #[ignore = "takes a minute"]

@@ -1,7 +1,7 @@
 //! The solvers that iterate against exact factors, and when which of them is taken.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
-mod common;
+use crate::common;
 
 use common::{chain, cube, matrix, numbers, random_network};
 use lptn_integrate::linear::{Factorization, SparseCholesky, SparseLu, solve_refined};

@@ -1,7 +1,7 @@
 //! The linear solvers against each other and against systems solved by hand.
 #![allow(clippy::unwrap_used, reason = "a test may")]
 
-mod common;
+use crate::common;
 
 use common::{chain, cube, matrix, numbers, random_network};
 use lptn_integrate::linear::{Dense, Factorization, SparseCholesky, SparseLu, solve_refined};

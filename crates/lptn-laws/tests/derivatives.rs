@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-mod table;
+use crate::table;
 
 use lptn_laws::{FieldDeclaration, Formula};
 use lptn_units::{Dual, Scalar, parse_quantity};

@@ -3,8 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-#[path = "support/fixes.rs"]
-mod fixes;
+use crate::fixes;
 
 use std::collections::BTreeSet;
 use std::ops::Range;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use lptn_netlist::{Netlist, parse_with};
 
-mod support;
+use crate::support;
 use support::{same, seen};
 
 fn here(folder: &str) -> PathBuf {

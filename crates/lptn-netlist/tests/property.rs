@@ -3,8 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-#[path = "support/cpu.rs"]
-mod cpu;
+use crate::cpu;
 
 use std::fmt::Write as _;
 

@@ -12,7 +12,7 @@ use std::path::Path;
 use lptn_netlist::{Netlist, Rejected, Severity, parse, parse_with};
 use lptn_network::{Item, Network};
 
-mod support;
+use crate::support;
 use support::{same, seen};
 
 const HEAD: &str = r#"

@@ -1,7 +1,7 @@
 //! Builder: every way in which a network can be wrong, by its code.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
+use crate::common;
 
 use common::{Fault, codes, cooled, every, link, own, power, quantity, thermostat, time};
 use lptn_network::{

@@ -1,7 +1,7 @@
 //! Builder: controls, signals, substances and limits that are wrong, by their codes.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
+use crate::common;
 
 use common::{celsius, codes, cooled, every, link, own, quantity, thermostat, time};
 use lptn_network::{

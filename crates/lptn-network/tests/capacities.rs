@@ -2,7 +2,7 @@
 //! bodies.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
+use crate::common;
 
 use common::{all_near, cooled, near, own, quantity, time};
 use lptn_network::{

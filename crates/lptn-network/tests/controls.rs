@@ -2,7 +2,7 @@
 //! what reads them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
+use crate::common;
 
 use common::{cooled, expression, link, near, power, time};
 use lptn_network::{

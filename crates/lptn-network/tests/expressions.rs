@@ -1,7 +1,7 @@
 //! Expressions: tables and values of grids by name, and what helps where an input has no value.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
+use crate::common;
 
 use common::{celsius, cooled, near, quantity, time};
 use lptn_network::{

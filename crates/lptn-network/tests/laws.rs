@@ -2,7 +2,7 @@
 //! values out of range.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
+use crate::common;
 #[path = "laws/conductivity.rs"]
 mod conductivity;
 

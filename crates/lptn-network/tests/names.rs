@@ -2,7 +2,7 @@
 //! can be asked for.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
+use crate::common;
 
 use common::{cooled, near, quantity, time};
 use lptn_network::{

@@ -1,7 +1,7 @@
 //! Periods: of repeated signals together, and whether inputs really repeat themselves.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
+use crate::common;
 
 use common::{cooled, link, near, time};
 use lptn_network::{

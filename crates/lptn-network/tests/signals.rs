@@ -2,7 +2,7 @@
 //! to stop for them.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
+use crate::common;
 
 use common::{all_near, cooled, near, power, time};
 use lptn_network::{AfterEnd, Course, InputProblem, Item, Network, NetworkBuilder, SignalId};

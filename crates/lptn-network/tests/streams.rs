@@ -1,7 +1,7 @@
 //! Streams and the nodes they pass.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
+use crate::common;
 
 use common::{all_near, quantity, time};
 use lptn_network::{Conductance, ConductorKind, HeatCapacity, NetworkBuilder, Path, Temperature};

@@ -2,7 +2,7 @@
 //! and what has none.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
+use crate::common;
 
 use common::{celsius, cooled, link, own, power, quantity, time};
 use lptn_network::{

@@ -1,6 +1,6 @@
 //! Resistance to the digits promised, junctions as ports, modes of large networks.
 
-mod common;
+use crate::common;
 
 use common::{assembled, chain, near};
 use lptn_analysis::RunAnalysis;

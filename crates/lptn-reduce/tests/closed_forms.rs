@@ -1,7 +1,7 @@
 //! The two-node gearbox: every number from the 2 x 2 eigenproblem written out here.
 #![allow(clippy::unwrap_used, reason = "the helpers are part of the tests")]
 
-mod common;
+use crate::common;
 
 use common::{assembled, near, two_nodes};
 use lptn_analysis::RunAnalysis;

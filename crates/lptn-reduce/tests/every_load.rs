@@ -3,7 +3,7 @@
 //! shares nothing with the library but its networks.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-mod common;
+use crate::common;
 
 use common::{Random, Spectrum, near};
 use lptn_network::NodeId;

@@ -1,7 +1,7 @@
 //! A plate of cells, one corner heated, one side cooled, as ten nodes.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-mod common;
+use crate::common;
 
 use common::{assembled, near};
 use lptn_assembly::ThermalSystem;

@@ -2,7 +2,7 @@
 //! load exceeds the error that is said. The whole networks are decomposed by the tests' own means.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-mod common;
+use crate::common;
 
 use common::{Random, Spectrum, assembled, chain, near};
 use lptn_analysis::RunAnalysis;

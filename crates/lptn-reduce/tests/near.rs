@@ -2,8 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
-#[path = "../../lptn-assembly/tests/common/networks.rs"]
-mod networks;
+use crate::networks;
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Conductance, HeatCapacity, HeatFlow, NetworkBuilder, Temperature, Time};

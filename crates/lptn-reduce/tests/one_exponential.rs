@@ -1,7 +1,7 @@
 //! The fit of one exponential: that it is the best one, wherever the record lies, and what it says
 //! where there is none.
 
-mod common;
+use crate::common;
 
 use common::near;
 use lptn_reduce::{ExponentialFit, FitError, fit_exponential};

@@ -1,6 +1,6 @@
 //! The equivalent as a network: reduced again, and with inputs that change with time.
 
-mod common;
+use crate::common;
 
 use common::{assembled, near};
 use lptn_analysis::RunAnalysis;

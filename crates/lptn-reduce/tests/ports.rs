@@ -1,7 +1,7 @@
 //! Ports of networks with closed forms, and the fit of one exponential. The cases of
 //! `tests/validation` are checked there.
 
-mod common;
+use crate::common;
 
 use common::{assembled, chain, near, two_nodes};
 use lptn_analysis::RunAnalysis;

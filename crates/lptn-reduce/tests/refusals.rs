@@ -1,7 +1,7 @@
 //! Every way in which a reduction is refused: its code, and a help that can be followed.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-mod common;
+use crate::common;
 
 use common::{assembled, chain};
 use lptn_analysis::RunAnalysis;

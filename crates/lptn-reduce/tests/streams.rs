@@ -2,7 +2,7 @@
 //! from NumPy's inverse of the balances, unless a closed form stands beside them.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-mod common;
+use crate::common;
 
 use common::{assembled, near};
 use lptn_analysis::RunAnalysis;

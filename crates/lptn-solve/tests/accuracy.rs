@@ -2,8 +2,7 @@
 //! and of other programs.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-#[path = "common/elements.rs"]
-mod elements;
+use crate::elements_helper as elements;
 
 use elements::{
     ABSOLUTE, SIGMA, error, holds, last, link, of, own, power, quantity, radiation, run, stream,

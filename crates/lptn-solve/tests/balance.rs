@@ -2,8 +2,7 @@
 //! over every run.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-#[path = "common/elements.rs"]
-mod elements;
+use crate::elements_helper as elements;
 
 use elements::{Random, link, of, own, power, quantity, radiation, stream, system, table};
 use lptn_assembly::ThermalSystem;

@@ -6,7 +6,7 @@
     reason = "helpers of tests; the measured figures, shown with --nocapture"
 )]
 
-mod common;
+use crate::common;
 
 use common::{ZERO, gearbox, nafems_t3, one_node, rc_ladder, stiff, two_masses};
 use lptn_assembly::ThermalSystem;

@@ -7,8 +7,7 @@
     reason = "helpers of tests; the measured figures, shown with --nocapture"
 )]
 
-#[path = "common/elements.rs"]
-mod elements;
+use crate::elements_helper as elements;
 
 use elements::{quantity, radiation, stream, system};
 use lptn_assembly::ThermalSystem;

@@ -1,8 +1,7 @@
 //! Diagnostics: runs that break off keep their rows, say when, and name the node and the element.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-#[path = "common/elements.rs"]
-mod elements;
+use crate::elements_helper as elements;
 
 use elements::{ABSOLUTE, link, of, own, power, quantity, radiation, stream, system, table};
 use lptn_assembly::ThermalSystem;

@@ -1,10 +1,8 @@
 //! Which integrator computes a run, and that both find the same.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-#[path = "common/mod.rs"]
-mod common;
-#[path = "common/elements.rs"]
-mod elements;
+use crate::common;
+use crate::elements_helper as elements;
 
 use common::{gearbox, nafems_t3, one_node, rc_ladder, stiff, two_masses};
 use elements::{Random, radiation, system};

@@ -6,7 +6,7 @@
     reason = "helpers of tests; numbers that are exact"
 )]
 
-mod common;
+use crate::common;
 
 use common::{gearbox, rc_ladder, stiff, two_masses};
 use lptn_network::{Conductance, HeatCapacity, Network, NetworkBuilder, Temperature};

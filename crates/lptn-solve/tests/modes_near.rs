@@ -6,8 +6,7 @@
     reason = "helpers of tests; numbers that are exact"
 )]
 
-#[path = "common/elements.rs"]
-mod elements;
+use crate::elements_helper as elements;
 
 use elements::{quantity, radiation, stream, system};
 use lptn_assembly::ThermalSystem;

@@ -1,8 +1,7 @@
 //! The periodic state: closed forms, waiting, and what has none.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-#[path = "common/elements.rs"]
-mod elements;
+use crate::elements_helper as elements;
 
 use std::f64::consts::TAU;
 

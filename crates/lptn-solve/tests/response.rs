@@ -2,8 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "helpers of tests")]
 
-#[path = "common/elements.rs"]
-mod elements;
+use crate::elements_helper as elements;
 
 use elements::{quantity, radiation, stream, system};
 use lptn_assembly::ThermalSystem;

@@ -2,8 +2,7 @@
 //! where there is none.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
-#[path = "common/elements.rs"]
-mod elements;
+use crate::elements_helper as elements;
 
 use elements::{Random, SIGMA, link, own, power, quantity, radiation, stream, system};
 use lptn_assembly::ThermalSystem;

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-mod common;
+use crate::common;
 
 use common::{ONE_NODE, RISE, demand, near, parsed, sobol, sobol_with, task, within};
 use lptn_netlist::{Netlist, parse};

@@ -6,9 +6,7 @@ use lptn_units::Distribution::{Lognormal, Normal, Rectangle};
 use lptn_units::{Dimension, Type, parse_quantity};
 use wrong::check_wrong;
 
-#[path = "common/wrong.rs"]
-#[allow(dead_code, reason = "each test file uses a part of it")]
-mod wrong;
+use crate::wrong;
 
 fn close(found: f64, expected: f64) -> bool {
     (found - expected).abs() <= 4.0 * f64::EPSILON * expected.abs()

@@ -3,7 +3,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-mod common;
+use crate::common;
 #[path = "expressions/rotations.rs"]
 mod rotations;
 

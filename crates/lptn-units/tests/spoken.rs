@@ -5,8 +5,7 @@
 use lptn_units::{Dimension, Expression, Scope, Symbol, Type, parse_quantity, parse_value};
 use wrong::{check_wrong, is_parameter};
 
-#[path = "common/wrong.rs"]
-mod wrong;
+use crate::wrong;
 
 const ABSOLUTE: Type = Type::ABSOLUTE_TEMPERATURE;
 

@@ -6,8 +6,7 @@
 use lptn_units::{Dimension, Type, Unit, Written, parse_quantity, parse_value};
 use wrong::{check_wrong, is_parameter};
 
-#[path = "common/wrong.rs"]
-mod wrong;
+use crate::wrong;
 
 const NONE: Type = Type::SCALAR;
 const ABSOLUTE: Type = Type::ABSOLUTE_TEMPERATURE;

@@ -7,8 +7,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
 use tables::{Names, POWER, SLOTS, one, program, run, two};
 
-#[path = "common/tables.rs"]
-mod tables;
+use crate::tables_helper as tables;
 
 #[test]
 fn tables_are_called_with_values_of_their_types() {

@@ -5,8 +5,7 @@
 use lptn_units::{EvalError, UnitError};
 use tables::{compile, program, run};
 
-#[path = "common/tables.rs"]
-mod tables;
+use crate::tables_helper as tables;
 
 /// Text, code, part pointed to, message, help.
 type Wrong = (&'static str, &'static str, &'static str, &'static str, &'static str);

@@ -1,0 +1,16 @@
+//! The tests of `lptn-assembly` in one program: each file is a module, and the rest is shared.
+
+#![allow(
+    unreachable_pub,
+    dead_code,
+    reason = "modules of tests, and tables that some of them share"
+)]
+
+mod elimination;
+mod forms;
+mod jacobian;
+#[path = "common/networks.rs"]
+mod networks;
+#[path = "common/rational.rs"]
+mod rational;
+mod system;

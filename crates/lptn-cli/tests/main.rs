@@ -1,0 +1,87 @@
+//! The tests of `lptn-cli` in one program: each file is a module, and the rest is shared.
+
+#![allow(
+    unreachable_pub,
+    dead_code,
+    reason = "modules of tests, and tables that some of them share"
+)]
+
+mod appearance;
+mod branches;
+mod browser;
+mod carried_on;
+mod cases;
+mod common;
+mod compare;
+mod compare_cycles;
+mod completion;
+mod documents;
+mod events;
+mod events_verbs;
+mod exit_codes;
+mod expand;
+mod explain;
+mod families;
+mod faults;
+mod files;
+mod fit_compare;
+mod fit_law;
+mod fit_law_folder;
+mod fit_network;
+mod fit_pictures;
+mod fit_step;
+mod gear;
+mod graph;
+mod heat;
+mod impedance;
+mod import;
+mod infer;
+mod interrupt;
+#[cfg(unix)]
+#[path = "common/interrupt.rs"]
+mod interrupt_helper;
+mod json;
+mod limits;
+mod lumping;
+mod metamorphic;
+mod numbers;
+mod one_unit;
+mod outputs;
+mod own_units;
+#[path = "../../../tests/support/pages.rs"]
+mod pages;
+mod periodic;
+#[path = "common/picture.rs"]
+mod picture;
+mod plan;
+mod plot;
+mod processors;
+#[path = "../../../tests/support/prose.rs"]
+mod prose;
+mod random;
+mod ranges;
+mod rank;
+mod reduce;
+mod reduce_keep;
+mod reduce_near;
+mod reduce_verdict;
+mod regression;
+mod regression_studies;
+mod report;
+mod run_times;
+mod seams;
+mod size;
+mod size_designs;
+mod size_moments;
+mod states;
+mod sweep;
+mod sweep_larger;
+mod sweep_linear;
+mod sweep_parquet;
+mod sweep_resume;
+mod taken;
+mod uncertainty;
+mod verify;
+mod warm_start;
+mod words;
+mod written;

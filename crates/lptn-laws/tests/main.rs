@@ -1,0 +1,16 @@
+//! The tests of `lptn-laws` in one program: each file is a module, and the rest is shared.
+
+#![allow(
+    unreachable_pub,
+    dead_code,
+    reason = "modules of tests, and tables that some of them share"
+)]
+
+mod correlations;
+mod derivatives;
+mod exchangers;
+mod limits;
+mod losses;
+mod published;
+mod scuffing;
+mod table;

@@ -1,0 +1,28 @@
+//! The tests of `lptn-netlist` in one program: each file is a module, and the rest is shared.
+
+#![allow(
+    unreachable_pub,
+    dead_code,
+    reason = "modules of tests, and tables that some of them share"
+)]
+
+mod bad;
+#[path = "support/cpu.rs"]
+mod cpu;
+mod elements;
+mod expand;
+mod films;
+mod fit;
+#[path = "support/fixes.rs"]
+mod fixes;
+mod good;
+mod import;
+mod include;
+mod library;
+mod limits;
+mod materials;
+mod posterior;
+mod property;
+mod set;
+mod support;
+mod template;

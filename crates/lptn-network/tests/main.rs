@@ -1,0 +1,23 @@
+//! The tests of `lptn-network` in one program: each file is a module, and the rest is shared.
+
+#![allow(
+    unreachable_pub,
+    dead_code,
+    reason = "modules of tests, and tables that some of them share"
+)]
+
+mod build_errors;
+mod build_parts;
+mod capacities;
+mod common;
+mod controls;
+mod expressions;
+mod grids;
+mod ladder;
+mod laws;
+mod limits;
+mod names;
+mod periods;
+mod signals;
+mod streams;
+mod tangents;

@@ -1,0 +1,31 @@
+//! The tests of `lptn-solve` in one program: each file is a module, and the rest is shared.
+
+#![allow(
+    unreachable_pub,
+    dead_code,
+    reason = "modules of tests, and tables that some of them share"
+)]
+
+mod accuracy;
+mod balance;
+mod common;
+mod elements;
+#[path = "common/elements.rs"]
+mod elements_helper;
+mod events;
+mod exact;
+mod exact_streams;
+mod failures;
+mod guard;
+mod lumping;
+mod methods;
+mod modes;
+mod modes_near;
+mod near_state;
+mod outputs;
+mod periodic;
+mod periodic_events;
+mod response;
+mod snapshot;
+mod steady;
+mod steady_events;

@@ -1,0 +1,28 @@
+//! The tests of `lptn-units` in one program: each file is a module, and the rest is shared.
+
+#![allow(
+    unreachable_pub,
+    dead_code,
+    reason = "modules of tests, and tables that some of them share"
+)]
+
+mod common;
+mod derivatives;
+mod distributions;
+mod enclosures;
+mod expressions;
+mod helps;
+mod inference;
+mod oracle;
+mod programs;
+mod property;
+mod spoken;
+mod strings;
+mod table_calls;
+mod table_errors;
+mod tables;
+#[path = "common/tables.rs"]
+mod tables_helper;
+mod trends;
+#[path = "common/wrong.rs"]
+mod wrong;
