@@ -2,14 +2,15 @@
 
 use std::sync::Arc;
 
-use lptn_analysis::{Observer, RunAnalysis, Trust};
+use lptn_analysis::{Observer, Trust};
 use lptn_assembly::ThermalSystem;
-use lptn_network::{LimitSeverity, Network, NodeId, RunSettings};
+use lptn_network::{LimitSeverity, Network, RunSettings};
 use lptn_solve::{Others, PeriodicError, Proceed, SteadyState, Summary};
 
+use crate::compare::asked::{all_nodes, bare};
 use crate::compare::doubt::Scatter;
 use crate::compare::error::CompareError;
-use crate::compare::heat::{self, HeatOut, HeatOver};
+use crate::compare::heat::{HeatOut, HeatOver};
 use crate::compare::limits::{self, LimitResult};
 use crate::compare::peak::{Peak, hottest, peak};
 use crate::compare::settled::{self, Settled};
@@ -201,16 +202,4 @@ impl Candidate {
 /// A steady state that may not be the only one.
 fn doubtful(steady: &SteadyState) -> Option<SteadyState> {
     (steady.others != Others::None).then(|| steady.clone())
-}
-
-/// A run or cycle without rows and with the windows that its heats need: peaks and limits are
-/// looked at between rows.
-pub(crate) fn bare(network: &Network, settings: &RunSettings) -> RunAnalysis {
-    let windows = heat::window(network, (settings.start, settings.stop)).into_iter().collect();
-    RunAnalysis::of(network, settings).bare().at(Vec::new()).over(windows)
-}
-
-/// The nodes of a network, in its order.
-pub(crate) fn all_nodes(network: &Network) -> Vec<NodeId> {
-    network.node_ids().collect()
 }

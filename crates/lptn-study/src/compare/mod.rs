@@ -1,5 +1,6 @@
 //! Comparison of candidate designs: what an engineer asks of each, side by side.
 
+mod asked;
 mod candidate;
 mod doubt;
 mod error;

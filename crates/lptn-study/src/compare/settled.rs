@@ -7,7 +7,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_network::RunSettings;
 use lptn_solve::{Periodic, PeriodicError, Summary};
 
-use crate::compare::candidate::{all_nodes, bare};
+use crate::compare::asked::{all_nodes, bare};
 use crate::compare::error::CompareError;
 use crate::compare::limits::{self, LimitResult};
 use crate::compare::peak::{Peak, hottest, peak};
