@@ -178,6 +178,7 @@ fn highest(
         output: OutputTimes::At(vec![settings.start, settings.stop]),
         record: RecordedNodes::Nodes(Vec::new()),
         watch: nodes.iter().map(|&node| Watch { node, level: None }).collect(),
+        hottest_only: true,
         windows: Vec::new(),
         balance: None,
         ..settings.clone()

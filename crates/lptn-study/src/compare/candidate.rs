@@ -6,8 +6,8 @@ use lptn_assembly::ThermalSystem;
 use lptn_netlist::RunSettings;
 use lptn_network::{LimitSeverity, Network};
 use lptn_solve::{
-    Beyond, Others, OutOfRange, OutputTimes, PeriodicError, Proceed, Progress, RecordedNodes,
-    RunStatus, SteadyState, Summary, Transient,
+    Beyond, Looks, Others, OutOfRange, OutputTimes, PeriodicError, Proceed, Progress,
+    RecordedNodes, RunStatus, Statistics, SteadyState, Summary, Transient,
 };
 
 use crate::compare::doubt::Scatter;
@@ -45,6 +45,10 @@ pub struct Candidate {
     pub out_of_range: Vec<OutOfRange>,
     /// Its steady state, where there are others or they cannot be excluded.
     pub several: Option<SteadyState>,
+    /// What the integration of its run or cycle took; zero in steady state.
+    pub statistics: Statistics,
+    /// How much was looked at in it.
+    pub looks: Looks,
     /// What the `±` of parameters do to it, where that was asked for: see [`Scatter::of_run`].
     pub scatter: Option<Scatter>,
 }
@@ -140,6 +144,8 @@ impl Candidate {
             beyond: Beyond::of_steady(network, &steady),
             out_of_range: OutOfRange::of_steady(network, &steady).map_err(CompareError::Input)?,
             several: Some(steady).filter(is_doubtful),
+            statistics: Statistics::default(),
+            looks: Looks::default(),
             scatter: None,
         })
     }
@@ -160,6 +166,8 @@ impl Candidate {
             beyond: Beyond::of_run(&solution),
             out_of_range: solution.out_of_range().to_vec(),
             several: None,
+            statistics: *solution.statistics(),
+            looks: solution.looks(),
             scatter: None,
         }
     }
@@ -194,6 +202,8 @@ impl Candidate {
             beyond: Beyond::of_run(&solution),
             out_of_range: solution.out_of_range().to_vec(),
             several: steady.filter(is_doubtful),
+            statistics: *solution.statistics(),
+            looks: solution.looks(),
             scatter: None,
         })
     }
@@ -219,6 +229,7 @@ fn transient(
         output: OutputTimes::At(vec![run.stop]),
         record: RecordedNodes::Nodes(Vec::new()),
         watch,
+        hottest_only: true,
         windows: windows.collect(),
         ..of
     })

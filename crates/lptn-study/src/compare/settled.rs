@@ -90,6 +90,7 @@ fn transient(system: &ThermalSystem, cycle: &RunSettings) -> Transient {
         windows,
         record: RecordedNodes::Nodes(Vec::new()),
         watch: network.node_ids().map(|node| Watch { node, level: None }).collect(),
+        hottest_only: true,
         ..of
     }
 }
