@@ -5,7 +5,10 @@
 
 use crate::support;
 
+use lptn::network::NodeId;
 use lptn::prelude::*;
+use lptn::solve::{Proceed, Progress, Statistics, Watch};
+use lptn::study::Candidate;
 use support::{StiffLadder, grid, shipped, transient};
 
 /// What is counted, in the order of the ceilings.
@@ -14,7 +17,10 @@ const NAMES: [&str; 6] =
 
 /// Evaluations are those of heat flows and of the integrands of the books.
 fn work(solution: &Solution) -> [u64; 6] {
-    let done = solution.statistics();
+    counts(solution.statistics())
+}
+
+fn counts(done: &Statistics) -> [u64; 6] {
     let evaluations = done.flow_evaluations + done.quadrature_evaluations;
     let [solves, iterations] = [done.linear_solves, done.linear_iterations];
     [done.steps, evaluations, done.factorizations, solves, iterations, done.fill]
@@ -56,4 +62,76 @@ fn runs_take_no_more_than_they_did() {
         }
     }
     assert!(more.is_empty(), "{more:#?}");
+}
+
+/// A block that is heated evenly from one side, so that its four corners there get hottest.
+const BLOCK: &str = r#"
+format = 1
+[grid.block]
+size = ["0.1 m", "0.1 m", "0.1 m"]
+cells = [8, 8, 8]
+material = "steel_1010"
+T0 = "25 degC"
+[boundary]
+air = { T = "25 degC" }
+[convection]
+top = { from = "block.z1", to = "air", h = "20 W/(m^2 K)" }
+[source]
+heat = { into = "block.z0", P = "PULSE" }
+[run]
+stop = "1 h"
+output = { every = "10 min" }
+"#;
+
+/// A comparison integrates once, as the run does; it looks at each step at the ends and five points
+/// between them, and closely at the few cells that may be the hottest.
+#[test]
+fn comparing_a_grid_takes_little_more_than_running_it() {
+    for pulse in ["if(t < 10 [min], 500 [W], 0 [W])", "500 W"] {
+        let (netlist, system) = support::parsed(&BLOCK.replace("PULSE", pulse));
+        let (mut alone, mut steps) = (0, 0);
+        let solution = transient(&netlist).solve_observed(&system, &mut counting(&mut alone));
+        let solution = solution.expect("it runs");
+        let run = netlist.run.as_ref();
+        let found = Candidate::evaluate_observed(&system, run, &mut counting(&mut steps));
+        let found = found.expect("it runs");
+        let (taken, known) = (counts(&found.statistics), counts(solution.statistics()));
+        println!("{pulse}: {taken:?}, {steps} steps, {:?}", found.looks);
+        for ((name, taken), known) in NAMES.iter().zip(taken).zip(known) {
+            assert!(taken <= known, "{pulse}: {taken} {name}, the run alone takes {known}");
+        }
+        assert_eq!(steps, alone, "{pulse}: it is run once");
+        // and where segments begin
+        assert!(found.looks.placed <= 6 * steps + 10, "{pulse}: {:?}", found.looks);
+        let nodes = system.network().nodes().len() as u64;
+        assert!(found.looks.sought <= nodes * steps / 5, "{pulse}: {:?}", found.looks);
+    }
+}
+
+/// An observer that counts the steps.
+fn counting(steps: &mut u64) -> impl FnMut(Progress) -> Proceed {
+    |_| {
+        *steps += 1;
+        Proceed::Continue
+    }
+}
+
+/// Only the hottest node is found without those that are never the hottest, in the same place.
+#[test]
+fn the_hottest_of_all_nodes_is_the_same_alone() {
+    for name in ["drive_cycle.toml", "gearbox.toml", "motor.toml", "two_masses.toml"] {
+        let (netlist, system) = shipped(name);
+        let watch = netlist.network.node_ids().map(|node| Watch { node, level: None }).collect();
+        let all = Transient { watch, ..transient(&netlist) };
+        let one = Transient { hottest_only: true, ..all.clone() };
+        let [all, one] = [all, one].map(|run| hottest(&run.solve(&system).expect("it runs")));
+        assert_eq!(all, one, "{name}");
+    }
+}
+
+/// The node with the highest peak, of equals the first, with its peak in K and the time of it in s.
+fn hottest(solution: &Solution) -> (NodeId, (f64, f64)) {
+    let peaks = solution.watched().iter().map(|seen| (seen.watch.node, seen.peak));
+    let hottest = peaks.reduce(|best, next| if next.1.0 > best.1.0 { next } else { best });
+    hottest.expect("a node")
 }

@@ -87,7 +87,9 @@ impl RunAnalysis {
     #[must_use]
     pub fn bare(self) -> Self {
         let record = RecordedNodes::Nodes(Vec::new());
-        Self(Transient { record, watch: Vec::new(), windows: Vec::new(), balance: None, ..self.0 })
+        let (watch, windows) = (Vec::new(), Vec::new());
+        let transient = Transient { record, watch, windows, balance: None, ..self.0 };
+        Self(Transient { hottest_only: false, ..transient })
     }
 
     /// Looks for the extremes of these nodes.
@@ -109,6 +111,13 @@ impl RunAnalysis {
     ) -> Result<Self, Unsolved> {
         let watch = Summary::watches(system, self.0.start, nodes, steady)?;
         Ok(Self(Transient { watch, ..self.0 }))
+    }
+
+    /// Looks for the highest temperature of all watched nodes only: the peak of a node that is never
+    /// the hottest may be missed.
+    #[must_use]
+    pub fn for_the_hottest(self) -> Self {
+        Self(Transient { hottest_only: true, ..self.0 })
     }
 
     /// Takes means and extremes over these windows.

@@ -9,6 +9,7 @@
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
+use std::ops::Range;
 
 /// A conductance between two vertices: nodes come first, then boundaries.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,13 +27,16 @@ struct Star {
     /// The neighbour with the largest weight: temperatures are averaged as differences to it, so
     /// that a vertex between equal temperatures has that temperature to the last digit.
     nearest: u32,
-    weights: Vec<(u32, f64)>,
+    /// Where its weights stand among those of all.
+    weights: Range<usize>,
 }
 
 /// The eliminated vertices, in the order of elimination.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Elimination {
     stars: Vec<Star>,
+    /// The weights of all, in one piece: they are read at every time that is looked at.
+    weights: Vec<(u32, f64)>,
 }
 
 /// A vertex that has too many neighbours to be eliminated.
@@ -62,7 +66,7 @@ impl Elimination {
             Graph { stars: BTreeMap::new(), kept: Vec::new(), added: 0, is_massless: &is_massless };
         links.into_iter().for_each(|link| graph.add(link));
         graph.added = 0;
-        let mut stars = Vec::with_capacity(graph.stars.len());
+        let mut done = Self { stars: Vec::with_capacity(graph.stars.len()), weights: Vec::new() };
         let mut queue: BinaryHeap<Reverse<(usize, u32)>> =
             graph.stars.iter().map(|(&v, neighbours)| Reverse((neighbours.len(), v))).collect();
         while let Some(Reverse((degree, vertex))) = queue.pop() {
@@ -73,15 +77,29 @@ impl Elimination {
             if graph.added + degree * degree.saturating_sub(1) / 2 > limit {
                 return Err(TooMany { vertex, neighbours: degree });
             }
-            let star = graph.eliminate(vertex);
-            for &(neighbour, _) in &star.weights {
+            let neighbours = graph.eliminate(vertex);
+            for &(neighbour, _) in &neighbours {
                 if let Some(next) = graph.stars.get(&neighbour) {
                     queue.push(Reverse((next.len(), neighbour)));
                 }
             }
-            stars.push(star);
+            done.push(vertex, &neighbours);
         }
-        Ok((Self { stars }, merged(graph.kept)))
+        Ok((done, merged(graph.kept)))
+    }
+
+    /// Adds a vertex with the conductances to the neighbours that it had.
+    fn push(&mut self, vertex: u32, neighbours: &[(u32, f64)]) {
+        let total: f64 = neighbours.iter().map(|&(_, g)| g).sum();
+        let nearest = neighbours.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        let begin = self.weights.len();
+        self.weights.extend(neighbours.iter().map(|&(v, g)| (v, g / total)));
+        self.stars.push(Star {
+            vertex,
+            total,
+            nearest: nearest.map_or(vertex, |&(v, _)| v),
+            weights: begin..self.weights.len(),
+        });
     }
 
     /// Hands the heat put into massless vertices on to those that remain.
@@ -92,7 +110,8 @@ impl Elimination {
         for star in &self.stars {
             let q = heat[star.vertex as usize];
             if q != 0.0 {
-                star.weights.iter().for_each(|&(v, w)| heat[v as usize] += w * q);
+                let weights = &self.weights[star.weights.clone()];
+                weights.iter().for_each(|&(v, w)| heat[v as usize] += w * q);
             }
         }
     }
@@ -101,8 +120,9 @@ impl Elimination {
     pub(crate) fn recover(&self, heat: &[f64], temperature: &mut [f64]) {
         for star in self.stars.iter().rev() {
             let near = temperature[star.nearest as usize];
+            let weights = &self.weights[star.weights.clone()];
             let rest: f64 =
-                star.weights.iter().map(|&(v, w)| w * (temperature[v as usize] - near)).sum();
+                weights.iter().map(|&(v, w)| w * (temperature[v as usize] - near)).sum();
             temperature[star.vertex as usize] =
                 near + (rest + heat[star.vertex as usize] / star.total);
         }
@@ -141,7 +161,8 @@ impl Graph<'_> {
         }
     }
 
-    fn eliminate(&mut self, vertex: u32) -> Star {
+    /// Takes a vertex out, and gives the neighbours that it had.
+    fn eliminate(&mut self, vertex: u32) -> Vec<(u32, f64)> {
         let neighbours = self.stars.remove(&vertex).unwrap_or_default();
         let total: f64 = neighbours.values().sum();
         for v in neighbours.keys() {
@@ -155,9 +176,7 @@ impl Graph<'_> {
                 self.add(Link { a, b, g: g_a * (g_b / total) });
             }
         }
-        let nearest = list.iter().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(vertex, |&(v, _)| v);
-        let weights = list.into_iter().map(|(v, g)| (v, g / total)).collect();
-        Star { vertex, total, nearest, weights }
+        list
     }
 }
 

@@ -35,6 +35,7 @@ mod limit;
 mod limit_look;
 mod limit_seen;
 mod linearised;
+mod looks;
 mod lumping;
 mod method;
 mod modes;
@@ -99,6 +100,7 @@ pub use last::LastState;
 pub use ledger::{Ledger, LedgerError};
 pub use limit_seen::LimitSeen;
 pub use linearised::{Linearised, LinearisedError, Tried};
+pub use looks::Looks;
 #[cfg(feature = "cvodes")]
 pub use lptn_cvodes::{Linkage, linked};
 pub use lptn_integrate::dense::Complex;

@@ -1,6 +1,7 @@
 //! Writes rows while a run goes on, and looks at the watched nodes.
 
 mod look;
+mod lookout;
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::{IntegrateError, Integrator, Statistics, kernels};
@@ -12,14 +13,15 @@ use crate::error::TransientError;
 use crate::events::Event;
 use crate::extremes::Extremes;
 use crate::heat::Heat;
-use crate::interval::POINTS;
 use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::{LimitWatch, with_limits};
+use crate::looks::Looks;
 use crate::newton_error::NewtonError;
 use crate::ranges::RangeWatch;
 use crate::reading::Reading;
 use crate::readings::Readings;
+use crate::recorder::lookout::Lookout;
 use crate::sensed::Sensed;
 use crate::sensitivity_rows::SensitivityRows;
 use crate::settings::Transient;
@@ -30,7 +32,6 @@ use crate::times::Segment;
 use crate::tracked::Tracked;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;
-use crate::watch::{Watch, Watched};
 
 /// Writes the state at a time inside the present step.
 type StateAt<'a> = dyn FnMut(f64, &mut [f64]) -> Result<(), IntegrateError> + 'a;
@@ -56,10 +57,9 @@ pub(crate) struct Recorder<'a> {
     columns: Columns,
     /// The hottest and the coldest node of all rows, recorded or not.
     extremes: Extremes,
-    watch: Vec<Watch>,
-    seen: Vec<Watched>,
-    /// The temperatures of the watched nodes in K at each point of the present step.
-    looked: [Vec<f64>; POINTS],
+    lookout: Lookout,
+    /// How often the workspace was brought to a time.
+    placed: u64,
     limits: LimitWatch<'a>,
     ranges: RangeWatch<'a>,
     windows: Vec<Tracked>,
@@ -108,9 +108,8 @@ impl<'a> Recorder<'a> {
             inside: readings.inside(start),
             readings,
             recorded,
-            watch: settings.watch.clone(),
-            seen: Vec::new(),
-            looked: Default::default(),
+            lookout: Lookout::new(settings),
+            placed: 0,
             limits: LimitWatch::new(system),
             ranges: RangeWatch::new(system),
             windows: windows.collect(),
@@ -204,13 +203,7 @@ impl<'a> Recorder<'a> {
         self.state.copy_from_slice(state);
         self.sensed.iter_mut().for_each(|sensed| sensed.carry(sensitivities));
         self.place(from)?;
-        let nodes = self.system.node_temperatures(&self.work);
-        if self.seen.is_empty() {
-            self.seen =
-                self.watch.iter().map(|&w| Watched::new(w, from, nodes[w.node.index()])).collect();
-        } else {
-            self.seen.iter_mut().for_each(|seen| seen.jump(from, nodes[seen.watch.node.index()]));
-        }
+        self.lookout.start(from, self.system.node_temperatures(&self.work));
         self.limits.enter(&mut self.work, (from, self.inside)).map_err(StopReason::Input)?;
         self.ranges.enter(&mut self.work, from).map_err(StopReason::Input)?;
         if self.due(from) {
@@ -313,6 +306,7 @@ impl<'a> Recorder<'a> {
 
     /// Brings the workspace to `time` and the temperatures in `state`.
     fn place(&mut self, time: f64) -> Result<(), StopReason> {
+        self.placed += 1;
         self.system.read_inputs(&mut self.work, time, self.inside).map_err(StopReason::Input)?;
         self.unfold().map_err(|e| StopReason::Unsolved(Unsolved::new(self.system, e)))?;
         self.system.recover(&mut self.work, self.unfold.last());
@@ -396,7 +390,8 @@ impl<'a> Recorder<'a> {
             temperatures: self.temperatures,
             columns: self.columns,
             extremes: self.extremes,
-            seen: self.seen,
+            looks: Looks { placed: self.placed, sought: self.lookout.sought() },
+            seen: self.lookout.into_seen(),
             limits,
             out_of_range: self.ranges.into_found(),
             windows: windows.collect(),

@@ -31,6 +31,9 @@ pub struct Transient {
     pub record: RecordedNodes,
     /// Nodes to look at between the rows too.
     pub watch: Vec<Watch>,
+    /// Whether of these only the hottest counts: the peak of another may be missed where the hottest
+    /// is higher.
+    pub hottest_only: bool,
     /// Windows of time over which means and extremes are taken; inside the run.
     pub windows: Vec<Window>,
     /// The node or boundary whose heat balance is kept.
@@ -78,6 +81,7 @@ impl Transient {
             tolerance: 1e-5,
             record: RecordedNodes::All,
             watch: Vec::new(),
+            hottest_only: false,
             windows: Vec::new(),
             balance: None,
             controls: Vec::new(),

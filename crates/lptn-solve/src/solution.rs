@@ -18,6 +18,7 @@ use crate::growth::TELLING;
 use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit_seen::LimitSeen;
+use crate::looks::Looks;
 use crate::method::Method;
 use crate::quantity::Quantity;
 use crate::ranges::OutOfRange;
@@ -60,6 +61,7 @@ pub struct Solution {
     pub(crate) columns: Columns,
     pub(crate) extremes: Extremes,
     pub(crate) seen: Vec<Watched>,
+    pub(crate) looks: Looks,
     pub(crate) limits: Vec<LimitSeen>,
     pub(crate) out_of_range: Vec<OutOfRange>,
     pub(crate) windows: Vec<WindowSeen>,
@@ -331,6 +333,11 @@ impl Solution {
     /// Counters of the integrator; all zero for a network without state.
     pub fn statistics(&self) -> &Statistics {
         &self.statistics
+    }
+
+    /// How much was looked at.
+    pub fn looks(&self) -> Looks {
+        self.looks
     }
 
     /// How the run ended.

@@ -69,11 +69,6 @@ impl Watched {
         self.last.1
     }
 
-    /// Where the curve stands.
-    pub(crate) fn last_point(&self) -> (f64, f64) {
-        self.last
-    }
-
     /// Takes in the temperatures at successive points of a step, the first being where the curve
     /// stands.
     pub(crate) fn look(&mut self, points: &[(f64, f64)]) {
@@ -118,15 +113,15 @@ impl Watched {
         (height > self.peak.0 && !known).then_some(time)
     }
 
-    /// Whether nothing in a step with these temperatures counts: no curve that its points tell
-    /// leaves their range by as much again.
-    pub(crate) fn passes_over(&self, values: &[f64; POINTS]) -> bool {
-        let (mut low, mut high) = (values[0], values[0]);
-        for &value in values {
-            (low, high) = (low.min(value), high.max(value));
-        }
-        let crossed = self.watch.level.is_none() || self.crossed.is_some();
-        crossed && high + (high - low) <= self.peak.0
+    /// Whether its peak so far is at least this temperature in K.
+    pub(crate) fn is_above(&self, temperature: f64) -> bool {
+        temperature <= self.peak.0
+    }
+
+    /// Whether the level may first be reached by a curve in this range.
+    pub(crate) fn may_cross(&self, low: f64, high: f64) -> bool {
+        let (Some(level), None) = (self.watch.level, self.crossed) else { return false };
+        low <= level && level <= high
     }
 
     /// Goes on to where the curve stands now.

@@ -179,7 +179,7 @@ fn highest(
     observer: &dyn Fn(Progress) -> Proceed,
 ) -> Result<Highest, RankError> {
     let nodes = node.map_or_else(|| system.network().node_ids().collect(), |id| vec![id]);
-    let run = run.clone().at(Vec::new()).watching(nodes.iter().copied());
+    let run = run.clone().at(Vec::new()).watching(nodes.iter().copied()).for_the_hottest();
     let seen = run.solve(system, &mut |progress| observer(progress))?;
     let peaks = nodes.iter().zip(seen.watched().iter().map(|watched| watched.peak));
     let peak = hottest(peaks.map(|(&node, (temperature, at))| ((node, at), temperature)));

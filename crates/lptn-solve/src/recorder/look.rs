@@ -12,7 +12,7 @@ const MOST_PLACED: usize = 4096;
 impl Recorder<'_> {
     /// Whether something is to be looked at between the rows.
     fn looks(&self) -> bool {
-        !(self.seen.is_empty() && self.limits.is_empty() && self.ranges.is_empty())
+        !(self.lookout.is_empty() && self.limits.is_empty() && self.ranges.is_empty())
     }
 
     /// Looks at watched nodes and limits and into the windows between two times, anew where results
@@ -66,14 +66,12 @@ impl Recorder<'_> {
     }
 
     fn look(&mut self, step: (f64, f64), state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
-        if self.seen.is_empty() && self.limits.is_empty() && self.ranges.is_slow() {
+        if self.lookout.is_empty() && self.limits.is_empty() && self.ranges.is_slow() {
             self.place_at(step.1, state_at)?;
             return self.ranges.sample(&mut self.work, step.1).map_err(StopReason::Input);
         }
         let mut values: [Vec<f64>; POINTS] = Default::default();
         values[0] = self.limits.last();
-        self.looked[0].clear();
-        self.looked[0].extend(self.seen.iter().map(|seen| seen.last_point().1));
         for (point, values) in values.iter_mut().enumerate().skip(1) {
             *values = self.look_at(step, point, state_at)?;
         }
@@ -97,10 +95,7 @@ impl Recorder<'_> {
             self.ranges.sample_inside(&mut self.work, middle).map_err(StopReason::Input)?;
         }
         self.place_at(time, state_at)?;
-        let nodes = self.system.node_temperatures(&self.work);
-        let watched = &mut self.looked[point];
-        watched.clear();
-        watched.extend(self.seen.iter().map(|seen| nodes[seen.watch.node.index()]));
+        self.lookout.take(point, self.system.node_temperatures(&self.work));
         let looked = match last {
             true => self.ranges.sample(&mut self.work, time),
             false => self.ranges.sample_inside(&mut self.work, time),
@@ -115,29 +110,18 @@ impl Recorder<'_> {
         step: (f64, f64),
         state_at: &mut StateAt<'_>,
     ) -> Result<(), StopReason> {
-        let times: [f64; POINTS] = std::array::from_fn(|point| time_of(step, point));
-        let mut tops = Vec::new();
-        for (i, seen) in self.seen.iter_mut().enumerate() {
-            let values: [f64; POINTS] = std::array::from_fn(|point| self.looked[point][i]);
-            if seen.passes_over(&values) {
-                seen.go_to((step.1, values[POINTS - 1]));
-                continue;
-            }
-            let points: [(f64, f64); POINTS] = std::array::from_fn(|k| (times[k], values[k]));
-            seen.look(&points);
-            tops.extend(seen.top(step, &values, &points).map(|top| (i, top)));
-        }
+        let tops = self.lookout.tops(step);
         let nodes = self.system.network().nodes().len();
         for (i, (temperature, time)) in tops.iter().copied() {
             let exact = match tops.len() * nodes <= MOST_PLACED {
                 true => {
                     self.place_at(time, state_at)?;
-                    let node = self.seen[i].watch.node.index();
+                    let node = self.lookout.node(i).index();
                     self.system.node_temperatures(&self.work)[node]
                 }
                 false => temperature,
             };
-            self.seen[i].peak_at((time, exact));
+            self.lookout.peak_at(i, (time, exact));
         }
         Ok(())
     }

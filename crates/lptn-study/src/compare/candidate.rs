@@ -5,7 +5,7 @@ use std::sync::Arc;
 use lptn_analysis::{Observer, Trust};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{LimitSeverity, Network, RunSettings};
-use lptn_solve::{Others, PeriodicError, Proceed, SteadyState, Summary};
+use lptn_solve::{Looks, Others, PeriodicError, Proceed, Statistics, SteadyState, Summary};
 
 use crate::compare::asked::{all_nodes, bare};
 use crate::compare::doubt::Scatter;
@@ -41,6 +41,10 @@ pub struct Candidate {
     pub trust: Trust,
     /// Its steady state, where there are others or they cannot be excluded.
     pub several: Option<SteadyState>,
+    /// The work of its run or cycle; zero in steady state.
+    pub statistics: Statistics,
+    /// How much was looked at in it.
+    pub looks: Looks,
     /// What the `±` of parameters do to it, where that was asked for: see [`Scatter::of_run`].
     pub scatter: Option<Scatter>,
 }
@@ -119,6 +123,8 @@ impl Candidate {
             mass: network.whole_mass(),
             trust,
             several: None,
+            statistics: Statistics::default(),
+            looks: Looks::default(),
             scatter: None,
         }
     }
@@ -163,6 +169,8 @@ impl Candidate {
             hottest: settled.hottest.clone(),
             peak: settled.peak,
             heat: HeatOut::over_time(network, &answer.solution, HeatOver::Cycle),
+            statistics: *answer.solution.statistics(),
+            looks: answer.solution.looks(),
             settled: Some(Ok(settled)),
             ..Self::of(network, &limits, answer.trust)
         }
@@ -180,6 +188,7 @@ impl Candidate {
         let answer = bare(network, run)
             .towards((system, &all_nodes(network)), steady)
             .map_err(CompareError::Start)?
+            .for_the_hottest()
             .solve(system, observer)?;
         let nodes = Summary::new(&answer, steady).nodes;
         let node = hottest(nodes.iter().map(|node| (node, node.peak.0))).map(|(node, _)| node);
@@ -193,6 +202,8 @@ impl Candidate {
             settled: Settled::find(system, Some(run), observer)?
                 .map(|found| found.map(|found| found.settled)),
             heat: HeatOut::over_time(network, &answer, HeatOver::Run),
+            statistics: *answer.statistics(),
+            looks: answer.looks(),
             several: steady.and_then(doubtful),
             ..Self::of(network, &limits, answer.trust)
         })

@@ -49,7 +49,7 @@ impl Settled {
         let network = system.network();
         let Ok(Some(period)) = network.repeat_period() else { return Ok(None) };
         let cycle = RunSettings::cycle(run, period);
-        let asked = bare(network, &cycle).watching(all_nodes(network));
+        let asked = bare(network, &cycle).watching(all_nodes(network)).for_the_hottest();
         match asked.cycle(system, observer) {
             Ok(answer) => Ok(Some(Ok(Self::of(system, (answer, &cycle))))),
             Err(CycleError::Missing(reason)) => Ok(Some(Err(Arc::from(reason)))),

@@ -1,0 +1,140 @@
+//! The watched nodes of a run.
+
+use lptn_integrate::kernels;
+use lptn_network::NodeId;
+
+use crate::interval::{POINTS, time_of};
+use crate::settings::Transient;
+use crate::watch::{LASTS, Watch, Watched};
+
+/// The share of its temperature by which a node has to stay below the hottest to be passed over: more
+/// than peaks leave out as rounding.
+const BELOW: f64 = 4.0 * LASTS;
+
+/// The watched nodes, and what they are in the present step.
+pub(super) struct Lookout {
+    watch: Vec<Watch>,
+    /// What was seen of each but for where it stands.
+    seen: Vec<Watched>,
+    /// Up to when in s.
+    time: f64,
+    /// The temperatures of all in K at each point of the present step, of which the first is where
+    /// they stand.
+    points: [Vec<f64>; POINTS],
+    /// Whether a level is sought.
+    levels: bool,
+    /// Where only the hottest counts: the highest temperature in K of all so far.
+    highest: Option<f64>,
+    /// In how many steps a node was looked at more closely.
+    sought: u64,
+}
+
+impl Lookout {
+    pub(super) fn new(settings: &Transient) -> Self {
+        Self {
+            watch: settings.watch.clone(),
+            seen: Vec::new(),
+            time: f64::NAN,
+            points: Default::default(),
+            levels: settings.watch.iter().any(|watch| watch.level.is_some()),
+            highest: settings.hottest_only.then_some(f64::NEG_INFINITY),
+            sought: 0,
+        }
+    }
+
+    /// Whether no node is watched.
+    pub(super) fn is_empty(&self) -> bool {
+        self.watch.is_empty()
+    }
+
+    /// Begins at these temperatures of all nodes, or goes on from a jump to them.
+    pub(super) fn start(&mut self, time: f64, nodes: &[f64]) {
+        if self.seen.is_empty() {
+            let new = |&watch: &Watch| Watched::new(watch, time, nodes[watch.node.index()]);
+            self.seen = self.watch.iter().map(new).collect();
+        } else {
+            self.settle();
+            self.seen.iter_mut().for_each(|seen| seen.jump(time, nodes[seen.watch.node.index()]));
+        }
+        self.time = time;
+        self.take(0, nodes);
+    }
+
+    /// Takes the temperatures of all nodes at a point of the step.
+    pub(super) fn take(&mut self, point: usize, nodes: &[f64]) {
+        let points = &mut self.points[point];
+        points.clear();
+        points.extend(self.watch.iter().map(|watch| nodes[watch.node.index()]));
+        if let Some(known) = &mut self.highest
+            && let Some((_, high)) = kernels::range(points)
+        {
+            *known = f64::max(*known, high);
+        }
+    }
+
+    /// Takes in the points of the step, and gives the tops between them: which node, and what the
+    /// points tell of its height in K and its time in s.
+    pub(super) fn tops(&mut self, step: (f64, f64)) -> Vec<(usize, (f64, f64))> {
+        let times: [f64; POINTS] = std::array::from_fn(|point| time_of(step, point));
+        let (floor, levels) = (self.floor(), self.levels);
+        let all: [&[f64]; POINTS] = self.points.each_ref().map(|points| &points[..]);
+        let mut tops = Vec::new();
+        for (i, seen) in self.seen.iter_mut().enumerate() {
+            let values: [f64; POINTS] = std::array::from_fn(|point| all[point][i]);
+            let (low, reach) = range(&values);
+            if !(levels && seen.may_cross(low, reach)) && (reach <= floor || seen.is_above(reach)) {
+                continue;
+            }
+            let points: [(f64, f64); POINTS] = std::array::from_fn(|k| (times[k], values[k]));
+            self.sought += 1;
+            seen.go_to(points[0]);
+            seen.look(&points);
+            tops.extend(seen.top(step, &values, &points).map(|top| (i, top)));
+        }
+        self.time = step.1;
+        self.points.swap(0, POINTS - 1);
+        tops
+    }
+
+    /// No peak up to this temperature in K counts: where only the hottest does, one that another
+    /// node exceeds in this step or did before. A node that gets hotter later is seen then.
+    fn floor(&self) -> f64 {
+        self.highest.map_or(f64::NEG_INFINITY, |highest| highest - BELOW * highest.abs())
+    }
+
+    /// In how many steps a node was looked at more closely.
+    pub(super) fn sought(&self) -> u64 {
+        self.sought
+    }
+
+    pub(super) fn node(&self, watched: usize) -> NodeId {
+        self.watch[watched].node
+    }
+
+    /// Takes in a temperature that may be the highest of a node.
+    pub(super) fn peak_at(&mut self, watched: usize, (time, temperature): (f64, f64)) {
+        self.seen[watched].peak_at((time, temperature));
+    }
+
+    /// Says of all where they stand.
+    fn settle(&mut self) {
+        let stand = self.seen.iter_mut().zip(&self.points[0]);
+        stand.for_each(|(seen, &temperature)| seen.go_to((self.time, temperature)));
+    }
+
+    pub(super) fn into_seen(mut self) -> Vec<Watched> {
+        self.settle();
+        self.seen
+    }
+}
+
+/// The lowest of some temperatures, and up to where a curve reaches that they tell: none leaves
+/// their range by as much again.
+fn range(values: &[f64; POINTS]) -> (f64, f64) {
+    let (mut low, mut high) = (values[0], values[0]);
+    for &value in values {
+        low = if value < low { value } else { low };
+        high = if value > high { value } else { high };
+    }
+    (low, high + (high - low))
+}
