@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// From the ground up: a crate may use only those before it.
-const ORDER: [&str; 19] = [
+const ORDER: [&str; 20] = [
     "lptn-units",
     "lptn-plot",
     "lptn-laws",
@@ -21,6 +21,7 @@ const ORDER: [&str; 19] = [
     "lptn-fit",
     "lptn-study",
     "lptn-report",
+    "lptn-answer",
     "lptn-html",
     "lptn-graph",
     "lptn",

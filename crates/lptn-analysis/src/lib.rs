@@ -5,6 +5,8 @@
 //! other crate starts a run, solves a steady state or searches a cycle; studies are lists of
 //! analyses.
 //!
+//! A [`Simulation`] is stepped from outside, with inputs that its client sets between the steps.
+//!
 //! An answer exists only if its energy balance closes, its ranges of validity could be looked at
 //! and nothing interrupted it. Its rows decide nothing: peaks, limits, heats and windows are looked
 //! at between the rows.
@@ -16,6 +18,8 @@ mod answer;
 mod error;
 mod limits;
 mod run;
+mod simulation;
+mod simulation_error;
 mod slopes;
 mod steady;
 mod trust;
@@ -25,5 +29,7 @@ pub use answer::Answer;
 pub use error::{AnalysisError, CycleError, RunError};
 pub use limits::LimitResult;
 pub use run::{Observer, RunAnalysis};
+pub use simulation::{SavedControl, SavedSimulation, Simulation};
+pub use simulation_error::SimulationError;
 pub use steady::{steady, steady_within};
 pub use trust::{Trust, Unresolved};

@@ -3,8 +3,8 @@
 use lptn_assembly::ThermalSystem;
 use lptn_network::{End, Network, NodeId, OutputTimes, RunSettings, Time};
 use lptn_solve::{
-    Periodic, PeriodicError, Proceed, Progress, RecordedNodes, RunStatus, Solution, SteadyState,
-    Summary, Transient, TransientError, Unsolved, Verification, Watch, Window,
+    ControlState, Periodic, PeriodicError, Proceed, Progress, RecordedNodes, RunStatus, Solution,
+    State, SteadyState, Summary, Transient, TransientError, Unsolved, Verification, Watch, Window,
 };
 
 use crate::answer::Answer;
@@ -146,11 +146,21 @@ impl RunAnalysis {
         system: &ThermalSystem,
         observer: &mut Observer<'_>,
     ) -> Result<Answer<Solution>, RunError> {
-        let result = self.0.solve_observed(system, observer).map_err(Box::new)?;
-        if let RunStatus::Interrupted(time) = result.end() {
-            return Err(RunError::Interrupted { time, part: Some(Box::new(result)) });
-        }
-        Ok(Answer { trust: Trust::of_run(&result), result })
+        answered(self.0.solve_observed(system, observer))
+    }
+
+    /// Runs a network from a state at the start, with its controls as they stood there.
+    ///
+    /// # Errors
+    /// As [`RunAnalysis::solve`].
+    pub fn solve_from(
+        &self,
+        (system, state): (&ThermalSystem, &State),
+        controls: &[ControlState],
+        observer: &mut Observer<'_>,
+    ) -> Result<Answer<Solution>, RunError> {
+        let run = Transient { controls: controls.to_vec(), ..self.0.clone() };
+        answered(run.solve_from(system, state, observer))
     }
 
     /// Searches the cycle from the start to the stop to which a network settles.
@@ -191,4 +201,12 @@ impl RunAnalysis {
     ) -> Result<Option<Verification>, RunError> {
         Ok(Verification::observed(system, &self.0, observer).map_err(Box::new)?)
     }
+}
+
+fn answered(found: Result<Solution, TransientError>) -> Result<Answer<Solution>, RunError> {
+    let result = found.map_err(Box::new)?;
+    if let RunStatus::Interrupted(time) = result.end() {
+        return Err(RunError::Interrupted { time, part: Some(Box::new(result)) });
+    }
+    Ok(Answer { trust: Trust::of_run(&result), result })
 }

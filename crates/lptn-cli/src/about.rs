@@ -9,9 +9,10 @@ use lptn_study::{FileHash, Sundials};
 use lptn_units::Unit;
 use serde_json::Value;
 
+use crate::files;
 use crate::input::{Input, quoted};
-use crate::words::{count, difference, spaced, unverified};
-use crate::{files, ranges};
+use lptn_answer::ranges;
+use lptn_answer::words::{count, difference, spaced, unverified};
 
 /// How an answer changes with a parameter.
 pub(crate) struct Sensitivities {

@@ -18,16 +18,7 @@ use crate::phases::Phases;
 use crate::refusal::Refusal;
 use crate::reporting::{self, Reporting};
 
-/// How much a result tells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) enum Detail {
-    /// What was asked, as scripts and logs read it.
-    Brief,
-    /// Also what was not checked, for those who look on.
-    Usual,
-    /// Everything that is known.
-    Verbose,
-}
+pub(crate) use lptn_answer::lumping::Detail;
 
 /// The two streams of a command.
 #[derive(Debug)]

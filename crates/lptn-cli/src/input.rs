@@ -18,7 +18,7 @@ use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::files::names::RESULT;
 use crate::options::{Source, Times};
-use crate::words::{counts, unverified, unverified_names};
+use lptn_answer::words::{counts, unverified, unverified_names};
 
 /// What a netlist from stdin is called.
 const STDIN: &str = "<stdin>";

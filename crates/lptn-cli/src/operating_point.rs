@@ -11,13 +11,12 @@ use lptn_units::Unit;
 use serde_json::{Value, json};
 
 use crate::console::Console;
-use crate::doubts::{adiabatic, inputs_vary, others};
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{self, Input};
 use crate::verbs::run::job::{no_run, observed, time_of_run};
-use crate::verbs::run::outcome::doubts;
 use crate::verbs::steady::failed;
+use lptn_answer::{adiabatic, bound, inputs_vary, others};
 
 /// Where a network that is not linear is taken for a linear one.
 #[derive(Clone, Debug, Default, Arguments)]
@@ -113,7 +112,7 @@ pub(crate) fn steady(
     let system = input.assemble()?;
     let start = netlist.run.as_ref().map_or(0.0, |run: &RunSettings| run.start);
     let steady = lptn_analysis::steady(&system, start).map_err(|error| failed(input, &error))?;
-    let vary = inputs_vary(input, &steady, &[]);
+    let vary = inputs_vary((netlist, input.typed().as_deref()), &steady, &[]);
     let doubts = [vary, adiabatic(network, &steady), others(network, &steady, unit)];
     let doubts: Vec<Diagnostic> = doubts.into_iter().flatten().collect();
     console.warn(&netlist.files, &doubts);
@@ -128,7 +127,7 @@ pub(crate) fn at(text: &str, input: &Input, console: &Console) -> Result<Snapsho
     let run = RunAnalysis::of(system.network(), settings);
     let (solution, broken) = observed(input, (&system, &run), console)?;
     check(input, &solution, broken)?;
-    console.warn(&input.netlist.files, &doubts(&solution));
+    console.warn(&input.netlist.files, &bound::doubts(&solution));
     let row = solution.row_at(time).unwrap_or(0);
     let found = solution.snapshot(row).ok_or_else(|| {
         let message = format!("the heat flows at {} cannot be computed again", duration(time, 6));

@@ -7,7 +7,7 @@ use lptn_units::suggest;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::words::count;
+use lptn_answer::words::count;
 
 /// The columns of a run: those that the command line asks for, else those of `[run]`, else all.
 pub(crate) fn of_run(netlist: &Netlist, option: &[String]) -> Result<Selection, Failure> {

@@ -8,7 +8,7 @@ use lptn_units::Unit;
 
 use crate::input::Input;
 use crate::unseparated::{Named, joined};
-use crate::words::{difference, spaced};
+use lptn_answer::words::{difference, spaced};
 
 /// What moves nothing by this part of an error, or of what an error may be, is not worth a word: the
 /// two together are half a percent larger.

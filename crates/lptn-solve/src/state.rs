@@ -48,6 +48,12 @@ impl State {
         &self.carried
     }
 
+    /// A state that was saved: what was carried, and where massless nodes of several solutions
+    /// stood, as [`State::carried`] and [`State::stood`] gave them.
+    pub fn restored(carried: Vec<f64>, stood: Vec<f64>) -> Self {
+        Self { carried, stood }
+    }
+
     pub(crate) fn of_carried(carried: Vec<f64>) -> Self {
         Self { carried, stood: Vec::new() }
     }
@@ -58,7 +64,7 @@ impl State {
     }
 
     /// Temperatures in K of massless nodes of several solutions; may be empty.
-    pub(crate) fn stood(&self) -> &[f64] {
+    pub fn stood(&self) -> &[f64] {
         &self.stood
     }
 

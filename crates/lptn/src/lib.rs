@@ -30,6 +30,7 @@
 //! a node and from `from` to `to`.
 
 pub use lptn_analysis as analysis;
+pub use lptn_answer as answer;
 pub use lptn_assembly as assembly;
 pub use lptn_fit as fit;
 pub use lptn_graph as graph;

@@ -17,7 +17,7 @@ pub(crate) use fit::{Capacity, Known, NoCurve};
 pub(crate) use panel::Panel;
 
 /// Heat content over temperature in J, or in J/kg for a fluid; zero where it was asked to be.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Enthalpy {
     /// Ascending without gaps; several curves may share them.
     panels: Arc<[Panel]>,

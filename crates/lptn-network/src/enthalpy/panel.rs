@@ -8,7 +8,7 @@ const RECIPROCALS: [f64; TERMS] =
     [1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0, 1.0 / 5.0, 1.0 / 6.0, 1.0 / 7.0, 1.0 / 8.0, 1.0 / 9.0];
 
 /// A piece of the curve. One of no width holds latent heat that is taken up at one temperature.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Panel {
     pub(crate) from: f64,
     pub(crate) to: f64,

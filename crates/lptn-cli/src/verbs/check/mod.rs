@@ -20,11 +20,11 @@ use crate::diagnostics;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Given, Input};
-use crate::lumping;
 use crate::options::Source;
 use crate::select;
-use crate::words::{count, counts};
 use crate::written::proven;
+use lptn_answer::lumping;
+use lptn_answer::words::{count, counts};
 
 pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure> {
     let text = input::read(&args.source.file)?;

@@ -5,7 +5,7 @@ use lptn_report::{Align, Column, decimals, fixed, significant};
 use lptn_study::{Candidate, CompareRow, Scatter};
 
 use crate::input::Input;
-use crate::words::spaced;
+use lptn_answer::words::spaced;
 
 /// What is not known or does not exist.
 const NOTHING: &str = "-";

@@ -5,7 +5,7 @@ use lptn_plot::figure::{Axis, Curve, Look, Moment, Panel};
 use lptn_study::{Candidate, CompareRow, HeatOver, LimitResult};
 
 use super::{Comparison, page};
-use crate::words::count;
+use lptn_answer::words::count;
 
 impl Comparison {
     /// A line for each candidate, in the order of the table.

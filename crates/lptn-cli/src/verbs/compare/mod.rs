@@ -21,7 +21,6 @@ use lptn_units::Unit;
 
 use crate::belief::Belief;
 use crate::console::Console;
-use crate::doubts::others;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::files;
@@ -29,8 +28,9 @@ use crate::input::{self, Input, quoted};
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressOfAll;
-use crate::sense;
-use crate::words::unverified;
+use lptn_answer::others;
+use lptn_answer::trust;
+use lptn_answer::words::unverified;
 
 pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Failure> {
     let files = listed(&args.files)?;
@@ -318,7 +318,7 @@ impl Comparison {
                 title = input.netlist.network.title().map_or(String::new(), plain);
                 let found = outcome.as_ref().ok();
                 let beyond = found.map_or_else(Vec::new, |found| {
-                    sense::doubts(&input.netlist, &found.trust, input.netlist.run.is_some())
+                    trust::doubts(&input.netlist, &found.trust, input.netlist.run.is_some())
                 });
                 let several = outcome.as_ref().ok().and_then(|found| found.several.as_ref());
                 let several =

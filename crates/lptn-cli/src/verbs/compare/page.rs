@@ -16,8 +16,8 @@ use super::{Comparison, doubts};
 use crate::about;
 use crate::diagnostics;
 use crate::exit::Exit;
-use crate::scale;
-use crate::words::{count, spaced};
+use lptn_answer::scale;
+use lptn_answer::words::{count, spaced};
 
 /// What is not known or does not exist.
 const NOTHING: &str = "-";

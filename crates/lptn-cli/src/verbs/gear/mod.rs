@@ -17,7 +17,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{self, Input, Studies};
-use crate::ranges;
+use lptn_answer::ranges;
 
 /// More points than anybody reads are a mistake.
 const MOST_POINTS: usize = 1000;

@@ -13,7 +13,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::words::difference;
+use lptn_answer::words::difference;
 
 /// What the record is called.
 const STDIN: &str = "<stdin>";

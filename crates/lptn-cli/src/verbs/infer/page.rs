@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use super::Answer;
 use crate::about::{self, Known as Trust};
 use crate::diagnostics;
-use crate::words::{count, difference, symbol};
+use lptn_answer::words::{count, difference, symbol};
 
 /// Moments that are shown, at most.
 const MOMENTS: usize = 13;

@@ -20,7 +20,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{Input, quoted};
 use crate::operating_point::{OperatingPoint, place};
-use crate::words::{MOST_NODES, count};
+use lptn_answer::words::{MOST_NODES, count};
 
 /// Modes that are shown without `--count`: all of up to so many, else the slowest so many.
 const ALL_UP_TO: usize = 20;

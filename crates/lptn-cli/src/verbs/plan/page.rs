@@ -13,7 +13,7 @@ use super::Answer;
 use super::shown::{NORMAL_95, NOTHING, cost};
 use super::words::{notes, verdict};
 use crate::about::{self, Known};
-use crate::words::{count, symbol};
+use lptn_answer::words::{count, symbol};
 
 /// Runs that are shown, at most.
 const MOST_RUNS: usize = 12;

@@ -5,7 +5,7 @@ use lptn_report::{duration, significant};
 
 use super::Answer;
 use crate::unseparated::joined;
-use crate::words::{spaced, symbol};
+use lptn_answer::words::{spaced, symbol};
 
 /// Half the width of a 95 % interval of a normal distribution, over its standard deviation.
 pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;

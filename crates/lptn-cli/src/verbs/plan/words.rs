@@ -6,7 +6,7 @@ use lptn_report::significant;
 use super::Answer;
 use super::shown::cost;
 use crate::unseparated::{Named, joined, names_and_units};
-use crate::words::{count, unverified};
+use lptn_answer::words::{count, unverified};
 
 /// Lines with a label below the tables.
 pub(super) fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::View;
 use crate::about::{self, Known};
-use crate::words::{MOST_NODES, some_of, spaced};
+use lptn_answer::words::{MOST_NODES, some_of, spaced};
 
 /// Letters of a name beside the other columns.
 const NAME_WIDTH: usize = 30;

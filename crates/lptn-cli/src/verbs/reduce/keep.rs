@@ -200,7 +200,7 @@ impl KeptView<'_> {
     /// "keeps `steel` and `housing` within 0.3 % (0.2 K) with 4 nodes".
     pub(super) fn verdict(&self) -> String {
         let names = list_of(&self.names, "nodes");
-        let count = crate::words::count(self.kept.count(), "node");
+        let count = lptn_answer::words::count(self.kept.count(), "node");
         let keep = if self.kept.count() == 1 { "keeps" } else { "keep" };
         let (share, kelvin, over) = match &self.errors.run {
             Some(run) if self.args.error.is_none() => {

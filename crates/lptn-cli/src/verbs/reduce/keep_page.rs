@@ -12,8 +12,8 @@ use serde_json::{Value, json};
 use super::keep::KeptView;
 use super::page::error_json;
 use crate::about::{self, Known};
-use crate::scale;
-use crate::words::count;
+use lptn_answer::scale;
+use lptn_answer::words::count;
 
 /// So many conductances are shown.
 const MOST_LINKS: usize = 12;

@@ -14,7 +14,7 @@ use super::args::ReduceArgs;
 use super::{Limit, View};
 use crate::failure::Failure;
 use crate::input;
-use crate::scale;
+use lptn_answer::scale;
 
 /// Most nodes that are tried where a limit is to be kept.
 const MOST: usize = 20;

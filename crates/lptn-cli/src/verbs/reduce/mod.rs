@@ -34,8 +34,8 @@ use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{self, Input, quoted};
 use crate::operating_point::place;
-use crate::words::count;
 use crate::{files, written};
+use lptn_answer::words::count;
 
 pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failure> {
     if let Some(names) = &args.keep {

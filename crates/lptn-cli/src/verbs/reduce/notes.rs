@@ -4,7 +4,7 @@ use lptn_reduce::{Definition, Dynamics, LeastSquaresWindow};
 use lptn_report::{duration, significant};
 
 use super::View;
-use crate::words::count;
+use lptn_answer::words::count;
 
 impl View<'_> {
     /// What has to be known beside the numbers.

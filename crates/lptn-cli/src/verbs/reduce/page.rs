@@ -14,7 +14,7 @@ use serde_json::{Value, json};
 
 use super::View;
 use crate::about::{self, Known};
-use crate::scale;
+use lptn_answer::scale;
 
 impl Page for View<'_> {
     fn text(&self) -> Text {

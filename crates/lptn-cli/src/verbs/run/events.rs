@@ -6,7 +6,7 @@ use lptn_solve::{Event, EventKind, Solution};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
-use crate::words::MOST_NODES;
+use lptn_answer::words::MOST_NODES;
 
 /// As many events are shown.
 const SHOWN: usize = 6;

@@ -7,8 +7,8 @@ use lptn_report::{MOST_CURVES, TEMPERATURE, panels};
 use lptn_solve::Event;
 
 use super::outcome::Outcome;
-use crate::limits;
-use crate::words::count;
+use lptn_answer::limits;
+use lptn_answer::words::count;
 
 /// More events than this would hide the curves.
 pub(crate) const MOST_EVENTS: usize = 24;

@@ -19,8 +19,9 @@ use crate::failure::{Failure, told};
 use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
-use crate::words::MOST_NODES;
-use crate::{balance, families, select};
+use crate::{balance, select};
+use lptn_answer::families;
+use lptn_answer::words::MOST_NODES;
 use lptn_report::{Clock, Format, duration};
 
 /// Why there is no steady state to show.

@@ -3,7 +3,6 @@
 mod args;
 mod events;
 pub(crate) mod figure;
-mod gaps;
 pub(crate) mod job;
 mod next;
 pub(crate) mod outcome;

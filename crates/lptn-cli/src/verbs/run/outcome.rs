@@ -2,17 +2,17 @@
 
 use std::borrow::Cow;
 
-use lptn_analysis::Answer;
+use lptn_analysis::{Answer, LimitResult};
+use lptn_answer::{bound, gaps};
 use lptn_netlist::Diagnostic;
-use lptn_network::{Parameter, list_of_names};
-use lptn_report::{Format, WIDTH, duration, labelled, significant, words, write_csv, write_rows};
-use lptn_solve::{Lumping, Method, RunStatus, Solution, SteadyState, Table, Unbounded};
+use lptn_network::Parameter;
+use lptn_report::{Format, WIDTH, duration, labelled, words, write_csv, write_rows};
+use lptn_solve::{Lumping, Method, RunStatus, Solution, SteadyState, Table};
 use lptn_study::{
     FileHash, LedgerRecord, Manifest, ParameterRecord, RunEnd, SiValue, StatisticsRecord, Sundials,
 };
 use serde_json::{Map, Value};
 
-use super::gaps::gaps;
 use super::job::{Job, NoSteady};
 use super::uncertainty::{Study, elsewhere, files as uncertain};
 use super::{events, next, state, windows};
@@ -23,9 +23,11 @@ use crate::failure::{Failure, told};
 use crate::files::Folder;
 use crate::files::names::{EVENTS, MANIFEST, RANKING, RESULT, STATE, UNCERTAINTY, WINDOWS};
 use crate::input::quoted;
-use crate::limits::{self, Judged};
-use crate::words::unverified_names;
-use crate::{files, lumping, ranges, scale, select, sense};
+use crate::verdict;
+use crate::{files, select};
+use lptn_answer::limits;
+use lptn_answer::words::unverified_names;
+use lptn_answer::{lumping, ranges, scale, trust};
 
 /// What came of it.
 pub(crate) struct Outcome<'a> {
@@ -123,8 +125,8 @@ impl Outcome<'_> {
     }
 
     /// How the limits fared.
-    pub(crate) fn limits(&self) -> Vec<Judged> {
-        self.solution.limits().iter().map(Judged::of_run).collect()
+    pub(crate) fn limits(&self) -> Vec<LimitResult> {
+        self.solution.limits().iter().map(LimitResult::of_run).collect()
     }
 
     /// Where laws were not known.
@@ -153,13 +155,13 @@ impl Outcome<'_> {
         let netlist = &self.job.input.netlist;
         let certain = self.uncertainty().map_or_else(Vec::new, |_| elsewhere(netlist));
         let lumps = lumping::warnings(netlist, &self.lumping);
-        let beyond = sense::doubts(netlist, &self.solution.trust, true);
+        let beyond = trust::doubts(netlist, &self.solution.trust, true);
         gaps(netlist, &self.table).into_iter().chain(beyond).chain(lumps).chain(certain).collect()
     }
 
     /// What a reader should know of the numbers; the table says it in its notes.
     pub(super) fn doubts(&self) -> Vec<Diagnostic> {
-        doubts(&self.solution)
+        bound::doubts(&self.solution)
     }
 
     /// The rows with their times in the unit that was asked for.
@@ -184,14 +186,14 @@ impl Outcome<'_> {
     }
 
     /// The limits, and how they are shown.
-    pub(crate) fn judgement<'b>(&'b self, limits: &'b [Judged]) -> limits::Judgement<'b> {
+    pub(crate) fn judgement<'b>(&'b self, limits: &'b [LimitResult]) -> limits::Judgement<'b> {
         let (netlist, unit) = (&self.job.input.netlist, &self.job.unit);
         limits::Judgement { netlist, unit, clock: self.job.clock, limits }
     }
 
     /// Says which limits are broken, and gives the exit code.
     pub(crate) fn judge(&self, console: &Console) -> Exit {
-        limits::conclude(&self.judgement(&self.limits()), console)
+        verdict::conclude(&self.judgement(&self.limits()), console)
     }
 
     /// Whether large families are shown as one row.
@@ -230,7 +232,8 @@ impl Outcome<'_> {
                     .next(&format!("lptn plot {}", quoted(&folder.path().display().to_string())));
             }
             let limits = self.limits();
-            let hot = limits.iter().find_map(|limit| limit.broken_node(self.solution.network()));
+            let hot =
+                limits.iter().find_map(|limit| limits::broken_node(limit, self.solution.network()));
             next::after_run(self.job.input, self.steady.is_ok(), hot)
                 .iter()
                 .for_each(|command| console.next(command));
@@ -291,59 +294,4 @@ fn work(solution: &Solution) -> Vec<String> {
     ];
     let counts = counts.iter().map(|(count, of)| format!("{count} {of},"));
     counts.chain([format!("{} numbers in the factors", done.fill)]).collect()
-}
-
-/// What a reader should know of the numbers of a run.
-pub(crate) fn doubts(solution: &Solution) -> Vec<Diagnostic> {
-    let warning = |code, text: Option<String>| text.map(|text| Diagnostic::warning(code, text));
-    let bound = warning("run::error_not_bounded", not_bounded(solution));
-    bound.into_iter().chain(warning("run::weak_ledger", weak_ledger(solution))).collect()
-}
-
-/// Errors that add up.
-pub(super) fn not_bounded(solution: &Solution) -> Option<String> {
-    let network = solution.network();
-    let why = match solution.why_unbounded()? {
-        Unbounded::NoBoundary(nodes) => {
-            let names: Vec<String> =
-                nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
-            format!("no path leads to a boundary from {}", list_of_names(&names))
-        }
-        Unbounded::LongMemory { steps } => format!(
-            "the network remembers about {} steps of inputs that keep changing; compare with a \
-             smaller --tolerance",
-            significant(steps, 1)
-        ),
-        Unbounded::Grows { factor } => format!(
-            "errors grow by up to a factor of {} where heat rises faster with temperature than it \
-             is carried off; compare with a smaller --tolerance",
-            significant(factor, 1)
-        ),
-        Unbounded::Unresolved { at } => format!(
-            "a step at {} s passes a bend over temperature that could not be resolved; compare \
-             with a smaller --tolerance",
-            significant(at, 6)
-        ),
-        Unbounded::Switches { count } => {
-            format!(
-                "each of {count} switches shifts the times of the next ones; compare with a \
-                 smaller --tolerance"
-            )
-        }
-    };
-    Some(format!("error not bounded by the tolerance: it adds up, because {why}"))
-}
-
-/// A bound so wide that the books would close on nonsense too.
-pub(super) fn weak_ledger(solution: &Solution) -> Option<String> {
-    const PROOF: f64 = 1e-2;
-    let ledger = solution.ledger();
-    let weak = ledger.turned_over > 0.0 && ledger.bound > PROOF;
-    weak.then(|| {
-        let tolerance = significant(solution.tolerance(), 2);
-        format!(
-            "so little heat is turned over that at a tolerance of {tolerance} K the balance proves \
-             nothing"
-        )
-    })
 }

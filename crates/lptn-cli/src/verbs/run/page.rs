@@ -11,12 +11,14 @@ use lptn_solve::{Method, NodeSummary, RunStatus, Solution, SteadyError, Summary,
 use lptn_study::{RunEnd, StatisticsRecord};
 
 use super::job::NoSteady;
-use super::outcome::{Outcome, not_bounded, weak_ledger};
+use super::outcome::Outcome;
 use super::{events, state, uncertainty, windows};
 use crate::console::Detail;
-use crate::doubts::others;
-use crate::words::MOST_NODES;
-use crate::{balance, diagnostics, families, limits, lumping, scale};
+use crate::{balance, diagnostics};
+use lptn_answer::bound::{not_bounded, weak_ledger};
+use lptn_answer::others;
+use lptn_answer::words::MOST_NODES;
+use lptn_answer::{families, limits, lumping, scale};
 
 /// Characters of a curve.
 const CURVE: usize = 16;

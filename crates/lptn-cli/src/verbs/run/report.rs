@@ -5,9 +5,10 @@ use lptn_network::{NodeId, ParameterId};
 use lptn_report::{Claim, Report, duration, significant};
 use lptn_solve::{Gradient, Proceed, Snapshot};
 
-use super::outcome::{Outcome, not_bounded, weak_ledger};
+use super::outcome::Outcome;
 use crate::about::{self, Known, Sensitivities};
-use crate::limits;
+use lptn_answer::bound::{not_bounded, weak_ledger};
+use lptn_answer::limits;
 
 /// With more numbers than this, nodes times parameters, sensitivities take longer than the run.
 const MOST_TANGENTS: usize = 2000;

@@ -6,8 +6,8 @@ use lptn_study::SiValue;
 use lptn_units::Unit;
 use serde_json::{Map, Value, json};
 
-use crate::scale;
-use crate::words::{MOST_NODES, symbol};
+use lptn_answer::scale;
+use lptn_answer::words::{MOST_NODES, symbol};
 
 /// A section for each window.
 pub(crate) fn sections(text: &mut Text, windows: &[WindowSeen], units: (&Unit, Clock)) {

@@ -7,7 +7,7 @@ use lptn_report::significant;
 use lptn_study::SizeError;
 
 use crate::input::Input;
-use crate::words::spaced;
+use lptn_answer::words::spaced;
 
 const OVER: &str = "size over all moments with `over = \"run\"`, or `over = \"periodic\"` for a \
                     cycle to which the network settles";

@@ -17,7 +17,7 @@ use super::{Asked, aim, failed, figure, page, write};
 use crate::about::{self, Known};
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::words::{count, unverified};
+use lptn_answer::words::{count, unverified};
 
 /// What is not known.
 const NOTHING: &str = "-";

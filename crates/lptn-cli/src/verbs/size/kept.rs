@@ -5,7 +5,7 @@ use lptn_report::{plain, significant};
 use lptn_study::{Judged, LoadCase, SiValue};
 use serde_json::{Value, json};
 
-use crate::words::spaced;
+use lptn_answer::words::spaced;
 
 /// Margins below this share of a unit are rounding.
 const ZERO: f64 = 1e-9;

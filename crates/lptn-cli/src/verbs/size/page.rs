@@ -17,8 +17,8 @@ use super::kept::Kept;
 use super::{Answer, Asked};
 use crate::about::{self, Known};
 use crate::input;
-use crate::ranges;
-use crate::words::{spaced, unverified};
+use lptn_answer::ranges;
+use lptn_answer::words::{spaced, unverified};
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;

@@ -17,8 +17,8 @@ use super::{Asked, aim, failed, figure, page, write};
 use crate::about::{self, Known};
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::ranges;
-use crate::words::unverified;
+use lptn_answer::ranges;
+use lptn_answer::words::unverified;
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;

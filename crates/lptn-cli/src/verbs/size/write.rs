@@ -15,8 +15,8 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::words::{count, spaced};
 use crate::written::{can_be_written, put, with_numbers};
+use lptn_answer::words::{count, spaced};
 
 /// Digits that are tried, the fewest first.
 const DIGITS: std::ops::RangeInclusive<usize> = 6..=17;

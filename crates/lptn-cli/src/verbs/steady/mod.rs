@@ -6,8 +6,9 @@ mod view;
 
 pub(crate) use args::SteadyArgs;
 
+use lptn_analysis::LimitResult;
 use lptn_netlist::RunSettings;
-use lptn_network::{Item, LimitId};
+use lptn_network::Item;
 use lptn_report::Format;
 use lptn_solve::{Selection, SteadyError, SteadyState, Table};
 use lptn_units::Unit;
@@ -17,8 +18,9 @@ use crate::console::{Console, Detail};
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, Input};
-use crate::limits::{self, Judged};
-use crate::{balance, select, sense};
+use crate::verdict;
+use crate::{balance, select};
+use lptn_answer::trust;
 
 pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failure> {
     if args.cycle.periodic {
@@ -35,7 +37,8 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
     let steady = phases.timed("solve", || lptn_analysis::steady(&system, start));
     let steady = steady.map_err(|error| failed(&input, &error))?;
     console.warn(&netlist.files, &netlist.warnings);
-    let limits = limits(&input, &steady, start)?;
+    let limits = LimitResult::of_steady(&netlist.network, &steady);
+    let limits = limits.map_err(|error| failed(&input, &SteadyError::Input(error)))?;
     let table = table(&input, &steady, &selection, &unit)?;
     let balance = balance.map(|of| steady.balance(&netlist.network, of));
     let view = View {
@@ -57,8 +60,8 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
         hidden.iter().for_each(|hidden| console.note(hidden));
         console.warn(&netlist.files, &view.doubts());
     }
-    console.warn(&netlist.files, &sense::doubts(netlist, &steady.trust, false));
-    Ok(limits::conclude(&view.judgement(), console))
+    console.warn(&netlist.files, &trust::doubts(netlist, &steady.trust, false));
+    Ok(verdict::conclude(&view.judgement(), console))
 }
 
 fn table(
@@ -69,20 +72,6 @@ fn table(
 ) -> Result<Table, Failure> {
     let table = Table::of_steady(&input.netlist.network, steady, selection, unit);
     table.map_err(|error| failed(input, &SteadyError::Input(error)))
-}
-
-fn limits(input: &Input, steady: &SteadyState, time: f64) -> Result<Vec<Judged>, Failure> {
-    let network = &input.netlist.network;
-    let margins = steady.limit_margins(network, time);
-    let margins = margins.map_err(|error| failed(input, &SteadyError::Input(error)))?;
-    let one = |(id, margin): (LimitId, f64)| {
-        let limit = &network.limits()[id.index()];
-        match network.changing_inputs_of(&[&limit.of, &limit.value]).is_empty() {
-            true => Judged::of_steady(id, margin),
-            false => Judged::open(id),
-        }
-    };
-    Ok(network.limit_ids().zip(margins).map(one).collect())
 }
 
 pub(crate) fn failed(input: &Input, error: &SteadyError) -> Failure {

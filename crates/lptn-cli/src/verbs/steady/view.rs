@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 use std::io;
 
-use lptn_analysis::Trust;
+use lptn_analysis::{LimitResult, Trust};
 use lptn_netlist::Diagnostic;
 use lptn_network::{ConductorId, FacePathId, GridValue, HeatOf, Item, Network, NodeId};
 use lptn_report::{
@@ -15,12 +15,13 @@ use lptn_units::Unit;
 use serde_json::{Map, json};
 
 use crate::about::{self, Known};
+use crate::balance;
 use crate::console::Console;
-use crate::doubts::{adiabatic, inputs_vary, others};
 use crate::input::Input;
-use crate::limits::{self, Judged, Judgement};
-use crate::words::{difference, largest, some_of};
-use crate::{balance, families, ranges, scale, sense};
+use lptn_answer::limits::{self, Judgement};
+use lptn_answer::words::{difference, largest, some_of};
+use lptn_answer::{adiabatic, inputs_vary, others};
+use lptn_answer::{families, ranges, scale, trust};
 
 /// Rises in K and heats in W below this are what rounding left over: no unit and no decimals are
 /// chosen to show them.
@@ -35,7 +36,7 @@ pub(super) struct View<'a> {
     /// What is selected, in the unit that is shown.
     pub(super) table: &'a Table,
     pub(super) unit: &'a Unit,
-    pub(super) limits: &'a [Judged],
+    pub(super) limits: &'a [LimitResult],
     pub(super) balance: Option<&'a Balance>,
     /// Whether nothing was selected.
     pub(super) all: bool,
@@ -250,7 +251,7 @@ impl View<'_> {
     /// What to know before this is believed.
     pub(super) fn doubts(&self) -> Vec<Diagnostic> {
         let netlist = &self.input.netlist;
-        let vary = inputs_vary(self.input, self.steady, self.limits);
+        let vary = inputs_vary((netlist, self.input.typed().as_deref()), self.steady, self.limits);
         let adiabatic = adiabatic(&netlist.network, self.steady);
         let others = others(&netlist.network, self.steady, self.unit);
         vary.into_iter().chain(adiabatic).chain(others).collect()
@@ -299,7 +300,7 @@ impl Page for View<'_> {
         let value = |c: &lptn_solve::Column| {
             (c.name.clone(), json!({ "value": c.values[0], "unit": c.unit }))
         };
-        let found = self.doubts().into_iter().chain(sense::doubts(netlist, self.trust, false));
+        let found = self.doubts().into_iter().chain(trust::doubts(netlist, self.trust, false));
         self.input.head(json, &found.collect::<Vec<_>>())?;
         json.member("values", &table.columns().iter().map(value).collect::<Map<_, _>>())?;
         json.optional("limits", limits::members(&netlist.network, self.limits, self.unit))?;

@@ -16,7 +16,7 @@ use crate::about::{self, Known};
 use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
-use crate::words::{MOST_NODES, count, some_of, spaced};
+use lptn_answer::words::{MOST_NODES, count, some_of, spaced};
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 5;

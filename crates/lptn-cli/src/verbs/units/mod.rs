@@ -13,7 +13,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::wrong_unit;
-use crate::words::spaced;
+use lptn_answer::words::spaced;
 
 pub(crate) fn units(args: &UnitsArgs, console: &Console) -> Result<Exit, Failure> {
     let text = match &args.quantity {

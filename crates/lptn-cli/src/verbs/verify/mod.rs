@@ -25,7 +25,7 @@ use crate::input::{self, Input};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
 use crate::verbs::run::job::{no_run, unanswered};
-use crate::words::count;
+use lptn_answer::words::count;
 
 /// Letters of a node's name beside the other columns.
 const NODE_WIDTH: usize = 22;

@@ -17,7 +17,7 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::operating_point::{OperatingPoint, place};
 use crate::options::Printed;
-use crate::words::count;
+use lptn_answer::words::count;
 
 pub(super) fn near(
     input: &Input,

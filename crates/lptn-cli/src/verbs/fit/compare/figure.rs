@@ -8,7 +8,7 @@ use lptn_report::{MOST_CURVES, shortened};
 
 use super::Answer;
 use super::words::unseen;
-use crate::words::count;
+use lptn_answer::words::count;
 
 /// Columns that are drawn, at most.
 const MOST_COLUMNS: usize = 3;

@@ -15,7 +15,7 @@ use super::words::{likelier, records, unseen, verdict};
 use crate::about;
 use crate::diagnostics;
 use crate::verbs::fit::network::{common, parameter, values};
-use crate::words::count;
+use lptn_answer::words::count;
 
 /// What does not exist.
 const NOTHING: &str = "-";

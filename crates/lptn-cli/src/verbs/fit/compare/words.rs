@@ -6,7 +6,7 @@ use lptn_report::{duration, fixed, significant};
 
 use super::Answer;
 use super::shown::{interval, ratio};
-use crate::words::count;
+use lptn_answer::words::count;
 
 /// What two runs of the same network may differ by, in K (or another SI unit).
 const SAME: f64 = 1e-5;

@@ -8,7 +8,7 @@ use crate::console::Console;
 use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{Input, quoted};
-use crate::words::spaced;
+use lptn_answer::words::spaced;
 
 /// Digits with which a search goes on from where it was.
 const DIGITS: usize = 8;

@@ -18,7 +18,7 @@ use super::words::{combination, sought, state, type_of, verdict};
 use super::{Answer, shared_noise};
 use crate::about::{self, Known};
 use crate::diagnostics;
-use crate::words::{count, symbol, unverified};
+use lptn_answer::words::{count, symbol, unverified};
 
 impl Page for Answer<'_> {
     fn text(&self) -> Text {

@@ -4,7 +4,7 @@ use lptn_fit::network::{ColumnMisfit, MeasuredColumn, NetworkFitTask};
 use lptn_units::{Type, Unit};
 
 use super::Answer;
-use crate::words::difference;
+use lptn_answer::words::difference;
 
 /// How values of one type are shown: temperatures in the unit of the netlist, what else is measured
 /// in SI units.

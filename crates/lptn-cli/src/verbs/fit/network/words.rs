@@ -11,7 +11,7 @@ use lptn_units::Type;
 use super::Answer;
 use super::units::common;
 use crate::taken;
-use crate::words::count as number;
+use lptn_answer::words::count as number;
 
 /// Digits of a value that nothing says the accuracy of.
 const DIGITS: usize = 5;

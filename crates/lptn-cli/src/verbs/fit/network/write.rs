@@ -10,8 +10,8 @@ use super::Answer;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::input::Input;
-use crate::words::spaced;
 use crate::written::{can_be_written, put, with_numbers};
+use lptn_answer::words::spaced;
 
 /// Digits that are written: a tenth of a standard error never is beyond them.
 const DIGITS: usize = 9;

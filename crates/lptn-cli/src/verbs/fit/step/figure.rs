@@ -10,7 +10,7 @@ use lptn_units::Unit;
 use super::estimate::with_error;
 use super::{Answer, Column};
 use crate::verbs::fit::figure::differences;
-use crate::words::difference;
+use lptn_answer::words::difference;
 
 /// Points of a curve that is drawn.
 const POINTS: u32 = 240;

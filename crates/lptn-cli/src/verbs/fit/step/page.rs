@@ -20,7 +20,7 @@ use super::request::{Reference, Request};
 use super::{Answer, Column};
 use crate::about;
 use crate::diagnostics;
-use crate::scale;
+use lptn_answer::scale;
 
 const TEMPERATURE: Type = Type::ABSOLUTE_TEMPERATURE;
 const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);

@@ -10,8 +10,8 @@ use lptn_units::{Dimension, Type, Unit};
 use serde_json::{Map, Value, json};
 
 use super::Study;
-use crate::scale;
-use crate::words::difference;
+use lptn_answer::scale;
+use lptn_answer::words::difference;
 
 /// The rows of `uncertainty.csv`: the time, then for each node its temperature as in `result.csv`,
 /// one standard deviation and the band of 95 %.

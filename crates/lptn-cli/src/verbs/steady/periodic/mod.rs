@@ -25,7 +25,8 @@ use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
 use crate::verbs::run::job::{Job, NoSteady, explain, record, unanswered};
 use crate::verbs::run::outcome::Outcome;
-use crate::{balance, period, scale, select, sense};
+use crate::{balance, period, select};
+use lptn_answer::{scale, trust};
 
 /// The name of the window over the cycle.
 const CYCLE: &str = "cycle";
@@ -79,7 +80,7 @@ pub(crate) fn periodic(args: &SteadyArgs, console: &Console) -> Result<Exit, Fai
         console.results_in(folder.path());
     }
     console.show(&view, args.shown.format)?;
-    console.warn(&netlist.files, &sense::doubts(netlist, &found.trust, true));
+    console.warn(&netlist.files, &trust::doubts(netlist, &found.trust, true));
     if let Some(folder) = &folder {
         let path = folder.path().join(RESULT);
         console.note(&format!("wrote  {}, {WINDOWS}, {MANIFEST}", path.display()));

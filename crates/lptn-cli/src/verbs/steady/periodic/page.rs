@@ -11,9 +11,10 @@ use lptn_study::{SiValue, StatisticsRecord};
 use lptn_units::Dimension;
 
 use super::View;
+use crate::balance;
 use crate::verbs::run::page::heat_over;
-use crate::words::{count, difference, largest, some_of, symbol};
-use crate::{balance, families, limits};
+use lptn_answer::words::{count, difference, largest, some_of, symbol};
+use lptn_answer::{families, limits};
 
 /// A column with its first value, in SI.
 type Row<'a> = (&'a ColumnSeen, f64);

@@ -62,7 +62,7 @@ fn range(group: &Group) -> String {
 }
 
 /// A warning for each law and group that was outside, with the path where that lasted longest.
-pub(crate) fn warnings(netlist: &Netlist, found: &[OutOfRange], run: bool) -> Vec<Diagnostic> {
+pub fn warnings(netlist: &Netlist, found: &[OutOfRange], run: bool) -> Vec<Diagnostic> {
     let network = &netlist.network;
     let mut left = gathered(found);
     left.sort_by(|a, b| {
@@ -111,7 +111,7 @@ fn when(stretches: &[OutOfRange]) -> String {
 }
 
 /// Whether every law stayed where it is known, for a report.
-pub(crate) fn claim(network: &Network, found: &[OutOfRange]) -> Claim {
+pub fn claim(network: &Network, found: &[OutOfRange]) -> Claim {
     let rest = "no fluid or capacity left its range, nor a table without `outside`";
     if network.ranged().is_empty() {
         return Claim::checked(true, rest);
@@ -133,7 +133,7 @@ pub(crate) fn claim(network: &Network, found: &[OutOfRange]) -> Claim {
 /// For each path and group that was outside
 /// `{ path, law, group, meaning, from, to, value, at, stretches }`, times in s, of a loss `source`
 /// in place of `path`; nothing where none was. A range without an end has none.
-pub(crate) fn members(network: &Network, found: &[OutOfRange], run: bool) -> Option<Vec<Value>> {
+pub fn members(network: &Network, found: &[OutOfRange], run: bool) -> Option<Vec<Value>> {
     let one = |left: &Left<'_>| {
         let OutOfRange { item, group, value, at, .. } = *left.worst;
         let finite = |end: f64| end.is_finite().then_some(end);

@@ -5,10 +5,10 @@ use lptn_report::{Text, TextTable};
 use lptn_units::Unit;
 
 /// More nodes than this do not fit on a screen.
-pub(crate) const MOST_NODES: usize = 30;
+pub const MOST_NODES: usize = 30;
 
 /// "1 node", "2 nodes".
-pub(crate) fn count(n: usize, noun: &str) -> String {
+pub fn count(n: usize, noun: &str) -> String {
     let ending = if n == 1 {
         ""
     } else if noun.ends_with('y') {
@@ -21,7 +21,7 @@ pub(crate) fn count(n: usize, noun: &str) -> String {
 }
 
 /// "2 nodes, 2 boundaries, 3 paths, 1 source", and controls if there are any.
-pub(crate) fn counts(network: &Network) -> String {
+pub fn counts(network: &Network) -> String {
     let mut parts = vec![
         count(network.nodes().len(), "node"),
         count(network.boundaries().len(), "boundary"),
@@ -35,7 +35,7 @@ pub(crate) fn counts(network: &Network) -> String {
 }
 
 /// Of too many rows those of which this is largest, the largest first; how many there were.
-pub(crate) fn largest<T>(rows: &mut Vec<T>, size: impl Fn(&T) -> f64) -> usize {
+pub fn largest<T>(rows: &mut Vec<T>, size: impl Fn(&T) -> f64) -> usize {
     let all = rows.len();
     if all > MOST_NODES {
         rows.sort_by(|a, b| size(b).total_cmp(&size(a)));
@@ -46,7 +46,7 @@ pub(crate) fn largest<T>(rows: &mut Vec<T>, size: impl Fn(&T) -> f64) -> usize {
 
 /// A section with a table of some of `all` rows, and how to see the others; nothing where there are
 /// none.
-pub(crate) fn some_of(text: &mut Text, table: impl Into<TextTable>, (all, how): (usize, &str)) {
+pub fn some_of(text: &mut Text, table: impl Into<TextTable>, (all, how): (usize, &str)) {
     let table = table.into();
     let shown = table.rows();
     if all == 0 {
@@ -59,28 +59,28 @@ pub(crate) fn some_of(text: &mut Text, table: impl Into<TextTable>, (all, how): 
 }
 
 /// A unit for reading: `-` for a plain number.
-pub(crate) fn symbol(unit: &str) -> &str {
+pub fn symbol(unit: &str) -> &str {
     if unit == "1" { "-" } else { unit }
 }
 
 /// A unit behind its number, with the blank before it; nothing for a plain number.
-pub(crate) fn spaced(unit: &str) -> String {
+pub fn spaced(unit: &str) -> String {
     if unit == "1" { String::new() } else { format!(" {unit}") }
 }
 
 /// The unit of a difference between two temperatures in `unit`.
-pub(crate) fn difference(unit: &Unit) -> &'static str {
+pub fn difference(unit: &Unit) -> &'static str {
     if (unit.scale - 1.0).abs() < 1e-12 { "K" } else { "degR" }
 }
 
 /// Which elements have laws whose constants were not read in their source.
-pub(crate) fn unverified(network: &Network) -> Option<String> {
+pub fn unverified(network: &Network) -> Option<String> {
     unverified_names(network)
         .map(|names| format!("unverified constants: {}", list_of(&names, "elements")))
 }
 
 /// The same for programs: their names.
-pub(crate) fn unverified_names(network: &Network) -> Option<Vec<String>> {
+pub fn unverified_names(network: &Network) -> Option<Vec<String>> {
     let items = network.unverified().into_iter();
     let names: Vec<String> = items.map(|item| network.name_of(item).into_owned()).collect();
     (!names.is_empty()).then_some(names)

@@ -1,22 +1,20 @@
 //! What to know before a steady state is believed.
 
-use lptn_netlist::Diagnostic;
+use lptn_analysis::LimitResult;
+use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Item, Network, NodeId, list_of_names};
 use lptn_report::{duration, significant};
 use lptn_solve::{Others, SteadyState};
 use lptn_units::Unit;
 
-use crate::input::Input;
-use crate::limits::Judged;
-
 /// That inputs change with time, what that means for the limits, and which verb looks at every
-/// time.
-pub(crate) fn inputs_vary(
-    input: &Input,
+/// time; `file` is the name of the netlist as it was typed.
+pub fn inputs_vary(
+    (netlist, file): (&Netlist, Option<&str>),
     steady: &SteadyState,
-    limits: &[Judged],
+    limits: &[LimitResult],
 ) -> Option<Diagnostic> {
-    let network = &input.netlist.network;
+    let network = &netlist.network;
     let quantities = network.limits().iter().flat_map(|limit| [&limit.of, &limit.value]);
     let quantities: Vec<_> =
         quantities.chain(network.reports().iter().map(|report| &report.value)).collect();
@@ -31,13 +29,13 @@ pub(crate) fn inputs_vary(
     names.dedup();
     let which =
         if names.is_empty() { String::new() } else { format!(", {}", list_of_names(&names)) };
-    let judged = if limits.iter().any(Judged::is_open) {
+    let judged = if limits.iter().any(LimitResult::is_open) {
         ", and no limit is judged that depends on them"
     } else {
         ""
     };
     let at = duration(steady.time, 4);
-    let instead = instead(input).map_or(String::new(), |verb| format!("; {verb}"));
+    let instead = instead(netlist, file).map_or(String::new(), |verb| format!("; {verb}"));
     let message = format!(
         "inputs change with time{which}: they are taken as they are at {at}{judged}{instead}"
     );
@@ -45,16 +43,16 @@ pub(crate) fn inputs_vary(
 }
 
 /// The verb that looks at every time.
-fn instead(input: &Input) -> Option<String> {
-    let file = input.typed().unwrap_or_else(|| "FILE".into());
-    if matches!(input.netlist.network.repeat_period(), Ok(Some(_))) {
+fn instead(netlist: &Netlist, file: Option<&str>) -> Option<String> {
+    let file = file.unwrap_or("FILE");
+    if matches!(netlist.network.repeat_period(), Ok(Some(_))) {
         return Some(format!("`lptn steady --periodic {file}` looks at the whole cycle"));
     }
-    input.netlist.run.as_ref().map(|_| format!("`lptn run {file}` looks at every time"))
+    netlist.run.as_ref().map(|_| format!("`lptn run {file}` looks at every time"))
 }
 
 /// Nodes that keep their energy have a steady state that depends on their start.
-pub(crate) fn adiabatic(network: &Network, steady: &SteadyState) -> Option<Diagnostic> {
+pub fn adiabatic(network: &Network, steady: &SteadyState) -> Option<Diagnostic> {
     let name = |id: &NodeId| network.nodes()[id.index()].name.clone();
     let names: Vec<String> = steady.adiabatic.iter().map(name).collect();
     let message = format!(
@@ -67,7 +65,7 @@ pub(crate) fn adiabatic(network: &Network, steady: &SteadyState) -> Option<Diagn
 
 /// That the start decides where the network comes to rest, where that is known or cannot be
 /// excluded.
-pub(crate) fn others(network: &Network, steady: &SteadyState, unit: &Unit) -> Option<Diagnostic> {
+pub fn others(network: &Network, steady: &SteadyState, unit: &Unit) -> Option<Diagnostic> {
     let warn = |code, message: String| Some(Diagnostic::warning(code, message));
     match &steady.others {
         Others::None => None,

@@ -9,12 +9,13 @@ const MORE_MEMBERS: usize = 5;
 
 /// A row of a table: an item, or the worst of a family.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Row<T> {
-    pub(crate) item: T,
+pub struct Row<T> {
+    /// The item, or the worst of its family.
+    pub item: T,
     /// The name of the item, or that of the family: `row[*].base`.
-    pub(crate) name: String,
+    pub name: String,
     /// Which member of how many it is: `[7] of 24`; empty for an item by itself.
-    pub(crate) member: String,
+    pub member: String,
 }
 
 /// The name of the family, and the indices of the member: `row[*].base` and `[7]`.
@@ -32,7 +33,7 @@ fn family(name: &str) -> Option<(String, String)> {
 /// The rows of items by name and kind. Where they are to `fold`, those of a large family are one
 /// row, in the place of the first, with the item of which `worst` is largest; items of different
 /// kinds are of different families.
-pub(crate) fn folded<T>(
+pub fn folded<T>(
     items: Vec<T>,
     fold: bool,
     name: impl Fn(&T) -> (String, u8),
@@ -67,7 +68,7 @@ pub(crate) fn folded<T>(
 }
 
 /// Adds the column of members below a title that says which one is shown, where a row has any.
-pub(crate) fn members<'a, T>(
+pub fn members<'a, T>(
     table: TextTableOf<'a, Row<T>>,
     rows: &[Row<T>],
     title: &str,

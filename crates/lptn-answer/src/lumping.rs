@@ -7,8 +7,18 @@ use lptn_solve::{Biot, LumpCheck, Lumping, NotChecked, Stretch};
 use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
-use crate::console::Detail;
 use crate::words::count;
+
+/// How much a result tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Detail {
+    /// What was asked, as scripts and logs read it.
+    Brief,
+    /// Also what was not checked, for those who look on.
+    Usual,
+    /// Everything that is known.
+    Verbose,
+}
 
 /// So many nodes are warned of one by one, the worst of them.
 const MOST_WARNINGS: usize = 5;
@@ -17,7 +27,7 @@ const SOURCE: &str =
     "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, section 5.2";
 
 /// A warning for each of the worst nodes that are not lumps, and one that counts the others.
-pub(crate) fn warnings(netlist: &Netlist, lumping: &Lumping) -> Vec<Diagnostic> {
+pub fn warnings(netlist: &Netlist, lumping: &Lumping) -> Vec<Diagnostic> {
     let (thick, slow) = (lumping.too_thick(), lumping.too_slow());
     let mut found: Vec<Diagnostic> = Vec::new();
     found.extend(
@@ -80,7 +90,7 @@ fn at(netlist: &Netlist, check: &LumpCheck, warning: Diagnostic) -> Diagnostic {
 
 /// A few lines below a result: the largest numbers, and what was not checked. Where nothing was,
 /// only those who look on are told.
-pub(crate) fn lines(
+pub fn lines(
     text: &mut Text,
     network: &Network,
     (lumping, label, detail): (&Lumping, &str, Detail),
@@ -176,7 +186,7 @@ fn details(text: &mut Text, network: &Network, lumping: &Lumping) {
 }
 
 /// The member `lumping` of JSON.
-pub(crate) fn json(network: &Network, lumping: &Lumping) -> Value {
+pub fn json(network: &Network, lumping: &Lumping) -> Value {
     let mut nodes = Map::new();
     for check in &lumping.checks {
         let mut node = Map::new();

@@ -7,7 +7,7 @@ use lptn_solve::Table;
 
 /// A warning for each report with a row in which its expression has no value, with the first such
 /// time.
-pub(crate) fn gaps(netlist: &Netlist, table: &Table) -> Vec<Diagnostic> {
+pub fn gaps(netlist: &Netlist, table: &Table) -> Vec<Diagnostic> {
     let network = &netlist.network;
     let times = table.columns().first().map_or(&[][..], |time| &time.values);
     let gap = |(report, id): (&lptn_network::Report, _)| {

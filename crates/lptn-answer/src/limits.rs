@@ -1,17 +1,15 @@
 //! Limits as a result: a line each, JSON, and what a broken one does to the exit code.
 
+use lptn_analysis::LimitResult;
 use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Bound, Item, Limit, LimitId, LimitSeverity, Network};
 use lptn_plot::figure::{Level, Panel};
 use lptn_plot::printed;
 use lptn_report::{Claim, Clock, Standing, TEMPERATURE, Text, TextTable, duration, significant};
-use lptn_solve::LimitSeen;
 use lptn_study::SiValue;
 use lptn_units::{Dimension, Type, Unit};
 use serde_json::{Map, Value, json};
 
-use crate::console::Console;
-use crate::exit::Exit;
 use crate::families::{self, Row};
 use crate::scale;
 use crate::words::{count, spaced};
@@ -19,94 +17,56 @@ use crate::words::{count, spaced};
 /// Digits of a margin.
 const DIGITS: usize = 4;
 
-/// One limit with what became of it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Judged {
-    limit: LimitId,
-    /// Least margin in SI units; NaN if it is not judged.
-    margin: f64,
-    /// When that was, in s; `None` in steady state.
-    worst_at: Option<f64>,
-    /// When it was first broken, in s; `None` if it was not, and in steady state.
-    broken_at: Option<f64>,
+/// The node whose temperature breaks its limit.
+pub fn broken_node<'a>(found: &LimitResult, network: &'a Network) -> Option<&'a str> {
+    let limit = &network.limits()[found.limit.index()];
+    let node = limit.text.strip_suffix(".T")?;
+    let known = network.nodes().iter().any(|own| own.name == node);
+    (found.broken_at.is_some() && known).then_some(node)
 }
 
-impl Judged {
-    pub(crate) fn of_run(seen: &LimitSeen) -> Self {
-        let LimitSeen { limit, margin, worst_at, broken_at, .. } = *seen;
-        if margin.is_nan() {
-            return Self::open(limit);
-        }
-        Self { limit, margin, worst_at: Some(worst_at), broken_at }
-    }
+/// Its name, and what has to be the same in a family: whether it is judged, of which severity and
+/// of which kind of quantity.
+fn family(found: &LimitResult, limit: &Limit) -> (String, u8) {
+    let bits = [
+        found.is_open(),
+        limit.severity == LimitSeverity::Error,
+        limit.bound == Bound::Below,
+        limit.ty.absolute,
+    ];
+    (limit.name.clone(), bits.iter().fold(0, |kind, bit| 2 * kind + u8::from(*bit)))
+}
 
-    /// The node whose temperature breaks its limit.
-    pub(crate) fn broken_node<'a>(&self, network: &'a Network) -> Option<&'a str> {
-        let limit = &network.limits()[self.limit.index()];
-        let node = limit.text.strip_suffix(".T")?;
-        let known = network.nodes().iter().any(|own| own.name == node);
-        (self.broken_at.is_some() && known).then_some(node)
-    }
-
-    pub(crate) fn of_steady(limit: LimitId, margin: f64) -> Self {
-        Self { limit, margin, worst_at: None, broken_at: None }
-    }
-
-    /// One that nothing is said about: in a steady state, since it depends on inputs that change
-    /// with time; or since it is of gears that carry no load.
-    pub(crate) fn open(limit: LimitId) -> Self {
-        Self::of_steady(limit, f64::NAN)
-    }
-
-    /// Whether it was judged at all.
-    pub(crate) fn is_open(&self) -> bool {
-        self.margin.is_nan()
-    }
-
-    /// Its name, and what has to be the same in a family: whether it is judged, of which severity
-    /// and of which kind of quantity.
-    fn family(&self, limit: &Limit) -> (String, u8) {
-        let bits = [
-            self.is_open(),
-            limit.severity == LimitSeverity::Error,
-            limit.bound == Bound::Below,
-            limit.ty.absolute,
-        ];
-        (limit.name.clone(), bits.iter().fold(0, |kind, bit| 2 * kind + u8::from(*bit)))
-    }
-
-    fn standing(&self) -> Standing {
-        match (self.is_open(), self.is_broken()) {
-            (true, _) => Standing::Open,
-            (false, true) => Standing::Fails,
-            (false, false) => Standing::Holds,
-        }
-    }
-
-    fn is_broken(&self) -> bool {
-        self.margin < 0.0
+fn standing(found: &LimitResult) -> Standing {
+    match (found.is_open(), found.is_broken()) {
+        (true, _) => Standing::Open,
+        (false, true) => Standing::Fails,
+        (false, false) => Standing::Holds,
     }
 }
 
 /// All limits of a netlist with what became of them.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Judgement<'a> {
-    pub(crate) netlist: &'a Netlist,
+pub struct Judgement<'a> {
+    /// The netlist.
+    pub netlist: &'a Netlist,
     /// The unit of temperatures.
-    pub(crate) unit: &'a Unit,
-    pub(crate) clock: Clock,
-    pub(crate) limits: &'a [Judged],
+    pub unit: &'a Unit,
+    /// The unit of times.
+    pub clock: Clock,
+    /// What became of them, in the order of the network.
+    pub limits: &'a [LimitResult],
 }
 
 /// A section with a line for each limit, and for each large family where they are to `fold`;
 /// nothing without limits.
-pub(crate) fn section(text: &mut Text, judgement: &Judgement<'_>, fold: bool) {
+pub fn section(text: &mut Text, judgement: &Judgement<'_>, fold: bool) {
     let Judgement { netlist: Netlist { network, .. }, unit, clock, limits } = *judgement;
     if limits.is_empty() {
         return;
     }
-    let of = |judged: &Judged| &network.limits()[judged.limit.index()];
-    let rows = families::folded(limits.to_vec(), fold, |j| j.family(of(j)), |j| -j.margin);
+    let of = |judged: &LimitResult| &network.limits()[judged.limit.index()];
+    let rows = families::folded(limits.to_vec(), fold, |j| family(j, of(j)), |j| -j.margin);
     let table = TextTable::of(&rows).left("limit", |row| row.name.as_str());
     let mut table = families::members(table, &rows, "worst")
         .left("wanted", |row| of(&row.item).text.as_str())
@@ -114,12 +74,12 @@ pub(crate) fn section(text: &mut Text, judgement: &Judgement<'_>, fold: bool) {
         .left("", |row| bounded(network, row.item.limit, unit))
         .right("margin", |row| margin(&row.item, of(&row.item), unit));
     if limits.iter().any(|judged| judged.worst_at.is_some()) {
-        let time = |row: &Row<Judged>| row.item.worst_at.map(|time| clock.text(time, 3));
-        let time = move |row: &Row<Judged>| time(row).unwrap_or_else(|| "-".into());
+        let time = |row: &Row<LimitResult>| row.item.worst_at.map(|time| clock.text(time, 3));
+        let time = move |row: &Row<LimitResult>| time(row).unwrap_or_else(|| "-".into());
         table = table.right("least at", time).spare();
     }
     let table = table.left("", |row| verdict(&row.item, of(&row.item), clock));
-    text.section().table(table.judged(|row| row.item.standing()));
+    text.section().table(table.judged(|row| standing(&row.item)));
 }
 
 /// "steel.T below 110 degC".
@@ -136,7 +96,7 @@ fn bounded(network: &Network, id: LimitId, unit: &Unit) -> String {
 
 /// Marks the limits in the panels that show what they are of: temperatures, and columns by name.
 /// Gives how many are of something that no panel shows.
-pub(crate) fn mark(panels: &mut [Panel], network: &Network, unit: &Unit) -> usize {
+pub fn mark(panels: &mut [Panel], network: &Network, unit: &Unit) -> usize {
     let mut left_out = 0;
     for id in network.limit_ids() {
         let limit = &network.limits()[id.index()];
@@ -157,8 +117,8 @@ pub(crate) fn mark(panels: &mut [Panel], network: &Network, unit: &Unit) -> usiz
 }
 
 /// Which limits were broken, by how much and when: rows may miss it.
-pub(crate) fn broken(network: &Network, limits: &[Judged], unit: &Unit) -> Vec<String> {
-    let said = |judged: &Judged| {
+pub fn broken(network: &Network, limits: &[LimitResult], unit: &Unit) -> Vec<String> {
+    let said = |judged: &LimitResult| {
         let limit = &network.limits()[judged.limit.index()];
         let by = number(-judged.margin, limit.margin_type(), unit);
         let at = judged.worst_at.map_or(String::new(), |time| format!(" at {}", duration(time, 3)));
@@ -168,7 +128,7 @@ pub(crate) fn broken(network: &Network, limits: &[Judged], unit: &Unit) -> Vec<S
 }
 
 /// Whether limits are kept, for a report.
-pub(crate) fn claims(network: &Network, limits: &[Judged], unit: &Unit) -> Vec<Claim> {
+pub fn claims(network: &Network, limits: &[LimitResult], unit: &Unit) -> Vec<Claim> {
     let open = limits.iter().filter(|judged| judged.is_open()).count();
     let broken = broken(network, limits, unit);
     let kept = limits.len() - open - broken.len();
@@ -186,11 +146,11 @@ fn bound(network: &Network, limit: &Limit) -> f64 {
     limit.value.at(&mut network.evaluation()).unwrap_or(f64::NAN)
 }
 
-fn margin(judged: &Judged, limit: &Limit, unit: &Unit) -> String {
+fn margin(judged: &LimitResult, limit: &Limit, unit: &Unit) -> String {
     if judged.is_open() { "-".into() } else { number(judged.margin, limit.margin_type(), unit) }
 }
 
-fn verdict(judged: &Judged, limit: &Limit, clock: Clock) -> String {
+fn verdict(judged: &LimitResult, limit: &Limit, clock: Clock) -> String {
     if judged.is_open() {
         return "not judged".into();
     }
@@ -215,12 +175,12 @@ fn number(value: f64, ty: Type, unit: &Unit) -> String {
 /// `{ of, below or above, worst, margin, worst_at, broken_at, severity, kept }`, in the results and
 /// in the manifest, temperatures in `unit`. `worst` is the value of `of` where the margin is least;
 /// where a limit is not judged `worst`, `margin` and `kept` are null. Nothing without limits.
-pub(crate) fn members(
+pub fn members(
     network: &Network,
-    limits: &[Judged],
+    limits: &[LimitResult],
     unit: &Unit,
 ) -> Option<Map<String, Value>> {
-    let one = |judged: &Judged| {
+    let one = |judged: &LimitResult| {
         let limit = &network.limits()[judged.limit.index()];
         let time = |time: Option<f64>| time.map(|time| SiValue::new(time, "s"));
         let scalar =
@@ -245,32 +205,44 @@ pub(crate) fn members(
     (!limits.is_empty()).then(|| limits.iter().map(one).collect())
 }
 
-/// Says which limits are broken and gives the exit code. Those that make it 1 are said last, and
-/// with `--quiet` too; those of severity warning are warnings, which `--quiet` leaves out: the
-/// table, JSON and the manifest have them.
-pub(crate) fn conclude(judgement: &Judgement<'_>, console: &Console) -> Exit {
-    let Judgement { netlist, limits, .. } = *judgement;
-    let severity = |judged: &Judged| netlist.network.limits()[judged.limit.index()].severity;
-    let broken = |wanted: LimitSeverity| {
-        limits.iter().filter(move |j| j.is_broken() && severity(j) == wanted)
-    };
-    let warnings: Vec<Diagnostic> =
-        broken(LimitSeverity::Warning).map(|judged| warning(judgement, judged)).collect();
-    console.warn(&netlist.files, &warnings);
-    for judged in broken(LimitSeverity::Error) {
-        console.message(&format!("limit broken: {}", words(judgement, judged)));
-    }
-    if broken(LimitSeverity::Error).next().is_some() { Exit::No } else { Exit::Done }
+/// The verdict on limits.
+#[derive(Clone, Debug, Default)]
+pub struct Verdict {
+    /// Broken limits of severity warning.
+    pub warnings: Vec<Diagnostic>,
+    /// A sentence for each broken limit of severity error.
+    pub broken: Vec<String>,
 }
 
-fn warning(judgement: &Judgement<'_>, judged: &Judged) -> Diagnostic {
+impl Verdict {
+    /// Of all limits.
+    pub fn of(judgement: &Judgement<'_>) -> Self {
+        let Judgement { netlist, limits, .. } = *judgement;
+        let severity = |found: &LimitResult| netlist.network.limits()[found.limit.index()].severity;
+        let broken = |wanted: LimitSeverity| {
+            limits.iter().filter(move |found| found.is_broken() && severity(found) == wanted)
+        };
+        let said = |found| format!("limit broken: {}", words(judgement, found));
+        Self {
+            warnings: broken(LimitSeverity::Warning).map(|f| warning(judgement, f)).collect(),
+            broken: broken(LimitSeverity::Error).map(said).collect(),
+        }
+    }
+
+    /// Whether every limit of severity error that was judged is kept.
+    pub fn holds(&self) -> bool {
+        self.broken.is_empty()
+    }
+}
+
+fn warning(judgement: &Judgement<'_>, judged: &LimitResult) -> Diagnostic {
     let item = Item::Limit(judged.limit);
     let place = judgement.netlist.source_map.name(item);
     Diagnostic::warning("limit::exceeded", words(judgement, judged)).at(place, "")
 }
 
 /// "`hot` (steel.T below 110 degC) by 3.2 K at 25 min, first after 12.05 min".
-fn words(judgement: &Judgement<'_>, judged: &Judged) -> String {
+fn words(judgement: &Judgement<'_>, judged: &LimitResult) -> String {
     let Judgement { netlist: Netlist { network, .. }, unit, clock, .. } = judgement;
     let limit = &network.limits()[judged.limit.index()];
     let by = number(-judged.margin, limit.margin_type(), unit);

@@ -10,7 +10,7 @@ use crate::ranges;
 
 /// Doubts in the numbers of an answer: what is beyond sense, laws outside their ranges, results
 /// that change faster than steps are looked at. `run`: over time.
-pub(crate) fn doubts(netlist: &Netlist, trust: &Trust, run: bool) -> Vec<Diagnostic> {
+pub fn doubts(netlist: &Netlist, trust: &Trust, run: bool) -> Vec<Diagnostic> {
     let beyond = trust.beyond.iter().map(|beyond| warning(netlist, beyond));
     let outside = ranges::warnings(netlist, &trust.out_of_range, run);
     let unresolved = trust.unresolved.iter().map(|open| unresolved(netlist, open));

@@ -10,19 +10,19 @@ use serde_json::{Value, json};
 use crate::words::difference;
 
 /// The unit in which files keep temperatures.
-pub(crate) fn kelvin() -> Unit {
+pub fn kelvin() -> Unit {
     Unit { text: "K".into(), scale: 1.0, offset: 0.0, ty: Type::ABSOLUTE_TEMPERATURE }
 }
 
 /// A value of SI with its unit: a temperature in `unit`, a difference of temperatures in K or degR
 /// as it goes with that.
-pub(crate) fn scalar(si: f64, ty: Type, unit: &Unit) -> Value {
+pub fn scalar(si: f64, ty: Type, unit: &Unit) -> Value {
     let (value, unit) = in_unit(si, ty, unit);
     json!({ "value": value, "unit": unit })
 }
 
 /// The same as a number, and its unit.
-pub(crate) fn in_unit(si: f64, ty: Type, unit: &Unit) -> (f64, String) {
+pub fn in_unit(si: f64, ty: Type, unit: &Unit) -> (f64, String) {
     match ty.dimension == Dimension::TEMPERATURE {
         true if ty.absolute => (unit.from_si(si), unit.text.clone()),
         true => (si / unit.scale, difference(unit).to_owned()),
@@ -31,17 +31,17 @@ pub(crate) fn in_unit(si: f64, ty: Type, unit: &Unit) -> (f64, String) {
 }
 
 /// A temperature in K.
-pub(crate) fn temperature(kelvin: f64, unit: &Unit) -> Value {
+pub fn temperature(kelvin: f64, unit: &Unit) -> Value {
     scalar(kelvin, Type::ABSOLUTE_TEMPERATURE, unit)
 }
 
 /// A difference of temperatures in K.
-pub(crate) fn of_difference(kelvin: f64, unit: &Unit) -> Value {
+pub fn of_difference(kelvin: f64, unit: &Unit) -> Value {
     scalar(kelvin, Type::of(Dimension::TEMPERATURE), unit)
 }
 
 /// A table whose temperatures are in `unit` with its differences, which CSV has in K, to match.
-pub(crate) fn table<'a>(table: &'a Table, unit: &Unit) -> Cow<'a, Table> {
+pub fn table<'a>(table: &'a Table, unit: &Unit) -> Cow<'a, Table> {
     if difference(unit) == "K" {
         return Cow::Borrowed(table);
     }

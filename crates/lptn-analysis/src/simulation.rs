@@ -1,0 +1,222 @@
+//! A network that is stepped from outside.
+
+use std::collections::BTreeMap;
+
+use lptn_assembly::ThermalSystem;
+use lptn_network::{Item, Network, ParameterId, RunSettings, SignalId, Temperature, Time};
+use lptn_solve::{ControlState, Proceed, Rates, Solution, State, StateRates, Transient};
+use serde::{Deserialize, Serialize};
+
+use crate::answer::Answer;
+use crate::run::RunAnalysis;
+use crate::simulation_error::SimulationError;
+
+/// A network with its state at a time. Its client steps it, and sets parameters and signals between
+/// the steps: a controller of its own, a cosimulation.
+///
+/// It owns what it needs and can be sent to another thread. Each step is a run of its own: its
+/// error stays below ten tolerances where runs do, and its energy balance is checked.
+#[derive(Clone, Debug)]
+pub struct Simulation {
+    /// The network without what was set.
+    network: Network,
+    parameters: BTreeMap<String, (ParameterId, f64)>,
+    signals: BTreeMap<String, (SignalId, f64)>,
+    system: ThermalSystem,
+    run: RunAnalysis,
+    time: f64,
+    state: State,
+    controls: Vec<ControlState>,
+    temperatures: Vec<f64>,
+}
+
+/// The state of a simulation, to be kept and restored.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SavedSimulation {
+    /// Time in s.
+    pub time: f64,
+    /// What is carried for every state in K: see [`State::carried`].
+    pub carried: Vec<f64>,
+    /// Where massless nodes of several solutions stood in K; may be empty.
+    pub stood: Vec<f64>,
+    /// Where every control stands.
+    pub controls: Vec<SavedControl>,
+    /// Parameters and signals that were set, in SI units.
+    pub inputs: BTreeMap<String, f64>,
+}
+
+/// Where a control stands.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SavedControl {
+    /// Whether it is on.
+    pub on: bool,
+    /// When it switched last, in s; `None` if it never did.
+    pub since: Option<f64>,
+}
+
+impl Simulation {
+    /// At the start of a run, with its tolerance and integrator.
+    ///
+    /// # Errors
+    /// [`SimulationError`] if the network cannot be assembled, or has no temperatures there.
+    pub fn new(network: &Network, settings: &RunSettings) -> Result<Self, SimulationError> {
+        let system = ThermalSystem::assemble(network)?;
+        let state = State::initial(&system);
+        let simulation = Self {
+            temperatures: Vec::new(),
+            controls: Transient::of(network, settings).controls,
+            run: RunAnalysis::of(network, settings).bare(),
+            parameters: BTreeMap::new(),
+            signals: BTreeMap::new(),
+            network: network.clone(),
+            time: settings.start,
+            system,
+            state,
+        };
+        let temperatures = simulation.rates()?.nodes;
+        Ok(Self { temperatures, ..simulation })
+    }
+
+    /// The network with what was set.
+    pub fn network(&self) -> &Network {
+        self.system.network()
+    }
+
+    /// The time that was reached, in s.
+    pub fn time(&self) -> f64 {
+        self.time
+    }
+
+    /// The temperature of a node.
+    ///
+    /// # Errors
+    /// [`SimulationError::Unknown`].
+    pub fn temperature(&self, node: &str) -> Result<Temperature, SimulationError> {
+        let id = self.network().node(node)?;
+        Ok(Temperature(self.temperatures[id.index()]))
+    }
+
+    /// Sets a parameter, or holds a signal, at a value in SI units from now on. The temperatures
+    /// stay as they are, also where a heat capacity changes.
+    ///
+    /// # Errors
+    /// [`SimulationError`]; nothing is set then.
+    pub fn set(&mut self, name: &str, value: f64) -> Result<(), SimulationError> {
+        let (mut parameters, mut signals) = (self.parameters.clone(), self.signals.clone());
+        match self.network.item(name)? {
+            Item::Parameter(id) => drop(parameters.insert(name.to_owned(), (id, value))),
+            Item::Signal(id) => drop(signals.insert(name.to_owned(), (id, value))),
+            _ => return Err(SimulationError::NotAnInput(name.to_owned())),
+        }
+        self.change(parameters, signals)
+    }
+
+    /// Lets a signal go its own way again, or a parameter have its own value.
+    ///
+    /// # Errors
+    /// As [`Simulation::set`].
+    pub fn release(&mut self, name: &str) -> Result<(), SimulationError> {
+        let (mut parameters, mut signals) = (self.parameters.clone(), self.signals.clone());
+        parameters.remove(name);
+        signals.remove(name);
+        self.change(parameters, signals)
+    }
+
+    fn change(
+        &mut self,
+        parameters: BTreeMap<String, (ParameterId, f64)>,
+        signals: BTreeMap<String, (SignalId, f64)>,
+    ) -> Result<(), SimulationError> {
+        let mut given = self.network.given();
+        parameters.values().for_each(|(id, value)| given.set(*id, *value));
+        let held: Vec<(SignalId, f64)> = signals.values().copied().collect();
+        let network = self.network.with(&given)?.held(&held)?;
+        let system = ThermalSystem::assemble(&network)?;
+        self.keeps_enthalpy(&system)?;
+        (self.parameters, self.signals, self.system) = (parameters, signals, system);
+        Ok(())
+    }
+
+    /// What is carried of a node that melts counts from its enthalpy at the start.
+    fn keeps_enthalpy(&self, system: &ThermalSystem) -> Result<(), SimulationError> {
+        let (old, new) = (self.network(), system.network());
+        let bits = |capacity: &f64| capacity.to_bits();
+        for (i, id) in system.states().iter().enumerate() {
+            let same = old.enthalpy(*id) == new.enthalpy(*id)
+                && bits(&self.system.capacity()[i]) == bits(&system.capacity()[i]);
+            if !same && (old.enthalpy(*id).is_some() || new.enthalpy(*id).is_some()) {
+                let node = new.nodes()[id.index()].name.clone();
+                return Err(SimulationError::Melts { node });
+            }
+        }
+        Ok(())
+    }
+
+    /// Steps to a time in s, with a row at each of these times between, the present and the end.
+    ///
+    /// # Errors
+    /// [`SimulationError::Run`]; the simulation stays where it was.
+    pub fn advance(&mut self, to: Time, rows: &[f64]) -> Result<Answer<Solution>, SimulationError> {
+        let run = self.run.clone().lasting(self.time, to.0).at(rows.to_vec());
+        let run = run.keeping(lptn_solve::RecordedNodes::All);
+        let begin = (&self.system, &self.state);
+        let answer = run.solve_from(begin, &self.controls, &mut |_| Proceed::Continue)?;
+        self.state = answer.last_state().clone();
+        self.controls = answer.controls().to_vec();
+        self.temperatures = answer.last().temperatures.clone();
+        self.time = to.0;
+        Ok(answer)
+    }
+
+    /// Rates of the states in K/s and temperatures of the nodes, just after the present time.
+    ///
+    /// # Errors
+    /// [`SimulationError::Rates`] if an input has no value.
+    pub fn rates(&self) -> Result<Rates, SimulationError> {
+        Ok(StateRates::new(&self.system)?.at(self.time, self.state.carried())?)
+    }
+
+    /// What its future depends on besides the network.
+    pub fn save(&self) -> SavedSimulation {
+        let control = |control: &ControlState| SavedControl {
+            on: control.on,
+            since: Some(control.since).filter(|since| since.is_finite()),
+        };
+        let parameters = self.parameters.iter().map(|(name, (_, value))| (name.clone(), *value));
+        let signals = self.signals.iter().map(|(name, (_, value))| (name.clone(), *value));
+        SavedSimulation {
+            time: self.time,
+            carried: self.state.carried().to_vec(),
+            stood: self.state.stood().to_vec(),
+            controls: self.controls.iter().map(control).collect(),
+            inputs: parameters.chain(signals).collect(),
+        }
+    }
+
+    /// Goes to a state that a simulation of the same network saved.
+    ///
+    /// # Errors
+    /// [`SimulationError`] if it is of another network; the simulation stays as it was.
+    pub fn restore(&mut self, saved: &SavedSimulation) -> Result<(), SimulationError> {
+        let mut next = self.clone();
+        (next.parameters, next.signals) = (BTreeMap::new(), BTreeMap::new());
+        for (name, value) in &saved.inputs {
+            next.set(name, *value)?;
+        }
+        let (states, controls) = (next.system.states().len(), next.network().controls().len());
+        let control = |saved: &SavedControl| ControlState {
+            on: saved.on,
+            since: saved.since.unwrap_or(f64::NEG_INFINITY),
+        };
+        let stands = saved.controls.is_empty() || saved.controls.len() == controls;
+        if saved.carried.len() != states || !stands {
+            return Err(SimulationError::Foreign);
+        }
+        next.state = State::restored(saved.carried.clone(), saved.stood.clone());
+        next.controls = saved.controls.iter().map(control).collect();
+        next.time = saved.time;
+        next.temperatures = next.rates()?.nodes;
+        *self = next;
+        Ok(())
+    }
+}

@@ -1,0 +1,118 @@
+//! Simulations that are stepped from outside, against closed forms.
+
+use lptn_analysis::{Simulation, SimulationError};
+use lptn_network::{
+    Conductance, Context, HeatCapacity, HeatFlow, IntegratorChoice, Network, NetworkBuilder,
+    OutputTimes, RunSettings, Temperature, Time,
+};
+
+const C: f64 = 1000.0;
+const ZERO: f64 = 273.15;
+
+fn settings() -> RunSettings {
+    RunSettings {
+        stop: 1000.0,
+        output: OutputTimes::Every(100.0),
+        integrator: IntegratorChoice::Auto,
+        ..RunSettings::cycle(None, 1000.0)
+    }
+}
+
+/// A body of 1 kJ/K at 20 degC with a heater of `P` and a path of `G` to air at 20 degC.
+fn body() -> Network {
+    let mut b = NetworkBuilder::new();
+    b.parameter("P", HeatFlow(0.0));
+    b.parameter("G", Conductance(2.0));
+    let body = b.node("body", HeatCapacity(C), Temperature::celsius(20.0));
+    let air = b.boundary("air", Temperature::celsius(20.0));
+    let g = b.expression_in(Context::Link, "G", None).unwrap();
+    b.resistor("skin", body, air, lptn_network::Path::conductance(g));
+    let power = b.expression_in(Context::Source, "P", None).unwrap();
+    b.source("heater", body, power);
+    b.build().unwrap()
+}
+
+fn celsius(simulation: &Simulation) -> f64 {
+    simulation.temperature("body").unwrap().0 - ZERO
+}
+
+/// The temperature in degC after a time in s under constant inputs, from one in degC.
+fn after(from: f64, time: f64, power: f64, g: f64) -> f64 {
+    let settled = 20.0 + power / g;
+    settled + (from - settled) * (-time * g / C).exp()
+}
+
+#[test]
+fn inputs_that_are_set_between_steps_are_met_exactly() {
+    let mut simulation = Simulation::new(&body(), &settings()).unwrap();
+    let mut expected = 20.0;
+    assert!((celsius(&simulation) - 20.0).abs() < 1e-12);
+    let steps = [(50.0, 100.0, 2.0), (20.0, 0.0, 2.0), (300.0, 40.0, 0.5), (7.0, 40.0, 9.0)];
+    for (length, power, g) in steps {
+        simulation.set("P", power).unwrap();
+        simulation.set("G", g).unwrap();
+        let to = simulation.time() + length;
+        let middle = to - 0.5 * length;
+        let step = simulation.advance(Time(to), &[middle]).unwrap();
+        let row = step.temperature(step.network().node("body").unwrap()).unwrap();
+        let half = after(expected, 0.5 * length, power, g);
+        assert!((row[1] - ZERO - half).abs() < 1e-4, "{} for {half}", row[1] - ZERO);
+        expected = after(expected, length, power, g);
+        assert!((celsius(&simulation) - expected).abs() < 1e-4, "{expected}");
+        let rate = (power - g * (expected - 20.0)) / C;
+        assert!((simulation.rates().unwrap().states[0] - rate).abs() < 1e-6, "{rate}");
+    }
+}
+
+#[test]
+fn what_was_saved_goes_on_to_the_same_bits() {
+    let mut one = Simulation::new(&body(), &settings()).unwrap();
+    one.set("P", 80.0).unwrap();
+    one.advance(Time(100.0), &[]).unwrap();
+    let saved = one.save();
+    let mut other = Simulation::new(&body(), &settings()).unwrap();
+    other.restore(&saved).unwrap();
+    assert_eq!(other.save(), saved);
+    for simulation in [&mut one, &mut other] {
+        simulation.advance(Time(250.0), &[]).unwrap();
+        simulation.release("P").unwrap();
+        simulation.advance(Time(400.0), &[]).unwrap();
+    }
+    assert_eq!(celsius(&one).to_bits(), celsius(&other).to_bits());
+    let warm = after(after(20.0, 250.0, 80.0, 2.0), 150.0, 0.0, 2.0);
+    assert!((celsius(&one) - warm).abs() < 1e-4, "{} for {warm}", celsius(&one));
+    let mut foreign = saved.clone();
+    foreign.carried.push(300.0);
+    assert!(matches!(other.restore(&foreign), Err(SimulationError::Foreign)));
+}
+
+#[test]
+fn what_cannot_be_set_leaves_everything_as_it_was() {
+    let mut simulation = Simulation::new(&body(), &settings()).unwrap();
+    let before = simulation.save();
+    assert!(matches!(simulation.set("body", 1.0), Err(SimulationError::NotAnInput(_))));
+    assert!(matches!(simulation.set("Q", 1.0), Err(SimulationError::Unknown(_))));
+    assert!(matches!(simulation.set("G", -1.0), Err(SimulationError::Refused(_))));
+    assert!(simulation.advance(Time(-1.0), &[]).is_err());
+    assert_eq!(simulation.save(), before);
+}
+
+/// A controller of the client's own: a heater that a thread switches every 10 s.
+#[test]
+fn it_is_sent_to_another_thread() {
+    let mut simulation = Simulation::new(&body(), &settings()).unwrap();
+    let stepped = std::thread::spawn(move || {
+        for step in 1..=20 {
+            let warm = celsius(&simulation) > 25.0;
+            simulation.set("P", if warm { 0.0 } else { 200.0 }).unwrap();
+            simulation.advance(Time(10.0 * f64::from(step)), &[]).unwrap();
+        }
+        celsius(&simulation)
+    });
+    let mut expected = 20.0;
+    for _ in 0..20 {
+        let power = if expected > 25.0 { 0.0 } else { 200.0 };
+        expected = after(expected, 10.0, power, 2.0);
+    }
+    assert!((stepped.join().unwrap() - expected).abs() < 1e-3, "{expected}");
+}

@@ -1,0 +1,61 @@
+//! Doubts in the error of a run and in its energy balance.
+
+use lptn_netlist::Diagnostic;
+use lptn_network::list_of_names;
+use lptn_report::significant;
+use lptn_solve::{Solution, Unbounded};
+
+/// Doubts in the numbers of a run: its error and its balance.
+pub fn doubts(solution: &Solution) -> Vec<Diagnostic> {
+    let warning = |code, text: Option<String>| text.map(|text| Diagnostic::warning(code, text));
+    let bound = warning("run::error_not_bounded", not_bounded(solution));
+    bound.into_iter().chain(warning("run::weak_ledger", weak_ledger(solution))).collect()
+}
+
+/// Errors that add up.
+pub fn not_bounded(solution: &Solution) -> Option<String> {
+    let network = solution.network();
+    let why = match solution.why_unbounded()? {
+        Unbounded::NoBoundary(nodes) => {
+            let names: Vec<String> =
+                nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
+            format!("no path leads to a boundary from {}", list_of_names(&names))
+        }
+        Unbounded::LongMemory { steps } => format!(
+            "the network remembers about {} steps of inputs that keep changing; compare with a \
+             smaller --tolerance",
+            significant(steps, 1)
+        ),
+        Unbounded::Grows { factor } => format!(
+            "errors grow by up to a factor of {} where heat rises faster with temperature than it \
+             is carried off; compare with a smaller --tolerance",
+            significant(factor, 1)
+        ),
+        Unbounded::Unresolved { at } => format!(
+            "a step at {} s passes a bend over temperature that could not be resolved; compare \
+             with a smaller --tolerance",
+            significant(at, 6)
+        ),
+        Unbounded::Switches { count } => {
+            format!(
+                "each of {count} switches shifts the times of the next ones; compare with a \
+                 smaller --tolerance"
+            )
+        }
+    };
+    Some(format!("error not bounded by the tolerance: it adds up, because {why}"))
+}
+
+/// A bound so wide that the books would close on nonsense too.
+pub fn weak_ledger(solution: &Solution) -> Option<String> {
+    const PROOF: f64 = 1e-2;
+    let ledger = solution.ledger();
+    let weak = ledger.turned_over > 0.0 && ledger.bound > PROOF;
+    weak.then(|| {
+        let tolerance = significant(solution.tolerance(), 2);
+        format!(
+            "so little heat is turned over that at a tolerance of {tolerance} K the balance proves \
+             nothing"
+        )
+    })
+}
