@@ -15,6 +15,9 @@ const MET: f64 = 1e-10;
 /// temperature to be the only one.
 const ONLY: f64 = 0.1;
 
+/// So far around it in K.
+const AROUND: [f64; 11] = [-0.03, -0.01, -0.003, -1e-3, -3e-4, 0.0, 3e-4, 1e-3, 0.003, 0.01, 0.03];
+
 /// It moves by no more than so many times what the others do, or it has leapt.
 const LEAP: f64 = 100.0;
 
@@ -101,8 +104,10 @@ impl<'a> Oracle<'a> {
         };
         let found = zero(&mut balance, guess);
         // a solution may end at a corner, so both sides are looked at
-        let d = 1e-3;
-        let mut several = balance(found - d).min(-balance(found + d)) < ONLY * d;
+        let places: Vec<f64> = AROUND.iter().map(|d| found + d).collect();
+        let around: Vec<f64> = places.iter().map(|t| balance(*t)).collect();
+        let mut several = (1..places.len())
+            .any(|k| around[k - 1] - around[k] < ONLY * (places[k] - places[k - 1]));
         if last.is_empty() {
             let mut places = (1..10_000).map(|k| 0.01 * f64::from(k));
             several |= places.any(|d| balance(found - d) < 0.0 || balance(found + d) > 0.0);
