@@ -92,6 +92,10 @@ impl Feature {
         let size =
             if dice.roll() < 0.5 { dice.between(0.3, 5.0) } else { dice.between(-0.3, -0.05) };
         let (at, width) = (dice.between(low, high), dice.in_ratio(0.1, 20.0));
+        Self::new(shape, (at, width, size))
+    }
+
+    pub(crate) fn new(shape: Shape, (at, width, size): (f64, f64, f64)) -> Self {
         Self { shape, at, width, size, integral: OnceCell::new(), slopes: OnceCell::new() }
     }
 

@@ -48,6 +48,7 @@ pub(crate) enum Kind {
     BearingLoad,
     BearingOil,
     Churning,
+    Mesh,
     // between two
     Resistance,
     Conductance,
@@ -76,11 +77,12 @@ pub(crate) enum Kind {
     CoolerFlow,
 }
 
-pub(crate) const KINDS: [Kind; 26] = [
+pub(crate) const KINDS: [Kind; 27] = [
     Kind::Power,
     Kind::BearingLoad,
     Kind::BearingOil,
     Kind::Churning,
+    Kind::Mesh,
     Kind::Resistance,
     Kind::Conductance,
     Kind::Film,
@@ -107,7 +109,10 @@ pub(crate) const KINDS: [Kind; 26] = [
 
 impl Kind {
     pub(crate) fn heats(self) -> bool {
-        matches!(self, Self::Power | Self::BearingLoad | Self::BearingOil | Self::Churning)
+        matches!(
+            self,
+            Self::Power | Self::BearingLoad | Self::BearingOil | Self::Churning | Self::Mesh
+        )
     }
 
     pub(crate) fn is_stream(self) -> bool {
@@ -153,13 +158,24 @@ impl Element {
 }
 
 /// A fan that a node switches on above a temperature in degC and off below another; on, it carries
-/// so many W/K more from there to the air.
-#[derive(Clone, Copy, Debug)]
+/// so many W/K more from there to the air. Both temperatures are higher by 2 K times the features of
+/// another node.
+#[derive(Clone, Debug)]
 pub(crate) struct Fan {
     pub(crate) node: usize,
     pub(crate) on: f64,
     pub(crate) off: f64,
     pub(crate) more: f64,
+    pub(crate) other: usize,
+    pub(crate) features: Vec<Feature>,
+}
+
+impl Fan {
+    /// How far its node is above where it switches, in K.
+    pub(crate) fn beyond(&self, celsius: &[f64], blows: bool) -> f64 {
+        let from = if blows { self.off } else { self.on };
+        celsius[self.node] - from - 2.0 * (factor(&self.features, celsius[self.other]) - 1.0)
+    }
 }
 
 #[derive(Clone, Debug)]
@@ -181,7 +197,7 @@ impl Case {
         for _ in 0..1 + dice.one_of(3) / 2 {
             case.place(dice);
         }
-        if dice.roll() < 0.1 {
+        if dice.roll() < 0.15 {
             case.blow(dice);
         }
         case
@@ -278,7 +294,12 @@ impl Case {
         let on = dice.between(low, high);
         let off = on - dice.in_ratio(1.0, 20.0);
         if off > AIR + 1.0 && !matches!(self.nodes[node].storage, Storage::Massless) {
-            self.fan = Some(Fan { node, on, off, more: dice.in_ratio(0.3, 3.0) });
+            let other = usize::try_from(dice.one_of(self.nodes.len() as u64)).unwrap();
+            let seen = oracle::range(self, |celsius| celsius[other]);
+            let moves = other != node && dice.roll() < 0.7;
+            let features = if moves { features(seen, dice) } else { Vec::new() };
+            let more = dice.in_ratio(0.3, 3.0);
+            self.fan = Some(Fan { node, on, off, more, other, features });
         }
     }
 

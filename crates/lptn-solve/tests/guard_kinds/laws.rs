@@ -23,6 +23,13 @@ pub(crate) const BEARING: f64 = 60.0;
 pub(crate) const GEAR: f64 = 200.0;
 pub(crate) const F1: f64 = 4e-4;
 
+/// Of two spur gears: teeth, module and width in mm, roughness in um, density in kg/m^3.
+pub(crate) const TEETH: [f64; 2] = [20.0, 60.0];
+pub(crate) const MODULE: f64 = 3.0;
+pub(crate) const WIDTH: f64 = 30.0;
+pub(crate) const ROUGH: f64 = 0.5;
+pub(crate) const DENSITY: f64 = 860.0;
+
 /// Viscosity in mm^2/s.
 pub(crate) const OIL: f64 = 60.0;
 
@@ -82,6 +89,25 @@ pub(crate) fn of_one_watt() -> [f64; 2] {
     [bearing.recip(), gear.recip()]
 }
 
+/// The torque of a pinion in N m that loses so many W in its mesh: 1.2 powers of it.
+pub(crate) fn torque(watts: f64) -> f64 {
+    let alpha = 20.0_f64.to_radians();
+    let [r1, r2] = TEETH.map(|z| 0.5 * z * MODULE);
+    let contact = |r: f64| {
+        let beyond = ((r + MODULE).powi(2) - (r * alpha.cos()).powi(2)).sqrt() - r * alpha.sin();
+        beyond / (PI * MODULE * alpha.cos())
+    };
+    let (e1, e2) = (contact(r1), contact(r2));
+    let lost = PI * (TEETH[0] + TEETH[1]) / (TEETH[0] * TEETH[1]);
+    let lost = lost * (1.0 - e1 - e2 + e1 * e1 + e2 * e2);
+    let line_load = 1e3 / (r1 * alpha.cos()) / WIDTH;
+    let speed = 2.0 * omega() * 1e-3 * r1 * alpha.sin();
+    let radius = r1 * r2 / (r1 + r2) * alpha.sin();
+    let oil = OIL * 1e-3 * DENSITY;
+    let friction = 0.048 * (line_load / (speed * radius)).powf(0.2) * oil.powf(-0.05);
+    (watts / (omega() * friction * ROUGH.powf(0.25) * lost)).powf(1.2_f64.recip())
+}
+
 impl Element {
     /// The heat in W that leaves `from` and that enters `to`.
     pub(crate) fn heat(&self, celsius: &[f64]) -> [f64; 2] {
@@ -104,6 +130,7 @@ impl Element {
     fn loss(&self, x: f64) -> f64 {
         match self.kind {
             Kind::BearingOil => self.size * x.powf(2.0 / 3.0),
+            Kind::Mesh => self.size * x.powf(1.2),
             _ => self.size * x,
         }
     }
@@ -170,7 +197,7 @@ impl Case {
             heats[element.from] -= leaves;
             heats[element.to] += enters;
         }
-        if let Some(fan) = self.fan.filter(|_| blows) {
+        if let Some(fan) = self.fan.as_ref().filter(|_| blows) {
             heats[fan.node] -= fan.more * (celsius[fan.node] - celsius[self.air()]);
         }
         heats

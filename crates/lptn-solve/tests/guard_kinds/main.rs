@@ -7,6 +7,7 @@
 mod case;
 #[path = "../features/mod.rs"]
 mod features;
+mod known;
 mod laws;
 mod oracle;
 mod text;
@@ -100,4 +101,15 @@ fn nothing_narrow_is_passed_unseen_wherever_it_is_read() {
     }
     println!("worst {worst:.2} tolerances, {told} told, {doubtful} left out, {steps} steps");
     assert!(failed.is_empty(), "{failed:?}");
+}
+
+#[test]
+fn errors_that_a_faster_node_hides_are_made_up_for() {
+    let known = [known::beside_a_faster_one(), known::magnified(), known::of_falling_capacity()];
+    for case in &known {
+        let solution = solved(case).unwrap();
+        let error = error_of(case, &solution, &right(case).unwrap());
+        println!("{error:.2} tolerances, grown {:.2}", solution.growth());
+        assert!(error < 0.5 * FACTOR && solution.error_is_bounded(), "{error}\n{}", case.text());
+    }
 }

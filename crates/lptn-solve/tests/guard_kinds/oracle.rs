@@ -173,9 +173,7 @@ impl<'a> Oracle<'a> {
         let corners = self.corners.iter();
         let mut found: Vec<f64> =
             corners.map(|(number, at)| self.number(*number, &celsius, state) - at).collect();
-        found.extend(
-            self.case.fan.map(|fan| celsius[fan.node] - if self.blows { fan.off } else { fan.on }),
-        );
+        found.extend(self.case.fan.as_ref().map(|fan| fan.beyond(&celsius, self.blows)));
         found
     }
 
@@ -250,13 +248,9 @@ impl<'a> Oracle<'a> {
     }
 
     fn switch(&mut self) {
-        let Some(fan) = self.case.fan else { return };
-        let celsius = self.celsius()[fan.node];
-        match self.blows {
-            true if celsius <= fan.off + MET => self.blows = false,
-            false if celsius >= fan.on - MET => self.blows = true,
-            _ => {}
-        }
+        let Some(fan) = &self.case.fan else { return };
+        let beyond = fan.beyond(&self.celsius(), self.blows);
+        self.blows = if self.blows { beyond > MET } else { beyond >= -MET };
     }
 }
 
@@ -297,6 +291,9 @@ fn narrow(case: &Case) -> Vec<(Number, &Feature)> {
                 narrow.push((Number::Element(i), feature));
             }
         }
+    }
+    if let Some(fan) = &case.fan {
+        narrow.extend(fan.features.iter().map(|feature| (Number::Vertex(fan.other), feature)));
     }
     for (i, node) in case.nodes.iter().enumerate() {
         if let Storage::Capacity(features) | Storage::Material(features) = &node.storage {

@@ -2,12 +2,12 @@
 
 use std::fmt::Write as _;
 
-use crate::case::{Case, Element, Kind, Node, Read, Storage};
+use crate::case::{Case, Element, Fan, Kind, Node, Read, Storage};
 use crate::features::{Feature, Shape};
 use crate::laws::{
-    AREA, BEARING, CP, DIAMETER, F1, FAR_MORE, GEAR, HARDNESS, K, LENGTH, OIL, OTHER, PRESSURE,
-    RADII, ROUGHNESS, RPM, SECOND, SLOPE, THICKNESS, emissivity, exchange_area, joint, of_one_watt,
-    of_shape, omega,
+    AREA, BEARING, CP, DENSITY, DIAMETER, F1, FAR_MORE, GEAR, HARDNESS, K, LENGTH, MODULE, OIL,
+    OTHER, PRESSURE, RADII, ROUGH, ROUGHNESS, RPM, SECOND, SLOPE, TEETH, THICKNESS, WIDTH,
+    emissivity, exchange_area, joint, of_one_watt, of_shape, omega, torque,
 };
 
 /// A netlist on the way.
@@ -24,14 +24,8 @@ impl Case {
         for (i, element) in self.elements.iter().enumerate() {
             out.element(i, element, self);
         }
-        if let Some(fan) = self.fan {
-            let (node, on, off) = (fan.node, fan.on, fan.off);
-            out.line(&format!(
-                "[control]\nfan = {{ sense = \"n{node}\", on_above = \"{on:?} degC\", off_below = \
-                 \"{off:?} degC\" }}\n[resistor.blown]\nfrom = \"n{node}\"\nto = \"air\"\nG = \
-                 \"{:?} [W/K] * fan\"",
-                fan.more
-            ));
+        if let Some(fan) = &self.fan {
+            out.fan(fan, &self.name(fan.other));
         }
         out.text
     }
@@ -129,6 +123,21 @@ impl Text {
         }
     }
 
+    fn fan(&mut self, fan: &Fan, other: &str) {
+        let factor = self.factor(&fan.features, &format!("{other}.T"), "degC");
+        let moved = match fan.features.is_empty() {
+            true => String::new(),
+            false => format!(" + 2 [K] * ({factor} - 1)"),
+        };
+        let (node, on, off) = (fan.node, fan.on, fan.off);
+        self.line(&format!(
+            "[control]\nfan = {{ sense = \"n{node}\", on_above = \"{on:?} [degC]{moved}\", off_below = \
+             \"{off:?} [degC]{moved}\" }}\n[resistor.blown]\nfrom = \"n{node}\"\nto = \"air\"\nG = \
+             \"{:?} [W/K] * fan\"",
+            fan.more
+        ));
+    }
+
     fn of_property(&mut self, i: usize, element: &Element, ends: &str) {
         if element.kind == Kind::Enthalpy {
             let cp = self.property("J/(kg K)", CP, &element.features);
@@ -174,6 +183,15 @@ fn loss(i: usize, element: &Element, into: &str, x: &str) -> String {
         }
         Kind::BearingOil => {
             format!("{bearing}\nmodel = \"no_load\"\nf0 = {f0:?}\nnu = \"{OIL:?} [mm^2/s] * {x}\"")
+        }
+        Kind::Mesh => {
+            let [z1, z2] = TEETH;
+            format!(
+                "[mesh.e{i}]\n{into}\nmodel = \"external\"\nspeed = \"{RPM:?} rpm\"\ntorque = \"{:?} [N \
+                 m] * {x}\"\nz1 = {z1}\nz2 = {z2}\nmodule = \"{MODULE:?} mm\"\nwidth = \"{WIDTH:?} \
+                 mm\"\nRa = \"{ROUGH:?} um\"\nnu = \"{OIL:?} mm^2/s\"\ndensity = \"{DENSITY:?} kg/m^3\"",
+                torque(size)
+            )
         }
         _ => format!(
             "[churning.e{i}]\n{into}\nspeed = \"{RPM:?} rpm\"\npart = \"sides\"\nD = \"{GEAR:?} \
