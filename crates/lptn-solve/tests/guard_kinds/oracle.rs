@@ -188,7 +188,7 @@ impl<'a> Oracle<'a> {
 
     /// Goes on to a time in s.
     pub(crate) fn to(&mut self, time: f64) {
-        while time - self.time > 1e-12 * time {
+        while time - self.time > 1e-12 * time && !self.is_doubtful() {
             let step = self.step.min(time - self.time);
             let (state, error) = self.twice(step);
             if step > 1e-9 && (error > FINE || self.goes_too_far(&state)) {
