@@ -5,15 +5,18 @@
 //! the exact one. Where nothing changes by itself, the speed `dT/dt` obeys the same linear
 //! equation along the solution as such a difference does. So the speed tells by how much an error
 //! has grown: at most as much as the largest speed has grown since. In networks that only lose
-//! heat it never grows.
+//! heat it never grows. Where a capacity falls, errors of the heat content become larger ones of
+//! the temperature.
 
 use lptn_assembly::ThermalSystem;
+
+use crate::linearised::is_proportional;
 
 /// What changes no state by more than so many tolerances tells only that the speed is not larger.
 const TOLD: f64 = 50.0;
 
 /// Errors that grow by no more than this need no smaller tolerance.
-const BORNE: f64 = 1.15;
+const BORNE: f64 = 1.1;
 
 /// So much counts as the growth where steps pass something narrow over temperature, whose errors
 /// have no time to be forgotten.
@@ -34,6 +37,8 @@ pub(crate) struct Growth {
     /// The state since which the next speed is taken, and the time since then in s.
     before: Vec<f64>,
     elapsed: f64,
+    /// By how much more than its state each temperature changes.
+    weights: Vec<f64>,
     /// The largest change of a state in K/s; unknown behind a jump.
     speed: Option<f64>,
     /// By how much errors have grown since they were smallest, and the most of it.
@@ -46,11 +51,12 @@ impl Growth {
     /// between two jumps: there the speed tells nothing. `tolerance` is that of the integrator in
     /// K.
     pub(crate) fn of(system: &ThermalSystem, tolerance: f64) -> Option<Self> {
-        let told = !system.is_proportional() && system.network().stands_still();
+        let told = !is_proportional(system) && system.network().stands_still();
         told.then(|| Self {
             tolerance,
             before: Vec::new(),
             elapsed: 0.0,
+            weights: Vec::new(),
             speed: None,
             now: 1.0,
             most: 1.0,
@@ -64,11 +70,20 @@ impl Growth {
         self.elapsed = 0.0;
     }
 
+    /// Takes in the slopes of temperatures over their states at the end of a step. Where one is
+    /// below 1 the tolerance is one of the state.
+    pub(crate) fn weigh(&mut self, slopes: &[f64]) {
+        self.weights.clear();
+        self.weights.extend(slopes.iter().map(|slope| slope.max(1.0)));
+    }
+
     /// Takes in a step of so many s to a state. Short steps are taken together.
     pub(crate) fn step(&mut self, length: f64, state: &[f64]) {
         self.elapsed += length;
         let changes = state.iter().zip(&self.before).map(|(now, before)| (now - before).abs());
-        let change = changes.fold(0.0, f64::max);
+        let weights = self.weights.iter().copied().chain(std::iter::repeat(1.0));
+        let change = changes.zip(weights).map(|(change, weight)| change * weight);
+        let change = change.fold(0.0, f64::max);
         let least = TOLD * self.tolerance;
         if self.elapsed <= 0.0 {
             return;
@@ -103,9 +118,9 @@ mod tests {
 
     /// The growth of a run with one state over time, in steps of 1 s.
     fn growth(of: impl Fn(f64) -> f64) -> f64 {
-        let (before, speed) = (vec![], None);
+        let (before, weights, speed) = (vec![], vec![], None);
         let mut growth =
-            Growth { tolerance: 1e-5, before, elapsed: 0.0, speed, now: 1.0, most: 1.0 };
+            Growth { tolerance: 1e-5, before, elapsed: 0.0, weights, speed, now: 1.0, most: 1.0 };
         growth.begin(&[of(0.0)]);
         (1..=50).for_each(|k| growth.step(1.0, &[of(f64::from(k))]));
         growth.most()

@@ -237,7 +237,7 @@ impl<'a> Linearised<'a> {
 }
 
 /// Whether a network is the same near every state: streams with constant capacity rates are.
-fn is_proportional(system: &ThermalSystem) -> bool {
+pub(crate) fn is_proportional(system: &ThermalSystem) -> bool {
     let network = system.network();
     system.is_proportional() && system.states().iter().all(|&id| network.enthalpy(id).is_none())
 }

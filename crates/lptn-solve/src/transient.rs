@@ -341,9 +341,7 @@ impl<'a> Run<'a> {
             self.integrator.rewind(to).map_err(|e| self.failed(e))?;
             self.guard_begins();
         }
-        if let Some(growth) = &mut self.growth {
-            growth.step(to - step.from, self.integrator.state());
-        }
+        self.errors_go_on(to - step.from);
         if to >= segment.to {
             self.due = due; // the next segment begins with it
             return Ok(());

@@ -4,8 +4,11 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 #![allow(clippy::print_stdout, reason = "the measured figures, shown with --nocapture")]
 
+use crate::features;
+
 use std::sync::Arc;
 
+use features::{Dice, Feature, ZERO, seeds};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
     Conductance, Context, HeatCapacity, Network, NetworkBuilder, Path, Temperature, Time,
@@ -13,121 +16,19 @@ use lptn_network::{
 use lptn_solve::{EventKind, Solution, Transient, Unbounded};
 use lptn_units::{Interpolation, LookupTable, Outside, Table1, TableSymbol, Type};
 
-const ZERO: f64 = 273.15;
-
 /// Errors beyond so many tolerances have to be told.
 const FACTOR: f64 = 10.0;
 
 /// How many random bodies are tried; `LPTN_GUARD_CASES` gives another number.
 const CASES: u64 = 120;
 
-/// Numbers between 0 and 1 that look random.
-struct Dice(u64);
-
-impl Dice {
-    fn roll(&mut self) -> f64 {
-        self.0 ^= self.0 << 13;
-        self.0 ^= self.0 >> 7;
-        self.0 ^= self.0 << 17;
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.roll()
-    }
-
-    fn in_ratio(&mut self, low: f64, high: f64) -> f64 {
-        self.between(low.ln(), high.ln()).exp()
-    }
-
-    fn one_of(&mut self, count: u64) -> u64 {
-        (0..count).find(|k| self.roll() * ((count - k) as f64) < 1.0).unwrap_or(count - 1)
-    }
-}
-
-/// Something narrow around a temperature in degC, at most 1 high.
-#[derive(Clone, Debug)]
-enum Shape {
-    Gauss,
-    Tanh,
-    Tent,
-    Ramp,
-    Table(Vec<f64>),
-}
-
-#[derive(Clone, Debug)]
-struct Feature {
-    shape: Shape,
-    at: f64,
-    width: f64,
-    size: f64,
-}
-
-impl Feature {
-    fn random(dice: &mut Dice, (low, high): (f64, f64)) -> Self {
-        let shape = match dice.one_of(5) {
-            0 => Shape::Gauss,
-            1 => Shape::Tanh,
-            2 => Shape::Tent,
-            3 => Shape::Ramp,
-            _ => Shape::Table((0..7).map(|_| dice.roll()).collect()),
-        };
-        let size =
-            if dice.roll() < 0.5 { dice.between(0.3, 5.0) } else { dice.between(-0.3, -0.05) };
-        Self { shape, at: dice.between(low, high), width: dice.in_ratio(0.1, 20.0), size }
-    }
-
-    fn of(&self, celsius: f64) -> f64 {
-        let x = (celsius - self.at) / self.width;
-        let shape = match &self.shape {
-            Shape::Gauss => (-x * x).exp(),
-            Shape::Tanh => 0.5 * ((4.0 * x + 2.0).tanh() - (4.0 * x - 2.0).tanh()),
-            Shape::Tent => (1.0 - x.abs()).max(0.0),
-            Shape::Ramp => x.clamp(0.0, 1.0),
-            Shape::Table(y) => {
-                let place = (x + 1.0).clamp(0.0, 2.0) * 4.0;
-                let all = |k: usize| if k == 0 || k == 8 { 0.0 } else { y[k - 1] };
-                let k = (0_usize..8).rfind(|k| *k as f64 <= place).unwrap_or(0);
-                all(k) + (place - k as f64) * (all(k + 1) - all(k))
-            }
-        };
-        self.size * shape
-    }
-
-    /// The temperatures in degC at which it has corners.
-    fn corners(&self) -> Vec<f64> {
-        let places = match self.shape {
-            Shape::Gauss | Shape::Tanh => vec![],
-            Shape::Tent => vec![-1.0, 0.0, 1.0],
-            Shape::Ramp => vec![0.0, 1.0],
-            Shape::Table(_) => (0..9).map(|k| 0.25 * f64::from(k) - 1.0).collect(),
-        };
-        places.into_iter().map(|x| self.at + x * self.width).collect()
-    }
-
-    fn text(&self, number: usize, temperature: &str) -> String {
-        let Self { at, width, size, .. } = self;
-        let x = format!("(({temperature} - {at:?} [degC]) / {width:?} [K])");
-        let shape = match &self.shape {
-            Shape::Gauss => format!("exp(-{x}^2)"),
-            Shape::Tanh => format!("0.5 * (tanh(4 * {x} + 2) - tanh(4 * {x} - 2))"),
-            Shape::Tent => format!("max(1 - abs({x}), 0)"),
-            Shape::Ramp => format!("min(max({x}, 0), 1)"),
-            Shape::Table(_) => format!("shape{number}({x})"),
-        };
-        format!("{size:?} * {shape}")
-    }
-
-    fn add_table(&self, number: usize, b: &mut NetworkBuilder) {
-        let Shape::Table(values) = &self.shape else { return };
-        let x = (0..9).map(|k| 0.25 * f64::from(k) - 1.0).collect();
-        let y = [&[0.0], &values[..], &[0.0]].concat();
-        let table = Table1::new(x, y, Interpolation::Linear, Outside::Hold).unwrap();
-        let table = Arc::new(LookupTable::One(table));
-        let symbol =
-            TableSymbol { table, arguments: vec![Type::SCALAR], ty: Type::SCALAR, units: vec![] };
-        b.table(&format!("shape{number}"), symbol);
-    }
+fn add_table(feature: &Feature, number: usize, b: &mut NetworkBuilder) {
+    let Some((x, y)) = feature.table() else { return };
+    let table = Table1::new(x, y, Interpolation::Linear, Outside::Hold).unwrap();
+    let table = Arc::new(LookupTable::One(table));
+    let symbol =
+        TableSymbol { table, arguments: vec![Type::SCALAR], ty: Type::SCALAR, units: vec![] };
+    b.table(&format!("shape{number}"), symbol);
 }
 
 /// A body of 1 kJ/K that is heated from 20 degC by about 100 W, or cools from 600 degC.
@@ -165,12 +66,11 @@ impl Body {
         let mut b = NetworkBuilder::new();
         let body = b.node("body", HeatCapacity(C), Temperature::celsius(self.start()));
         let air = b.boundary("air", Temperature::celsius(20.0));
-        self.features.iter().enumerate().for_each(|(k, feature)| feature.add_table(k, &mut b));
-        let terms = self
-            .features
-            .iter()
-            .enumerate()
-            .map(|(k, feature)| feature.text(k, if self.cools { "body.T" } else { "T" }));
+        self.features.iter().enumerate().for_each(|(k, feature)| add_table(feature, k, &mut b));
+        let terms =
+            self.features.iter().enumerate().map(|(k, feature)| {
+                feature.text(k, if self.cools { "body.T" } else { "T" }, "degC")
+            });
         let factor = format!("(1 + {})", terms.collect::<Vec<String>>().join(" + "));
         if self.cools {
             let text = format!("5 [W/K] * {factor}");
@@ -243,14 +143,10 @@ fn error_of(body: &Body, tolerance: f64) -> (f64, Solution) {
 
 #[test]
 fn nothing_narrow_over_temperature_is_passed_unseen() {
-    let cases = std::env::var("LPTN_GUARD_CASES").ok().and_then(|text| text.parse().ok());
     let mut failed = Vec::new();
     let (mut worst, mut told, mut steps) = (0.0_f64, 0, 0);
-    for seed in 1..=cases.unwrap_or(CASES) {
-        let mut dice = Dice(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
-        (0..8).for_each(|_| {
-            dice.roll();
-        });
+    for seed in seeds(CASES) {
+        let mut dice = Dice::new(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15));
         let body = Body::random(&mut dice);
         let tolerance = [1e-3, 1e-4, 1e-5][usize::try_from(seed % 3).unwrap()];
         let (error, solution) = error_of(&body, tolerance);
@@ -339,8 +235,9 @@ impl Row {
     fn random(dice: &mut Dice) -> Self {
         let count = 2 + usize::try_from(dice.one_of(2)).unwrap();
         let feature = |dice: &mut Dice| {
-            let feature = Feature::random(dice, (25.0, 90.0));
-            Feature { width: feature.width.max(0.5), ..feature }
+            let mut feature = Feature::random(dice, (25.0, 90.0));
+            feature.width = feature.width.max(0.5);
+            feature
         };
         let capacities = (0..count).map(|_| dice.in_ratio(50.0, 500.0)).collect();
         let heats = (0..count).map(|_| (dice.between(10.0, 60.0), feature(dice))).collect();
@@ -351,7 +248,7 @@ impl Row {
     fn network(&self) -> Network {
         let mut b = NetworkBuilder::new();
         let features = self.heats.iter().chain(&self.conductances);
-        features.enumerate().for_each(|(k, (_, feature))| feature.add_table(k, &mut b));
+        features.enumerate().for_each(|(k, (_, feature))| add_table(feature, k, &mut b));
         let air = b.boundary("air", Temperature::celsius(20.0));
         let start = Temperature::celsius(20.0);
         let nodes: Vec<_> = (self.capacities.iter().enumerate())
@@ -359,12 +256,12 @@ impl Row {
             .collect();
         let count = nodes.len();
         for (i, (power, feature)) in self.heats.iter().enumerate() {
-            let text = format!("{power:?} [W] * (1 + {})", feature.text(i, "T"));
+            let text = format!("{power:?} [W] * (1 + {})", feature.text(i, "T", "degC"));
             let power = b.expression_in(Context::Source, &text, None).unwrap();
             b.source(&format!("q{i}"), nodes[i], power);
         }
         for (i, (g, feature)) in self.conductances.iter().enumerate() {
-            let text = format!("{g:?} [W/K] * (1 + {})", feature.text(count + i, "T_mean"));
+            let text = format!("{g:?} [W/K] * (1 + {})", feature.text(count + i, "T_mean", "degC"));
             let g = Path::conductance(b.expression_in(Context::Link, &text, None).unwrap());
             match nodes.get(i + 1) {
                 Some(next) => b.resistor(&format!("r{i}"), nodes[i], *next, g),
@@ -406,12 +303,9 @@ impl Row {
 fn rows_of_nodes_agree_with_tiny_steps() {
     const STEPS: usize = 200;
     let tolerance = 1e-3;
-    let mut worst = 0.0_f64;
-    for seed in 1..=10_u64 {
-        let mut dice = Dice(seed.wrapping_mul(0x2545_F491_4F6C_DD1D) | 1);
-        (0..8).for_each(|_| {
-            dice.roll();
-        });
+    let (mut worst, mut told, mut failed) = (0.0_f64, 0, Vec::new());
+    for seed in seeds(10) {
+        let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D));
         let row = Row::random(&mut dice);
         let system = ThermalSystem::assemble(&row.network()).unwrap();
         let run = Transient::until(Time(100.0)).every(Time(1.0)).tolerance(tolerance);
@@ -427,8 +321,12 @@ fn rows_of_nodes_agree_with_tiny_steps() {
             error = errors.fold(error, |most, e| most.max(e.abs() / tolerance));
         }
         println!("row {seed}: {error:.2} tolerances, grown {:.2}", solution.growth());
-        assert!(error < FACTOR || !solution.error_is_bounded(), "row {seed}: {error}");
-        worst = worst.max(error);
+        match solution.why_unbounded() {
+            None if error > FACTOR => failed.push(seed),
+            None => worst = worst.max(error),
+            Some(_) => told += 1,
+        }
     }
-    println!("worst {worst:.2} tolerances");
+    println!("worst {worst:.2} tolerances, {told} told");
+    assert!(failed.is_empty(), "{failed:?}");
 }

@@ -75,6 +75,12 @@ impl Corners {
         self.pieces.copy_from_slice(&self.ahead);
     }
 
+    /// Whether an element goes through another piece at the end of the step that was looked at last
+    /// than at its start.
+    pub(super) fn has_changed(&self) -> bool {
+        self.pieces != self.ahead
+    }
+
     /// Where the heat bends within the step whose end was looked at last, if it does.
     pub(super) fn bend(
         &mut self,

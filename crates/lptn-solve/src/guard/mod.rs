@@ -13,13 +13,15 @@
 //! Networks without tables, kinks and functions that turn have no guard.
 
 mod corners;
+mod errors;
 mod turns;
 
 use lptn_assembly::ThermalSystem;
-use lptn_integrate::{Integrator, Step};
+use lptn_integrate::{Integrator, OdeSystem, Step};
 
 use crate::heat::Heat;
 use corners::Corners;
+use errors::Errors;
 use turns::Turns;
 
 /// An integrator on the way.
@@ -43,6 +45,7 @@ const NEAR: f64 = 4.0;
 pub(crate) struct Guard {
     corners: Corners,
     turns: Turns,
+    errors: Option<Errors>,
     /// Temperatures of all vertices at the start of the next step in K, and how they change in K/s.
     now: Vec<f64>,
     rates: Vec<f64>,
@@ -79,6 +82,7 @@ impl Guard {
         needed.then(|| Self {
             corners,
             turns,
+            errors: None,
             now: vec![f64::NAN; vertices],
             rates: vec![0.0; vertices],
             kink: f64::INFINITY,
@@ -106,6 +110,10 @@ impl Guard {
         if let Some(temperatures) = heat.look(time, &state) {
             self.now.copy_from_slice(temperatures);
             self.corners.begin(heat);
+            // of a single state the speed tells all
+            if heat.pattern().size() > 1 {
+                self.errors.get_or_insert_with(|| Errors::of(heat)).step(heat);
+            }
         }
     }
 
@@ -125,6 +133,11 @@ impl Guard {
     /// Whether something was so narrow that steps would have passed it whole.
     pub(crate) fn met_narrow(&self) -> bool {
         self.turns.were_narrow()
+    }
+
+    /// By how much the error of a single state has grown at most.
+    pub(crate) fn grown(&self) -> f64 {
+        self.errors.as_ref().map_or(1.0, Errors::most)
     }
 
     /// When the guard first gave up on a step, in s.
@@ -163,8 +176,20 @@ impl Guard {
             self.kink = f64::INFINITY;
             verdict = Verdict::BeginsAnew;
         }
+        self.follow_errors(integrator, step, &after);
         self.goes_on(integrator, step, after);
         verdict
+    }
+
+    fn follow_errors(&mut self, integrator: &mut Stepping<'_>, step: &Step, after: &[f64]) {
+        let Some(errors) = &mut self.errors else { return };
+        let why = [!self.turns.are_none(), self.corners.has_changed()];
+        let asks = errors.goes_on([&self.now, after], (step.to - step.from, why));
+        let state = integrator.state().to_vec();
+        let heat = integrator.system_mut();
+        if asks && heat.look(step.to, &state).is_some() {
+            errors.step(heat);
+        }
     }
 
     fn goes_on(&mut self, integrator: &mut Stepping<'_>, step: &Step, after: Vec<f64>) {

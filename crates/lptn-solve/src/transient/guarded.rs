@@ -1,6 +1,6 @@
 //! How a run guards what depends on temperature, and what it makes up for.
 
-use lptn_integrate::Step;
+use lptn_integrate::{OdeSystem, Step};
 
 use crate::growth::{self, Growth};
 use crate::guard::{Guard, Verdict};
@@ -65,9 +65,24 @@ impl Run<'_> {
         }
     }
 
+    /// Follows errors over a step of so many s.
+    pub(super) fn errors_go_on(&mut self, length: f64) {
+        let Some(growth) = &mut self.growth else { return };
+        let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());
+        let heat = self.integrator.system_mut();
+        if heat.slope().is_some()
+            && heat.look(time, &state).is_some()
+            && let Some(slopes) = heat.slope()
+        {
+            growth.weigh(slopes);
+        }
+        growth.step(length, &state);
+    }
+
     /// By how much errors have grown. Those of the steps through something narrow add up too.
     pub(super) fn errors_grow(&self) -> f64 {
         let growth = self.growth.as_ref().map_or(1.0, Growth::most);
+        let growth = growth.max(self.guard.as_ref().map_or(1.0, Guard::grown));
         match self.guard.as_ref().is_some_and(Guard::met_narrow) {
             true => growth.max(growth::NARROW),
             false => growth,
