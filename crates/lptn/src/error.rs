@@ -72,6 +72,7 @@ macro_rules! made_of {
 
 made_of! {
     lptn_analysis::AnalysisError, lptn_analysis::CycleError, lptn_analysis::RunError,
+    lptn_analysis::SimulationError,
     lptn_assembly::AssemblyError, lptn_assembly::ChangeError,
     lptn_fit::choice::ChoiceError, lptn_fit::infer::InferError, lptn_fit::law::LawError, lptn_fit::law::RunsError, lptn_fit::least_squares::LeastSquaresError,
     lptn_fit::network::design::DesignError, lptn_fit::network::NetworkFitError, lptn_fit::step::StepError,
