@@ -4,6 +4,7 @@
 
 use lptn::analysis::{LimitResult, RunAnalysis, Simulation};
 use lptn::answer::{bound, limits, trust};
+use lptn::network::Item;
 use lptn::prelude::*;
 use lptn::solve::{Proceed, RecordedNodes};
 
@@ -12,7 +13,7 @@ fn main() -> Result<(), lptn::Error> {
     let (network, unit) = (&netlist.network, &netlist.temperature_unit);
     let Some(settings) = &netlist.run else { return Ok(()) };
     let steel = network.node("steel")?;
-    let columns = Selection::of(network, |item| item == steel.into());
+    let columns = Selection::of(network, |item| item == Item::Node(steel));
 
     for fan in ["0 W/K", "1.5 W/K", "2.5 W/K"] {
         let system = ThermalSystem::of(network, &netlist.overrides().with("G_fan", fan)?)?;

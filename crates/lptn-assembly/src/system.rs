@@ -188,6 +188,20 @@ impl ThermalSystem {
         Ok(())
     }
 
+    /// The same to the last digit, even where the inputs are taken for straight lines
+    /// ([`Workspace::draw_line`]). They count until they are read again.
+    ///
+    /// # Errors
+    /// As [`ThermalSystem::read_inputs`].
+    pub fn read_exactly(
+        &self,
+        work: &mut Workspace,
+        time: f64,
+        segment: f64,
+    ) -> Result<(), InputError> {
+        work.off_line(|work| self.read_inputs(work, time, segment))
+    }
+
     /// Takes these heats into the nodes in W and these temperatures of the boundaries in K in place
     /// of the network's own inputs, until those are read again: the response to a heat that no
     /// source puts in.

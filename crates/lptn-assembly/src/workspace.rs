@@ -136,6 +136,16 @@ impl Workspace {
         self.line = line;
     }
 
+    /// Does something with inputs that are read themselves, not taken from a line; afterwards they
+    /// have to be read again.
+    pub(crate) fn off_line<T>(&mut self, act: impl FnOnce(&mut Self) -> T) -> T {
+        let Some(line) = self.line.take() else { return act(self) };
+        self.read_at = None;
+        let done = act(self);
+        (self.read_at, self.line) = (None, Some(line));
+        done
+    }
+
     /// What expressions read, where the inputs were read last, and the temperatures.
     pub(crate) fn current(&mut self) -> (&mut Evaluation, &[f64]) {
         if let (true, Some((time, segment))) = (self.behind, self.read_at) {

@@ -120,6 +120,25 @@ fn inputs_are_read_anew_when_the_time_or_its_segment_changes() {
     }
 }
 
+/// A parabola that is taken for a straight line is read as itself where that is asked for, and as
+/// the line again afterwards.
+#[test]
+fn inputs_on_a_line_can_be_read_themselves() {
+    let mut b = NetworkBuilder::new();
+    let node = b.node("a", HeatCapacity(1.0), Temperature(300.0));
+    let square = b.expression("3 [W/s^2] * t^2", None).unwrap();
+    b.source("square", node, square);
+    let system = system(b);
+    let mut work = system.workspace();
+    work.draw_line(system.network(), (0.0, 10.0), 5.0);
+    for _ in 0..2 {
+        system.read_inputs(&mut work, 4.0, 5.0).unwrap();
+        assert!((system.source_powers(&work)[0] - 120.0).abs() < 1e-12);
+        system.read_exactly(&mut work, 4.0, 5.0).unwrap();
+        assert!((system.source_powers(&work)[0] - 48.0).abs() < 1e-12);
+    }
+}
+
 #[test]
 fn an_input_that_fails_leaves_nothing_half_read() {
     let mut b = NetworkBuilder::new();

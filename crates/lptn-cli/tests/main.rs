@@ -56,6 +56,7 @@ mod periodic;
 mod picture;
 mod plan;
 mod plot;
+mod printed;
 mod processors;
 #[path = "../../../tests/support/prose.rs"]
 mod prose;

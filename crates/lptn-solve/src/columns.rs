@@ -59,12 +59,19 @@ impl Columns {
         self.quantities.is_empty()
     }
 
-    /// Writes a row from inputs read and nodes recovered; what cannot be had is NaN.
-    pub(crate) fn push(&mut self, reading: &mut Reading<'_>, work: &mut Workspace, at: (f64, f64)) {
+    /// Writes a row from nodes recovered; what cannot be had is NaN. Inputs are read as they are
+    /// where a row is read after the run, to the same digits.
+    pub(crate) fn push(
+        &mut self,
+        system: &ThermalSystem,
+        (reading, work): (&mut Reading<'_>, &mut Workspace),
+        at: (f64, f64),
+    ) {
         if self.is_empty() {
             return;
         }
-        let known = reading.place(work, at).is_ok();
+        let read = system.read_exactly(work, at.0, at.1);
+        let known = read.and_then(|()| reading.place(work, at)).is_ok();
         let mut value = |&quantity: &Quantity| match known {
             true => reading.value(work, quantity).unwrap_or(f64::NAN),
             false => f64::NAN,

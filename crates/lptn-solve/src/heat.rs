@@ -132,6 +132,11 @@ impl<'a> Heat<'a> {
         self.unfold.algebraic()
     }
 
+    /// The matrix of the factors with which they were found; empty if there are none.
+    pub(crate) fn matrix(&self) -> &[f64] {
+        self.unfold.matrix()
+    }
+
     /// Begins a run with massless nodes where they stood, in K.
     pub(crate) fn stand_at(&mut self, stood: &[f64]) {
         self.unfold.stand_at(stood);

@@ -9,6 +9,7 @@
 
 mod adiabatic;
 mod adjoint;
+mod anchor;
 mod balance;
 mod beside;
 mod between;

@@ -52,7 +52,10 @@ pub(crate) struct Newton<'a> {
     slots: Vec<usize>,
     pub(crate) factors: Box<dyn Factorization>,
     /// Whether the factors are those of some earlier point.
-    ready: bool,
+    pub(crate) ready: bool,
+    /// The matrix with whose factors looks begin, and whether these are at hand (`anchor.rs`).
+    pub(crate) base: Vec<f64>,
+    pub(crate) leans: bool,
     /// Whether the balances may have several solutions, so that one must not be left for another.
     pub(crate) guarded: bool,
     pub(crate) whole: Vec<f64>,
@@ -85,6 +88,8 @@ impl<'a> Newton<'a> {
             slots,
             factors,
             ready: false,
+            base: Vec::new(),
+            leans: false,
             guarded: false,
             whole,
             values,
@@ -325,7 +330,7 @@ impl<'a> Newton<'a> {
         work: &mut Workspace,
         temperatures: &[f64],
     ) -> Result<(), NewtonError> {
-        self.ready = false;
+        (self.ready, self.leans) = (false, false);
         let jacobian =
             self.system.jacobian_at(work, temperatures, JacobianForm::Exact, &mut self.whole);
         jacobian.map_err(NewtonError::Input)?;

@@ -2,11 +2,13 @@
 
 mod look;
 mod lookout;
+mod place;
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::{IntegrateError, Integrator, Statistics, kernels};
 use lptn_network::{NodeId, Positions};
 
+use crate::anchor::Anchor;
 use crate::balance::Balance;
 use crate::columns::{Columns, Room};
 use crate::error::TransientError;
@@ -17,7 +19,6 @@ use crate::last::LastState;
 use crate::ledger::Ledger;
 use crate::limit::{LimitWatch, with_limits};
 use crate::looks::Looks;
-use crate::newton_error::NewtonError;
 use crate::ranges::RangeWatch;
 use crate::reading::Reading;
 use crate::readings::Readings;
@@ -68,6 +69,8 @@ pub(crate) struct Recorder<'a> {
     state: Vec<f64>,
     sensed: Option<Sensed<'a>>,
     unfold: Unfold<'a>,
+    /// Where looks at massless nodes begin that have one solution.
+    anchor: Anchor,
     tolerance: f64,
     /// How many steps under curved inputs the network remembers.
     pub(crate) remembered: f64,
@@ -117,6 +120,7 @@ impl<'a> Recorder<'a> {
             state: vec![0.0; system.states().len()],
             sensed: Sensed::of(system, &settings.sensitivities)?,
             unfold,
+            anchor: Anchor::default(),
             tolerance: settings.tolerance,
             remembered: 0.0,
             branch: Vec::new(),
@@ -167,22 +171,6 @@ impl<'a> Recorder<'a> {
         self.work.draw_line(self.system.network(), (from, to), self.readings.inside(from));
     }
 
-    /// Says where the massless nodes of several solutions stand now, in K.
-    pub(crate) fn set_branch(&mut self, branch: Vec<f64>) {
-        self.branch.clone_from(&branch);
-        self.branch_ahead = branch;
-    }
-
-    /// Says where they stand at the end of the step that is to be written, in K.
-    pub(crate) fn set_branch_ahead(&mut self, branch: Vec<f64>) {
-        self.branch_ahead = branch;
-    }
-
-    /// As they were said last.
-    pub(crate) fn branch(&self) -> &[f64] {
-        &self.branch
-    }
-
     /// Ends the segment here: a row at this time is left to what follows.
     pub(crate) fn cut(&mut self, time: f64) {
         self.segment.to = time;
@@ -203,6 +191,7 @@ impl<'a> Recorder<'a> {
         self.state.copy_from_slice(state);
         self.sensed.iter_mut().for_each(|sensed| sensed.carry(sensitivities));
         self.place(from)?;
+        self.anchor.stand(from, self.unfold.algebraic());
         self.lookout.start(from, self.system.node_temperatures(&self.work));
         self.limits.enter(&mut self.work, (from, self.inside)).map_err(StopReason::Input)?;
         self.ranges.enter(&mut self.work, from).map_err(StopReason::Input)?;
@@ -236,6 +225,7 @@ impl<'a> Recorder<'a> {
         if self.idle {
             return Ok(());
         }
+        self.lean_on(integrator.system(), (from, to));
         while self.due(to) && (self.rows[self.next] < self.segment.to || self.is_last()) {
             let time = self.rows[self.next];
             self.inside = self.readings.inside(time);
@@ -254,6 +244,7 @@ impl<'a> Recorder<'a> {
 
     /// Looks at the watched nodes of a system without state between two times.
     pub(crate) fn look_without_state(&mut self, from: f64, to: f64) -> Result<(), StopReason> {
+        self.walk((from, to));
         self.look_between((from, to), &mut |_, _| Ok(()))
     }
 
@@ -263,25 +254,6 @@ impl<'a> Recorder<'a> {
         self.place(time)?;
         self.check_heat()?;
         self.push()
-    }
-
-    /// The workspace at `time`, for a system without state, with inputs as they are in the stretch
-    /// around `middle`.
-    pub(crate) fn at(&mut self, time: f64, middle: f64) -> Result<&mut Workspace, StopReason> {
-        self.inside = self.readings.inside(middle);
-        self.place(time)?;
-        Ok(&mut self.work)
-    }
-
-    /// The workspace at a time and state; as it was where these cannot be had.
-    pub(crate) fn at_state(&mut self, (time, state): (f64, &[f64])) -> &mut Workspace {
-        self.state.copy_from_slice(state);
-        self.inside = self.readings.inside_before(time);
-        if self.place(time).is_ok() {
-            // brings the heat of sources that depend on temperatures up to date
-            drop(self.reading.place(&mut self.work, (time, self.inside)));
-        }
-        &mut self.work
     }
 
     /// Whether every node is recorded, so that heat flows are asked for.
@@ -296,45 +268,6 @@ impl<'a> Recorder<'a> {
     /// Whether the next row is not after `time`.
     fn due(&self, time: f64) -> bool {
         self.rows.get(self.next).is_some_and(|&row| row <= time)
-    }
-
-    fn place_at(&mut self, time: f64, state_at: &mut StateAt<'_>) -> Result<(), StopReason> {
-        state_at(time, &mut self.state)
-            .map_err(|error| StopReason::Integrator { error, node: None })?;
-        self.place(time)
-    }
-
-    /// Brings the workspace to `time` and the temperatures in `state`.
-    fn place(&mut self, time: f64) -> Result<(), StopReason> {
-        self.placed += 1;
-        self.system.read_inputs(&mut self.work, time, self.inside).map_err(StopReason::Input)?;
-        self.unfold().map_err(|e| StopReason::Unsolved(Unsolved::new(self.system, e)))?;
-        self.system.recover(&mut self.work, self.unfold.last());
-        Ok(())
-    }
-
-    /// Finds the temperatures of massless nodes from where they stood when the step began, or where
-    /// they stand when it ends: near the end of a branch it is the nearer of the two that leads
-    /// there. The run has gone through the step, so that a node that comes from neither without a
-    /// leap leaps on the way, by less than the run has to see.
-    fn unfold(&mut self) -> Result<(), NewtonError> {
-        if self.branch.is_empty() {
-            return self.unfold.temperatures(&mut self.work, &self.state).map(drop);
-        }
-        let mut failed = None;
-        for leaps in [false, true] {
-            for seed in [&self.branch, &self.branch_ahead] {
-                self.unfold.seed(seed);
-                if leaps {
-                    self.unfold.may_leap();
-                }
-                match self.unfold.temperatures(&mut self.work, &self.state) {
-                    Ok(_) => return Ok(()),
-                    Err(error) => failed = failed.or(Some(error)),
-                }
-            }
-        }
-        failed.map_or(Ok(()), Err)
     }
 
     fn push(&mut self) -> Result<(), StopReason> {
@@ -354,7 +287,7 @@ impl<'a> Recorder<'a> {
             pushed.map_err(|e| StopReason::Unsolved(Unsolved::new(self.system, e)))?;
         }
         let at = (self.rows[self.next], self.inside);
-        self.columns.push(&mut self.reading, &mut self.work, at);
+        self.columns.push(self.system, (&mut self.reading, &mut self.work), at);
         self.segments.push(self.inside);
         let position = self.positions.len().checked_sub(1).and_then(|i| u32::try_from(i).ok());
         self.row_positions.extend(position);

@@ -134,6 +134,32 @@ impl<'a> Unfold<'a> {
         self.leaps = false;
     }
 
+    /// Begins the next look at these temperatures; where the unknowns may leap they still may.
+    pub(crate) fn begin(&mut self, algebraic: impl Iterator<Item = f64>) {
+        let states = self.system.states().len();
+        self.temperatures[states..].iter_mut().zip(algebraic).for_each(|(t, at)| *t = at);
+    }
+
+    /// See [`Newton::matrix`].
+    pub(crate) fn matrix(&self) -> &[f64] {
+        self.algebraic.as_ref().map_or(&[], Newton::matrix)
+    }
+
+    /// See [`Newton::lean_on`].
+    pub(crate) fn lean_on(&mut self, matrix: &[f64]) {
+        self.algebraic.iter_mut().for_each(|newton| newton.lean_on(matrix));
+    }
+
+    /// See [`Newton::lean_on_itself`].
+    pub(crate) fn lean_on_itself(&mut self) {
+        self.algebraic.iter_mut().for_each(Newton::lean_on_itself);
+    }
+
+    /// See [`Newton::lean`].
+    pub(crate) fn lean(&mut self) {
+        self.algebraic.iter_mut().for_each(Newton::lean);
+    }
+
     /// Whether the algebraic unknowns are elsewhere than at these temperatures in K by more than
     /// rounding.
     pub(crate) fn is_apart(&self, from: &[f64]) -> bool {

@@ -1,0 +1,78 @@
+//! Where looks at massless nodes begin.
+//!
+//! Newton's method ends where a correction is small, so that the last digits of what it finds come
+//! from where it began and from the factors that it had. Rows, limits and windows look at as many
+//! times as they like; each look begins as if there were no other, with what is known of the step.
+
+use crate::newton::Newton;
+use crate::unfold::Unfold;
+
+/// Temperatures of the massless nodes that are solved for, in K, at some times in s, ascending.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Anchor {
+    known: Vec<(f64, Vec<f64>)>,
+}
+
+impl Anchor {
+    /// Knows no more than this.
+    pub(crate) fn stand(&mut self, time: f64, algebraic: &[f64]) {
+        self.known.clear();
+        self.add(time, algebraic);
+    }
+
+    /// Forgets all but the last, which is what is known at `time`.
+    pub(crate) fn go_on(&mut self, time: f64) {
+        self.known.drain(..self.known.len().saturating_sub(1));
+        self.known.iter_mut().for_each(|(at, _)| *at = time);
+    }
+
+    /// Takes what is known at a time after all others.
+    pub(crate) fn add(&mut self, time: f64, algebraic: &[f64]) {
+        self.known.push((time, algebraic.to_vec()));
+    }
+
+    /// Makes a look at `time` begin: between what is known before and after, or, where there may be
+    /// several solutions, at the one before.
+    pub(crate) fn begin(&self, time: f64, unfold: &mut Unfold<'_>) {
+        unfold.lean();
+        let after = self.known.partition_point(|(at, _)| *at <= time);
+        let Some((from, before)) = self.known.get(after.saturating_sub(1)) else { return };
+        let (to, next) = self.known.get(after).map_or((from, before), |(to, next)| (to, next));
+        let share =
+            if unfold.is_guarded() || to <= from { 0.0 } else { (time - from) / (to - from) };
+        unfold.begin(before.iter().zip(next).map(|(a, b)| a + share * (b - a)));
+    }
+}
+
+impl Newton<'_> {
+    /// The matrix of the factors that it made last; empty if there are none.
+    pub(crate) fn matrix(&self) -> &[f64] {
+        if self.ready { &self.values } else { &[] }
+    }
+
+    /// Takes a matrix with whose factors looks are to begin; without any if it is empty.
+    pub(crate) fn lean_on(&mut self, matrix: &[f64]) {
+        let same = self.base.iter().map(|v| v.to_bits()).eq(matrix.iter().map(|v| v.to_bits()));
+        if !same {
+            self.base.clear();
+            self.base.extend_from_slice(matrix);
+            self.leans = false;
+        }
+    }
+
+    /// Takes the matrix of the factors at hand.
+    pub(crate) fn lean_on_itself(&mut self) {
+        if !self.leans {
+            self.base = self.matrix().to_vec();
+            self.leans = true;
+        }
+    }
+
+    /// Begins a look with the factors of that matrix, whatever was solved meanwhile.
+    pub(crate) fn lean(&mut self) {
+        if !self.leans {
+            self.ready = !self.base.is_empty() && self.factors.factorize(&self.base).is_ok();
+            self.leans = true;
+        }
+    }
+}
