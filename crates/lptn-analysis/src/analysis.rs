@@ -1,12 +1,10 @@
 //! Over what a network is analysed, chosen while the program runs.
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::InputError;
 use lptn_solve::{Periodic, Solution, SteadyState};
 
 use crate::answer::Answer;
 use crate::error::AnalysisError;
-use crate::limits::LimitResult;
 use crate::run::{Observer, RunAnalysis};
 use crate::steady::{steady, steady_within};
 use crate::trust::Trust;
@@ -66,27 +64,6 @@ impl Found {
             Self::Steady(answer) => &answer.trust,
             Self::Run(answer) => &answer.trust,
             Self::Cycle(answer) => &answer.trust,
-        }
-    }
-
-    /// What it is over time; `None` for a steady state.
-    pub fn over_time(&self) -> Option<&Solution> {
-        match self {
-            Self::Steady(_) => None,
-            Self::Run(answer) => Some(answer),
-            Self::Cycle(answer) => Some(&answer.solution),
-        }
-    }
-
-    /// What became of the limits of its network, in their order.
-    ///
-    /// # Errors
-    /// [`InputError`] if a limit has no value in steady state.
-    pub fn limits(&self, system: &ThermalSystem) -> Result<Vec<LimitResult>, InputError> {
-        match self {
-            Self::Steady(answer) => LimitResult::of_steady(system.network(), answer),
-            Self::Run(answer) => Ok(answer.limits().iter().map(LimitResult::of_run).collect()),
-            Self::Cycle(answer) => Ok(LimitResult::of_cycle(answer)),
         }
     }
 }

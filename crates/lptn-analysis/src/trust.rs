@@ -77,9 +77,4 @@ impl Trust {
             others: steady.others.clone(),
         })
     }
-
-    /// Whether there are other steady states, or they cannot be excluded.
-    pub fn may_be_another(&self) -> bool {
-        self.others != Others::None
-    }
 }

@@ -1,21 +1,26 @@
 //! Doubts in the error of a run and in its energy balance.
 
 use lptn_netlist::Diagnostic;
-use lptn_network::list_of_names;
+use lptn_network::{Network, list_of_names};
 use lptn_report::significant;
 use lptn_solve::{Solution, Unbounded};
 
 /// Doubts in the numbers of a run: its error and its balance.
 pub fn doubts(solution: &Solution) -> Vec<Diagnostic> {
     let warning = |code, text: Option<String>| text.map(|text| Diagnostic::warning(code, text));
-    let bound = warning("run::error_not_bounded", not_bounded(solution));
+    let why = solution.why_unbounded();
+    let bound = unbounded(solution.network(), why.as_ref());
     bound.into_iter().chain(warning("run::weak_ledger", weak_ledger(solution))).collect()
 }
 
-/// Errors that add up.
-pub fn not_bounded(solution: &Solution) -> Option<String> {
-    let network = solution.network();
-    let why = match solution.why_unbounded()? {
+/// A doubt in the error of a run that its tolerance does not bound.
+pub fn unbounded(network: &Network, why: Option<&Unbounded>) -> Option<Diagnostic> {
+    Some(Diagnostic::warning("run::error_not_bounded", not_bounded(network, why)?))
+}
+
+/// Errors that add up, as a sentence.
+pub fn not_bounded(network: &Network, why: Option<&Unbounded>) -> Option<String> {
+    let why = match why? {
         Unbounded::NoBoundary(nodes) => {
             let names: Vec<String> =
                 nodes.iter().map(|id| network.nodes()[id.index()].name.clone()).collect();
@@ -24,17 +29,17 @@ pub fn not_bounded(solution: &Solution) -> Option<String> {
         Unbounded::LongMemory { steps } => format!(
             "the network remembers about {} steps of inputs that keep changing; compare with a \
              smaller --tolerance",
-            significant(steps, 1)
+            significant(*steps, 1)
         ),
         Unbounded::Grows { factor } => format!(
             "errors grow by up to a factor of {} where heat rises faster with temperature than it \
              is carried off; compare with a smaller --tolerance",
-            significant(factor, 1)
+            significant(*factor, 1)
         ),
         Unbounded::Unresolved { at } => format!(
             "a step at {} s passes a bend over temperature that could not be resolved; compare \
              with a smaller --tolerance",
-            significant(at, 6)
+            significant(*at, 6)
         ),
         Unbounded::Switches { count } => {
             format!(

@@ -28,9 +28,8 @@ use crate::input::{self, Input, quoted};
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressOfAll;
-use lptn_answer::others;
-use lptn_answer::trust;
 use lptn_answer::words::unverified;
+use lptn_answer::{bound, others, trust};
 
 pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Failure> {
     let files = listed(&args.files)?;
@@ -320,13 +319,15 @@ impl Comparison {
                 let beyond = found.map_or_else(Vec::new, |found| {
                     trust::doubts(&input.netlist, &found.trust, input.netlist.run.is_some())
                 });
+                let unbounded = found.and_then(|found| found.trust.unbounded.as_ref());
+                let unbounded = bound::unbounded(&input.netlist.network, unbounded);
                 let several = outcome.as_ref().ok().and_then(|found| found.several.as_ref());
                 let several =
                     several.and_then(|steady| others(&input.netlist.network, steady, &self.unit));
-                let several = several.map(|warning| Diagnostic {
+                let of_file = |warning: Diagnostic| Diagnostic {
                     message: format!("{file}: {}", warning.message),
                     ..warning
-                });
+                };
                 let has_cycle = found.is_some_and(|found| matches!(found.settled, Some(Ok(_))));
                 let vary = inputs_vary(&input.netlist, &file).filter(|_| !has_cycle);
                 let no_cycle = found.and_then(|found| unsettled(&file, found));
@@ -338,7 +339,8 @@ impl Comparison {
                 let warnings = own
                     .chain(vary)
                     .chain(beyond)
-                    .chain(several)
+                    .chain(unbounded.map(of_file))
+                    .chain(several.map(of_file))
                     .chain(no_cycle)
                     .chain(unsure)
                     .collect();

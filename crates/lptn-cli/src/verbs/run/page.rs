@@ -241,7 +241,7 @@ fn notes(of: &Outcome<'_>, nodes: &[NodeSummary]) -> Vec<String> {
             significant(time, 4)
         )
     }));
-    notes.extend(not_bounded(&of.solution));
+    notes.extend(not_bounded(of.solution.network(), of.solution.trust.unbounded.as_ref()));
     notes.extend(weak_ledger(&of.solution));
     notes
 }

@@ -56,7 +56,10 @@ impl Outcome<'_> {
             ),
             None => "no heat was turned over".into(),
         };
-        let bound = match not_bounded(&self.solution) {
+        let bound = match not_bounded(
+            self.solution.network(),
+            self.solution.trust.unbounded.as_ref(),
+        ) {
             None => Claim::open(format!(
                 "not verified: errors should be below {} K, ten times the tolerance; `lptn verify` \
                  compares with the exact solution",
