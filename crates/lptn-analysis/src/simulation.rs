@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{Item, Network, ParameterId, RunSettings, SignalId, Temperature, Time};
+use lptn_network::{Network, ParameterId, RunSettings, SignalId, Temperature, Time};
 use lptn_solve::{ControlState, Proceed, Rates, Solution, State, StateRates, Transient};
 use serde::{Deserialize, Serialize};
 
@@ -28,6 +28,12 @@ pub struct Simulation {
     state: State,
     controls: Vec<ControlState>,
     temperatures: Vec<f64>,
+}
+
+/// What a client may set.
+enum Input {
+    Parameter(ParameterId),
+    Signal(SignalId),
 }
 
 /// The state of a simulation, to be kept and restored.
@@ -103,12 +109,26 @@ impl Simulation {
     /// [`SimulationError`]; nothing is set then.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), SimulationError> {
         let (mut parameters, mut signals) = (self.parameters.clone(), self.signals.clone());
-        match self.network.item(name)? {
-            Item::Parameter(id) => drop(parameters.insert(name.to_owned(), (id, value))),
-            Item::Signal(id) => drop(signals.insert(name.to_owned(), (id, value))),
-            _ => return Err(SimulationError::NotAnInput(name.to_owned())),
+        match self.input(name)? {
+            Input::Parameter(id) => drop(parameters.insert(name.to_owned(), (id, value))),
+            Input::Signal(id) => drop(signals.insert(name.to_owned(), (id, value))),
         }
         self.change(parameters, signals)
+    }
+
+    fn input(&self, name: &str) -> Result<Input, SimulationError> {
+        let unknown = match self.network.parameter(name) {
+            Ok(id) => return Ok(Input::Parameter(id)),
+            Err(unknown) => unknown,
+        };
+        let mut signals = self.network.signal_ids().zip(self.network.signals());
+        if let Some((id, _)) = signals.find(|(_, signal)| signal.name == name) {
+            return Ok(Input::Signal(id));
+        }
+        match self.network.item(name) {
+            Ok(_) => Err(SimulationError::NotAnInput(name.to_owned())),
+            Err(_) => Err(unknown.into()),
+        }
     }
 
     /// Lets a signal go its own way again, or a parameter have its own value.
