@@ -37,6 +37,12 @@ const OTHER_RULE: [f64; POINTS] = {
     [ends, 0.0, beside, 2.0 - 2.0 * (ends + beside), beside, 0.0, ends]
 };
 
+/// Two rules on (-1, 1) that differ by no more than this share of a curve's range agree.
+const SMOOTH: f64 = 1e-7;
+
+/// The share of a curve's values that is rounding of them.
+const ROUNDED: f64 = 1e-14;
+
 /// Of the interpolation through the points (Berrut and Trefethen, SIAM Review 46, 2004, eq. 3.2).
 const BARYCENTRIC: [f64; POINTS] = {
     let mut weights = [1.0; POINTS];
@@ -85,6 +91,18 @@ impl Interval {
     /// When a point is.
     pub(crate) fn time(&self, point: usize) -> f64 {
         time_of((self.from, self.to), point)
+    }
+
+    /// Whether the points tell a curve between them: both rules agree beside its range, which a jump
+    /// or a kink does not let them, however short the interval is.
+    pub(crate) fn is_smooth(&self, curve: usize) -> bool {
+        let (mut apart, mut low, mut high) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
+        for ((value, weight), other) in self.of(curve).into_iter().zip(RULE).zip(OTHER_RULE) {
+            apart += (weight - other) * value;
+            (low, high) = (low.min(value), high.max(value));
+        }
+        let rounding = ROUNDED * low.abs().max(high.abs());
+        apart.abs() <= SMOOTH * (high - low) + rounding
     }
 
     /// A curve between the points, by the polynomial through them.

@@ -89,6 +89,7 @@ mod variants;
 mod verification;
 mod watch;
 mod window;
+mod zeros;
 
 pub use adjoint::{Adjoint, AdjointError, Influence, ParameterSlopes};
 pub use balance::{Balance, Term};

@@ -10,6 +10,7 @@ use crate::selection::Selection;
 use crate::stop_reason::StopReason;
 use crate::watch::{LASTS, REFINEMENTS, first_there, is_same, top};
 use crate::window::{ColumnSeen, Window, WindowSeen};
+use crate::zeros::share_above;
 
 /// An extreme that differs from the value at an end of the window by less than this share of it is
 /// there.
@@ -83,14 +84,14 @@ impl Tracked {
             let mut values = Vec::with_capacity(window.of.quantities().len());
             columns(time, (&window.of, bends), &mut values).map(|()| values)
         };
-        sums.step((from, to), ((&*bends, slots), &mut at), &mut |interval, smooth| {
+        sums.step((from, to), ((&*bends, slots), &mut at), &mut |interval, told| {
             if first.is_empty() {
                 first.clone_from(&interval.values[0]);
             }
             last.clone_from(&interval.values[POINTS - 1]);
-            look(interval, smooth, min, max);
+            look(interval, told, min, max);
             for (column, sum) in positive.iter_mut().enumerate() {
-                *sum += above_zero(interval, smooth, column);
+                *sum += above_zero(interval, told, column);
             }
         })?;
         self.reached = to;
@@ -139,7 +140,7 @@ fn kinds(of: &Selection, network: &Network) -> Vec<usize> {
 }
 
 /// Takes the extremes of all columns over an interval into those found so far.
-fn look(interval: &Interval, smooth: bool, min: &mut [(f64, f64)], max: &mut [(f64, f64)]) {
+fn look(interval: &Interval, told: bool, min: &mut [(f64, f64)], max: &mut [(f64, f64)]) {
     let times: [f64; POINTS] = std::array::from_fn(|point| interval.time(point));
     for (column, (min, max)) in min.iter_mut().zip(max).enumerate() {
         let values: [f64; POINTS] = std::array::from_fn(|point| interval.values[point][column]);
@@ -147,6 +148,7 @@ fn look(interval: &Interval, smooth: bool, min: &mut [(f64, f64)], max: &mut [(f
         for value in values {
             (low, high) = (low.min(value), high.max(value));
         }
+        let smooth = told && interval.is_smooth(column);
         let of = Curve { interval, column, times: &times, values: &values, smooth };
         // no curve that its points tell leaves their range by as much again
         if high + (high - low) > max.0 {
@@ -158,14 +160,8 @@ fn look(interval: &Interval, smooth: bool, min: &mut [(f64, f64)], max: &mut [(f
     }
 }
 
-/// Parts of the gap between two points in which the sign of a curve near zero is looked at.
-const PARTS: u32 = 8;
-
-/// Halvings of a part in which a curve passes zero: to the rounding of its length.
-const HALVINGS: usize = 53;
-
 /// For how long a column is above zero in an interval.
-fn above_zero(interval: &Interval, smooth: bool, column: usize) -> f64 {
+fn above_zero(interval: &Interval, told: bool, column: usize) -> f64 {
     let values: [f64; POINTS] = std::array::from_fn(|point| interval.values[point][column]);
     let range = |(low, high): (f64, f64), value: f64| (low.min(value), high.max(value));
     let (low, high) = values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), range);
@@ -176,16 +172,11 @@ fn above_zero(interval: &Interval, smooth: bool, column: usize) -> f64 {
     } else if high + (high - low) < 0.0 {
         return 0.0;
     }
-    let at = |time: f64| interval.interpolated(column, time);
-    let mut sum = 0.0;
-    for point in 1..POINTS {
-        let ends = [point - 1, point].map(|point| (interval.time(point), values[point]));
-        sum += match smooth {
-            true => above_on_the_curve(ends, &at),
-            false => above_on_the_chord(ends),
-        };
+    if told && interval.is_smooth(column) {
+        return length * share_above(&values);
     }
-    sum
+    let point = |point: usize| (interval.time(point), values[point]);
+    (1..POINTS).map(|to| above_on_the_chord([point(to - 1), point(to)])).sum()
 }
 
 fn above_on_the_chord([(from, first), (to, last)]: [(f64, f64); 2]) -> f64 {
@@ -194,34 +185,6 @@ fn above_on_the_chord([(from, first), (to, last)]: [(f64, f64); 2]) -> f64 {
         (false, false) => 0.0,
         _ => (to - from) * first.max(last) / (first - last).abs(),
     }
-}
-
-fn above_on_the_curve([begin, end]: [(f64, f64); 2], at: &dyn Fn(f64) -> f64) -> f64 {
-    let (mut from, mut sum) = (begin, 0.0);
-    for part in 1..=PARTS {
-        let time = begin.0 + (end.0 - begin.0) * f64::from(part) / f64::from(PARTS);
-        let to = if part == PARTS { end } else { (time, at(time)) };
-        sum += match (from.1 > 0.0, to.1 > 0.0) {
-            (true, true) => to.0 - from.0,
-            (false, false) => 0.0,
-            (true, false) => zero((from.0, to.0), true, at) - from.0,
-            (false, true) => to.0 - zero((from.0, to.0), false, at),
-        };
-        from = to;
-    }
-    sum
-}
-
-/// Where a curve passes zero that begins above or below it.
-fn zero((mut from, mut to): (f64, f64), above: bool, at: &dyn Fn(f64) -> f64) -> f64 {
-    for _ in 0..HALVINGS {
-        let middle = from + 0.5 * (to - from);
-        match (at(middle) > 0.0) == above {
-            true => from = middle,
-            false => to = middle,
-        }
-    }
-    to
 }
 
 /// A column over an interval.

@@ -20,6 +20,7 @@ mod failures;
 mod features;
 mod guard;
 mod guard_kinds;
+mod levels;
 mod lumping;
 mod methods;
 mod modes;

@@ -24,7 +24,7 @@ pub mod sweep;
 pub mod uncertainty;
 
 pub use compare::{
-    Above, Candidate, CompareError, CompareRow, HeatOut, HeatOver, LimitResult, PathShare, Peak,
+    Above, Candidate, CandidateLimit, CompareError, CompareRow, HeatOut, HeatOver, PathShare, Peak,
     Scatter, Settled, Share, SortKey, compare_table, order,
 };
 pub use digest::{Hashing, sha256};

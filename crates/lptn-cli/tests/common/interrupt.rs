@@ -12,10 +12,15 @@ const PATIENCE: Duration = Duration::from_secs(600);
 /// Starts the program and presses Ctrl-C when it has used half a second of CPU, far more than the
 /// gearbox needs.
 pub(crate) fn interrupted(folder: &Folder, arguments: &[&str]) -> Ran {
+    interrupted_after(50, folder, arguments)
+}
+
+/// The same after so many hundredths of a second of CPU.
+pub(crate) fn interrupted_after(ticks: u64, folder: &Folder, arguments: &[&str]) -> Ran {
     let child =
         folder.command(arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let begun = Instant::now();
-    while cpu_ticks(&child).is_none_or(|ticks| ticks < 50) && begun.elapsed() < PATIENCE {
+    while cpu_ticks(&child).is_none_or(|used| used < ticks) && begun.elapsed() < PATIENCE {
         std::thread::sleep(Duration::from_millis(10));
     }
     let signal = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();

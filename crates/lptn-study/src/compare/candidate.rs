@@ -11,7 +11,7 @@ use crate::compare::asked::{all_nodes, bare};
 use crate::compare::doubt::Scatter;
 use crate::compare::error::CompareError;
 use crate::compare::heat::{HeatOut, HeatOver};
-use crate::compare::limits::{self, LimitResult};
+use crate::compare::limits::{self, CandidateLimit};
 use crate::compare::peak::{Peak, hottest, peak};
 use crate::compare::settled::{self, Settled};
 
@@ -28,7 +28,7 @@ pub struct Candidate {
     /// run ends before.
     pub time_to_95: Option<f64>,
     /// Every limit, in the order of the network.
-    pub limits: Vec<LimitResult>,
+    pub limits: Vec<CandidateLimit>,
     /// The settled cycle, where signals repeat themselves: what came of it, or why there is none.
     pub settled: Option<Result<Settled, Arc<PeriodicError>>>,
     /// Where its heat goes.
@@ -99,7 +99,7 @@ impl Candidate {
 
     /// The temperature limit with the least margin: of those of severity error, else of the
     /// warnings; `None` without a limit of a temperature.
-    pub fn worst(&self) -> Option<&LimitResult> {
+    pub fn worst(&self) -> Option<&CandidateLimit> {
         let of = |severity| {
             let judged = self.limits.iter().filter(|l| !l.is_open());
             let limits = judged.filter(move |l| l.is_temperature() && l.severity == severity);

@@ -5,7 +5,7 @@ use lptn_units::{Dimension, Type};
 
 /// What became of a limit.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LimitResult {
+pub struct CandidateLimit {
     /// The name of the limit in its network.
     pub name: String,
     /// Type of the margin; a difference for temperatures.
@@ -20,7 +20,7 @@ pub struct LimitResult {
     pub broken_at: Option<f64>,
 }
 
-impl LimitResult {
+impl CandidateLimit {
     /// Whether it is neither kept nor broken, because it was not judged.
     pub fn is_open(&self) -> bool {
         self.margin.is_nan()
@@ -38,11 +38,14 @@ impl LimitResult {
 }
 
 /// The limits of a network by name, in its order.
-pub(crate) fn named(network: &Network, found: &[lptn_analysis::LimitResult]) -> Vec<LimitResult> {
+pub(crate) fn named(
+    network: &Network,
+    found: &[lptn_analysis::LimitResult],
+) -> Vec<CandidateLimit> {
     let one = |found: &lptn_analysis::LimitResult| {
         let limit = &network.limits()[found.limit.index()];
         let (name, ty, severity) = (limit.name.clone(), limit.margin_type(), limit.severity);
-        LimitResult { name, ty, severity, margin: found.margin, broken_at: found.broken_at }
+        CandidateLimit { name, ty, severity, margin: found.margin, broken_at: found.broken_at }
     };
     found.iter().map(one).collect()
 }

@@ -15,7 +15,7 @@ pub use candidate::Candidate;
 pub use doubt::{Above, Scatter};
 pub use error::CompareError;
 pub use heat::{HeatOut, HeatOver, PathShare, Share};
-pub use limits::LimitResult;
+pub use limits::CandidateLimit;
 pub use peak::Peak;
 pub(crate) use peak::hottest;
 pub use rank::{SortKey, order};

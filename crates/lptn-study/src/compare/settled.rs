@@ -9,7 +9,7 @@ use lptn_solve::{Periodic, PeriodicError, Summary};
 
 use crate::compare::asked::{all_nodes, bare};
 use crate::compare::error::CompareError;
-use crate::compare::limits::{self, LimitResult};
+use crate::compare::limits::{self, CandidateLimit};
 use crate::compare::peak::{Peak, hottest, peak};
 
 /// What is compared of a settled cycle. Temperatures in K, times in s.
@@ -22,7 +22,7 @@ pub struct Settled {
     /// How long the cycle is.
     pub period: f64,
     /// Every limit over the cycle, in the order of the network.
-    pub limits: Vec<LimitResult>,
+    pub limits: Vec<CandidateLimit>,
 }
 
 /// A settled cycle with its answer.

@@ -7,7 +7,7 @@ use lptn_units::Unit;
 use crate::compare::candidate::Candidate;
 use crate::compare::doubt::Scatter;
 use crate::compare::heat::{HeatOut, HeatOver, PathShare};
-use crate::compare::limits::LimitResult;
+use crate::compare::limits::CandidateLimit;
 use crate::compare::settled::Settled;
 
 /// A candidate with what it is called.
@@ -41,13 +41,13 @@ impl CompareRow {
             (true, _) => "broken",
             (false, true) => "warning",
             (false, false) if candidate.limits.is_empty() => "none",
-            (false, false) if candidate.limits.iter().any(LimitResult::is_open) => "not judged",
+            (false, false) if candidate.limits.iter().any(CandidateLimit::is_open) => "not judged",
             (false, false) => "kept",
         }
     }
 
     /// Its result for the limit of this name, if it has one.
-    pub fn limit(&self, name: &str) -> Option<&LimitResult> {
+    pub fn limit(&self, name: &str) -> Option<&CandidateLimit> {
         self.candidate()?.limits.iter().find(|limit| limit.name == name)
     }
 
@@ -77,7 +77,7 @@ impl CompareRow {
     }
 
     /// Its result for the limit of this name over the settled cycle, if it has one.
-    pub fn settled_limit(&self, name: &str) -> Option<&LimitResult> {
+    pub fn settled_limit(&self, name: &str) -> Option<&CandidateLimit> {
         self.settled()?.limits.iter().find(|limit| limit.name == name)
     }
 }
@@ -217,7 +217,7 @@ fn of_heat(rows: &[CompareRow], table: &mut TableOf<'_, CompareRow>) {
 /// The margins of the limits of a name and when they break. Candidates may mean different
 /// quantities by one name: each quantity has a column of its own, told apart by the unit.
 fn of_limit(rows: &[CompareRow], name: &str, table: &mut TableOf<'_, CompareRow>) {
-    let unit = |limit: &LimitResult| limit.ty.dimension.si_unit();
+    let unit = |limit: &CandidateLimit| limit.ty.dimension.si_unit();
     let mut units: Vec<String> = Vec::new();
     for found in rows.iter().filter_map(|row| row.limit(name)).map(unit) {
         if !units.contains(&found) {

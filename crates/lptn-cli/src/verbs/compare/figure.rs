@@ -2,7 +2,7 @@
 
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Moment, Panel};
-use lptn_study::{Candidate, CompareRow, HeatOver, LimitResult};
+use lptn_study::{Candidate, CandidateLimit, CompareRow, HeatOver};
 
 use super::{Comparison, page};
 use lptn_answer::words::count;
@@ -25,7 +25,7 @@ impl Comparison {
         hot.curves = named.into_iter().filter_map(|(name, points)| dots(name, points)).collect();
         let mut margins = Panel::new(Axis::linear("margin", "K"), candidates());
         for name in CompareRow::limit_names(&self.rows) {
-            let margin = |limit: &LimitResult| {
+            let margin = |limit: &CandidateLimit| {
                 (limit.is_temperature() && !limit.is_open()).then_some(limit.margin)
             };
             let points = self.points(&|row| row.limit(name).and_then(margin));

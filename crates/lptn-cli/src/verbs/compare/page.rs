@@ -9,7 +9,7 @@ use lptn_report::{
     Align, Column, Json, Page, Report, Rows, Standing, Text, TextTable, WIDTH, decimals, duration,
     fixed, plain, prefix, significant, stacked,
 };
-use lptn_study::{Candidate, CompareRow, HeatOut, HeatOver, LimitResult, compare_table};
+use lptn_study::{Candidate, CandidateLimit, CompareRow, HeatOut, HeatOver, compare_table};
 use serde_json::Value;
 
 use super::{Comparison, doubts};
@@ -173,7 +173,7 @@ fn verdict(row: &CompareRow, end: Exit) -> &str {
     }
 }
 
-type OfRow<'a> = dyn Fn(&'a CompareRow, &str) -> Option<&'a LimitResult>;
+type OfRow<'a> = dyn Fn(&'a CompareRow, &str) -> Option<&'a CandidateLimit>;
 
 /// A column for each limit: its margin, and when it breaks.
 fn margins<'a>(rows: &'a [CompareRow], limit: &OfRow<'a>) -> Vec<Column> {
@@ -193,7 +193,7 @@ fn settled_margins(rows: &[CompareRow]) -> Vec<Column> {
     }
 }
 
-fn margin(limit: &LimitResult) -> String {
+fn margin(limit: &CandidateLimit) -> String {
     if limit.is_open() {
         return NOTHING.into();
     }
