@@ -40,8 +40,8 @@ const OTHER_RULE: [f64; POINTS] = {
 /// Two rules on (-1, 1) that differ by no more than this share of a curve's range agree.
 const SMOOTH: f64 = 1e-7;
 
-/// The share of a curve's values that is rounding of them.
-const ROUNDED: f64 = 1e-14;
+/// The two rules agree to this share of the integral of the absolute value.
+pub(crate) const AGREEMENT: f64 = 1e-10;
 
 /// Of the interpolation through the points (Berrut and Trefethen, SIAM Review 46, 2004, eq. 3.2).
 const BARYCENTRIC: [f64; POINTS] = {
@@ -93,16 +93,17 @@ impl Interval {
         time_of((self.from, self.to), point)
     }
 
-    /// Whether the points tell a curve between them: both rules agree beside its range, which a jump
-    /// or a kink does not let them, however short the interval is.
+    /// Whether the points tell a curve between them: both rules agree to a share of its values, or of
+    /// its range where it passes zero. A jump or a kink does not let them, however short the interval
+    /// is.
     pub(crate) fn is_smooth(&self, curve: usize) -> bool {
-        let (mut apart, mut low, mut high) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
+        let (mut apart, mut size) = (0.0_f64, 0.0);
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for ((value, weight), other) in self.of(curve).into_iter().zip(RULE).zip(OTHER_RULE) {
-            apart += (weight - other) * value;
+            (apart, size) = (apart + (weight - other) * value, size + weight * value.abs());
             (low, high) = (low.min(value), high.max(value));
         }
-        let rounding = ROUNDED * low.abs().max(high.abs());
-        apart.abs() <= SMOOTH * (high - low) + rounding
+        apart.abs() <= (SMOOTH * (high - low)).max(AGREEMENT * size)
     }
 
     /// A curve between the points, by the polynomial through them.

@@ -4,9 +4,9 @@ use lptn_network::Bends;
 
 use crate::cuts::{Levels, passing, points};
 use crate::hidden::Hidden;
-use crate::interval::{At, Interval};
+use crate::interval::{AGREEMENT, At, Interval};
 use crate::limit_seen::{LimitSeen, Point};
-use crate::quadrature::{AGREEMENT, Halvings, ROUNDING};
+use crate::quadrature::{Halvings, ROUNDING};
 use crate::resolve::{Judged, Resolved, resolve};
 use crate::stop_reason::StopReason;
 use crate::watch::{is_same, top};

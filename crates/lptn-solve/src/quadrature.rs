@@ -4,13 +4,9 @@ use lptn_network::Bends;
 
 use crate::cuts::Levels;
 use crate::hidden::Hidden;
-use crate::interval::{At, Interval};
+use crate::interval::{AGREEMENT, At, Interval};
 use crate::resolve::{Judged, Resolved, resolve};
 use crate::stop_reason::StopReason;
-
-/// The two rules agree to this share of the integral of the absolute value, or the interval is
-/// halved.
-pub(crate) const AGREEMENT: f64 = 1e-10;
 
 /// Nor is it halved for less than this share of the largest integral among the curves of the same
 /// kind: the difference of two temperatures that are nearly equal is rounding.
