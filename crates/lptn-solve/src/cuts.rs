@@ -163,7 +163,7 @@ pub(crate) fn passing(
         }
         let slow = look % 3 == 0 && b - a > 0.5 * std::mem::replace(&mut width, b - a);
         // a good guess is closed in from its other side
-        let time = match next > a && next < b && !slow {
+        let time = match next >= a && next <= b && !slow {
             true => next.clamp(a + 0.5 * least, b - 0.5 * least),
             false => a + 0.5 * (b - a),
         };
@@ -193,4 +193,87 @@ pub(crate) fn passing(
 pub(crate) fn points(interval: &Interval, column: usize) -> [(f64, f64); POINTS] {
     let (times, values) = (interval.times(), interval.of(column));
     std::array::from_fn(|point| (times[point], values[point]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The times at which a curve over (0, 10) is cut at some levels, and how often it was
+    /// evaluated for that.
+    fn cut(curve: impl Fn(f64) -> f64, levels: &[f64]) -> (Vec<f64>, usize) {
+        let mut calls = 0;
+        let mut at = |time: f64| {
+            calls += 1;
+            Ok(vec![0.0, curve(time)])
+        };
+        let ends = [at(0.0).unwrap(), at(10.0).unwrap()];
+        let interval = Interval::new((0.0, 10.0), ends, &mut at).unwrap();
+        let of = [levels.to_vec()];
+        let found = cuts(&interval, Levels { count: 1, of: &of }, &mut at).unwrap();
+        found.iter().for_each(|(time, values)| {
+            assert!((values[1] - curve(*time)).abs() < 1e-15, "the values are those of {time}");
+        });
+        (found.into_iter().map(|(time, _)| time).collect(), calls - POINTS)
+    }
+
+    fn near(found: &[f64], expected: &[f64]) {
+        assert_eq!(found.len(), expected.len(), "{found:?} for {expected:?}");
+        found.iter().zip(expected).for_each(|(a, b)| assert!((a - b).abs() < 1e-12, "{a} for {b}"));
+    }
+
+    /// Where the points tell the curve the guess is the time: a look to each side of it.
+    #[test]
+    fn each_passage_of_each_level_is_found_in_two_looks() {
+        for sign in [1.0, -1.0] {
+            let line = |t: f64| sign * (2.0 * t - 7.0);
+            let (found, looks) = cut(line, &[sign * 1.0, sign * 6.0]);
+            near(&found, &[4.0, 6.5]);
+            assert!(looks <= 6, "{looks}");
+            let parabola = |t: f64| sign * (t - 4.0) * (t - 4.0);
+            let (found, looks) = cut(parabola, &[sign * 4.0]);
+            near(&found, &[2.0, 6.0]);
+            assert!(looks <= 6, "{looks}");
+        }
+    }
+
+    #[test]
+    fn levels_out_of_reach_cost_nothing() {
+        assert_eq!(cut(|t| t, &[-11.0, 21.0]), (vec![], 0));
+        assert_eq!(cut(|_| 3.0, &[3.0]), (vec![], 0));
+        near(&cut(|t| t, &[-0.5, 10.5]).0, &[]);
+    }
+
+    /// A top that no point has passed, between two of them.
+    #[test]
+    fn a_top_between_the_points_is_looked_at() {
+        for sign in [1.0, -1.0] {
+            let top = |t: f64| sign * (9.0 - (t - 3.6) * (t - 3.6));
+            near(&cut(top, &[sign * 8.99]).0, &[3.5, 3.7]);
+            near(&cut(top, &[sign * (9.0 - 1e-4)]).0, &[3.59, 3.61]);
+        }
+    }
+
+    /// An end that stands at a level was cut there already.
+    #[test]
+    fn an_end_at_a_level_is_no_cut() {
+        for sign in [1.0, -1.0] {
+            near(&cut(|t| sign * t, &[0.0, sign * 10.0]).0, &[]);
+            near(&cut(|t| sign * t * (t - 6.0), &[0.0]).0, &[6.0]);
+            near(&cut(|t| sign * (t - 10.0) * (t - 3.0), &[0.0]).0, &[3.0]);
+        }
+    }
+
+    /// A curve that its points do not tell is closed in by secants and halvings.
+    #[test]
+    fn a_steep_passage_is_closed_in() {
+        for at in [0.7, 3.0, 8.8] {
+            let (found, looks) = cut(|t| ((t - at) * 40.0).tanh() + 0.5, &[0.0]);
+            near(&found, &[at - 0.5_f64.atanh() / 40.0]);
+            assert!(looks < 60, "{looks}");
+            let (found, looks) = cut(|t| if t < at { -1.0 } else { 2.0 }, &[0.0]);
+            near(&found, &[at]);
+            assert!(looks < 120, "{looks}");
+        }
+    }
 }
