@@ -226,6 +226,33 @@ fn every_file_of_tests_is_run() {
     }
 }
 
+/// The packages of ours in a lock, each with what it depends on; versions left out.
+fn locked(lock: &str) -> BTreeMap<String, Vec<String>> {
+    let text = std::fs::read_to_string(root().join(lock)).expect("a lock");
+    let name = |line: &str| line.split('"').nth(1).unwrap_or_default().to_owned();
+    let package = |block: &str| {
+        let lines = || block.lines().map(str::trim);
+        let own = lines().find(|line| line.starts_with("name = "))?;
+        let uses = lines().filter(|line| line.starts_with('"'));
+        let uses = uses.map(|line| name(line).split(' ').next().unwrap_or_default().to_owned());
+        Some((name(own), uses.collect()))
+    };
+    let all = text.split("[[package]]").filter_map(package);
+    all.filter(|(name, _)| name.starts_with("lptn-")).collect()
+}
+
+/// `make fuzz` builds with its own lock, which nothing else reads.
+#[test]
+fn the_lock_of_the_fuzzer_knows_our_crates() {
+    let (ours, fuzz) = (arrows(), locked("fuzz/Cargo.lock"));
+    for (name, uses) in fuzz.iter().filter(|(name, _)| *name != "lptn-fuzz") {
+        let known = ours.get(name).unwrap_or_else(|| panic!("{name} is no crate of ours"));
+        let missing: Vec<&String> = known.iter().filter(|used| !uses.contains(used)).collect();
+        assert!(missing.is_empty(), "fuzz/Cargo.lock: {name} uses {missing:?} too");
+    }
+    assert!(fuzz.len() > 10, "{fuzz:?}");
+}
+
 #[test]
 fn files_are_short() {
     for (name, text) in all_sources() {
