@@ -58,7 +58,7 @@ impl Analysis {
 }
 
 impl Found {
-    /// How far it can be trusted.
+    /// The trust in it.
     pub fn trust(&self) -> &Trust {
         match self {
             Self::Steady(answer) => &answer.trust,

@@ -9,7 +9,7 @@ use crate::trust::Trust;
 pub struct Answer<T> {
     /// The numbers.
     pub result: T,
-    /// How far they can be trusted.
+    /// The trust in them.
     pub trust: Trust,
 }
 

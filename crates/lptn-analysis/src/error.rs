@@ -1,6 +1,5 @@
 //! Why an analysis has no answer.
 
-use lptn_network::InputError;
 use lptn_solve::{PeriodicError, Solution, SteadyError, TransientError};
 use lptn_units::{Class, format_six};
 
@@ -21,7 +20,7 @@ pub enum RunError {
 }
 
 lptn_units::errors! {
-/// Why there is no settled cycle.
+/// Errors of the search for a settled cycle.
 #[derive(Debug)]
 pub enum CycleError {
     /// It does not exist or was not found.
@@ -35,11 +34,11 @@ lptn_units::errors! {
 /// Why an analysis has no answer.
 #[derive(Debug)]
 pub enum AnalysisError {
-    /// There is no steady state.
+    /// No steady state exists or was found.
     Steady => SteadyError;
-    /// There is no run.
+    /// The run failed or was interrupted.
     Run => RunError;
-    /// There is no settled cycle.
+    /// No settled cycle exists or was found.
     Cycle => Box<PeriodicError>;
 }
 }
@@ -53,23 +52,7 @@ impl From<CycleError> for AnalysisError {
     }
 }
 
-impl AnalysisError {
-    /// The value that failed, if that is the reason.
-    pub fn input(&self) -> Option<&InputError> {
-        match self {
-            Self::Steady(error) => error.input(),
-            Self::Run(error) => error.input(),
-            Self::Cycle(error) => error.input(),
-        }
-    }
-}
-
 impl RunError {
-    /// The value that failed, if that is the reason.
-    pub fn input(&self) -> Option<&InputError> {
-        if let Self::Failed(error) = self { error.input() } else { None }
-    }
-
     /// The part of a run that was computed before it ended, with the error that ended it: `None`
     /// for one that was interrupted, and for one whose energy balance does not close, which its
     /// ledger tells.

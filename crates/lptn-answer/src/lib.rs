@@ -2,8 +2,8 @@
 //! ranges, nodes that are not lumps.
 //!
 //! A doubt is a [`Diagnostic`](lptn_netlist::Diagnostic) of severity warning with its code, its
-//! sentence, its place in the netlist and what to do. Clients print what this crate gives; none
-//! makes a doubt of its own.
+//! sentence, its place in the netlist and what to do. Clients print what this crate gives.
+//! Doubts of fits, inferences and plans are still made by the command line.
 
 pub mod bound;
 pub mod families;

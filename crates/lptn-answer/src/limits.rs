@@ -1,4 +1,4 @@
-//! Limits as a result: a line each, JSON, and what a broken one does to the exit code.
+//! Limits as a result: a line each, JSON, and the verdict on them.
 
 use lptn_analysis::LimitResult;
 use lptn_netlist::{Diagnostic, Netlist};
