@@ -21,9 +21,9 @@ const ORDER: [&str; 20] = [
     "lptn-fit",
     "lptn-study",
     "lptn-report",
-    "lptn-answer",
     "lptn-html",
     "lptn-graph",
+    "lptn-answer",
     "lptn",
     "lptn-cli",
 ];

@@ -5,15 +5,31 @@
 //! sentence, its place in the netlist and what to do. Clients print what this crate gives.
 //! Doubts of fits, inferences and plans are still made by the command line.
 
+pub mod about;
+pub mod balance;
+pub mod belief;
 pub mod bound;
+pub mod exit;
+pub mod failure;
 pub mod families;
 mod gaps;
+pub mod input;
 pub mod limits;
+pub mod listener;
 pub mod lumping;
+pub mod messages;
+pub mod operating_point;
+pub mod period;
 pub mod ranges;
+pub mod rank;
+pub mod refused;
+pub mod run;
 pub mod scale;
+pub mod select;
 mod steady;
+pub mod taken;
 pub mod trust;
+pub mod unseparated;
 pub mod words;
 
 pub use gaps::gaps;

@@ -10,10 +10,10 @@ use lptn_units::suggest;
 use crate::args::{Always, Args};
 use crate::console::Console;
 use crate::drawing::terminal_width;
-use crate::exit::Exit;
-use crate::input::quoted;
 use crate::options::{Color, Global};
 use crate::verbs::Verb;
+use lptn_answer::exit::Exit;
+use lptn_answer::input::quoted;
 
 /// Longer lines are hard to read, however wide the terminal is.
 const WIDEST_HELP: usize = 100;

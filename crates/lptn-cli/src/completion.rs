@@ -9,8 +9,9 @@ use clap_complete::env::CompleteEnv;
 use lptn_netlist::{Netlist, library};
 use lptn_solve::Selection;
 
-use crate::input::Input;
+use crate::input::Load as _;
 use crate::options::Source;
+use lptn_answer::input::Input;
 
 /// Answers a shell that asks for completions, and ends the program then.
 pub(crate) fn answer_shell(command: fn() -> Command) {

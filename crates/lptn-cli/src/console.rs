@@ -11,12 +11,12 @@ use lptn_report::{Format, Look, Page, Report};
 
 use crate::diagnostics::render;
 use crate::drawing::{self, Drawing};
-use crate::exit::Exit;
-use crate::failure::{Failure, reason};
 use crate::options::{Color, Global};
 use crate::phases::Phases;
 use crate::refusal::Refusal;
 use crate::reporting::{self, Reporting};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, reason};
 
 pub(crate) use lptn_answer::lumping::Detail;
 

@@ -7,9 +7,9 @@ use lptn_netlist::Diagnostic;
 use lptn_plot::Figure;
 use lptn_report::{Picture, WIDTH};
 
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 
 /// Where a picture goes.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -2,34 +2,26 @@
 //!
 //! Each verb is a folder of [`verbs`]. Results go to stdout, everything else to stderr; every
 //! failure is a [`lptn_netlist::Diagnostic`] with a stable code, shown the way rustc shows its own,
-//! and ends with one of the codes of [`exit`]. A fault of the program itself is one of them too:
+//! and ends with one of the codes of [`Exit`]. A fault of the program itself is one of them too:
 //! see [`panic_net`].
 
-mod about;
 mod args;
-mod balance;
-mod belief;
 mod command;
 mod completion;
 mod console;
 mod diagnostics;
 mod drawing;
-mod exit;
-mod failure;
 mod files;
 mod input;
 mod interrupt;
+mod listening;
 mod operating_point;
 mod options;
 mod panic_net;
-mod period;
 mod phases;
 mod progress;
 mod refusal;
 mod reporting;
-mod select;
-mod taken;
-mod unseparated;
 mod verbs;
 mod verdict;
 mod written;
@@ -38,8 +30,8 @@ use std::process::ExitCode;
 
 use args::Args;
 use console::Console;
-use exit::Exit;
-use failure::Failure;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 use verbs::Verb;
 
 /// As much memory as this is kept for the next use when it is given back, by glibc: what was freed

@@ -1,22 +1,11 @@
-//! The state of a network that is looked at: where it settles, or a time of its run.
+//! `--at`: the state near which a network that is not linear is linearised.
 
 use clap::Args as Arguments;
-use lptn_analysis::RunAnalysis;
-use lptn_netlist::{Diagnostic, RunSettings, Span};
-use lptn_network::Network;
-use lptn_report::{duration, significant};
-use lptn_solve::{LinearisedError, RunStatus, Snapshot, Solution, SteadyState, Tried};
-use lptn_study::SiValue;
-use lptn_units::Unit;
-use serde_json::{Value, json};
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
+use lptn_answer::operating_point::OperatingPoint;
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::{Failure, told};
-use crate::input::{self, Input};
-use crate::verbs::run::job::{no_run, observed, time_of_run};
-use crate::verbs::steady::failed;
-use lptn_answer::{adiabatic, bound, inputs_vary, others};
 
 /// Where a network that is not linear is taken for a linear one.
 #[derive(Clone, Debug, Default, Arguments)]
@@ -26,12 +15,6 @@ pub(crate) struct At {
     pub(crate) at: Option<String>,
 }
 
-/// A state of a network, and how it is called.
-pub(crate) struct OperatingPoint {
-    pub(crate) state: Snapshot,
-    name: String,
-}
-
 impl At {
     /// The state that is asked for, if one is.
     pub(crate) fn find(
@@ -39,116 +22,7 @@ impl At {
         input: &Input,
         console: &Console,
     ) -> Result<Option<OperatingPoint>, Failure> {
-        let Some(text) = &self.at else { return Ok(None) };
-        if text == "steady" {
-            let unit = input::temperature_unit(None, &input.netlist)?;
-            let state = steady(input, &unit, console)?.state;
-            return Ok(Some(OperatingPoint { state, name: "the steady state".to_owned() }));
-        }
-        let state = at(text, input, console)?;
-        let name = format!("the state at {}", duration(state.time, 6));
-        Ok(Some(OperatingPoint { state, name }))
+        let find = |text: &String| OperatingPoint::find(text, input, &console.listening());
+        self.at.as_ref().map(find).transpose()
     }
-}
-
-impl OperatingPoint {
-    /// "the steady state", "the state at 20 min".
-    pub(crate) fn name(&self) -> &str {
-        &self.name
-    }
-
-    /// That a linear network stands for another, and how far it was tried; `None` where the network
-    /// is linear itself.
-    pub(crate) fn notes(&self, tried: Option<Tried>) -> Vec<String> {
-        let Some(Tried { disturbance, heat, share }) = tried else {
-            return vec!["the network is linear: it is the same near every state".to_owned()];
-        };
-        let brought = match share {
-            share if share < 1.0 => format!("{} % of", significant(100.0 * share, 2)),
-            _ => "more than".to_owned(),
-        };
-        vec![format!(
-            "for small disturbances of {}: at {} K to both sides, heat \
-             flows of the full network differ from these by up to {} W, {brought} what the \
-             disturbance brings",
-            self.name,
-            significant(disturbance, 3),
-            significant(heat, 2),
-        )]
-    }
-
-    /// The same as an object of JSON.
-    pub(crate) fn json(&self, tried: Option<Tried>) -> Value {
-        let tried = tried.map(|tried| {
-            json!({
-                "disturbance": SiValue::new(tried.disturbance, "K"),
-                "heat": SiValue::new(tried.heat, "W"),
-                "share": SiValue::new(tried.share, "1"),
-            })
-        });
-        let time = SiValue::new(self.state.time, "s");
-        json!({ "time": time, "settled": self.state.settled, "tried": tried })
-    }
-}
-
-/// Where the file makes a network not linear.
-pub(crate) fn place(input: &Input, error: &LinearisedError) -> Option<Span> {
-    match error {
-        LinearisedError::NotLinear { item, .. } => input.netlist.source_map.name(*item),
-        LinearisedError::Input(error) => input.place_of(error),
-        LinearisedError::Melts { name } => input.node_place(name),
-        LinearisedError::Singular => None,
-    }
-}
-
-/// The steady state, with what to know before it is believed.
-pub(crate) fn steady(
-    input: &Input,
-    unit: &Unit,
-    console: &Console,
-) -> Result<SteadyState, Failure> {
-    let netlist = &input.netlist;
-    let network: &Network = &netlist.network;
-    let system = input.assemble()?;
-    let start = netlist.run.as_ref().map_or(0.0, |run: &RunSettings| run.start);
-    let steady = lptn_analysis::steady(&system, start).map_err(|error| failed(input, &error))?;
-    let vary = inputs_vary((netlist, input.typed().as_deref()), &steady, &[]);
-    let doubts = [vary, adiabatic(network, &steady), others(network, &steady, unit)];
-    let doubts: Vec<Diagnostic> = doubts.into_iter().flatten().collect();
-    console.warn(&netlist.files, &doubts);
-    Ok(steady.result)
-}
-
-/// The row of the run at or before a time.
-pub(crate) fn at(text: &str, input: &Input, console: &Console) -> Result<Snapshot, Failure> {
-    let settings = input.netlist.run.as_ref().ok_or_else(|| no_run(input))?;
-    let time = time_of_run(text, settings)?;
-    let system = input.assemble()?;
-    let run = RunAnalysis::of(system.network(), settings);
-    let (solution, broken) = observed(input, (&system, &run), console)?;
-    check(input, &solution, broken)?;
-    console.warn(&input.netlist.files, &bound::doubts(&solution));
-    let row = solution.row_at(time).unwrap_or(0);
-    let found = solution.snapshot(row).ok_or_else(|| {
-        let message = format!("the heat flows at {} cannot be computed again", duration(time, 6));
-        Failure::new(Exit::Failed, Diagnostic::error("graph::no_state", message))
-    })?;
-    let (asked, shown) = (duration(time, 6), duration(found.time, 6));
-    if asked != shown {
-        console.note(&format!("at     {shown}, the row before {asked}"));
-    }
-    Ok(found)
-}
-
-/// A run that did not reach its stop, or whose books do not close, is not drawn.
-fn check(input: &Input, solution: &Solution, broken: Option<Diagnostic>) -> Result<(), Failure> {
-    if let Some(problem) = broken {
-        return Err(input.refused(Exit::Failed, problem));
-    }
-    if let RunStatus::Interrupted(time) = solution.end() {
-        let message = format!("the run was interrupted at {}", duration(time, 4));
-        let problem = Diagnostic::error("run::interrupted", message);
-        return Err(Failure::new(Exit::Interrupted, problem));
-    }
-    solution.ledger().check().map_err(|open| input.refused(Exit::Failed, told(&open)))
 }

@@ -65,6 +65,11 @@ impl Source {
     pub(crate) fn of(file: PathBuf) -> Self {
         Self { file, set: Vec::new(), case: None }
     }
+
+    /// The load case, and the values that are set after it.
+    pub(crate) fn settings(&self) -> (Option<&str>, &[String]) {
+        (self.case.as_deref(), &self.set)
+    }
 }
 
 /// Times of the run in place of those of the netlist.

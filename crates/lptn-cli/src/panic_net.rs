@@ -5,9 +5,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use lptn_netlist::Diagnostic;
 
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::quoted;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::quoted;
 
 /// Does the work of the command; a panic in it, or in a thread that it waits for, is a failure like
 /// others. On the way up what is half written is dropped: temporary files go, the results of
@@ -65,10 +65,10 @@ fn fault(what: &str, arguments: impl Iterator<Item = std::ffi::OsString>) -> Dia
 #[cfg(test)]
 mod tests {
     use super::{caught, fault};
-    use crate::exit::Exit;
     use crate::files::Folder;
     use crate::files::names::{RESULT, STATE};
     use crate::files::tests::Place;
+    use lptn_answer::exit::Exit;
 
     /// One test, for a hook belongs to the whole process.
     #[test]

@@ -6,8 +6,8 @@ use lptn_netlist::{Diagnostic, Files, Severity};
 use lptn_report::JsonWriter;
 use serde_json::Value;
 
-use crate::diagnostics;
-use crate::exit::Exit;
+use lptn_answer::exit::Exit;
+use lptn_answer::messages;
 
 /// What was said beside a result that is printed as JSON, errors and warnings apart.
 ///
@@ -29,7 +29,7 @@ impl Refusal {
         let mut said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
         for diagnostic in diagnostics {
             let list = usize::from(diagnostic.severity == Severity::Warning);
-            said[list].push(diagnostics::json(files, diagnostic));
+            said[list].push(messages::json(files, diagnostic));
         }
     }
 
@@ -39,11 +39,11 @@ impl Refusal {
             std::mem::take(&mut *self.said.lock().unwrap_or_else(PoisonError::into_inner));
         if errors.is_empty() && exit == Exit::Interrupted {
             let problem = Diagnostic::error("run::interrupted", "interrupted: there is no result");
-            errors.push(diagnostics::json(&Files::new(), &problem));
+            errors.push(messages::json(&Files::new(), &problem));
         }
         let mut json = JsonWriter::new(Vec::new());
         json.member("format", &1)?;
-        diagnostics::failed(&mut json, exit, &errors.into())?;
+        messages::failed(&mut json, exit, &errors.into())?;
         json.member("warnings", &warnings)?;
         json.finish()
     }

@@ -7,9 +7,9 @@ use lptn_netlist::{Diagnostic, Files};
 use lptn_report::{Piece, Report, Section};
 
 use crate::diagnostics::render;
-use crate::exit::Exit;
-use crate::failure::{Failure, reason};
 use crate::files;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, reason};
 
 /// What to do where a report cannot be written.
 const ELSEWHERE: &str = "name another place: --report=FILE.html";

@@ -3,7 +3,7 @@
 use lptn_answer::limits::{Judgement, Verdict};
 
 use crate::console::Console;
-use crate::exit::Exit;
+use lptn_answer::exit::Exit;
 
 /// Says which limits are broken and gives the exit code. Those that make it 1 are said last, and
 /// with `--quiet` too; those of severity warning are warnings, which `--quiet` leaves out: the

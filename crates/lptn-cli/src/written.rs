@@ -5,10 +5,10 @@ use std::path::Path;
 use lptn_netlist::{Diagnostic, RunSettings, WrittenError, parse_file, prove};
 use lptn_network::{BuildErrors, Network, ParameterId};
 
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files;
-use crate::input::Input;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
 
 /// Without a run, the values are compared over this time in s.
 const AN_HOUR: f64 = 3600.0;

@@ -10,8 +10,8 @@ use lptn_study::{FileHash, Hashing};
 use super::Folder;
 use super::commit::Commit;
 use super::names::{COMMIT, temporary};
-use crate::exit::Exit;
-use crate::failure::{Failure, reason};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, reason};
 
 /// Files under temporary names, until all of them are whole and take their places together. Dropped
 /// before that, by an error or a panic, they are removed and what was there stays.

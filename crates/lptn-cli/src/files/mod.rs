@@ -15,11 +15,11 @@ use lptn_study::{Environment, FileHash, SiValue};
 use lptn_units::Help;
 use serde_json::{Value, json};
 
-use crate::exit::Exit;
-use crate::failure::{Failure, reason};
 pub(crate) use batch::Batch;
 use commit::Commit;
 use lock::{Lock, NotLocked};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, reason};
 
 /// How long one who only replaces a file waits for another one who does.
 const MOMENT: Duration = Duration::from_secs(2);

@@ -5,8 +5,8 @@ use clap_complete::Shell;
 
 use crate::args::Args;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 
 /// Print a completion script for a shell
 #[derive(Debug, clap::Args)]

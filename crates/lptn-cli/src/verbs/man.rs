@@ -7,9 +7,9 @@ use clap_mangen::Man;
 
 use crate::args::Args;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files::Folder;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 
 /// Write manual pages
 #[derive(Debug, clap::Args)]

@@ -30,8 +30,8 @@ use std::path::PathBuf;
 use clap::{Args, Command, Subcommand};
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 
 /// The verb of what does it, `run` of `run::run`.
 fn called(path: &'static str) -> &'static str {

@@ -16,14 +16,14 @@ use lptn_study::SiValue;
 use serde_json::{Value, json};
 
 use crate::console::{Console, Detail};
-use crate::diagnostics;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::{self, Given, Input};
 use crate::options::Source;
-use crate::select;
 use crate::written::proven;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{self, Given, Input};
 use lptn_answer::lumping;
+use lptn_answer::messages;
+use lptn_answer::select;
 use lptn_answer::words::{count, counts};
 
 pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure> {
@@ -47,7 +47,7 @@ fn expand(text: &Given, source: &Source, console: &Console) -> Result<Exit, Fail
         exit: if rejected.syntax { Exit::Input } else { Exit::No },
         ..rejected.into()
     })?;
-    input::apply(&mut netlist, text, source)?;
+    input::apply(&mut netlist, text, source.settings())?;
     console.warn(&netlist.files, &netlist.warnings);
     if let Some(problem) = netlist.not_flat() {
         return Err(Failure::at(Exit::No, netlist.files, problem));
@@ -99,11 +99,11 @@ impl Finding {
                 });
             }
         };
-        let set = input::apply(&mut netlist, text, source)?;
+        let set = input::apply(&mut netlist, text, source.settings())?;
         let counts = Some(counts(&netlist.network));
         let (files, mut diagnostics) = (netlist.files.clone(), netlist.warnings.clone());
         let text = Given { bytes: Vec::new(), name: text.name.clone(), stem: text.stem.clone() };
-        let input = Input { text, netlist, set };
+        let input = Input { text, netlist, set, command: crate::files::arguments() };
         let mut lumping = None;
         match input.assemble() {
             Ok(system) => lumping = lumped(&input.netlist, &system),
@@ -141,7 +141,7 @@ impl Finding {
 
     fn list(&self, severity: Severity) -> Value {
         let found = self.diagnostics.iter().filter(|d| d.severity == severity);
-        found.map(|diagnostic| diagnostics::json(&self.files, diagnostic)).collect()
+        found.map(|diagnostic| messages::json(&self.files, diagnostic)).collect()
     }
 }
 

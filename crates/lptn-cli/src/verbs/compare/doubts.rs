@@ -4,7 +4,7 @@ use lptn_netlist::Diagnostic;
 use lptn_report::{Align, Column, decimals, fixed, significant};
 use lptn_study::{Candidate, CompareRow, Scatter};
 
-use crate::input::Input;
+use lptn_answer::input::Input;
 use lptn_answer::words::spaced;
 
 /// What is not known or does not exist.

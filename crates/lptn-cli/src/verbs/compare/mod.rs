@@ -19,15 +19,16 @@ use lptn_solve::{available_threads, in_parallel};
 use lptn_study::{Candidate, CompareError, CompareRow, order};
 use lptn_units::Unit;
 
-use crate::belief::Belief;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files;
-use crate::input::{self, Input, quoted};
+use crate::input::Load as _;
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressOfAll;
+use lptn_answer::belief::Belief;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{self, Input, quoted};
 use lptn_answer::words::unverified;
 use lptn_answer::{bound, others, trust};
 

@@ -13,9 +13,9 @@ use lptn_study::{Candidate, CandidateLimit, CompareRow, HeatOut, HeatOver, compa
 use serde_json::Value;
 
 use super::{Comparison, doubts};
-use crate::about;
-use crate::diagnostics;
-use crate::exit::Exit;
+use lptn_answer::about;
+use lptn_answer::exit::Exit;
+use lptn_answer::messages;
 use lptn_answer::scale;
 use lptn_answer::words::{count, spaced};
 
@@ -52,16 +52,16 @@ impl Page for Comparison {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&[])
+        about::of_command(&[], &crate::files::arguments())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let warnings = self.warnings.iter().flat_map(|(files, list)| {
-            list.iter().map(|diagnostic| diagnostics::json(files, diagnostic)).collect::<Vec<_>>()
+            list.iter().map(|diagnostic| messages::json(files, diagnostic)).collect::<Vec<_>>()
         });
         let errors = self.failures.iter().flat_map(|failure| {
             let list = failure.diagnostics.iter();
-            list.map(|diagnostic| diagnostics::json(&failure.files, diagnostic)).collect::<Vec<_>>()
+            list.map(|diagnostic| messages::json(&failure.files, diagnostic)).collect::<Vec<_>>()
         });
         json.member("format", &1)?;
         json.member("network", &())?;
@@ -69,7 +69,7 @@ impl Page for Comparison {
         let errors: Value = errors.collect();
         match self.exit() {
             Exit::Done | Exit::No => json.member("errors", &errors)?,
-            exit => diagnostics::failed(json, exit, &errors)?,
+            exit => messages::failed(json, exit, &errors)?,
         }
         json.table(&scale::table(&compare_table(&self.rows, &self.unit), &self.unit))
     }

@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 
 use lptn_netlist::{Catalogue, Diagnostic};
 
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::Input;
+use crate::input::Load as _;
 use crate::options::Source;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
 
 /// More variants of one netlist than these are a sweep and no comparison.
 pub(super) const MOST: usize = 1000;

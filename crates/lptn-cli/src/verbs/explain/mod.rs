@@ -11,8 +11,8 @@ use lptn_netlist::Diagnostic;
 use page::Explained;
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 
 pub(crate) fn explain(args: &ExplainArgs, console: &Console) -> Result<Exit, Failure> {
     let codes = codes::all();
@@ -48,7 +48,7 @@ fn unknown(name: &str, codes: &[Code]) -> Failure {
         codes.iter().filter(|code| code.problem() == name).map(|code| code.code).collect();
     if let [first, ..] = behind.as_slice() {
         return Failure::new(
-            crate::exit::Exit::Input,
+            lptn_answer::exit::Exit::Input,
             problem.help(format!("did you mean `{first}`?")),
         );
     }

@@ -14,8 +14,8 @@ pub(crate) use network::{Answer as NetworkAnswer, doubts, record_place, verdict}
 use args::FitVerb;
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 
 pub(crate) fn fit(args: &FitArgs, console: &Console) -> Result<Exit, Failure> {
     match &args.verb {

@@ -5,8 +5,8 @@ use std::path::Path;
 use lptn_netlist::Posterior;
 
 use crate::console::Console;
-use crate::failure::Failure;
 use crate::files;
+use lptn_answer::failure::Failure;
 
 /// Puts what a fit found in the place of what stands there.
 pub(crate) fn write(posterior: &Posterior, file: &Path, console: &Console) -> Result<(), Failure> {

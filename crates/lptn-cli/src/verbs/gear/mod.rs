@@ -14,9 +14,10 @@ use lptn_study::{GearError, GearPoint, GearState, GearTask};
 use lptn_units::{Dimension, Problem as _, Type, Unit};
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::{Failure, told};
-use crate::input::{self, Input, Studies};
+use crate::input::Load as _;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, told};
+use lptn_answer::input::{self, Input, Studies};
 use lptn_answer::ranges;
 
 /// More points than anybody reads are a mistake.

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use super::tables::{of_all, rpm, warmest};
 use super::{Block, View};
-use crate::about::{self, Known};
+use lptn_answer::about::{self, Known};
 use lptn_answer::ranges;
 
 /// A piece of a table: its column and the value of it, if it has one.

@@ -11,9 +11,9 @@ use super::kind::Kind;
 use super::picture;
 use super::state::state;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::{Failure, told};
-use crate::input::{Input, wrong_unit};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, told};
+use lptn_answer::input::{Input, wrong_unit};
 
 /// Whether a grid is asked for and not the network.
 pub(super) fn is_wanted(args: &GraphArgs, kind: Kind) -> bool {

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use lptn_netlist::Diagnostic;
 
-use crate::exit::Exit;
-use crate::failure::Failure;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 
 /// What is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,9 +15,10 @@ use lptn_plot::{Scene, png, svg};
 use lptn_units::Unit;
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::{self, Input};
+use crate::input::Load as _;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{self, Input};
 
 /// Pixels of a PNG for one of the drawing: 192 an inch.
 const SCALE: f64 = 2.0;

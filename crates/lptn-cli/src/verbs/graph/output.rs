@@ -7,10 +7,10 @@ use lptn_netlist::Diagnostic;
 
 use super::kind::Place;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::{Failure, reason};
 use crate::files;
-use crate::input::Input;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, reason};
+use lptn_answer::input::Input;
 
 /// Puts the bytes where they are wanted, and says where; among the results they have a usual name.
 pub(super) fn put(

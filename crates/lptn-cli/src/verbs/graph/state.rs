@@ -5,9 +5,9 @@ use lptn_units::Unit;
 
 use super::args::GraphArgs;
 use crate::console::Console;
-use crate::failure::Failure;
-use crate::input::Input;
-use crate::operating_point::{at, steady};
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
+use lptn_answer::operating_point::{at, steady};
 
 /// The time that is asked for, else the steady state.
 pub(super) fn state(
@@ -15,7 +15,7 @@ pub(super) fn state(
     (input, unit, console): (&Input, &Unit, &Console),
 ) -> Result<Snapshot, Failure> {
     match &args.at {
-        Some(text) => at(text, input, console),
-        None => Ok(steady(input, unit, console)?.state),
+        Some(text) => at(text, input, &console.listening()),
+        None => Ok(steady(input, unit, &console.listening())?.state),
     }
 }

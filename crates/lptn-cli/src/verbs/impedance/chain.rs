@@ -7,9 +7,9 @@ use lptn_reduce::{Nodes, NortonEquivalent, ResponseTerm, StepResponse};
 use lptn_solve::StepAnswer;
 
 use super::Asked;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::Input;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
 
 /// Terms below this share of the largest are rounding.
 const VISIBLE: f64 = 1e-9;

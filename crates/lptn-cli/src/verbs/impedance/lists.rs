@@ -6,9 +6,9 @@ use lptn_netlist::Diagnostic;
 use lptn_units::{Dimension, Type, parse_quantity};
 
 use super::args::ImpedanceArgs;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input;
 
 /// Positive numbers in s.
 pub(super) fn times(text: &str) -> Result<Vec<f64>, Failure> {

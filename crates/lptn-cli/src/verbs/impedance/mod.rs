@@ -21,11 +21,12 @@ use lptn_reduce::{ReduceError, port};
 use lptn_solve::{Complex, Drive, Linearised, ResponseError, StepAnswer, Tried};
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files;
-use crate::input::{Input, quoted};
-use crate::operating_point::OperatingPoint;
+use crate::input::Load as _;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{Input, quoted};
+use lptn_answer::operating_point::OperatingPoint;
 
 pub(crate) fn impedance(args: &ImpedanceArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&args.source)?;
@@ -180,7 +181,7 @@ fn failed(input: &Input, error: &ResponseError) -> Failure {
     let place = match error {
         ResponseError::NoGround { names } => names.first().and_then(|name| input.node_place(name)),
         ResponseError::Input(error) => input.place_of(error),
-        ResponseError::Linearised(error) => crate::operating_point::place(input, error),
+        ResponseError::Linearised(error) => lptn_answer::operating_point::place(input, error),
         _ => None,
     };
     input.failure(error, place)

@@ -9,7 +9,7 @@ use lptn_study::SiValue;
 use serde_json::{Value, json};
 
 use super::{Answer, Stepped, Swung, View};
-use crate::about::{self, Known};
+use lptn_answer::about::{self, Known};
 
 impl View<'_> {
     /// The unit of an answer.

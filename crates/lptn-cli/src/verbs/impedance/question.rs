@@ -7,8 +7,8 @@ use super::args::ImpedanceArgs;
 use super::chain::Spectrum;
 use super::curve::Curve;
 use super::{Answer, Stepped, Swung, failed, is_at, lists};
-use crate::failure::Failure;
-use crate::input::Input;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
 
 /// Shares of the time constants up to which the answer is shown, and from which on.
 const BEFORE: f64 = 0.1;

@@ -10,9 +10,9 @@ use lptn_units::Unit;
 
 use super::{InferArgs, failed, unit_of};
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::Input;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
 use lptn_answer::words::difference;
 
 /// What the record is called.

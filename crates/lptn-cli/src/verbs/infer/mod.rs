@@ -18,14 +18,15 @@ use lptn_netlist::{Diagnostic, InferStudy};
 use lptn_units::{Type, Unit};
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files::Folder;
-use crate::input::{Input, Studies};
+use crate::input::Load as _;
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressLine;
 use crate::verbs::fit::record_place;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{Input, Studies};
 
 /// What was inferred, and from what.
 pub(crate) struct Answer<'a> {

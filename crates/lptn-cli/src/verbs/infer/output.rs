@@ -3,10 +3,10 @@
 use lptn_report::{Format, Look, write_csv};
 
 use super::Answer;
-use crate::about;
-use crate::failure::Failure;
 use crate::files::names::{INFER, INFERRED, MANIFEST};
 use crate::files::{self, Folder};
+use lptn_answer::about;
+use lptn_answer::failure::Failure;
 
 /// What is written.
 pub(super) const NAMES: [&str; 3] = [INFERRED, INFER, MANIFEST];

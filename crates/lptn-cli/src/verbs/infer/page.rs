@@ -11,8 +11,8 @@ use lptn_solve::Table;
 use serde_json::{Value, json};
 
 use super::Answer;
-use crate::about::{self, Known as Trust};
-use crate::diagnostics;
+use lptn_answer::about::{self, Known as Trust};
+use lptn_answer::messages;
 use lptn_answer::words::{count, difference, symbol};
 
 /// Moments that are shown, at most.
@@ -77,7 +77,7 @@ impl Page for Answer<'_> {
         json.member("format", &1)?;
         json.member("network", &self.input.text.stem)?;
         json.member("study", &self.study.name)?;
-        json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
+        json.member("warnings", &messages::list(&netlist.files, &warnings))?;
         json.member("courses", &self.courses_json())?;
         json.member("jumps", &self.jumps_json())?;
         json.member("sensors", &self.sensors_json())?;

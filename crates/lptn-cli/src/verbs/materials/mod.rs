@@ -13,8 +13,8 @@ use lptn_study::SiValue;
 use serde_json::{Value, json};
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 
 /// Digits that are shown: the sources give no more.
 const DIGITS: usize = 5;

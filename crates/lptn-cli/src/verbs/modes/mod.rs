@@ -14,12 +14,13 @@ use lptn_solve::{EventKind, Mode, Modes, ModesError};
 use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
-use crate::about::{self, Known};
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::{Input, quoted};
-use crate::operating_point::{OperatingPoint, place};
+use crate::input::Load as _;
+use lptn_answer::about::{self, Known};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{Input, quoted};
+use lptn_answer::operating_point::{OperatingPoint, place};
 use lptn_answer::words::{MOST_NODES, count};
 
 /// Modes that are shown without `--count`: all of up to so many, else the slowest so many.

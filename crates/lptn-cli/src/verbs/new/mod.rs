@@ -9,11 +9,11 @@ use std::path::PathBuf;
 use lptn_netlist::{Diagnostic, parse_bytes};
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files;
-use crate::input::quoted;
 use crate::written::proven;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::quoted;
 
 const TEMPLATE: &str = include_str!("new.toml");
 

@@ -3,8 +3,8 @@
 use lptn_fit::network::design::{DesignTask, GivenFit};
 use lptn_netlist::Diagnostic;
 
-use crate::input::Input;
 use crate::verbs::fit::{NetworkAnswer, doubts as of_fit, verdict};
+use lptn_answer::input::Input;
 
 /// What is doubtful of them, each with the name of its fit.
 pub(super) fn doubts<'a>(input: &'a Input, task: &DesignTask<'a>) -> Vec<Diagnostic> {

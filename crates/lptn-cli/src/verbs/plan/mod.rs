@@ -18,14 +18,15 @@ use lptn_solve::{Proceed, Progress, available_threads};
 use lptn_units::Unit;
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::{Input, Studies};
+use crate::input::Load as _;
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressLine;
-use crate::taken;
-use crate::unseparated::{Named, names_and_units};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{Input, Studies};
+use lptn_answer::taken;
+use lptn_answer::unseparated::{Named, names_and_units};
 
 pub(crate) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, Failure> {
     let input = Input::load(&Source { set: args.set.clone(), ..Source::of(args.file.clone()) })?;

@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 use super::Answer;
 use super::shown::{NORMAL_95, NOTHING, cost};
 use super::words::{notes, verdict};
-use crate::about::{self, Known};
+use lptn_answer::about::{self, Known};
 use lptn_answer::words::{count, symbol};
 
 /// Runs that are shown, at most.

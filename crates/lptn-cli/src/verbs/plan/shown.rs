@@ -4,7 +4,7 @@ use lptn_fit::network::design::Known;
 use lptn_report::{duration, significant};
 
 use super::Answer;
-use crate::unseparated::joined;
+use lptn_answer::unseparated::joined;
 use lptn_answer::words::{spaced, symbol};
 
 /// Half the width of a 95 % interval of a normal distribution, over its standard deviation.

@@ -5,7 +5,7 @@ use lptn_report::significant;
 
 use super::Answer;
 use super::shown::cost;
-use crate::unseparated::{Named, joined, names_and_units};
+use lptn_answer::unseparated::{Named, joined, names_and_units};
 use lptn_answer::words::{count, unverified};
 
 /// Lines with a label below the tables.

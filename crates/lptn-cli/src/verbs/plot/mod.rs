@@ -8,9 +8,9 @@ pub(crate) use args::PlotArgs;
 
 use crate::console::Console;
 use crate::drawing::Drawing;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::quoted;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::quoted;
 use lptn_netlist::{Diagnostic, RunTime};
 use overlay::overlay;
 use source::Source;

@@ -11,12 +11,13 @@ use lptn_units::Unit;
 
 use super::PlotArgs;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files::names::{EVENTS, MANIFEST, RESULT};
-use crate::input::{self, Input, quoted};
+use crate::input::Load as _;
 use crate::options::{Scale, Shown, TimeScale};
 use crate::verbs::run::{self, RunArgs};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{self, Input, quoted};
 
 /// One of the things that are drawn over each other.
 pub(super) struct Source {
@@ -74,7 +75,7 @@ impl Source {
             uncertainty: run::uncertainty::args::UncertaintyArgs::default(),
         };
         let mut input = Input::load(&args.source)?;
-        input.set_times(&args.times)?;
+        input.set_run_times(&args.times)?;
         let (outcome, _) = run::outcome(&args, &input, console)?;
         outcome.messages(None, console);
         let exit = outcome.conclude(console, false);

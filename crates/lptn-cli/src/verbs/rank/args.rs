@@ -34,3 +34,12 @@ pub(crate) enum Over {
     Steady,
     Run,
 }
+
+impl From<Over> for lptn_answer::rank::Over {
+    fn from(over: Over) -> Self {
+        match over {
+            Over::Steady => Self::Steady,
+            Over::Run => Self::Run,
+        }
+    }
+}

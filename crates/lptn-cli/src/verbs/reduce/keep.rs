@@ -17,10 +17,11 @@ use lptn_units::Unit;
 use super::args::{ReduceArgs, ReduceFormat};
 use super::{Limit, failed, loads};
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::{self, Input, quoted};
+use crate::input::Load as _;
 use crate::{files, written};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{self, Input, quoted};
 
 /// Most nodes that are tried where nobody says how many.
 const MOST: usize = 20;

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 
 use super::keep::KeptView;
 use super::page::error_json;
-use crate::about::{self, Known};
+use lptn_answer::about::{self, Known};
 use lptn_answer::scale;
 use lptn_answer::words::count;
 

@@ -12,8 +12,8 @@ use serde_json::{Value, json};
 
 use super::args::ReduceArgs;
 use super::{Limit, View};
-use crate::failure::Failure;
-use crate::input;
+use lptn_answer::failure::Failure;
+use lptn_answer::input;
 use lptn_answer::scale;
 
 /// Most nodes that are tried where a limit is to be kept.

@@ -30,11 +30,12 @@ use loads::{Asked, Loads};
 use near::Near;
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::{Failure, told};
-use crate::input::{self, Input, quoted};
-use crate::operating_point::place;
+use crate::input::Load as _;
 use crate::{files, written};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, told};
+use lptn_answer::input::{self, Input, quoted};
+use lptn_answer::operating_point::place;
 use lptn_answer::words::count;
 
 pub(crate) fn reduce(args: &ReduceArgs, console: &Console) -> Result<Exit, Failure> {

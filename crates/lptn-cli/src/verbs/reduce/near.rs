@@ -10,10 +10,10 @@ use serde_json::Value;
 use super::Limit;
 use super::args::{ReduceArgs, ReduceFormat};
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::Input;
-use crate::operating_point::OperatingPoint;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
+use lptn_answer::operating_point::OperatingPoint;
 
 /// The state, and how far the linear network was tried from it.
 pub(crate) struct Near {

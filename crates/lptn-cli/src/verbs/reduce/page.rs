@@ -13,7 +13,7 @@ use lptn_units::Unit;
 use serde_json::{Value, json};
 
 use super::View;
-use crate::about::{self, Known};
+use lptn_answer::about::{self, Known};
 use lptn_answer::scale;
 
 impl Page for View<'_> {

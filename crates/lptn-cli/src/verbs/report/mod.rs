@@ -17,13 +17,14 @@ use serde_json::Value;
 use super::Verb;
 use super::plot::source::of_folder;
 use super::run::{self, RunArgs};
-use crate::about;
 use crate::args::Args;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files::names::{MANIFEST, RESULT};
-use crate::input::Input;
+use crate::input::Load as _;
+use lptn_answer::about;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
 
 pub(crate) fn report(args: &ReportArgs, console: &Console) -> Result<Exit, Failure> {
     let folder = &args.folder;
@@ -43,7 +44,7 @@ pub(crate) fn report(args: &ReportArgs, console: &Console) -> Result<Exit, Failu
             if same { Ok(Exit::Done) } else { Err(Failure::new(Exit::No, problem.help(help))) }
         }
         Err(why) => {
-            let mut report = about::of_command(&[]);
+            let mut report = about::of_command(&[], &crate::files::arguments());
             report.title.clone_from(&figure.title);
             console.message(&format!("not run again: {why}; the page shows what is in the folder"));
             report.claims.push(Claim::open(format!("as it was written; not run again: {why}")));
@@ -85,7 +86,7 @@ fn again(
     };
     let args = RunArgs { no_files: true, output: None, ..args };
     let mut input = Input::load(&args.source)?;
-    input.set_times(&args.times)?;
+    input.set_run_times(&args.times)?;
     let (outcome, _) = run::outcome(&args, &input, console)?;
     if matches!(outcome.solution.end(), RunStatus::Interrupted(_)) {
         let problem = Diagnostic::error("run::interrupted", "the run was interrupted");

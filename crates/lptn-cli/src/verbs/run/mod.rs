@@ -22,17 +22,18 @@ use lptn_report::Format;
 use lptn_solve::{Lumping, SteadyState, Table};
 use outcome::Outcome;
 
-use crate::belief::Belief;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files::Folder;
-use crate::input::Input;
+use crate::input::Load as _;
+use lptn_answer::belief::Belief;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
 
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     let belief = Belief::of(args.uncertainty.posterior.as_deref());
     let mut input = console.phases.timed("read", || Input::load_from(&args.source, &belief))?;
-    input.set_times(&args.times)?;
+    input.set_run_times(&args.times)?;
     let (result, folder) = outcome(args, &input, console)?;
     if let Some(folder) = &folder {
         console.phases.timed("write", || result.write(folder))?;

@@ -5,7 +5,7 @@ use lptn_network::{Network, ParameterId, Value};
 use lptn_report::significant;
 use lptn_units::{Dimension, Type};
 
-use crate::input::{Input, quoted};
+use lptn_answer::input::{Input, quoted};
 
 /// What a user of `lptn run` may want to know next: what heats the node that gets too hot; else the
 /// same with a fifth more heat, or five degrees warmer; else the steady state.

@@ -14,8 +14,9 @@ use super::job::NoSteady;
 use super::outcome::Outcome;
 use super::{events, state, uncertainty, windows};
 use crate::console::Detail;
-use crate::{balance, diagnostics};
+use lptn_answer::balance;
 use lptn_answer::bound::{not_bounded, weak_ledger};
+use lptn_answer::messages;
 use lptn_answer::others;
 use lptn_answer::words::MOST_NODES;
 use lptn_answer::{families, limits, lumping, scale};
@@ -96,8 +97,8 @@ impl Page for Outcome<'_> {
         let end = |message| RunEnd::of(&self.solution, self.job.settings.stop, Some(message));
         json.optional("end", self.ended_early().map(end))?;
         let Some(failure) = self.failed() else { return Ok(()) };
-        let errors = diagnostics::list(&failure.files, &failure.diagnostics);
-        diagnostics::failed(json, failure.exit, &errors)
+        let errors = messages::list(&failure.files, &failure.diagnostics);
+        messages::failed(json, failure.exit, &errors)
     }
 }
 

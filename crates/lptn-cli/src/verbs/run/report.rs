@@ -6,7 +6,7 @@ use lptn_report::{Claim, Report, duration, significant};
 use lptn_solve::{Gradient, Proceed, Snapshot};
 
 use super::outcome::Outcome;
-use crate::about::{self, Known, Sensitivities};
+use lptn_answer::about::{self, Known, Sensitivities};
 use lptn_answer::bound::{not_bounded, weak_ledger};
 use lptn_answer::limits;
 

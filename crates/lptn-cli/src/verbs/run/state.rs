@@ -4,7 +4,7 @@ use lptn_netlist::{SavedState, StateControl, StateEnd};
 use lptn_report::duration;
 use lptn_solve::{RunStatus, Solution};
 
-use crate::input::Input;
+use lptn_answer::input::Input;
 
 /// The state at the end that a run reached.
 pub(crate) fn of<'a>(input: &'a Input, solution: &'a Solution) -> SavedState<'a> {

@@ -6,7 +6,7 @@ use lptn_network::{Changing, Course, Item, Network, SignalId, list_of};
 use lptn_report::significant;
 use lptn_study::SizeError;
 
-use crate::input::Input;
+use lptn_answer::input::Input;
 use lptn_answer::words::spaced;
 
 const OVER: &str = "size over all moments with `over = \"run\"`, or `over = \"periodic\"` for a \

@@ -10,12 +10,12 @@ use lptn_units::{Dimension, Type};
 use serde_json::{Map, json};
 
 use super::args::{CoolingArgs, SizeArgs};
-use crate::about;
 use crate::console::Console;
-use crate::diagnostics;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::quantity;
+use lptn_answer::about;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::quantity;
+use lptn_answer::messages;
 
 /// How much a coolant warms unless said otherwise.
 const USUAL_RISE: &str = "10 K";
@@ -140,14 +140,14 @@ impl Page for Answer<'_> {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&[])
+        about::of_command(&[], &crate::files::arguments())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let member = |(name, value, unit): (&str, f64, &str)| {
             (name.to_owned(), json!(SiValue::new(value, unit)))
         };
-        diagnostics::head(json, None, (&Files::new(), &[]))?;
+        messages::head(json, None, (&Files::new(), &[]))?;
         json.member("values", &self.values().map(member).into_iter().collect::<Map<_, _>>())?;
         json.member("margin", &SiValue::new(self.cooling.available, "K"))?;
         json.member("binding", &self.feasible().then_some("limit"))?;

@@ -24,14 +24,15 @@ use lptn_study::{Aim, Demand, SizeError, SizeTask, Sizing, Verdict};
 use lptn_units::{Problem as _, Unit};
 use moments::demanded;
 
-use crate::belief::Belief;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::{Failure, told};
-use crate::input::{Input, Studies, quoted};
+use crate::input::Load as _;
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressLine;
+use lptn_answer::belief::Belief;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, told};
+use lptn_answer::input::{Input, Studies, quoted};
 
 pub(crate) fn size(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
     let Some(file) = &args.file else { return cooling::cooling(args, console) };

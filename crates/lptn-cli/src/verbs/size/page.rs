@@ -15,8 +15,8 @@ use serde_json::json;
 
 use super::kept::Kept;
 use super::{Answer, Asked};
-use crate::about::{self, Known};
-use crate::input;
+use lptn_answer::about::{self, Known};
+use lptn_answer::input;
 use lptn_answer::ranges;
 use lptn_answer::words::{spaced, unverified};
 

@@ -14,9 +14,9 @@ use serde_json::{Map, Value, json};
 
 use super::kept::Kept;
 use super::{Asked, aim, failed, figure, page, write};
-use crate::about::{self, Known};
-use crate::exit::Exit;
-use crate::failure::Failure;
+use lptn_answer::about::{self, Known};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 use lptn_answer::ranges;
 use lptn_answer::words::unverified;
 

@@ -12,10 +12,10 @@ use super::Answer;
 use super::moments::demanded;
 use super::page::rounded;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::Input;
 use crate::written::{can_be_written, put, with_numbers};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
 use lptn_answer::words::{count, spaced};
 
 /// Digits that are tried, the fewest first.

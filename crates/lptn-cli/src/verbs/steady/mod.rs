@@ -8,19 +8,20 @@ pub(crate) use args::SteadyArgs;
 
 use lptn_analysis::LimitResult;
 use lptn_netlist::RunSettings;
-use lptn_network::Item;
 use lptn_report::Format;
 use lptn_solve::{Selection, SteadyError, SteadyState, Table};
 use lptn_units::Unit;
 use view::View;
 
 use crate::console::{Console, Detail};
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::{self, Input};
+use crate::input::Load as _;
 use crate::verdict;
-use crate::{balance, select};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{self, Input};
+use lptn_answer::refused::steady_failed;
 use lptn_answer::trust;
+use lptn_answer::{balance, select};
 
 pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failure> {
     if args.cycle.periodic {
@@ -35,10 +36,10 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
     let system = phases.timed("assemble", || input.assemble())?;
     let start = netlist.run.as_ref().map_or(0.0, |run: &RunSettings| run.start);
     let steady = phases.timed("solve", || lptn_analysis::steady(&system, start));
-    let steady = steady.map_err(|error| failed(&input, &error))?;
+    let steady = steady.map_err(|error| steady_failed(&input, &error))?;
     console.warn(&netlist.files, &netlist.warnings);
     let limits = LimitResult::of_steady(&netlist.network, &steady);
-    let limits = limits.map_err(|error| failed(&input, &SteadyError::Input(error)))?;
+    let limits = limits.map_err(|error| steady_failed(&input, &SteadyError::Input(error)))?;
     let table = table(&input, &steady, &selection, &unit)?;
     let balance = balance.map(|of| steady.balance(&netlist.network, of));
     let view = View {
@@ -71,21 +72,5 @@ fn table(
     unit: &Unit,
 ) -> Result<Table, Failure> {
     let table = Table::of_steady(&input.netlist.network, steady, selection, unit);
-    table.map_err(|error| failed(input, &SteadyError::Input(error)))
-}
-
-pub(crate) fn failed(input: &Input, error: &SteadyError) -> Failure {
-    let place = match error {
-        SteadyError::NoBoundary { nodes, .. } => {
-            nodes.first().and_then(|&node| input.netlist.source_map.name(Item::Node(node)))
-        }
-        SteadyError::Unsolved(unsolved) if unsolved.input().is_none() => {
-            input.node_place(unsolved.node())
-        }
-        SteadyError::BelowAbsoluteZero { name, .. } | SteadyError::Runaway { node: name, .. } => {
-            input.node_place(name)
-        }
-        error => error.input().and_then(|error| input.place_of(error)),
-    };
-    input.failure(error, place)
+    table.map_err(|error| steady_failed(input, &SteadyError::Input(error)))
 }

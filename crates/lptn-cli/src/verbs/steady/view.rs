@@ -14,10 +14,10 @@ use lptn_solve::{Balance, SteadyState, Table};
 use lptn_units::Unit;
 use serde_json::{Map, json};
 
-use crate::about::{self, Known};
-use crate::balance;
 use crate::console::Console;
-use crate::input::Input;
+use lptn_answer::about::{self, Known};
+use lptn_answer::balance;
+use lptn_answer::input::Input;
 use lptn_answer::limits::{self, Judgement};
 use lptn_answer::words::{difference, largest, some_of};
 use lptn_answer::{adiabatic, inputs_vary, others};

@@ -13,10 +13,10 @@ use serde_json::{Value, json};
 
 use super::args::SweepArgs;
 use super::shard::Shard;
-use crate::about;
-use crate::exit::Exit;
-use crate::failure::{Failure, told};
-use crate::input::{self, Input, Studies};
+use lptn_answer::about;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, told};
+use lptn_answer::input::{self, Input, Studies};
 
 const STUDIES: Studies = Studies {
     section: "sweep",

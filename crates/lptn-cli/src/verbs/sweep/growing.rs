@@ -13,10 +13,10 @@ use serde_json::{Value, json};
 use super::asked::Asked;
 use super::row::Row;
 use super::tally::Tally;
-use crate::exit::Exit;
-use crate::failure::{Failure, reason};
 use crate::files::names::{BEGUN, MANIFEST, PARQUET, SWEEP, UNFINISHED};
 use crate::files::{self, Folder};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, reason};
 
 /// The rows so far, and the hash of the file.
 pub(crate) struct Growing {

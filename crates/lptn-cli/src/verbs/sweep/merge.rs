@@ -13,10 +13,10 @@ use super::growing::{Lines, write_manifest};
 use super::parquet;
 use super::shard::Shard;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files::names::{MANIFEST, PARQUET, SWEEP, UNFINISHED};
 use crate::files::{self, Folder};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 
 /// A part that is whole.
 struct Part {
@@ -206,7 +206,7 @@ fn copy(part: &Part, heading: bool, out: &mut dyn io::Write) -> Result<(), Failu
     let mut lines = Lines::open(&path)?;
     let first = lines.next()?;
     let cannot = |error: io::Error| {
-        let message = format!("cannot write: {}", crate::failure::reason(&error));
+        let message = format!("cannot write: {}", lptn_answer::failure::reason(&error));
         Failure::new(Exit::Failed, Diagnostic::error("output::cannot_write", message))
     };
     if let (true, Some(first)) = (heading, first) {

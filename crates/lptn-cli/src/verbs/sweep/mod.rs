@@ -29,12 +29,13 @@ use page::{Rows, View};
 use tally::Tally;
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files::Folder;
 use crate::files::names::{PARQUET, SWEEP};
-use crate::input::Input;
+use crate::input::Load as _;
 use crate::options::Source;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
 
 pub(crate) fn sweep(args: &SweepArgs, console: &Console) -> Result<Exit, Failure> {
     match &args.verb {
@@ -169,8 +170,9 @@ fn show(
     }
     if asked.shard.is_some() && folder.is_some() {
         let whole = folder.and_then(|folder| folder.path().parent());
-        let whole =
-            whole.map_or(String::new(), |whole| crate::input::quoted(&whole.display().to_string()));
+        let whole = whole.map_or(String::new(), |whole| {
+            lptn_answer::input::quoted(&whole.display().to_string())
+        });
         console.next(&format!("lptn sweep merge {whole}"));
     }
     Ok(view.exit(console))

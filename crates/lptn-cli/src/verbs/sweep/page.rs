@@ -12,10 +12,10 @@ use super::asked::{Asked, Column};
 use super::growing::{Lines, heading, json_row, read_row};
 use super::row::Row;
 use super::tally::{Count, Tally};
-use crate::about::{self, Known};
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
+use lptn_answer::about::{self, Known};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 use lptn_answer::words::{MOST_NODES, count, some_of, spaced};
 
 /// Digits of a value that is shown.

@@ -14,9 +14,9 @@ use parquet::schema::types::Type;
 
 use super::growing::{Lines, damaged, read_row};
 use super::row::Row;
-use crate::failure::Failure;
 use crate::files::Folder;
 use crate::files::names::{PARQUET, SWEEP};
+use lptn_answer::failure::Failure;
 
 /// Numbers of one group of rows: what is in memory at a time.
 const NUMBERS: usize = 1 << 21;

@@ -5,10 +5,11 @@ use lptn_netlist::SweepStudy;
 use super::args::PlanArgs;
 use super::asked;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::{Input, quoted};
+use crate::input::Load as _;
 use crate::options::Source;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{Input, quoted};
 
 pub(crate) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, Failure> {
     let source = Source { set: args.set.clone(), ..Source::of(args.file.clone()) };

@@ -12,9 +12,9 @@ use super::asked::Asked;
 use super::row::Row;
 use super::tally::Tally;
 use crate::console::Console;
-use crate::failure::Failure;
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
+use lptn_answer::failure::Failure;
 
 /// Rows that a thread solves at a time: of small linear networks, and of steady states. Those of
 /// other runs are handed on one by one.

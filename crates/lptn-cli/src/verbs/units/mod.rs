@@ -10,9 +10,9 @@ use lptn_report::{Format, Text, TextTable, significant};
 use lptn_units::{Dimension, Quantity, Spread, Type, Unit, format_number, parse_quantity};
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::wrong_unit;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::wrong_unit;
 use lptn_answer::words::spaced;
 
 pub(crate) fn units(args: &UnitsArgs, console: &Console) -> Result<Exit, Failure> {

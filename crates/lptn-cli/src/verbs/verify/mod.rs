@@ -17,14 +17,15 @@ use lptn_solve::{NoReference, Reference, RunComparison, Verification};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
-use crate::about::{self, Known};
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::{self, Input};
+use crate::input::Load as _;
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
-use crate::verbs::run::job::{no_run, unanswered};
+use lptn_answer::about::{self, Known};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{self, Input};
+use lptn_answer::refused::{no_run, unanswered};
 use lptn_answer::words::count;
 
 /// Letters of a node's name beside the other columns.

@@ -10,13 +10,13 @@ use lptn_study::SiValue;
 use serde_json::json;
 
 use super::{NODE_WIDTH, NOTHING, with_units};
-use crate::about::{self, Known};
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::Input;
-use crate::operating_point::{OperatingPoint, place};
 use crate::options::Printed;
+use lptn_answer::about::{self, Known};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
+use lptn_answer::operating_point::{OperatingPoint, place};
 use lptn_answer::words::count;
 
 pub(super) fn near(

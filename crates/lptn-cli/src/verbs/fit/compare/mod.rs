@@ -20,15 +20,15 @@ use lptn_report::plain;
 use lptn_solve::available_threads;
 
 use super::network::{Answer as Fit, STUDIES, doubts, record_place};
-use crate::belief::Belief;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::{Failure, told};
 use crate::files::Folder;
-use crate::input::{Input, quoted};
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
 use crate::verbs::compare::{Variant, listed, load, of_sets, too_many, used};
+use lptn_answer::belief::Belief;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, told};
+use lptn_answer::input::{Input, quoted};
 
 pub(crate) fn compare(args: &FitCompareArgs, console: &Console) -> Result<Exit, Failure> {
     let loaded = loaded(args)?;

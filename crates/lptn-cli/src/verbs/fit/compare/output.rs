@@ -4,9 +4,9 @@
 use lptn_report::{Format, Look, write_csv};
 
 use super::Answer;
-use crate::failure::Failure;
 use crate::files::names::{CANDIDATES, CHOICE, MANIFEST, UNSEEN};
 use crate::files::{self, Folder};
+use lptn_answer::failure::Failure;
 
 /// What is written.
 pub(super) const NAMES: [&str; 4] = [CANDIDATES, UNSEEN, CHOICE, MANIFEST];

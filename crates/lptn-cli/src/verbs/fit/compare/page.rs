@@ -12,9 +12,9 @@ use serde_json::{Map, Value, json};
 use super::Answer;
 use super::shown::{interval, probability, ratio, share};
 use super::words::{likelier, records, unseen, verdict};
-use crate::about;
-use crate::diagnostics;
 use crate::verbs::fit::network::{common, parameter, values};
+use lptn_answer::about;
+use lptn_answer::messages;
 use lptn_answer::words::count;
 
 /// What does not exist.
@@ -56,7 +56,7 @@ impl Page for Answer<'_> {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&self.hashes())
+        about::of_command(&self.hashes(), &crate::files::arguments())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -64,7 +64,7 @@ impl Page for Answer<'_> {
         let warnings = all.flat_map(|(one, doubts)| {
             let netlist = &one.input.netlist;
             let all = [netlist.warnings.as_slice(), doubts].concat();
-            all.iter().map(|doubt| diagnostics::json(&netlist.files, doubt)).collect::<Vec<_>>()
+            all.iter().map(|doubt| messages::json(&netlist.files, doubt)).collect::<Vec<_>>()
         });
         json.member("format", &1)?;
         json.member("network", &())?;

@@ -16,9 +16,9 @@ use super::args::LawArgs;
 use super::shown::{SpeedUnit, chance, with_error};
 use super::wrong_law;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::quantity;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::quantity;
 
 /// Compares three laws of the command line.
 pub(crate) fn laws(

@@ -20,9 +20,9 @@ use lptn_report::Format;
 use lptn_units::{Dimension, parse_quantity};
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::{Failure, told};
-use crate::input::{positive, wrong_unit};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, told};
+use lptn_answer::input::{positive, wrong_unit};
 use points::Data;
 
 pub(crate) fn law(args: &LawArgs, console: &Console) -> Result<Exit, Failure> {

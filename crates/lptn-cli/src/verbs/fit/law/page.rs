@@ -13,8 +13,8 @@ use serde_json::{Value, json};
 use super::laws::{sections, verdict};
 use super::shown::{chance, with_error};
 use super::{Answer, laws};
-use crate::about;
-use crate::diagnostics;
+use lptn_answer::about;
+use lptn_answer::messages;
 
 impl Page for Answer {
     fn text(&self) -> Text {
@@ -84,7 +84,7 @@ impl Page for Answer {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&[])
+        about::of_command(&[], &crate::files::arguments())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -92,7 +92,7 @@ impl Page for Answer {
         let rivals: Value = study.rivals().iter().map(|c| c.law.to_string()).collect();
         json.member("format", &1)?;
         json.member("points", &json!({ "file": data.name, "count": data.points.len() }))?;
-        json.member("warnings", &diagnostics::list(&data.files, &data.warnings))?;
+        json.member("warnings", &messages::list(&data.files, &data.warnings))?;
         json.member("weighted", &data.points.deviation().is_some())?;
         json.member("laws", &study.candidates.iter().map(|c| law(self, c)).collect::<Value>())?;
         json.member("best", &study.best().map(|c| c.law.to_string()))?;

@@ -8,8 +8,8 @@ use lptn_units::{Dimension, Type, suggest};
 
 use super::args::LawArgs;
 use super::shown::SpeedUnit;
-use crate::exit::Exit;
-use crate::failure::{Failure, told};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, told};
 
 /// Points as they were read.
 pub(crate) struct Data {

@@ -7,9 +7,9 @@ use lptn_netlist::Diagnostic;
 
 use super::args::LawArgs;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 
 /// Refuses before anything is computed what could not be written afterwards.
 pub(crate) fn possible(args: &LawArgs, points: &Path) -> Result<(), Failure> {

@@ -5,9 +5,9 @@ use lptn_report::{Format, Text, TextTable, significant};
 
 use super::NetworkArgs;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::{Input, quoted};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{Input, quoted};
 use lptn_answer::words::spaced;
 
 /// Digits with which a search goes on from where it was.

@@ -26,17 +26,18 @@ use lptn_report::differing;
 use lptn_solve::available_threads;
 use lptn_units::Unit;
 
-use crate::belief::Belief;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files::Folder;
 use crate::files::names::POSTERIOR;
-use crate::input::{Input, Studies, quoted};
+use crate::input::Load as _;
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressLine;
-use crate::unseparated::{Named, names_and_units};
+use lptn_answer::belief::Belief;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{Input, Studies, quoted};
+use lptn_answer::unseparated::{Named, names_and_units};
 
 /// What came of a fit, and of what.
 pub(crate) struct Answer<'a> {

@@ -7,10 +7,10 @@ use lptn_units::Type;
 
 use super::Answer;
 use super::units::Shown;
-use crate::about;
-use crate::failure::Failure;
 use crate::files::names::{FIT, MANIFEST, POSTERIOR, RESIDUALS};
 use crate::files::{self, Folder};
+use lptn_answer::about;
+use lptn_answer::failure::Failure;
 
 /// What may be written.
 const NAMES: [&str; 4] = [RESIDUALS, FIT, POSTERIOR, MANIFEST];

@@ -16,8 +16,8 @@ use serde_json::{Map, Value, json};
 use super::units::common;
 use super::words::{combination, sought, state, type_of, verdict};
 use super::{Answer, shared_noise};
-use crate::about::{self, Known};
-use crate::diagnostics;
+use lptn_answer::about::{self, Known};
+use lptn_answer::messages;
 use lptn_answer::words::{count, symbol, unverified};
 
 impl Page for Answer<'_> {
@@ -101,7 +101,7 @@ impl Page for Answer<'_> {
         json.member("format", &1)?;
         json.member("network", &self.input.text.stem)?;
         json.member("study", &self.study.name)?;
-        json.member("warnings", &diagnostics::list(&netlist.files, &warnings))?;
+        json.member("warnings", &messages::list(&netlist.files, &warnings))?;
         json.member("parameters", &values(&parameters))?;
         if !of_sensors.is_empty() {
             json.member("sensors", &values(&of_sensors))?;

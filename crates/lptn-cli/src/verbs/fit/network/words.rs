@@ -10,7 +10,7 @@ use lptn_units::Type;
 
 use super::Answer;
 use super::units::common;
-use crate::taken;
+use lptn_answer::taken;
 use lptn_answer::words::count as number;
 
 /// Digits of a value that nothing says the accuracy of.

@@ -8,9 +8,9 @@ use lptn_report::Shortest;
 
 use super::Answer;
 use crate::console::Console;
-use crate::failure::Failure;
-use crate::input::Input;
 use crate::written::{can_be_written, put, with_numbers};
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
 use lptn_answer::words::spaced;
 
 /// Digits that are written: a tenth of a standard error never is beyond them.

@@ -8,8 +8,8 @@ use lptn_units::Problem as _;
 use super::estimate::with_error;
 use super::request::{Reference, Request};
 use super::{Column, shown};
-use crate::exit::Exit;
-use crate::failure::told;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::told;
 
 /// The warnings about a column's fit.
 pub(crate) fn of(request: &Request, column: &Column<'_>) -> Vec<Diagnostic> {

@@ -16,9 +16,9 @@ use lptn_fit::step::{Capacity, Power, ReferenceTemperature as Zero, Sensor, Step
 use lptn_netlist::{Diagnostic, Posterior, RecordColumn};
 
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::verbs::fit::posterior;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 use model::Model;
 use request::{Reference, Request};
 

@@ -10,10 +10,11 @@ use lptn_units::Problem as _;
 
 use super::StepArgs;
 use super::request::Request;
-use crate::exit::Exit;
-use crate::failure::{Failure, told};
-use crate::input::Input;
+use crate::input::Load as _;
 use crate::options::Source;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::{Failure, told};
+use lptn_answer::input::Input;
 
 /// The bias of the method, and of which network.
 #[derive(Debug)]

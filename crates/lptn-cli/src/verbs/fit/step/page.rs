@@ -18,8 +18,8 @@ use super::estimate::{to_error, with_error};
 use super::model::Model;
 use super::request::{Reference, Request};
 use super::{Answer, Column};
-use crate::about;
-use crate::diagnostics;
+use lptn_answer::about;
+use lptn_answer::messages;
 use lptn_answer::scale;
 
 const TEMPERATURE: Type = Type::ABSOLUTE_TEMPERATURE;
@@ -75,7 +75,7 @@ impl Page for Answer<'_> {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&[])
+        about::of_command(&[], &crate::files::arguments())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -99,7 +99,7 @@ impl Page for Answer<'_> {
         json.member("format", &1)?;
         json.member("network", &network)?;
         json.member("record", &request.name)?;
-        json.member("warnings", &diagnostics::list(&request.files, &self.warnings))?;
+        json.member("warnings", &messages::list(&request.files, &self.warnings))?;
         json.member("from", &time(request.record.time.first()))?;
         json.member("to", &time(request.record.time.last()))?;
         json.member("reference", reference)?;
@@ -113,7 +113,7 @@ impl Page for Answer<'_> {
         if errors.is_empty() {
             return Ok(());
         }
-        diagnostics::failed(json, self.exit, &diagnostics::list(&request.files, &errors))
+        messages::failed(json, self.exit, &messages::list(&request.files, &errors))
     }
 }
 

@@ -6,9 +6,9 @@ use lptn_netlist::{Diagnostic, Files, Record, RecordName, RecordQuery, read_reco
 use lptn_units::{Dimension, Quantity, Type, Unit, parse_quantity};
 
 use super::StepArgs;
-use crate::exit::Exit;
-use crate::failure::Failure;
-use crate::input::{self, wrong_unit};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{self, wrong_unit};
 
 /// A record with what is to be made of it.
 #[derive(Debug)]

@@ -13,12 +13,13 @@ use lptn_study::uncertainty::{
     Discrepancy, Sobol, Uncertainty, UncertaintyError, UncertaintyTask, discrepancies, uncertain,
 };
 
-use super::job::{Job, shown};
+use super::job::Job;
 use crate::console::Console;
-use crate::failure::Failure;
-use crate::input::Input;
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressOfAll;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
+use lptn_answer::run::shown;
 
 /// Base points unless said: enough for a standard error of a few percent of a band's width.
 const SAMPLES: u32 = 512;

@@ -16,16 +16,19 @@ use serde_json::{Map, Value, json};
 
 use super::SteadyArgs;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files::Folder;
 use crate::files::names::{MANIFEST, RESULT, WINDOWS};
-use crate::input::{self, Input};
+use crate::input::Load as _;
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
-use crate::verbs::run::job::{Job, NoSteady, explain, record, unanswered};
+use crate::verbs::run::job::{Job, NoSteady};
 use crate::verbs::run::outcome::Outcome;
-use crate::{balance, period, select};
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{self, Input};
+use lptn_answer::refused::{explain, unanswered};
+use lptn_answer::run::record;
+use lptn_answer::{balance, period, select};
 use lptn_answer::{scale, trust};
 
 /// The name of the window over the cycle.

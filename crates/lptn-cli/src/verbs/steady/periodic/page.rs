@@ -11,8 +11,8 @@ use lptn_study::{SiValue, StatisticsRecord};
 use lptn_units::Dimension;
 
 use super::View;
-use crate::balance;
 use crate::verbs::run::page::heat_over;
+use lptn_answer::balance;
 use lptn_answer::words::{count, difference, largest, some_of, symbol};
 use lptn_answer::{families, limits};
 

@@ -9,9 +9,9 @@ use lptn_study::FileHash;
 use lptn_units::{Dimension, Type, parse_quantity};
 
 use super::super::shown::SpeedUnit;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files::of_folder;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
 
 /// The sheet that gives the speeds of records.
 const RUNS: &str = "runs.csv";

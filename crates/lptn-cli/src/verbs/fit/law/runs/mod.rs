@@ -28,12 +28,12 @@ use super::args::LawArgs;
 use super::points::Data;
 use super::shown::with_error;
 use super::{Answer, laws_to_fit};
-use crate::about;
 use crate::console::Console;
-use crate::exit::Exit;
-use crate::failure::Failure;
 use crate::files;
-use crate::input::{quantity, wrong_unit};
+use lptn_answer::about;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{quantity, wrong_unit};
 
 /// What is shown of a folder.
 pub(crate) struct Runs {
@@ -329,7 +329,7 @@ impl Page for Runs {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&self.inputs)
+        about::of_command(&self.inputs, &crate::files::arguments())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

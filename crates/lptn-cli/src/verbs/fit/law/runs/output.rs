@@ -10,9 +10,9 @@ use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
 use super::{Runs, lines};
-use crate::failure::Failure;
 use crate::files::names::{LAWS, MANIFEST, POWER, RISE, SLOPES, TIME_CONSTANT};
 use crate::files::{Folder, manifest};
+use lptn_answer::failure::Failure;
 
 /// What is written.
 pub(crate) const NAMES: [&str; 6] = [RISE, TIME_CONSTANT, POWER, SLOPES, LAWS, MANIFEST];

@@ -7,16 +7,16 @@ use lptn_units::suggest;
 
 use crate::exit::Exit;
 use crate::failure::Failure;
-use lptn_answer::words::count;
+use crate::words::count;
 
 /// The columns of a run: those that the command line asks for, else those of `[run]`, else all.
-pub(crate) fn of_run(netlist: &Netlist, option: &[String]) -> Result<Selection, Failure> {
+pub fn of_run(netlist: &Netlist, option: &[String]) -> Result<Selection, Failure> {
     let of_run = netlist.run.as_ref().map_or(&[][..], |run| &run.select);
     if option.is_empty() { chosen(netlist, of_run, true) } else { chosen(netlist, option, false) }
 }
 
 /// The columns that the command line asks for, else all.
-pub(crate) fn of_option(netlist: &Netlist, option: &[String]) -> Result<Selection, Failure> {
+pub fn of_option(netlist: &Netlist, option: &[String]) -> Result<Selection, Failure> {
     chosen(netlist, option, false)
 }
 
@@ -32,7 +32,7 @@ fn chosen(netlist: &Netlist, patterns: &[String], in_file: bool) -> Result<Selec
 }
 
 /// What is left out where nothing is selected.
-pub(crate) fn hidden(netlist: &Netlist) -> Option<String> {
+pub fn hidden(netlist: &Netlist) -> Option<String> {
     let (network, map) = (&netlist.network, &netlist.source_map);
     let imported = |item: &Item| map.is_imported(*item);
     let nodes = network.node_ids().map(Item::Node).filter(imported).count();

@@ -5,7 +5,7 @@ use lptn_units::Class;
 /// How a command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
-pub(crate) enum Exit {
+pub enum Exit {
     /// Done.
     Done = 0,
     /// Done, and the answer is no; the last line says which. For `check`: the file could be read

@@ -10,17 +10,20 @@ use crate::input::Input;
 const DIGITS: usize = 5;
 
 /// What is sought, as it is called and shown.
-pub(crate) struct Named<'a> {
-    pub(crate) unknowns: &'a [Unknown],
-    pub(crate) names: &'a [String],
-    pub(crate) units: &'a [Unit],
+pub struct Named<'a> {
+    /// The estimated quantities.
+    pub unknowns: &'a [Unknown],
+    /// Their names, in the order of `unknowns`.
+    pub names: &'a [String],
+    /// The units in which they are shown.
+    pub units: &'a [Unit],
     /// In SI units.
-    pub(crate) values: Vec<f64>,
+    pub values: Vec<f64>,
 }
 
 /// What each is called, with the name of the record that it alone concerns, and in which unit it is
 /// shown.
-pub(crate) fn names_and_units(
+pub fn names_and_units(
     input: &Input,
     unknowns: &[Unknown],
     records: &[String],
@@ -39,13 +42,13 @@ pub(crate) fn names_and_units(
 
 impl Named<'_> {
     /// "`P`, `R` and `C`".
-    pub(crate) fn listed(&self, of: &[usize]) -> String {
+    pub fn listed(&self, of: &[usize]) -> String {
         let names: Vec<String> = of.iter().map(|&i| format!("`{}`", self.names[i])).collect();
         joined(&names)
     }
 
     /// "P R", "P / C", "2 G1 + G2".
-    pub(crate) fn combination(&self, combination: &Combination) -> String {
+    pub fn combination(&self, combination: &Combination) -> String {
         let name = |i: usize| self.names[i].to_owned();
         match combination.kind {
             CombinationKind::Product => {
@@ -80,7 +83,7 @@ impl Named<'_> {
     }
 
     /// The type of a combination; `None` if its exponents cannot be held.
-    pub(crate) fn type_of(&self, combination: &Combination) -> Option<Type> {
+    pub fn type_of(&self, combination: &Combination) -> Option<Type> {
         let own = |i: usize| self.unknowns[i].ty;
         if combination.kind == CombinationKind::Sum {
             return combination.terms.first().map(|&(i, _)| own(i));
@@ -111,7 +114,7 @@ impl Named<'_> {
     }
 
     /// What is determined of parameters that cannot be told apart, and what would help.
-    pub(crate) fn unseparated(&self, group: &Unseparated) -> String {
+    pub fn unseparated(&self, group: &Unseparated) -> String {
         let example = group.parameters.last().map_or("", |&i| &self.names[i]);
         let fix = match group.missing {
             1 => format!("fix one, for example give {example} a prior with `±`"),
@@ -176,7 +179,7 @@ impl Named<'_> {
 }
 
 /// "a, b and c".
-pub(crate) fn joined(words: &[String]) -> String {
+pub fn joined(words: &[String]) -> String {
     match words {
         [] => String::new(),
         [only] => only.clone(),

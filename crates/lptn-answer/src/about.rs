@@ -5,38 +5,38 @@ use lptn_netlist::Netlist;
 use lptn_network::{Field, Item, Network, ParameterId};
 use lptn_report::{Claim, Piece, Report, Section, Text, TextTable, plain, significant};
 use lptn_solve::{Lumping, OutOfRange, Snapshot};
-use lptn_study::{FileHash, Sundials};
+use lptn_study::FileHash;
 use lptn_units::Unit;
 use serde_json::Value;
 
-use crate::files;
 use crate::input::{Input, quoted};
-use lptn_answer::ranges;
-use lptn_answer::words::{count, difference, spaced, unverified};
+use crate::ranges;
+use crate::words::{count, difference, spaced, unverified};
 
 /// How an answer changes with a parameter.
-pub(crate) struct Sensitivities {
+pub struct Sensitivities {
     /// What changes: `steel at 25 min`.
-    pub(crate) of: String,
+    pub of: String,
     /// In K for one percent more of each parameter, for 1 K more of a temperature; `None` where
     /// that is not known.
-    pub(crate) values: Vec<Option<f64>>,
+    pub values: Vec<Option<f64>>,
 }
 
 /// What a verb knows of a network beside its answer.
 #[derive(Default)]
-pub(crate) struct Known<'a> {
+pub struct Known<'a> {
     /// How it trusts its answer.
-    pub(crate) claims: Vec<Claim>,
+    pub claims: Vec<Claim>,
     /// The network at instants, each under a heading.
-    pub(crate) states: Vec<(String, Snapshot)>,
+    pub states: Vec<(String, Snapshot)>,
     /// The scale of temperatures, where that is not the one of the netlist.
-    pub(crate) unit: Option<&'a Unit>,
-    pub(crate) sensitivities: Option<Sensitivities>,
+    pub unit: Option<&'a Unit>,
+    /// How the answer changes with parameters.
+    pub sensitivities: Option<Sensitivities>,
 }
 
 /// What is known of a network beside the answer of a verb.
-pub(crate) fn about(input: &Input, known: Known<'_>) -> Report {
+pub fn about(input: &Input, known: Known<'_>) -> Report {
     let unit = known.unit.unwrap_or(&input.netlist.temperature_unit);
     let states =
         known.states.iter().map(|(title, state)| drawing(input, (title, unit), Some(state)));
@@ -45,14 +45,14 @@ pub(crate) fn about(input: &Input, known: Known<'_>) -> Report {
         sections.extend(drawing(input, ("Network", unit), None));
     }
     sections.extend(parameters(input, known.sensitivities.as_ref()));
-    sections.push(made_from(&hashes(&input.netlist)));
+    sections.push(made_from(&hashes(&input.netlist), &input.command));
     let mut claims = known.claims;
     claims.push(linearity(input));
     Report { name: input.text.stem.clone(), title: String::new(), claims, sections }
 }
 
 /// Every file that a netlist was read from.
-pub(crate) fn hashes(netlist: &Netlist) -> Vec<FileHash> {
+pub fn hashes(netlist: &Netlist) -> Vec<FileHash> {
     let hash = |(name, text): (&str, &str)| FileHash {
         name: name.to_owned(),
         sha256: lptn_study::sha256(text.as_bytes()),
@@ -73,14 +73,14 @@ fn linearity(input: &Input) -> Claim {
 }
 
 /// Whether every law stayed where it is known: elsewhere there is no result.
-pub(crate) fn laws(network: &Network, outside: &[OutOfRange]) -> Vec<Claim> {
+pub fn laws(network: &Network, outside: &[OutOfRange]) -> Vec<Claim> {
     let mut claims = vec![ranges::claim(network, outside)];
     claims.extend(unverified(network).map(Claim::open));
     claims
 }
 
 /// Whether nodes are lumps.
-pub(crate) fn lumps(lumping: &Lumping) -> Claim {
+pub fn lumps(lumping: &Lumping) -> Claim {
     let (thick, slow) = (lumping.too_thick().len(), lumping.too_slow().len());
     let checked = lumping.checks.iter().filter(|check| check.biot.is_ok()).count();
     match (thick + slow, checked) {
@@ -101,7 +101,7 @@ fn are(nodes: usize) -> String {
 }
 
 /// The manifest of a run but for what changes from run to run.
-pub(crate) fn manifest(mut value: Value) -> Option<Section> {
+pub fn manifest(mut value: Value) -> Option<Section> {
     let members = value.as_object_mut()?;
     for key in ["environment", "results"] {
         members.shift_remove(key);
@@ -213,20 +213,31 @@ fn written(input: &Input, id: ParameterId) -> String {
 }
 
 /// What is known of an answer that is not about a netlist.
-pub(crate) fn of_command(files: &[FileHash]) -> Report {
-    Report { sections: vec![made_from(files)], ..Report::default() }
+pub fn of_command(files: &[FileHash], command: &[String]) -> Report {
+    Report { sections: vec![made_from(files, command)], ..Report::default() }
 }
 
 /// The files that were read, with their hashes, and the command.
-fn made_from(read: &[FileHash]) -> Section {
+fn made_from(read: &[FileHash], command: &[String]) -> Section {
     let mut text = Text::new();
     if !read.is_empty() {
         let table = TextTable::of(read).left("file", |file| plain(&file.name));
         text.table(table.left("SHA-256", |file| file.sha256.as_str()));
     }
-    let words: Vec<String> = files::arguments().iter().map(|word| quoted(word)).collect();
-    text.section().sentence("command:", &plain(&format!("lptn {}", words.join(" "))));
-    let (own, sundials) = (env!("CARGO_PKG_VERSION"), Sundials::linked().version);
-    text.sentence("lptn:", &format!("{own}, SUNDIALS {sundials}"));
+    text.section();
+    if !command.is_empty() {
+        let words: Vec<String> = command.iter().map(|word| quoted(word)).collect();
+        text.sentence("command:", &plain(&format!("lptn {}", words.join(" "))));
+    }
+    text.sentence("lptn:", &versions());
     Section::of("What it was made from", Piece::Text(text)).folded()
+}
+
+/// "0.1.0, SUNDIALS 7.1.0".
+fn versions() -> String {
+    let own = env!("CARGO_PKG_VERSION");
+    #[cfg(feature = "cvodes")]
+    return format!("{own}, SUNDIALS {}", lptn_study::Sundials::linked().version);
+    #[cfg(not(feature = "cvodes"))]
+    own.to_owned()
 }

@@ -9,37 +9,40 @@ use crate::exit::Exit;
 
 /// What is printed, and the exit code.
 #[derive(Clone, Debug)]
-pub(crate) struct Failure {
-    pub(crate) exit: Exit,
-    pub(crate) files: Files,
-    pub(crate) diagnostics: Vec<Diagnostic>,
+pub struct Failure {
+    /// How the command ends.
+    pub exit: Exit,
+    /// The files that places are in.
+    pub files: Files,
+    /// The problems, at least one.
+    pub diagnostics: Vec<Diagnostic>,
 }
 
 impl Failure {
     /// One diagnostic about no file.
-    pub(crate) fn new(exit: Exit, diagnostic: Diagnostic) -> Self {
+    pub fn new(exit: Exit, diagnostic: Diagnostic) -> Self {
         Self::at(exit, Files::new(), diagnostic)
     }
 
     /// What is wrong, in its own words, about no file.
-    pub(crate) fn of(problem: &dyn Problem) -> Self {
+    pub fn of(problem: &dyn Problem) -> Self {
         Self::new(problem.class().into(), told(problem))
     }
 
     /// A file or folder that cannot be read.
-    pub(crate) fn cannot_read(name: impl fmt::Display, error: &io::Error, help: impl Help) -> Self {
+    pub fn cannot_read(name: impl fmt::Display, error: &io::Error, help: impl Help) -> Self {
         let message = format!("cannot read {name}: {}", reason(error));
         Self::new(Exit::Input, Diagnostic::error("input::cannot_read", message).help(help))
     }
 
     /// The same with another help, where one is about something else.
-    pub(crate) fn with_help(mut self, help: &str) -> Self {
+    pub fn with_help(mut self, help: &str) -> Self {
         self.diagnostics.iter_mut().for_each(|problem| problem.help = Some(help.into()));
         self
     }
 
     /// One diagnostic about a place in `files`.
-    pub(crate) fn at(exit: Exit, files: Files, diagnostic: Diagnostic) -> Self {
+    pub fn at(exit: Exit, files: Files, diagnostic: Diagnostic) -> Self {
         Self { exit, files, diagnostics: vec![diagnostic] }
     }
 }
@@ -60,12 +63,12 @@ impl From<ReadError> for Failure {
 }
 
 /// A problem with its code and help.
-pub(crate) fn told(problem: &dyn Problem) -> Diagnostic {
+pub fn told(problem: &dyn Problem) -> Diagnostic {
     Diagnostic::error(problem.code(), problem.to_string()).help(problem.help())
 }
 
 /// The reason of an i/o error in words that fit into a sentence.
-pub(crate) fn reason(error: &io::Error) -> String {
+pub fn reason(error: &io::Error) -> String {
     let text = error.to_string();
     let text = text.split(" (os error").next().unwrap_or_default();
     let mut letters = text.chars();

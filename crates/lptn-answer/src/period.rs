@@ -10,7 +10,7 @@ use crate::failure::Failure;
 use crate::input::{self, Input};
 
 /// The period that `--period` gives, or that of the repeated signals, in s.
-pub(crate) fn of_cycle(input: &Input, given: Option<&str>) -> Result<f64, Failure> {
+pub fn of_cycle(input: &Input, given: Option<&str>) -> Result<f64, Failure> {
     let Some(text) = given else { return of_signals(input, HELPS) };
     let what = (Dimension::TIME, "periodic::period", "\"10 min\"");
     Ok(input::positive("--period", text, what)?.value)
@@ -23,10 +23,7 @@ const HELPS: [&str; 2] = [
 
 /// The period of the repeated signals in s. What to do where it is not known, and where nothing
 /// changes.
-pub(crate) fn of_signals(
-    input: &Input,
-    [unknown, constant]: [&'static str; 2],
-) -> Result<f64, Failure> {
+pub fn of_signals(input: &Input, [unknown, constant]: [&'static str; 2]) -> Result<f64, Failure> {
     let network = &input.netlist.network;
     let problem = match network.repeat_period() {
         Ok(Some(period)) => return Ok(period),

@@ -14,11 +14,7 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 
 /// The node or boundary that the option names.
-pub(crate) fn end(
-    netlist: &Netlist,
-    name: Option<&str>,
-    format: Format,
-) -> Result<Option<End>, Failure> {
+pub fn end(netlist: &Netlist, name: Option<&str>, format: Format) -> Result<Option<End>, Failure> {
     let Some(name) = name else { return Ok(None) };
     if format == Format::Csv {
         let message = "--balance is shown in the table and in JSON: CSV holds columns only";
@@ -97,7 +93,7 @@ fn amounts<'a>(
 }
 
 /// The balance as a section; `times` are start and end of the run in s, none for a steady state.
-pub(crate) fn section(
+pub fn section(
     text: &mut Text,
     network: &Network,
     (balance, times): (&Balance, Option<(f64, f64)>),
@@ -173,7 +169,7 @@ fn place(network: &Network, term: &Term, end: End) -> String {
 
 /// `{ of, terms, power, heat, stored, .. }` with a term
 /// `{ name, other, power, power_share, heat, heat_share }` each, in SI, largest first.
-pub(crate) fn json(network: &Network, balance: &Balance) -> Value {
+pub fn json(network: &Network, balance: &Balance) -> Value {
     let scalar = SiValue::new;
     let heat = |value: Option<f64>| value.map(|value| scalar(value, "J"));
     let share = |value: f64, all: f64| (all > 0.0).then(|| scalar(value / all, "1"));

@@ -8,7 +8,7 @@ use crate::failure::Failure;
 
 /// Which fit the values of parameters are taken from.
 #[derive(Debug)]
-pub(crate) enum Belief<'a> {
+pub enum Belief<'a> {
     /// The one whose posterior the netlist names, if it names one.
     Named,
     /// The one that wrote this file; the netlist has to have all of its parameters.
@@ -21,12 +21,12 @@ pub(crate) enum Belief<'a> {
 
 impl<'a> Belief<'a> {
     /// That of the command line, else that of the netlist.
-    pub(crate) fn of(file: Option<&'a Path>) -> Self {
+    pub fn of(file: Option<&'a Path>) -> Self {
         file.map_or(Self::Named, Self::File)
     }
 
     /// Gives a netlist the values, if there are any.
-    pub(crate) fn take(&self, netlist: &mut Netlist) -> Result<(), Failure> {
+    pub fn take(&self, netlist: &mut Netlist) -> Result<(), Failure> {
         let named = match self {
             Self::None => return Ok(()),
             Self::Named => None,

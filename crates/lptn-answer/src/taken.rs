@@ -8,7 +8,7 @@ use lptn_units::Unit;
 
 use crate::input::Input;
 use crate::unseparated::{Named, joined};
-use lptn_answer::words::{difference, spaced};
+use crate::words::{difference, spaced};
 
 /// What moves nothing by this part of an error, or of what an error may be, is not worth a word: the
 /// two together are half a percent larger.
@@ -48,7 +48,7 @@ impl<'o> Matters<'o> {
 }
 
 /// Of a fit.
-pub(crate) fn of_fit(
+pub fn of_fit(
     (input, study): (&Input, &FitStudy),
     (task, fit): (&NetworkFitTask<'_>, &NetworkFit),
     named: &Named<'_>,
@@ -88,7 +88,7 @@ fn counted(study: &FitStudy, names: &[&str]) -> String {
 }
 
 /// Of a fit beside a posterior that every other verb takes: what it holds at another value.
-pub(crate) fn beside_posterior(
+pub fn beside_posterior(
     input: &Input,
     (study, task, fit): (&FitStudy, &NetworkFitTask<'_>, &NetworkFit),
     named: &Named<'_>,
@@ -138,7 +138,7 @@ pub(crate) fn beside_posterior(
 }
 
 /// Of a plan.
-pub(crate) fn of_plan(
+pub fn of_plan(
     (input, study): (&Input, &PlanStudy),
     (task, design): (&DesignTask<'_>, &Design),
     named: &Named<'_>,

@@ -1,4 +1,4 @@
-//! What `lptn rank` shows.
+//! A ranking as a page.
 
 use std::io;
 
@@ -9,9 +9,9 @@ use lptn_solve::{Influence, Table};
 use lptn_study::{SiValue, effect};
 use serde_json::{Value, json};
 
-use super::View;
+use super::RankAnswer;
 use crate::about::{self, Known};
-use lptn_answer::words::{MOST_NODES, some_of, spaced};
+use crate::words::{MOST_NODES, some_of, spaced};
 
 /// Letters of a name beside the other columns.
 const NAME_WIDTH: usize = 30;
@@ -19,7 +19,7 @@ const NAME_WIDTH: usize = 30;
 /// A feedback below this is not worth a sentence.
 const WEAK: f64 = 1e-6;
 
-impl View<'_> {
+impl RankAnswer {
     /// "steel, 71.9 degC in steady state".
     fn answering(&self) -> String {
         let temperature = significant(self.unit.from_si(self.ranking.temperature), 5);
@@ -145,7 +145,7 @@ impl View<'_> {
     }
 }
 
-impl Page for View<'_> {
+impl Page for RankAnswer {
     fn text(&self) -> Text {
         let mut text = self.input.begun();
         text.line(self.answering());
@@ -170,7 +170,7 @@ impl Page for View<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.input, Known { unit: Some(&self.unit), ..Known::default() })
+        about::about(&self.input, Known { unit: Some(&self.unit), ..Known::default() })
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

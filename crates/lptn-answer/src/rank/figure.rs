@@ -5,12 +5,12 @@ use lptn_plot::figure::{Axis, Curve, Look, Moment, Panel};
 use lptn_solve::Influence;
 use lptn_study::effect;
 
-use super::View;
+use super::RankAnswer;
 
 /// Values that are shown.
 const MOST: usize = 12;
 
-impl View<'_> {
+impl RankAnswer {
     pub(super) fn figure(&self) -> Figure {
         let ranking = &self.ranking;
         let all = [("parameters", &ranking.parameters), ("elements", &ranking.elements)];

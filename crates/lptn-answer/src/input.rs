@@ -1,0 +1,406 @@
+//! The netlist that a question is about.
+
+use std::io::{ErrorKind, Read as _};
+use std::path::Path;
+
+use lptn_assembly::{AssemblyError, ThermalSystem};
+use lptn_netlist::{
+    Diagnostic, Files, MOST_BYTES, Netlist, ReadError, Rejected, RunTime, Span, parse_bytes,
+    parse_file, similar_file,
+};
+use lptn_network::{InputError, Item, ParameterId};
+use lptn_report::{Json, Text, plain};
+use lptn_units::{Dimension, Problem, Quantity, Type, Unit, UnitError, parse_quantity};
+
+use crate::belief::Belief;
+use crate::exit::Exit;
+use crate::failure::{Failure, told};
+use crate::messages;
+use crate::words::{counts, unverified, unverified_names};
+
+/// The file of rows in a folder of results.
+pub const RESULT: &str = "result.csv";
+
+/// What a netlist from stdin is called.
+const STDIN: &str = "<stdin>";
+
+/// The bytes of a netlist and what they are called.
+#[derive(Debug)]
+pub struct Given {
+    /// The text as it was read.
+    pub bytes: Vec<u8>,
+    /// What diagnostics and the manifest call it.
+    pub name: String,
+    /// What its results are called: the file's name without its ending.
+    pub stem: String,
+}
+
+impl Given {
+    /// The name for a command that can be typed; `None` for stdin.
+    pub fn typed(&self) -> Option<String> {
+        (self.name != STDIN).then(|| quoted(&self.name))
+    }
+}
+
+/// Reads the file, or stdin for `-`.
+pub fn read(file: &Path) -> Result<Given, Failure> {
+    if file.as_os_str() == "-" {
+        let mut bytes = Vec::new();
+        let outcome = std::io::stdin().lock().take(MOST_BYTES + 1).read_to_end(&mut bytes);
+        outcome.map_err(|error| Failure::cannot_read("stdin", &error, None))?;
+        if bytes.len() as u64 > MOST_BYTES {
+            let message = format!("stdin is longer than {} MB", MOST_BYTES / 1_000_000);
+            return Err(Failure::new(Exit::Input, Diagnostic::error("netlist::too_long", message)));
+        }
+        return Ok(Given { bytes, name: STDIN.into(), stem: "stdin".into() });
+    }
+    let name = file.display().to_string();
+    let bytes = match lptn_netlist::read_bytes(file) {
+        Ok(bytes) => bytes,
+        Err(ReadError::Io { error, .. }) => {
+            // what is there but cannot be read is not misspelt
+            let missing = error.kind() == ErrorKind::NotFound;
+            return Err(Failure::cannot_read(
+                &name,
+                &error,
+                if missing { similar(file) } else { example(file) },
+            ));
+        }
+        Err(ReadError::Rejected(rejected)) => return Err(rejected.into()),
+    };
+    let stem =
+        file.file_stem().map_or("netlist".into(), |stem| stem.to_string_lossy().into_owned());
+    Ok(Given { bytes, name, stem: folder_name(stem) })
+}
+
+fn similar(file: &Path) -> Option<String> {
+    similar_file(file).map(|near| format!("did you mean {}?", near.display()))
+}
+
+/// A netlist of the folder that is given in the place of one.
+fn example(folder: &Path) -> Option<String> {
+    if folder.join(RESULT).is_file() {
+        let folder = quoted(&folder.display().to_string());
+        return Some(format!("it holds results: `lptn plot {folder}` shows them"));
+    }
+    let entries = std::fs::read_dir(folder).ok()?;
+    let paths = entries.filter_map(|entry| entry.ok().map(|entry| folder.join(entry.file_name())));
+    let netlists = paths.filter(|path| path.extension().is_some_and(|ending| ending == "toml"));
+    netlists.min().map(|first| format!("name a netlist in it, for example {}", first.display()))
+}
+
+/// A network with everything that was set in it.
+#[derive(Debug)]
+pub struct Input {
+    /// The file.
+    pub text: Given,
+    /// The netlist, with the values that were set.
+    pub netlist: Netlist,
+    /// Everything that was set in it, by the load case and then by itself.
+    pub set: Vec<String>,
+    /// The words of the command that asked, for reports; empty if a program asked.
+    pub command: Vec<String>,
+}
+
+/// Sets values in a netlist: those of the load case first, then those of `assignments`.
+///
+/// # Errors
+/// A case that does not exist, and an assignment that does not fit the netlist.
+pub fn apply(
+    netlist: &mut Netlist,
+    text: &Given,
+    (case, assignments): (Option<&str>, &[String]),
+) -> Result<Vec<String>, Failure> {
+    let mut set = Vec::new();
+    if let Some(name) = case {
+        let cases = &netlist.studies.cases;
+        let Some(case) = cases.iter().find(|case| case.name == *name) else {
+            return Err(no_case(netlist, text, name));
+        };
+        let failed = |error: lptn_units::EvalError| {
+            let problem = Diagnostic::error(error.code(), format!("case `{name}`: {error}"));
+            let problem = problem.at(case.span.clone(), "");
+            Failure::at(Exit::Input, netlist.files.clone(), problem)
+        };
+        set = case.assignments(&netlist.network).map_err(failed)?;
+        netlist.set(&set)?;
+    }
+    netlist.set(assignments)?;
+    set.extend_from_slice(assignments);
+    Ok(set)
+}
+
+fn no_case(netlist: &Netlist, text: &Given, name: &str) -> Failure {
+    let cases = &netlist.studies.cases;
+    let names = || cases.iter().map(|case| case.name.as_str());
+    let message = format!("{} has no [case.{name}]", text.name);
+    let problem = Diagnostic::error("input::no_case", message);
+    let problem = match cases.is_empty() {
+        true => problem.help(format!("add for example:\n\n[case.{name}]\nset = {{ p = \"..\" }}")),
+        false => problem.did_you_mean(name, names(), || {
+            let list: Vec<String> = names().map(|name| format!("`{name}`")).collect();
+            format!("the cases are {}", list.join(", "))
+        }),
+    };
+    Failure::new(Exit::Input, problem)
+}
+
+impl Input {
+    /// Reads a netlist and sets values in it: those of a fit, of a load case, of assignments, in
+    /// this order.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the netlist or with what is set.
+    pub fn open(
+        file: &Path,
+        belief: &Belief<'_>,
+        (case, assignments): (Option<&str>, &[String]),
+    ) -> Result<Self, Failure> {
+        let mut text = read(file)?;
+        let mut netlist = parse(&text)?;
+        belief.take(&mut netlist)?;
+        let set = apply(&mut netlist, &text, (case, assignments))?;
+        if let Some(case) = case {
+            // beside the results of the others
+            text.stem = folder_name(format!("{}_{case}", text.stem).replace(['/', '\\'], "_"));
+        }
+        Ok(Self { text, netlist, set, command: Vec::new() })
+    }
+
+    /// Gives the run another stop and another interval between its rows.
+    ///
+    /// # Errors
+    /// A text that is not a time, and a time that does not fit the run.
+    pub fn set_times(&mut self, stop: Option<&str>, every: Option<&str>) -> Result<(), Failure> {
+        for (which, text) in [(RunTime::Stop, stop), (RunTime::Every, every)] {
+            let Some(text) = text else { continue };
+            let time = quantity(which.option(), text, Type::of(Dimension::TIME))?;
+            self.netlist.set_run_time(which, text, time.value)?;
+        }
+        Ok(())
+    }
+
+    /// What the network is called: its title, else the name of its file.
+    pub fn title(&self) -> String {
+        self.netlist.network.title().map_or_else(|| self.text.stem.clone(), plain)
+    }
+
+    /// How a text about the network begins: its title, and what it consists of.
+    pub fn begun(&self) -> Text {
+        let mut text = Text::titled(self.title());
+        text.line(counts(&self.netlist.network));
+        if let Some(unsure) = unverified(&self.netlist.network) {
+            text.sentence("", &unsure);
+        }
+        text
+    }
+
+    /// How the object of a result begins.
+    pub fn head(&self, json: &mut Json<'_>, more: &[Diagnostic]) -> std::io::Result<()> {
+        let warnings = [self.netlist.warnings.as_slice(), more].concat();
+        messages::head(json, Some(&self.text.stem), (&self.netlist.files, &warnings))?;
+        json.optional("unverified_constants", unverified_names(&self.netlist.network))
+    }
+
+    /// Where the node of this name stands.
+    pub fn node_place(&self, name: &str) -> Option<Span> {
+        let node = self.netlist.network.node(name).ok()?;
+        self.netlist.source_map.name(Item::Node(node))
+    }
+
+    /// The name for a command that can be typed; `None` for stdin.
+    pub fn typed(&self) -> Option<String> {
+        self.text.typed()
+    }
+
+    /// The unit in which the file writes a parameter, else the usual one of its type.
+    pub fn unit_of(&self, parameter: ParameterId) -> Unit {
+        let ty = self.netlist.network.parameters()[parameter.index()].ty;
+        let written = self.netlist.written_number(parameter).map(|written| written.unit);
+        let si = |ty: Type| Unit { text: ty.dimension.si_unit(), scale: 1.0, offset: 0.0, ty };
+        written.or_else(|| Unit::parse(&ty.usual_unit()).ok()).unwrap_or_else(|| si(ty))
+    }
+
+    /// Where an input stands that has no value.
+    pub fn place_of(&self, error: &InputError) -> Option<Span> {
+        let map = &self.netlist.source_map;
+        map.get(error.item, error.field).or_else(|| map.name(error.item))
+    }
+
+    /// What is wrong with the netlist, at its place.
+    pub fn failure(&self, problem: &dyn Problem, place: Option<Span>) -> Failure {
+        self.refused(problem.class().into(), told(problem).at(place, ""))
+    }
+
+    /// The same in words of the command line.
+    pub fn refused(&self, exit: Exit, problem: Diagnostic) -> Failure {
+        Failure::at(exit, self.netlist.files.clone(), problem)
+    }
+
+    /// The equations of the network.
+    ///
+    /// # Errors
+    /// A node with more neighbours than can be eliminated.
+    pub fn assemble(&self) -> Result<ThermalSystem, Failure> {
+        ThermalSystem::assemble(&self.netlist.network).map_err(|error| {
+            let AssemblyError::TooManyNeighbours { node, .. } = &error;
+            self.failure(&error, self.netlist.source_map.name(Item::Node(*node)))
+        })
+    }
+}
+
+/// The studies of one kind, and how it is told that the one that is wanted cannot be found.
+pub struct Studies {
+    /// The word of their sections, `size` of `[size.fan]`.
+    pub section: &'static str,
+    /// The codes where there is none, and where several can be meant.
+    pub codes: [&'static str; 2],
+    /// What such a study asks, for the message.
+    pub question: &'static str,
+    /// A section to paste.
+    pub example: &'static str,
+}
+
+impl Studies {
+    /// The study of this name, or the only one.
+    pub fn find<'a, S>(
+        &self,
+        input: &Input,
+        (all, name_of): (&'a [S], fn(&S) -> &str),
+        name: Option<&str>,
+    ) -> Result<&'a S, Failure> {
+        let (file, section) = (&input.text.name, self.section);
+        let known = || all.iter().map(name_of);
+        let list = || known().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let [none, several] = self.codes;
+        let found = match name {
+            Some(name) => all.iter().find(|study| name_of(study) == name),
+            None => all.first().filter(|_| all.len() == 1),
+        };
+        if let Some(found) = found {
+            return Ok(found);
+        }
+        let problem = match (name, all.is_empty()) {
+            (None, true) => Diagnostic::error(
+                none,
+                format!("{file} has no [{section}.NAME]: {}", self.question),
+            )
+            .help(format!("add for example:\n\n{}", self.example)),
+            (None, false) => {
+                Diagnostic::error(several, format!("{file} has several [{section}.NAME]"))
+                    .help(format!("name one of {}", list()))
+            }
+            (Some(name), empty) => {
+                let problem = Diagnostic::error(none, format!("{file} has no [{section}.{name}]"));
+                if empty {
+                    problem
+                } else {
+                    problem.did_you_mean(name, known(), || format!("name one of {}", list()))
+                }
+            }
+        };
+        Err(Failure::new(Exit::Input, problem))
+    }
+}
+
+/// The netlist of a text.
+///
+/// # Errors
+/// Everything that is wrong with it.
+pub fn parse(text: &Given) -> Result<Netlist, Rejected> {
+    match text.name.as_str() {
+        STDIN => parse_bytes(STDIN, &text.bytes),
+        name => parse_file(Path::new(name), &text.bytes),
+    }
+}
+
+/// A word for the shell, in quotes where it needs them.
+pub fn quoted(word: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./+,:@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        return word.to_owned();
+    }
+    format!("'{}'", word.replace('\'', "'\\''"))
+}
+
+/// A name for the folder of results: `...toml` would lead out of it.
+fn folder_name(stem: String) -> String {
+    if matches!(stem.as_str(), "" | "." | "..") { "netlist".into() } else { stem }
+}
+
+/// The tolerance of the command line in K.
+pub fn tolerance(text: &str) -> Result<f64, Failure> {
+    let what = (Dimension::TEMPERATURE, "run::settings", "1e-5K");
+    Ok(positive("--tolerance", text, what)?.value)
+}
+
+/// The unit for temperatures: that of the command line, or that of the netlist.
+pub fn temperature_unit(text: Option<&str>, netlist: &Netlist) -> Result<Unit, Failure> {
+    match text {
+        Some(text) => scale_of("--temperature-unit", text),
+        None => checked("temperature_unit", &netlist.temperature_unit),
+    }
+}
+
+/// The scale of temperature that an option names.
+pub fn scale_of(option: &str, text: &str) -> Result<Unit, Failure> {
+    checked(option, &Unit::parse(text).map_err(|error| wrong_unit(option, text, &error))?)
+}
+
+fn checked(name: &str, unit: &Unit) -> Result<Unit, Failure> {
+    scale(unit).ok_or_else(|| {
+        let message = format!("{name} must be a temperature scale, got `{}`", unit.text);
+        let problem = Diagnostic::error("units::dimension", message);
+        Failure::new(Exit::Input, problem.help("choose degC, K, degF or degR"))
+    })
+}
+
+/// The scale that a unit is, by its usual name: `°C` is degC.
+fn scale(unit: &Unit) -> Option<Unit> {
+    let same = |known: &Unit| {
+        known.ty.dimension == unit.ty.dimension
+            && known.scale.to_bits() == unit.scale.to_bits()
+            && known.offset.to_bits() == unit.offset.to_bits()
+    };
+    ["degC", "K", "degF", "degR"].iter().filter_map(|name| Unit::parse(name).ok()).find(same)
+}
+
+/// The quantity that an option gives.
+pub fn quantity(option: &str, text: &str, ty: Type) -> Result<Quantity, Failure> {
+    parse_quantity(text, Some(ty)).map_err(|error| wrong_unit(option, text, &error))
+}
+
+/// The value in SI units of a quantity that an option gives, which has to be more than zero.
+pub fn positive(
+    option: &str,
+    text: &str,
+    (dimension, code, example): (Dimension, &'static str, &str),
+) -> Result<Quantity, Failure> {
+    let quantity = quantity(option, text, Type::of(dimension))?;
+    if quantity.value > 0.0 && quantity.value.is_finite() {
+        return Ok(quantity);
+    }
+    let message = format!("{option} must be more than zero, got `{text}`");
+    let help = format!("write for example {option} {example}");
+    Err(Failure::new(Exit::Input, Diagnostic::error(code, message).help(help)))
+}
+
+/// A mistake in a quantity of the command line, shown in its text.
+pub fn wrong_unit(name: &str, text: &str, error: &UnitError) -> Failure {
+    let mut files = Files::new();
+    let file = files.add(name, text);
+    let problem = told(error).at(Span::new(file, error.span.clone()), "");
+    Failure::at(Exit::Input, files, problem)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn words_are_quoted_where_the_shell_would_split_them() {
+        assert_eq!(quoted("networks/gearbox.toml"), "networks/gearbox.toml");
+        assert_eq!(quoted("my gearbox.toml"), "'my gearbox.toml'");
+        assert_eq!(quoted("it's"), "'it'\\''s'");
+    }
+}

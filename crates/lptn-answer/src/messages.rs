@@ -1,0 +1,108 @@
+//! Diagnostics as JSON.
+
+use std::ops::Range;
+
+use lptn_netlist::{Diagnostic, Files, Label, Severity, Span};
+use lptn_report::{Json, JsonWriter};
+use serde_json::{Value, json};
+
+use crate::exit::Exit;
+
+/// A diagnostic as an object: lines and columns count from 1, columns in characters; the end is behind
+/// the last character. `fix` is what to write, and in place of what, where the help proposes that.
+pub fn json(files: &Files, diagnostic: &Diagnostic) -> Value {
+    let places: Vec<Value> = diagnostic.labels.iter().map(|label| place(files, label)).collect();
+    json!({
+        "severity": match diagnostic.severity {
+            Severity::Error => "error",
+            Severity::Warning => "warning",
+        },
+        "code": diagnostic.code,
+        "message": diagnostic.message,
+        "places": places,
+        "help": diagnostic.help,
+        "fix": fix(files, diagnostic),
+        "notes": diagnostic.notes,
+    })
+}
+
+/// The text that a help proposes by `did you mean ..?`, and the place whose text it replaces: the
+/// whole string or heading where the text comes with its quotes or brackets.
+fn fix(files: &Files, diagnostic: &Diagnostic) -> Option<Value> {
+    let meant = diagnostic.help.as_deref()?.strip_prefix("did you mean ")?.strip_suffix('?')?;
+    let meant = within(meant, "`", "`").unwrap_or(meant);
+    if meant.contains('`') {
+        return None;
+    }
+    let Some(span) = diagnostic.place() else { return Some(json!({ "text": meant })) };
+    let (text, Range { start, end }) = (files.text(span.file), span.range.clone());
+    let (before, after) = (text.get(..start)?, text.get(end..)?);
+    let is_string = |text: &str| within(text, "\"", "\"").is_some();
+    // of `key = "word"` the word is proposed
+    let value = meant.split_once(" = ").map(|(_, value)| value);
+    let value = value.filter(|value| is_string(value) && is_string(files.at(span)));
+    let meant = value.unwrap_or(meant);
+    let mut text = meant.to_owned();
+    let mut range = start..end;
+    if is_string(files.at(span)) && !is_string(meant) {
+        text = format!("\"{meant}\"");
+    } else if is_string(meant) && !is_string(files.at(span)) {
+        // a quantity is proposed as a whole, and the place is its unit
+        range = before.rfind(['"', '\n']).filter(|at| before[*at..].starts_with('"'))?
+            ..end + after.find(['"', '\n']).filter(|at| after[*at..].starts_with('"'))? + 1;
+    } else if within(meant, "[", "]").is_some() && before.ends_with('[') && after.starts_with(']') {
+        range = start - 1..end + 1;
+    }
+    let span = Span { range, ..span.clone() };
+    let label = Label { span, text: String::new(), primary: true };
+    Some(json!({ "text": text, "place": place(files, &label) }))
+}
+
+/// What stands between two marks.
+fn within<'a>(text: &'a str, open: &str, close: &str) -> Option<&'a str> {
+    text.strip_prefix(open)?.strip_suffix(close)
+}
+
+fn place(files: &Files, label: &Label) -> Value {
+    let (line, column) = files.line_column(&label.span);
+    let end = label.span.range.end;
+    let (end_line, end_column) = files.line_column(&Span::new(label.span.file, end..end));
+    json!({
+        "file": files.name(label.span.file),
+        "line": line,
+        "column": column,
+        "end_line": end_line,
+        "end_column": end_column,
+        "text": files.at(&label.span),
+        "label": label.text,
+        "primary": label.primary,
+    })
+}
+
+/// How the object of a result begins: the version of its format, the network that it is about, and
+/// its warnings.
+pub fn head(
+    json: &mut Json<'_>,
+    network: Option<&str>,
+    (files, warnings): (&Files, &[Diagnostic]),
+) -> std::io::Result<()> {
+    json.member("format", &1)?;
+    json.member("network", &network)?;
+    json.member("warnings", &list(files, warnings))
+}
+
+/// That a command failed, and why, in its object.
+pub fn failed<W: std::io::Write>(
+    json: &mut JsonWriter<W>,
+    exit: Exit,
+    errors: &Value,
+) -> std::io::Result<()> {
+    json.member("ok", &false)?;
+    json.member("exit", &(exit as u8))?;
+    json.member("errors", errors)
+}
+
+/// A list of diagnostics as JSON.
+pub fn list(files: &Files, diagnostics: &[Diagnostic]) -> Value {
+    diagnostics.iter().map(|diagnostic| json(files, diagnostic)).collect()
+}

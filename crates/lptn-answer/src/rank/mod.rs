@@ -1,0 +1,128 @@
+//! Which values a temperature answers most: what to change first.
+
+mod figure;
+mod page;
+
+use std::sync::Arc;
+
+use lptn_assembly::ThermalSystem;
+use lptn_network::{Item, NodeId};
+use lptn_solve::{AdjointError, Influence};
+use lptn_study::{RankError, Ranking};
+use lptn_units::Unit;
+
+use crate::failure::Failure;
+use crate::input::{self, Input};
+use crate::listener::Listener;
+use crate::operating_point;
+use crate::refused::{no_run, run_failed, steady_failed};
+
+/// Which temperature of a node is ranked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Over {
+    /// That of the steady state.
+    #[default]
+    Steady,
+    /// The highest of the run.
+    Run,
+}
+
+/// Which values a temperature answers most.
+#[derive(Clone, Debug, Default)]
+pub struct RankQuestion {
+    /// The node whose temperature answers; `None` for the hottest.
+    pub node: Option<String>,
+    /// Which temperature of it.
+    pub over: Over,
+    /// The unit of temperatures; `None` for that of the netlist.
+    pub temperature_unit: Option<String>,
+}
+
+/// A ranking, and in which unit its temperatures are shown.
+#[derive(Debug)]
+pub struct RankAnswer {
+    input: Arc<Input>,
+    /// How the temperature answers each value.
+    pub ranking: Ranking,
+    /// The unit of temperatures.
+    pub unit: Unit,
+}
+
+impl RankQuestion {
+    /// Asks a netlist.
+    ///
+    /// # Errors
+    /// A node or unit that does not exist, and a state or run that has no slopes.
+    pub fn ask(&self, input: Arc<Input>, listener: &dyn Listener) -> Result<RankAnswer, Failure> {
+        let unit = input::temperature_unit(self.temperature_unit.as_deref(), &input.netlist)?;
+        let node = self.node.as_deref().map(|name| node(&input, name)).transpose()?;
+        let system = input.assemble()?;
+        let ranking = match self.over {
+            Over::Steady => {
+                let steady = operating_point::steady(&input, &unit, listener)?;
+                Ranking::steady(&system, &steady, node)
+            }
+            Over::Run => of_run(&input, (&system, node), listener)?,
+        };
+        let ranking = ranking.map_err(|error| failed(&input, &error))?;
+        Ok(RankAnswer { input, ranking, unit })
+    }
+}
+
+fn of_run(
+    input: &Input,
+    (system, node): (&ThermalSystem, Option<NodeId>),
+    listener: &dyn Listener,
+) -> Result<Result<Ranking, RankError>, Failure> {
+    let settings = input.netlist.run.as_ref().ok_or_else(|| no_run(input))?;
+    let listen = |progress| listener.progress(progress);
+    Ok(Ranking::of_run(system, (settings, node), &listen))
+}
+
+/// The node of this name.
+fn node(input: &Input, name: &str) -> Result<NodeId, Failure> {
+    input.netlist.network.node(name).map_err(|error| input.failure(&error, None))
+}
+
+/// With the place of what has no slope.
+fn failed(input: &Input, error: &RankError) -> Failure {
+    match error {
+        RankError::Steady(error) => steady_failed(input, error),
+        RankError::Run(error) => run_failed(input, error),
+        RankError::Adjoint(AdjointError::Linearised(inner)) => {
+            input.failure(error, operating_point::place(input, inner))
+        }
+        RankError::Input(inner) => input.failure(error, input.place_of(inner)),
+        _ => input.failure(error, None),
+    }
+}
+
+impl RankAnswer {
+    /// The name of the node that answers.
+    fn node(&self) -> &str {
+        &self.input.netlist.network.nodes()[self.ranking.node.index()].name
+    }
+
+    /// The name of a value: `skin.h`, `h_fan`.
+    fn name(&self, influence: &Influence) -> String {
+        let own = self.input.netlist.network.name_of(influence.of);
+        match influence.of {
+            Item::Parameter(_) => own.into_owned(),
+            _ => format!("{own}.{}", influence.field.key()),
+        }
+    }
+
+    /// The value with its unit: a parameter in its own, others in SI units.
+    fn value(&self, influence: &Influence) -> (f64, String) {
+        let unit = match influence.of {
+            Item::Parameter(id) => self.input.unit_of(id),
+            _ if influence.absolute => self.unit.clone(),
+            _ => return (influence.value, self.dimension(influence)),
+        };
+        (unit.from_si(influence.value), unit.text.clone())
+    }
+
+    fn dimension(&self, influence: &Influence) -> String {
+        influence.ty.dimension.si_unit()
+    }
+}
