@@ -6,6 +6,7 @@
 //! Doubts of fits, inferences and plans are still made by the command line.
 
 pub mod about;
+pub mod answer;
 pub mod balance;
 pub mod belief;
 pub mod bound;

@@ -21,6 +21,8 @@ use crate::{adiabatic, bound, inputs_vary, others};
 pub struct OperatingPoint {
     /// Temperatures and heat flows.
     pub state: Snapshot,
+    /// Doubts in it.
+    pub doubts: Vec<Diagnostic>,
     name: String,
 }
 
@@ -32,12 +34,12 @@ impl OperatingPoint {
     pub fn find(text: &str, input: &Input, listener: &dyn Listener) -> Result<Self, Failure> {
         if text == "steady" {
             let unit = input::temperature_unit(None, &input.netlist)?;
-            let state = steady(input, &unit, listener)?.state;
-            return Ok(Self { state, name: "the steady state".to_owned() });
+            let (steady, doubts) = steady(input, &unit)?;
+            return Ok(Self { state: steady.state, doubts, name: "the steady state".to_owned() });
         }
-        let state = at(text, input, listener)?;
+        let (state, doubts) = at(text, input, listener)?;
         let name = format!("the state at {}", duration(state.time, 6));
-        Ok(Self { state, name })
+        Ok(Self { state, doubts, name })
     }
 
     /// "the steady state", "the state at 20 min".
@@ -89,8 +91,11 @@ pub fn place(input: &Input, error: &LinearisedError) -> Option<Span> {
     }
 }
 
-/// The steady state, with what to know before it is believed.
-pub fn steady(input: &Input, unit: &Unit, listener: &dyn Listener) -> Result<SteadyState, Failure> {
+/// The steady state, and doubts in it.
+///
+/// # Errors
+/// A network without a steady state.
+pub fn steady(input: &Input, unit: &Unit) -> Result<(SteadyState, Vec<Diagnostic>), Failure> {
     let netlist = &input.netlist;
     let network: &Network = &netlist.network;
     let system = input.assemble()?;
@@ -100,19 +105,24 @@ pub fn steady(input: &Input, unit: &Unit, listener: &dyn Listener) -> Result<Ste
     let vary = inputs_vary((netlist, input.typed().as_deref()), &steady, &[]);
     let doubts = [vary, adiabatic(network, &steady), others(network, &steady, unit)];
     let doubts: Vec<Diagnostic> = doubts.into_iter().flatten().collect();
-    listener.warn(&netlist.files, &doubts);
-    Ok(steady.result)
+    Ok((steady.result, doubts))
 }
 
-/// The row of the run at or before a time.
-pub fn at(text: &str, input: &Input, listener: &dyn Listener) -> Result<Snapshot, Failure> {
+/// The row of the run at or before a time, and doubts in it.
+///
+/// # Errors
+/// A text that is not a time of the run, a run that fails, and one that was interrupted.
+pub fn at(
+    text: &str,
+    input: &Input,
+    listener: &dyn Listener,
+) -> Result<(Snapshot, Vec<Diagnostic>), Failure> {
     let settings = input.netlist.run.as_ref().ok_or_else(|| no_run(input))?;
     let time = time_of_run(text, settings)?;
     let system = input.assemble()?;
     let run = RunAnalysis::of(system.network(), settings);
     let (solution, broken) = observed(input, (&system, &run), listener)?;
     check(input, &solution, broken)?;
-    listener.warn(&input.netlist.files, &bound::doubts(&solution));
     let row = solution.row_at(time).unwrap_or(0);
     let found = solution.snapshot(row).ok_or_else(|| {
         let message = format!("the heat flows at {} cannot be computed again", duration(time, 6));
@@ -122,7 +132,7 @@ pub fn at(text: &str, input: &Input, listener: &dyn Listener) -> Result<Snapshot
     if asked != shown {
         listener.note(&format!("at     {shown}, the row before {asked}"));
     }
-    Ok(found)
+    Ok((found, bound::doubts(&solution)))
 }
 
 /// A run that did not reach its stop, or whose books do not close, is not drawn.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
+use lptn_answer::answer::Answer;
 use lptn_netlist::{Diagnostic, Files};
 use lptn_plot::Figure;
 use lptn_report::{Format, Look, Page, Report};
@@ -13,6 +14,7 @@ use crate::diagnostics::render;
 use crate::drawing::{self, Drawing};
 use crate::options::{Color, Global};
 use crate::phases::Phases;
+
 use crate::refusal::Refusal;
 use crate::reporting::{self, Reporting};
 use lptn_answer::exit::Exit;
@@ -74,6 +76,12 @@ impl Console {
     pub(crate) fn show(&self, page: &dyn Page, format: Format) -> Result<Exit, Failure> {
         self.page(page, format)?;
         Ok(self.conclude(page, format))
+    }
+
+    /// Reports the doubts in an answer, and writes it in a format.
+    pub(crate) fn answer(&self, answer: &dyn Answer, format: Format) -> Result<Exit, Failure> {
+        self.warn(answer.files(), &answer.doubts());
+        self.show(answer, format)
     }
 
     /// Writes a result in a format, and draws it where that was asked.

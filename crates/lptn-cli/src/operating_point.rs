@@ -22,7 +22,9 @@ impl At {
         input: &Input,
         console: &Console,
     ) -> Result<Option<OperatingPoint>, Failure> {
-        let find = |text: &String| OperatingPoint::find(text, input, &console.listening());
-        self.at.as_ref().map(find).transpose()
+        let Some(text) = &self.at else { return Ok(None) };
+        let point = OperatingPoint::find(text, input, &console.listening())?;
+        console.warn(&input.netlist.files, &point.doubts);
+        Ok(Some(point))
     }
 }

@@ -6,11 +6,13 @@ mod page;
 use std::sync::Arc;
 
 use lptn_assembly::ThermalSystem;
+use lptn_netlist::{Diagnostic, Files};
 use lptn_network::{Item, NodeId};
 use lptn_solve::{AdjointError, Influence};
 use lptn_study::{RankError, Ranking};
 use lptn_units::Unit;
 
+use crate::answer::Answer;
 use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::listener::Listener;
@@ -46,6 +48,18 @@ pub struct RankAnswer {
     pub ranking: Ranking,
     /// The unit of temperatures.
     pub unit: Unit,
+    /// Doubts in the state that is ranked.
+    doubts: Vec<Diagnostic>,
+}
+
+impl Answer for RankAnswer {
+    fn files(&self) -> &Files {
+        &self.input.netlist.files
+    }
+
+    fn doubts(&self) -> Vec<Diagnostic> {
+        [self.input.netlist.warnings.as_slice(), &self.doubts].concat()
+    }
 }
 
 impl RankQuestion {
@@ -57,15 +71,17 @@ impl RankQuestion {
         let unit = input::temperature_unit(self.temperature_unit.as_deref(), &input.netlist)?;
         let node = self.node.as_deref().map(|name| node(&input, name)).transpose()?;
         let system = input.assemble()?;
+        let mut doubts = Vec::new();
         let ranking = match self.over {
             Over::Steady => {
-                let steady = operating_point::steady(&input, &unit, listener)?;
+                let (steady, of_steady) = operating_point::steady(&input, &unit)?;
+                doubts = of_steady;
                 Ranking::steady(&system, &steady, node)
             }
             Over::Run => of_run(&input, (&system, node), listener)?,
         };
         let ranking = ranking.map_err(|error| failed(&input, &error))?;
-        Ok(RankAnswer { input, ranking, unit })
+        Ok(RankAnswer { input, ranking, unit, doubts })
     }
 }
 

@@ -175,7 +175,7 @@ impl Page for RankAnswer {
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let ranking = &self.ranking;
-        self.input.head(json, &[])?;
+        self.input.head(json, &self.doubts)?;
         json.member("node", self.node())?;
         json.member(
             "temperature",

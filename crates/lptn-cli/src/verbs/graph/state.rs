@@ -14,8 +14,13 @@ pub(super) fn state(
     args: &GraphArgs,
     (input, unit, console): (&Input, &Unit, &Console),
 ) -> Result<Snapshot, Failure> {
-    match &args.at {
-        Some(text) => at(text, input, &console.listening()),
-        None => Ok(steady(input, unit, &console.listening())?.state),
-    }
+    let (state, doubts) = match &args.at {
+        Some(text) => at(text, input, &console.listening())?,
+        None => {
+            let (steady, doubts) = steady(input, unit)?;
+            (steady.state, doubts)
+        }
+    };
+    console.warn(&input.netlist.files, &doubts);
+    Ok(state)
 }

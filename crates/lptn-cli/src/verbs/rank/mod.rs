@@ -15,13 +15,11 @@ use crate::console::Console;
 use crate::input::Load as _;
 
 pub(crate) fn rank(args: &RankArgs, console: &Console) -> Result<Exit, Failure> {
-    let input = Arc::new(Input::load(&args.source)?);
     let question = RankQuestion {
         node: args.of.clone(),
         over: args.over.into(),
         temperature_unit: args.scale.temperature_unit.clone(),
     };
-    let answer = question.ask(Arc::clone(&input), &console.listening())?;
-    console.warn(&input.netlist.files, &input.netlist.warnings);
-    console.show(&answer, args.printed.format)
+    let answer = question.ask(Arc::new(Input::load(&args.source)?), &console.listening())?;
+    console.answer(&answer, args.printed.format)
 }

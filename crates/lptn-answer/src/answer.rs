@@ -1,0 +1,20 @@
+//! What every answer has.
+
+use lptn_netlist::{Diagnostic, Files};
+use lptn_report::Page;
+
+use crate::exit::Exit;
+
+/// An answer: a page in every format, the doubts in it, and how it ends.
+pub trait Answer: Page {
+    /// The files that places of doubts are in.
+    fn files(&self) -> &Files;
+
+    /// All doubts in it, those of the netlist first.
+    fn doubts(&self) -> Vec<Diagnostic>;
+
+    /// How it ends: [`Exit::No`] if the answer is no.
+    fn exit(&self) -> Exit {
+        if self.no().is_some() { Exit::No } else { Exit::Done }
+    }
+}
