@@ -5,7 +5,7 @@ use lptn_netlist::Netlist;
 use lptn_network::{Field, Item, Network, ParameterId};
 use lptn_report::{Claim, Piece, Report, Section, Text, TextTable, plain, significant};
 use lptn_solve::{Lumping, OutOfRange, Snapshot};
-use lptn_study::FileHash;
+use lptn_study::{FileHash, Sundials};
 use lptn_units::Unit;
 use serde_json::Value;
 
@@ -236,8 +236,8 @@ fn made_from(read: &[FileHash], command: &[String]) -> Section {
 /// "0.1.0, SUNDIALS 7.1.0".
 fn versions() -> String {
     let own = env!("CARGO_PKG_VERSION");
-    #[cfg(feature = "cvodes")]
-    return format!("{own}, SUNDIALS {}", lptn_study::Sundials::linked().version);
-    #[cfg(not(feature = "cvodes"))]
-    own.to_owned()
+    match Sundials::linked().version.as_str() {
+        "" => own.to_owned(),
+        version => format!("{own}, SUNDIALS {version}"),
+    }
 }

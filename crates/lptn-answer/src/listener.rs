@@ -1,30 +1,45 @@
 //! Whoever asked, while the answer is computed.
 
+use std::time::Instant;
+
 use lptn_netlist::{Diagnostic, Files};
 use lptn_solve::{Proceed, Progress};
 
-/// Hears of doubts and of progress, and says whether to go on.
+/// Hears of progress, and says whether to go on.
 pub trait Listener: Sync {
-    /// Doubts in what is being computed; their places are in `files`.
-    fn warn(&self, files: &Files, doubts: &[Diagnostic]);
+    /// Doubts that are in no answer, since what they concern failed; their places are in `files`.
+    fn warn(&self, _files: &Files, _doubts: &[Diagnostic]) {}
 
     /// Something worth knowing that is not a doubt.
-    fn note(&self, text: &str);
+    fn note(&self, _text: &str) {}
 
-    /// A run has come this far. [`Proceed::Interrupt`] ends it; what is finished is kept.
-    fn progress(&self, progress: Progress) -> Proceed;
+    /// Whether to go on. [`Proceed::Interrupt`] ends what is computed; finished parts are kept.
+    fn proceed(&self) -> Proceed {
+        Proceed::Continue
+    }
+
+    /// A run has come this far; returns whether to go on.
+    fn progress(&self, _progress: Progress) -> Proceed {
+        self.proceed()
+    }
+
+    /// `done` of `all` things of this name, in the plural, are done.
+    fn counted(&self, _done: usize, _all: usize, _noun: &'static str) {}
+
+    /// A part of the work took this long, in s.
+    fn took(&self, _part: &'static str, _seconds: f64) {}
 }
 
-/// Nobody: every run goes to its end, and doubts are in the answers alone.
+/// Nobody: everything goes to its end, and doubts are in the answers alone.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Nobody;
 
-impl Listener for Nobody {
-    fn warn(&self, _: &Files, _: &[Diagnostic]) {}
+impl Listener for Nobody {}
 
-    fn note(&self, _: &str) {}
-
-    fn progress(&self, _: Progress) -> Proceed {
-        Proceed::Continue
-    }
+/// Does a part of the work, and reports how long it took.
+pub fn timed<T>(listener: &dyn Listener, part: &'static str, work: impl FnOnce() -> T) -> T {
+    let begun = Instant::now();
+    let done = work();
+    listener.took(part, begun.elapsed().as_secs_f64());
+    done
 }

@@ -9,13 +9,14 @@ use lptn_study::SiValue;
 use lptn_units::Unit;
 use serde_json::{Value, json};
 
+use crate::bound;
 use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{self, Input};
 use crate::listener::Listener;
 use crate::refused::{no_run, steady_failed, time_of_run};
 use crate::run::observed;
-use crate::{adiabatic, bound, inputs_vary, others};
+use crate::steady::{adiabatic, inputs_vary, others};
 
 /// A state of a network, and how it is called.
 pub struct OperatingPoint {

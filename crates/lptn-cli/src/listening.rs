@@ -43,9 +43,21 @@ impl Listener for Listening<'_> {
         self.console.note(text);
     }
 
+    fn proceed(&self) -> Proceed {
+        self.interrupt.control()
+    }
+
     fn progress(&self, progress: Progress) -> Proceed {
         self.line().update(progress);
-        self.interrupt.control()
+        self.proceed()
+    }
+
+    fn counted(&self, done: usize, all: usize, noun: &'static str) {
+        self.line().update_parts(done, all, noun);
+    }
+
+    fn took(&self, part: &'static str, seconds: f64) {
+        self.console.phases.add(part, seconds);
     }
 }
 

@@ -54,6 +54,12 @@ impl ProgressLine {
         });
     }
 
+    /// Shows how many of several things are done.
+    pub(crate) fn update_parts(&mut self, done: usize, all: usize, noun: &str) {
+        let share = 100.0 * done as f64 / all.max(1) as f64;
+        self.show(|| format!("{share:5.1} %  {done} of {all} {noun}"));
+    }
+
     fn show(&mut self, text: impl FnOnce() -> String) {
         if !self.wanted || Instant::now() < self.due {
             return;

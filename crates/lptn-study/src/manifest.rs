@@ -62,11 +62,17 @@ pub struct Manifest {
 pub struct Sundials {
     /// The version that was linked.
     pub version: String,
-    /// `system` or `bundled`.
+    /// `system`, `bundled`, or `none` without CVODES.
     pub linkage: &'static str,
 }
 
 impl Sundials {
+    /// The one this program runs with; without CVODES the version is empty.
+    #[cfg(not(feature = "cvodes"))]
+    pub fn linked() -> Self {
+        Self { version: String::new(), linkage: "none" }
+    }
+
     /// The one this program runs with.
     #[cfg(feature = "cvodes")]
     pub fn linked() -> Self {
@@ -149,6 +155,18 @@ pub struct Environment {
     /// only for a run.
     #[serde(skip_serializing_if = "Map::is_empty")]
     pub phases: Map<String, Value>,
+}
+
+/// Nothing known.
+impl Default for Environment {
+    fn default() -> Self {
+        Self {
+            written: String::new(),
+            host: String::new(),
+            wall_time: SiValue::new(0.0, "s"),
+            phases: Map::new(),
+        }
+    }
 }
 
 impl Manifest {

@@ -80,7 +80,10 @@ impl RankQuestion {
             }
             Over::Run => of_run(&input, (&system, node), listener)?,
         };
-        let ranking = ranking.map_err(|error| failed(&input, &error))?;
+        let ranking = ranking.map_err(|error| {
+            listener.warn(&input.netlist.files, &doubts);
+            failed(&input, &error)
+        })?;
         Ok(RankAnswer { input, ranking, unit, doubts })
     }
 }

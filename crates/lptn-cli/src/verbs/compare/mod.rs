@@ -29,8 +29,9 @@ use lptn_answer::belief::Belief;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::{self, Input, quoted};
+use lptn_answer::steady::others;
 use lptn_answer::words::unverified;
-use lptn_answer::{bound, others, trust};
+use lptn_answer::{bound, trust};
 
 pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Failure> {
     let files = listed(&args.files)?;

@@ -18,6 +18,7 @@ use crate::verbs::run::{self, RunArgs};
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::{self, Input, quoted};
+use lptn_answer::run::figure;
 
 /// One of the things that are drawn over each other.
 pub(super) struct Source {
@@ -72,16 +73,16 @@ impl Source {
             output: None,
             at: Vec::new(),
             no_files: true,
-            uncertainty: run::uncertainty::args::UncertaintyArgs::default(),
+            uncertainty: run::uncertainty::UncertaintyArgs::default(),
         };
         let mut input = Input::load(&args.source)?;
         input.set_run_times(&args.times)?;
-        let (outcome, _) = run::outcome(&args, &input, console)?;
-        outcome.messages(None, console);
-        let exit = outcome.conclude(console, false);
+        let (outcome, _) = run::answer(&args, input, console)?;
+        run::messages::beside(&outcome, None, console);
+        let exit = run::messages::conclude(&outcome, false, console);
         Ok((
             Self {
-                name: input.text.stem.clone(),
+                name: outcome.task.input.text.stem.clone(),
                 path: path.into(),
                 measured: false,
                 figure: outcome.figure(),
@@ -212,9 +213,9 @@ fn events(path: &Path) -> Vec<Moment> {
     let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|line| line.split(',').collect()).collect();
     let moment = |row: &Vec<&str>| {
         let [time, kind, name, _, after] = row[..] else { return None };
-        let what = run::figure::what(kind, after != "0");
+        let what = figure::what(kind, after != "0");
         Some(Moment { name: format!("{name} {what}"), at: time.parse().ok()? })
     };
     let moments: Vec<Moment> = rows.iter().filter_map(moment).collect();
-    if moments.len() > run::figure::MOST_EVENTS { Vec::new() } else { moments }
+    if moments.len() > figure::MOST_EVENTS { Vec::new() } else { moments }
 }

@@ -87,7 +87,7 @@ fn again(
     let args = RunArgs { no_files: true, output: None, ..args };
     let mut input = Input::load(&args.source)?;
     input.set_run_times(&args.times)?;
-    let (outcome, _) = run::outcome(&args, &input, console)?;
+    let (outcome, _) = run::answer(&args, input, console)?;
     if matches!(outcome.solution.end(), RunStatus::Interrupted(_)) {
         let problem = Diagnostic::error("run::interrupted", "the run was interrupted");
         return Err(Failure::new(Exit::Interrupted, problem));
@@ -102,7 +102,7 @@ fn again(
         false => format!("run again: {RESULT} has other bytes"),
     };
     report.claims.insert(0, Claim::checked(same, text));
-    console.warn(&input.netlist.files, &outcome.found());
+    console.warn(&outcome.task.input.netlist.files, &outcome.found());
     console.add_report(report);
     Ok(Ok(same))
 }

@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 
 use clap::Args as Arguments;
+use lptn_answer::run::RunQuestion;
 
-use super::uncertainty::args::UncertaintyArgs;
+use super::uncertainty::UncertaintyArgs;
+use crate::console::Console;
 use crate::options::{Shown, Source, TEMPLATE, TimeScale, Times};
 
 const EXAMPLES: &str = "\
@@ -43,4 +45,22 @@ pub(crate) struct RunArgs {
     pub(crate) at: Vec<String>,
     #[command(flatten)]
     pub(crate) uncertainty: UncertaintyArgs,
+}
+
+impl RunArgs {
+    /// The question; `console` tells how much is shown, and whether a report is wanted.
+    pub(crate) fn question(&self, console: &Console) -> RunQuestion {
+        RunQuestion {
+            tolerance: self.tolerance.clone(),
+            select: self.shown.select.clone(),
+            temperature_unit: self.shown.scale.temperature_unit.clone(),
+            time_unit: self.time_scale.time_unit,
+            balance: self.balance.clone(),
+            at: self.at.clone(),
+            format: self.shown.format,
+            report: console.reports(),
+            detail: console.detail,
+            uncertainty: self.uncertainty.question(),
+        }
+    }
 }

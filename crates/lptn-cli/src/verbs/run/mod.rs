@@ -1,97 +1,71 @@
 //! `lptn run`
 
 mod args;
-mod events;
-pub(crate) mod figure;
-pub(crate) mod job;
-mod next;
-pub(crate) mod outcome;
-pub(crate) mod page;
-mod report;
-mod state;
+pub(crate) mod messages;
 pub(crate) mod uncertainty;
-mod windows;
 
-pub(crate) use args::RunArgs;
+use std::path::PathBuf;
+use std::sync::Arc;
 
-use std::time::Instant;
-
-use job::{Job, NoSteady};
-use lptn_assembly::ThermalSystem;
-use lptn_report::Format;
-use lptn_solve::{Lumping, SteadyState, Table};
-use outcome::Outcome;
-
-use crate::console::Console;
-use crate::files::Folder;
-use crate::input::Load as _;
 use lptn_answer::belief::Belief;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::Input;
+use lptn_answer::run::RunAnswer;
+use lptn_report::{write_csv, write_rows};
+
+pub(crate) use args::RunArgs;
+
+use crate::console::Console;
+use crate::files::names::{EVENTS, MANIFEST, RANKING, RESULT, STATE, UNCERTAINTY, WINDOWS};
+use crate::files::{Folder, environment};
+use crate::input::Load as _;
 
 pub(crate) fn run(args: &RunArgs, console: &Console) -> Result<Exit, Failure> {
     let belief = Belief::of(args.uncertainty.posterior.as_deref());
     let mut input = console.phases.timed("read", || Input::load_from(&args.source, &belief))?;
     input.set_run_times(&args.times)?;
-    let (result, folder) = outcome(args, &input, console)?;
+    let (answer, folder) = answer(args, input, console)?;
     if let Some(folder) = &folder {
-        console.phases.timed("write", || result.write(folder))?;
+        console.phases.timed("write", || write(&answer, folder, console))?;
         console.results_in(folder.path());
     }
-    console.show(&result, result.job.format)?;
-    result.messages(folder.as_ref(), console);
-    Ok(result.conclude(console, folder.is_some()))
+    console.page(&answer, answer.task.format)?;
+    messages::beside(&answer, folder.as_ref(), console);
+    Ok(messages::conclude(&answer, folder.is_some(), console))
 }
 
-/// Runs a netlist, and gives the folder that its files are to be written to.
-pub(crate) fn outcome<'a>(
-    args: &'a RunArgs,
-    input: &'a Input,
+/// Runs a netlist; gives the folder for its files.
+pub(crate) fn answer(
+    args: &RunArgs,
+    input: Input,
     console: &Console,
-) -> Result<(Outcome<'a>, Option<Folder>), Failure> {
-    let job = Job { whole: console.reports(), ..Job::new(args, input)? };
-    uncertainty::check(&args.uncertainty, input)?;
-    let phases = &console.phases;
-    let system = phases.timed("assemble", || input.assemble())?;
-    let folder = (!args.no_files).then(|| Folder::prepare(job.folder(args))).transpose()?;
+) -> Result<(RunAnswer, Option<Folder>), Failure> {
+    let task = args.question(console).of(Arc::new(input))?;
+    let input = Arc::clone(&task.input);
+    let system = console.phases.timed("assemble", || input.assemble())?;
+    let out = || PathBuf::from("out").join(&input.text.stem);
+    let folder = || Folder::prepare(args.output.clone().unwrap_or_else(out));
+    let folder = (!args.no_files).then(folder).transpose()?;
     console.warn(&input.netlist.files, &input.netlist.warnings);
-    // only tables and reports show it
-    let shown = job.format == Format::Table || console.reports();
-    let steady = match shown {
-        true => phases.timed("steady", || steady(&system, job.settings.start)),
-        false => Err(NoSteady::NotShown),
-    };
-    let begun = Instant::now();
-    let solved = phases.timed("integrate", || job.solve(&system, steady.as_ref().ok(), console));
-    let (solution, failure) = solved?;
-    // what broke off or was interrupted is not asked how sure it is
-    let whole = matches!(solution.end(), lptn_solve::RunStatus::Reached);
-    let uncertainty =
-        if whole { uncertainty::study(&args.uncertainty, &job, console) } else { None };
-    let wall_time = begun.elapsed().as_secs_f64();
-    let (lumping, table) = phases.timed("results", || {
-        let table = Table::of_solution(&solution, &job.selection, &job.unit);
-        (Lumping::of_run(&solution), table)
-    });
-    let result = Outcome {
-        job,
-        steady,
-        solution,
-        lumping,
-        failure,
-        wall_time,
-        phases: phases.seconds(),
-        uncertainty,
-        table,
-        detail: console.detail,
-    };
-    Ok((result, folder))
+    Ok((task.answer(&system, &console.listening())?, folder))
 }
 
-fn steady(system: &ThermalSystem, start: f64) -> Result<SteadyState, NoSteady> {
-    if !system.network().changing_inputs().is_empty() {
-        return Err(NoSteady::Inputs);
+/// Writes the files: all of them take their places together, the manifest last.
+pub(crate) fn write(answer: &RunAnswer, folder: &Folder, console: &Console) -> Result<(), Failure> {
+    let mut files = folder.batch();
+    files.write(RESULT, |out| write_csv(&answer.shown_table(), out))?;
+    files.write(STATE, |out| answer.state().write(out))?;
+    files.write(EVENTS, |out| write_rows(&answer.events(), out))?;
+    if let Some(rows) = answer.windows() {
+        files.write(WINDOWS, |out| write_rows(&rows, out))?;
     }
-    Ok(lptn_analysis::steady(system, start).map_err(NoSteady::Network)?.result)
+    if let Some([bands, ranking]) = answer.uncertainties() {
+        files.write(UNCERTAINTY, |out| write_csv(&bands, out))?;
+        files.write(RANKING, |out| write_csv(&ranking, out))?;
+    }
+    let environment = environment(answer.wall_time, &console.phases.seconds());
+    let manifest = answer.manifest(files.written().to_vec(), environment);
+    files.write(MANIFEST, |out| out.write_all(manifest.text()?.as_bytes()))?;
+    files.commit(&[EVENTS, WINDOWS, UNCERTAINTY, RANKING])
 }

@@ -1,48 +1,27 @@
-//! What `lptn steady` shows.
+//! A steady state as a page.
 
 use std::collections::HashSet;
 use std::io;
 
-use lptn_analysis::{LimitResult, Trust};
-use lptn_netlist::Diagnostic;
 use lptn_network::{ConductorId, FacePathId, GridValue, HeatOf, Item, Network, NodeId};
 use lptn_report::{
-    Claim, Clock, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, prefix, shortened,
+    Claim, Json, Page, Report, Rows, Text, TextTable, decimals, fixed, prefix, shortened,
     significant,
 };
-use lptn_solve::{Balance, SteadyState, Table};
-use lptn_units::Unit;
+use lptn_solve::SteadyState;
 use serde_json::{Map, json};
 
-use crate::console::Console;
-use lptn_answer::about::{self, Known};
-use lptn_answer::balance;
-use lptn_answer::input::Input;
-use lptn_answer::limits::{self, Judgement};
-use lptn_answer::words::{difference, largest, some_of};
-use lptn_answer::{adiabatic, inputs_vary, others};
-use lptn_answer::{families, ranges, scale, trust};
+use crate::about::{self, Known};
+use crate::balance;
+use crate::limits;
+use crate::words::{difference, largest, some_of};
+use crate::{families, ranges, scale};
+
+use super::SteadyAnswer;
 
 /// Rises in K and heats in W below this are what rounding left over: no unit and no decimals are
 /// chosen to show them.
 const NOISE: f64 = 1e-9;
-
-/// A steady state and how it is shown.
-pub(super) struct View<'a> {
-    pub(super) input: &'a Input,
-    pub(super) steady: &'a SteadyState,
-    /// How far it can be trusted.
-    pub(super) trust: &'a Trust,
-    /// What is selected, in the unit that is shown.
-    pub(super) table: &'a Table,
-    pub(super) unit: &'a Unit,
-    pub(super) limits: &'a [LimitResult],
-    pub(super) balance: Option<&'a Balance>,
-    /// Whether nothing was selected.
-    pub(super) all: bool,
-    /// Whether large families are one row.
-    pub(super) fold: bool,
-}
 
 /// A temperature or heat flow with its value. Names are made for those that are shown.
 #[derive(Clone, Copy)]
@@ -134,7 +113,7 @@ impl Row {
     }
 }
 
-impl View<'_> {
+impl SteadyAnswer {
     fn temperatures(&self, inside: bool) -> Vec<Row> {
         let network = &self.input.netlist.network;
         let ids: Box<dyn Iterator<Item = NodeId>> =
@@ -180,7 +159,7 @@ impl View<'_> {
     /// Temperatures with their rise over the coldest boundary, hottest first where there are many.
     fn nodes(&self, rows: Vec<Row>, text: &mut Text) {
         let network = &self.input.netlist.network;
-        let coldest = coldest(network, self.steady).unwrap_or_default();
+        let coldest = coldest(network, &self.steady).unwrap_or_default();
         let rises = rows.iter().map(|r| (r.value - coldest.1).abs());
         let most = rises.filter(|rise| *rise > NOISE).fold(0.0, f64::max);
         let digits = decimals(most / self.unit.scale, 3, 1);
@@ -188,7 +167,7 @@ impl View<'_> {
         let all = largest(&mut rows, |row| row.item.value);
         let kelvin = |r: &Row| fixed((r.value - coldest.1) / self.unit.scale, digits);
         let celsius = |r: &Row| fixed(self.unit.from_si(r.value), digits);
-        let over = format!("over {} [{}]", shortened(&coldest.0, 24), difference(self.unit));
+        let over = format!("over {} [{}]", shortened(&coldest.0, 24), difference(&self.unit));
         let table = TextTable::of(&rows).left("temperature", |row| row.name.as_str());
         let table = families::members(table, &rows, "hottest")
             .right(format!("T [{}]", self.unit.text), |row| celsius(&row.item))
@@ -214,11 +193,6 @@ impl View<'_> {
         some_of(text, table, (all, "the largest first; --select 'NAME.Q' shows others"));
     }
 
-    pub(super) fn judgement(&self) -> Judgement<'_> {
-        let (netlist, unit, limits) = (&self.input.netlist, self.unit, self.limits);
-        Judgement { netlist, unit, clock: Clock::default(), limits }
-    }
-
     /// Signals, controls and reports.
     fn others(&self, text: &mut Text) {
         let network = &self.input.netlist.network;
@@ -234,37 +208,22 @@ impl View<'_> {
 
     /// What a report says besides.
     fn report(&self) -> Report {
-        let (network, unit) = (&self.input.netlist.network, self.unit);
+        let (network, unit) = (&self.input.netlist.network, &self.unit);
         let (imbalance, moved) = (self.steady.imbalance(), self.steady.turned_over());
         let books = match moved > 0.0 {
             true => significant(imbalance.abs() / moved, 2),
             false => "0".into(),
         };
-        let laws = about::laws(network, &self.trust.out_of_range);
+        let laws = about::laws(network, &self.steady.trust.out_of_range);
         let books = format!("heat in and heat out differ by {books} of the heat turned over");
         let own = [Claim::checked(true, books)].into_iter().chain(laws);
-        let claims = own.chain(limits::claims(network, self.limits, unit)).collect();
+        let claims = own.chain(limits::claims(network, &self.limits, unit)).collect();
         let states = vec![("Where it settles".to_owned(), self.steady.state.clone())];
-        about::about(self.input, Known { claims, states, unit: Some(unit), sensitivities: None })
-    }
-
-    /// What to know before this is believed.
-    pub(super) fn doubts(&self) -> Vec<Diagnostic> {
-        let netlist = &self.input.netlist;
-        let vary = inputs_vary((netlist, self.input.typed().as_deref()), self.steady, self.limits);
-        let adiabatic = adiabatic(&netlist.network, self.steady);
-        let others = others(&netlist.network, self.steady, self.unit);
-        vary.into_iter().chain(adiabatic).chain(others).collect()
-    }
-
-    pub(super) fn messages(&self, console: &Console) {
-        if let (Some(file), Some(_)) = (self.input.typed(), &self.input.netlist.run) {
-            console.next(&format!("lptn run {file}"));
-        }
+        about::about(&self.input, Known { claims, states, unit: Some(unit), sensitivities: None })
     }
 }
 
-impl Page for View<'_> {
+impl Page for SteadyAnswer {
     fn text(&self) -> Text {
         let network = &self.input.netlist.network;
         let mut text = self.input.begun();
@@ -277,17 +236,17 @@ impl Page for View<'_> {
         self.heat_flows(self.flows(inside).into_iter().filter(keep).collect(), &mut text);
         self.others(&mut text);
         limits::section(&mut text, &self.judgement(), self.fold);
-        if let Some(of) = self.balance {
+        if let Some(of) = &self.balance {
             balance::section(&mut text, network, (of, None));
         }
-        for doubt in self.doubts() {
+        for doubt in self.noted() {
             text.section().sentence("note: ", &doubt.message);
         }
         text
     }
 
     fn rows(&self) -> Rows<'_> {
-        self.table.into()
+        (&self.table).into()
     }
 
     fn more(&self) -> Report {
@@ -296,17 +255,19 @@ impl Page for View<'_> {
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let netlist = &self.input.netlist;
-        let table = scale::table(self.table, self.unit);
+        let table = scale::table(&self.table, &self.unit);
         let value = |c: &lptn_solve::Column| {
             (c.name.clone(), json!({ "value": c.values[0], "unit": c.unit }))
         };
-        let found = self.doubts().into_iter().chain(trust::doubts(netlist, self.trust, false));
-        self.input.head(json, &found.collect::<Vec<_>>())?;
+        self.input.head(json, &[self.noted(), self.beside()].concat())?;
         json.member("values", &table.columns().iter().map(value).collect::<Map<_, _>>())?;
-        json.optional("limits", limits::members(&netlist.network, self.limits, self.unit))?;
-        let outside = ranges::members(&netlist.network, &self.trust.out_of_range, false);
+        json.optional("limits", limits::members(&netlist.network, &self.limits, &self.unit))?;
+        let outside = ranges::members(&netlist.network, &self.steady.trust.out_of_range, false);
         json.optional("out_of_range", outside)?;
-        json.optional("balance", self.balance.map(|of| balance::json(&netlist.network, of)))
+        json.optional(
+            "balance",
+            self.balance.as_ref().map(|of| balance::json(&netlist.network, of)),
+        )
     }
 }
 

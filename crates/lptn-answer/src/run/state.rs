@@ -4,10 +4,10 @@ use lptn_netlist::{SavedState, StateControl, StateEnd};
 use lptn_report::duration;
 use lptn_solve::{RunStatus, Solution};
 
-use lptn_answer::input::Input;
+use crate::input::Input;
 
 /// The state at the end that a run reached.
-pub(crate) fn of<'a>(input: &'a Input, solution: &'a Solution) -> SavedState<'a> {
+pub(super) fn of<'a>(input: &'a Input, solution: &'a Solution) -> SavedState<'a> {
     let nodes = solution.network().nodes();
     let last = solution.last();
     SavedState {
@@ -42,7 +42,7 @@ fn controls(solution: &Solution) -> Vec<StateControl<'_>> {
 }
 
 /// Where the temperatures at the start come from, if not from the netlist.
-pub(crate) fn origin(input: &Input) -> Option<String> {
+pub(super) fn origin(input: &Input) -> Option<String> {
     let state = input.netlist.initial()?;
     Some(format!("starts from {}, the state at {}", state.file, duration(state.time, 4)))
 }

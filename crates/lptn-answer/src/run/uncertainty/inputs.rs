@@ -6,7 +6,7 @@ use lptn_study::uncertainty::{Uncertain, Uncertainty};
 use lptn_units::Distribution;
 
 use super::files::parameter;
-use lptn_answer::words::count;
+use crate::words::count;
 
 /// Pairs of correlated parameters that are named.
 const MOST_PAIRS: usize = 6;

@@ -6,17 +6,17 @@ use lptn_plot::figure::{Curve, Moment, Panel};
 use lptn_report::{MOST_CURVES, TEMPERATURE, panels};
 use lptn_solve::Event;
 
-use super::outcome::Outcome;
-use lptn_answer::limits;
-use lptn_answer::words::count;
+use super::answer::RunAnswer;
+use crate::limits;
+use crate::words::count;
 
 /// More events than this would hide the curves.
-pub(crate) const MOST_EVENTS: usize = 24;
+pub const MOST_EVENTS: usize = 24;
 
-impl Outcome<'_> {
+impl RunAnswer {
     /// The selected columns over time.
-    pub(crate) fn figure(&self) -> Figure {
-        let (network, unit) = (self.solution.network(), &self.job.unit);
+    pub fn figure(&self) -> Figure {
+        let (network, unit) = (self.solution.network(), &self.task.unit);
         let (mut panels, left_out) = panels(&self.table);
         let undrawn = limits::mark(&mut panels, network, unit);
         let moments = moments(network, self.solution.events());
@@ -24,7 +24,7 @@ impl Outcome<'_> {
             panel.moments.clone_from(&moments);
             self.spread(panel);
         }
-        let title = self.job.input.title();
+        let title = self.task.input.title();
         Figure { title, note: self.note((left_out, undrawn), moments.is_empty()), panels }
     }
 
@@ -47,7 +47,7 @@ impl Outcome<'_> {
         if events > self.table.rows() {
             notes.push("more happens between rows than they show: --every writes more".into());
         }
-        let (network, unit) = (self.solution.network(), &self.job.unit);
+        let (network, unit) = (self.solution.network(), &self.task.unit);
         notes.extend(limits::broken(network, &self.limits(), unit));
         notes.extend(self.ended_early());
         if self.uncertainty().is_some() {
@@ -62,7 +62,7 @@ impl Outcome<'_> {
             return;
         };
         let network = self.solution.network();
-        let shown = |kelvin: &f64| self.job.unit.from_si(*kelvin);
+        let shown = |kelvin: &f64| self.task.unit.from_si(*kelvin);
         for curve in &mut panel.curves {
             let of = |node: usize| network.nodes()[node].name == curve.name;
             let bands = study.found.bands.iter().find(|bands| of(bands.node.index()));
@@ -88,7 +88,7 @@ fn moments(network: &Network, events: &[Event]) -> Vec<Moment> {
 }
 
 /// What an event of this kind did.
-pub(crate) fn what(kind: &str, after: bool) -> &'static str {
+pub fn what(kind: &str, after: bool) -> &'static str {
     match (kind, after) {
         ("limit", _) => "broken",
         ("control", true) => "on",

@@ -5,11 +5,11 @@ use lptn_network::{Network, ParameterId, Value};
 use lptn_report::significant;
 use lptn_units::{Dimension, Type};
 
-use lptn_answer::input::{Input, quoted};
+use crate::input::{Input, quoted};
 
 /// What a user of `lptn run` may want to know next: what heats the node that gets too hot; else the
 /// same with a fifth more heat, or five degrees warmer; else the steady state.
-pub(crate) fn after_run(input: &Input, has_steady: bool, hot: Option<&str>) -> Option<String> {
+pub(super) fn after_run(input: &Input, has_steady: bool, hot: Option<&str>) -> Option<String> {
     let file = input.typed()?;
     if let Some(node) = hot.filter(|_| has_steady) {
         return Some(format!("lptn steady {file} --balance {}", quoted(node)));

@@ -6,13 +6,13 @@ use lptn_solve::{Event, EventKind, Solution};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
-use lptn_answer::words::MOST_NODES;
+use crate::words::MOST_NODES;
 
 /// As many events are shown.
 const SHOWN: usize = 6;
 
 /// The rows of `events.csv`.
-pub(crate) fn rows(solution: &Solution) -> Vec<Vec<String>> {
+pub(super) fn rows(solution: &Solution) -> Vec<Vec<String>> {
     let mut rows =
         vec![["time [s]", "kind", "name", "before", "after"].map(str::to_owned).to_vec()];
     let mut number = Shortest::new();
@@ -25,7 +25,7 @@ pub(crate) fn rows(solution: &Solution) -> Vec<Vec<String>> {
 }
 
 /// A list of `{ time, kind, name, before, after }`.
-pub(crate) fn json(solution: &Solution) -> Value {
+pub(super) fn json(solution: &Solution) -> Value {
     let state = |state: u8| json!({ "value": state, "unit": "1" });
     let one = |event: &Event| {
         json!({
@@ -80,7 +80,7 @@ impl Use {
 
 /// A section with a line for each control and the first events, from `start` on; nothing where
 /// nothing can switch.
-pub(crate) fn section(
+pub(super) fn section(
     text: &mut Text,
     solution: &Solution,
     (start, end): (f64, f64),

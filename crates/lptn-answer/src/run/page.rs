@@ -1,4 +1,4 @@
-//! What `lptn run` shows: the table of a run, its heat and its notes, and its object.
+//! A run as a page: the table of a run, its heat and its notes, and its object.
 
 use std::borrow::Cow;
 use std::io;
@@ -10,16 +10,16 @@ use lptn_report::{
 use lptn_solve::{Method, NodeSummary, RunStatus, Solution, SteadyError, Summary, first_there};
 use lptn_study::{RunEnd, StatisticsRecord};
 
-use super::job::NoSteady;
-use super::outcome::Outcome;
+use super::answer::RunAnswer;
+use super::task::NoSteady;
 use super::{events, state, uncertainty, windows};
-use crate::console::Detail;
-use lptn_answer::balance;
-use lptn_answer::bound::{not_bounded, weak_ledger};
-use lptn_answer::messages;
-use lptn_answer::others;
-use lptn_answer::words::MOST_NODES;
-use lptn_answer::{families, limits, lumping, scale};
+use crate::balance;
+use crate::bound::{not_bounded, weak_ledger};
+use crate::lumping::Detail;
+use crate::messages;
+use crate::steady::others;
+use crate::words::MOST_NODES;
+use crate::{families, limits, lumping, scale};
 
 /// Characters of a curve.
 const CURVE: usize = 16;
@@ -27,13 +27,13 @@ const CURVE: usize = 16;
 /// A node that varies by less than this, in K, is drawn as flat.
 const FLAT: f64 = 1e-3;
 
-impl Page for Outcome<'_> {
+impl Page for RunAnswer {
     fn text(&self) -> Text {
         let mut nodes = Summary::new(&self.solution, self.steady.as_ref().ok()).nodes;
         nodes.iter_mut().for_each(|node| include_rows(self, node));
-        let (network, span) = (self.solution.network(), (self.job.settings.start, reached(self)));
-        let mut text = self.job.input.begun();
-        if let Some(origin) = state::origin(self.job.input) {
+        let (network, span) = (self.solution.network(), (self.task.settings.start, reached(self)));
+        let mut text = self.task.input.begun();
+        if let Some(origin) = state::origin(&self.task.input) {
             text.sentence("", &origin);
         }
         if !nodes.is_empty() {
@@ -41,24 +41,24 @@ impl Page for Outcome<'_> {
         }
         limits::section(&mut text, &self.judgement(&self.limits()), self.folds());
         if let Some(study) = self.uncertainty() {
-            uncertainty::text::sections(&mut text, network, (study, &self.job.unit));
+            uncertainty::text::sections(&mut text, network, (study, &self.task.unit));
         }
-        events::section(&mut text, &self.solution, span, self.job.clock);
+        events::section(&mut text, &self.solution, span, self.task.clock);
         columns(self, &mut text);
-        windows::sections(&mut text, self.solution.windows(), (&self.job.unit, self.job.clock));
-        let uncertain = |study| uncertainty::text::notes(network, study, &self.job.unit);
+        windows::sections(&mut text, self.solution.windows(), (&self.task.unit, self.task.clock));
+        let uncertain = |study| uncertainty::text::notes(network, study, &self.task.unit);
         text.section().notes(self.uncertainty().into_iter().flat_map(uncertain));
         text.notes(notes(self, &nodes)).section();
         // where a run breaks off, the integrals and the state are not those of one time
         if !matches!(self.solution.end(), RunStatus::Failed(_)) {
-            heat_over(&mut text, &self.solution, (span.1 - span.0, self.job.clock));
+            heat_over(&mut text, &self.solution, (span.1 - span.0, self.task.clock));
             if let Some(of) = self.solution.balance() {
                 balance::section(&mut text, network, (of, Some(span)));
             }
         }
-        let width = over(span.1 - span.0, self.job.clock).len() + 2;
+        let width = over(span.1 - span.0, self.task.clock).len() + 2;
         let label = |word: &str| format!("{word:width$}");
-        lumping::lines(&mut text, network, (&self.lumping, &label("lumping:"), self.detail));
+        lumping::lines(&mut text, network, (&self.lumping, &label("lumping:"), self.task.detail));
         text.labelled(&label("solver:"), solver(self));
         text
     }
@@ -79,13 +79,13 @@ impl Page for Outcome<'_> {
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        let (network, unit) = (self.solution.network(), &self.job.unit);
-        self.job.input.head(json, &[self.doubts(), self.found()].concat())?;
+        let (network, unit) = (self.solution.network(), &self.task.unit);
+        self.task.input.head(json, &[self.bounds(), self.found()].concat())?;
         json.table(&scale::table(&self.shown_table(), unit))?;
         json.member("events", &events::json(&self.solution))?;
         json.member("ledger", &self.ledger())?;
         let uncertain = |study| uncertainty::files::json(network, study, unit);
-        let windowed = !self.job.settings.windows.is_empty();
+        let windowed = !self.task.settings.windows.is_empty();
         json.optional("limits", limits::members(network, &self.limits(), unit))?;
         json.optional("out_of_range", self.out_of_range())?;
         json.optional("uncertainty", self.uncertainty().map(uncertain))?;
@@ -94,7 +94,7 @@ impl Page for Outcome<'_> {
         json.optional("balance", self.solution.balance().map(|of| balance::json(network, of)))?;
         json.member("lumping", &lumping::json(network, &self.lumping))?;
         json.member("statistics", &StatisticsRecord::new(&self.solution))?;
-        let end = |message| RunEnd::of(&self.solution, self.job.settings.stop, Some(message));
+        let end = |message| RunEnd::of(&self.solution, self.task.settings.stop, Some(message));
         json.optional("end", self.ended_early().map(end))?;
         let Some(failure) = self.failed() else { return Ok(()) };
         let errors = messages::list(&failure.files, &failure.diagnostics);
@@ -104,7 +104,7 @@ impl Page for Outcome<'_> {
 
 /// Takes in the rows, since a network without state is not watched between them; and a peak that
 /// the tolerance cannot tell from the start or from the end is there.
-fn include_rows(of: &Outcome<'_>, node: &mut NodeSummary) {
+fn include_rows(of: &RunAnswer, node: &mut NodeSummary) {
     let values = of.solution.temperature(node.node).unwrap_or_default();
     node.end = values
         .last()
@@ -116,20 +116,20 @@ fn include_rows(of: &Outcome<'_>, node: &mut NodeSummary) {
             node.peak = (value, time);
         }
     }
-    let ends = [(node.start, of.job.settings.start), (node.end, reached(of))];
-    node.peak.1 = first_there(node.peak, ends, 10.0 * of.job.settings.tolerance);
+    let ends = [(node.start, of.task.settings.start), (node.end, reached(of))];
+    node.peak.1 = first_there(node.peak, ends, 10.0 * of.task.settings.tolerance);
 }
 
 /// The time up to which there are rows: the stop, unless the run ended early.
-fn reached(of: &Outcome<'_>) -> f64 {
+fn reached(of: &RunAnswer) -> f64 {
     match of.solution.end() {
-        RunStatus::Reached => of.job.settings.stop,
+        RunStatus::Reached => of.task.settings.stop,
         RunStatus::Interrupted(time) | RunStatus::Failed(time) => time,
     }
 }
 
-fn temperatures(of: &Outcome<'_>, nodes: &[NodeSummary]) -> TextTable {
-    let (unit, settings) = (&of.job.unit, &of.job.settings);
+fn temperatures(of: &RunAnswer, nodes: &[NodeSummary]) -> TextTable {
+    let (unit, settings) = (&of.task.unit, &of.task.settings);
     let temperatures =
         nodes.iter().flat_map(|n| [Some(n.start), Some(n.end), Some(n.peak.0), n.steady]);
     let (low, high) = range(temperatures.flatten());
@@ -138,7 +138,7 @@ fn temperatures(of: &Outcome<'_>, nodes: &[NodeSummary]) -> TextTable {
     let digits = decimals(span / unit.scale, 3, 1);
     let number = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
     let network = of.solution.network();
-    let clock = of.job.clock;
+    let clock = of.task.clock;
     let end = clock.text(reached(of), 4);
     let name = |n: &NodeSummary| (network.nodes()[n.node.index()].name.clone(), 0);
     let rows = families::folded(nodes.to_vec(), of.folds(), name, |n| n.peak.0);
@@ -160,7 +160,7 @@ fn temperatures(of: &Outcome<'_>, nodes: &[NodeSummary]) -> TextTable {
 
 /// What is not a temperature of a node: every report, the values of grids, and the other columns
 /// that were asked for by name.
-fn columns(of: &Outcome<'_>, text: &mut Text) {
+fn columns(of: &RunAnswer, text: &mut Text) {
     let network = of.solution.network();
     let is_report = |name: &str| network.reports().iter().any(|report| report.name == name);
     let is_node =
@@ -168,7 +168,7 @@ fn columns(of: &Outcome<'_>, text: &mut Text) {
     let of_grids: Vec<String> = network.grid_values().map(|value| value.name(network)).collect();
     let is_of_grid = |name: &str| of_grids.iter().any(|value| value == name);
     let wanted =
-        |name: &str| is_report(name) || is_of_grid(name) || (of.job.chosen && !is_node(name));
+        |name: &str| is_report(name) || is_of_grid(name) || (of.task.chosen && !is_node(name));
     let all = of.table.columns().get(1..).unwrap_or_default();
     let shown: Vec<_> = all.iter().filter(|column| wanted(&column.name)).take(MOST_NODES).collect();
     if shown.is_empty() {
@@ -183,7 +183,7 @@ fn columns(of: &Outcome<'_>, text: &mut Text) {
     let table = TextTable::of(&shown)
         .left("column", |c| c.header())
         .right("start", |c| number(c, c.values.first()))
-        .right(of.job.clock.text(reached(of), 4), |c| number(c, c.values.last()))
+        .right(of.task.clock.text(reached(of), 4), |c| number(c, c.values.last()))
         .left("", |c| sparkline(of.solution.times(), &c.values, CURVE, 0.0))
         .optional();
     text.section().table(table);
@@ -193,16 +193,16 @@ fn start_of_curve(start: f64, clock: Clock) -> String {
     if start == 0.0 { "0".into() } else { clock.text(start, 4) }
 }
 
-fn curve(of: &Outcome<'_>, node: &NodeSummary) -> String {
+fn curve(of: &RunAnswer, node: &NodeSummary) -> String {
     let values = of.solution.temperature(node.node).unwrap_or_default();
     sparkline(of.solution.times(), &values, CURVE, FLAT)
 }
 
-fn time_to_95(of: &Outcome<'_>, node: &NodeSummary) -> String {
+fn time_to_95(of: &RunAnswer, node: &NodeSummary) -> String {
     match (node.time_to_95, node.reached()) {
-        (Some(time), _) => of.job.clock.text(time, 3),
+        (Some(time), _) => of.task.clock.text(time, 3),
         (None, Some(_)) => {
-            format!("> {}", of.job.clock.text(reached(of) - of.job.settings.start, 3))
+            format!("> {}", of.task.clock.text(reached(of) - of.task.settings.start, 3))
         }
         (None, None) => "-".into(),
     }
@@ -213,7 +213,7 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 }
 
 /// What the table cannot say.
-fn notes(of: &Outcome<'_>, nodes: &[NodeSummary]) -> Vec<String> {
+fn notes(of: &RunAnswer, nodes: &[NodeSummary]) -> Vec<String> {
     let mut notes: Vec<String> = Vec::new();
     let network = of.solution.network();
     if nodes.len() < network.nodes().len() && nodes.len() == MOST_NODES {
@@ -229,7 +229,7 @@ fn notes(of: &Outcome<'_>, nodes: &[NodeSummary]) -> Vec<String> {
         Err(NoSteady::NotShown) => {}
         Err(NoSteady::Inputs) => notes.push("steady is `-`: the inputs change with time".into()),
         Ok(steady) => {
-            notes.extend(others(network, steady, &of.job.unit).map(|found| found.message))
+            notes.extend(others(network, steady, &of.task.unit).map(|found| found.message))
         }
         Err(NoSteady::Network(SteadyError::NoBoundary { .. })) => {}
         Err(NoSteady::Network(error)) => notes.push(format!("steady is `-`: {error}")),
@@ -293,15 +293,15 @@ pub(crate) fn heat_over(text: &mut Text, solution: &Solution, (length, clock): (
 }
 
 /// Who computed the temperatures, to what; with `-v` what it took. Nobody where nothing stores heat.
-fn solver(of: &Outcome<'_>) -> Vec<String> {
+fn solver(of: &RunAnswer) -> Vec<String> {
     let method = match of.solution.method() {
         Some(Method::OneStep) => "one-step method",
         Some(Method::Cvode) => "CVODE",
         None => return Vec::new(),
     };
-    let tolerance = format!("tolerance {} K", significant(of.job.settings.tolerance, 3));
+    let tolerance = format!("tolerance {} K", significant(of.task.settings.tolerance, 3));
     let mut words = vec![method.to_owned(), tolerance];
-    if of.detail == Detail::Verbose {
+    if of.task.detail == Detail::Verbose {
         let done = of.solution.statistics();
         let repeated = done.error_test_failures + done.newton_failures;
         let counts = [

@@ -4,27 +4,28 @@ use lptn_analysis::RunAnalysis;
 use lptn_network::{NodeId, ParameterId};
 use lptn_report::{Claim, Report, duration, significant};
 use lptn_solve::{Gradient, Proceed, Snapshot};
+use lptn_study::Environment;
 
-use super::outcome::Outcome;
-use lptn_answer::about::{self, Known, Sensitivities};
-use lptn_answer::bound::{not_bounded, weak_ledger};
-use lptn_answer::limits;
+use super::answer::RunAnswer;
+use crate::about::{self, Known, Sensitivities};
+use crate::bound::{not_bounded, weak_ledger};
+use crate::limits;
 
 /// With more numbers than this, nodes times parameters, sensitivities take longer than the run.
 const MOST_TANGENTS: usize = 2000;
 
-impl Outcome<'_> {
+impl RunAnswer {
     /// The sections of a report and its claims. What a parameter does is that of a run from the
     /// start of the network: of a settled cycle it would be wrong.
     pub(crate) fn report(&self, from_start: bool) -> Report {
         let known = Known {
             claims: self.claims(),
             states: self.states(),
-            unit: Some(&self.job.unit),
+            unit: Some(&self.task.unit),
             sensitivities: if from_start { self.sensitivities() } else { None },
         };
-        let mut report = about::about(self.job.input, known);
-        let manifest = self.manifest(Vec::new());
+        let mut report = about::about(&self.task.input, known);
+        let manifest = self.manifest(Vec::new(), Environment::default());
         report.sections.extend(serde_json::to_value(&manifest).ok().and_then(about::manifest));
         report
     }
@@ -33,7 +34,7 @@ impl Outcome<'_> {
     fn states(&self) -> Vec<(String, Snapshot)> {
         let times = self.solution.times();
         let at = |time: &f64| self.solution.row_at(*time);
-        let mut rows: Vec<usize> = self.job.at.iter().filter_map(at).collect();
+        let mut rows: Vec<usize> = self.task.at.iter().filter_map(at).collect();
         if rows.is_empty() {
             rows.extend(times.len().checked_sub(1));
         }
@@ -74,7 +75,7 @@ impl Outcome<'_> {
         }
         claims.push(about::lumps(&self.lumping));
         claims.extend(self.ended_early().map(|why| Claim::checked(false, why)));
-        let (network, unit) = (self.solution.network(), &self.job.unit);
+        let (network, unit) = (self.solution.network(), &self.task.unit);
         claims.extend(limits::claims(network, &self.limits(), unit));
         claims
     }
@@ -82,7 +83,7 @@ impl Outcome<'_> {
     /// How the hottest node changes with each parameter: its end, or its peak where something
     /// switches, since then what is at one time depends on when that happened.
     fn sensitivities(&self) -> Option<Sensitivities> {
-        let (network, settings) = (self.solution.network(), &self.job.settings);
+        let (network, settings) = (self.solution.network(), &self.task.settings);
         let ids: Vec<ParameterId> = network.parameter_ids().collect();
         let small = ids.len() * network.nodes().len() <= MOST_TANGENTS;
         if ids.is_empty() || !small || self.ended_early().is_some() {

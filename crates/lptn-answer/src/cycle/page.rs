@@ -1,4 +1,4 @@
-//! What `lptn steady --periodic` shows.
+//! A settled cycle as a page.
 
 use std::io;
 
@@ -10,20 +10,20 @@ use lptn_solve::{ColumnSeen, CycleMethod};
 use lptn_study::{SiValue, StatisticsRecord};
 use lptn_units::Dimension;
 
-use super::View;
-use crate::verbs::run::page::heat_over;
-use lptn_answer::balance;
-use lptn_answer::words::{count, difference, largest, some_of, symbol};
-use lptn_answer::{families, limits};
+use super::CycleAnswer;
+use crate::balance;
+use crate::run::page::heat_over;
+use crate::words::{count, difference, largest, some_of, symbol};
+use crate::{families, limits};
 
 /// A column with its first value, in SI.
 type Row<'a> = (&'a ColumnSeen, f64);
 
-impl Page for View<'_> {
+impl Page for CycleAnswer {
     fn text(&self) -> Text {
-        let (job, solution) = (&self.outcome.job, &self.found.solution);
+        let (task, solution) = (&self.run.task, &self.found.solution);
         let network = solution.network();
-        let mut text = job.input.begun();
+        let mut text = task.input.begun();
         let seen = self.cycle().map_or(&[][..], |cycle| &cycle.columns);
         let rows: Vec<Row<'_>> = seen.iter().zip(self.starts()).collect();
         let (temperatures, rest): (Vec<Row<'_>>, Vec<Row<'_>>) =
@@ -32,22 +32,22 @@ impl Page for View<'_> {
             .into_iter()
             .partition(|(c, _)| c.ty.dimension == Dimension::POWER && c.name.contains('.'));
         temperature_section(&mut text, self, temperatures);
-        flow_section(&mut text, flows, self.outcome.folds());
+        flow_section(&mut text, flows, self.run.folds());
         other_section(&mut text, self, &others);
-        let fold = self.outcome.folds();
-        let limits = self.outcome.limits();
-        limits::section(&mut text, &self.outcome.judgement(&limits), fold);
+        let fold = self.run.folds();
+        let limits = self.run.limits();
+        limits::section(&mut text, &self.run.judgement(&limits), fold);
         if let Some(of) = solution.balance() {
-            let times = Some((job.settings.start, job.settings.stop));
+            let times = Some((task.settings.start, task.settings.stop));
             balance::section(&mut text, network, (of, times));
         }
         found_section(&mut text, self);
-        heat_over(text.section(), solution, (self.period(), job.clock));
+        heat_over(text.section(), solution, (self.period(), task.clock));
         text
     }
 
     fn figures(&self) -> Vec<Figure> {
-        vec![self.outcome.figure()]
+        vec![self.run.figure()]
     }
 
     /// Name, unit, value at the start, mean, extremes with their times, and swing of each column.
@@ -56,7 +56,7 @@ impl Page for View<'_> {
             ["name", "unit", "start", "mean", "min", "min_at [s]", "max", "max_at [s]", "swing"];
         let mut rows = vec![heading.map(str::to_owned).to_vec()];
         let mut text = lptn_report::Shortest::new();
-        let unit = &self.outcome.job.unit;
+        let unit = &self.run.task.unit;
         for (seen, start) in
             self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts())
         {
@@ -70,20 +70,20 @@ impl Page for View<'_> {
     }
 
     fn more(&self) -> Report {
-        self.outcome.report(false)
+        self.run.report(false)
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        let (solution, settings) = (&self.found.solution, &self.outcome.job.settings);
-        self.outcome.job.input.head(json, &[])?;
+        let (solution, settings) = (&self.found.solution, &self.run.task.settings);
+        self.run.task.input.head(json, &self.beside())?;
         json.member("start", &SiValue::new(settings.start, "s"))?;
         json.member("period", &SiValue::new(self.period(), "s"))?;
         json.member("columns", &self.members())?;
         json.member("search", &self.search())?;
-        json.member("ledger", &self.outcome.ledger())?;
-        let (network, unit) = (solution.network(), &self.outcome.job.unit);
-        json.optional("limits", limits::members(network, &self.outcome.limits(), unit))?;
-        json.optional("out_of_range", self.outcome.out_of_range())?;
+        json.member("ledger", &self.run.ledger())?;
+        let (network, unit) = (solution.network(), &self.run.task.unit);
+        json.optional("limits", limits::members(network, &self.run.limits(), unit))?;
+        json.optional("out_of_range", self.run.out_of_range())?;
         json.optional("balance", solution.balance().map(|of| balance::json(network, of)))?;
         json.member("statistics", &StatisticsRecord::new(solution))
     }
@@ -94,16 +94,16 @@ fn named((column, _): &Row<'_>) -> (String, u8) {
     (column.name.strip_suffix(".T").unwrap_or(&column.name).to_owned(), 0)
 }
 
-fn temperature_section(text: &mut Text, view: &View<'_>, rows: Vec<Row<'_>>) {
-    let unit = &view.outcome.job.unit;
+fn temperature_section(text: &mut Text, view: &CycleAnswer, rows: Vec<Row<'_>>) {
+    let unit = &view.run.task.unit;
     let swing = |c: &ColumnSeen| c.max.0 - c.min.0;
     let span = rows.iter().map(|(c, _)| swing(c)).fold(0.0, f64::max);
     let digits = decimals(span / unit.scale, 3, 1);
     // what the tolerance cannot tell from rest is none
     let clear =
-        |swing: f64| if swing > 10.0 * view.outcome.job.settings.tolerance { swing } else { 0.0 };
+        |swing: f64| if swing > 10.0 * view.run.task.settings.tolerance { swing } else { 0.0 };
     let kelvin = |value: f64| fixed(unit.from_si(value), digits);
-    let mut rows = families::folded(rows, view.outcome.folds(), named, |row| row.0.max.0);
+    let mut rows = families::folded(rows, view.run.folds(), named, |row| row.0.max.0);
     let all = largest(&mut rows, |row| row.item.0.max.0);
     let table = TextTable::of(&rows).left(format!("T [{}]", unit.text), |row| row.name.as_str());
     let table = families::members(table, &rows, "hottest")
@@ -141,8 +141,8 @@ fn flow_section(text: &mut Text, rows: Vec<Row<'_>>, fold: bool) {
 }
 
 /// Signals and reports.
-fn other_section(text: &mut Text, view: &View<'_>, rows: &[Row<'_>]) {
-    let unit = &view.outcome.job.unit;
+fn other_section(text: &mut Text, view: &CycleAnswer, rows: &[Row<'_>]) {
+    let unit = &view.run.task.unit;
     let number = |c: &ColumnSeen, value: f64| significant(c.shown(value, unit), 5);
     let table = TextTable::of(rows)
         .left("column", |(c, _)| format!("{} [{}]", c.name, symbol(&c.unit(unit))))
@@ -153,8 +153,8 @@ fn other_section(text: &mut Text, view: &View<'_>, rows: &[Row<'_>]) {
 }
 
 /// How the cycle was found, and how far it is to be believed.
-fn found_section(text: &mut Text, view: &View<'_>) {
-    let found = view.found;
+fn found_section(text: &mut Text, view: &CycleAnswer) {
+    let found = &view.found;
     let kelvin = |value: f64| format!("{} K", significant(value, 2));
     let how = match found.method {
         CycleMethod::Modes => "in closed form, mode by mode;",
@@ -166,7 +166,7 @@ fn found_section(text: &mut Text, view: &View<'_>) {
     let cycle = format!(
         "{}, from {} on",
         duration(view.period(), 6),
-        duration(view.outcome.job.settings.start, 4)
+        duration(view.run.task.settings.start, 4)
     );
     text.section().line(format!("cycle:   {cycle}"));
     text.labelled("found:   ", pieces);

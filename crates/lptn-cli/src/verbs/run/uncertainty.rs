@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args as Arguments, ValueEnum};
+use lptn_answer::run::uncertainty::{self, UncertaintyQuestion};
 
 /// What the `±` of parameters do to the results.
 #[derive(Debug, Default, Arguments)]
@@ -30,4 +31,16 @@ pub(crate) struct UncertaintyArgs {
 pub(crate) enum Method {
     Linear,
     Sobol,
+}
+
+impl UncertaintyArgs {
+    /// The uncertainty that is asked for.
+    pub(crate) fn question(&self) -> Option<UncertaintyQuestion> {
+        let method = match self.uncertainty? {
+            Method::Linear => uncertainty::Method::Linear,
+            Method::Sobol => uncertainty::Method::Sobol,
+        };
+        let Self { samples, seed, threads, .. } = *self;
+        Some(UncertaintyQuestion { method, samples, seed, threads })
+    }
 }

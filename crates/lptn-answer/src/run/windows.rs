@@ -6,11 +6,11 @@ use lptn_study::SiValue;
 use lptn_units::Unit;
 use serde_json::{Map, Value, json};
 
-use lptn_answer::scale;
-use lptn_answer::words::{MOST_NODES, symbol};
+use crate::scale;
+use crate::words::{MOST_NODES, symbol};
 
 /// A section for each window.
-pub(crate) fn sections(text: &mut Text, windows: &[WindowSeen], units: (&Unit, Clock)) {
+pub(super) fn sections(text: &mut Text, windows: &[WindowSeen], units: (&Unit, Clock)) {
     windows.iter().for_each(|window| section(text, window, units));
 }
 
@@ -39,7 +39,7 @@ fn section(text: &mut Text, window: &WindowSeen, (unit, clock): (&Unit, Clock)) 
 }
 
 /// The rows of `windows.csv`, temperatures in `unit`.
-pub(crate) fn rows(windows: &[WindowSeen], unit: &Unit) -> Vec<Vec<String>> {
+pub(super) fn rows(windows: &[WindowSeen], unit: &Unit) -> Vec<Vec<String>> {
     let heading = [
         "window",
         "column",
@@ -71,7 +71,7 @@ pub(crate) fn rows(windows: &[WindowSeen], unit: &Unit) -> Vec<Vec<String>> {
 /// Members by the window's name:
 /// `{ from, to, columns: { NAME: { mean, min, min_at, max, max_at } } }`, in SI but for
 /// temperatures, which are in `unit`.
-pub(crate) fn members(windows: &[WindowSeen], unit: &Unit) -> Map<String, Value> {
+pub(super) fn members(windows: &[WindowSeen], unit: &Unit) -> Map<String, Value> {
     let time = |time: f64| SiValue::new(time, "s");
     let column = |c: &ColumnSeen| {
         let scalar = |value: f64| scale::scalar(value, c.ty, unit);

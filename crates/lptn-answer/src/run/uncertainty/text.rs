@@ -10,7 +10,7 @@ use lptn_units::Unit;
 use super::Study;
 use super::files::{parameter, unit_of};
 use super::inputs;
-use lptn_answer::words::{MOST_NODES, count, difference};
+use crate::words::{MOST_NODES, count, difference};
 
 /// Parameters that a ranking names.
 const MOST_RANKED: usize = 12;

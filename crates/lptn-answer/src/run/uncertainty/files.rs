@@ -10,8 +10,8 @@ use lptn_units::{Dimension, Type, Unit};
 use serde_json::{Map, Value, json};
 
 use super::Study;
-use lptn_answer::scale;
-use lptn_answer::words::difference;
+use crate::scale;
+use crate::words::difference;
 
 /// The rows of `uncertainty.csv`: the time, then for each node its temperature as in `result.csv`,
 /// one standard deviation and the band of 95 %.
@@ -66,12 +66,12 @@ pub(crate) fn ranking(network: &Network, found: &Uncertainty) -> Table {
 }
 
 /// The name of an uncertain parameter.
-pub(crate) fn parameter(network: &Network, found: &Uncertainty, input: usize) -> String {
+pub(super) fn parameter(network: &Network, found: &Uncertainty, input: usize) -> String {
     network.name_of(Item::Parameter(found.inputs[input].parameter)).into_owned()
 }
 
 /// The SI unit of a difference of two values of an answer.
-pub(crate) fn unit_of(network: &Network, of: AnswerOf) -> String {
+pub(super) fn unit_of(network: &Network, of: AnswerOf) -> String {
     type_of(network, of).dimension.si_unit()
 }
 

@@ -1,0 +1,266 @@
+//! The cycle at which a network with repeating inputs settles.
+
+mod page;
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use lptn_analysis::{Answer as Trusted, CycleError, RunAnalysis};
+use lptn_assembly::ThermalSystem;
+use lptn_netlist::{Diagnostic, Files, RunSettings};
+use lptn_network::{Item, OutputTimes};
+use lptn_report::{Clock, Format};
+use lptn_solve::{
+    ColumnSeen, CycleMethod, Lumping, Periodic, PeriodicError, Table, Window, WindowSeen,
+};
+use lptn_study::SiValue;
+use lptn_units::{Problem as _, Type};
+use serde_json::{Map, Value, json};
+
+use crate::answer::Answer;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::{self, Input};
+use crate::listener::{Listener, timed};
+use crate::lumping::Detail;
+use crate::refused::{explain, unanswered};
+use crate::run::{NoSteady, RunAnswer, RunTask, record};
+use crate::{balance, period, scale, select, trust};
+
+/// The name of the window over the cycle.
+const CYCLE: &str = "cycle";
+
+/// A row is written at least so often in a cycle.
+const LEAST_ROWS: f64 = 20.0;
+
+/// The settled cycle of a netlist.
+#[derive(Clone, Debug)]
+pub struct CycleQuestion {
+    /// The period, such as `10 min`; `None` for that of the repeated signals.
+    pub period: Option<String>,
+    /// The tolerance, such as `1e-7K`; `None` for that of the netlist.
+    pub tolerance: Option<String>,
+    /// Patterns of the columns, such as `*.T`; empty for all.
+    pub select: Vec<String>,
+    /// The unit of temperatures; `None` for that of the netlist.
+    pub temperature_unit: Option<String>,
+    /// The node or boundary whose heat balance is shown.
+    pub balance: Option<String>,
+    /// The format that will be read.
+    pub format: Format,
+    /// Whether a report is wanted.
+    pub report: bool,
+    /// How much a table shows.
+    pub detail: Detail,
+}
+
+/// A settled cycle that is ready to be searched.
+#[derive(Clone, Debug)]
+pub struct CycleTask(RunTask);
+
+/// A settled cycle.
+#[derive(Debug)]
+pub struct CycleAnswer {
+    /// One period of it as a run.
+    pub run: RunAnswer,
+    /// How it was found.
+    pub found: Periodic,
+}
+
+impl CycleQuestion {
+    /// Checks the question for a netlist.
+    ///
+    /// # Errors
+    /// A period that is not known, and a unit, column or node that does not exist.
+    pub fn of(&self, input: Arc<Input>) -> Result<CycleTask, Failure> {
+        let netlist = &input.netlist;
+        let settings = self.settings(&input)?;
+        let selection = select::of_option(netlist, &self.select)?;
+        let unit = input::temperature_unit(self.temperature_unit.as_deref(), netlist)?;
+        let balance = balance::end(netlist, self.balance.as_deref(), self.format)?;
+        Ok(CycleTask(RunTask {
+            settings,
+            selection,
+            chosen: !self.select.is_empty(),
+            unit,
+            clock: Clock::default(),
+            format: self.format,
+            balance,
+            at: Vec::new(),
+            report: self.report,
+            detail: self.detail,
+            uncertainty: None,
+            input,
+        }))
+    }
+
+    /// Those of the cycle.
+    fn settings(&self, input: &Input) -> Result<RunSettings, Failure> {
+        let run = input.netlist.run.as_ref();
+        let period = period::of_cycle(input, self.period.as_deref())?;
+        let cycle = RunSettings::cycle(run, period);
+        let output = match run.map(|run| &run.output) {
+            Some(OutputTimes::Every(every)) if *every <= period / LEAST_ROWS => {
+                OutputTimes::Every(*every)
+            }
+            _ => cycle.output.clone(),
+        };
+        let tolerance = match &self.tolerance {
+            Some(text) => input::tolerance(text)?,
+            None => cycle.tolerance,
+        };
+        Ok(RunSettings { output, tolerance, ..cycle })
+    }
+}
+
+impl CycleTask {
+    /// Searches the cycle.
+    ///
+    /// # Errors
+    /// A network without one, a run that fails, and an interruption.
+    pub fn answer(
+        self,
+        system: &ThermalSystem,
+        listener: &dyn Listener,
+    ) -> Result<CycleAnswer, Failure> {
+        let Self(task) = self;
+        let begun = Instant::now();
+        let found = timed(listener, "integrate", || find(&task, system, listener))?;
+        let wall_time = begun.elapsed().as_secs_f64();
+        let solution = Trusted { result: found.solution.clone(), trust: found.trust };
+        let run = RunAnswer {
+            lumping: Lumping::of_run(&solution),
+            table: Table::of_solution(&solution, &task.selection, &task.unit),
+            task,
+            steady: Err(NoSteady::Inputs),
+            solution,
+            failure: None,
+            wall_time,
+            uncertainty: None,
+        };
+        Ok(CycleAnswer { run, found: found.result })
+    }
+}
+
+fn find(
+    task: &RunTask,
+    system: &ThermalSystem,
+    listener: &dyn Listener,
+) -> Result<Trusted<Periodic>, Failure> {
+    let RunSettings { start, stop, .. } = task.settings;
+    let window = Window { name: CYCLE.into(), from: start, to: stop, of: task.selection.clone() };
+    let cycle = RunAnalysis::of(system.network(), &task.settings)
+        .keeping(record(system.network(), &task.selection))
+        .over(vec![window])
+        .balancing(task.balance);
+    let found = cycle.cycle(system, &mut |progress| listener.progress(progress));
+    found.map_err(|error| match error {
+        CycleError::Missing(error) => failed(&task.input, &error),
+        CycleError::Run(error) => unanswered(&task.input, &error),
+    })
+}
+
+fn failed(input: &Input, error: &PeriodicError) -> Failure {
+    let map = &input.netlist.source_map;
+    let place = match error {
+        PeriodicError::NotPeriodic(found) => {
+            map.get(found.item, found.field).or_else(|| map.name(found.item))
+        }
+        PeriodicError::NoBalance { nodes, .. } => {
+            nodes.first().and_then(|&node| map.name(Item::Node(node)))
+        }
+        PeriodicError::Cycle(cause) => {
+            return input.refused(error.class().into(), explain(input, cause));
+        }
+        error => error.input().and_then(|error| input.place_of(error)),
+    };
+    input.failure(error, place)
+}
+
+impl Answer for CycleAnswer {
+    fn files(&self) -> &Files {
+        self.run.files()
+    }
+
+    fn doubts(&self) -> Vec<Diagnostic> {
+        [self.run.task.input.netlist.warnings.as_slice(), &self.beside()].concat()
+    }
+
+    fn exit(&self) -> Exit {
+        if self.run.verdict().holds() { Exit::Done } else { Exit::No }
+    }
+}
+
+impl CycleAnswer {
+    /// What was seen of the columns over the cycle.
+    fn cycle(&self) -> Option<&WindowSeen> {
+        self.found.solution.windows().first()
+    }
+
+    fn period(&self) -> f64 {
+        self.run.task.settings.stop - self.run.task.settings.start
+    }
+
+    /// Time constant of the slowest part in s.
+    fn slowest(&self) -> Option<f64> {
+        let rho = self.found.multiplier.filter(|rho| *rho > 0.0 && *rho < 1.0)?;
+        Some(-self.period() / rho.ln())
+    }
+
+    /// The first row of every column, in the unit that is shown.
+    fn starts(&self) -> impl Iterator<Item = f64> + '_ {
+        self.run
+            .table
+            .columns()
+            .iter()
+            .skip(1)
+            .map(|c| c.values.first().copied().unwrap_or(f64::NAN))
+    }
+
+    /// By column: start, mean, extremes and swing, temperatures in the unit that is shown.
+    fn members(&self) -> Map<String, Value> {
+        let unit = &self.run.task.unit;
+        let seconds = |time: f64| SiValue::new(time, "s");
+        let columns = self.cycle().into_iter().flat_map(|cycle| &cycle.columns).zip(self.starts());
+        let member = |(seen, start): (&ColumnSeen, f64)| {
+            let scalar = |value: f64| scale::scalar(value, seen.ty, unit);
+            let swing = Type::of(seen.ty.dimension);
+            let start = if seen.ty.absolute { unit.to_si(start) } else { start };
+            let member = json!({
+                "start": scalar(start),
+                "mean": scalar(seen.mean),
+                "min": scalar(seen.min.0),
+                "min_at": seconds(seen.min.1),
+                "max": scalar(seen.max.0),
+                "max_at": seconds(seen.max.1),
+                "swing": scale::scalar(seen.max.0 - seen.min.0, swing, unit),
+            });
+            (seen.name.clone(), member)
+        };
+        columns.map(member).collect()
+    }
+
+    fn search(&self) -> Value {
+        let found = &self.found;
+        let kelvin = |value: f64| scale::of_difference(value, &self.run.task.unit);
+        json!({
+            "method": match found.method {
+                CycleMethod::Modes => "modes",
+                CycleMethod::Shooting => "shooting",
+                CycleMethod::Stateless => "stateless",
+            },
+            "cycles": found.cycles,
+            "steps": found.steps,
+            "flow_evaluations": found.flow_evaluations,
+            "residual": kelvin(found.residual),
+            "error": kelvin(found.error),
+            "multiplier": found.multiplier,
+            "time_constant": self.slowest().map(|tau| SiValue::new(tau, "s")),
+        })
+    }
+
+    /// Doubts in the numbers, which no table shows.
+    pub fn beside(&self) -> Vec<Diagnostic> {
+        trust::doubts(&self.run.task.input.netlist, &self.run.solution.trust, true)
+    }
+}

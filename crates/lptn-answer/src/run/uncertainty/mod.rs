@@ -1,0 +1,126 @@
+//! The uncertainty of a run: bands and a ranking.
+
+pub(super) mod files;
+mod inputs;
+pub(super) mod text;
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use lptn_analysis::RunAnalysis;
+use lptn_netlist::{Diagnostic, Netlist};
+use lptn_solve::available_threads;
+use lptn_study::uncertainty::{
+    Discrepancy, Sobol, Uncertainty, UncertaintyError, UncertaintyTask, discrepancies, uncertain,
+};
+
+use super::observed::shown;
+use super::task::RunTask;
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::listener::Listener;
+
+/// How the `±` of parameters are carried to the results.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// By the slopes of the results.
+    Linear,
+    /// By runs at the points of a Sobol sequence.
+    Sobol,
+}
+
+/// The uncertainty that is asked for.
+#[derive(Clone, Debug)]
+pub struct UncertaintyQuestion {
+    /// The method.
+    pub method: Method,
+    /// Base points of Sobol's method; `None` for 512.
+    pub samples: Option<u32>,
+    /// Seed of Sobol's method; `None` for 1.
+    pub seed: Option<u32>,
+    /// Threads; `None` for all. The result is the same for any number.
+    pub threads: Option<usize>,
+}
+
+/// Base points unless said: enough for a standard error of a few percent of a band's width.
+const SAMPLES: u32 = 512;
+
+const SEED: u32 = 1;
+
+/// A band of less than so many tolerances of the run is that of the solver.
+const WIDTHS: f64 = 100.0;
+
+/// Refuses before anything is run what cannot be answered.
+pub(super) fn check(asked: Option<&UncertaintyQuestion>, input: &Input) -> Result<(), Failure> {
+    if asked.is_none() {
+        return Ok(());
+    }
+    let inputs = uncertain(&input.netlist.network, &input.netlist.overrides());
+    inputs.map(drop).map_err(|error| input.failure(&error, None))
+}
+
+/// Values with `±` that are not parameters, and so are taken as certain.
+pub(super) fn elsewhere(netlist: &Netlist) -> Vec<Diagnostic> {
+    let spans = netlist.source_map.deviations_elsewhere(&netlist.files);
+    let warning = |span| {
+        Diagnostic::warning(
+            "uncertainty::no_parameter",
+            "only parameters are varied: this `±` is not counted",
+        )
+        .at(span, "")
+        .help("give the value a name in [param], and write the name here")
+    };
+    spans.into_iter().map(warning).collect()
+}
+
+/// The uncertainty of a run.
+#[derive(Debug)]
+pub struct Study {
+    /// Bands of temperatures and margins, and the ranking of parameters.
+    pub found: Uncertainty,
+    /// Where the linear bands differ from sampled ones, or why there are none.
+    pub linear: Option<Result<Vec<Discrepancy>, String>>,
+}
+
+impl UncertaintyQuestion {
+    /// The uncertainty of a run.
+    pub(super) fn study(&self, asked: &RunTask, listener: &dyn Listener) -> Result<Study, Failure> {
+        let netlist = &asked.input.netlist;
+        let network = &netlist.network;
+        let mut nodes: Vec<_> = asked.selection.nodes().collect();
+        if nodes.is_empty() {
+            nodes = shown(network, None, None);
+            nodes.sort_unstable();
+        }
+        let (parameters, run) = (netlist.overrides(), RunAnalysis::of(network, &asked.settings));
+        let task = UncertaintyTask { network, parameters, run, nodes };
+        let outcome = match self.method {
+            Method::Linear => task.linear().map(|found| Study { found, linear: None }),
+            Method::Sobol => self.sobol(&task, listener).map(|found| {
+                let least = WIDTHS * task.run.tolerance();
+                let differ = |linear: Uncertainty| discrepancies(&linear, &found, least);
+                let linear = task.linear().map(differ).map_err(|error| error.to_string());
+                Study { found, linear: Some(linear) }
+            }),
+        };
+        outcome.map_err(|error| asked.input.failure(&error, None))
+    }
+
+    fn sobol(
+        &self,
+        task: &UncertaintyTask<'_>,
+        listener: &dyn Listener,
+    ) -> Result<Uncertainty, UncertaintyError> {
+        let samples = self.samples.unwrap_or(SAMPLES);
+        let all = samples.next_power_of_two() as usize;
+        let done = AtomicUsize::new(0);
+        task.sobol(&Sobol {
+            samples: samples as usize,
+            seed: self.seed.unwrap_or(SEED),
+            threads: self.threads.unwrap_or_else(available_threads),
+            control: &|| listener.proceed(),
+            finished: &|| {
+                listener.counted(1 + done.fetch_add(1, Ordering::Relaxed), all, "samples");
+            },
+        })
+    }
+}

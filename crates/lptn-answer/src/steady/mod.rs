@@ -1,0 +1,121 @@
+//! Steady states.
+
+mod doubts;
+mod page;
+
+use std::sync::Arc;
+
+use lptn_analysis::{Answer as Trusted, LimitResult};
+use lptn_netlist::{Diagnostic, Files};
+use lptn_report::{Clock, Format};
+use lptn_solve::{Balance, SteadyError, SteadyState, Table};
+use lptn_units::Unit;
+
+use crate::answer::Answer;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::{self, Input};
+use crate::limits::{Judgement, Verdict};
+use crate::listener::{Listener, timed};
+use crate::lumping::Detail;
+use crate::refused::steady_failed;
+use crate::{balance, select, trust};
+
+pub use doubts::{adiabatic, inputs_vary, others};
+
+/// The temperatures at which a network settles.
+#[derive(Clone, Debug)]
+pub struct SteadyQuestion {
+    /// Patterns of the columns, such as `*.T`; empty for all.
+    pub select: Vec<String>,
+    /// The unit of temperatures; `None` for that of the netlist.
+    pub temperature_unit: Option<String>,
+    /// The node or boundary whose heat balance is shown.
+    pub balance: Option<String>,
+    /// The format that will be read.
+    pub format: Format,
+    /// How much a table shows.
+    pub detail: Detail,
+}
+
+/// A steady state.
+#[derive(Debug)]
+pub struct SteadyAnswer {
+    /// The netlist.
+    pub input: Arc<Input>,
+    /// Temperatures, heat flows, and how far they can be trusted.
+    pub steady: Trusted<SteadyState>,
+    /// The selected columns, in the unit that is shown.
+    pub table: Table,
+    /// The unit of temperatures.
+    pub unit: Unit,
+    /// What became of the limits, in the order of the netlist.
+    pub limits: Vec<LimitResult>,
+    /// The heat balance that was asked for.
+    pub balance: Option<Balance>,
+    /// Whether nothing was selected.
+    pub all: bool,
+    /// Whether large families are one row.
+    fold: bool,
+}
+
+impl SteadyQuestion {
+    /// Asks a netlist.
+    ///
+    /// # Errors
+    /// A unit, column or node that does not exist, and a network without a steady state.
+    pub fn ask(&self, input: Arc<Input>, listener: &dyn Listener) -> Result<SteadyAnswer, Failure> {
+        let netlist = &input.netlist;
+        let selection = select::of_option(netlist, &self.select)?;
+        let unit = input::temperature_unit(self.temperature_unit.as_deref(), netlist)?;
+        let balance = balance::end(netlist, self.balance.as_deref(), self.format)?;
+        let system = timed(listener, "assemble", || input.assemble())?;
+        let start = netlist.run.as_ref().map_or(0.0, |run| run.start);
+        let steady = timed(listener, "solve", || lptn_analysis::steady(&system, start));
+        let steady = steady.map_err(|error| steady_failed(&input, &error))?;
+        let network = &netlist.network;
+        let unread = |error| steady_failed(&input, &SteadyError::Input(error));
+        let limits = LimitResult::of_steady(network, &steady).map_err(unread)?;
+        let table = Table::of_steady(network, &steady, &selection, &unit).map_err(unread)?;
+        let balance = balance.map(|of| steady.balance(network, of));
+        let all = self.select.is_empty();
+        let fold = all && self.detail < Detail::Verbose;
+        Ok(SteadyAnswer { steady, table, unit, limits, balance, all, fold, input })
+    }
+}
+
+impl Answer for SteadyAnswer {
+    fn files(&self) -> &Files {
+        &self.input.netlist.files
+    }
+
+    fn doubts(&self) -> Vec<Diagnostic> {
+        [self.input.netlist.warnings.as_slice(), &self.noted(), &self.beside()].concat()
+    }
+
+    fn exit(&self) -> Exit {
+        if Verdict::of(&self.judgement()).holds() { Exit::Done } else { Exit::No }
+    }
+}
+
+impl SteadyAnswer {
+    /// The limits, and how they are shown.
+    pub fn judgement(&self) -> Judgement<'_> {
+        let (netlist, unit, limits) = (&self.input.netlist, &self.unit, &self.limits);
+        Judgement { netlist, unit, clock: Clock::default(), limits }
+    }
+
+    /// Doubts that a table has as notes: inputs that change, other steady states.
+    pub fn noted(&self) -> Vec<Diagnostic> {
+        let (netlist, file) = (&self.input.netlist, self.input.typed());
+        let vary = inputs_vary((netlist, file.as_deref()), &self.steady, &self.limits);
+        let adiabatic = adiabatic(&netlist.network, &self.steady);
+        let others = others(&netlist.network, &self.steady, &self.unit);
+        vary.into_iter().chain(adiabatic).chain(others).collect()
+    }
+
+    /// Doubts in the numbers, which no table shows.
+    pub fn beside(&self) -> Vec<Diagnostic> {
+        trust::doubts(&self.input.netlist, &self.steady.trust, false)
+    }
+}
