@@ -1,6 +1,8 @@
 //! What is fuzzed (`make fuzz`), on a fixed corpus: no panic, no text that cannot be shown, no NaN
 //! as a result. The corpus is what fuzzing found to reach something new, and every netlist of the
 //! project.
+//!
+//! Fuzz targets are plain functions. libFuzzer is outside the workspace (`fuzz/`), on stable Rust.
 
 #![allow(clippy::print_stdout, reason = "what was fed last is shown where it fails")]
 

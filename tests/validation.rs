@@ -2,6 +2,10 @@
 //! result files of other tools, measured records. `tests/validation/README.md` is its format; every
 //! `case.json` says where its numbers come from. `LPTN_VALIDATION_DIR` names another folder of the
 //! same format.
+//!
+//! The table of the cases shows classes of error, not digits, because machines and versions of
+//! SUNDIALS differ in digits. A row fails if its error leaves its class upwards, or is thirty times
+//! smaller.
 
 #![allow(clippy::print_stdout, reason = "the table of results, shown with --nocapture")]
 

@@ -6,7 +6,8 @@
 //! - A link that leads out of `docs` (`../networks/motor.toml`) becomes its text, for the book goes
 //!   without the project; one to a `README.md` leads to the `index.html` that mdBook makes of it.
 //!
-//! An equation that cannot be read is an error that names the page.
+//! An equation that cannot be read is an error that names the page. The program is outside the
+//! workspace, so that only the book pays for its dependency.
 
 use std::error::Error;
 use std::io::{Read as _, Write as _};

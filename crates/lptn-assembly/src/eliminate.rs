@@ -6,6 +6,9 @@
 //! heat: the star-mesh transformation (A. Rosen, J. IEE 62 (1924) 916). Only sums, products and
 //! quotients of positive numbers occur, so nothing cancels and the result is exact to rounding for
 //! any spread of conductances.
+//!
+//! A general Schur complement is not exact in this way. A vertex with very many neighbours would
+//! link them all. It is refused with a message, because it could fill the memory.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};

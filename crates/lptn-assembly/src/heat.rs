@@ -1,5 +1,10 @@
 //! The heat that boundaries give, streams carry and conductors pass on, after the temperatures are
 //! known.
+//!
+//! The heat of boundaries is summed over the links that remain after the elimination, not over the
+//! conductors as written. A boundary joined to a massless node by 1e9 W/K would be the difference
+//! of two temperatures that agree to the last digit. The energy balance therefore does not test the
+//! elimination; closed forms and random networks do.
 
 use lptn_network::{ConductorId, InputError, Item, Received, Surface};
 

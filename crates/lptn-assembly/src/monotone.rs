@@ -1,4 +1,8 @@
 //! Whether balances have one solution at most, as far as the form of the network tells.
+//!
+//! A Jacobian that is an M-matrix everywhere excludes a second steady state; the signs of its
+//! entries follow from the form of the network. Otherwise the network is followed from its start
+//! with constant inputs (`transient/rest.rs` of `lptn-solve`).
 
 use lptn_network::{ConductorFlow, End, Network};
 

@@ -1,5 +1,8 @@
 //! Radiation of constant exchange areas: many of them make up the heat of a hot plate, so they lie
 //! flat in memory.
+//!
+//! The symmetric form is also exact towards a boundary, so that glowing networks need half the CPU
+//! time. All other nonlinear elements are in `element.rs`.
 
 use lptn_network::{ConductorFlow, ConductorId, Network, Received};
 

@@ -1,5 +1,8 @@
 //! What evaluating a system needs besides the system: one per thread, so that evaluating allocates
 //! nothing.
+//!
+//! Inputs that are straight lines are read at the ends of a segment (`Workspace::draw_line`), not
+//! at every step and row. Expressions that read the time in another way are updated on request.
 
 use lptn_network::{Evaluation, InputError, Network, Positions};
 

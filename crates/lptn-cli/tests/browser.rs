@@ -1,6 +1,10 @@
 //! Kind: reference. Pages in a real browser, which is the judge of what HTML and scripts do.
 //!
 //! Without Chromium these tests say so and pass, unless `LPTN_REQUIRE_ORACLES` is set.
+//!
+//! They check values against `result.csv`, zoom, legend, contrast in both themes, widths, and the
+//! text of the printed page. JSON is read with `float_roundtrip`; without it serde_json is off by
+//! one in the last digit.
 
 #![allow(
     clippy::unwrap_used,

@@ -1,4 +1,7 @@
 //! `lptn explain`: every code has a page, every page a code, and every example is what it says.
+//!
+//! An example is one diff, so that the wrong and the corrected file come from the same lines. A
+//! test runs both.
 
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 

@@ -1,4 +1,9 @@
 //! When symmetric Newton matrices are given up for LU.
+//!
+//! Symmetric Newton matrices are abandoned, never repaired. Radiation and G(T) enter with the mean
+//! of their two derivatives, so that Cholesky serves. After three failed attempts in a row, or 15
+//! failures in 60 steps, the rest of the run takes exact derivatives and LU. Streams and couplings
+//! to third nodes take LU from the start.
 
 use std::ffi::c_int;
 

@@ -5,6 +5,8 @@
 //! One sequence of vectors sees one vector of each eigenspace, so symmetric bodies would lose half
 //! of their modes. What was found is therefore locked away, and the method begins again with another
 //! vector, until the largest that is left is below all that were wanted.
+//!
+//! Square bodies have their modes in pairs, and faer's partial eigensolver has no such restart.
 
 use faer::Mat;
 

@@ -11,6 +11,9 @@
 //! Errors are local: the tolerance is one absolute number and the error norm is the weighted
 //! *maximum* over the components, so adding a million idle components changes neither the steps nor
 //! the error of the others.
+//!
+//! faer is called in this crate only. It is generic, so every crate that calls one of its
+//! factorisations compiles it again.
 
 pub mod checks;
 pub mod dense;

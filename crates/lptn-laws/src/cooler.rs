@@ -4,6 +4,11 @@
 //! temperature is that of the inlet, and q = e C_min (T_from - T_to) as it is printed. Where `from`
 //! is the one behind the cooler, its temperature is that of the outlet, T_in - q / C_from, and the
 //! same heat is q = G / (1 - G / C_from) (T_from - T_to) with G = e C_min.
+//!
+//! A cooler is a path between places, not between pipes. Its ends are inlets, because effectiveness
+//! is published for inlets. If a flow continues to another node, that node is the outlet. The same
+//! heat follows from the outlet as a positive conductance, so that no third temperature is needed.
+//! Both ends cannot be outlets: in counterflow the conductance may be negative.
 
 use lptn_units::{Dimension, Scalar, Type};
 

@@ -1,4 +1,7 @@
 //! Fans and pumps at a system: where they meet.
+//!
+//! A fan is three powers of its speed. At a system of r Q^2 the curve shrinks along that parabola.
+//! The duty point at one speed is therefore sufficient, and the expansion writes it.
 
 /// Flow and pressure at which a fan or pump runs: where its curve meets that of the system,
 /// p = r Q^2.

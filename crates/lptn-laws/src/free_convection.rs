@@ -1,6 +1,11 @@
 //! Natural convection from plates and cylinders into a fluid at rest.
 //!
 //! All properties are those at the film temperature, the mean of surface and fluid.
+//!
+//! Printed formulas that do not meet at a limit of their ranges are joined where they cross. A jump
+//! of heat has no steady state and stops an integrator. The validity of each law says where it
+//! differs from its source. For the same reason |dT| is sqrt(dT^2 + (1 mK)^2). If it matters which
+//! side of a path is the surface, the name of the law says so (`upper_side_of_from`).
 
 use lptn_units::Scalar;
 

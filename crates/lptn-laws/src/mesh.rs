@@ -1,4 +1,8 @@
 //! `[mesh]`: pairs of cylindrical gears under load.
+//!
+//! If several laws have the same name, the keys select one of them. A mesh with `scuffing` is a
+//! separate law with more fields and results. The columns of other meshes stay the same, and
+//! nothing inside a law is optional.
 
 use std::f64::consts::PI;
 

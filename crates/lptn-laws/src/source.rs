@@ -1,4 +1,9 @@
 //! `[source]`: heat that is given.
+//!
+//! A source is a law too. A kind whose laws carry `Heat` has `into` instead of ends; `[source]` is
+//! the kind whose law is a given heat. Losses that read the temperature of their oil therefore use
+//! the same dual numbers, checks and expansion as paths. The power that the shaft loses is the heat
+//! that the nodes receive.
 
 use lptn_units::{Dimension, Scalar, Type};
 

@@ -1,4 +1,9 @@
 //! A posterior in the place of a netlist's own values.
+//!
+//! A posterior is set, not read into the network: its values are overrides, as those of a load case
+//! are. Its standard errors and correlations are in `Parameters`, so that every study gets them
+//! without extra code. The `±` of the netlist gives way by the rule of `--set`. A fit, which must
+//! not count records twice, omits one call.
 
 use std::path::Path;
 

@@ -1,4 +1,8 @@
 //! `[case.NAME]`: parameters that are set together, a hot day or a cold start.
+//!
+//! A load case is `--set` by name. Commands apply it before the values of the command line, and the
+//! manifest lists both together. Sizing judges all cases, with one margin for each requirement in
+//! each.
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Network, ParameterId, Value};

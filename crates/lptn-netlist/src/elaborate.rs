@@ -1,5 +1,9 @@
 //! [`RawNetlist`] to network: every element is read by itself, so that all problems are found at
 //! once.
+//!
+//! Netlists are read by hand from the TOML tree with spans, not by serde's derive. serde stops at
+//! the first problem of an element and loses spans in tagged and flattened forms. lptn reports all
+//! problems, with the places of key and value.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;

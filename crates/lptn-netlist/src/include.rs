@@ -1,4 +1,6 @@
 //! `include`: one netlist from several files, each value with the place it stands in.
+//!
+//! Includes are merged as raw trees before names are resolved, so that spans keep their file.
 
 use std::collections::{HashMap, HashSet};
 use std::io;

@@ -1,4 +1,7 @@
 //! The place of one value: whose field it is, what it takes, and what is wrong with it.
+//!
+//! `K` is an absolute temperature or a difference according to the type of its field. If the type
+//! follows from something else (`Wanted::like`), `K` is a difference.
 
 use std::sync::Arc;
 

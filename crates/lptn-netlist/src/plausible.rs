@@ -1,6 +1,9 @@
 //! Values that nothing real has: nearly always a unit that is a thousand times too large or too
 //! small, or one of another scale. They are looked at as they come out, not as they are written, so
 //! that parameters, expressions and tables are seen too.
+//!
+//! Warnings that depend on parameters are found from the network (`Netlist::judge`), again after
+//! every `--set`. Only warnings that follow from the text are kept from reading.
 
 use lptn_data::Diagnostic;
 use lptn_network::{

@@ -1,4 +1,6 @@
 //! The names of results in expressions: temperatures and heat flows.
+//!
+//! Expressions of results (limits, requirements) read the slots of nodes and boundaries.
 
 use lptn_data::{Diagnostic, Span};
 use lptn_laws::{Formula, Kind};

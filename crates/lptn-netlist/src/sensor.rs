@@ -2,6 +2,9 @@
 //!
 //! No temperature depends on a sensor, so it stands with the studies and not with the elements: only
 //! fits read it, and their columns name it.
+//!
+//! As a node with a capacity, its lag would be one more state of every run. An offset would need a
+//! parameter that nothing else in the network uses.
 
 use lptn_data::{Diagnostic, Span, nearest};
 use lptn_network::Network;

@@ -1,5 +1,8 @@
 //! The state of a network at one time, as the file `state.json` holds it: what a run can start
 //! from.
+//!
+//! A state contains everything that a temperature does not determine. Wax at its melting point is
+//! saved with its molten share, a control with the time since its last switch.
 
 use std::fmt::Display;
 use std::io::{self, Write};

@@ -1,4 +1,7 @@
 //! Another number in the place of a parameter's own, everything else of the file as it was.
+//!
+//! A number is written into its own bytes, not through a TOML printer. Unit, comments and order
+//! stay. The new text is read back and compared before the file is replaced.
 
 use std::ops::Range;
 

@@ -8,6 +8,10 @@
 //!
 //! Source: G. Kirchhoff's transformation: H. S. Carslaw, J. C. Jaeger, Conduction of Heat in Solids,
 //! 2nd edition (Oxford 1959), section 1.6.
+//!
+//! The mean of k(T) along a path is the difference of its integral over the temperatures of the
+//! ends. Panels are made in blocks of 64 K on first use. Candidates share the panels that read no
+//! parameter. The law declares the field to which this applies (`along`).
 
 use std::sync::OnceLock;
 

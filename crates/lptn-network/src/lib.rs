@@ -7,6 +7,11 @@
 //!
 //! Units: SI inside, temperatures in K. Sign: heat is positive from `from` to `to`, and into a
 //! node.
+//!
+//! A network is built in layers: `parts` (its components, before any number is computed), `numbers`
+//! (their values for one set of parameters, checked), `network` (the queries) and `builder` on top.
+//! A topic such as controls has a file in each layer. One file for the whole topic would need every
+//! layer at once.
 
 mod along;
 mod bends;

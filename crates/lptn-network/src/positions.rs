@@ -1,5 +1,10 @@
 //! Positions: which controls are on and which comparisons of temperatures hold, fixed between two
 //! events.
+//!
+//! A control and every comparison of temperatures have a slot that contains 0 or 1 until an event
+//! changes it. The code of an expression is rewritten once, when the network is built, to read the
+//! slot instead of the comparison. Heat flows are therefore smooth inside a step, and dual numbers
+//! see one branch.
 
 use std::sync::Arc;
 

@@ -1,4 +1,7 @@
 //! What a run or a fit is asked for: said in a netlist, kept by the analyses.
+//!
+//! The settings that a netlist contains and an analysis uses (a run, its windows, the parameters of
+//! a fit) are in this crate. Neither side translates the types of the other.
 
 use crate::id::ParameterId;
 

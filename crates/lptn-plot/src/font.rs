@@ -1,5 +1,7 @@
 //! The font of pictures: Arimo, as wide as Arial and Helvetica, so that a viewer without it shows
 //! the same layout. Reduced to Latin, Greek and a few signs; `font/OFL.txt` is its licence.
+//!
+//! Texts are measured with Arimo, so that they fit in viewers that have Arial only.
 
 use ttf_parser::Face;
 

@@ -1,4 +1,8 @@
 //! What a line or an area means, and the colour that each theme gives it.
+//!
+//! A shape has a meaning (`Ink::Limit`, `Ink::Series(2)`), and a theme gives it a colour. Tests
+//! check the contrast by WCAG, and the distance of the first five curves for two kinds of
+//! colour-blind readers.
 
 /// What a line or an area means.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

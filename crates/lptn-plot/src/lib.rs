@@ -4,6 +4,10 @@
 //! as a [`Scene`], a drawing of paths and texts, which [`svg`] and [`png`] write; [`terminal`] draws
 //! it with characters. What a colour means is said by an [`Ink`], and each [`Theme`] has a colour
 //! for it. Nothing here knows what a node is.
+//!
+//! A page gives figures. They are laid out once as a scene, which each writer only transcribes. SVG
+//! and PNG therefore cannot differ, and other drawings, such as that of a network, use the same
+//! inks and writers.
 
 pub mod chart;
 pub mod figure;

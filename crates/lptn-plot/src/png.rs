@@ -1,4 +1,8 @@
 //! Writes a drawing as PNG.
+//!
+//! PNG is drawn from the scene, not from the SVG, with tiny-skia and the outlines of the embedded
+//! font. The crate resvg would add 55 crates and 107 s of CPU time to the build; these two add 17
+//! s.
 
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, Stroke as Line, StrokeDash,

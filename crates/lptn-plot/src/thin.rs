@@ -1,4 +1,7 @@
 //! Fewer points that look the same.
+//!
+//! Dots are thinned in the same way as lines: the first, lowest, highest and last of each stretch
+//! stay, so that an outlier is always drawn.
 
 /// What of a curve is seen at so many pixels of width: of the points that fall on one pixel, the
 /// first, the lowest, the highest and the last, so that no peak is lost. Points stand in the order

@@ -1,4 +1,7 @@
 //! The capacity whose one exponential is nearest to a step response, by least squares.
+//!
+//! The derivative of the squared error vanishes at most once. If the port follows its slowest mode
+//! closely enough, it never vanishes, and no capacity is nearest.
 
 use crate::step::StepResponse;
 

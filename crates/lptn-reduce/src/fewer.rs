@@ -1,4 +1,7 @@
 //! The step response of a port with fewer exponentials.
+//!
+//! A few nodes at one port are a projection, converted to a ladder. A congruence keeps it passive,
+//! and one port makes it realisable with positive elements.
 
 use faer::Mat;
 use lptn_integrate::dense;

@@ -1,5 +1,8 @@
 //! Several nodes of a network with what stands between them: a network of fewer nodes with positive
 //! elements.
+//!
+//! The elements are a Schur complement with moved capacities, from one solution a node, so that
+//! large networks are not eliminated.
 
 use faer::Mat;
 use lptn_assembly::ThermalSystem;

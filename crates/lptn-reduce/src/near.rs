@@ -1,4 +1,8 @@
 //! A network near one of its states as one node: the equivalent of its linearisation.
+//!
+//! The slopes give the resistance, and the heat of the sources at the state is `Q_N`. `T_ref` is
+//! the remainder: it makes temperature and heat of the port right at the state. It is not a
+//! weighted mean of boundaries. The result is not written as a netlist, which would lose its range.
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::NodeId;

@@ -1,4 +1,6 @@
 //! Several nodes of a network as a few modes, which are no network of their own.
+//!
+//! Between several nodes the elements of a projection are not all positive.
 
 use faer::Mat;
 use lptn_assembly::ThermalSystem;

@@ -1,4 +1,9 @@
 //! The largest error over every load.
+//!
+//! Both networks end at the same rise. The L1 norm of the error's impulse response is therefore the
+//! variation of the step's error, and the worst load switches where that turns. The signs of the
+//! terms bound the number of turns (`exponentials.rs`). Turns are counted, not sampled; the rest
+//! that could hide is bounded and added.
 
 use lptn_network::Foster;
 

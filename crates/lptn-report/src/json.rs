@@ -1,4 +1,8 @@
 //! Results as JSON: one object whose members are written one after the other.
+//!
+//! With `--format json` stdout contains one object in every case. A failure is an object too, with
+//! code, place and help of each problem; stderr repeats it for people. The temperatures of an
+//! object are in one unit, the one that is shown.
 
 use std::io::{self, Write};
 

@@ -1,4 +1,8 @@
 //! What a command has to say.
+//!
+//! A page is queried, not filled. The result of a command implements `Page`, and each format asks
+//! only for the part that it writes. Large objects are not made for a terminal, and rows are
+//! streamed.
 
 use std::borrow::Cow;
 use std::io;

@@ -1,4 +1,7 @@
 //! A result as a document that can be sent to a colleague.
+//!
+//! A report is a page with additions: claims, texts, figures and drawings, the same ones that
+//! terminal, SVG and PNG show. `lptn-html` only writes them.
 
 use lptn_plot::{Figure, Scene};
 

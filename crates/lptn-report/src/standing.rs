@@ -1,4 +1,7 @@
 //! How something that was asked stands.
+//!
+//! It is data until a format writes it. Terminal and page use their own colours and always write
+//! the state in words too.
 
 /// How a claim stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

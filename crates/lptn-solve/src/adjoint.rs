@@ -3,6 +3,11 @@
 //! every value of every element does to it (adjoint sensitivities; S. W. Director and R. A. Rohrer,
 //! The generalized adjoint network and network sensitivities, IEEE Trans. Circuit Theory CT-16
 //! (1969) 318).
+//!
+//! Derivatives by parameters are those of the sensitivities. Derivatives by values of laws take one
+//! seed at a time (`network/fields.rs`), so that an element needs no parameter to be ranked. Cells
+//! and parts of a path to a face sum to their whole. A run has no adjoint: going back in time would
+//! need the whole run in memory, and its parameters have forward sensitivities.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_integrate::{FactorError, Pattern, linear};

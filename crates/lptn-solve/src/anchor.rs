@@ -3,6 +3,11 @@
 //! Newton's method ends where a correction is small, so that the last digits of what it finds come
 //! from where it began and from the factors that it had. Rows, limits and windows look at as many
 //! times as they like; each look begins as if there were no other, with what is known of the step.
+//!
+//! An evaluation starts between the integrator's solutions at the two ends of the step, with its
+//! factors. Newton's method stops within 1e-10 K, so its last digits depend on its start. Rows,
+//! limits and windows used to start from the end of the evaluation before. Without capacities, a
+//! walk through each part of the inputs replaces the steps; nothing printed changes it.
 
 use crate::newton::Newton;
 use crate::unfold::Unfold;

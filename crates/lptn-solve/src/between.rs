@@ -4,6 +4,9 @@
 //! Balances bend and have corners, so that places at even distances may step over a narrow stretch
 //! at which nothing rests. Between two neighbouring places the heat that is left over changes by the
 //! mean of its slopes there, if it is smooth; where it does not, places are added in the middle.
+//!
+//! Even places stepped over a stretch next to a corner, and a jump was missed. A stretch below 1e-6
+//! K is rounding.
 
 use lptn_assembly::Workspace;
 

@@ -7,6 +7,10 @@
 //! leads from there (the reduction of singularly perturbed systems, A. N. Tikhonov, Mat. Sb. 31
 //! (1952) 575). Newton's method alone knows nothing of this: it falls to any other solution, sooner
 //! or later than the fold.
+//!
+//! The heat flow refuses a solution beyond temperatures at which nothing rests. If no other
+//! solution is found at the end of a branch, the run stops. Rows are found from the ends of the
+//! step, so that the output decides nothing.
 
 use lptn_assembly::Workspace;
 use lptn_integrate::Pattern;

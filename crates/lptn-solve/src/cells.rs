@@ -1,4 +1,7 @@
 //! Where values curve over time, and how short the steps have to be that see it.
+//!
+//! A step is judged by the prediction of a cubic through the ends of its neighbours, summed over
+//! seven steps. Neither a large base nor a kink of the second derivative counts.
 
 use lptn_network::{Curve, Evaluation, Network};
 

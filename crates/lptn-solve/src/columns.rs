@@ -1,5 +1,9 @@
 //! What is kept of each row, and columns that are read as a run comes there, so that no node has to
 //! be kept for them.
+//!
+//! A network whose nodes have a length keeps all nodes if heat flows are selected, because Biot
+//! numbers are judged in every row. Both ways have the same digits. A column reads its inputs as
+//! rows are read again later, not from the straight line of a linear run.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::NodeId;

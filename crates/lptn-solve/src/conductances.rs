@@ -1,4 +1,7 @@
 //! The factorised conductances of a system: temperatures at which its inputs balance.
+//!
+//! This is the one factorised G, for steady states and equivalents. Islands without a boundary get
+//! twice their diagonal, which no other block reads. A port elsewhere can then be analysed.
 
 use std::fmt;
 

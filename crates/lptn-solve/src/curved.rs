@@ -3,6 +3,14 @@
 //! The integrator sees an input only at the ends of its steps: a pulse between two of them would be
 //! missed without a trace, and the books would close all the same. So the inputs are looked at
 //! before the run, and no step is longer than what resolves them where it is.
+//!
+//! CVODE's steps grow over a quiet stretch. A pulse after it was missed and the energy balance
+//! closed, because the balance sees no more than the steps do. Every part of an expression that
+//! reads only the time is inspected separately before the run (`cells.rs`).
+//!
+//! The longest step is local. A stop time enforces it only if CVODES' next step is longer; a stop
+//! time in every step would shorten the following step. The share of the tolerance falls if the
+//! network remembers many such steps.
 
 use lptn_assembly::{JacobianForm, ThermalSystem};
 

@@ -1,4 +1,7 @@
 //! The times inside an interval at which curves bend: some quantity passes one of its levels.
+//!
+//! A step is cut where a result bends. Limits, windows and functionals of sweeps use one resolution
+//! (`resolve.rs`). `Network::bends` gives the quantities at whose roots an expression bends.
 
 use crate::interval::{At, Interval, POINTS};
 use crate::stop_reason::StopReason;

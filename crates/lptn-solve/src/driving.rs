@@ -1,4 +1,7 @@
 //! The inputs of a network over time, in parts that are short enough to see what they do.
+//!
+//! For a network without capacity the parts follow from its inputs alone, so that rows decide
+//! nothing.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::InputError;

@@ -7,6 +7,8 @@
 //! has grown: at most as much as the largest speed has grown since. In networks that only lose
 //! heat it never grows. Where a capacity falls, errors of the heat content become larger ones of
 //! the temperature.
+//!
+//! If the error grows, the run is repeated with a tolerance that is smaller by this factor.
 
 use lptn_assembly::ThermalSystem;
 

@@ -1,5 +1,16 @@
 //! A thermal system as the integrator sees it: `M y' = f` with M the capacities and f the heat
 //! flows.
+//!
+//! CVODES, not IDA, serves nonlinear massless nodes too. Balances of massless nodes that cannot be
+//! eliminated are solved inside the heat flow, by the Newton method of steady states (`newton.rs`).
+//! CVODES then sees an ordinary system. IDA has no quadratures, so the energy balance would need a
+//! second way. Every restart has consistent temperatures by construction, also across jumps.
+//!
+//! Steady states, starts, rows between steps and networks without capacity use one solver. The
+//! price is an inner solution at every evaluation: a few triangular solves, because the last
+//! factors are reused while they contract. The Newton matrix of the integrator is `diag(M, 0) -
+//! gamma K` over states and massless nodes together. It eliminates to the exact one without its
+//! fill.
 
 mod look;
 

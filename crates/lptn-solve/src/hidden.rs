@@ -1,5 +1,7 @@
 //! What results may do between the points of an interval, bounded by their form: a bell over a
 //! temperature may be narrower than any look.
+//!
+//! A narrow peak without a bend is bounded along the step by Taylor arithmetic.
 
 use lptn_network::Bends;
 use lptn_units::Taylor;

@@ -1,5 +1,9 @@
 //! Temperatures at which every value can be had: a search may begin outside the range of a table or
 //! fluid, though the solution is inside.
+//!
+//! Before Newton's method begins, each value is moved into the range of its tables, and the search
+//! is damped there. Tables with constant ends would let the search leave their range too, but every
+//! value would need a second kind of evaluation.
 
 use lptn_assembly::Workspace;
 use lptn_network::{InputError, InputProblem, Item};

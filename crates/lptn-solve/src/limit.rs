@@ -1,4 +1,7 @@
 //! Limits in results: how near each came to being broken, and when it first was.
+//!
+//! A limit is judged to the error of the run: ten times the tolerance, or 1e-9 K in steady state. A
+//! limit that is broken at the start is exact.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{Bends, Evaluation, InputError, Item, LimitId, Network};

@@ -1,4 +1,9 @@
 //! A network as it answers small disturbances of one state: `C dx/dt = J x`.
+//!
+//! The linear network has the Jacobian of the assembly and the capacities at a snapshot, and it is
+//! compared with the full one. Its users (such as modes) need not know how the state was found.
+//! Dense modes of networks with constant elements keep separate matrices (`exact`), which are the
+//! independent check of this one.
 
 use std::fmt;
 

@@ -1,4 +1,14 @@
 //! The same work on many things, several at a time.
+//!
+//! A run takes one thread, even with 10^6 nodes; variants of a study run in parallel instead. On
+//! two cores, two threads add four terms of 10^6 numbers in 1.0 ms instead of 1.4. They multiply a
+//! matrix of seven diagonals in 6.2 ms instead of 8.3. An inner product takes longer (0.25 ms, not
+//! 0.19); 0.03 ms of that is the transfer of the work.
+//!
+//! The integrator is half of such a run. A third of that half is triangular sweeps, which are
+//! parallel only level by level. A block has 300 levels of 3300 rows and a plate 2000 levels of
+//! 500, with a barrier after each. The remaining part at 1.5 times the speed saves less than a
+//! tenth of the time.
 
 use std::collections::BTreeMap;
 use std::ops::{ControlFlow, Range};

@@ -1,4 +1,7 @@
 //! Quantities of the results, read where a workspace stands.
+//!
+//! This is the one place where a quantity of results is read; rows, limits and windows use it.
+//! Balances of one node are running integrals, separate from the ledger's.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{Evaluation, HeatOf, InputError, Item, Network};

@@ -1,5 +1,8 @@
 //! Where in time results are read: limits, reports, windows and signals may bend and jump at times
 //! that the heat flows do not know of, and the integrator need not stop there.
+//!
+//! Quantities that only limits, reports, windows or columns read have breakpoints too. The recorder
+//! reads inside those stretches without a restart of the integrator.
 
 use lptn_network::{Curve, InputError, Item, Network, same_time};
 

@@ -1,4 +1,7 @@
 //! Cuts an interval until the points of every part tell what curves do between them.
+//!
+//! Halvings go to the worst part first. Halvings for peaks that may hide have a separate budget.
+//! The remaining doubt is reported.
 
 use crate::cuts::{Levels, cuts};
 use crate::interval::{At, Interval};

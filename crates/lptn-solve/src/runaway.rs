@@ -5,6 +5,10 @@
 //! by how much the sources heat them more for it, both at least 0 where they feed back. Heat that is
 //! given off once comes back as `B A^-1` times as much, again and again: it grows for ever where the
 //! largest eigenvalue of that, the gain, is above 1.
+//!
+//! The slopes of the sources are compared with those of the paths. The way from the start is
+//! followed back to the temperature at which the gain is 1. At the end of that way the slopes have
+//! grown beyond rounding.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{Evaluation, NodeId, Positions, SourceId};

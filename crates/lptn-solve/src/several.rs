@@ -1,4 +1,7 @@
 //! Other steady states than the one that was found.
+//!
+//! The search starts from shifted temperatures, and only if the form of the network does not
+//! exclude other states. A search that finds none does not prove that there is none.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 

@@ -1,4 +1,8 @@
 //! Rows on both sides of a moment at which something may jump.
+//!
+//! A row has the values that are valid from its time on. A maximum or a least margin may be at the
+//! end of a stretch. The slopes of an extreme are read in one of two rows: the one with the value
+//! of the extreme. The first row is 2e-9 of the run earlier.
 
 /// A row in front of a moment is so far from it, as a part of the run: far below any thermal time,
 /// far above what makes two times one.

@@ -1,4 +1,7 @@
 //! The state of a network at one instant.
+//!
+//! A steady state holds a snapshot and lends its fields by `Deref`; a solution gives one for any
+//! row. Pictures and reports take a snapshot and know nothing of its origin but `settled`.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{End, Evaluation, HeatOf, InputError, Network, Positions, Received};

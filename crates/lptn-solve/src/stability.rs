@@ -10,6 +10,10 @@
 //! that by following a disturbance in steps of many lengths until it has grown beyond all that a
 //! disturbance that turns and dies does on its way. Massless nodes follow at once; what they follow
 //! rests as long as the determinant of their own balances has not changed its sign.
+//!
+//! Newton's method finds unstable states as well. An unstable state is replaced by the state to
+//! which pseudo-time leads from the start, or refused. Plain loops decide, in the same way on every
+//! processor; eigenvalues by faer would depend on it and prove nothing.
 
 use lptn_assembly::Workspace;
 

@@ -1,4 +1,9 @@
 //! Steady state: directly for linear networks, by Newton's method for others.
+//!
+//! A steady state is refined with heat flows from the links, not with the matrix. The diagonal of
+//! the matrix has lost a small conductance next to a large one by rounding. The heat of a link
+//! leaves one node as the same number that enters the other. The total balance is therefore exact,
+//! and the refinement restores the lost digits.
 
 use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::{FactorError, Pattern};

@@ -1,5 +1,10 @@
 //! The integrator of runs: the one-step method where it serves, else CVODES, unless the crate is
 //! built without the feature `cvodes`.
+//!
+//! Runs reach the integrator through `Box<dyn Integrator>`, and this file alone names both. A
+//! virtual call per step costs nothing. The core builds without C and for WebAssembly, and another
+//! integrator needs one function. The feature `cvodes` is on by default. Without it linear networks
+//! still run; others are refused with `SettingsError::NoIntegrator`.
 
 use lptn_integrate::{Integrator, OdeSystem, OneStep, Options};
 use lptn_network::IntegratorChoice;

@@ -7,6 +7,11 @@
 //! temperatures, which the network takes from its own laws on dual numbers, and by the exact
 //! Jacobian times `dT/dp` (forward sensitivity analysis; A. C. Hindmarsh and R. Serban, User
 //! Documentation for CVODES, section 2.6).
+//!
+//! This is valid whether the parameter is a capacity, a start temperature, a heat transfer
+//! coefficient or the temperature of a boundary. Nothing is written twice: a new law has
+//! sensitivities from the start. If the times of events move with a parameter, this derivative does
+//! not exist. `sensitive_run` then takes central differences of runs and reports it.
 
 use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::Pattern;

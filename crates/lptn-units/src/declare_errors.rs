@@ -1,4 +1,12 @@
 //! The declarative forms of errors.
+//!
+//! A problem is declared once (`problems!`): variant, fields, code, place, sentence and help are in
+//! one place. The reader of a file supplies the names of items (`Naming` of `lptn-network`): a
+//! netlist calls a conductor by its section.
+//!
+//! Errors that need no names are declared by `errors!`, behind the trait `Problem`. An error that
+//! is only passed on is a variant `Name => ItsError;`. An error that adds something names its
+//! `source`. The class of an error determines the exit code; the command line adds only the place.
 
 /// Help as a declaration gives it: words, or none.
 pub trait Help {

@@ -1,4 +1,10 @@
 //! Torques among the energies, which have the same dimension.
+//!
+//! N m and J have one dimension, and only the written unit distinguishes them. A dimension
+//! therefore carries its kin. The kin takes no part in comparisons; it can only cause more
+//! refusals. A torque times a frequency, or divided by a time, is not a power. A torque over a
+//! length is a force and loses its kin. A force times a lever arm of two values (`F * r * n`) is
+//! not recognised as a torque.
 
 use crate::rational::Rational;
 

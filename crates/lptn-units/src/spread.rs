@@ -1,4 +1,7 @@
 //! How far a value may be off, and in which way.
+//!
+//! A `Spread` contains the standard deviation and not the number after `±`. Code that reads
+//! deviations is therefore right for rectangular distributions too; only samples need the shape.
 
 /// How a value that is not certain is distributed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,4 +1,8 @@
 //! The type of a value: its dimension, and whether it is an absolute temperature.
+//!
+//! Angle is a dimension, so that `Hz` in place of `rpm` is an error. Torque times speed therefore
+//! has the unit W rad. One surplus radian is accepted where a power is expected; any other
+//! difference is refused.
 
 use std::fmt;
 

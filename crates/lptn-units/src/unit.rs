@@ -1,4 +1,7 @@
 //! A unit on its own, as in the header of a table: `T [degC]`.
+//!
+//! lptn carries the units that people write and never computes with them. `Signal::unit` and
+//! `TableSymbol::units` serve headers, messages and the expansion only.
 
 use crate::error::{UnitError, UnitErrorKind};
 use crate::repair;

@@ -8,6 +8,10 @@
 //! it the new ones are decided, and the next process that writes into the folder does what is left.
 //! Until then the record lies there to be seen, and the manifest, which is renamed last, names
 //! hashes that are not those of the new files.
+//!
+//! An exchange of folders would need `unsafe` and would move the user's own files as well. Nothing
+//! is synced: this protects against the end of a process, not against a loss of power. The lock
+//! belongs to the system; its file is only a handle.
 
 use std::fs;
 use std::io::{self, ErrorKind};

@@ -3,6 +3,8 @@
 //! CVODES makes that guess from the flow some way ahead. Where this cannot be had there, it gives
 //! up after four looks, with the last state that it looked at in the output: that must not be taken
 //! for the present one, and nothing says that a shorter step would fail as well.
+//!
+//! The start is restored and shorter first steps are tried.
 
 use sundials_sys as sys;
 

@@ -1,4 +1,7 @@
 //! The derivatives of the state by parameters, carried along with it.
+//!
+//! State and sensitivities are corrected together (`CV_SIMULTANEOUS`). This takes half the flow
+//! evaluations of the staggered way, and leaves no history in the middle of a step if a flow fails.
 
 use super::Cvodes;
 use crate::context::Context;

@@ -1,4 +1,7 @@
 //! The time of CVODES, which begins at 0, and that of the caller; and how long a step may be.
+//!
+//! Far from 0 a step may be shorter than the distance of two doubles. The caller gets the last
+//! double that is not later, so that comparisons with rows and stops stay exact.
 
 use super::Cvodes;
 use crate::memory::Counters;

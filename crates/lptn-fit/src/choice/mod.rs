@@ -11,6 +11,16 @@
 //! not be independent ([`crate::noise`]); stretches are as long for all networks, so that it is the
 //! same data whose likelihood is compared. Whether what is left over is white is tested after G. M.
 //! Ljung and G. E. P. Box (Biometrika 65 (1978) 297).
+//!
+//! The criterion has no vote if there are several records. With correlated noise a likelihood is
+//! only as good as the model of the noise, and a wrong network makes its own noise. The number of
+//! rows determines the length of the stretches, not the derivatives. Otherwise the likelihoods
+//! would be of different data. The noise of each column is fitted to the residuals as they are.
+//! Projecting out derivatives would let each column move the shared parameters.
+//!
+//! Fits without a record begin at the end of the fit to all, and skip errors and profiles
+//! (`network/predict.rs`). The score of a record is the logarithm of its misfit; a mean of squares
+//! would be dominated by the hottest record.
 
 mod error;
 mod likelihood;

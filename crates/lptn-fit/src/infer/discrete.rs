@@ -1,4 +1,9 @@
 //! A linear system driven by random walks, from one moment to the next.
+//!
+//! Transitions are doubled, not diagonalised. A series over a short time gives `exp(F t) - 1`, the
+//! response to a ramp, and the covariance of the random walks. Doubling keeps the digits of slow
+//! states next to fast ones and inverts nothing. Streams, whose matrices may have no modes, are not
+//! a special case.
 
 use std::rc::Rc;
 

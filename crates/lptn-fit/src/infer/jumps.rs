@@ -3,6 +3,14 @@
 //!
 //! A jump is a walk that is as strong as the course is large, between two moments. It is taken in
 //! where it makes the record more likely by more than chance would anywhere in it.
+//!
+//! A strong walk between two rows has the mean and the variance of a jump at any time between them.
+//! Filter, smoother and rounds therefore need no notion of jumps. The jump is three times as large
+//! as the time history. A smaller prior would tie the moment of a large jump, and its height, to
+//! the middle between its rows.
+//!
+//! One jump alone may not pay if a walk has absorbed all of them. Four are therefore tried in vain
+//! before the search ends. An unneeded jump only widens the band near it.
 
 use crate::infer::inferred::{InferredJump, Known};
 use crate::infer::model::Model;

@@ -8,6 +8,14 @@
 //! moves (iterated smoother; B. M. Bell, SIAM J. Optim. 4 (1994) 626): that is the Gauss-Newton
 //! method for the most probable courses. Parameters with a `±` and instruments with one are
 //! estimated along, so what is not known of them widens every band.
+//!
+//! A quantity that is estimated over time is a signal. Parameters do not change in a run, and the
+//! network knows its constant parts. The estimated time history is therefore one that a run can
+//! have, and every round is such a run. The states of the filter are distances from that run.
+//!
+//! Derivatives by time histories and parameters are differences of whole rates (`StateRates`), not
+//! dual numbers. The derivative of a round only determines the start of the next, and for linear
+//! networks differences are exact.
 
 mod answer;
 mod carried;

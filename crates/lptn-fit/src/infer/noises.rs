@@ -3,6 +3,15 @@
 //! A thermocouple that follows the air of a hall, or an amplifier that filters, reads two neighbours
 //! too high together. Taken for white, such noise becomes a course that walks: 2 s of it made a
 //! constant power of 223 W wander by 50 W.
+//!
+//! The slow part of the noise of a column is an additional state. It comes after the states that
+//! the network moves, so that none of their transitions grows. It is searched together with the
+//! random walks, from several starts in which both differ. A walk that is strong enough absorbs
+//! slow noise, looks white, and is a point from which no small step leads away.
+//!
+//! Noise slower than a tenth of the record is not searched. It bends like the time history and
+//! hardly moves it. Its strength and time are not mixed over as those of walks are, because
+//! thousands of readings determine them.
 
 use crate::infer::guess::with;
 use crate::infer::search::Open;

@@ -1,4 +1,9 @@
 //! What is known where the record leaves open how smooth a course is.
+//!
+//! The strength of a random walk has no single value. At the most likely strength, a constant power
+//! would seem known to be constant. Bands are those of a mixture over both strengths, with even
+//! steps of their logarithms. The mixture ranges from a strength without effect to one whose
+//! likelihood is negligible.
 
 use crate::infer::jumps::elsewhere;
 use crate::infer::model::Model;

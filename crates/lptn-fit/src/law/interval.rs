@@ -1,4 +1,8 @@
 //! How far numbers may be off that follow from a least-squares fit.
+//!
+//! The bars in pictures of `lptn fit law` are one standard error, the `_sd` columns of its files.
+//! Only the bands of fitted laws are 95 % intervals. Student's t with one degree of freedom would
+//! make bars of ten times the scatter.
 
 use super::significance::two_sided;
 use crate::Covariance;

@@ -1,4 +1,15 @@
 //! Whether records differ by more than their noise tells.
+//!
+//! The scatter from run to run is not visible in the rows of one record. From three records on, an
+//! error is the larger of two sandwiches: one with the noise of the rows, one clustered by record.
+//! No test decides between them. At 0.1 % a test left 85 % coverage when the scatter equals the
+//! noise. The larger of the two gives 92 to 97 % at any scatter (also in closed form, for normal
+//! values of 3 to 20 records).
+//!
+//! Variances of a model with random effects (REML) would need the scatter of each parameter to be
+//! named. They give the same result if records are equally informative. Degrees of freedom come
+//! from the shares of the records in a parameter, not from their estimated noise, which contains a
+//! record's misfit.
 
 use crate::noise::chi_square_999;
 

@@ -1,4 +1,7 @@
 //! What data determine of the parameters, and what they do not.
+//!
+//! The identifiable combinations follow from singular values in logarithms of the parameters. A
+//! product or a sum is accepted only after a move along it.
 
 use crate::Spectrum;
 use crate::network::undetermined::{Place, Unseparated, groups};

@@ -5,6 +5,9 @@
 //! parameters are held where they began that the others are determined, and these are searched
 //! again. The answer is one if the sum of squares is no larger than where the first search ended,
 //! and the records leave a direction open there too.
+//!
+//! A ridge would move every fit a little. Fixed parameters change nothing if the first search
+//! converged. A lag moves straight from 0 for the same reason: its logarithm has no end.
 
 use crate::least_squares::{LeastSquaresFit, Residuals, minimise};
 use crate::network::apart::{DIFFERENCES, told_apart};

@@ -13,6 +13,10 @@
 //! Applications, Wiley 1988, section 6.1). `error` is the standard error with the correlation of
 //! the residuals in it and `q` the quantile of Student's t, so that for a linear model the interval
 //! is value ± q error exactly.
+//!
+//! Only values whose ± half interval contains impossible numbers are profiled, because each end
+//! costs some ten fits. The rise of the sum of squares is scaled by the sandwich over `(J^T J)^-1`,
+//! so that correlation of residuals counts.
 
 use crate::least_squares::{Residuals, Settings, minimise};
 use crate::network::coordinates::Coordinates;

@@ -1,4 +1,10 @@
 //! What the instruments of one record read in its run.
+//!
+//! A column that is not a sum of temperatures is an expression of results (`Measurand`). It is read
+//! row by row from the run, with the evaluator of reports (`Solution::result`). Its derivative is a
+//! difference in each row along the sensitivities of all temperatures
+//! (`SensitiveRun::result_slope`). Nothing is integrated there, so it keeps eight digits and covers
+//! every law, stream and massless node.
 
 use lptn_analysis::RunAnalysis;
 use lptn_network::{NodeId, ParameterId};

@@ -5,6 +5,10 @@
 //! variance ([`Whitened`]), which are what its own noise is made of; these are compared at the same
 //! times. The covariance of two columns then is that correlation times the product of their roots,
 //! so the whole is a covariance as well, and that of a column with itself stays what it is.
+//!
+//! The correlations come from whitened residuals, for which chance is 1/n whatever the noise.
+//! Common noise may be slow next to white noise of each column, so means of four are tried too.
+//! Principal columns would mix noises of different kinds.
 
 use crate::noise::Whitened;
 

@@ -1,4 +1,9 @@
 //! What a parameter that is held moves if it is off.
+//!
+//! One more run of each record at the end has the derivatives by every parameter with a `±` that is
+//! not varied. `(J^T J)^-1 J^T v` is the effect of its error. It is reported only if it is a tenth
+//! of an error or more. The errors stay as they are, because the user chooses the estimated
+//! parameters.
 
 use lptn_network::{ParameterId, Varied};
 use lptn_solve::{Proceed, SensitiveError, in_parallel};

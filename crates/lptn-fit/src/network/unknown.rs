@@ -1,4 +1,9 @@
 //! Everything that a fit finds: parameters of the network and values of sensors.
+//!
+//! Values of a sensor are unknowns like parameters, but they change the readings only
+//! (`readings.rs`) and cost no run. The exceptions are values that a signal follows or a node
+//! starts from (`held.rs`). They change the run and cost two runs each, whose difference is their
+//! derivative.
 
 use lptn_netlist::Certainty;
 use lptn_network::ParameterId;

@@ -1,4 +1,8 @@
 //! The restricted likelihood of correlated and white noise.
+//!
+//! The parameters of the noise are uncertain too, so intervals are Student's with the degrees of
+//! freedom of Satterthwaite. If drift takes a fifth of the record, the likelihood does not
+//! determine its time. Intervals then contain 95 % of the mixture of all times (`possible`).
 
 use faer::Mat;
 use lptn_integrate::dense;

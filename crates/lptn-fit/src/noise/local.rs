@@ -1,5 +1,10 @@
 //! Noise whose strength changes within the record: beside a part that starts to rattle, or with the
 //! temperature.
+//!
+//! Blocks of means of the residual, not of its square, determine the strength; their scatter gives
+//! their error. The residual of a wrong curve grows in one part of the record too, so changes from
+//! row to row have to differ as well. They have to differ clearly, because a strength found by
+//! chance makes errors smaller.
 
 use std::borrow::Cow;
 

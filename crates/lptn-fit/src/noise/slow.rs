@@ -1,4 +1,11 @@
 //! Drift as slow as the record.
+//!
+//! The curve absorbs drift as slow as the record, which therefore cannot be tested for. The
+//! interval of a single record is widened for such drift if it is as likely as none. The thresholds
+//! keep clean records below 98 % coverage and bring 0.05 K over 1000 s above 92 %. A fit of a
+//! network with one record is widened too. Each column is treated separately, and the half widths
+//! add in squares. Two records are widened in the same way, at a stricter threshold. From three
+//! records on, the differences between records cover such drift.
 
 use super::likelihood::{Likelihood, Possible};
 

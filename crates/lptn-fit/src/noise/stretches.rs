@@ -1,4 +1,8 @@
 //! Means of stretches of a record.
+//!
+//! A fit responds to slow noise only, and rounding misleads the rest, so the means of some 100
+//! stretches get the model. With 400 stretches the fast noise inside them was fitted, and drift of
+//! 300 s was covered in half of all records.
 
 use crate::noise::likelihood::orthonormal;
 

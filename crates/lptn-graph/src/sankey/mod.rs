@@ -1,5 +1,9 @@
 //! The heat flows of a state as a Sankey diagram: bars that heat comes from, goes through and ends
 //! in, and between them bands as wide as heat flows.
+//!
+//! A stream is not a band between two places. It takes nothing from the node that it leaves, so its
+//! heat comes from a separate bar or goes to one. Otherwise no node would balance. For the same
+//! reason streams inside a group, and bundles that run both ways, are counted.
 
 mod flows;
 mod place;

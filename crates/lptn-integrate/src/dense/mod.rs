@@ -1,6 +1,14 @@
 //! What is asked of dense matrices. A library would choose its kernels by the processor, and with
 //! them the last digits: here every sum has one order. Its loops run along columns and are compiled
 //! for wider vectors too, which changes no sum; nothing is fused.
+//!
+//! The forms are those of EISPACK and JAMA, with Jacobi's method for singular values. Residuals are
+//! at most those of faer, and smaller on matrices of streams. A symmetric matrix of 300 rows takes
+//! 10 ms (faer: 4 ms), one of 1000 rows 0.4 s (0.1 s). Without symmetry, 1000 rows take 0.9 to 2.7
+//! s (0.4 to 1.0 s). The sparse factors are faer's.
+//!
+//! `pulp` calls an implementation of `NullaryFnOnce` with `inline(always)`. A large closure is not
+//! inlined and would lose the vector instructions.
 
 mod cholesky;
 mod columns;

@@ -1,5 +1,8 @@
 //! Solves with factors whose columns stand one by one, several times as fast as faer's, which are
 //! written for every kind of number and for many right sides.
+//!
+//! The factors are rearranged after each factorisation. A run of equal columns is one loop. If
+//! neighbouring columns have the same rows below them, those rows are looked up once.
 
 use faer::sparse::linalg::cholesky::{SymbolicCholesky, SymbolicCholeskyRaw};
 

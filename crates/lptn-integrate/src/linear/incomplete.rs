@@ -7,6 +7,8 @@
 //! factor (S. C. Eisenstat, SIAM J. Sci. Stat. Comput. 2 (1981) 1). J. A. Meijerink and H. A. van
 //! der Vorst, Math. Comp. 31 (1977) 148, prove that it exists for the M-matrices that conductances
 //! and streams make.
+//!
+//! The factor keeps hubs linear in memory, and the same code serves streams.
 
 use std::sync::Arc;
 

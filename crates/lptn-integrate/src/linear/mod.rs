@@ -3,6 +3,11 @@
 //! Used for the Newton matrices `M - gamma J` of the integrator, and by others for steady states
 //! `G x = b`. The analysis of the pattern happens once, in `new`; [`Factorization::factorize`] and
 //! [`Factorization::solve_in_place`] work in memory kept between calls.
+//!
+//! Up to 30 unknowns the solver is dense, for one and two unknowns too. A closed form for these is
+//! not built: the whole process for the gearbox with 7500 rows takes a few milliseconds of CPU
+//! time. Most of that is the start of the process and the printing of numbers
+//! (docs/performance.md).
 
 mod cholesky;
 mod columns;

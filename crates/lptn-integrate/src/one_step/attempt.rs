@@ -1,4 +1,7 @@
 //! One step of a size that is tried.
+//!
+//! Heat that a solver loses is put back evenly: each term is shifted by a constant that closes the
+//! whole balance. The balance therefore closes to rounding with conjugate gradients too.
 
 use super::levels::{Levels, step_of};
 use super::series::{self, FEWEST, MOST, POLE, Weights};

@@ -3,6 +3,10 @@
 //!
 //! It is written from the network that was built, not from what was read, so that whatever made an
 //! element comes out as the element; and it can be read again.
+//!
+//! The expansion shows the network that is computed, not the intention of the file. Grids and
+//! imports go to the builder directly. One writer serves the expansion and the networks that are
+//! derived from a netlist.
 
 mod controls;
 mod elements;

@@ -1,4 +1,6 @@
 //! What was written is read again before anybody gets it.
+//!
+//! `prove` reads the text at its final place and compares names, and values at several times.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,4 +1,7 @@
 //! `[fit.NAME]`: parameters to find, and the records that tell of them.
+//!
+//! `FitStudy` keeps the text of `[fit]`; `FitStudy::plan` has its numbers, because `--set` changes
+//! them.
 
 mod data;
 mod read;

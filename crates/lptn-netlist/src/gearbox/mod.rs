@@ -4,6 +4,10 @@
 //! Speeds and torques become parameters, or signals where the input is one, by the names that the
 //! docs list: `stage.sun.speed`, `stage.ring.torque`, `stage.force`. So nothing behind the netlist
 //! knows of gearboxes but what asks for one.
+//!
+//! A gearbox is expanded after the templates. No crate below knows gears, and sensitivities,
+//! `--set`, fits and the expansion need no code for them. Everything that is written keeps the
+//! place of the value that it follows from, so that messages show the user's line.
 
 mod check;
 mod declaration;

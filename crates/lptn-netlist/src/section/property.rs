@@ -1,4 +1,8 @@
 //! Properties of materials and fluids: constant, an expression in `T`, or a table over it.
+//!
+//! A field of a law may be a property of a material, a fluid or a lubricant. It is named in place
+//! of a value and evaluated at the temperature that the law defines. Properties of lubricants are
+//! calls of tables (`NAME.nu`), so that the network needs no notion of oils.
 
 use lptn_network::{Input, Melting};
 use lptn_units::{Dimension, Type};

@@ -4,6 +4,8 @@
 //! its own, with full names (`planet[2].gear`), and values as they stand in the template. A place
 //! knows for which instance it is read, and that decides what a name there means
 //! ([`Structure::meaning`]); so no section has to know of templates.
+//!
+//! An error that occurs in every instance is reported once.
 
 mod definition;
 mod inside;

@@ -3,6 +3,11 @@
 //! A capacity C(T) is represented on panels by polynomials that agree with it to 1e-12; the heat
 //! content is their integral, so capacity, heat content and its inverse belong together to the last
 //! digit and books close.
+//!
+//! The state of such a node is `T0 + H / C0`, with the heat content H. The approximation of the
+//! changing capacity loses no heat, and melting at one temperature is not a special case. The
+//! energy balance closes to the residual of Newton's method. The Newton matrix is scaled by dT/dy
+//! in its columns and stays symmetric.
 
 mod fit;
 mod panel;

@@ -1,4 +1,9 @@
 //! How far a comparison of temperatures is from changing.
+//!
+//! A comparison changes only if its sides differ by a hundredth of the tolerance. Without this
+//! margin, rounding at the time of an event would decide its truth. A comparison whose two truths
+//! drive each other would go unnoticed. With the margin it switches repeatedly and stops the run as
+//! chatter.
 
 use crate::evaluation::{Evaluation, PASS};
 use crate::id::{Item, SwitchId};

@@ -1,4 +1,8 @@
 //! Where expressions find their numbers: one slot for each thing that a name can mean.
+//!
+//! Slots are in the order of addition. An expression is compiled once and then reads numbers or
+//! dual numbers. Comparisons read `t` and signals in a second slot that is constant inside a
+//! segment.
 
 use crate::id::{BoundaryId, ControlId, End, NodeId, ParameterId, SignalId, SwitchId};
 use crate::parts::grid_value::GridValue;

@@ -1,4 +1,9 @@
 //! What a network is made of, before any number is computed from it.
+//!
+//! Lists end after the last element that needs an entry (`flows`, `conductor_dependence`,
+//! `enthalpy`). Beyond that entry the law is its number, so a linear network has empty lists. Rare
+//! fields of a node are in a separate allocation (`Body`, reached by `Deref`); the cells of a grid
+//! share it.
 
 pub(crate) mod control;
 pub(crate) mod dependence;

@@ -1,4 +1,7 @@
 //! Heat flows and values of grids by their names.
+//!
+//! A result that a law computes in addition to its heat is `HeatOf::Told`. It is read where heat
+//! flows are read, so that limits, columns, windows and reports need no second way.
 
 use std::sync::Arc;
 

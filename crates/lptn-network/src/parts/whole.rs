@@ -1,4 +1,7 @@
 //! Cells, surfaces and the conductors of a path to a face, as parts of a whole.
+//!
+//! Cells, surfaces and the parts of a path to a face are ordinary nodes and conductors that know
+//! their whole (`Network::whole`). Columns, balances, errors and places refer to the whole.
 
 use crate::build_error::BuildError;
 use crate::id::{ConductorId, FacePathId, Item, NodeId};

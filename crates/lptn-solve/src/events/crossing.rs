@@ -1,4 +1,10 @@
 //! When something has to switch inside a step.
+//!
+//! CVODES finds roots at the ends of its steps; lptn searches inside too. It evaluates three
+//! places, and more wherever the second difference leaves room for a maximum above the threshold. A
+//! threshold that is passed twice within a step is not missed: the run goes back to the first
+//! passage. A quantity exactly at its threshold at the start of a step, which root finding skips,
+//! is found as well.
 
 use lptn_integrate::{IntegrateError, Integrator, Step};
 

@@ -12,6 +12,9 @@
 //! diagonal, the one place where 1 hides what is small, is taken from the sum of the rest (the
 //! elimination of Grassmann, Taksar and Heyman, Oper. Res. 33 (1985) 1107, for the exponentials of
 //! Xue and Ye, Math. Comp. 82 (2013) 1577): slow nodes keep their digits beside fast ones.
+//!
+//! A chain of equal cells has one eigenvector. The matrices on the way up serve every length.
+//! `impedance` uses them if modes coincide.
 
 use faer::Mat;
 use lptn_integrate::dense;

@@ -1,4 +1,8 @@
 //! Modes of `C dT/dt = -G T`: eigenvalues and vectors of `C^-1/2 G C^-1/2`, island by island.
+//!
+//! Rates are Rayleigh quotients summed over paths, which keeps slow ones exact next to fast ones.
+//! Slow modes are diagonalised again among themselves, from sums over paths. A dense solver mixes
+//! modes whose rates differ by less than the rounding of the fastest.
 
 use faer::Mat;
 use lptn_integrate::dense;

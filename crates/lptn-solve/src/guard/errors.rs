@@ -4,6 +4,9 @@
 //! of the network as fast as it likes: the largest speed ([`growth`](crate::growth)) tells nothing
 //! of it then. In a network in which heat flows from warm to cold the errors grow at least as fast
 //! as the largest of these rates, and in one that comes to rest none of them is positive.
+//!
+//! This takes a Jacobian, 40 % of a step of 400 nodes. It is therefore evaluated only if a kink was
+//! passed or a temperature becomes faster, and in every 16th step, or every 4th if something turns.
 
 use lptn_assembly::JacobianForm;
 use lptn_integrate::{OdeSystem, Pattern};

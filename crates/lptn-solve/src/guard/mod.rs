@@ -11,6 +11,12 @@
 //!   start of the step, ends a step at the kink and begins anew there (`corners.rs`).
 //!
 //! Networks without tables, kinks and functions that turn have no guard.
+//!
+//! After a step, the pieces of tables, kinks and laws of each element are compared; `Traced`
+//! numbers carry them. The law itself is evaluated, not its indicator functions, so that kinks in
+//! Rust and in expressions are found alike. Before a step, enclosures determine where an expression
+//! of temperatures turns. The run goes back only if fourth differences of the heat show a bend
+//! beyond a quarter of the tolerance.
 
 mod corners;
 mod errors;

@@ -1,5 +1,8 @@
 //! The periodic state of a repeating cycle, by shooting: the start of a cycle that is its end as
 //! well.
+//!
+//! Coarse cycles come first. The stated error is the residual over the share that a cycle forgets.
+//! A switch in one cycle has to occur in the next before the two are used together.
 
 mod cycle;
 mod error;

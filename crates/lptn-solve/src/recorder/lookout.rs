@@ -1,4 +1,8 @@
 //! The watched nodes of a run.
+//!
+//! If only the hottest node is reported, only that node is searched (`Transient::hottest_only`). A
+//! node whose curve stays below another node's value in this or an earlier step is skipped. The
+//! reported peak is the same to the last digit.
 
 use lptn_integrate::kernels;
 use lptn_network::NodeId;

@@ -3,6 +3,11 @@
 //! Heat refuses to leave the branch (`branch.rs`), so that the integrator gets to the fold in ever
 //! shorter steps. So near that it does not matter when, the state is taken a little further along
 //! its present course, the node leaps there, and the run goes on from where it was.
+//!
+//! The first fold ends a run, which is repeated with a hundredth of the tolerance (`Care` in
+//! `transient.rs`). Errors before a fold have one sign and are made before anyone sees it, and runs
+//! without folds must not pay for it. A saved state contains the temperatures of massless nodes.
+//! The search begins there if the form of the network does not show uniqueness.
 
 use lptn_integrate::{IntegrateError, OdeSystem};
 

@@ -10,6 +10,9 @@
 //! `|error| <= |v| (integral |phi| ds + gamma (|phi(0)| + |phi(s)| + integral |phi'| ds))`
 //!
 //! in the largest temperature: without heat that never grows.
+//!
+//! A later stretch reuses the space if it contains the remaining decay, for example if all sources
+//! follow one curve.
 
 use lptn_integrate::dense::Symmetric;
 

@@ -2,6 +2,14 @@
 //! runs in closed form by all modes of small networks and by as many vectors as it takes of others.
 //!
 //! Plain loops over small dense matrices, in one order: nothing here depends on the processor.
+//!
+//! Only the numbers that depend on the varied parameters are evaluated again, with the checks of
+//! `Numbers::evaluate` (`Network::variants`). The order of elimination and its fill are found once
+//! (`star.rs`). Between two bends of the inputs a run is a sum of exponentials, whose extremes and
+//! crossings are roots. It has all modes up to 48 nodes, and beyond that a Lanczos space. The
+//! decomposition is a plain Householder and QL, not faer's, so that rows do not depend on the
+//! processor. Unsuitable candidates take the ordinary way, one by one: a number that the network
+//! refuses, or rates too far apart. A row therefore never depends on its neighbours.
 
 mod course;
 mod krylov;

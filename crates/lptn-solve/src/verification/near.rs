@@ -1,5 +1,9 @@
 //! A network near one of its states, against the exact solution of the linear network that stands
 //! for it there.
+//!
+//! The full network, less the heat that it stores at the state anyway, is compared with modes for
+//! disturbances of three sizes. The check is that the difference falls with the size, not that it
+//! is small.
 
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::Options;

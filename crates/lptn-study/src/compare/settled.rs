@@ -1,4 +1,8 @@
 //! The cycle to which a candidate settles whose inputs repeat themselves.
+//!
+//! Repeating signals ask for the periodic steady state, so `compare` computes it without an option.
+//! Without a `[run]` it is the state that is compared, because no other moment has a meaning. Heat
+//! comes from the ledger, heat by path from a window over the run.
 
 use std::sync::Arc;
 

@@ -1,5 +1,10 @@
 //! Choosing parts from catalogues: of all combinations the best that keeps everything, with what is
 //! varied beside the parts sized for each.
+//!
+//! Parts are judged in the order of their price, in blocks whose size does not depend on threads.
+//! The first part that works is the answer, and the evaluated parts are the same on every machine.
+//! If a price is known only after a solution (a part is sized, or the price contains results), all
+//! parts are solved.
 
 use lptn_network::ParameterId;
 use lptn_solve::in_parallel;

@@ -1,5 +1,10 @@
 //! Sizing: what a cooling has to do, the value of a parameter that keeps what is required, and
 //! the best of several parameters and of parts.
+//!
+//! A requirement of a study becomes a limit of the network that is run (`Network::requiring`).
+//! Sizing over time therefore evaluates limits between rows by the same code. Evaluations over the
+//! range have the tolerance of the run, those that bracket the answer 1e-9 K. If an evaluation errs
+//! on an answer by less than its error, the answer is searched again, place by place.
 
 mod aim;
 mod answer;

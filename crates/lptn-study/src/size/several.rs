@@ -3,6 +3,10 @@
 //! The box is looked at in places that fill it evenly; from the best of them a search goes on with
 //! derivatives, at first as well as a look can tell, at last as well as a run can be. What it comes to
 //! is a local minimum at best, and it is brought to the side on which everything is kept.
+//!
+//! Several parameters are searched from values alone, because peaks over a run have kinks where
+//! another moment becomes the highest. Differences of runs to 1e-9 K serve as derivatives. The last
+//! step goes along the way from a point that keeps everything, and needs none.
 
 use lptn_network::ParameterId;
 use lptn_solve::in_parallel;

@@ -1,4 +1,7 @@
 //! The values of each candidate: what case `k` is follows from the study and `k` alone.
+//!
+//! A Latin hypercube comes from a permutation that is computed and not stored. Threads, stops and
+//! parts of a cluster cannot change a row, and memory does not grow with the number of candidates.
 
 use lptn_netlist::{AxisNumbers, SweepMethod, SweepPlan};
 use lptn_network::{ParameterId, Parameters};

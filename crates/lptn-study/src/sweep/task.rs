@@ -1,4 +1,7 @@
 //! One candidate after the other: values in, numbers out.
+//!
+//! The reports of a sweep are additional reports of the network that only the sweep uses
+//! (`Network::reporting`). Windows over the whole run read them.
 
 use lptn_analysis::{Analysis, AnalysisError, Found, RunAnalysis, RunError};
 use lptn_assembly::ThermalSystem;

@@ -1,4 +1,7 @@
 //! Errors of expressions that show the corrected text.
+//!
+//! A fix is tried before it is shown. The checker evaluates the tree with a literal of the proposed
+//! type and counts the errors that remain.
 
 use super::lexer::splice;
 use super::scope::Scope;

@@ -13,6 +13,14 @@
 //! one after the other, each time the one that leads furthest: where the largest error is least,
 //! over what it may be. The problem is that of V. V. Fedorov, Theory of Optimal Experiments, 1972;
 //! A. C. Atkinson, A. N. Donev, R. D. Tobias, Optimum Experimental Designs, with SAS, 2007.
+//!
+//! A plan predicts the fit that will be made, not the best possible one. Each run is computed once,
+//! at some 50 lengths; only the length in the answer is found row by row. The offset of a single
+//! record is eliminated before runs are added. With a drift, a fit has to weigh a value by the
+//! information that many values retain. Otherwise it trusts the record more than a `±`. The plan
+//! uses that weight and prints it. Existing records inform everything that their fit varies.
+//! Unknowns that the plan does not name are included, because omitting them would mean knowing
+//! them.
 
 mod choice;
 mod error;
