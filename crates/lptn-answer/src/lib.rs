@@ -10,6 +10,7 @@ pub mod answer;
 pub mod balance;
 pub mod belief;
 pub mod bound;
+pub mod compare;
 pub mod cycle;
 pub mod exit;
 pub mod failure;

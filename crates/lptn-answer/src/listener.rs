@@ -23,11 +23,30 @@ pub trait Listener: Sync {
         self.proceed()
     }
 
+    /// One of several runs has come this far; returns whether to go on.
+    fn progress_of(&self, _which: Which, _progress: Progress) -> Proceed {
+        self.proceed()
+    }
+
+    /// One of several runs is over, however it ended.
+    fn finished(&self, _which: Which) {}
+
     /// `done` of `all` things of this name, in the plural, are done.
     fn counted(&self, _done: usize, _all: usize, _noun: &'static str) {}
 
     /// A part of the work took this long, in s.
     fn took(&self, _part: &'static str, _seconds: f64) {}
+}
+
+/// One of several runs.
+#[derive(Clone, Copy, Debug)]
+pub struct Which {
+    /// Its number, from 0.
+    pub number: usize,
+    /// How many there are.
+    pub all: usize,
+    /// What they are, in the plural.
+    pub noun: &'static str,
 }
 
 /// Nobody: everything goes to its end, and doubts are in the answers alone.

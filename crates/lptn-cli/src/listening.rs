@@ -1,14 +1,14 @@
 //! The console as a listener: doubts to stderr, progress on a line, Ctrl-C ends runs.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
-use lptn_answer::listener::Listener;
+use lptn_answer::listener::{Listener, Which};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_solve::{Proceed, Progress};
 
 use crate::console::Console;
 use crate::interrupt::Interrupt;
-use crate::progress::ProgressLine;
+use crate::progress::{ProgressLine, ProgressOfAll};
 
 /// A console that listens for Ctrl-C until it is dropped.
 #[derive(Debug)]
@@ -16,19 +16,25 @@ pub(crate) struct Listening<'a> {
     console: &'a Console,
     interrupt: Interrupt,
     line: Mutex<ProgressLine>,
+    /// How far several runs are, once one of them reports.
+    several: OnceLock<ProgressOfAll>,
 }
 
 impl Console {
     /// Begins to listen.
     pub(crate) fn listening(&self) -> Listening<'_> {
         let line = Mutex::new(ProgressLine::new(self.quiet));
-        Listening { console: self, interrupt: Interrupt::listen(), line }
+        Listening { console: self, interrupt: Interrupt::listen(), line, several: OnceLock::new() }
     }
 }
 
 impl Listening<'_> {
     fn line(&self) -> std::sync::MutexGuard<'_, ProgressLine> {
         self.line.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn several(&self, Which { all, noun, .. }: Which) -> &ProgressOfAll {
+        self.several.get_or_init(|| ProgressOfAll::new(self.console.quiet, all, noun))
     }
 }
 
@@ -52,6 +58,15 @@ impl Listener for Listening<'_> {
         self.proceed()
     }
 
+    fn progress_of(&self, which: Which, progress: Progress) -> Proceed {
+        self.several(which).update(which.number, progress);
+        self.proceed()
+    }
+
+    fn finished(&self, which: Which) {
+        self.several(which).finished(which.number);
+    }
+
     fn counted(&self, done: usize, all: usize, noun: &'static str) {
         self.line().update_parts(done, all, noun);
     }
@@ -64,5 +79,6 @@ impl Listener for Listening<'_> {
 impl Drop for Listening<'_> {
     fn drop(&mut self) {
         self.line().clear();
+        self.several.get().iter().for_each(|several| several.clear());
     }
 }

@@ -24,8 +24,9 @@ use crate::console::Console;
 use crate::files::Folder;
 use crate::interrupt::Interrupt;
 use crate::progress::ProgressLine;
-use crate::verbs::compare::{Variant, listed, load, of_sets, too_many, used};
+use crate::verbs::compare::listed;
 use lptn_answer::belief::Belief;
+use lptn_answer::compare::{Variant, load, of_sets, too_many, used};
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::{Failure, told};
 use lptn_answer::input::{Input, quoted};
@@ -85,7 +86,7 @@ fn loaded(args: &FitCompareArgs) -> Result<Vec<Loaded>, Failure> {
         files.iter().flat_map(|file| variants.iter().map(move |one| (file, one))).collect();
     let all: Vec<_> = jobs.iter().map(|(file, one)| load(file, one, &Belief::None)).collect();
     used(&args.set, &all)?;
-    let one = |(job, loaded): (&(&PathBuf, &Variant), crate::verbs::compare::Loaded)| {
+    let one = |(job, loaded): (&(&PathBuf, &Variant), lptn_answer::compare::Loaded)| {
         let (path, label) = (job.0.clone(), job.1.label().to_owned());
         Ok(Loaded { path, label, input: loaded.input? })
     };

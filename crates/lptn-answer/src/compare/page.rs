@@ -1,4 +1,4 @@
-//! What `lptn compare` shows.
+//! A comparison as a page.
 
 use std::io;
 use std::path::Path;
@@ -12,17 +12,24 @@ use lptn_report::{
 use lptn_study::{Candidate, CandidateLimit, CompareRow, HeatOut, HeatOver, compare_table};
 use serde_json::Value;
 
-use super::{Comparison, doubts};
-use lptn_answer::about;
-use lptn_answer::exit::Exit;
-use lptn_answer::messages;
-use lptn_answer::scale;
-use lptn_answer::words::{count, spaced};
+use super::{CompareAnswer, doubts};
+use crate::about;
+use crate::exit::Exit;
+use crate::messages;
+use crate::scale;
+use crate::words::{count, spaced};
 
 /// What is not known or does not exist.
 const NOTHING: &str = "-";
 
-impl Page for Comparison {
+impl CompareAnswer {
+    /// The answer in a sentence.
+    pub fn sentence(&self) -> String {
+        sentence(self)
+    }
+}
+
+impl Page for CompareAnswer {
     fn text(&self) -> Text {
         let rows = &self.rows;
         let of = only_file(rows).map_or(String::new(), |file| format!(" of {}", plain(file)));
@@ -52,7 +59,7 @@ impl Page for Comparison {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&[], &crate::files::arguments())
+        about::of_command(&[], &self.command)
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -103,7 +110,7 @@ pub(super) fn names(rows: &[CompareRow]) -> Vec<String> {
         .collect()
 }
 
-fn overview(comparison: &Comparison) -> TextTable {
+fn overview(comparison: &CompareAnswer) -> TextTable {
     let (rows, unit) = (&comparison.rows, &comparison.unit);
     let candidates = rows.iter().filter_map(CompareRow::candidate);
     let shown = |c: &Candidate| [c.peak.map(|peak| peak.temperature), c.steady, settled(c)];
@@ -276,7 +283,7 @@ fn tables(title: &str, rows: &[CompareRow], mut columns: Vec<Column>) -> Vec<Tex
 
 /// One sentence: what was not finished, else what could not be read, else what failed, else which
 /// limits are broken.
-pub(crate) fn answer(comparison: &Comparison) -> String {
+fn sentence(comparison: &CompareAnswer) -> String {
     let names = names(&comparison.rows);
     let of = |wanted: Exit| {
         let ends = names.iter().zip(&comparison.ends).filter(|(_, end)| **end == wanted);

@@ -5,18 +5,17 @@ use std::path::{Path, PathBuf};
 
 use lptn_netlist::{Catalogue, Diagnostic};
 
-use crate::input::Load as _;
-use crate::options::Source;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::input::Input;
+use crate::belief::Belief;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::Input;
 
 /// More variants of one netlist than these are a sweep and no comparison.
 pub(super) const MOST: usize = 1000;
 
 /// What is changed in a netlist.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Variant {
+pub struct Variant {
     pub(super) case: Option<String>,
     pub(super) set: Vec<String>,
     /// What tells it from the others: `hot, R=1K/W`; empty where there are no others.
@@ -25,7 +24,7 @@ pub(crate) struct Variant {
 
 /// Every combination of the values in lists, the last list changing fastest; `None` where there are
 /// too many.
-pub(crate) fn of_sets(set: &[String]) -> Option<Vec<Variant>> {
+pub fn of_sets(set: &[String]) -> Option<Vec<Variant>> {
     let mut all = vec![Variant::default()];
     for text in set {
         let (name, values) = text.split_once('=').unwrap_or((text, ""));
@@ -62,7 +61,7 @@ pub(super) fn with_parts(
     if tables.is_empty() {
         return Ok(Some(all));
     }
-    let Ok(input) = Input::load(&Source::of(file.to_owned())) else { return Ok(Some(all)) };
+    let Ok(input) = Input::open(file, &Belief::Named, (None, &[])) else { return Ok(Some(all)) };
     for table in tables {
         let name = table.display().to_string();
         let bytes = std::fs::read(table).map_err(|error| {
@@ -82,8 +81,8 @@ pub(super) fn with_parts(
 }
 
 impl Variant {
-    /// What tells it from the others; empty where there are no others.
-    pub(crate) fn label(&self) -> &str {
+    /// What tells it from the others, such as `hot, R=1K/W`; empty if there are no others.
+    pub fn label(&self) -> &str {
         &self.label
     }
 
@@ -98,7 +97,7 @@ impl Variant {
 /// The variants of a netlist in each of its load cases; as they are for one without cases, or one
 /// that cannot be read.
 pub(super) fn in_cases(file: &Path, variants: &[Variant]) -> Vec<Variant> {
-    let names: Vec<String> = Input::load(&Source::of(file.to_owned())).map_or_else(
+    let names: Vec<String> = Input::open(file, &Belief::Named, (None, &[])).map_or_else(
         |_| Vec::new(),
         |input| input.netlist.studies.cases.iter().map(|case| case.name.clone()).collect(),
     );

@@ -4,10 +4,10 @@ use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Moment, Panel};
 use lptn_study::{Candidate, CandidateLimit, CompareRow, HeatOver};
 
-use super::{Comparison, page};
-use lptn_answer::words::count;
+use super::{CompareAnswer, page};
+use crate::words::count;
 
-impl Comparison {
+impl CompareAnswer {
     /// A line for each candidate, in the order of the table.
     pub(super) fn figure(&self) -> Figure {
         let names = page::names(&self.rows);

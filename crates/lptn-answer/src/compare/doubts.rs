@@ -4,8 +4,8 @@ use lptn_netlist::Diagnostic;
 use lptn_report::{Align, Column, decimals, fixed, significant};
 use lptn_study::{Candidate, CompareRow, Scatter};
 
-use lptn_answer::input::Input;
-use lptn_answer::words::spaced;
+use crate::input::Input;
+use crate::words::spaced;
 
 /// What is not known or does not exist.
 const NOTHING: &str = "-";

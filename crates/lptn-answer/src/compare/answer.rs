@@ -1,0 +1,150 @@
+//! Candidates side by side, with doubts and failures.
+
+use lptn_netlist::{Diagnostic, Files, Netlist};
+use lptn_report::plain;
+use lptn_study::{Candidate, CompareRow};
+use lptn_units::Unit;
+
+use super::evaluate::NoResult;
+use super::load::Loaded;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::steady::others;
+use crate::words::unverified;
+use crate::{bound, trust};
+
+/// The candidates in their order.
+#[derive(Debug)]
+pub struct CompareAnswer {
+    /// The candidates.
+    pub rows: Vec<CompareRow>,
+    /// The unit of temperatures.
+    pub unit: Unit,
+    /// How each row ended; limits are not looked at.
+    pub ends: Vec<Exit>,
+    /// Problems of the candidates without results.
+    pub failures: Vec<Failure>,
+    /// Doubts in how sure the results are.
+    pub(super) unsure: Vec<Diagnostic>,
+    /// Whether candidates are variants of files.
+    pub(super) variants: bool,
+    /// The words of the command that asked.
+    pub(super) command: Vec<String>,
+    /// Of those that were read: what is probably not meant as it is written.
+    pub warnings: Vec<(Files, Vec<Diagnostic>)>,
+}
+
+impl CompareAnswer {
+    pub(super) fn of(
+        outcomes: impl Iterator<Item = (Loaded, Result<Candidate, NoResult>)>,
+        unit: Unit,
+    ) -> Self {
+        let (rows, ends, failures, warnings) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let (unsure, command, variants) = (Vec::new(), Vec::new(), false);
+        let mut comparison =
+            Self { rows, unit, ends, failures, unsure, variants, command, warnings };
+        outcomes.for_each(|(loaded, outcome)| comparison.add(loaded, outcome));
+        comparison
+    }
+
+    fn add(&mut self, loaded: Loaded, outcome: Result<Candidate, NoResult>) {
+        let Loaded { file, input, .. } = loaded;
+        let mut title = String::new();
+        let mut failure = None;
+        match input {
+            Ok(input) => {
+                title = input.netlist.network.title().map_or(String::new(), plain);
+                let found = outcome.as_ref().ok();
+                let beyond = found.map_or_else(Vec::new, |found| {
+                    trust::doubts(&input.netlist, &found.trust, input.netlist.run.is_some())
+                });
+                let unbounded = found.and_then(|found| found.trust.unbounded.as_ref());
+                let unbounded = bound::unbounded(&input.netlist.network, unbounded);
+                let several = outcome.as_ref().ok().and_then(|found| found.several.as_ref());
+                let several =
+                    several.and_then(|steady| others(&input.netlist.network, steady, &self.unit));
+                let of_file = |warning: Diagnostic| Diagnostic {
+                    message: format!("{file}: {}", warning.message),
+                    ..warning
+                };
+                let has_cycle = found.is_some_and(|found| matches!(found.settled, Some(Ok(_))));
+                let vary = inputs_vary(&input.netlist, &file).filter(|_| !has_cycle);
+                let no_cycle = found.and_then(|found| unsettled(&file, found));
+                let unsure = unverified(&input.netlist.network).map(|text| {
+                    let message = format!("{file}: {text}");
+                    Diagnostic::warning("network::unverified_constants", message)
+                });
+                let own = input.netlist.warnings.into_iter();
+                let warnings = own
+                    .chain(vary)
+                    .chain(beyond)
+                    .chain(unbounded.map(of_file))
+                    .chain(several.map(of_file))
+                    .chain(no_cycle)
+                    .chain(unsure)
+                    .collect();
+                self.warnings.push((input.netlist.files, warnings));
+            }
+            Err(not_read) => failure = Some(not_read),
+        }
+        let outcome = outcome.map_err(|no_result| match no_result {
+            NoResult::NotRead => {}
+            NoResult::Failure(reason) => failure = Some(reason),
+        });
+        self.ends.push(failure.as_ref().map_or(Exit::Done, |failure| failure.exit));
+        let code = failure.as_ref().and_then(|failure| failure.diagnostics.first()).map(|d| d.code);
+        self.failures.extend(failure);
+        let outcome = outcome.map_err(|()| code.unwrap_or_default().to_owned());
+        self.rows.push(CompareRow { file, title, outcome });
+    }
+
+    /// Doubts in how sure the results are.
+    pub fn unsure(&self) -> &[Diagnostic] {
+        &self.unsure
+    }
+
+    /// Whether every candidate is a file as it is, and not a variant of one.
+    pub fn is_of_files(&self) -> bool {
+        !self.variants
+    }
+
+    /// How the comparison ends: an interruption goes before what could not be read, that before what
+    /// failed, and that before a broken limit.
+    pub fn exit(&self) -> Exit {
+        if self.ends.contains(&Exit::Interrupted) {
+            Exit::Interrupted
+        } else if self.ends.contains(&Exit::Input) {
+            Exit::Input
+        } else if self.ends.contains(&Exit::Failed) {
+            Exit::Failed
+        } else if self.rows.iter().any(|row| row.status() == "broken") {
+            Exit::No
+        } else {
+            Exit::Done
+        }
+    }
+}
+
+/// Without a run a candidate is looked at once: what comes later is not seen.
+fn inputs_vary(netlist: &Netlist, name: &str) -> Option<Diagnostic> {
+    let network = &netlist.network;
+    let judged: Vec<_> =
+        network.limits().iter().flat_map(|limit| [&limit.of, &limit.value]).collect();
+    let changes =
+        || !network.changing_inputs().is_empty() || !network.changing_inputs_of(&judged).is_empty();
+    let vary = netlist.run.is_none() && changes();
+    let message = format!(
+        "{name}: the inputs change with time; without a [run] they are taken at 0 s, and no limit \
+         is judged that depends on them"
+    );
+    vary.then(|| {
+        Diagnostic::warning("steady::inputs_vary", message).help("add a [run] to compare over time")
+    })
+}
+
+/// Why a candidate whose signals repeat themselves has no settled cycle.
+fn unsettled(file: &str, found: &Candidate) -> Option<Diagnostic> {
+    let reason = found.settled.as_ref()?.as_ref().err()?;
+    let message = format!("{file}: the column `settled` is empty: {reason}");
+    Some(Diagnostic::warning(reason.code(), message).help(reason.help()))
+}
