@@ -30,6 +30,7 @@ pub mod run;
 pub mod scale;
 pub mod select;
 pub mod steady;
+pub mod sweep;
 pub mod taken;
 pub mod trust;
 pub mod unseparated;

@@ -34,6 +34,9 @@ pub trait Listener: Sync {
     /// `done` of `all` things of this name, in the plural, are done.
     fn counted(&self, _done: usize, _all: usize, _noun: &'static str) {}
 
+    /// `done` of `all` things of this name are done, `before` of them earlier than this command.
+    fn rate(&self, _count: (u64, u64, &'static str), _before: u64) {}
+
     /// A part of the work took this long, in s.
     fn took(&self, _part: &'static str, _seconds: f64) {}
 }

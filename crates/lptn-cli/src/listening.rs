@@ -1,6 +1,7 @@
 //! The console as a listener: doubts to stderr, progress on a line, Ctrl-C ends runs.
 
 use std::sync::{Mutex, OnceLock, PoisonError};
+use std::time::Instant;
 
 use lptn_answer::listener::{Listener, Which};
 use lptn_netlist::{Diagnostic, Files};
@@ -18,13 +19,15 @@ pub(crate) struct Listening<'a> {
     line: Mutex<ProgressLine>,
     /// How far several runs are, once one of them reports.
     several: OnceLock<ProgressOfAll>,
+    begun: Instant,
 }
 
 impl Console {
     /// Begins to listen.
     pub(crate) fn listening(&self) -> Listening<'_> {
         let line = Mutex::new(ProgressLine::new(self.quiet));
-        Listening { console: self, interrupt: Interrupt::listen(), line, several: OnceLock::new() }
+        let (interrupt, begun) = (Interrupt::listen(), Instant::now());
+        Listening { console: self, interrupt, line, several: OnceLock::new(), begun }
     }
 }
 
@@ -69,6 +72,10 @@ impl Listener for Listening<'_> {
 
     fn counted(&self, done: usize, all: usize, noun: &'static str) {
         self.line().update_parts(done, all, noun);
+    }
+
+    fn rate(&self, count: (u64, u64, &'static str), before: u64) {
+        self.line().update_count(count, (before, self.begun));
     }
 
     fn took(&self, part: &'static str, seconds: f64) {

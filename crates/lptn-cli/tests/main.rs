@@ -79,7 +79,6 @@ mod states;
 mod sweep;
 mod sweep_larger;
 mod sweep_linear;
-mod sweep_parquet;
 mod sweep_resume;
 mod taken;
 mod uncertainty;

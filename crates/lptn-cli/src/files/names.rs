@@ -20,7 +20,6 @@ pub(crate) const UNSEEN: &str = "unseen.csv";
 pub(crate) const CHOICE: &str = "choice.json";
 pub(crate) const POSTERIOR: &str = "posterior.json";
 pub(crate) const SWEEP: &str = "sweep.csv";
-pub(crate) const PARQUET: &str = "sweep.parquet";
 pub(crate) const MANIFEST: &str = "manifest.json";
 
 /// The rows of a sweep as far as it has come, and what they belong to.
@@ -33,7 +32,7 @@ pub(super) const COMMIT: &str = ".commit.json";
 /// The file whose lock says that somebody writes here.
 pub(super) const LOCK: &str = ".lptn.lock";
 
-const RESULTS: [&str; 23] = [
+const RESULTS: [&str; 22] = [
     RESULT,
     STATE,
     EVENTS,
@@ -54,7 +53,6 @@ const RESULTS: [&str; 23] = [
     CHOICE,
     POSTERIOR,
     SWEEP,
-    PARQUET,
     BEGUN,
     MANIFEST,
 ];

@@ -9,7 +9,7 @@ use crate::sweep::task::{Candidate, Seen, SweepTask, taken};
 /// A sweep whose candidates are solved in closed form. What this cannot answer for a candidate is
 /// left to [`SweepTask::candidate`], so that every row is the same however the sweep is cut.
 pub struct LinearSweep<'a> {
-    task: &'a SweepTask<'a>,
+    task: &'a SweepTask,
     linear: LinearVariants<'a>,
     quantities: Vec<FollowedQuantity<'a>>,
     /// Start and stop of the run in s, the times between at which inputs bend, and its tolerance in
@@ -22,7 +22,7 @@ pub struct LinearSweep<'a> {
 impl<'a> LinearSweep<'a> {
     /// For a sweep over steady states or runs of a small linear network, whose reports go in
     /// straight lines with temperatures and heat flows; `None` for others.
-    pub fn new(task: &'a SweepTask<'a>) -> Option<Self> {
+    pub fn new(task: &'a SweepTask) -> Option<Self> {
         let (network, netlist) = (task.network(), task.netlist());
         let changed: Vec<ParameterId> = task.cases().parameters().collect();
         let plain = netlist.gearboxes().is_empty() && netlist.initial().is_none();
@@ -83,7 +83,7 @@ impl<'a> LinearSweep<'a> {
 }
 
 /// What the reports over time follow.
-fn followed<'a>(task: &'a SweepTask<'a>) -> Option<Vec<FollowedQuantity<'a>>> {
+fn followed<'a>(task: &'a SweepTask) -> Option<Vec<FollowedQuantity<'a>>> {
     let timed = task.study().reports.iter().filter(|r| r.functional != Functional::Value);
     timed
         .map(|measure| {

@@ -45,9 +45,9 @@ impl From<AnalysisError> for Lost {
 
 /// A sweep that is about to begin: everything that all candidates share.
 #[derive(Debug)]
-pub struct SweepTask<'a> {
-    netlist: &'a Netlist,
-    study: &'a SweepStudy,
+pub struct SweepTask {
+    netlist: Netlist,
+    study: SweepStudy,
     cases: Cases,
     /// The network with what is reported as its further reports.
     network: Network,
@@ -57,16 +57,12 @@ pub struct SweepTask<'a> {
     parameters: Parameters,
 }
 
-impl<'a> SweepTask<'a> {
+impl SweepTask {
     /// Looks at what can be known before any candidate is solved.
     ///
     /// # Errors
     /// [`SweepError`].
-    pub fn new(
-        netlist: &'a Netlist,
-        study: &'a SweepStudy,
-        cases: Cases,
-    ) -> Result<Self, SweepError> {
+    pub fn new(netlist: Netlist, study: SweepStudy, cases: Cases) -> Result<Self, SweepError> {
         let report = |measure: &Measure| Report {
             name: measure.name.clone(),
             value: measure.of.clone(),
@@ -116,8 +112,8 @@ impl<'a> SweepTask<'a> {
     }
 
     /// The study.
-    pub fn study(&self) -> &'a SweepStudy {
-        self.study
+    pub fn study(&self) -> &SweepStudy {
+        &self.study
     }
 
     /// The network with the netlist's own values and what is reported.
@@ -126,8 +122,8 @@ impl<'a> SweepTask<'a> {
     }
 
     /// The netlist.
-    pub(super) fn netlist(&self) -> &'a Netlist {
-        self.netlist
+    pub(super) fn netlist(&self) -> &Netlist {
+        &self.netlist
     }
 
     /// The time in s at which steady states read their inputs.

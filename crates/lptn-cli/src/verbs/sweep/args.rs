@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::{Args as Arguments, Subcommand};
+use lptn_answer::sweep::Shard;
 use lptn_report::Format;
 
-use super::shard::Shard;
 use crate::options::{Scale, TEMPLATE, one_of};
 
 const EXAMPLES: &str = "\
@@ -44,9 +44,6 @@ pub(crate) struct SweepArgs {
     /// Write no files
     #[arg(long, conflicts_with_all = ["output", "resume", "shard"])]
     pub(crate) no_files: bool,
-    /// Write sweep.parquet beside sweep.csv
-    #[arg(long, conflicts_with = "no_files")]
-    pub(crate) parquet: bool,
     /// Go on where a sweep that was stopped left off
     #[arg(long)]
     pub(crate) resume: bool,
@@ -103,7 +100,4 @@ pub(crate) struct MergeArgs {
     /// The folder that holds the parts
     #[arg(value_name = "DIR")]
     pub(crate) folder: PathBuf,
-    /// Write sweep.parquet beside sweep.csv
-    #[arg(long)]
-    pub(crate) parquet: bool,
 }

@@ -2,21 +2,18 @@
 //! was killed leaves whole rows and at most one that is torn.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufRead as _, BufReader, Read as _, Seek as _, SeekFrom, Write as _};
+use std::io::{self, Seek as _, SeekFrom, Write as _};
 use std::path::{Path, PathBuf};
 
 use lptn_netlist::Diagnostic;
-use lptn_report::write_rows;
 use lptn_study::Hashing;
-use serde_json::{Value, json};
+use serde_json::Value;
 
-use super::asked::Asked;
-use super::row::Row;
-use super::tally::Tally;
-use crate::files::names::{BEGUN, MANIFEST, PARQUET, SWEEP, UNFINISHED};
+use crate::files::names::{BEGUN, MANIFEST, SWEEP, UNFINISHED};
 use crate::files::{self, Folder};
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::{Failure, reason};
+use lptn_answer::sweep::{Lines, SweepAsked, Tally, damaged, read_row};
 
 /// The rows so far, and the hash of the file.
 pub(crate) struct Growing {
@@ -36,7 +33,7 @@ pub(crate) enum Found {
 
 impl Found {
     /// What the folder holds of this sweep.
-    pub(crate) fn of(folder: &Folder, asked: &Asked<'_>, resume: bool) -> Result<Self, Failure> {
+    pub(crate) fn of(folder: &Folder, asked: &SweepAsked, resume: bool) -> Result<Self, Failure> {
         let (part, whole) = (folder.path().join(UNFINISHED), folder.path().join(SWEEP));
         if part.exists() {
             if !resume {
@@ -57,7 +54,7 @@ impl Found {
 }
 
 /// Refuses rows of another sweep.
-fn same(asked: &Asked<'_>, file: &Path, of: fn(&Value) -> &Value) -> Result<(), Failure> {
+fn same(asked: &SweepAsked, file: &Path, of: fn(&Value) -> &Value) -> Result<(), Failure> {
     let text = fs::read_to_string(file).unwrap_or_default();
     let known: Value = serde_json::from_str(&text).unwrap_or_default();
     let (known, now) = (of(&known), asked.record());
@@ -87,16 +84,15 @@ fn cannot_write(path: &Path, error: &io::Error) -> Failure {
 
 impl Growing {
     /// Begins with the heading.
-    pub(crate) fn begin(folder: &Folder, asked: &Asked<'_>) -> Result<Self, Failure> {
+    pub(crate) fn begin(folder: &Folder, asked: &SweepAsked) -> Result<Self, Failure> {
         let mut batch = folder.batch();
         let text = format!("{:#}\n", asked.record());
         batch.write(BEGUN, |out| out.write_all(text.as_bytes()))?;
-        // what an earlier sweep left is not of these rows
-        batch.commit(&[PARQUET])?;
+        batch.commit(&[])?;
         let path = folder.path().join(UNFINISHED);
         let file = File::create(&path).map_err(|error| cannot_write(&path, &error))?;
         let mut growing = Self { path, file: Hashing::new(file) };
-        growing.write(&heading(asked))?;
+        growing.write(&asked.heading())?;
         Ok(growing)
     }
 
@@ -104,7 +100,7 @@ impl Growing {
     /// the case that comes next.
     pub(crate) fn go_on(
         folder: &Folder,
-        asked: &Asked<'_>,
+        asked: &SweepAsked,
         tally: &mut Tally,
     ) -> Result<(Self, u64), Failure> {
         let path = folder.path().join(UNFINISHED);
@@ -114,15 +110,15 @@ impl Growing {
         let mut next = asked.range.start;
         let mut length = 0;
         let mut lines = Lines::open(&growing.path)?;
-        if let Some(first) = lines.next()? {
-            if first != heading(asked) {
+        if let Some(first) = lines.next_line()? {
+            if first != asked.heading() {
                 return Err(damaged(&growing.path, 1));
             }
             growing.file.holds(&first);
             length += first.len() as u64;
         }
         let columns = asked.header().len();
-        while let Some(line) = lines.next()? {
+        while let Some(line) = lines.next_line()? {
             let row = read_row(&line, columns, asked.ranged).filter(|row| row.case == next);
             let row = row.ok_or_else(|| damaged(&growing.path, next - asked.range.start + 2))?;
             tally.row(&row);
@@ -132,7 +128,7 @@ impl Growing {
         }
         growing.cut(length)?;
         if length == 0 {
-            growing.write(&heading(asked))?;
+            growing.write(&asked.heading())?;
         }
         Ok((growing, next))
     }
@@ -154,7 +150,7 @@ impl Growing {
     pub(crate) fn finish(
         self,
         folder: &Folder,
-        asked: &Asked<'_>,
+        asked: &SweepAsked,
         wall_time: f64,
     ) -> Result<(), Failure> {
         let (file, sha256) = self.file.finish();
@@ -176,75 +172,4 @@ pub(crate) fn write_manifest(folder: &Folder, manifest: &Value) -> Result<(), Fa
     let text = format!("{manifest:#}\n");
     batch.write(MANIFEST, |out| out.write_all(text.as_bytes()))?;
     batch.commit(&[])
-}
-
-/// The first line with its end.
-pub(crate) fn heading(asked: &Asked<'_>) -> Vec<u8> {
-    let mut line = Vec::new();
-    // a vector takes everything
-    drop(write_rows(&[asked.header()], &mut line));
-    line
-}
-
-/// A line that is not a row.
-pub(super) fn damaged(path: &Path, line: u64) -> Failure {
-    let message = format!("line {line} of {} is not a row of this sweep", path.display());
-    refused("sweep::damaged", message, "remove the file and begin anew")
-}
-
-/// No row is as long: what is that holds none.
-const LONGEST: u64 = 1 << 20;
-
-/// The whole lines of a file, with their ends; a last line without one is left out.
-pub(crate) struct Lines {
-    path: PathBuf,
-    reader: BufReader<File>,
-}
-
-impl Lines {
-    pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
-        let file = File::open(path);
-        let file = file.map_err(|error| Failure::cannot_read(path.display(), &error, None))?;
-        Ok(Self { path: path.to_owned(), reader: BufReader::with_capacity(1 << 16, file) })
-    }
-
-    pub(crate) fn next(&mut self) -> Result<Option<Vec<u8>>, Failure> {
-        let mut line = Vec::new();
-        let read = self.reader.by_ref().take(LONGEST).read_until(b'\n', &mut line);
-        read.map_err(|error| Failure::cannot_read(self.path.display(), &error, None))?;
-        Ok(line.ends_with(b"\n").then_some(line))
-    }
-}
-
-/// The row that a line holds.
-pub(crate) fn read_row(line: &[u8], columns: usize, ranged: bool) -> Option<Row> {
-    let text = std::str::from_utf8(line).ok()?.strip_suffix('\n')?;
-    let cells: Vec<&str> = text.split(',').collect();
-    let [case, numbers @ .., failed] = cells.as_slice() else { return None };
-    let (numbers, outside) = match (ranged, numbers) {
-        (true, [numbers @ .., outside]) => (numbers, *outside),
-        _ => (numbers, ""),
-    };
-    let number = |cell: &&str| match *cell {
-        "" => Some(f64::NAN),
-        cell => cell.parse().ok(),
-    };
-    let numbers: Option<Vec<f64>> = numbers.iter().map(number).collect();
-    let outside = if outside.is_empty() { Some(0) } else { outside.parse().ok() };
-    let case = case.parse::<u64>().ok()?.checked_sub(1)?;
-    let whole = cells.len() == columns;
-    Some(Row { case, numbers: numbers?, outside: outside?, failed: (*failed).to_owned() })
-        .filter(|_| whole)
-}
-
-/// The row of a line as JSON: numbers, `null` for none, the code last.
-pub(crate) fn json_row(line: &[u8], columns: usize, ranged: bool) -> Option<String> {
-    let row = read_row(line, columns, ranged)?;
-    let mut cells = vec![json!(row.case + 1)];
-    cells.extend(row.numbers.iter().map(|number| json!(number)));
-    cells.extend(
-        ranged.then(|| if row.failed.is_empty() { json!(row.outside) } else { Value::Null }),
-    );
-    cells.push(if row.failed.is_empty() { Value::Null } else { json!(row.failed) });
-    Some(Value::Array(cells).to_string())
 }

@@ -9,14 +9,13 @@ use lptn_study::{FileHash, Hashing};
 use serde_json::Value;
 
 use super::args::MergeArgs;
-use super::growing::{Lines, write_manifest};
-use super::parquet;
-use super::shard::Shard;
+use super::growing::write_manifest;
 use crate::console::Console;
-use crate::files::names::{MANIFEST, PARQUET, SWEEP, UNFINISHED};
+use crate::files::names::{MANIFEST, SWEEP, UNFINISHED};
 use crate::files::{self, Folder};
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
+use lptn_answer::sweep::{Lines, Shard};
 
 /// A part that is whole.
 struct Part {
@@ -44,14 +43,9 @@ pub(crate) fn merge(args: &MergeArgs, console: &Console) -> Result<Exit, Failure
     manifest["sweep"] = sweep;
     manifest["inputs"] = parts[0].inputs.clone();
     write_manifest(&folder, &manifest)?;
-    drop(fs::remove_file(folder.path().join(PARQUET)));
     let file = args.folder.join(SWEEP);
     console.note(&format!("joined {} parts, {cases} candidates", parts.len()));
     console.note(&format!("wrote  {}", file.display()));
-    if args.parquet {
-        parquet::write(&folder, parts[0].sweep["ranged"] == true)?;
-        console.note(&format!("wrote  {}", args.folder.join(PARQUET).display()));
-    }
     Ok(Exit::Done)
 }
 
@@ -204,7 +198,7 @@ fn join(folder: &Folder, parts: &[Part]) -> Result<String, Failure> {
 fn copy(part: &Part, heading: bool, out: &mut dyn io::Write) -> Result<(), Failure> {
     let path = part.folder.join(SWEEP);
     let mut lines = Lines::open(&path)?;
-    let first = lines.next()?;
+    let first = lines.next_line()?;
     let cannot = |error: io::Error| {
         let message = format!("cannot write: {}", lptn_answer::failure::reason(&error));
         Failure::new(Exit::Failed, Diagnostic::error("output::cannot_write", message))
@@ -212,7 +206,7 @@ fn copy(part: &Part, heading: bool, out: &mut dyn io::Write) -> Result<(), Failu
     if let (true, Some(first)) = (heading, first) {
         out.write_all(&first).map_err(cannot)?;
     }
-    while let Some(line) = lines.next()? {
+    while let Some(line) = lines.next_line()? {
         out.write_all(&line).map_err(cannot)?;
     }
     Ok(())

@@ -1,41 +1,33 @@
 //! `lptn sweep`
 
 mod args;
-mod asked;
-mod figure;
-mod front;
 mod growing;
 mod merge;
-mod page;
-mod parquet;
 mod plan;
-mod row;
-mod shard;
-mod tally;
-mod work;
-
-pub(crate) use args::SweepArgs;
 
 use std::fs::File;
 use std::io::{self, Write as _};
+use std::sync::Arc;
 use std::time::Instant;
 
-use args::SweepVerb;
-use asked::Asked;
-use growing::{Found, Growing, heading};
-use lptn_report::Format;
+use lptn_answer::answer::Answer as _;
+use lptn_answer::exit::Exit;
+use lptn_answer::failure::Failure;
+use lptn_answer::input::{Input, quoted};
+use lptn_answer::sweep::{Rows, SweepAnswer, SweepAsked, SweepQuestion, Tally};
+use lptn_report::{Format, Page as _};
 use lptn_solve::available_threads;
-use page::{Rows, View};
-use tally::Tally;
+
+use args::SweepVerb;
+use growing::{Found, Growing};
+
+pub(crate) use args::SweepArgs;
 
 use crate::console::Console;
 use crate::files::Folder;
-use crate::files::names::{PARQUET, SWEEP};
+use crate::files::names::SWEEP;
 use crate::input::Load as _;
 use crate::options::Source;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::input::Input;
 
 pub(crate) fn sweep(args: &SweepArgs, console: &Console) -> Result<Exit, Failure> {
     match &args.verb {
@@ -49,42 +41,41 @@ fn candidates(args: &SweepArgs, console: &Console) -> Result<Exit, Failure> {
     // without a verb there is a file
     let file = args.file.clone().unwrap_or_default();
     let source = Source { set: args.set.clone(), ..Source::of(file) };
-    let input = console.phases.timed("read", || Input::load(&source))?;
-    let asked = Asked::new(args, &input)?;
-    let folder = match args.no_files {
-        true => None,
-        false => Some(Folder::prepare(asked.folder(args.output.clone()))?),
+    let input = Arc::new(console.phases.timed("read", || Input::load(&source))?);
+    let question = SweepQuestion {
+        name: args.name.clone(),
+        temperature_unit: args.scale.temperature_unit.clone(),
+        shard: args.shard,
     };
-    console.warn(&input.netlist.files, &input.netlist.warnings);
+    let asked = question.of(input)?;
+    let folder = || Folder::prepare(asked.folder(args.output.clone()));
+    let folder = (!args.no_files).then(folder).transpose()?;
+    console.warn(&asked.input.netlist.files, &asked.input.netlist.warnings);
     let threads = args.threads.unwrap_or_else(available_threads);
-    let outcome = match &folder {
+    let (outcome, interrupted) = match &folder {
         Some(folder) => into_folder(&asked, (folder, args.resume), threads, console)?,
         None => without_files(&asked, args.format, threads, console)?,
     };
-    show(args, &asked, (outcome, folder.as_ref()), console)
+    let (tally, rows) = outcome;
+    if interrupted {
+        let more = if folder.is_some() { ": add --resume to go on" } else { "" };
+        console.message(&format!("interrupted behind {} candidates{more}", tally.rows));
+        return Ok(Exit::Interrupted);
+    }
+    show(args, &SweepAnswer { asked, tally, rows }, folder.as_ref(), console)
 }
 
-/// What came of a sweep.
-struct Outcome {
-    tally: Tally,
-    interrupted: bool,
-    rows: Rows,
-}
-
-fn tally_of(asked: &Asked<'_>) -> Tally {
-    let axes = asked.axes();
-    let (reports, front) = (asked.columns.len() - axes, asked.study().front);
-    Tally::new((axes, reports), front, asked.range.end - asked.range.start)
-}
+/// Rows and what is kept of them, and whether Ctrl-C ended the sweep.
+type Outcome = ((Tally, Rows), bool);
 
 fn into_folder(
-    asked: &Asked<'_>,
+    asked: &SweepAsked,
     (folder, resume): (&Folder, bool),
     threads: usize,
     console: &Console,
 ) -> Result<Outcome, Failure> {
     let begun = Instant::now();
-    let mut tally = tally_of(asked);
+    let mut tally = asked.tally();
     let place = folder.path().join(SWEEP);
     let (mut growing, from) = match Found::of(folder, asked, resume)? {
         Found::Nothing => (Growing::begin(folder, asked)?, asked.range.start),
@@ -95,85 +86,80 @@ fn into_folder(
         }
         Found::Whole => {
             console.note(&format!("{} is there already, and whole", place.display()));
-            page::read(asked, &place, &mut tally)?;
-            return Ok(Outcome { tally, interrupted: false, rows: Rows::In(place) });
+            asked.read(&place, &mut tally)?;
+            return Ok(((tally, Rows::In(place)), false));
         }
     };
     let mut sink = |rows: &[u8]| growing.write(rows);
-    let solve = || work::solve(asked, (from, threads), (&mut tally, &mut sink), console);
+    let solve = || asked.solve((from, threads), (&mut tally, &mut sink), &console.listening());
     let interrupted = console.phases.timed("solve", solve)?;
     if !interrupted {
         growing.finish(folder, asked, begun.elapsed().as_secs_f64())?;
     }
     console.results_in(folder.path());
-    Ok(Outcome { tally, interrupted, rows: Rows::In(place) })
+    Ok(((tally, Rows::In(place)), interrupted))
 }
 
 /// Rows go to stdout as they come, or into memory for JSON.
 fn without_files(
-    asked: &Asked<'_>,
+    asked: &SweepAsked,
     format: Format,
     threads: usize,
     console: &Console,
 ) -> Result<Outcome, Failure> {
-    let mut tally = tally_of(asked);
-    let mut kept = Vec::new();
-    let (mut interrupted, from) = (false, asked.range.start);
-    match format {
-        Format::Csv => {
-            console.write(|out| out.write_all(&heading(asked)))?;
-            let mut sink = |rows: &[u8]| console.write(|out| out.write_all(rows));
-            interrupted = work::solve(asked, (from, threads), (&mut tally, &mut sink), console)?;
-        }
-        _ => {
-            let mut sink = |rows: &[u8]| {
-                if format == Format::Json {
-                    kept.extend_from_slice(rows);
-                }
-                Ok(())
-            };
-            interrupted |= work::solve(asked, (from, threads), (&mut tally, &mut sink), console)?;
-        }
+    let (mut tally, mut kept) = (asked.tally(), Vec::new());
+    if format == Format::Csv {
+        console.write(|out| out.write_all(&asked.heading()))?;
     }
-    Ok(Outcome { tally, interrupted, rows: Rows::Kept(kept) })
+    let mut sink = |rows: &[u8]| match format {
+        Format::Csv => console.write(|out| out.write_all(rows)),
+        Format::Json => {
+            kept.extend_from_slice(rows);
+            Ok(())
+        }
+        Format::Table => Ok(()),
+    };
+    let from = asked.range.start;
+    let interrupted =
+        asked.solve((from, threads), (&mut tally, &mut sink), &console.listening())?;
+    Ok(((tally, Rows::Kept(kept)), interrupted))
 }
 
 fn show(
     args: &SweepArgs,
-    asked: &Asked<'_>,
-    (outcome, folder): (Outcome, Option<&Folder>),
+    answer: &SweepAnswer,
+    folder: Option<&Folder>,
     console: &Console,
 ) -> Result<Exit, Failure> {
-    let Outcome { tally, interrupted, rows } = outcome;
-    if interrupted {
-        let done = tally.rows;
-        let more = if folder.is_some() { ": add --resume to go on" } else { "" };
-        console.message(&format!("interrupted behind {done} candidates{more}"));
-        return Ok(Exit::Interrupted);
-    }
-    let csv_there = args.format == Format::Csv && folder.is_none();
-    if let (Format::Csv, Rows::In(path)) = (args.format, &rows) {
+    if let (Format::Csv, Rows::In(path)) = (args.format, &answer.rows) {
         console.write(|out| io::copy(&mut File::open(path)?, out).map(drop))?;
     }
-    let view = View { asked, tally: &tally, rows: &rows };
+    // rows are there already
+    let printed = args.format == Format::Csv && folder.is_none();
     if args.format != Format::Csv {
-        console.page(&view, args.format)?;
-    } else if !csv_there || console.plot.is_some() {
-        view.pictures(console)?;
+        console.page(answer, args.format)?;
+    } else if !printed || console.plot.is_some() {
+        pictures(answer, console)?;
     }
     if let Some(folder) = folder {
         console.note(&format!("wrote  {}", folder.path().join(SWEEP).display()));
     }
-    if let (Some(folder), true) = (folder, args.parquet) {
-        parquet::write(folder, asked.ranged)?;
-        console.note(&format!("wrote  {}", folder.path().join(PARQUET).display()));
-    }
-    if asked.shard.is_some() && folder.is_some() {
-        let whole = folder.and_then(|folder| folder.path().parent());
-        let whole = whole.map_or(String::new(), |whole| {
-            lptn_answer::input::quoted(&whole.display().to_string())
-        });
+    if let (Some(_), Some(folder)) = (answer.asked.shard, folder) {
+        let whole = folder.path().parent();
+        let whole = whole.map_or(String::new(), |whole| quoted(&whole.display().to_string()));
         console.next(&format!("lptn sweep merge {whole}"));
     }
-    Ok(view.exit(console))
+    if answer.exit() == Exit::Failed {
+        console.message("every candidate failed");
+    }
+    Ok(answer.exit())
+}
+
+/// Draws what was asked for beside rows that are written by themselves.
+fn pictures(answer: &SweepAnswer, console: &Console) -> Result<(), Failure> {
+    if console.reports() {
+        console.add_report(lptn_report::report_of(answer));
+    }
+    let drawing = console.plot.clone();
+    drawing.map_or(Ok(()), |drawing| console.draw(&answer.figures(), &drawing))
 }

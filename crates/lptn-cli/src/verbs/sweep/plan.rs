@@ -3,13 +3,13 @@
 use lptn_netlist::SweepStudy;
 
 use super::args::PlanArgs;
-use super::asked;
 use crate::console::Console;
 use crate::input::Load as _;
 use crate::options::Source;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::{Input, quoted};
+use lptn_answer::sweep as asked;
 
 pub(crate) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, Failure> {
     let source = Source { set: args.set.clone(), ..Source::of(args.file.clone()) };

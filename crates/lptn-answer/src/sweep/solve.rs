@@ -1,20 +1,17 @@
 //! Solves the candidates, several at a time, and hands on their rows in order.
 
 use std::ops::{ControlFlow, Range};
-use std::time::Instant;
 
 use lptn_netlist::SweepOver;
 use lptn_report::CsvLines;
 use lptn_solve::{Proceed, in_order};
 use lptn_study::sweep::{Candidate, LinearSweep};
 
-use super::asked::Asked;
+use super::asked::SweepAsked;
 use super::row::Row;
 use super::tally::Tally;
-use crate::console::Console;
-use crate::interrupt::Interrupt;
-use crate::progress::ProgressLine;
-use lptn_answer::failure::Failure;
+use crate::failure::Failure;
+use crate::listener::Listener;
 
 /// Rows that a thread solves at a time: of small linear networks, and of steady states. Those of
 /// other runs are handed on one by one.
@@ -25,68 +22,68 @@ const STEADY: u64 = 16;
 struct Chunk {
     text: Vec<u8>,
     tally: Tally,
-    /// Whether Ctrl-C ended it before its last row.
+    /// Whether an interruption ended it before its last row.
     interrupted: bool,
 }
 
 /// Takes the text of rows, in order.
-pub(crate) type Sink<'a> = dyn FnMut(&[u8]) -> Result<(), Failure> + 'a;
+pub type Sink<'a> = dyn FnMut(&[u8]) -> Result<(), Failure> + 'a;
 
-/// Solves the cases from `from` on; whether Ctrl-C ended it early.
-pub(crate) fn solve(
-    asked: &Asked<'_>,
-    (from, threads): (u64, usize),
-    (tally, sink): (&mut Tally, &mut Sink<'_>),
-    console: &Console,
-) -> Result<bool, Failure> {
-    let interrupt = Interrupt::listen();
-    let mut line = ProgressLine::new(console.quiet);
-    let (to, size) = (asked.range.end, size(asked));
-    let before = from - asked.range.start;
-    let all = asked.range.end - asked.range.start;
-    let begun = Instant::now();
-    let (mut outcome, mut interrupted) = (Ok(()), false);
-    let empty = tally.part();
-    let chunk = |number: u64| {
-        let first = from + number * size;
-        asked.chunk(first..to.min(first + size), empty.clone(), &interrupt)
-    };
-    in_order(0..(to - from).div_ceil(size), threads, chunk, |chunk| {
-        outcome = sink(&chunk.text);
-        interrupted = chunk.interrupted;
-        tally.append(chunk.tally);
-        line.update_count((tally.rows, all, "candidates"), (before, begun));
-        match outcome.is_err() || interrupted {
-            true => ControlFlow::Break(()),
-            false => ControlFlow::Continue(()),
-        }
-    });
-    line.clear();
-    outcome.map(|()| interrupted)
-}
-
-fn size(asked: &Asked<'_>) -> u64 {
-    match asked.study().over {
-        _ if LinearSweep::new(&asked.task).is_some() => LINEAR,
-        SweepOver::Steady => STEADY,
-        SweepOver::Run | SweepOver::Periodic => 1,
+impl SweepAsked {
+    /// Solves the cases from `from` on and hands their rows to `sink`, in order; true if an
+    /// interruption ended it early.
+    ///
+    /// # Errors
+    /// The first error of `sink`.
+    pub fn solve(
+        &self,
+        (from, threads): (u64, usize),
+        (tally, sink): (&mut Tally, &mut Sink<'_>),
+        listener: &dyn Listener,
+    ) -> Result<bool, Failure> {
+        let (to, size) = (self.range.end, self.size());
+        let before = from - self.range.start;
+        let all = self.range.end - self.range.start;
+        let (mut outcome, mut interrupted) = (Ok(()), false);
+        let empty = tally.part();
+        let chunk = |number: u64| {
+            let first = from + number * size;
+            self.chunk(first..to.min(first + size), empty.clone(), listener)
+        };
+        in_order(0..(to - from).div_ceil(size), threads, chunk, |chunk| {
+            outcome = sink(&chunk.text);
+            interrupted = chunk.interrupted;
+            tally.append(chunk.tally);
+            listener.rate((tally.rows, all, "candidates"), before);
+            match outcome.is_err() || interrupted {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        });
+        outcome.map(|()| interrupted)
     }
-}
 
-impl Asked<'_> {
-    fn chunk(&self, cases: Range<u64>, tally: Tally, interrupt: &Interrupt) -> Chunk {
+    fn size(&self) -> u64 {
+        match self.study().over {
+            _ if LinearSweep::new(&self.task).is_some() => LINEAR,
+            SweepOver::Steady => STEADY,
+            SweepOver::Run | SweepOver::Periodic => 1,
+        }
+    }
+
+    fn chunk(&self, cases: Range<u64>, tally: Tally, listener: &dyn Listener) -> Chunk {
         let mut chunk = Chunk { text: Vec::new(), tally, interrupted: false };
         let mut lines = CsvLines::new();
         let mut linear = LinearSweep::new(&self.task);
         let (mut candidate, mut row) = (Candidate::default(), Row::default());
         for case in cases {
-            if interrupt.control() == Proceed::Interrupt {
+            if listener.proceed() == Proceed::Interrupt {
                 chunk.interrupted = true;
                 break;
             }
             let solved = linear.as_mut().is_some_and(|linear| linear.solve(case, &mut candidate));
             if !solved {
-                let Some(found) = self.task.candidate(case, &|| interrupt.control()) else {
+                let Some(found) = self.task.candidate(case, &|| listener.proceed()) else {
                     chunk.interrupted = true;
                     break;
                 };

@@ -1,22 +1,21 @@
-//! What `lptn sweep` shows.
+//! A sweep as a page.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use lptn_netlist::{Functional, SweepMethod, SweepOver};
+use lptn_netlist::{Diagnostic, Files, Functional, SweepMethod, SweepOver};
 use lptn_plot::Figure;
 use lptn_report::{Json, Page, Report, Standing, Text, TextTable, plain, significant};
 use serde_json::{Map, Value, json};
 
-use super::asked::{Asked, Column};
-use super::growing::{Lines, heading, json_row, read_row};
+use super::asked::{Column, SweepAsked};
+use super::lines::{Lines, json_row};
 use super::row::Row;
 use super::tally::{Count, Tally};
-use crate::console::Console;
-use lptn_answer::about::{self, Known};
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::words::{MOST_NODES, count, some_of, spaced};
+use crate::about::{self, Known};
+use crate::answer::Answer;
+use crate::exit::Exit;
+use crate::words::{MOST_NODES, count, some_of, spaced};
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 5;
@@ -28,7 +27,8 @@ const MOST_AXES: usize = 12;
 const FEW: u64 = 20;
 
 /// Where the rows are.
-pub(crate) enum Rows {
+#[derive(Debug)]
+pub enum Rows {
     /// In a file.
     In(PathBuf),
     /// In memory, without the heading.
@@ -36,24 +36,32 @@ pub(crate) enum Rows {
 }
 
 /// A sweep that is done.
-pub(crate) struct View<'a> {
-    pub(crate) asked: &'a Asked<'a>,
-    pub(crate) tally: &'a Tally,
-    pub(crate) rows: &'a Rows,
+#[derive(Debug)]
+pub struct SweepAnswer {
+    /// What was asked.
+    pub asked: SweepAsked,
+    /// Extremes, failures and the front.
+    pub tally: Tally,
+    /// Where the rows are.
+    pub rows: Rows,
 }
 
-/// Takes in the rows of a file that is whole.
-pub(crate) fn read(asked: &Asked<'_>, path: &Path, tally: &mut Tally) -> Result<(), Failure> {
-    let mut lines = Lines::open(path)?;
-    let columns = asked.header().len();
-    lines.next()?;
-    while let Some(line) = lines.next()? {
-        read_row(&line, columns, asked.ranged).iter().for_each(|row| tally.row(row));
+impl Answer for SweepAnswer {
+    fn files(&self) -> &Files {
+        &self.asked.input.netlist.files
     }
-    Ok(())
+
+    fn doubts(&self) -> Vec<Diagnostic> {
+        self.asked.input.netlist.warnings.clone()
+    }
+
+    fn exit(&self) -> Exit {
+        let lost = self.tally.rows > 0 && self.tally.lost() == self.tally.rows;
+        if lost { Exit::Failed } else { Exit::Done }
+    }
 }
 
-impl View<'_> {
+impl SweepAnswer {
     pub(super) fn axes(&self) -> &[Column] {
         &self.asked.columns[..self.asked.axes()]
     }
@@ -189,26 +197,6 @@ impl View<'_> {
         notes
     }
 
-    /// How the command ends.
-    pub(crate) fn exit(&self, console: &Console) -> Exit {
-        match self.tally.rows > 0 && self.tally.lost() == self.tally.rows {
-            true => {
-                console.message("every candidate failed");
-                Exit::Failed
-            }
-            false => Exit::Done,
-        }
-    }
-
-    /// Draws where that was asked, beside a format that is written by itself.
-    pub(crate) fn pictures(&self, console: &Console) -> Result<(), Failure> {
-        if console.reports() {
-            console.add_report(lptn_report::report_of(self));
-        }
-        let drawing = console.plot.clone();
-        drawing.map_or(Ok(()), |drawing| console.draw(&self.figures(), &drawing))
-    }
-
     fn span(&self, row: Option<&Row>, place: usize) -> Value {
         let axes = self.axes();
         row.map_or(Value::Null, |row| {
@@ -226,15 +214,15 @@ impl View<'_> {
         let (columns, ranged) = (self.asked.header().len(), self.asked.ranged);
         let damaged = || io::Error::new(io::ErrorKind::InvalidData, "a row is damaged");
         let row = |line: &[u8]| json_row(line, columns, ranged).ok_or_else(damaged);
-        match self.rows {
+        match &self.rows {
             Rows::Kept(bytes) => {
                 json.texts("rows", bytes.split_inclusive(|byte| *byte == b'\n').map(row))
             }
             Rows::In(path) => {
                 let mut lines = Lines::open(path).map_err(|_| io::ErrorKind::NotFound)?;
-                let skipped = heading(self.asked);
+                let skipped = self.asked.heading();
                 let next = || loop {
-                    match lines.next() {
+                    match lines.next_line() {
                         Ok(Some(line)) if line == skipped => {}
                         Ok(Some(line)) => break Some(row(&line)),
                         Ok(None) => break None,
@@ -251,7 +239,7 @@ fn candidates(n: u64) -> String {
     count(usize::try_from(n).unwrap_or(usize::MAX), "candidate")
 }
 
-impl Page for View<'_> {
+impl Page for SweepAnswer {
     fn text(&self) -> Text {
         let mut text = Text::titled(self.asked.input.title());
         text.sentence("", &self.sentence());
@@ -295,11 +283,11 @@ impl Page for View<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.asked.input, Known::default())
+        about::about(&self.asked.input, Known::default())
     }
 }
 
-impl View<'_> {
+impl SweepAnswer {
     fn columns(&self) -> Vec<Value> {
         let one = |name: &str, unit: Option<&str>| json!({ "name": name, "unit": unit });
         let mut columns = vec![one("case", Some("1"))];

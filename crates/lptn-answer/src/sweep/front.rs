@@ -4,32 +4,32 @@ use super::row::Row;
 
 /// Those of the rows so far, by the first report upwards, the second falling; of equals the first.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Front {
+pub(super) struct Front {
     /// The places of the two reports among the numbers of a row; `None` where nothing is asked.
     places: Option<[usize; 2]>,
     rows: Vec<Row>,
 }
 
 impl Front {
-    pub(crate) fn new(places: Option<[usize; 2]>) -> Self {
+    pub(super) fn new(places: Option<[usize; 2]>) -> Self {
         Self { places, rows: Vec::new() }
     }
 
     /// The same for other rows.
-    pub(crate) fn part(&self) -> Self {
+    pub(super) fn part(&self) -> Self {
         Self::new(self.places)
     }
 
-    pub(crate) fn places(&self) -> Option<[usize; 2]> {
+    pub(super) fn places(&self) -> Option<[usize; 2]> {
         self.places
     }
 
-    pub(crate) fn rows(&self) -> &[Row] {
+    pub(super) fn rows(&self) -> &[Row] {
         &self.rows
     }
 
     /// Takes in a row that did not fail.
-    pub(crate) fn add(&mut self, row: &Row) {
+    pub(super) fn add(&mut self, row: &Row) {
         let Some([first, second]) = self.places else { return };
         let of = |row: &Row| (row.numbers[first], row.numbers[second]);
         let (a, b) = of(row);
@@ -46,7 +46,7 @@ impl Front {
     }
 
     /// Takes in those of the rows that follow.
-    pub(crate) fn append(&mut self, later: &Self) {
+    pub(super) fn append(&mut self, later: &Self) {
         later.rows.iter().for_each(|row| self.add(row));
     }
 }

@@ -6,14 +6,16 @@ use std::str::FromStr;
 
 /// The k-th of n parts, counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Shard {
-    pub(crate) k: u64,
-    pub(crate) n: u64,
+pub struct Shard {
+    /// Its number, from 1.
+    pub k: u64,
+    /// How many parts there are.
+    pub n: u64,
 }
 
 impl Shard {
     /// The cases of this part of so many, counted from 0.
-    pub(crate) fn range(self, cases: u64) -> Range<u64> {
+    pub fn range(self, cases: u64) -> Range<u64> {
         let at = |k: u64| {
             let place = u128::from(cases) * u128::from(k) / u128::from(self.n);
             u64::try_from(place).unwrap_or(cases)
@@ -22,12 +24,12 @@ impl Shard {
     }
 
     /// The folder of the part.
-    pub(crate) fn folder(self) -> String {
+    pub fn folder(self) -> String {
         format!("part-{}-of-{}", self.k, self.n)
     }
 
     /// The part whose folder is called this.
-    pub(crate) fn of_folder(name: &str) -> Option<Self> {
+    pub fn of_folder(name: &str) -> Option<Self> {
         let (k, n) = name.strip_prefix("part-")?.split_once("-of-")?;
         let shard = format!("{k}/{n}").parse().ok()?;
         (name == Self::folder(shard)).then_some(shard)

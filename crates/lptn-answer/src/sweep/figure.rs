@@ -4,14 +4,14 @@ use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Panel};
 
 use super::asked::Column;
-use super::page::View;
+use super::page::SweepAnswer;
 use super::row::Row;
 use super::tally::MOST_POINTS;
 
 /// A range that spans more than this is shown by its logarithms.
 const WIDE: f64 = 10.0;
 
-impl View<'_> {
+impl SweepAnswer {
     /// One parameter: every report over it, a panel for each unit. Several: every report over the
     /// first one as dots, one for each candidate, so that the front of what is possible is seen.
     pub(super) fn figure(&self) -> Figure {

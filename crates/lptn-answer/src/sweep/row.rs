@@ -2,12 +2,15 @@
 
 /// One row: the case, counted from 0, and its numbers as they are shown, axes first.
 #[derive(Debug, Default)]
-pub(crate) struct Row {
-    pub(crate) case: u64,
-    pub(crate) numbers: Vec<f64>,
-    pub(crate) outside: u64,
-    /// Empty unless it failed.
-    pub(crate) failed: String,
+pub struct Row {
+    /// The case, counted from 0.
+    pub case: u64,
+    /// Axes, then reports, in the units that are shown; NaN for what is not known.
+    pub numbers: Vec<f64>,
+    /// Laws outside the ranges in which they are known.
+    pub outside: u64,
+    /// The code of the error that it failed with, else empty.
+    pub failed: String,
 }
 
 impl Clone for Row {

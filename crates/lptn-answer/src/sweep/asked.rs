@@ -1,22 +1,25 @@
 //! What is swept: the study with its columns, and what determines its rows.
 
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use lptn_netlist::{Diagnostic, SweepStudy};
 use lptn_network::Item;
+use lptn_report::write_rows;
 use lptn_solve::PeriodicError;
 use lptn_study::sweep::{Cases, SweepError, SweepTask};
 use lptn_study::{FileHash, SiValue};
 use lptn_units::{Problem as _, Type, Unit};
 use serde_json::{Value, json};
 
-use super::args::SweepArgs;
+use super::lines::{Lines, read_row};
 use super::shard::Shard;
-use lptn_answer::about;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::{Failure, told};
-use lptn_answer::input::{self, Input, Studies};
+use super::tally::Tally;
+use crate::about;
+use crate::exit::Exit;
+use crate::failure::{Failure, told};
+use crate::input::{self, Input, Studies};
 
 const STUDIES: Studies = Studies {
     section: "sweep",
@@ -27,54 +30,79 @@ const STUDIES: Studies = Studies {
 };
 
 /// A column of numbers: how it is called, and the unit of its cells.
-pub(crate) struct Column {
-    pub(crate) name: String,
-    pub(crate) unit: Unit,
+#[derive(Clone, Debug)]
+pub struct Column {
+    /// Its name.
+    pub name: String,
+    /// The unit of its cells.
+    pub unit: Unit,
 }
 
 impl Column {
-    pub(crate) fn header(&self) -> String {
+    /// `name [unit]`.
+    pub fn header(&self) -> String {
         let unit = if self.unit.text == "1" { "-" } else { &self.unit.text };
         format!("{} [{unit}]", self.name)
     }
 }
 
-/// A sweep that is about to begin.
-pub(crate) struct Asked<'a> {
-    pub(crate) input: &'a Input,
-    pub(crate) task: SweepTask<'a>,
+/// A sweep of a netlist.
+#[derive(Clone, Debug, Default)]
+pub struct SweepQuestion {
+    /// The name of the study; `None` for the only one.
+    pub name: Option<String>,
+    /// The unit of temperatures; `None` for that of the netlist.
+    pub temperature_unit: Option<String>,
+    /// The part that is solved; `None` for all.
+    pub shard: Option<Shard>,
+}
+
+/// A sweep that is ready to start.
+#[derive(Debug)]
+pub struct SweepAsked {
+    /// The netlist.
+    pub input: Arc<Input>,
+    pub(super) task: SweepTask,
     /// The axes, then the reports.
-    pub(crate) columns: Vec<Column>,
-    pub(crate) shard: Option<Shard>,
+    pub columns: Vec<Column>,
+    /// The part that is solved.
+    pub shard: Option<Shard>,
     /// The cases that are solved, counted from 0.
-    pub(crate) range: Range<u64>,
-    /// Whether some law may be outside of the range in which it is known.
-    pub(crate) ranged: bool,
+    pub range: Range<u64>,
+    /// Whether a column counts laws outside the ranges in which they are known.
+    pub ranged: bool,
 }
 
 /// The study of this name, or the only one.
-pub(crate) fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a SweepStudy, Failure> {
+///
+/// # Errors
+/// No such study, or several if no name is given.
+pub fn study<'a>(input: &'a Input, name: Option<&str>) -> Result<&'a SweepStudy, Failure> {
     let sweeps = &input.netlist.studies.sweeps;
     STUDIES.find(input, (sweeps, |study| &study.name), name)
 }
 
-/// Where its files go unless something else is said.
-pub(crate) fn folder(input: &Input, study: &SweepStudy) -> PathBuf {
+/// The usual folder for its files.
+pub fn folder(input: &Input, study: &SweepStudy) -> PathBuf {
     PathBuf::from("out").join(&input.text.stem).join(&study.name)
 }
 
-impl<'a> Asked<'a> {
-    pub(crate) fn new(args: &SweepArgs, input: &'a Input) -> Result<Self, Failure> {
+impl SweepQuestion {
+    /// Checks the question for a netlist.
+    ///
+    /// # Errors
+    /// A study that does not exist or cannot be swept, and a unit that is not one of temperatures.
+    pub fn of(&self, input: Arc<Input>) -> Result<SweepAsked, Failure> {
         let netlist = &input.netlist;
-        let study = study(input, args.name.as_deref())?;
-        let unit = input::temperature_unit(args.scale.temperature_unit.as_deref(), netlist)?;
+        let study = study(&input, self.name.as_deref())?;
+        let unit = input::temperature_unit(self.temperature_unit.as_deref(), netlist)?;
         let plan = study.plan(&netlist.network).map_err(|diagnostics| Failure {
             exit: Exit::Input,
             files: netlist.files.clone(),
             diagnostics,
         })?;
         let cases = Cases::new(plan);
-        let range = args.shard.map_or(0..cases.count(), |shard| shard.range(cases.count()));
+        let range = self.shard.map_or(0..cases.count(), |shard| shard.range(cases.count()));
         let axes = cases.parameters().map(|id| Column {
             name: netlist.network.parameters()[id.index()].name.clone(),
             unit: input.unit_of(id),
@@ -84,28 +112,32 @@ impl<'a> Asked<'a> {
             .iter()
             .map(|report| Column { name: report.name.clone(), unit: unit_of(report.ty, &unit) });
         let columns = axes.chain(reports).collect();
-        let task =
-            SweepTask::new(netlist, study, cases).map_err(|error| refused(input, study, &error))?;
+        let task = SweepTask::new(netlist.clone(), study.clone(), cases);
+        let task = task.map_err(|error| refused(&input, study, &error))?;
         let ranged = !netlist.network.ranged().is_empty();
-        Ok(Self { input, task, columns, shard: args.shard, range, ranged })
+        Ok(SweepAsked { task, columns, shard: self.shard, range, ranged, input })
     }
+}
 
-    pub(crate) fn study(&self) -> &'a SweepStudy {
+impl SweepAsked {
+    /// The study.
+    pub fn study(&self) -> &SweepStudy {
         self.task.study()
     }
 
-    pub(crate) fn axes(&self) -> usize {
+    /// The number of axes.
+    pub fn axes(&self) -> usize {
         self.task.cases().parameters().len()
     }
 
     /// The folder of the files: that of the part, where it is one.
-    pub(crate) fn folder(&self, output: Option<PathBuf>) -> PathBuf {
-        let whole = output.unwrap_or_else(|| folder(self.input, self.study()));
+    pub fn folder(&self, output: Option<PathBuf>) -> PathBuf {
+        let whole = output.unwrap_or_else(|| folder(&self.input, self.study()));
         self.shard.map_or(whole.clone(), |shard| whole.join(shard.folder()))
     }
 
-    /// The first line of the file.
-    pub(crate) fn header(&self) -> Vec<String> {
+    /// The cells of the first line.
+    pub fn header(&self) -> Vec<String> {
         let mut header = vec!["case [-]".to_owned()];
         header.extend(self.columns.iter().map(Column::header));
         header.extend(self.ranged.then(|| "outside [-]".to_owned()));
@@ -113,8 +145,37 @@ impl<'a> Asked<'a> {
         header
     }
 
+    /// The first line of the file, with its end.
+    pub fn heading(&self) -> Vec<u8> {
+        let mut line = Vec::new();
+        // a vector takes everything
+        drop(write_rows(&[self.header()], &mut line));
+        line
+    }
+
+    /// An empty tally of its rows.
+    pub fn tally(&self) -> Tally {
+        let axes = self.axes();
+        let (reports, front) = (self.columns.len() - axes, self.study().front);
+        Tally::new((axes, reports), front, self.range.end - self.range.start)
+    }
+
+    /// Takes in the rows of a file that is whole.
+    ///
+    /// # Errors
+    /// A file that cannot be read.
+    pub fn read(&self, path: &Path, tally: &mut Tally) -> Result<(), Failure> {
+        let mut lines = Lines::open(path)?;
+        let columns = self.header().len();
+        lines.next_line()?;
+        while let Some(line) = lines.next_line()? {
+            read_row(&line, columns, self.ranged).iter().for_each(|row| tally.row(row));
+        }
+        Ok(())
+    }
+
     /// Everything that determines a row: two sweeps that agree in it have the same rows.
-    pub(crate) fn identity(&self) -> String {
+    pub fn identity(&self) -> String {
         let hashes: Vec<String> =
             about::hashes(&self.input.netlist).into_iter().map(|file| file.sha256).collect();
         let network = &self.input.netlist.network;
@@ -132,12 +193,13 @@ impl<'a> Asked<'a> {
         lptn_study::sha256(all.to_string().as_bytes())
     }
 
-    pub(crate) fn inputs(&self) -> Vec<FileHash> {
+    /// Every file that was read, with its hash.
+    pub fn inputs(&self) -> Vec<FileHash> {
         about::hashes(&self.input.netlist)
     }
 
     /// What the manifest says of the sweep.
-    pub(crate) fn record(&self) -> Value {
+    pub fn record(&self) -> Value {
         let (study, plan) = (self.study(), self.task.cases().plan());
         json!({
             "name": study.name,

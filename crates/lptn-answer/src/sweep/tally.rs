@@ -6,20 +6,20 @@ use super::front::Front;
 use super::row::Row;
 
 /// Rows that are kept for a table or a picture, at most.
-pub(crate) const MOST_POINTS: u64 = 2000;
+pub(super) const MOST_POINTS: u64 = 2000;
 
 /// The least and the largest value of a report, each with its row.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Span {
-    pub(crate) least: Option<Row>,
-    pub(crate) largest: Option<Row>,
+pub(super) struct Span {
+    pub(super) least: Option<Row>,
+    pub(super) largest: Option<Row>,
 }
 
 /// How many there were, and the first of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Count {
-    pub(crate) count: u64,
-    pub(crate) first: u64,
+pub(super) struct Count {
+    pub(super) count: u64,
+    pub(super) first: u64,
 }
 
 impl Count {
@@ -33,21 +33,22 @@ impl Count {
 
 /// What is kept of the rows so far.
 #[derive(Clone, Debug)]
-pub(crate) struct Tally {
+pub struct Tally {
     axes: usize,
     /// Every so manieth row is kept.
     stride: u64,
-    pub(crate) rows: u64,
-    pub(crate) failed: BTreeMap<String, Count>,
-    pub(crate) outside: Count,
-    pub(crate) spans: Vec<Span>,
-    pub(crate) points: Vec<Row>,
-    pub(crate) front: Front,
+    /// Rows so far.
+    pub rows: u64,
+    pub(super) failed: BTreeMap<String, Count>,
+    pub(super) outside: Count,
+    pub(super) spans: Vec<Span>,
+    pub(super) points: Vec<Row>,
+    pub(super) front: Front,
 }
 
 impl Tally {
     /// Of so many axes and reports, of two of which the front is asked for.
-    pub(crate) fn new(
+    pub(super) fn new(
         (axes, reports): (usize, usize),
         front: Option<[usize; 2]>,
         cases: u64,
@@ -65,7 +66,7 @@ impl Tally {
     }
 
     /// Takes in the next row.
-    pub(crate) fn row(&mut self, row: &Row) {
+    pub fn row(&mut self, row: &Row) {
         self.rows += 1;
         if row.case.is_multiple_of(self.stride) {
             self.points.push(row.clone());
@@ -92,7 +93,7 @@ impl Tally {
     }
 
     /// Takes in what was kept of the rows that follow.
-    pub(crate) fn append(&mut self, later: Self) {
+    pub(super) fn append(&mut self, later: Self) {
         self.rows += later.rows;
         self.points.extend(later.points);
         self.front.append(&later.front);
@@ -118,7 +119,7 @@ impl Tally {
     }
 
     /// An empty one, for a part of the rows.
-    pub(crate) fn part(&self) -> Self {
+    pub(super) fn part(&self) -> Self {
         Self {
             rows: 0,
             failed: BTreeMap::new(),
@@ -131,7 +132,7 @@ impl Tally {
     }
 
     /// How many have failed.
-    pub(crate) fn lost(&self) -> u64 {
+    pub fn lost(&self) -> u64 {
         self.failed.values().map(|count| count.count).sum()
     }
 }
