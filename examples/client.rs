@@ -1,41 +1,35 @@
-//! A client of the library: candidates of one netlist with their table, doubts and limits as JSON,
-//! and a controller of its own that steps a simulation. `cargo run --release --example client`
+//! A client of the library: candidates of one netlist with their table, doubts and verdict, one of
+//! them as JSON, and a controller of its own that steps a simulation.
+//! `cargo run --release --example client`
 #![allow(clippy::print_stdout)]
 
-use lptn::analysis::{LimitResult, RunAnalysis, Simulation};
-use lptn::answer::{bound, limits, trust};
-use lptn::network::Item;
+use std::sync::Arc;
+
 use lptn::prelude::*;
-use lptn::solve::{Proceed, RecordedNodes};
 
 fn main() -> Result<(), lptn::Error> {
-    let netlist = lptn::read("networks/gearbox_fan.toml".as_ref())?;
-    let (network, unit) = (&netlist.network, &netlist.temperature_unit);
-    let Some(settings) = &netlist.run else { return Ok(()) };
-    let steel = network.node("steel")?;
-    let columns = Selection::of(network, |item| item == Item::Node(steel));
-
+    let question = RunQuestion { select: vec!["*.T".into()], ..RunQuestion::default() };
     for fan in ["0 W/K", "1.5 W/K", "2.5 W/K"] {
-        let system = ThermalSystem::of(network, &netlist.overrides().with("G_fan", fan)?)?;
-        let run = RunAnalysis::of(system.network(), settings).every(Time::minutes(30.0));
-        let run = run.keeping(RecordedNodes::All).watching([steel]);
-        let answer = run.solve(&system, &mut |_| Proceed::Continue)?;
-        println!("G_fan = {fan}");
-        lptn::report::write_csv(&Table::of_solution(&answer, &columns, unit), std::io::stdout())?;
-        for doubt in
-            trust::doubts(&netlist, &answer.trust, true).iter().chain(&bound::doubts(&answer))
-        {
+        let input = Input::read("networks/gearbox_fan.toml")?.set(&[&format!("G_fan = {fan}")])?;
+        let answer = question.ask(Arc::new(input), &Nobody)?;
+        println!("--- G_fan = {fan}\n{}", answer.to_table());
+        for doubt in answer.doubts() {
             println!("doubt [{}]: {}", doubt.code, doubt.message);
         }
-        let fared: Vec<LimitResult> = answer.limits().iter().map(LimitResult::of_run).collect();
-        let members = limits::members(system.network(), &fared, unit).unwrap_or_default();
-        for (limit, member) in members {
-            println!("{limit}: {member}");
+        match answer.exit() {
+            Exit::Done => println!("keeps its limits"),
+            _ => answer.verdict().broken.iter().for_each(|broken| println!("{broken}")),
         }
     }
 
-    // a controller that the netlist does not know: less power where the steel is warm
-    let mut simulation = Simulation::new(network, settings)?;
+    let fans = "networks/gearbox_fan.toml";
+    let steady = SteadyQuestion::default().ask(Arc::new(Input::read(fans)?), &Nobody)?;
+    println!("--- steady state as JSON\n{}", steady.to_json());
+
+    // a controller that the netlist does not know: less power if the steel is warm
+    let input = Input::read(fans)?;
+    let Some(settings) = &input.netlist.run else { return Ok(()) };
+    let mut simulation = Simulation::new(&input.netlist.network, settings)?;
     println!("{:>8}{:>12}{:>10}", "time", "steel", "power");
     for minute in 1..=60 {
         let warm = simulation.temperature("steel")?.in_celsius();

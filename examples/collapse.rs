@@ -2,9 +2,8 @@
 //! runs. `cargo run --release --example collapse`
 #![allow(clippy::print_stdout)]
 
-use lptn::network::NodeId;
 use lptn::prelude::*;
-use lptn::reduce::{Definition, Reduction, ReductionOptions, fit_exponential};
+use lptn::{Definition, NodeId, Reduction, ReductionOptions, fit_exponential};
 
 const POWER: f64 = 220.6;
 

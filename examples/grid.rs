@@ -4,7 +4,7 @@
 
 use std::f64::consts::PI;
 
-use lptn::network::NodeId;
+use lptn::NodeId;
 use lptn::prelude::*;
 const N: usize = 100;
 const SOURCE: (usize, usize) = (30, 60);

@@ -7,7 +7,7 @@
 use std::error::Error;
 use std::fmt::Write as _;
 
-use lptn::solve::ExactSolution;
+use lptn::ExactSolution;
 use rand_distr::{Distribution as _, StandardNormal, Uniform};
 use rand_pcg::Pcg64;
 

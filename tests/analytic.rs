@@ -2,8 +2,8 @@
 
 use crate::support;
 
-use lptn::network::{Area, FilmCoefficient, NodeId, Path};
 use lptn::prelude::*;
+use lptn_network::{Area, FilmCoefficient, NodeId, Path};
 use support::{assembled, shipped, transient};
 
 /// `tests/validation` case "gearbox_two_node": the closed form of the two-node network, steel then
@@ -272,7 +272,7 @@ fn a_peak_between_the_rows_is_seen() {
     let heat = b.expression("100 [W] * sin(2 * pi * t / 200 [s])", None).unwrap();
     b.source("heat", node, heat);
     let mut run = Transient::until(Time(200.0)).at(&[]);
-    run.watch = vec![lptn::solve::Watch { node, level: Some(273.15 + 10.0) }];
+    run.watch = vec![lptn_solve::Watch { node, level: Some(273.15 + 10.0) }];
     let solution = run.solve(&assembled(b)).unwrap();
     let (w, rate) = (2.0 * std::f64::consts::PI / 200.0, 0.01);
     let exact = |t: f64| {

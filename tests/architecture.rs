@@ -278,7 +278,27 @@ fn the_prelude_is_small() {
     let (_, prelude) = text.split_once("pub mod prelude").expect("a prelude");
     let words = prelude.split(|c: char| !c.is_alphanumeric() && c != '_');
     let names: Vec<&str> = words.filter(|word| word.starts_with(char::is_uppercase)).collect();
-    assert!((10..=20).contains(&names.len()), "{names:?}");
+    assert!((10..=30).contains(&names.len()), "{names:?}");
+}
+
+/// A client reads one page: the facade exports items, and no crate as a whole.
+#[test]
+fn the_facade_is_a_page() {
+    let text = std::fs::read_to_string(root().join("crates/lptn/src/lib.rs")).expect("the facade");
+    let (own, _) = text.split_once("pub mod prelude").expect("a prelude");
+    let exports: Vec<&str> = own.split("pub use ").skip(1).collect();
+    let whole = |export: &&&str| {
+        let list = export.split(';').next().unwrap_or_default();
+        list.starts_with("lptn_") && !list.contains("::")
+    };
+    assert_eq!(exports.iter().filter(whole).count(), 0, "a crate is exported whole");
+    let names = exports.iter().flat_map(|export| {
+        let list = export.split(';').next().unwrap_or_default();
+        let (_, list) = list.split_once("::").unwrap_or_default();
+        list.split([',', '{', '}']).map(str::trim).filter(|name| !name.ends_with("::"))
+    });
+    let names: Vec<&str> = names.filter(|name| !name.is_empty()).collect();
+    assert!((100..=180).contains(&names.len()), "{} items", names.len());
 }
 
 /// `?` makes an `lptn::Error` of whatever a call returns. Those of the integrator stand inside of

@@ -2,9 +2,9 @@
 
 use crate::support;
 
-use lptn::netlist::Netlist;
 use lptn::prelude::*;
-use lptn::study::{Candidate, SortKey, order};
+use lptn_netlist::Netlist;
+use lptn_study::{Candidate, SortKey, order};
 
 fn read(name: &str) -> Netlist {
     let path = support::networks().join("candidates").join(name);

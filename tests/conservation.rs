@@ -2,8 +2,8 @@
 
 use crate::support;
 
-use lptn::network::{End, NodeId};
 use lptn::prelude::*;
+use lptn_network::{End, NodeId};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use support::assembled;

@@ -5,10 +5,10 @@
 
 use crate::support;
 
-use lptn::network::NodeId;
 use lptn::prelude::*;
-use lptn::solve::{Proceed, Progress, Statistics, Watch};
-use lptn::study::Candidate;
+use lptn_network::NodeId;
+use lptn_solve::{Proceed, Progress, Statistics, Watch};
+use lptn_study::Candidate;
 use support::{StiffLadder, grid, shipped, transient};
 
 /// What is counted, in the order of the ceilings.

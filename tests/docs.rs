@@ -30,7 +30,7 @@ fn every_toml_block_parses() {
             };
             let place = format!("{}:{}", page.display(), block.lines.start);
             // CSV files are looked for beside the page
-            match lptn::netlist::parse_file(Path::new(&place), netlist.as_bytes()) {
+            match lptn_netlist::parse_file(Path::new(&place), netlist.as_bytes()) {
                 Err(error) => panic!("{place}\n{netlist}\n{error}"),
                 Ok(read) => expands(&read, Path::new(&place)),
             }
@@ -42,15 +42,15 @@ fn every_toml_block_parses() {
 
 /// The expansion of a netlist is read as the same network, written as the same text, and runs to
 /// the same temperatures.
-fn expands(netlist: &lptn::netlist::Netlist, place: &Path) {
+fn expands(netlist: &lptn_netlist::Netlist, place: &Path) {
     if netlist.not_flat().is_some() {
         return;
     }
     let text = netlist.expanded();
-    let again = lptn::netlist::prove(&text, place, &netlist.network, (0.0, 3600.0));
+    let again = lptn_netlist::prove(&text, place, &netlist.network, (0.0, 3600.0));
     let again = again.unwrap_or_else(|error| panic!("{}\n{text}\n{error}", place.display()));
     assert_eq!(again.expanded(), text, "{}", place.display());
-    let end = |netlist: &lptn::netlist::Netlist| {
+    let end = |netlist: &lptn_netlist::Netlist| {
         let system =
             lptn::prelude::ThermalSystem::assemble(&netlist.network).expect("it assembles");
         netlist.run.as_ref()?;

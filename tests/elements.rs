@@ -15,10 +15,10 @@ use crate::support;
 
 use std::path::{Path, PathBuf};
 
-use lptn::laws::{Formula, Kind};
-use lptn::netlist::Netlist;
 use lptn::prelude::*;
-use lptn::units::{Unit, parse_quantity};
+use lptn_laws::{Formula, Kind};
+use lptn_netlist::Netlist;
+use lptn_units::{Unit, parse_quantity};
 
 /// The tolerance of the runs in K; what is promised is ten times as much.
 const TOLERANCE: f64 = 1e-6;

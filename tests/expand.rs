@@ -15,10 +15,10 @@ fn files() -> Vec<String> {
 }
 
 /// The network as it is read from its expansion; CSV files are looked for beside the original.
-fn expanded(name: &str, text: &str) -> (lptn::netlist::Netlist, ThermalSystem) {
+fn expanded(name: &str, text: &str) -> (lptn_netlist::Netlist, ThermalSystem) {
     let path = networks().join(name);
     let netlist =
-        lptn::netlist::parse_file(&path, text.as_bytes()).unwrap_or_else(|e| panic!("{name}: {e}"));
+        lptn_netlist::parse_file(&path, text.as_bytes()).unwrap_or_else(|e| panic!("{name}: {e}"));
     let system = ThermalSystem::assemble(&netlist.network).expect("it assembles");
     (netlist, system)
 }
@@ -38,7 +38,7 @@ fn steady_states_and_runs_are_the_same_to_the_last_digit() {
         }
         let (again, flat) = expanded(&name, &netlist.expanded());
         assert_eq!(again.expanded(), netlist.expanded(), "{name}");
-        if let Err(error) = lptn::netlist::prove(
+        if let Err(error) = lptn_netlist::prove(
             &netlist.expanded(),
             &networks().join(&name),
             &netlist.network,
@@ -52,7 +52,7 @@ fn steady_states_and_runs_are_the_same_to_the_last_digit() {
                 .map_err(|error| error.code())
         };
         assert_eq!(steady(&flat), steady(&system), "{name}");
-        let run = |netlist: &lptn::netlist::Netlist, system: &ThermalSystem| {
+        let run = |netlist: &lptn_netlist::Netlist, system: &ThermalSystem| {
             let solution = transient(netlist).solve(system).expect("it runs");
             (bits(solution.times()), bits(solution.row(solution.times().len() - 1)))
         };

@@ -3,9 +3,9 @@
 
 use std::f64::consts::PI;
 
-use lptn::netlist::{Gearbox, Member};
 use lptn::prelude::*;
-use lptn::study::{GearPoint, GearState, GearTask};
+use lptn_netlist::{Gearbox, Member};
+use lptn_study::{GearPoint, GearState, GearTask};
 
 const SUN: f64 = 18.0;
 const PLANET: f64 = 42.0;

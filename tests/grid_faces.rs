@@ -4,9 +4,9 @@
 
 use crate::support;
 
-use lptn::netlist::Netlist;
-use lptn::network::{ConductorFlow, ConductorId, GridValue, Node};
 use lptn::prelude::*;
+use lptn_netlist::Netlist;
+use lptn_network::{ConductorFlow, ConductorId, GridValue, Node};
 use support::{close, column, parsed, settled};
 
 /// A plate with everything that may end at a face.

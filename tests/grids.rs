@@ -5,9 +5,9 @@
 
 use crate::support;
 
-use lptn::netlist::Netlist;
-use lptn::network::Item;
 use lptn::prelude::*;
+use lptn_netlist::Netlist;
+use lptn_network::Item;
 
 use support::{close, column, parsed, settled};
 

@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 use std::io::{Error, ErrorKind};
 use std::path::Path;
 
-use lptn::netlist::{Netlist, parse_with};
-use lptn::network::End;
 use lptn::prelude::*;
+use lptn_netlist::{Netlist, parse_with};
+use lptn_network::End;
 
 const SIDE: usize = 7;
 
@@ -101,7 +101,7 @@ fn an_import_equals_the_same_network_in_toml_to_the_bit() {
     let (toml, csv) = (toml(), csv());
     let (a, b) = (&toml.network, &csv.network);
     assert_eq!((a.nodes().len(), a.conductors().len()), (b.nodes().len(), b.conductors().len()));
-    let ends = |c: &lptn::network::Conductor| [c.from, c.to];
+    let ends = |c: &lptn_network::Conductor| [c.from, c.to];
     let all = |network: &Network| network.conductors().iter().flat_map(ends).collect::<Vec<End>>();
     assert_eq!(all(a), all(b));
     let systems = [a, b].map(|network| ThermalSystem::assemble(network).expect("it assembles"));

@@ -8,12 +8,12 @@ use crate::kind_page;
 use std::path::{Path, PathBuf};
 
 use kind_page::tables;
-use lptn::assembly::ThermalSystem;
-use lptn::laws::{FieldDeclaration, Formula, Kind, Range};
-use lptn::netlist::Netlist;
-use lptn::network::{ConductorFlow, Item, Network};
-use lptn::solve::{Adjoint, SteadyState};
-use lptn::units::{parse_quantity, suggest};
+use lptn_assembly::ThermalSystem;
+use lptn_laws::{FieldDeclaration, Formula, Kind, Range};
+use lptn_netlist::Netlist;
+use lptn_network::{ConductorFlow, Item, Network};
+use lptn_solve::{Adjoint, SteadyState};
+use lptn_units::{parse_quantity, suggest};
 
 /// Every kind with each of its laws.
 fn all() -> Vec<(Kind, Formula)> {

@@ -8,8 +8,8 @@ fn close(found: f64, exact: f64, within: f64) {
     assert!((found - exact).abs() <= within, "{found} is not {exact} within {within:e}");
 }
 
-fn solved(text: &str, transient: &Transient) -> lptn::solve::Solution {
-    let netlist = lptn::netlist::parse("net.toml", text).unwrap_or_else(|e| panic!("{e}"));
+fn solved(text: &str, transient: &Transient) -> lptn_solve::Solution {
+    let netlist = lptn_netlist::parse("net.toml", text).unwrap_or_else(|e| panic!("{e}"));
     transient.solve(&ThermalSystem::assemble(&netlist.network).unwrap()).unwrap()
 }
 
@@ -117,7 +117,7 @@ fn steady_margins_have_the_sign_of_the_limit() {
                 into = \"a\", P = \"5 W\" }\n\
                 [limit]\nhot = { of = \"a.T\", below = \"27 degC\" }\nwarm = { of = \"a.T\", above \
                 = \"27 degC\" }\n";
-    let netlist = lptn::netlist::parse("net.toml", text).unwrap();
+    let netlist = lptn_netlist::parse("net.toml", text).unwrap();
     let system = ThermalSystem::assemble(&netlist.network).unwrap();
     let margins =
         SteadyState::solve(&system, 0.0).unwrap().limit_margins(&netlist.network, 0.0).unwrap();
@@ -378,11 +378,11 @@ fn limits_with_bends_are_as_good_as_temperatures() {
             bodies.text()
         );
         let netlist =
-            lptn::netlist::parse("net.toml", &net).unwrap_or_else(|e| panic!("{e}\n{net}"));
+            lptn_netlist::parse("net.toml", &net).unwrap_or_else(|e| panic!("{e}\n{net}"));
         let network = &netlist.network;
         let transient = Transient::of(network, netlist.run.as_ref().unwrap()).at(&[]);
-        let of_report = lptn::solve::Selection::matching(network, &["bent".to_owned()]).unwrap();
-        let window = lptn::solve::Window { name: "all".into(), from: 0.0, to: stop, of: of_report };
+        let of_report = lptn_solve::Selection::matching(network, &["bent".to_owned()]).unwrap();
+        let window = lptn_solve::Window { name: "all".into(), from: 0.0, to: stop, of: of_report };
         let transient = Transient { windows: vec![window], tolerance: TOLERANCE, ..transient };
         let system = ThermalSystem::assemble(network).unwrap();
         let solution = transient.solve(&system).unwrap();

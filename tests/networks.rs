@@ -5,7 +5,7 @@
 use crate::support;
 
 use lptn::prelude::*;
-use lptn::solve::{Column, RecordedNodes};
+use lptn_solve::{Column, RecordedNodes};
 use support::{networks, shipped, transient};
 
 fn files() -> Vec<String> {

@@ -6,8 +6,8 @@
 use crate::support;
 use crate::validation_helper as validation;
 
-use lptn::solve::Proceed;
-use lptn::study::{Demand, Moments, SizeTask, size};
+use lptn_solve::Proceed;
+use lptn_study::{Demand, Moments, SizeTask, size};
 use support::shipped;
 use validation::{Report, judge_network, own_folder};
 

@@ -4,7 +4,7 @@
 use crate::support;
 
 use lptn::prelude::*;
-use lptn::reduce::{ExponentialFit, fit_exponential};
+use lptn_reduce::{ExponentialFit, fit_exponential};
 use support::{close, column, shipped, transient};
 
 /// Start of every node in degC.
@@ -16,7 +16,7 @@ fn record() -> Table {
     let mut transient = transient(&netlist).tolerance(1e-7);
     transient.output = OutputTimes::Every(0.2);
     let solution = transient.solve(&system).expect("it runs");
-    let celsius = lptn::units::Unit::parse("degC").expect("a unit");
+    let celsius = lptn_units::Unit::parse("degC").expect("a unit");
     Table::of_solution(&solution, &Selection::all(&netlist.network), &celsius)
 }
 

@@ -2,9 +2,9 @@
 
 use crate::support;
 
-use lptn::network::{Area, ConductorKind, Context, Path};
 use lptn::prelude::*;
-use lptn::solve::{RunStatus, TransientError, Watch};
+use lptn_network::{Area, ConductorKind, Context, Path};
+use lptn_solve::{RunStatus, TransientError, Watch};
 use support::assembled;
 
 /// The ledger of a run that broke off held no heat of sources and boundaries at all.
@@ -353,7 +353,7 @@ fn time_constants_of_nodes_count_the_streams_into_them() {
     b.conductor("back", ConductorKind::Advection, (tank.into(), sump.into()), rate(-90.0));
     b.resistor("skin", sump, cooler, Conductance(10.0));
     b.resistor("foot", tank, cooler, Conductance(10.0));
-    let stiffness = lptn::solve::Stiffness::of(&b.build().unwrap()).unwrap();
+    let stiffness = lptn_solve::Stiffness::of(&b.build().unwrap()).unwrap();
     assert_eq!((stiffness.slowest.0, stiffness.fastest.0), (sump, tank));
     assert!(
         (stiffness.slowest.1 - 30.0).abs() < 1e-12 && (stiffness.fastest.1 - 8.0).abs() < 1e-12

@@ -8,7 +8,7 @@
 //! numbers are from mpmath 1.3 with 25 digits.
 
 use lptn::prelude::*;
-use lptn::solve::{Others, SteadyError, StopReason, TransientError};
+use lptn_solve::{Others, SteadyError, StopReason, TransientError};
 
 /// T0 = 20 degC, b = 0.02 /K and R = 0.8 K/W, so that e b R P0 = 1 at 22.99246507 W. `parts` is the
 /// rest of the network between `core` and `air`.

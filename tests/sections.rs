@@ -3,8 +3,8 @@
 
 use std::path::Path;
 
-use lptn::laws::Kind;
-use lptn::netlist::{Role, SectionDeclaration, format};
+use lptn_laws::Kind;
+use lptn_netlist::{Role, SectionDeclaration, format};
 
 fn is_path(section: &SectionDeclaration) -> bool {
     Kind::ALL.iter().any(|kind| kind.declaration().section == section.name)

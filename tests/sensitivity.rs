@@ -5,8 +5,8 @@
 
 use crate::support;
 
-use lptn::network::ParameterId;
 use lptn::prelude::*;
+use lptn_network::ParameterId;
 use support::{parsed, transient};
 
 /// Central differences of runs with a tolerance of 1e-10 K and this relative change of a parameter.

@@ -5,8 +5,8 @@
 
 use crate::support;
 
-use lptn::network::ParameterId;
 use lptn::prelude::*;
+use lptn_network::ParameterId;
 use support::{parsed, transient};
 
 #[test]

@@ -5,10 +5,10 @@
 
 use crate::support;
 
-use lptn::network::NodeId;
 use lptn::prelude::*;
-use lptn::reduce::{Definition, Reduction, ReductionOptions, fit_exponential};
-use lptn::solve::Modes;
+use lptn_network::NodeId;
+use lptn_reduce::{Definition, Reduction, ReductionOptions, fit_exponential};
+use lptn_solve::Modes;
 
 const STEEL: f64 = 1235.0;
 const ALUMINIUM: f64 = 1424.0;

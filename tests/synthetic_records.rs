@@ -5,9 +5,9 @@ use crate::synthetic_records_helper as synthetic_records;
 use std::f64::consts::TAU;
 use std::path::PathBuf;
 
-use lptn::fit::law::{LossLaw, Run, RunReference, RunsSettings, RunsStudy};
-use lptn::fit::step::{Capacity, Sensor};
-use lptn::netlist::{RecordQuery, read_record};
+use lptn_fit::law::{LossLaw, Run, RunReference, RunsSettings, RunsStudy};
+use lptn_fit::step::{Capacity, Sensor};
+use lptn_netlist::{RecordQuery, read_record};
 
 /// The truth, as the README states it.
 const ALPHA: f64 = 87e-6;

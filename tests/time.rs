@@ -7,10 +7,10 @@
 use std::f64::consts::PI;
 
 use lptn::prelude::*;
-use lptn::solve::{Selection, Solution, Window};
+use lptn_solve::{Selection, Solution, Window};
 
 fn system(text: &str) -> ThermalSystem {
-    let netlist = lptn::netlist::parse("net.toml", text).unwrap_or_else(|e| panic!("{e}"));
+    let netlist = lptn_netlist::parse("net.toml", text).unwrap_or_else(|e| panic!("{e}"));
     ThermalSystem::assemble(&netlist.network).unwrap()
 }
 
@@ -102,7 +102,7 @@ fn a_peak_of_a_table_of_time_and_temperature_is_met() {
     );
     std::fs::write(folder.join("net.toml"), text).unwrap();
     let path = folder.join("net.toml");
-    let netlist = lptn::netlist::read(&path).unwrap_or_else(|e| panic!("{e}"));
+    let netlist = lptn_netlist::read(&path).unwrap_or_else(|e| panic!("{e}"));
     let system = ThermalSystem::assemble(&netlist.network).unwrap();
     let solution = Transient::until(Time(1e4)).every(Time(500.0)).solve(&system).unwrap();
     // 0.5 W/K at the tip, so 0.5 W/K times 30 s
@@ -220,7 +220,7 @@ fn limits_follow_what_only_they_read() {
         let [step, compared, kink, saw, pulse, kept] = solution.limits() else {
             panic!("six limits")
         };
-        let is = |limit: &lptn::solve::LimitSeen, margin: f64, worst: f64, broken: f64| {
+        let is = |limit: &lptn_solve::LimitSeen, margin: f64, worst: f64, broken: f64| {
             close(limit.margin, margin, 1e-6);
             close(limit.worst_at, worst, 1e-3);
             close(limit.broken_at.unwrap(), broken, 1e-6);

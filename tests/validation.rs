@@ -13,7 +13,7 @@ use crate::validation_helper as validation;
 
 use std::path::{Path, PathBuf};
 
-use lptn::solve::{available_threads, in_parallel};
+use lptn_solve::{available_threads, in_parallel};
 use serde_json::{Value, json};
 use validation::{Report, cases, judge, own_folder};
 

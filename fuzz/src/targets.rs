@@ -5,12 +5,12 @@
 use std::io;
 use std::path::Path;
 
-use lptn::netlist::{
+use lptn::prelude::*;
+use lptn_netlist::{
     Files, Netlist, RecordQuery, Rejected, parse_bytes, parse_with, read_record, read_sheet,
 };
-use lptn::prelude::*;
-use lptn::solve::{Proceed, RunStatus};
-use lptn::units::{
+use lptn_solve::{Proceed, RunStatus};
+use lptn_units::{
     Dimension, Expression, Scope, Symbol, Type, Unit, UnitError, format_number, parse_quantity,
     parse_value,
 };
@@ -58,7 +58,7 @@ fn rejected(rejected: &Rejected) {
 }
 
 /// Every place can be shown.
-fn places(files: &Files, diagnostics: &[lptn::netlist::Diagnostic]) {
+fn places(files: &Files, diagnostics: &[lptn_netlist::Diagnostic]) {
     for diagnostic in diagnostics {
         let _ = files.plain(diagnostic);
         let Some(span) = diagnostic.place() else { continue };
@@ -119,7 +119,7 @@ impl Scope for Names {
         NAMES.iter().map(|(name, ..)| (*name).to_owned()).collect()
     }
 
-    fn table(&self, _: &str) -> Option<lptn::units::TableSymbol> {
+    fn table(&self, _: &str) -> Option<lptn_units::TableSymbol> {
         None
     }
 
@@ -205,7 +205,7 @@ fn solved(netlist: &Netlist) {
         Err(error) => assert!(!error.to_string().is_empty()),
     }
     let Some(run) = &netlist.run else { return };
-    let mut transient = lptn::solve::Transient::of(&netlist.network, run);
+    let mut transient = lptn_solve::Transient::of(&netlist.network, run);
     if transient.rows().is_ok_and(|rows| rows.len() as f64 > ROWS) {
         transient.output = OutputTimes::Every((run.stop - run.start) / ROWS);
     }

@@ -1,7 +1,7 @@
 //! The tables of a page of `docs/elements`, from the declarations of a kind and its laws.
 
-use lptn::laws::{Confidence, FieldDeclaration, Group, Kind, LawDeclaration, Range, Substance};
-use lptn::units::Type;
+use lptn_laws::{Confidence, FieldDeclaration, Group, Kind, LawDeclaration, Range, Substance};
+use lptn_units::Type;
 
 fn unit(ty: Type) -> String {
     match ty {

@@ -3,8 +3,8 @@
 #![allow(dead_code, unreachable_pub, reason = "each test file uses a part")]
 
 use faer::{Mat, Side};
-use lptn::network::{Network, NodeId};
 use lptn::prelude::*;
+use lptn_network::{Network, NodeId};
 
 /// The folder of the shipped networks.
 pub fn networks() -> std::path::PathBuf {
@@ -12,14 +12,14 @@ pub fn networks() -> std::path::PathBuf {
 }
 
 /// A shipped network, assembled.
-pub fn shipped(name: &str) -> (lptn::netlist::Netlist, ThermalSystem) {
+pub fn shipped(name: &str) -> (lptn_netlist::Netlist, ThermalSystem) {
     let netlist = lptn::read(&networks().join(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
     let system = ThermalSystem::assemble(&netlist.network).expect("it assembles");
     (netlist, system)
 }
 
 /// The run that a netlist asks for.
-pub fn transient(netlist: &lptn::netlist::Netlist) -> Transient {
+pub fn transient(netlist: &lptn_netlist::Netlist) -> Transient {
     let run = netlist.run.as_ref().expect("the network has [run]");
     let mut transient = Transient::until(Time(run.stop)).tolerance(run.tolerance);
     transient.start = run.start;
@@ -28,14 +28,14 @@ pub fn transient(netlist: &lptn::netlist::Netlist) -> Transient {
 }
 
 /// A netlist that has to parse, assembled.
-pub fn parsed(text: &str) -> (lptn::netlist::Netlist, ThermalSystem) {
+pub fn parsed(text: &str) -> (lptn_netlist::Netlist, ThermalSystem) {
     let netlist = lptn::parse("netlist", text).unwrap_or_else(|rejected| panic!("{rejected}"));
     let system = ThermalSystem::assemble(&netlist.network).expect("it assembles");
     (netlist, system)
 }
 
 /// A netlist with its steady state.
-pub fn settled(text: &str) -> (lptn::netlist::Netlist, SteadyState) {
+pub fn settled(text: &str) -> (lptn_netlist::Netlist, SteadyState) {
     let (netlist, system) = parsed(text);
     let steady = SteadyState::solve(&system, 0.0).expect("it settles");
     (netlist, steady)

@@ -3,11 +3,11 @@
 use lptn_assembly::ThermalSystem;
 use lptn_solve::{Periodic, Solution, SteadyState};
 
-use crate::answer::Answer;
 use crate::error::AnalysisError;
 use crate::run::{Observer, RunAnalysis};
 use crate::steady::{steady, steady_within};
 use crate::trust::Trust;
+use crate::trusted::Trusted;
 
 /// Over what a network is analysed.
 #[derive(Clone, Debug)]
@@ -29,11 +29,11 @@ pub enum Analysis {
 #[derive(Clone, Debug)]
 pub enum Found {
     /// A steady state.
-    Steady(Answer<SteadyState>),
+    Steady(Trusted<SteadyState>),
     /// A run.
-    Run(Answer<Solution>),
+    Run(Trusted<Solution>),
     /// A settled cycle.
-    Cycle(Answer<Periodic>),
+    Cycle(Trusted<Periodic>),
 }
 
 impl Analysis {

@@ -3,8 +3,8 @@
 use lptn_solve::{PeriodicError, Solution, SteadyError, TransientError};
 use lptn_units::{Class, format_six};
 
-use crate::answer::Answer;
 use crate::trust::Trust;
+use crate::trusted::Trusted;
 
 lptn_units::errors! {
 /// Why a run has no answer.
@@ -59,8 +59,8 @@ impl RunError {
     ///
     /// # Errors
     /// The same error if nothing was computed.
-    pub fn into_part(self) -> Result<(Answer<Solution>, Option<Box<TransientError>>), Self> {
-        let answer = |result: Solution| Answer { trust: Trust::of_run(&result), result };
+    pub fn into_part(self) -> Result<(Trusted<Solution>, Option<Box<TransientError>>), Self> {
+        let answer = |result: Solution| Trusted { trust: Trust::of_run(&result), result };
         match self {
             Self::Interrupted { part: Some(part), .. } => Ok((answer(*part), None)),
             Self::Failed(error) => match *error {

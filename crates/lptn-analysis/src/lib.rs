@@ -13,7 +13,7 @@
 //! Units: SI, temperatures in K, heat positive into a node and from `from` to `to`.
 
 mod analysis;
-mod answer;
+
 mod error;
 mod limits;
 mod run;
@@ -22,9 +22,9 @@ mod simulation_error;
 mod slopes;
 mod steady;
 mod trust;
+mod trusted;
 
 pub use analysis::{Analysis, Found};
-pub use answer::Answer;
 pub use error::{AnalysisError, CycleError, RunError};
 pub use limits::LimitResult;
 pub use run::{Observer, RunAnalysis};
@@ -32,3 +32,4 @@ pub use simulation::{SavedControl, SavedSimulation, Simulation};
 pub use simulation_error::SimulationError;
 pub use steady::{steady, steady_within};
 pub use trust::{Trust, Unresolved};
+pub use trusted::Trusted;

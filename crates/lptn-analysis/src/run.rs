@@ -7,9 +7,9 @@ use lptn_solve::{
     State, SteadyState, Summary, Transient, TransientError, Unsolved, Verification, Watch, Window,
 };
 
-use crate::answer::Answer;
 use crate::error::{CycleError, RunError};
 use crate::trust::Trust;
+use crate::trusted::Trusted;
 
 /// Called after every step of a run, with its place; it may interrupt.
 pub type Observer<'a> = dyn FnMut(Progress) -> Proceed + 'a;
@@ -145,7 +145,7 @@ impl RunAnalysis {
         &self,
         system: &ThermalSystem,
         observer: &mut Observer<'_>,
-    ) -> Result<Answer<Solution>, RunError> {
+    ) -> Result<Trusted<Solution>, RunError> {
         answered(self.0.solve_observed(system, observer))
     }
 
@@ -158,7 +158,7 @@ impl RunAnalysis {
         (system, state): (&ThermalSystem, &State),
         controls: &[ControlState],
         observer: &mut Observer<'_>,
-    ) -> Result<Answer<Solution>, RunError> {
+    ) -> Result<Trusted<Solution>, RunError> {
         let run = Transient { controls: controls.to_vec(), ..self.0.clone() };
         answered(run.solve_from(system, state, observer))
     }
@@ -171,14 +171,14 @@ impl RunAnalysis {
         &self,
         system: &ThermalSystem,
         observer: &mut Observer<'_>,
-    ) -> Result<Answer<Periodic>, CycleError> {
+    ) -> Result<Trusted<Periodic>, CycleError> {
         let mut reached = self.0.start;
         let found = Periodic::find_observed(system, &self.0, &mut |progress| {
             reached = progress.time;
             observer(progress)
         });
         match found {
-            Ok(result) => Ok(Answer { trust: Trust::of_run(&result.solution), result }),
+            Ok(result) => Ok(Trusted { trust: Trust::of_run(&result.solution), result }),
             Err(PeriodicError::Interrupted { .. }) => {
                 Err(RunError::Interrupted { time: reached, part: None }.into())
             }
@@ -203,10 +203,10 @@ impl RunAnalysis {
     }
 }
 
-fn answered(found: Result<Solution, TransientError>) -> Result<Answer<Solution>, RunError> {
+fn answered(found: Result<Solution, TransientError>) -> Result<Trusted<Solution>, RunError> {
     let result = found.map_err(Box::new)?;
     if let RunStatus::Interrupted(time) = result.end() {
         return Err(RunError::Interrupted { time, part: Some(Box::new(result)) });
     }
-    Ok(Answer { trust: Trust::of_run(&result), result })
+    Ok(Trusted { trust: Trust::of_run(&result), result })
 }

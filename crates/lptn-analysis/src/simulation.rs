@@ -7,9 +7,9 @@ use lptn_network::{Network, ParameterId, RunSettings, SignalId, Temperature, Tim
 use lptn_solve::{ControlState, Proceed, Rates, Solution, State, StateRates, Transient};
 use serde::{Deserialize, Serialize};
 
-use crate::answer::Answer;
 use crate::run::RunAnalysis;
 use crate::simulation_error::SimulationError;
+use crate::trusted::Trusted;
 
 /// A network with its state at a time. Its client steps it, and sets parameters and signals between
 /// the steps: a controller of its own, a cosimulation.
@@ -176,7 +176,11 @@ impl Simulation {
     ///
     /// # Errors
     /// [`SimulationError::Run`]; the simulation stays where it was.
-    pub fn advance(&mut self, to: Time, rows: &[f64]) -> Result<Answer<Solution>, SimulationError> {
+    pub fn advance(
+        &mut self,
+        to: Time,
+        rows: &[f64],
+    ) -> Result<Trusted<Solution>, SimulationError> {
         let run = self.run.clone().lasting(self.time, to.0).at(rows.to_vec());
         let run = run.keeping(lptn_solve::RecordedNodes::All);
         let begin = (&self.system, &self.state);

@@ -3,9 +3,9 @@
 use lptn_network::{Network, ParameterId};
 use lptn_solve::{Proceed, Progress, SensitiveError, SensitiveRun, sensitive_run_observed};
 
-use crate::answer::Answer;
 use crate::run::RunAnalysis;
 use crate::trust::Trust;
+use crate::trusted::Trusted;
 
 impl RunAnalysis {
     /// Runs a network and follows how its temperatures change with parameters: exactly, or by
@@ -17,8 +17,8 @@ impl RunAnalysis {
         &self,
         (network, parameters): (&Network, &[ParameterId]),
         observer: &dyn Fn(Progress) -> Proceed,
-    ) -> Result<Answer<SensitiveRun>, SensitiveError> {
+    ) -> Result<Trusted<SensitiveRun>, SensitiveError> {
         let result = sensitive_run_observed(network, (self.transient(), parameters), observer)?;
-        Ok(Answer { trust: Trust::of_run(&result.solution), result })
+        Ok(Trusted { trust: Trust::of_run(&result.solution), result })
     }
 }

@@ -3,14 +3,14 @@
 use lptn_assembly::ThermalSystem;
 use lptn_solve::{SteadyError, SteadyState};
 
-use crate::answer::Answer;
 use crate::trust::Trust;
+use crate::trusted::Trusted;
 
 /// The steady state with the inputs as they are at `time` in s; see [`SteadyState::solve`].
 ///
 /// # Errors
 /// [`SteadyError`], also if a range of validity has no value.
-pub fn steady(system: &ThermalSystem, time: f64) -> Result<Answer<SteadyState>, SteadyError> {
+pub fn steady(system: &ThermalSystem, time: f64) -> Result<Trusted<SteadyState>, SteadyError> {
     answered(system, SteadyState::solve(system, time)?)
 }
 
@@ -23,14 +23,14 @@ pub fn steady_within(
     system: &ThermalSystem,
     time: f64,
     tolerance: f64,
-) -> Result<Answer<SteadyState>, SteadyError> {
+) -> Result<Trusted<SteadyState>, SteadyError> {
     answered(system, SteadyState::solve_within(system, time, tolerance)?)
 }
 
 fn answered(
     system: &ThermalSystem,
     result: SteadyState,
-) -> Result<Answer<SteadyState>, SteadyError> {
+) -> Result<Trusted<SteadyState>, SteadyError> {
     let trust = Trust::of_steady(system.network(), &result)?;
-    Ok(Answer { result, trust })
+    Ok(Trusted { result, trust })
 }

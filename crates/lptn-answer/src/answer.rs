@@ -1,7 +1,7 @@
 //! What every answer has.
 
 use lptn_netlist::{Diagnostic, Files};
-use lptn_report::Page;
+use lptn_report::{Format, Look, Page, write};
 
 use crate::exit::Exit;
 
@@ -12,6 +12,33 @@ pub trait Answer: Page {
 
     /// All doubts in it, those of the netlist first.
     fn doubts(&self) -> Vec<Diagnostic>;
+
+    /// The answer as one JSON object, as `--format json` prints it.
+    fn to_json(&self) -> String
+    where
+        Self: Sized,
+    {
+        self.written(Format::Json)
+    }
+
+    /// The answer as a text for a terminal of 80 columns.
+    fn to_table(&self) -> String
+    where
+        Self: Sized,
+    {
+        self.written(Format::Table)
+    }
+
+    /// The answer in a format, without colours.
+    fn written(&self, format: Format) -> String
+    where
+        Self: Sized,
+    {
+        let mut bytes = Vec::new();
+        // a vector takes everything
+        drop(write(self, format, Look::PLAIN, &mut bytes));
+        String::from_utf8(bytes).unwrap_or_default()
+    }
 
     /// How it ends: [`Exit::No`] if the answer is no.
     fn exit(&self) -> Exit {

@@ -3,7 +3,7 @@
 use std::{fmt, io};
 
 use lptn_netlist::{Diagnostic, Files, ReadError, Rejected};
-use lptn_units::{Help, Problem};
+use lptn_units::{Class, Help, Problem};
 
 use crate::exit::Exit;
 
@@ -44,6 +44,34 @@ impl Failure {
     /// One diagnostic about a place in `files`.
     pub fn at(exit: Exit, files: Files, diagnostic: Diagnostic) -> Self {
         Self { exit, files, diagnostics: vec![diagnostic] }
+    }
+}
+
+/// The first problem.
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.diagnostics.first().map_or(Ok(()), |first| f.write_str(&first.message))
+    }
+}
+
+impl std::error::Error for Failure {}
+
+impl Problem for Failure {
+    fn code(&self) -> &'static str {
+        self.diagnostics.first().map_or("", |first| first.code)
+    }
+
+    fn help(&self) -> Option<String> {
+        self.diagnostics.first()?.help.clone()
+    }
+
+    fn class(&self) -> Class {
+        match self.exit {
+            Exit::Done | Exit::No => Class::No,
+            Exit::Input => Class::Input,
+            Exit::Failed => Class::Numbers,
+            Exit::Interrupted => Class::Interrupted,
+        }
     }
 }
 

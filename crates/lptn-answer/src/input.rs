@@ -146,6 +146,25 @@ fn no_case(netlist: &Netlist, text: &Given, name: &str) -> Failure {
 }
 
 impl Input {
+    /// Reads a netlist as it is.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it.
+    pub fn read(file: impl AsRef<Path>) -> Result<Self, Failure> {
+        Self::open(file.as_ref(), &Belief::Named, (None, &[]))
+    }
+
+    /// Gives parameters other values, such as `G_fan = 2 W/K`.
+    ///
+    /// # Errors
+    /// An assignment that does not fit the netlist.
+    pub fn set(mut self, assignments: &[&str]) -> Result<Self, Failure> {
+        let texts: Vec<String> = assignments.iter().map(|text| (*text).to_owned()).collect();
+        self.netlist.set(&texts)?;
+        self.set.extend(texts);
+        Ok(self)
+    }
+
     /// Reads a netlist and sets values in it: those of a fit, of a load case, of assignments, in
     /// this order.
     ///

@@ -12,7 +12,7 @@ use lptn_units::{Class, Problem};
 /// fn main() -> Result<(), lptn::Error> {
 ///     let refused = lptn::parse("heater", "format = 1\n[node]\n");
 ///     let error = lptn::Error::from(refused.unwrap_err());
-///     assert!(error.downcast_ref::<lptn::netlist::Rejected>().is_some());
+///     assert!(error.downcast_ref::<lptn::Rejected>().is_some());
 ///     Ok(())
 /// }
 /// ```
@@ -72,7 +72,7 @@ macro_rules! made_of {
 
 made_of! {
     lptn_analysis::AnalysisError, lptn_analysis::CycleError, lptn_analysis::RunError,
-    lptn_analysis::SimulationError,
+    lptn_analysis::SimulationError, lptn_answer::failure::Failure,
     lptn_assembly::AssemblyError, lptn_assembly::ChangeError,
     lptn_fit::choice::ChoiceError, lptn_fit::infer::InferError, lptn_fit::law::LawError, lptn_fit::law::RunsError, lptn_fit::least_squares::LeastSquaresError,
     lptn_fit::network::design::DesignError, lptn_fit::network::NetworkFitError, lptn_fit::step::StepError,

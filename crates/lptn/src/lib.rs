@@ -21,40 +21,79 @@
 //! ```
 //!
 //! Every error becomes an [`Error`], which `main` can return. Many candidates of one network need
-//! no second assembly from text: [`ThermalSystem::with`](assembly::ThermalSystem::with) takes other
-//! values of its parameters.
+//! no second assembly from text: [`ThermalSystem::with`] takes other values of its parameters.
 //!
-//! A network comes from a TOML netlist ([`read`], [`parse`]) or from a
-//! [`NetworkBuilder`](network::NetworkBuilder). Each module is a crate of its own; ARCHITECTURE.md
-//! says what each of them owns. All numbers are in SI units, temperatures in K, heat positive into
-//! a node and from `from` to `to`.
-
-pub use lptn_analysis as analysis;
-pub use lptn_answer as answer;
-pub use lptn_assembly as assembly;
-pub use lptn_fit as fit;
-pub use lptn_graph as graph;
-pub use lptn_integrate as integrate;
-pub use lptn_laws as laws;
-pub use lptn_netlist as netlist;
-pub use lptn_network as network;
-pub use lptn_plot as plot;
-pub use lptn_reduce as reduce;
-pub use lptn_report as report;
-pub use lptn_solve as solve;
-pub use lptn_study as study;
-pub use lptn_units as units;
+//! A network comes from a TOML netlist ([`Input`], [`read`], [`parse`]) or from a
+//! [`NetworkBuilder`]. A question such as [`RunQuestion`] asks it and gives an [`Answer`]: values with
+//! units, tables, doubts, verdict, figures, in every format of the command line. A
+//! [`RunAnalysis`] gives the numbers alone, a [`Simulation`] is stepped from outside.
+//!
+//! This crate exports what a client needs. The crates below it (`lptn-network`, `lptn-solve`, ..)
+//! export the rest; ARCHITECTURE.md lists them. All numbers are in SI units, temperatures in K, heat
+//! positive into a node and from `from` to `to`.
 
 mod error;
 
 pub use error::Error;
-pub use lptn_netlist::{parse, read};
 
-/// What a program that uses the library most often needs.
+/// Questions to a netlist, and their answers.
+pub use lptn_answer::{
+    answer::Answer,
+    belief::Belief,
+    compare::{CompareAnswer, CompareQuestion},
+    cycle::{CycleAnswer, CycleQuestion},
+    exit::Exit,
+    failure::Failure,
+    input::Input,
+    limits::Verdict,
+    listener::{Listener, Nobody, Which},
+    lumping::Detail,
+    rank::{Over, RankAnswer, RankQuestion},
+    run::uncertainty::{Method, UncertaintyQuestion},
+    run::{NoSteady, RunAnswer, RunQuestion, RunTask},
+    steady::{SteadyAnswer, SteadyQuestion},
+    sweep::{Rows as SweepRows, Shard, SweepAnswer, SweepAsked, SweepQuestion},
+};
+/// Pages in their formats.
+pub use lptn_report::{
+    Format, Look, Page, Report, Rows, Text, TimeUnit, report_of, write, write_csv,
+};
+
+/// Numbers without pages, and simulations that are stepped.
+pub use lptn_analysis::{
+    Analysis, AnalysisError, CycleError, Found, LimitResult, RunAnalysis, RunError,
+    SavedSimulation, Simulation, SimulationError, Trust, Trusted, Unresolved, steady,
+    steady_within,
+};
+pub use lptn_assembly::{AssemblyError, ThermalSystem};
+pub use lptn_solve::{
+    Event, ExactSolution, Ledger, LimitSeen, Lumping, Modes, Periodic, Proceed, Progress,
+    RecordedNodes, RunStatus, Selection, Snapshot, Solution, Statistics, SteadyError, SteadyState,
+    Table, Transient, TransientError, Window,
+};
+
+/// Networks and netlists.
+pub use lptn_netlist::{
+    Diagnostic, Files, Label, Netlist, ReadError, Rejected, Severity, Span, parse, read,
+};
+pub use lptn_network::{
+    BoundaryId, BuildError, BuildErrors, Conductance, ConductorId, ConductorKind, Face,
+    FilmCoefficient, GridBlock, GridFace, HeatCapacity, HeatFlow, Item, LimitId, Network,
+    NetworkBuilder, NodeId, OutputTimes, ParameterId, Parameters, Path, Resistance, RunSettings,
+    SourceId, Temperature, Time,
+};
+pub use lptn_units::{Dimension, Problem, Quantity, Type, Unit, UnitError, parse_quantity};
+
+/// Reduction, fits and studies on numbers.
+pub use lptn_fit::{law, network as network_fit, step};
+pub use lptn_reduce::{Definition, Reduction, ReductionOptions, fit_exponential};
+pub use lptn_study::{Candidate, SortKey};
+
+/// The names that a program uses most often.
 pub mod prelude {
-    pub use lptn_assembly::ThermalSystem;
-    pub use lptn_network::{
-        Conductance, HeatCapacity, HeatFlow, Network, NetworkBuilder, Resistance, Temperature, Time,
+    pub use crate::{
+        Answer, Conductance, Exit, Failure, Format, HeatCapacity, HeatFlow, Input, Ledger, Network,
+        NetworkBuilder, Nobody, OutputTimes, Page, Resistance, RunQuestion, Selection, Simulation,
+        Solution, SteadyQuestion, SteadyState, Table, Temperature, ThermalSystem, Time, Transient,
     };
-    pub use lptn_solve::{Ledger, OutputTimes, Selection, Solution, SteadyState, Table, Transient};
 }

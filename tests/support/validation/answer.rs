@@ -2,12 +2,12 @@
 
 use std::cell::OnceCell;
 
-use lptn::analysis::RunAnalysis;
-use lptn::fit::network::NetworkFit;
-use lptn::network::{BoundaryId, ConductorId, End, NodeId};
 use lptn::prelude::*;
-use lptn::reduce::{Bias, ExponentialFit, NortonEquivalent, fit_exponential, transfer_resistance};
-use lptn::solve::{Complex, Drive, FrequencyResponse, Linearised, Mode, Modes};
+use lptn_analysis::RunAnalysis;
+use lptn_fit::network::NetworkFit;
+use lptn_network::{BoundaryId, ConductorId, End, NodeId};
+use lptn_reduce::{Bias, ExponentialFit, NortonEquivalent, fit_exponential, transfer_resistance};
+use lptn_solve::{Complex, Drive, FrequencyResponse, Linearised, Mode, Modes};
 
 use super::calibration;
 use super::case::Case;

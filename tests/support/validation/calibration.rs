@@ -2,14 +2,14 @@
 
 use std::path::Path;
 
-use lptn::analysis::RunAnalysis;
-use lptn::fit::network::{
+use lptn::prelude::*;
+use lptn_analysis::RunAnalysis;
+use lptn_fit::network::{
     Measurand, MeasuredColumn, MeasuredRun, NetworkFit, NetworkFitTask, Varied, fit_network,
 };
-use lptn::network::End;
-use lptn::prelude::*;
-use lptn::solve::available_threads;
-use lptn::units::{Correlations, Type};
+use lptn_network::End;
+use lptn_solve::available_threads;
+use lptn_units::{Correlations, Type};
 
 use super::answer::Trouble;
 use super::case::{Calibration, Case};

@@ -36,7 +36,7 @@ pub struct Case {
 }
 
 fn celsius_zero() -> f64 {
-    lptn::network::ZERO_CELSIUS
+    lptn_network::ZERO_CELSIUS
 }
 
 impl Case {

@@ -1,8 +1,8 @@
 //! Switched heat: when a thermostat switches.
 
-use lptn::network::{Acts, Context, Thermostat};
 use lptn::prelude::*;
-use lptn::solve::EventKind;
+use lptn_network::{Acts, Context, Thermostat};
+use lptn_solve::EventKind;
 
 use super::answer::Trouble;
 use super::case::Gate;

@@ -19,7 +19,7 @@ mod verdict;
 
 use std::path::{Path, PathBuf};
 
-use lptn::network::Network;
+use lptn_network::Network;
 use serde_json::Value;
 
 pub use verdict::Report;

@@ -4,12 +4,12 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lptn::network::{
+use lptn::prelude::*;
+use lptn_network::{
     AfterEnd, Area, ConductorId, ConductorKind, Context, Course, End, FilmCoefficient, Input, Item,
     Path,
 };
-use lptn::prelude::*;
-use lptn::units::{
+use lptn_units::{
     Dimension, Interpolation as Join, LookupTable as Curve, Outside, Table1, TableSymbol, Type,
 };
 

@@ -1,6 +1,6 @@
 //! The value of an edge's or source's field that brings a node to a temperature in steady state.
 
-use lptn::network::End;
+use lptn_network::End;
 use serde_json::Value;
 
 use super::answer::{Laboratory, Trouble};

@@ -5,7 +5,7 @@ mod page;
 use std::sync::Arc;
 use std::time::Instant;
 
-use lptn_analysis::{Answer as Trusted, CycleError, RunAnalysis};
+use lptn_analysis::{CycleError, RunAnalysis, Trusted};
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Diagnostic, Files, RunSettings};
 use lptn_network::{Item, OutputTimes};
@@ -68,6 +68,16 @@ pub struct CycleAnswer {
 }
 
 impl CycleQuestion {
+    /// Asks a netlist.
+    ///
+    /// # Errors
+    /// A question that does not fit the netlist, and a network without a settled cycle.
+    pub fn ask(&self, input: Arc<Input>, listener: &dyn Listener) -> Result<CycleAnswer, Failure> {
+        let task = self.of(input)?;
+        let system = task.0.input.assemble()?;
+        task.answer(&system, listener)
+    }
+
     /// Checks the question for a netlist.
     ///
     /// # Errors

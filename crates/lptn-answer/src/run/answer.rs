@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use lptn_analysis::{Answer as Trusted, LimitResult};
+use lptn_analysis::{LimitResult, Trusted};
 use lptn_netlist::{Diagnostic, Files, SavedState};
 use lptn_network::Parameter;
 use lptn_report::duration;

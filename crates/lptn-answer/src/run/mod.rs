@@ -7,6 +7,7 @@ mod next;
 mod observed;
 pub(crate) mod page;
 mod report;
+mod solve;
 mod state;
 mod task;
 pub mod uncertainty;

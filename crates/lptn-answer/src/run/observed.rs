@@ -1,6 +1,6 @@
 //! Runs, and the nodes that their tables show.
 
-use lptn_analysis::{Answer, RunAnalysis};
+use lptn_analysis::{RunAnalysis, Trusted};
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::Diagnostic;
 use lptn_network::{Network, NodeId};
@@ -28,7 +28,7 @@ pub fn observed(
     input: &Input,
     (system, run): (&ThermalSystem, &RunAnalysis),
     listener: &dyn Listener,
-) -> Result<(Answer<Solution>, Option<Diagnostic>), Failure> {
+) -> Result<(Trusted<Solution>, Option<Diagnostic>), Failure> {
     let outcome = run.solve(system, &mut |progress| listener.progress(progress));
     let error = match outcome {
         Ok(answer) => return Ok((answer, None)),

@@ -5,7 +5,7 @@ mod page;
 
 use std::sync::Arc;
 
-use lptn_analysis::{Answer as Trusted, LimitResult};
+use lptn_analysis::{LimitResult, Trusted};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_report::{Clock, Format};
 use lptn_solve::{Balance, SteadyError, SteadyState, Table};
@@ -36,6 +36,18 @@ pub struct SteadyQuestion {
     pub format: Format,
     /// How much a table shows.
     pub detail: Detail,
+}
+
+impl Default for SteadyQuestion {
+    fn default() -> Self {
+        Self {
+            select: Vec::new(),
+            temperature_unit: None,
+            balance: None,
+            format: Format::Table,
+            detail: Detail::Brief,
+        }
+    }
 }
 
 /// A steady state.

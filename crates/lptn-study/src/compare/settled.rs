@@ -6,7 +6,7 @@
 
 use std::sync::Arc;
 
-use lptn_analysis::{Answer, CycleError, Observer};
+use lptn_analysis::{CycleError, Observer, Trusted};
 use lptn_assembly::ThermalSystem;
 use lptn_network::RunSettings;
 use lptn_solve::{Periodic, PeriodicError, Summary};
@@ -33,7 +33,7 @@ pub struct Settled {
 pub(crate) struct Found {
     pub(crate) settled: Settled,
     pub(crate) limits: Vec<lptn_analysis::LimitResult>,
-    pub(crate) answer: Answer<Periodic>,
+    pub(crate) answer: Trusted<Periodic>,
 }
 
 /// A settled cycle, or why there is none; nothing where signals do not repeat themselves.
@@ -61,7 +61,7 @@ impl Settled {
         }
     }
 
-    fn of(system: &ThermalSystem, (answer, cycle): (Answer<Periodic>, &RunSettings)) -> Found {
+    fn of(system: &ThermalSystem, (answer, cycle): (Trusted<Periodic>, &RunSettings)) -> Found {
         let network = system.network();
         let nodes = Summary::new(&answer.solution, None).nodes;
         let node = hottest(nodes.iter().map(|node| (node, node.peak.0))).map(|(node, _)| node);

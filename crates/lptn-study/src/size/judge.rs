@@ -3,7 +3,7 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use lptn_analysis::{Analysis, Answer, Found, RunAnalysis, Trust};
+use lptn_analysis::{Analysis, Found, RunAnalysis, Trust, Trusted};
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::{Netlist, Requirement};
 use lptn_network::{Network, ParameterId, RunSettings, Value};
@@ -344,7 +344,7 @@ impl<'a> Judge<'a> {
     fn in_steady_state(
         &self,
         network: &Network,
-        answer: Answer<SteadyState>,
+        answer: Trusted<SteadyState>,
     ) -> Result<Judged, TrialError> {
         let mut scope = answer.evaluation(network);
         let margin = |requirement: &Requirement| {

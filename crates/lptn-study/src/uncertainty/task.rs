@@ -1,6 +1,6 @@
 //! What is asked, and one run of it.
 
-use lptn_analysis::{Answer, RunAnalysis, RunError};
+use lptn_analysis::{RunAnalysis, RunError, Trusted};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Network, NodeId, Parameters};
 use lptn_solve::{Proceed, RecordedNodes, Solution};
@@ -65,7 +65,7 @@ impl UncertaintyTask<'_> {
         system: &ThermalSystem,
         rows: bool,
         control: &(dyn Fn() -> Proceed + Sync),
-    ) -> Result<Answer<Solution>, RunError> {
+    ) -> Result<Trusted<Solution>, RunError> {
         let run = if rows { self.watched() } else { self.watched().at(Vec::new()) };
         run.solve(system, &mut |_| control())
     }

@@ -7,14 +7,13 @@ pub(super) mod text;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lptn_analysis::RunAnalysis;
-use lptn_netlist::{Diagnostic, Netlist};
-use lptn_solve::available_threads;
+use lptn_netlist::{Diagnostic, Netlist, RunSettings};
+use lptn_solve::{Selection, available_threads};
 use lptn_study::uncertainty::{
     Discrepancy, Sobol, Uncertainty, UncertaintyError, UncertaintyTask, discrepancies, uncertain,
 };
 
 use super::observed::shown;
-use super::task::RunTask;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::listener::Listener;
@@ -83,15 +82,19 @@ pub struct Study {
 
 impl UncertaintyQuestion {
     /// The uncertainty of a run.
-    pub(super) fn study(&self, asked: &RunTask, listener: &dyn Listener) -> Result<Study, Failure> {
-        let netlist = &asked.input.netlist;
+    pub(super) fn study(
+        &self,
+        (input, settings, selection): (&Input, &RunSettings, &Selection),
+        listener: &dyn Listener,
+    ) -> Result<Study, Failure> {
+        let netlist = &input.netlist;
         let network = &netlist.network;
-        let mut nodes: Vec<_> = asked.selection.nodes().collect();
+        let mut nodes: Vec<_> = selection.nodes().collect();
         if nodes.is_empty() {
             nodes = shown(network, None, None);
             nodes.sort_unstable();
         }
-        let (parameters, run) = (netlist.overrides(), RunAnalysis::of(network, &asked.settings));
+        let (parameters, run) = (netlist.overrides(), RunAnalysis::of(network, settings));
         let task = UncertaintyTask { network, parameters, run, nodes };
         let outcome = match self.method {
             Method::Linear => task.linear().map(|found| Study { found, linear: None }),
@@ -102,7 +105,7 @@ impl UncertaintyQuestion {
                 Study { found, linear: Some(linear) }
             }),
         };
-        outcome.map_err(|error| asked.input.failure(&error, None))
+        outcome.map_err(|error| input.failure(&error, None))
     }
 
     fn sobol(

@@ -1,6 +1,6 @@
 //! A run with its sensitivities at the rows and where temperatures are highest.
 
-use lptn_analysis::Answer;
+use lptn_analysis::Trusted;
 use lptn_network::{NodeId, ParameterId};
 use lptn_solve::{Gradient, Proceed, SensitiveRun, Solution, on_both_sides};
 
@@ -16,7 +16,7 @@ const SAME: f64 = 1e-9;
 /// A run with sensitivities by every uncertain parameter.
 pub(super) struct Line<'a> {
     pub(super) inputs: &'a Inputs,
-    pub(super) run: Answer<SensitiveRun>,
+    pub(super) run: Trusted<SensitiveRun>,
     /// The rows as places among the times of the run.
     rows: Vec<usize>,
 }

@@ -1,4 +1,4 @@
-//! The answer to an analysis.
+//! A result and the trust in it.
 
 use std::ops::Deref;
 
@@ -6,14 +6,14 @@ use crate::trust::Trust;
 
 /// The result of an analysis with the trust in it. It lends the fields of its result.
 #[derive(Clone, Debug)]
-pub struct Answer<T> {
+pub struct Trusted<T> {
     /// The numbers.
     pub result: T,
     /// The trust in them.
     pub trust: Trust,
 }
 
-impl<T> Deref for Answer<T> {
+impl<T> Deref for Trusted<T> {
     type Target = T;
 
     fn deref(&self) -> &T {
