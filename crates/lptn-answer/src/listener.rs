@@ -1,5 +1,7 @@
 //! Whoever asked, while the answer is computed.
 
+use std::fmt::Display;
+
 use lptn_netlist::{Diagnostic, Files};
 use lptn_solve::{Proceed, Progress};
 
@@ -13,6 +15,11 @@ pub trait Listener: Sync {
 
     /// A run has come this far. [`Proceed::Interrupt`] ends it; what is finished is kept.
     fn progress(&self, progress: Progress) -> Proceed;
+
+    /// The same of one of several runs, which may go on at the same time; `stage` says which.
+    fn stage(&self, _stage: &dyn Display, progress: Progress) -> Proceed {
+        self.progress(progress)
+    }
 }
 
 /// Nobody: every run goes to its end, and doubts are in the answers alone.

@@ -1,5 +1,6 @@
 //! The console as a listener: doubts to stderr, progress on a line, Ctrl-C ends runs.
 
+use std::fmt::Display;
 use std::sync::{Mutex, PoisonError};
 
 use lptn_answer::listener::Listener;
@@ -45,6 +46,14 @@ impl Listener for Listening<'_> {
 
     fn progress(&self, progress: Progress) -> Proceed {
         self.line().update(progress);
+        self.interrupt.control()
+    }
+
+    fn stage(&self, stage: &dyn Display, progress: Progress) -> Proceed {
+        // no run waits for the line: the next step says more
+        if let Ok(mut line) = self.line.try_lock() {
+            line.update_of(stage, progress);
+        }
         self.interrupt.control()
     }
 }

@@ -83,7 +83,7 @@ pub(super) fn follow(
 /// What is to be said where no more rows come.
 fn ended(
     (input, study): (&Input, &InferStudy),
-    (lines, follower): (RecordLines, Follower<'_>),
+    (lines, follower): (RecordLines, Follower),
     console: &Console,
 ) -> Result<Exit, Failure> {
     let rows = lines.rows();

@@ -23,16 +23,16 @@ use crate::input::Load as _;
 use crate::interrupt::Interrupt;
 use crate::options::Source;
 use crate::progress::ProgressLine;
-use crate::verbs::fit::record_place;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
+use lptn_answer::fit::network::record_place;
 use lptn_answer::input::{Input, Studies};
 
 /// What was inferred, and from what.
 pub(crate) struct Answer<'a> {
     pub(crate) input: &'a Input,
     pub(crate) study: &'a InferStudy,
-    pub(crate) task: InferTask<'a>,
+    pub(crate) task: InferTask,
     pub(crate) found: Inferred,
     /// In which unit each course is shown.
     pub(crate) units: Vec<Unit>,
@@ -75,7 +75,7 @@ pub(crate) fn infer(args: &InferArgs, console: &Console) -> Result<Exit, Failure
 }
 
 /// With its progress, until Ctrl-C.
-fn observed(task: &InferTask<'_>, console: &Console) -> Result<Inferred, InferError> {
+fn observed(task: &InferTask, console: &Console) -> Result<Inferred, InferError> {
     let interrupt = Interrupt::listen();
     let line = RefCell::new(ProgressLine::new(console.quiet));
     let outcome = inferred(task, &|step| {

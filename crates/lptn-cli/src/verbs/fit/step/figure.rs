@@ -9,7 +9,7 @@ use lptn_units::Unit;
 
 use super::estimate::with_error;
 use super::{Answer, Column};
-use crate::verbs::fit::figure::differences;
+use lptn_answer::fit::figure::differences;
 use lptn_answer::words::difference;
 
 /// Points of a curve that is drawn.

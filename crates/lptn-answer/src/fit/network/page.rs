@@ -15,12 +15,12 @@ use serde_json::{Map, Value, json};
 
 use super::units::common;
 use super::words::{combination, sought, state, type_of, verdict};
-use super::{Answer, shared_noise};
-use lptn_answer::about::{self, Known};
-use lptn_answer::messages;
-use lptn_answer::words::{count, symbol, unverified};
+use super::{FitNetworkAnswer, shared_noise};
+use crate::about::{self, Known};
+use crate::messages;
+use crate::words::{count, symbol, unverified};
 
-impl Page for Answer<'_> {
+impl Page for FitNetworkAnswer {
     fn text(&self) -> Text {
         let fit = &self.fit;
         let mut text = Text::titled(self.input.title());
@@ -80,7 +80,7 @@ impl Page for Answer<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.input, Known::default())
+        about::about(&self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -161,14 +161,14 @@ fn with_error(value: f64, error: Option<f64>) -> (String, String) {
     }
 }
 
-fn cells(answer: &Answer<'_>, i: usize) -> (String, String) {
+fn cells(answer: &FitNetworkAnswer, i: usize) -> (String, String) {
     let parameter = &answer.fit.parameters[i];
     let error = parameter.standard_error.map(|error| answer.shown_difference(i, error));
     with_error(answer.shown(i, parameter.value), error)
 }
 
 /// Half the width of the 95 % interval; the interval where that is not even.
-fn half_width(answer: &Answer<'_>, i: usize) -> String {
+fn half_width(answer: &FitNetworkAnswer, i: usize) -> String {
     if let Some(profile) = answer.fit.parameters[i].profile {
         return one_sided(answer, i, profile);
     }
@@ -177,7 +177,7 @@ fn half_width(answer: &Answer<'_>, i: usize) -> String {
 }
 
 /// "below 900", "above 3", "2.1 to 9".
-fn one_sided(answer: &Answer<'_>, i: usize, profile: Profile) -> String {
+fn one_sided(answer: &FitNetworkAnswer, i: usize, profile: Profile) -> String {
     let shown = |si: f64| significant(answer.shown(i, si), 3);
     match (profile.low, profile.high) {
         (Some(low), Some(high)) => format!("{} to {}", shown(low), shown(high)),
@@ -188,11 +188,11 @@ fn one_sided(answer: &Answer<'_>, i: usize, profile: Profile) -> String {
 }
 
 /// What became of it, where that is worth a word.
-fn remark(answer: &Answer<'_>, i: usize) -> &'static str {
+fn remark(answer: &FitNetworkAnswer, i: usize) -> &'static str {
     Some(state(answer, i)).filter(|state| *state != "free").unwrap_or_default()
 }
 
-pub(crate) fn values(answer: &Answer<'_>, all: &[usize]) -> TextTable {
+pub(in crate::fit) fn values(answer: &FitNetworkAnswer, all: &[usize]) -> TextTable {
     let bound = |i: usize, si: f64| match si.is_finite() {
         true => significant(answer.shown(i, si), 4),
         false => String::new(),
@@ -213,7 +213,7 @@ pub(crate) fn values(answer: &Answer<'_>, all: &[usize]) -> TextTable {
         .into()
 }
 
-fn sensors(answer: &Answer<'_>, all: &[usize]) -> TextTable {
+fn sensors(answer: &FitNetworkAnswer, all: &[usize]) -> TextTable {
     let before = |i: usize| {
         let unknown = &answer.unknowns[i];
         let own = significant(answer.shown(i, unknown.own), 4);
@@ -234,7 +234,7 @@ fn sensors(answer: &Answer<'_>, all: &[usize]) -> TextTable {
         .into()
 }
 
-fn misfits(answer: &Answer<'_>) -> TextTable {
+fn misfits(answer: &FitNetworkAnswer) -> TextTable {
     let several = answer.task.runs.len() > 1;
     let records: Vec<String> = answer.task.runs.iter().map(|run| run.name.clone()).collect();
     let records = differing(&records);
@@ -265,7 +265,7 @@ fn misfits(answer: &Answer<'_>) -> TextTable {
 /// Parameters that are shown with their correlations, at most: more do not fit a line.
 const MOST: usize = 7;
 
-fn correlations(answer: &Answer<'_>) -> Option<TextTable> {
+fn correlations(answer: &FitNetworkAnswer) -> Option<TextTable> {
     let mut known: Vec<usize> = (0..answer.fit.parameters.len())
         .filter(|&i| answer.fit.correlation(i, i).is_some())
         .collect();
@@ -287,7 +287,7 @@ fn correlations(answer: &Answer<'_>) -> Option<TextTable> {
     Some(table.into())
 }
 
-fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
+fn notes(answer: &FitNetworkAnswer) -> Vec<(&'static str, String)> {
     let fit = &answer.fit;
     let unit = answer.task.unit().map(|ty| ty.dimension.si_unit());
     let unit = unit.unwrap_or_else(|| "sigma".to_owned());
@@ -310,7 +310,7 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
     let how = match fit.gradient {
         Gradient::Exact => "exact sensitivities".to_owned(),
         Gradient::Differences(why) => {
-            format!("differences of runs, for {}", why.describe(answer.task.network))
+            format!("differences of runs, for {}", why.describe(&answer.task.network))
         }
     };
     notes.push(("gradient", format!("{how}; all records were run {} times", fit.evaluations)));
@@ -332,7 +332,7 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
 }
 
 /// In SI units; a temperature is in the unit in which it is shown, as all of an object are.
-pub(crate) fn parameter(answer: &Answer<'_>, i: usize) -> Value {
+pub(in crate::fit) fn parameter(answer: &FitNetworkAnswer, i: usize) -> Value {
     let (fitted, varied) = (&answer.fit.parameters[i], &answer.unknowns[i]);
     let shown = varied.ty.absolute;
     let unit = if shown { answer.units[i].text.clone() } else { varied.ty.dimension.si_unit() };
@@ -366,7 +366,7 @@ fn interval(fitted: &FittedParameter) -> Option<[Option<f64>; 2]> {
     fitted.profile.map(|profile| [profile.low, profile.high]).or(even)
 }
 
-fn columns(answer: &Answer<'_>) -> Value {
+fn columns(answer: &FitNetworkAnswer) -> Value {
     let column = |misfit: &lptn_fit::network::ColumnMisfit| {
         let (run, unit) = (&answer.task.runs[misfit.run], answer.unit_of(misfit));
         json!({
@@ -385,7 +385,7 @@ fn columns(answer: &Answer<'_>) -> Value {
 
 /// What the records do not determine: parameters that nothing depends on, then those that cannot be
 /// told apart.
-fn unidentified(answer: &Answer<'_>) -> Value {
+fn unidentified(answer: &FitNetworkAnswer) -> Value {
     let Some(known) = &answer.fit.identifiability else { return Value::Null };
     let unfelt = known
         .unfelt
@@ -394,7 +394,7 @@ fn unidentified(answer: &Answer<'_>) -> Value {
     unfelt.chain(known.unseparated.iter().map(|group| unseparated(answer, group))).collect()
 }
 
-fn unseparated(answer: &Answer<'_>, group: &Unseparated) -> Value {
+fn unseparated(answer: &FitNetworkAnswer, group: &Unseparated) -> Value {
     let names: Vec<&str> = group.parameters.iter().map(|&i| answer.name(i)).collect();
     let one = |c: &Combination| {
         let unit = type_of(answer, c).map_or_else(String::new, |ty| ty.dimension.si_unit());

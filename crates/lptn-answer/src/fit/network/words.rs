@@ -8,16 +8,16 @@ use lptn_netlist::Diagnostic;
 use lptn_report::significant;
 use lptn_units::Type;
 
-use super::Answer;
+use super::FitNetworkAnswer;
 use super::units::common;
-use lptn_answer::taken;
-use lptn_answer::words::count as number;
+use crate::taken;
+use crate::words::count as number;
 
 /// Digits of a value that nothing says the accuracy of.
 const DIGITS: usize = 5;
 
 /// What became of a parameter, in a word.
-pub(crate) fn state(answer: &Answer<'_>, i: usize) -> &'static str {
+pub(super) fn state(answer: &FitNetworkAnswer, i: usize) -> &'static str {
     let known = answer.fit.identifiability.as_ref();
     match answer.fit.parameters[i].on_bound {
         _ if known.is_some_and(|known| known.unfelt.contains(&i)) => "not felt",
@@ -29,7 +29,7 @@ pub(crate) fn state(answer: &Answer<'_>, i: usize) -> &'static str {
 }
 
 /// What helps a search that did not converge.
-pub(super) fn unfound(task: &NetworkFitTask<'_>, (stop, fit): (Stop, &NetworkFit)) -> String {
+pub(super) fn unfound(task: &NetworkFitTask, (stop, fit): (Stop, &NetworkFit)) -> String {
     let part = |fitted: &FittedParameter| (fitted.value / fitted.start).abs();
     let ends = task.unknowns().into_iter().zip(fit.parameters.iter().map(part));
     match ends.min_by(|a, b| a.1.total_cmp(&b.1)) {
@@ -53,7 +53,7 @@ pub(super) fn unfound(task: &NetworkFitTask<'_>, (stop, fit): (Stop, &NetworkFit
 }
 
 /// Parameters on bounds and other doubts, each at its place.
-pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
+pub(crate) fn doubts(answer: &FitNetworkAnswer) -> Vec<Diagnostic> {
     let mut doubts = Vec::new();
     for (i, parameter) in answer.fit.parameters.iter().enumerate() {
         let determined =
@@ -87,10 +87,10 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
             .push(doubt.help("write how far one value scatters, for example `sigma = \"0.2 K\"`"));
     }
     doubts.extend((0..answer.fit.parameters.len()).filter_map(|i| off_prior(answer, i)));
-    let (of, found) = ((answer.input, answer.study), (&answer.task, &answer.fit));
+    let (of, found) = ((&*answer.input, &answer.study), (&answer.task, &answer.fit));
     doubts.extend(taken::of_fit(of, found, &answer.named()));
-    let of = (answer.study, &answer.task, &answer.fit);
-    doubts.extend(taken::beside_posterior(answer.input, of, &answer.named()));
+    let of = (&answer.study, &answer.task, &answer.fit);
+    doubts.extend(taken::beside_posterior(&answer.input, of, &answer.named()));
     doubts.extend(misfits(answer));
     doubts.extend(drifting(answer));
     doubts.extend(differing(answer));
@@ -98,7 +98,7 @@ pub(crate) fn doubts(answer: &Answer<'_>) -> Vec<Diagnostic> {
 }
 
 /// That an instrument, as far as the records say, follows at once.
-fn no_lag(answer: &Answer<'_>, i: usize) -> Diagnostic {
+fn no_lag(answer: &FitNetworkAnswer, i: usize) -> Diagnostic {
     let name = answer.name(i);
     let message = format!(
         "the records speak for no lag: `{name}` comes to 0 s and has no standard error, and those \
@@ -112,7 +112,7 @@ fn no_lag(answer: &Answer<'_>, i: usize) -> Diagnostic {
 const WIDE: f64 = 2.5;
 
 /// That drift as slow as the record is in the intervals, where that makes one much wider.
-fn drifting(answer: &Answer<'_>) -> Option<Diagnostic> {
+fn drifting(answer: &FitNetworkAnswer) -> Option<Diagnostic> {
     let name = |column: &ColumnMisfit| &answer.task.runs[column.run].columns[column.column].name;
     let drifting = answer.fit.columns.iter().filter(|column| column.slow_drift);
     let names: Vec<String> = drifting.map(|column| format!("`{}`", name(column))).collect();
@@ -139,7 +139,7 @@ fn drifting(answer: &Answer<'_>) -> Option<Diagnostic> {
 }
 
 /// That something changes from record to record which the network holds fixed.
-fn differing(answer: &Answer<'_>) -> Option<Diagnostic> {
+fn differing(answer: &FitNetworkAnswer) -> Option<Diagnostic> {
     let between = |i: usize| Some((i, answer.fit.parameters[i].between.filter(|b| b.differ)?));
     let all: Vec<_> = (0..answer.fit.parameters.len()).filter_map(between).collect();
     let (widest, most) = all.iter().max_by(|a, b| a.1.ratio.total_cmp(&b.1.ratio))?;
@@ -165,7 +165,7 @@ fn differing(answer: &Answer<'_>) -> Option<Diagnostic> {
 }
 
 /// A value that contradicts what is known of it beforehand, which is its own value.
-fn off_prior(answer: &Answer<'_>, i: usize) -> Option<Diagnostic> {
+fn off_prior(answer: &FitNetworkAnswer, i: usize) -> Option<Diagnostic> {
     let (fitted, prior) = (&answer.fit.parameters[i], answer.unknowns[i].prior?);
     let off = (fitted.value - fitted.start).abs() / prior;
     let shown = |si: f64| significant(answer.shown(i, si), DIGITS);
@@ -188,7 +188,7 @@ fn off_prior(answer: &Answer<'_>, i: usize) -> Option<Diagnostic> {
 
 /// The columns that the model misses by far more than their values scatter: each once, with the
 /// record in which it is worst.
-fn misfits(answer: &Answer<'_>) -> Vec<Diagnostic> {
+fn misfits(answer: &FitNetworkAnswer) -> Vec<Diagnostic> {
     let name = |column: &ColumnMisfit| &answer.task.runs[column.run].columns[column.column].name;
     let off = |column: &ColumnMisfit| column.sigma.map_or(0.0, |sigma| column.rms / sigma);
     let mut found: Vec<(&ColumnMisfit, usize)> = Vec::new();
@@ -206,7 +206,11 @@ fn misfits(answer: &Answer<'_>) -> Vec<Diagnostic> {
     doubts.collect()
 }
 
-fn misfit(answer: &Answer<'_>, worst: &ColumnMisfit, (name, count): (&str, usize)) -> Diagnostic {
+fn misfit(
+    answer: &FitNetworkAnswer,
+    worst: &ColumnMisfit,
+    (name, count): (&str, usize),
+) -> Diagnostic {
     let record = &answer.task.runs[worst.run].name;
     let unit = answer.unit_of(worst);
     let [rms, sigma] = [worst.rms, worst.sigma.unwrap_or(f64::NAN)]
@@ -241,17 +245,17 @@ fn misfit(answer: &Answer<'_>, worst: &ColumnMisfit, (name, count): (&str, usize
 }
 
 /// "P R", "P / C", "2 G1 + G2".
-pub(crate) fn combination(answer: &Answer<'_>, combination: &Combination) -> String {
+pub(super) fn combination(answer: &FitNetworkAnswer, combination: &Combination) -> String {
     answer.named().combination(combination)
 }
 
 /// The type of a combination; `None` if its exponents cannot be held.
-pub(crate) fn type_of(answer: &Answer<'_>, combination: &Combination) -> Option<Type> {
+pub(super) fn type_of(answer: &FitNetworkAnswer, combination: &Combination) -> Option<Type> {
     answer.named().type_of(combination)
 }
 
 /// The last line: what the fit determined.
-pub(crate) fn verdict(answer: &Answer<'_>) -> String {
+pub(crate) fn verdict(answer: &FitNetworkAnswer) -> String {
     let Some(known) = &answer.fit.identifiability else {
         return "what the records determine cannot be told: derivatives are not finite".to_owned();
     };
@@ -278,7 +282,7 @@ pub(crate) fn verdict(answer: &Answer<'_>) -> String {
 }
 
 /// "6 parameters and 3 values of sensors".
-pub(crate) fn sought(answer: &Answer<'_>) -> String {
+pub(super) fn sought(answer: &FitNetworkAnswer) -> String {
     let (parameters, of_sensors) = answer.sought();
     let parameters = number(parameters.len(), "parameter");
     match of_sensors.len() {
@@ -290,7 +294,7 @@ pub(crate) fn sought(answer: &Answer<'_>) -> String {
 
 /// What there is to say of errors where the records have no value beyond those that the parameters
 /// take up.
-fn unchecked(answer: &Answer<'_>) -> &'static str {
+fn unchecked(answer: &FitNetworkAnswer) -> &'static str {
     match (answer.fit.left_over, &answer.fit.covariance) {
         (0, Some(_)) => {
             "; no values are left over to tell errors from, so they are those of `sigma`"

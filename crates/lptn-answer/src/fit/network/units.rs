@@ -3,20 +3,20 @@
 use lptn_fit::network::{ColumnMisfit, MeasuredColumn, NetworkFitTask};
 use lptn_units::{Type, Unit};
 
-use super::Answer;
-use lptn_answer::words::difference;
+use super::FitNetworkAnswer;
+use crate::words::difference;
 
 /// How values of one type are shown: temperatures in the unit of the netlist, what else is measured
 /// in SI units.
 #[derive(Clone, Debug)]
-pub(crate) struct Shown {
-    pub(crate) unit: Unit,
+pub(super) struct Shown {
+    pub(super) unit: Unit,
     /// The unit of differences of two values.
-    pub(crate) of_differences: String,
+    pub(super) of_differences: String,
 }
 
 impl Shown {
-    pub(crate) fn of(ty: Type, temperature: &Unit) -> Self {
+    pub(super) fn of(ty: Type, temperature: &Unit) -> Self {
         if ty.absolute {
             let of_differences = difference(temperature).to_owned();
             return Self { unit: temperature.clone(), of_differences };
@@ -27,20 +27,20 @@ impl Shown {
     }
 }
 
-impl Answer<'_> {
+impl FitNetworkAnswer {
     /// What a misfit is one of.
-    pub(crate) fn column(&self, misfit: &ColumnMisfit) -> &MeasuredColumn {
+    pub(super) fn column(&self, misfit: &ColumnMisfit) -> &MeasuredColumn {
         &self.task.runs[misfit.run].columns[misfit.column]
     }
 
     /// The SI unit of a misfit.
-    pub(crate) fn unit_of(&self, misfit: &ColumnMisfit) -> String {
+    pub(super) fn unit_of(&self, misfit: &ColumnMisfit) -> String {
         self.column(misfit).ty.dimension.si_unit()
     }
 }
 
 /// The SI unit that the misfits of all columns have in common; 1 where they count over their
 /// standard deviations.
-pub(crate) fn common(task: &NetworkFitTask<'_>) -> String {
+pub(in crate::fit) fn common(task: &NetworkFitTask) -> String {
     task.unit().unwrap_or(Type::SCALAR).dimension.si_unit()
 }

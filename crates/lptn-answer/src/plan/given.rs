@@ -1,20 +1,23 @@
 //! What the fits say of themselves whose records are there already.
 
+use std::sync::Arc;
+
 use lptn_fit::network::design::{DesignTask, GivenFit};
 use lptn_netlist::Diagnostic;
 
-use crate::verbs::fit::{NetworkAnswer, doubts as of_fit, verdict};
-use lptn_answer::input::Input;
+use crate::fit::network::{FitNetworkAnswer, doubts as of_fit, verdict};
+use crate::input::Input;
 
 /// What is doubtful of them, each with the name of its fit.
-pub(super) fn doubts<'a>(input: &'a Input, task: &DesignTask<'a>) -> Vec<Diagnostic> {
+pub(super) fn doubts(input: &Arc<Input>, task: &DesignTask) -> Vec<Diagnostic> {
     task.given_fits.iter().flat_map(|given| of_one(input, given)).collect()
 }
 
-fn of_one<'a>(input: &'a Input, given: &GivenFit<'a>) -> Vec<Diagnostic> {
+fn of_one(input: &Arc<Input>, given: &GivenFit) -> Vec<Diagnostic> {
     let fits = &input.netlist.studies.fits;
     let Some(study) = fits.iter().find(|fit| fit.name == given.name) else { return Vec::new() };
-    let answer = NetworkAnswer::new((input, study), given.task.clone(), given.fit.clone());
+    let of = (Arc::clone(input), study.clone());
+    let answer = FitNetworkAnswer::new(of, given.task.clone(), given.fit.clone());
     // what the fit holds, the plan may look for
     let own =
         |doubt: &Diagnostic| !matches!(doubt.code, "fit::taken_as_exact" | "fit::other_posterior");

@@ -7,16 +7,16 @@ use lptn_plot::figure::{Axis, Curve, Look, Panel};
 use lptn_report::{MOST_CURVES, TEMPERATURE, significant};
 use lptn_units::Type;
 
-use super::Answer;
+use super::FitNetworkAnswer;
 use super::units::Shown;
-use crate::verbs::fit::figure::differences;
+use crate::fit::figure::differences;
 
 /// More records than this are not drawn.
 const MOST_RECORDS: usize = 12;
 
-impl Answer<'_> {
+impl FitNetworkAnswer {
     /// A figure for each record.
-    pub(crate) fn pictures(&self) -> Vec<Figure> {
+    pub(super) fn pictures(&self) -> Vec<Figure> {
         let runs = self.task.runs.iter().enumerate().take(MOST_RECORDS);
         let mut figures: Vec<Figure> = runs.map(|(i, run)| self.picture(i, run)).collect();
         let left_out = self.task.runs.len() - figures.len();

@@ -4,15 +4,15 @@ use lptn_fit::choice::{Behind, Held, MARGIN, UnseenRecord};
 use lptn_netlist::Diagnostic;
 use lptn_report::{duration, fixed, significant};
 
-use super::Answer;
+use super::FitCompareAnswer;
 use super::shown::{interval, ratio};
-use lptn_answer::words::count;
+use crate::words::count;
 
 /// What two runs of the same network may differ by, in K (or another SI unit).
 const SAME: f64 = 1e-5;
 
 /// "each of the 5 records in its turn".
-pub(super) fn unseen(answer: &Answer<'_>) -> String {
+pub(super) fn unseen(answer: &FitCompareAnswer) -> String {
     let of_sensors = answer
         .choice
         .contenders
@@ -35,7 +35,7 @@ pub(super) fn unseen(answer: &Answer<'_>) -> String {
     }
 }
 
-pub(super) fn records(answer: &Answer<'_>) -> usize {
+pub(super) fn records(answer: &FitCompareAnswer) -> usize {
     answer.choice.contenders.first().map_or(0, |one| one.task.runs.len())
 }
 
@@ -47,7 +47,7 @@ fn times(behind: &Behind) -> String {
 }
 
 /// The last line: for which candidate the records speak.
-pub(super) fn verdict(answer: &Answer<'_>) -> String {
+pub(super) fn verdict(answer: &FitCompareAnswer) -> String {
     let rivals = answer.choice.rivals();
     match rivals.is_empty() {
         true => told(answer),
@@ -55,7 +55,7 @@ pub(super) fn verdict(answer: &Answer<'_>) -> String {
     }
 }
 
-fn told(answer: &Answer<'_>) -> String {
+fn told(answer: &FitCompareAnswer) -> String {
     let best = answer.choice.best;
     let next = answer.order().get(1).copied().unwrap_or(best);
     let (name, rms) = (answer.name(best), significant(answer.judged(best).unseen_rms(), 2));
@@ -72,7 +72,7 @@ fn told(answer: &Answer<'_>) -> String {
     }
 }
 
-fn open(answer: &Answer<'_>, rivals: &[usize]) -> String {
+fn open(answer: &FitCompareAnswer, rivals: &[usize]) -> String {
     let (best, simplest) = (answer.choice.best, answer.choice.simplest());
     let names: Vec<String> = rivals.iter().map(|&i| answer.name(i).to_owned()).collect();
     let mut text = format!(
@@ -88,13 +88,13 @@ fn open(answer: &Answer<'_>, rivals: &[usize]) -> String {
 }
 
 /// The most unknowns of any that is not told apart.
-fn most(answer: &Answer<'_>, rivals: &[usize]) -> usize {
+fn most(answer: &FitCompareAnswer, rivals: &[usize]) -> usize {
     let all = rivals.iter().chain([&answer.choice.best]);
     all.map(|&i| answer.judged(i).likely.unknowns).max().unwrap_or(0)
 }
 
 /// Why one candidate is not told from the best.
-fn why(answer: &Answer<'_>, rival: usize) -> String {
+fn why(answer: &FitCompareAnswer, rival: usize) -> String {
     let (judged, best) = (answer.judged(rival), answer.judged(answer.choice.best));
     let Some(behind) = &judged.behind else { return String::new() };
     let missed =
@@ -112,7 +112,7 @@ fn why(answer: &Answer<'_>, rival: usize) -> String {
 }
 
 /// What would tell the two apart.
-fn what_would(answer: &Answer<'_>, rival: usize) -> String {
+fn what_would(answer: &FitCompareAnswer, rival: usize) -> String {
     let judged = answer.judged(rival);
     let mut text = String::new();
     if let Some(apart) = judged.apart {
@@ -136,7 +136,7 @@ fn what_would(answer: &Answer<'_>, rival: usize) -> String {
 }
 
 /// What is doubtful of how a candidate says what it has not seen.
-pub(super) fn doubts(answer: &Answer<'_>, i: usize) -> Vec<Diagnostic> {
+pub(super) fn doubts(answer: &FitCompareAnswer, i: usize) -> Vec<Diagnostic> {
     let (one, judged) = (&answer.candidates[i], answer.judged(i));
     let within = |is: &dyn Fn(&UnseenRecord) -> bool| {
         let found = judged.unseen.iter().filter(|part| is(part));
@@ -173,7 +173,7 @@ pub(super) fn doubts(answer: &Answer<'_>, i: usize) -> Vec<Diagnostic> {
 }
 
 /// Of a candidate that is likelier, but foretells worse.
-pub(super) fn likelier(answer: &Answer<'_>) -> Option<String> {
+pub(super) fn likelier(answer: &FitCompareAnswer) -> Option<String> {
     let other = answer.choice.likeliest_instead()?;
     let below = answer.above(answer.choice.best)?;
     let (name, below) = (answer.name(other), fixed(below, 1));

@@ -9,18 +9,18 @@ use lptn_solve::Table;
 use lptn_study::{FileHash, SiValue};
 use serde_json::{Map, Value, json};
 
-use super::Answer;
+use super::FitCompareAnswer;
 use super::shown::{interval, probability, ratio, share};
 use super::words::{likelier, records, unseen, verdict};
-use crate::verbs::fit::network::{common, parameter, values};
-use lptn_answer::about;
-use lptn_answer::messages;
-use lptn_answer::words::count;
+use crate::about;
+use crate::fit::network::{common, parameter, values};
+use crate::messages;
+use crate::words::count;
 
 /// What does not exist.
 const NOTHING: &str = "-";
 
-impl Page for Answer<'_> {
+impl Page for FitCompareAnswer {
     fn text(&self) -> Text {
         let samples = self.fits.first().map_or(0, |fit| fit.fit.samples());
         let mut text = Text::titled(format!(
@@ -56,7 +56,8 @@ impl Page for Answer<'_> {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&self.hashes(), &crate::files::arguments())
+        let command = self.candidates.first().map_or(&[][..], |one| &one.input.command);
+        about::of_command(&self.hashes(), command)
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -91,7 +92,7 @@ impl Page for Answer<'_> {
     }
 }
 
-fn overview(answer: &Answer<'_>, order: &[usize]) -> TextTable {
+fn overview(answer: &FitCompareAnswer, order: &[usize]) -> TextTable {
     let kelvin = |value: f64| significant(value, 3);
     let (unit, behind) = (answer.unit(), |i: usize| answer.judged(i).behind);
     let within = |i: usize| behind(i).and_then(|behind| behind.interval);
@@ -114,7 +115,7 @@ fn overview(answer: &Answer<'_>, order: &[usize]) -> TextTable {
 }
 
 /// What becomes of a candidate, in a word.
-fn standing(answer: &Answer<'_>, i: usize) -> (&'static str, Standing) {
+fn standing(answer: &FitCompareAnswer, i: usize) -> (&'static str, Standing) {
     let told = answer.choice.rivals().is_empty();
     match (i == answer.choice.best, told) {
         (true, true) => ("taken", Standing::Holds),
@@ -127,7 +128,7 @@ fn standing(answer: &Answer<'_>, i: usize) -> (&'static str, Standing) {
     }
 }
 
-fn whiteness(answer: &Answer<'_>, order: &[usize]) -> Option<TextTable> {
+fn whiteness(answer: &FitCompareAnswer, order: &[usize]) -> Option<TextTable> {
     /// So many columns stand beside each other.
     const MOST: usize = 5;
     let columns = &answer.judged(order[0]).task.runs.first()?.columns;
@@ -146,7 +147,7 @@ fn whiteness(answer: &Answer<'_>, order: &[usize]) -> Option<TextTable> {
     Some(table.into())
 }
 
-fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
+fn notes(answer: &FitCompareAnswer) -> Vec<(&'static str, String)> {
     let means = answer.judged(answer.choice.best).likely.means;
     let of_noise = |&i: &usize| answer.judged(i).likely.of_noise.to_string();
     let noise: Vec<String> = answer.order().iter().map(of_noise).collect();
@@ -171,9 +172,9 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
     notes
 }
 
-impl Answer<'_> {
+impl FitCompareAnswer {
     /// A row for each candidate.
-    pub(super) fn table(&self) -> Table {
+    pub fn table(&self) -> Table {
         let order = self.order();
         let unit = common(&self.choice.contenders[0].task);
         let nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
@@ -196,7 +197,7 @@ impl Answer<'_> {
     }
 
     /// A row for each record that a candidate has not seen.
-    pub(super) fn unseen(&self) -> Table {
+    pub fn unseen(&self) -> Table {
         let rows: Vec<(usize, usize)> = self
             .order()
             .into_iter()
@@ -214,7 +215,7 @@ impl Answer<'_> {
     }
 
     /// Every file that was read, each once.
-    pub(super) fn hashes(&self) -> Vec<FileHash> {
+    pub fn hashes(&self) -> Vec<FileHash> {
         let mut all: Vec<FileHash> = Vec::new();
         for hash in self.candidates.iter().flat_map(|one| about::hashes(&one.input.netlist)) {
             if all.iter().all(|known| known.name != hash.name) {

@@ -5,10 +5,10 @@ use lptn_report::{differing, fixed};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
-use super::Answer;
+use super::FitNetworkAnswer;
 
 /// That columns of a record are off together, for the records in which chance does not explain it.
-pub(super) fn text(answer: &Answer<'_>) -> Option<String> {
+pub(super) fn text(answer: &FitNetworkAnswer) -> Option<String> {
     let runs = &answer.task.runs;
     let records: Vec<String> = runs.iter().map(|run| run.name.clone()).collect();
     let records = differing(&records);
@@ -30,7 +30,7 @@ pub(super) fn text(answer: &Answer<'_>) -> Option<String> {
 }
 
 /// The correlation of each such record.
-pub(super) fn json(answer: &Answer<'_>) -> Value {
+pub(super) fn json(answer: &FitNetworkAnswer) -> Value {
     let one = |shared: &SharedNoise| {
         json!({
             "record": answer.task.runs[shared.run].name,

@@ -3,13 +3,13 @@
 use lptn_fit::network::design::{DesignPlan, GivenFit, MOST_LEGS, Never};
 use lptn_report::significant;
 
-use super::Answer;
+use super::PlanAnswer;
 use super::shown::cost;
-use lptn_answer::unseparated::{Named, joined, names_and_units};
-use lptn_answer::words::{count, unverified};
+use crate::unseparated::{Named, joined, names_and_units};
+use crate::words::{count, unverified};
 
 /// Lines with a label below the tables.
-pub(super) fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
+pub(super) fn notes(answer: &PlanAnswer) -> Vec<(&'static str, String)> {
     let (task, design) = (&answer.task, &answer.design);
     let mut notes = Vec::new();
     if let Some(plan) = &design.plan {
@@ -48,8 +48,8 @@ pub(super) fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
 }
 
 /// That columns of records which are there are off together, which a plan does not count.
-fn shared(answer: &Answer<'_>) -> Option<String> {
-    let of_fit = |given: &GivenFit<'_>| {
+fn shared(answer: &PlanAnswer) -> Option<String> {
+    let of_fit = |given: &GivenFit| {
         let sizes = given.fit.shared_noise.iter().map(|shared| shared.correlation.abs());
         Some((given.name.clone(), sizes.reduce(f64::max)?))
     };
@@ -65,7 +65,7 @@ fn shared(answer: &Answer<'_>) -> Option<String> {
 }
 
 /// What is hardly known: far from the values a network answers otherwise.
-fn rough(answer: &Answer<'_>) -> Option<String> {
+fn rough(answer: &PlanAnswer) -> Option<String> {
     const PART: f64 = 0.5;
     let plan = answer.design.plan.as_ref()?;
     let hardly = |i: &usize| {
@@ -85,7 +85,7 @@ fn rough(answer: &Answer<'_>) -> Option<String> {
 }
 
 /// What a fit of the record takes as `sigma`, where sensors drift.
-fn weights(answer: &Answer<'_>) -> Option<String> {
+fn weights(answer: &PlanAnswer) -> Option<String> {
     let places = &answer.design.plan.as_ref()?.places;
     let drifting = places.iter().map(|&place| &answer.task.places[place]);
     let drifting = drifting.filter(|place| place.correlated > 0.0);
@@ -97,7 +97,7 @@ fn weights(answer: &Answer<'_>) -> Option<String> {
     (!all.is_empty()).then(|| format!("for the fit: {} ({why})", all.join(", ")))
 }
 
-fn costs(answer: &Answer<'_>, plan: &DesignPlan) -> String {
+fn costs(answer: &PlanAnswer, plan: &DesignPlan) -> String {
     let sensors: f64 = plan.places.iter().map(|&place| answer.task.places[place].cost).sum();
     let of = match answer.task.budget.is_finite() {
         true => format!(" of {}", cost(answer.task.budget)),
@@ -108,15 +108,15 @@ fn costs(answer: &Answer<'_>, plan: &DesignPlan) -> String {
 }
 
 /// Whether something that shall be known is not determined by any run with all sensors.
-fn is_lost(answer: &Answer<'_>, never: &Never) -> bool {
+fn is_lost(answer: &PlanAnswer, never: &Never) -> bool {
     let unknowns = &answer.task.unknowns;
     answer.task.known.iter().any(|known| !never.determines(&unknowns[known.unknown]))
 }
 
 /// What cannot be told apart, and what would help.
-fn lost(answer: &Answer<'_>, never: &Never) -> String {
+fn lost(answer: &PlanAnswer, never: &Never) -> String {
     let (names, units) =
-        names_and_units(answer.input, &never.unknowns, &answer.task.record_names());
+        names_and_units(&answer.input, &never.unknowns, &answer.task.record_names());
     let values = never.values.clone();
     let named = Named { unknowns: &never.unknowns, names: &names, units: &units, values };
     let mut parts = Vec::new();
@@ -128,7 +128,7 @@ fn lost(answer: &Answer<'_>, never: &Never) -> String {
 }
 
 /// The last line: what to do, or why it does not help.
-pub(super) fn verdict(answer: &Answer<'_>) -> String {
+pub(super) fn verdict(answer: &PlanAnswer) -> String {
     if let Some(never) = answer.design.never.as_ref().filter(|never| is_lost(answer, never)) {
         return format!(
             "not determined by any of the runs, with every sensor and however long: {}",
@@ -151,14 +151,14 @@ pub(super) fn verdict(answer: &Answer<'_>) -> String {
 }
 
 /// "alpha to 0.98 %", of what shall be known.
-fn told(answer: &Answer<'_>, plan: &DesignPlan) -> String {
+fn told(answer: &PlanAnswer, plan: &DesignPlan) -> String {
     let known = answer.task.known.iter().map(|known| known.unknown);
     let one = |i: usize| format!("{} to {}", answer.names[i], answer.part(i, plan.errors[i]));
     joined(&known.map(one).collect::<Vec<_>>())
 }
 
 /// Of what is not reached why, and what would help.
-fn short(answer: &Answer<'_>, plan: &DesignPlan) -> String {
+fn short(answer: &PlanAnswer, plan: &DesignPlan) -> String {
     let known = answer.task.known.iter();
     let missed = known.filter(|known| plan.errors[known.unknown] > known.error);
     let one = |known: &lptn_fit::network::design::Known| {

@@ -6,9 +6,9 @@ use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Moment, Panel};
 use lptn_report::{MOST_CURVES, shortened};
 
-use super::Answer;
+use super::FitCompareAnswer;
 use super::words::unseen;
-use lptn_answer::words::count;
+use crate::words::count;
 
 /// Columns that are drawn, at most.
 const MOST_COLUMNS: usize = 3;
@@ -16,7 +16,7 @@ const MOST_COLUMNS: usize = 3;
 /// Letters of a name beside its dots.
 const NAME: usize = 24;
 
-impl Answer<'_> {
+impl FitCompareAnswer {
     pub(super) fn picture(&self) -> Figure {
         let order: Vec<usize> = self.order().into_iter().take(MOST_CURVES).collect();
         let record = self.drawn();
@@ -79,7 +79,7 @@ impl Answer<'_> {
     }
 }
 
-fn missed(judged: &Judged<'_>, (record, column): (usize, usize)) -> Vec<(f64, f64)> {
+fn missed(judged: &Judged, (record, column): (usize, usize)) -> Vec<(f64, f64)> {
     let run = &judged.task.runs[record];
     let part = judged.unseen.iter().find(|part| part.run == record);
     let Some(modelled) = part.and_then(|part| part.modelled.get(column)) else { return Vec::new() };

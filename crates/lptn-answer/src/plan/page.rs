@@ -9,11 +9,11 @@ use lptn_solve::Table;
 use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
-use super::Answer;
+use super::PlanAnswer;
 use super::shown::{NORMAL_95, NOTHING, cost};
 use super::words::{notes, verdict};
-use lptn_answer::about::{self, Known};
-use lptn_answer::words::{count, symbol};
+use crate::about::{self, Known};
+use crate::words::{count, symbol};
 
 /// Runs that are shown, at most.
 const MOST_RUNS: usize = 12;
@@ -21,7 +21,7 @@ const MOST_RUNS: usize = 12;
 /// Letters of a list of places beside the other columns.
 const PLACES: usize = 24;
 
-impl Page for Answer<'_> {
+impl Page for PlanAnswer {
     fn text(&self) -> Text {
         let mut text = Text::titled(self.input.title());
         let (wanted, besides) = (self.wanted(), besides(self));
@@ -67,11 +67,11 @@ impl Page for Answer<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.input, Known::default())
+        about::about(&self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        self.input.head(json, &[])?;
+        self.input.head(json, &self.doubts)?;
         json.member("study", &self.study.name)?;
         json.member("known", &self.errors_of(&self.design.before, None))?;
         json.member("sets", &self.design.sets.iter().map(|set| self.set(set)).collect::<Value>())?;
@@ -93,7 +93,7 @@ impl Page for Answer<'_> {
 }
 
 /// ", while 2 parameters and 3 values of sensors are not known either".
-fn besides(answer: &Answer<'_>) -> String {
+fn besides(answer: &PlanAnswer) -> String {
     let of_sensors = answer.task.unknowns.iter().filter(|unknown| unknown.sensor().is_some());
     let of_sensors = of_sensors.count();
     let others = answer.task.unknowns.len() - of_sensors - answer.task.known.len();
@@ -112,7 +112,7 @@ fn besides(answer: &Answer<'_>) -> String {
     }
 }
 
-fn searched(answer: &Answer<'_>) -> String {
+fn searched(answer: &PlanAnswer) -> String {
     let (sets, places) = (answer.design.searched.sets, answer.task.places.len());
     let sets = count(sets, "set");
     match answer.design.searched.all {
@@ -123,7 +123,7 @@ fn searched(answer: &Answer<'_>) -> String {
     }
 }
 
-fn sets(answer: &Answer<'_>) -> TextTable {
+fn sets(answer: &PlanAnswer) -> TextTable {
     let run = |set: &DesignSet| set.run.map_or(NOTHING, |(run, _)| answer.run(run)).to_owned();
     let mut table = TextTable::of(&answer.design.sets)
         .right("sensors", |set| set.places.len().to_string())
@@ -143,11 +143,11 @@ fn sets(answer: &Answer<'_>) -> TextTable {
     table.into()
 }
 
-fn enough(answer: &Answer<'_>, samples: Option<usize>) -> String {
+fn enough(answer: &PlanAnswer, samples: Option<usize>) -> String {
     samples.map_or(NOTHING.to_owned(), |samples| answer.lasts(samples))
 }
 
-fn next(answer: &Answer<'_>) -> TextTable {
+fn next(answer: &PlanAnswer) -> TextTable {
     let shown = &answer.design.next[..answer.design.next.len().min(MOST_RUNS)];
     let mut table = TextTable::of(shown)
         .left("next run", |next| shortened(answer.run(next.run.0), 2 * PLACES))
@@ -164,7 +164,7 @@ fn next(answer: &Answer<'_>) -> TextTable {
 }
 
 /// What is known after the plan, of parameters and of sensors that it has.
-fn unknowns(answer: &Answer<'_>) -> TextTable {
+fn unknowns(answer: &PlanAnswer) -> TextTable {
     let plan = answer.design.plan.as_ref();
     let (places, errors) =
         plan.map_or((&[][..], &[][..]), |plan| (&plan.places[..], &plan.errors[..]));
@@ -195,7 +195,7 @@ fn unknowns(answer: &Answer<'_>) -> TextTable {
     }
 }
 
-impl Answer<'_> {
+impl PlanAnswer {
     fn listed(&self) -> Table {
         let mut table = Table::of(&self.design.curve);
         table.column("t", "s", |(seconds, _)| *seconds);

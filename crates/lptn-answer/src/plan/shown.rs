@@ -3,9 +3,9 @@
 use lptn_fit::network::design::Known;
 use lptn_report::{duration, significant};
 
-use super::Answer;
-use lptn_answer::unseparated::joined;
-use lptn_answer::words::{spaced, symbol};
+use super::PlanAnswer;
+use crate::unseparated::joined;
+use crate::words::{spaced, symbol};
 
 /// Half the width of a 95 % interval of a normal distribution, over its standard deviation.
 pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
@@ -13,7 +13,7 @@ pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
 /// What stands where nothing is.
 pub(super) const NOTHING: &str = "-";
 
-impl Answer<'_> {
+impl PlanAnswer {
     /// A standard error in the unit of its unknown.
     pub(super) fn error(&self, i: usize, si: f64) -> f64 {
         si / self.units[i].scale

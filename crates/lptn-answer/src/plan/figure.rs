@@ -5,7 +5,7 @@ use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Level, Look, Moment, Panel};
 use lptn_report::shortened;
 
-use super::Answer;
+use super::PlanAnswer;
 
 /// Runs that are drawn, at most.
 const MOST_RUNS: usize = 12;
@@ -18,7 +18,7 @@ const FAR: f64 = 100.0;
 
 const ERROR: &str = "error over what is wanted";
 
-impl Answer<'_> {
+impl PlanAnswer {
     pub(super) fn pictures(&self) -> Vec<Figure> {
         let mut panels = Vec::new();
         if !self.design.curve.is_empty() {

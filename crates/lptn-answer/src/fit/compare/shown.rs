@@ -3,12 +3,12 @@
 use lptn_fit::choice::Judged;
 use lptn_report::{decimals, fixed, significant};
 
-use super::Answer;
+use super::FitCompareAnswer;
 
 /// Intervals of ratios are not shown finer than this.
 const LEAST: f64 = 0.02;
 
-impl Answer<'_> {
+impl FitCompareAnswer {
     /// The candidates, the best first and then by how far behind they are.
     pub(super) fn order(&self) -> Vec<usize> {
         let behind = |i: usize| self.judged(i).behind.map_or(0.0, |behind| behind.ratio);
@@ -20,7 +20,7 @@ impl Answer<'_> {
         order
     }
 
-    pub(super) fn judged(&self, i: usize) -> &Judged<'_> {
+    pub(super) fn judged(&self, i: usize) -> &Judged {
         &self.choice.contenders[i]
     }
 
