@@ -245,13 +245,18 @@ impl Console {
 
     /// Warnings beside a result.
     pub(crate) fn warn(&self, files: &Files, warnings: &[Diagnostic]) {
-        let said = warnings.iter().map(|warning| render(files, warning, false));
-        self.said.lock().unwrap_or_else(PoisonError::into_inner).extend(said);
         if self.quiet {
             self.note_down(files, warnings);
         } else {
             self.report(files, warnings);
         }
+    }
+
+    /// Warnings before there is a result, which does not say them again.
+    pub(crate) fn warn_early(&self, files: &Files, warnings: &[Diagnostic]) {
+        let said = warnings.iter().map(|warning| render(files, warning, false));
+        self.said.lock().unwrap_or_else(PoisonError::into_inner).extend(said);
+        self.warn(files, warnings);
     }
 
     /// Keeps what was said for the report, and for a program that gets no result.

@@ -36,7 +36,7 @@ impl Listening<'_> {
 impl Listener for Listening<'_> {
     fn warn(&self, files: &Files, doubts: &[Diagnostic]) {
         self.line().clear();
-        self.console.warn(files, doubts);
+        self.console.warn_early(files, doubts);
     }
 
     fn note(&self, text: &str) {
@@ -55,6 +55,21 @@ impl Listener for Listening<'_> {
             line.update_of(stage, progress);
         }
         self.interrupt.control()
+    }
+}
+
+/// Without a line and without an ear for Ctrl-C, which ends the program.
+impl Listener for Console {
+    fn warn(&self, files: &Files, doubts: &[Diagnostic]) {
+        self.warn(files, doubts);
+    }
+
+    fn note(&self, text: &str) {
+        self.note(text);
+    }
+
+    fn progress(&self, _: Progress) -> Proceed {
+        Proceed::Continue
     }
 }
 

@@ -183,7 +183,7 @@ fn failed(input: &Input, study: &FitStudy, error: &NetworkFitError) -> Failure {
 }
 
 /// The column or record that is at fault.
-pub fn record_place<'s>(study: &'s FitStudy, error: &NetworkFitError) -> Option<&'s Span> {
+pub(crate) fn record_place<'s>(study: &'s FitStudy, error: &NetworkFitError) -> Option<&'s Span> {
     match error {
         NetworkFitError::Observed { column, .. }
         | NetworkFitError::NotLinear { column, .. }

@@ -6,7 +6,7 @@ use lptn_report::{fixed, significant};
 const DIGITS: usize = 6;
 
 /// `810.3 ± 3.1`: the error with two digits, the number with as many decimals.
-pub(crate) fn with_error(value: f64, error: f64) -> String {
+pub(super) fn with_error(value: f64, error: f64) -> String {
     match decimals(value, error) {
         Some(decimals) => format!("{} ± {}", fixed(value, decimals), fixed(error, decimals)),
         None => significant(value, DIGITS),
@@ -14,7 +14,7 @@ pub(crate) fn with_error(value: f64, error: f64) -> String {
 }
 
 /// The number with as many decimals as its error has.
-pub(crate) fn to_error(value: f64, error: f64) -> String {
+pub(super) fn to_error(value: f64, error: f64) -> String {
     decimals(value, error)
         .map_or_else(|| significant(value, DIGITS), |decimals| fixed(value, decimals))
 }

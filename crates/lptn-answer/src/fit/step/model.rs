@@ -8,34 +8,36 @@ use lptn_netlist::Diagnostic;
 use lptn_network::Time;
 use lptn_units::Problem as _;
 
-use super::StepArgs;
+use super::FitStepQuestion;
 use super::request::Request;
-use crate::input::Load as _;
-use crate::options::Source;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::{Failure, told};
-use lptn_answer::input::Input;
+use crate::belief::Belief;
+use crate::exit::Exit;
+use crate::failure::{Failure, told};
+use crate::input::Input;
 
 /// The bias of the method, and of which network.
 #[derive(Debug)]
-pub(crate) struct Model {
-    pub(crate) file: String,
-    pub(crate) stem: String,
-    pub(crate) port: String,
-    pub(crate) bias: ModelBias,
+pub(super) struct Model {
+    pub(super) file: String,
+    pub(super) stem: String,
+    pub(super) port: String,
+    pub(super) bias: ModelBias,
 }
 
 impl Model {
     /// The same fit on the network's own answer at the times of the record; `None` where no network
     /// is named.
-    pub(crate) fn read(args: &StepArgs, request: &Request) -> Result<Option<Self>, Failure> {
-        let (Some(file), Some(port)) = (&args.model, &args.port) else { return Ok(None) };
+    pub(super) fn read(
+        question: &FitStepQuestion,
+        request: &Request,
+    ) -> Result<Option<Self>, Failure> {
+        let (Some(file), Some(port)) = (&question.model, &question.port) else { return Ok(None) };
         let begin = request.begin.ok_or_else(unknown_begin)?;
         Self::of(file, port, (begin, &request.record.time)).map(Some)
     }
 
     fn of(file: &Path, port: &str, (begin, times): (f64, &[f64])) -> Result<Self, Failure> {
-        let input = Input::load(&Source::of(file.to_owned()))?;
+        let input = Input::open(file, &Belief::Named, (None, &[]))?;
         let network = &input.netlist.network;
         let explain = |error: StepError| failed(&input, port, &error);
         let node =

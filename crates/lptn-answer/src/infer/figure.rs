@@ -5,9 +5,9 @@ use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Panel};
 use lptn_report::{MOST_CURVES, TEMPERATURE};
 
-use super::Answer;
+use super::InferAnswer;
 
-impl Answer<'_> {
+impl InferAnswer {
     pub(super) fn pictures(&self) -> Vec<Figure> {
         let mut panels: Vec<Panel> = (0..self.task.sought.len()).map(|j| self.course(j)).collect();
         panels.push(self.temperatures());

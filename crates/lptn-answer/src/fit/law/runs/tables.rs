@@ -1,43 +1,39 @@
-//! The files of `lptn fit law FOLDER`: the tables of the paper's Figures 7, 8 and 9, and their
-//! manifest.
+//! What was found of each run: the tables of the paper's Figures 7, 8 and 9, and the same as JSON.
 
 use std::io;
 
 use lptn_fit::law::{RunFit, Systematic};
-use lptn_report::{Format, Json, Look, Page as _, write_csv};
+use lptn_report::{Json, Page as _};
 use lptn_solve::{Table, TableOf};
 use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
-use super::{Runs, lines};
-use crate::files::names::{LAWS, MANIFEST, POWER, RISE, SLOPES, TIME_CONSTANT};
-use crate::files::{Folder, manifest};
-use lptn_answer::failure::Failure;
+use super::{FitRunsAnswer, lines};
 
-/// What is written.
-pub(crate) const NAMES: [&str; 6] = [RISE, TIME_CONSTANT, POWER, SLOPES, LAWS, MANIFEST];
-
-pub(crate) fn write(found: &Runs, folder: &Folder) -> Result<(), Failure> {
-    let mut files = folder.batch();
-    let tables = [
-        (RISE, rise(found)),
-        (TIME_CONSTANT, time_constant(found)),
-        (POWER, power(found)),
-        (SLOPES, lines::sheet(found)),
-    ];
-    for (name, table) in tables {
-        files.write(name, |out| write_csv(&table, out))?;
+impl FitRunsAnswer {
+    /// The rise of each run in K over its speed, with its errors.
+    pub fn rises(&self) -> Table {
+        rise(self)
     }
-    files.write(LAWS, |mut out| {
-        lptn_report::write(&found.answer, Format::Csv, Look::PLAIN, &mut out)
-    })?;
-    let text = manifest(&found.inputs, files.written(), found.wall_time);
-    files.write(MANIFEST, |out| out.write_all(format!("{text:#}\n").as_bytes()))?;
-    files.commit(&[])
+
+    /// The time constant of each run in min over its speed, with its errors.
+    pub fn time_constants(&self) -> Table {
+        time_constant(self)
+    }
+
+    /// The power of each run in W over its speed, with the value of each law.
+    pub fn powers(&self) -> Table {
+        power(self)
+    }
+
+    /// Lines through rises and time constants of all runs, and how columns differ in them.
+    pub fn slopes(&self) -> Table {
+        lines::sheet(self)
+    }
 }
 
 /// A table of runs and their speeds, for other columns: one value a run.
-fn table<'a>(found: &Runs, rows: &'a [usize]) -> TableOf<'a, usize> {
+fn table<'a>(found: &FitRunsAnswer, rows: &'a [usize]) -> TableOf<'a, usize> {
     let (unit, runs) = (&found.answer.data.unit, &found.study.runs);
     let mut table = Table::of(rows);
     table.label("run", |&row| runs[row].0.clone());
@@ -45,7 +41,7 @@ fn table<'a>(found: &Runs, rows: &'a [usize]) -> TableOf<'a, usize> {
     table
 }
 
-fn rows(found: &Runs) -> Vec<usize> {
+fn rows(found: &FitRunsAnswer) -> Vec<usize> {
     (0..found.study.runs.len()).collect()
 }
 
@@ -53,7 +49,7 @@ fn rows(found: &Runs) -> Vec<usize> {
 type Part<'a> = (&'a str, &'a str, &'a dyn Fn(&RunFit) -> f64);
 
 /// Columns of every thermocouple.
-fn each(found: &Runs, parts: &[Part<'_>]) -> Table {
+fn each(found: &FitRunsAnswer, parts: &[Part<'_>]) -> Table {
     let rows = rows(found);
     let mut table = table(found, &rows);
     for (of, part) in found.columns().iter().flat_map(|of| parts.iter().map(move |part| (of, part)))
@@ -65,7 +61,7 @@ fn each(found: &Runs, parts: &[Part<'_>]) -> Table {
 }
 
 /// Figure 7: rise over speed.
-fn rise(found: &Runs) -> Table {
+fn rise(found: &FitRunsAnswer) -> Table {
     each(
         found,
         &[
@@ -77,7 +73,7 @@ fn rise(found: &Runs) -> Table {
 }
 
 /// Figure 8: time constant over speed.
-fn time_constant(found: &Runs) -> Table {
+fn time_constant(found: &FitRunsAnswer) -> Table {
     each(
         found,
         &[
@@ -89,7 +85,7 @@ fn time_constant(found: &Runs) -> Table {
 }
 
 /// Figure 9: power over speed, with what each law says.
-pub(crate) fn power(found: &Runs) -> Table {
+pub(super) fn power(found: &FitRunsAnswer) -> Table {
     let first = found.columns().first().map_or(&[][..], |column| &column.fits);
     let rows = rows(found);
     let mut table = table(found, &rows);
@@ -110,7 +106,7 @@ pub(crate) fn power(found: &Runs) -> Table {
     table.done()
 }
 
-pub(crate) fn json(found: &Runs, json: &mut Json<'_>) -> io::Result<()> {
+pub(super) fn json(found: &FitRunsAnswer, json: &mut Json<'_>) -> io::Result<()> {
     found.answer.json(json)?;
     json.member("runs", &runs(found))?;
     json.member("slopes", &lines::json(found))?;
@@ -129,7 +125,7 @@ fn number(value: f64, unit: &str, error: f64) -> Value {
     json!({ "value": value, "unit": unit, "standard_error": error })
 }
 
-fn runs(found: &Runs) -> Value {
+fn runs(found: &FitRunsAnswer) -> Value {
     let column = |f: &RunFit| {
         let parted = |p: lptn_fit::step::Parted, unit: &str| {
             json!({

@@ -1,4 +1,4 @@
-//! `lptn fit law FOLDER`: the records of a folder and their speeds.
+//! The records of a folder and their speeds.
 
 use std::path::{Path, PathBuf};
 
@@ -9,22 +9,22 @@ use lptn_study::FileHash;
 use lptn_units::{Dimension, Type, parse_quantity};
 
 use super::super::shown::SpeedUnit;
-use crate::files::of_folder;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::folder::of_folder;
 
 /// The sheet that gives the speeds of records.
 const RUNS: &str = "runs.csv";
 
 /// The records of a folder.
-pub(crate) struct Folder {
-    pub(crate) runs: Vec<Run>,
+pub(super) struct Folder {
+    pub(super) runs: Vec<Run>,
     /// The unit in which speeds are written.
-    pub(crate) unit: SpeedUnit,
+    pub(super) unit: SpeedUnit,
     /// Every file that was read.
-    pub(crate) inputs: Vec<FileHash>,
+    pub(super) inputs: Vec<FileHash>,
     /// Warnings with their files.
-    pub(crate) warnings: Vec<(Files, Vec<Diagnostic>)>,
+    pub(super) warnings: Vec<(Files, Vec<Diagnostic>)>,
 }
 
 /// Speeds in rad/s by the names of files, and their unit.
@@ -33,7 +33,7 @@ struct Speeds {
     unit: Option<SpeedUnit>,
 }
 
-pub(crate) fn read(folder: &Path) -> Result<Folder, Failure> {
+pub(super) fn read(folder: &Path) -> Result<Folder, Failure> {
     let paths = records(folder)?;
     let mut found = Folder {
         runs: Vec::new(),

@@ -8,9 +8,9 @@ use lptn_report::{MOST_CURVES, TEMPERATURE, significant};
 use lptn_units::Unit;
 
 use super::estimate::with_error;
-use super::{Answer, Column};
-use lptn_answer::fit::figure::differences;
-use lptn_answer::words::difference;
+use super::{FitStepAnswer, StepColumn};
+use crate::fit::figure::differences;
+use crate::words::difference;
 
 /// Points of a curve that is drawn.
 const POINTS: u32 = 240;
@@ -18,9 +18,9 @@ const POINTS: u32 = 240;
 /// T_f is drawn where it is at most so many times as far from the record as the record is high.
 const FAR: f64 = 1.5;
 
-impl Answer<'_> {
+impl FitStepAnswer {
     /// The record over time, the exponentials through it, and what they miss.
-    pub(crate) fn figure(&self) -> Figure {
+    pub(super) fn figure(&self) -> Figure {
         let unit = &self.request.unit;
         let mut panel = Panel::new(Axis::time(), Axis::linear(TEMPERATURE, &*unit.text));
         let mut missed = differences("measured \u{2212} fit", difference(unit));
@@ -65,7 +65,7 @@ fn left_out(count: usize) -> Option<String> {
 }
 
 /// A column of the record as dots.
-fn measured(answer: &Answer<'_>, column: &RecordColumn) -> Curve {
+fn measured(answer: &FitStepAnswer, column: &RecordColumn) -> Curve {
     let unit = &answer.request.unit;
     let rows = answer.request.record.time.iter().zip(&column.values);
     let points = rows.map(|(&time, &kelvin)| (time, unit.from_si(kelvin))).collect();
@@ -74,8 +74,8 @@ fn measured(answer: &Answer<'_>, column: &RecordColumn) -> Curve {
 
 /// A column of the record with its ink.
 struct Drawn<'a> {
-    answer: &'a Answer<'a>,
-    column: &'a Column<'a>,
+    answer: &'a FitStepAnswer,
+    column: &'a StepColumn,
     place: usize,
 }
 
@@ -124,7 +124,7 @@ impl Drawn<'_> {
             curves.push(level.looks(Look::Dashed).as_place(self.place));
             curves.push(end.looks(Look::Dots).as_place(self.place));
         }
-        curves.push(measured(self.answer, self.column.column).as_place(self.place));
+        curves.push(measured(self.answer, &self.column.column).as_place(self.place));
         curves
     }
 

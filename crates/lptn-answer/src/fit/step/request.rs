@@ -1,38 +1,38 @@
-//! What the options of `lptn fit step` ask for.
+//! A record, and what is to be made of it.
 
 use std::path::Path;
 
 use lptn_netlist::{Diagnostic, Files, Record, RecordName, RecordQuery, read_record};
 use lptn_units::{Dimension, Quantity, Type, Unit, parse_quantity};
 
-use super::StepArgs;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::input::{self, wrong_unit};
+use super::FitStepQuestion;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::{self, wrong_unit};
 
 /// A record with what is to be made of it.
 #[derive(Debug)]
-pub(crate) struct Request {
+pub(super) struct Request {
     /// What diagnostics and results call the record.
-    pub(crate) name: String,
-    pub(crate) record: Record,
+    pub(super) name: String,
+    pub(super) record: Record,
     /// The first time of the record in s before `--from` cut it; `None` where that part cannot be
     /// read.
-    pub(crate) begin: Option<f64>,
-    pub(crate) files: Files,
+    pub(super) begin: Option<f64>,
+    pub(super) files: Files,
     /// The columns to fit, by position.
-    pub(crate) columns: Vec<usize>,
-    pub(crate) reference: Reference,
+    pub(super) columns: Vec<usize>,
+    pub(super) reference: Reference,
     /// The capacity in J/K.
-    pub(crate) capacity: Option<Quantity>,
+    pub(super) capacity: Option<Quantity>,
     /// The class error of the thermocouples in K.
-    pub(crate) sensor: Option<f64>,
-    pub(crate) unit: Unit,
+    pub(super) sensor: Option<f64>,
+    pub(super) unit: Unit,
 }
 
 /// From where dT is counted.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Reference {
+pub(super) enum Reference {
     /// The temperature at the start of each column.
     Initial,
     /// A column of the record, by position.
@@ -43,27 +43,27 @@ pub(crate) enum Reference {
 
 impl Request {
     /// Whether rows before the first that is fitted were left out.
-    pub(crate) fn is_cut(&self) -> bool {
+    pub(super) fn is_cut(&self) -> bool {
         self.begin.is_none_or(|begin| self.record.time.first().is_some_and(|&first| begin < first))
     }
 
-    pub(crate) fn read(args: &StepArgs) -> Result<Self, Failure> {
+    pub(super) fn read(question: &FitStepQuestion, record: &Path) -> Result<Self, Failure> {
         let positive = |option: &str, text: &Option<String>, dimension, example| {
             let what = (dimension, "fit::not_positive", example);
             text.as_deref().map(|text| input::positive(option, text, what)).transpose()
         };
         let capacity =
-            positive("--capacity", &args.capacity, Dimension::CAPACITY, "\"2659 J/K ± 5 %\"")?;
-        let sensor = positive("--sensor", &args.sensor, Dimension::TEMPERATURE, "\"3 K\"")?;
-        let unit = temperature_unit(args.scale.temperature_unit.as_deref())?;
-        let text = input::read(&args.record)?;
-        let (record, files) = read_record(Path::new(&text.name), &text.bytes, &query(args)?)?;
-        let begin = match args.from {
-            Some(_) => begin(args, Path::new(&text.name), &text.bytes)?,
+            positive("--capacity", &question.capacity, Dimension::CAPACITY, "\"2659 J/K ± 5 %\"")?;
+        let sensor = positive("--sensor", &question.sensor, Dimension::TEMPERATURE, "\"3 K\"")?;
+        let unit = temperature_unit(question.temperature_unit.as_deref())?;
+        let text = input::read(record)?;
+        let (record, files) = read_record(Path::new(&text.name), &text.bytes, &query(question)?)?;
+        let begin = match question.from {
+            Some(_) => begin(question, Path::new(&text.name), &text.bytes)?,
             None => record.time.first().copied(),
         };
-        let reference = reference(&args.reference, (&record, &files))?;
-        let columns = columns(args, &record, &reference);
+        let reference = reference(question.zero(), (&record, &files))?;
+        let columns = columns(question, &record, &reference);
         if columns.is_empty() {
             return Err(nothing(&record, files));
         }
@@ -83,8 +83,8 @@ impl Request {
 }
 
 /// The first time of the whole record.
-fn begin(args: &StepArgs, path: &Path, bytes: &[u8]) -> Result<Option<f64>, Failure> {
-    let whole = RecordQuery { from: None, ..query(args)? };
+fn begin(question: &FitStepQuestion, path: &Path, bytes: &[u8]) -> Result<Option<f64>, Failure> {
+    let whole = RecordQuery { from: None, ..query(question)? };
     Ok(read_record(path, bytes, &whole).ok().and_then(|(record, _)| record.time.first().copied()))
 }
 
@@ -98,26 +98,27 @@ fn temperature_unit(text: Option<&str>) -> Result<Unit, Failure> {
 }
 
 /// What to read: everything, or the columns that are named and the one that dT is counted from.
-fn query(args: &StepArgs) -> Result<RecordQuery, Failure> {
+fn query(question: &FitStepQuestion) -> Result<RecordQuery, Failure> {
     let temperature =
         |name: &str| RecordName { ty: Some(Type::ABSOLUTE_TEMPERATURE), ..RecordName::new(name) };
     let mut names: Vec<&str> = Vec::new();
-    for name in &args.column {
+    for name in &question.columns {
         if !names.contains(&name.as_str()) {
             names.push(name);
         }
     }
-    let reference = args.reference.as_str();
+    let reference = question.zero();
     if !names.is_empty() && names_a_column(reference) && !names.contains(&reference) {
         names.push(reference);
     }
-    let (from, to) = (time("--from", args.from.as_deref())?, time("--to", args.to.as_deref())?);
+    let (from, to) =
+        (time("--from", question.from.as_deref())?, time("--to", question.to.as_deref())?);
     Ok(RecordQuery {
-        time: args.time.as_ref().map(RecordName::new),
+        time: question.time.as_ref().map(RecordName::new),
         columns: names.into_iter().map(temperature).collect(),
         from,
         to,
-        drop_outliers: args.drop_outliers,
+        drop_outliers: question.drop_outliers,
         of_run: false,
     })
 }
@@ -159,15 +160,15 @@ fn reference(text: &str, (record, files): (&Record, &Files)) -> Result<Reference
 
 /// The columns to fit: those that are named, or all temperatures that change, without the one that
 /// dT is counted from.
-fn columns(args: &StepArgs, record: &Record, reference: &Reference) -> Vec<usize> {
-    let is_asked = |i: usize| args.column.contains(&record.columns[i].name);
+fn columns(question: &FitStepQuestion, record: &Record, reference: &Reference) -> Vec<usize> {
+    let is_asked = |i: usize| question.columns.contains(&record.columns[i].name);
     let changes = |i: usize| {
         let mut values = record.columns[i].values.iter().filter(|value| !value.is_nan());
         let first = values.next();
         values.any(|value| Some(value) != first)
     };
     let all = 0..record.columns.len();
-    let chosen = all.filter(|&i| match args.column.is_empty() {
+    let chosen = all.filter(|&i| match question.columns.is_empty() {
         true => {
             record.columns[i].unit.ty.absolute && *reference != Reference::Column(i) && changes(i)
         }

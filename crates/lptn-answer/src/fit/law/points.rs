@@ -1,4 +1,4 @@
-//! The points of `lptn fit law`: which column is what.
+//! The points of a sheet: which column is what.
 
 use std::path::Path;
 
@@ -6,24 +6,25 @@ use lptn_fit::law::{LawError, Points, Variable};
 use lptn_netlist::{DataSheet, Diagnostic, Files, RecordColumn, read_sheet};
 use lptn_units::{Dimension, Type, suggest};
 
-use super::args::LawArgs;
+use super::FitLawQuestion;
 use super::shown::SpeedUnit;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::{Failure, told};
+use crate::exit::Exit;
+use crate::failure::{Failure, told};
 
 /// Points as they were read.
-pub(crate) struct Data {
-    pub(crate) name: String,
-    pub(crate) files: Files,
-    pub(crate) warnings: Vec<Diagnostic>,
-    pub(crate) points: Points,
-    pub(crate) unit: SpeedUnit,
-    pub(crate) power_name: String,
+#[derive(Debug)]
+pub(super) struct Data {
+    pub(super) name: String,
+    pub(super) files: Files,
+    pub(super) warnings: Vec<Diagnostic>,
+    pub(super) points: Points,
+    pub(super) unit: SpeedUnit,
+    pub(super) power_name: String,
     /// Rises in K and time constants in s, where the file has both.
-    pub(crate) rise: Option<Vec<f64>>,
-    pub(crate) time_constant: Option<Vec<f64>>,
+    pub(super) rise: Option<Vec<f64>>,
+    pub(super) time_constant: Option<Vec<f64>>,
     /// Standard errors of rise, time constant and power, where the file has all of them.
-    pub(crate) errors: Option<[Vec<f64>; 3]>,
+    pub(super) errors: Option<[Vec<f64>; 3]>,
 }
 
 /// A sheet, for looking up its columns.
@@ -131,19 +132,20 @@ impl<'a> Lookup<'a> {
     }
 }
 
-pub(crate) fn read(path: &Path, args: &LawArgs) -> Result<Data, Failure> {
+pub(super) fn read(path: &Path, question: &FitLawQuestion) -> Result<Data, Failure> {
     let bytes = lptn_netlist::read_bytes(path)?;
     let (sheet, files) = read_sheet(path, &bytes)?;
     let lookup = Lookup { sheet: &sheet, files: &files };
     let speed = lookup.needed(
-        ("--speed", args.speed.as_deref()),
+        ("--speed", question.speed.as_deref()),
         "the speed",
         Dimension::ANGULAR_VELOCITY,
     )?;
-    let power = lookup.needed(("--power", args.power.as_deref()), "the power", Dimension::POWER)?;
-    let sigma = if args.unweighted { None } else { lookup.errors(power) };
-    let rise = lookup.optional(args.rise.as_deref(), Dimension::TEMPERATURE)?;
-    let time_constant = lookup.optional(args.time_constant.as_deref(), Dimension::TIME)?;
+    let power =
+        lookup.needed(("--power", question.power.as_deref()), "the power", Dimension::POWER)?;
+    let sigma = if question.unweighted { None } else { lookup.errors(power) };
+    let rise = lookup.optional(question.rise.as_deref(), Dimension::TEMPERATURE)?;
+    let time_constant = lookup.optional(question.time_constant.as_deref(), Dimension::TIME)?;
     let both = rise.zip(time_constant);
     let sigmas =
         both.and_then(|(rise, time)| Some([lookup.errors(rise)?, lookup.errors(time)?, sigma?]));

@@ -6,8 +6,8 @@ use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Panel};
 use lptn_report::plain;
 
-use super::Answer;
-use super::laws::Stated;
+use super::FitLawAnswer;
+use super::laws::StatedLawsAnswer;
 use super::page::{coefficient, ends};
 use super::shown::{SpeedUnit, with_error};
 
@@ -128,7 +128,7 @@ pub(super) fn mean(over: &mut OverSpeed<'_>, (name, place): (&str, usize), of: (
 }
 
 /// The law that is best, with its band, and those that the points do not tell from it.
-pub(super) fn power_laws(over: &mut OverSpeed<'_>, answer: &Answer) -> Vec<String> {
+pub(super) fn power_laws(over: &mut OverSpeed<'_>, answer: &FitLawAnswer) -> Vec<String> {
     let study = &answer.study;
     let mut notes = vec![study.verdict()];
     let best = study.best().or(study.candidates.first().filter(|c| c.fitted().is_some()));
@@ -155,7 +155,11 @@ pub(super) fn power_laws(over: &mut OverSpeed<'_>, answer: &Answer) -> Vec<Strin
 }
 
 /// A law of the power. One that uses more than the speed is known at the points alone.
-fn put_law(over: &mut OverSpeed<'_>, answer: &Answer, (law, look, place): (&LawFit, Look, usize)) {
+fn put_law(
+    over: &mut OverSpeed<'_>,
+    answer: &FitLawAnswer,
+    (law, look, place): (&LawFit, Look, usize),
+) {
     let name = plain(&law.law.to_string());
     let speeds = over.speeds();
     if let Some(found) = answer.study.along(law, &speeds) {
@@ -171,7 +175,7 @@ fn put_law(over: &mut OverSpeed<'_>, answer: &Answer, (law, look, place): (&LawF
     over.valued(&format!("{name} at the points"), (look, place), &values);
 }
 
-impl Answer {
+impl FitLawAnswer {
     /// Rise and time constant, where the file has them, and power.
     pub(super) fn pictures(&self) -> Vec<Figure> {
         let (data, speeds) = (&self.data, self.data.points.speed());
@@ -200,7 +204,7 @@ impl Answer {
     }
 }
 
-impl Stated {
+impl StatedLawsAnswer {
     /// The three laws, with the time constant that rise and power need and the power that rise and
     /// time constant imply.
     pub(super) fn pictures(&self) -> Vec<Figure> {

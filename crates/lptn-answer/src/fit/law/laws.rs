@@ -1,10 +1,10 @@
 //! Whether laws of rise, time constant and power can be true together: as text, as JSON, and the
-//! form without points.
+//! question without points.
 
 use std::io;
 
 use lptn_fit::law::{AtSpeed, Consistency, Exponent, LawError, LawOf, Significance, StatedLaw};
-use lptn_fit::step::Capacity;
+use lptn_netlist::{Diagnostic, Files};
 use lptn_plot::Figure;
 use lptn_report::{Json, Page, Rows, Text, TextTable, fixed, significant};
 use lptn_solve::Table;
@@ -12,43 +12,70 @@ use lptn_study::SiValue;
 use lptn_units::{Dimension, Type};
 use serde_json::{Value, json};
 
-use super::args::LawArgs;
 use super::shown::{SpeedUnit, chance, with_error};
-use super::wrong_law;
-use crate::console::Console;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::input::quantity;
+use super::{capacity, wrong_law};
+use crate::answer::Answer;
+use crate::failure::Failure;
+use crate::input::quantity;
 
-/// Compares three laws of the command line.
-pub(crate) fn laws(
-    args: &LawArgs,
-    capacity: Option<Capacity>,
-    console: &Console,
-) -> Result<Exit, Failure> {
-    let law = |option: &str, of: LawOf, text: &Option<String>| {
-        let text = text.as_deref().unwrap_or_default();
-        StatedLaw::parse(of, text).map_err(|error| wrong_law(option, text, &error))
-    };
-    let stated = [
-        law("--dT", LawOf::Rise, &args.laws.rise_law)?,
-        law("--t_RC", LawOf::TimeConstant, &args.laws.time_constant_law)?,
-        law("--P", LawOf::Power, &args.laws.power_law)?,
-    ];
-    let range = range(args.laws.over.as_deref().unwrap_or_default())?;
-    let found = Consistency::of_laws(&stated[0], &stated[1], &stated[2], capacity, range);
-    let found = found.map_err(|error| Failure::of(&error))?;
-    console.show(&Stated { laws: stated, found, unit: SpeedUnit::rpm() }, args.format)
+/// Whether three laws of the speed can be true together.
+#[derive(Clone, Debug, Default)]
+pub struct StatedLawsQuestion {
+    /// The law of the temperature rise: `0.0084 ± 0.0011 K/rpm`, or an expression in `omega`.
+    pub rise: String,
+    /// The law of the time constant: `18.6 ± 3.8 min`.
+    pub time_constant: String,
+    /// The law of the power: `87 ± 15 uW/rpm^(5/3)`.
+    pub power: String,
+    /// The speeds that it is about: `1000 rpm to 7000 rpm`.
+    pub over: String,
+    /// The heat capacity, `2659 J/K ± 5 %`; `None` for one that is not known.
+    pub capacity: Option<String>,
 }
 
 /// Three laws and how they go together.
-pub(super) struct Stated {
+#[derive(Debug)]
+pub struct StatedLawsAnswer {
     pub(super) laws: [StatedLaw; 3],
-    pub(super) found: Consistency,
+    /// How rise, time constant and power go together.
+    pub found: Consistency,
     pub(super) unit: SpeedUnit,
+    files: Files,
 }
 
-impl Page for Stated {
+impl StatedLawsQuestion {
+    /// Asks.
+    ///
+    /// # Errors
+    /// A law, a range or a capacity that cannot be read or compared.
+    pub fn ask(&self) -> Result<StatedLawsAnswer, Failure> {
+        let capacity = capacity(self.capacity.as_deref())?;
+        let law = |option: &str, of: LawOf, text: &str| {
+            StatedLaw::parse(of, text).map_err(|error| wrong_law(option, text, &error))
+        };
+        let laws = [
+            law("--dT", LawOf::Rise, &self.rise)?,
+            law("--t_RC", LawOf::TimeConstant, &self.time_constant)?,
+            law("--P", LawOf::Power, &self.power)?,
+        ];
+        let range = range(&self.over)?;
+        let found = Consistency::of_laws(&laws[0], &laws[1], &laws[2], capacity, range);
+        let found = found.map_err(|error| Failure::of(&error))?;
+        Ok(StatedLawsAnswer { laws, found, unit: SpeedUnit::rpm(), files: Files::new() })
+    }
+}
+
+impl Answer for StatedLawsAnswer {
+    fn files(&self) -> &Files {
+        &self.files
+    }
+
+    fn doubts(&self) -> Vec<Diagnostic> {
+        Vec::new()
+    }
+}
+
+impl Page for StatedLawsAnswer {
     fn text(&self) -> Text {
         let over = self.unit.range(self.found.range);
         let mut text = Text::titled(format!("Three laws of the speed, {over}"));
@@ -105,7 +132,7 @@ fn range(text: &str) -> Result<(f64, f64), Failure> {
 }
 
 /// What the comparison shows, in sections; the last of them is the verdict.
-pub(crate) fn sections(text: &mut Text, found: &Consistency, unit: &SpeedUnit) {
+pub(super) fn sections(text: &mut Text, found: &Consistency, unit: &SpeedUnit) {
     text.section().table(at_speeds(found, unit));
     let implied = with_error(found.implied.value, found.implied.standard_error);
     let power = with_error(found.power.value, found.power.standard_error);
@@ -154,7 +181,7 @@ fn at_speeds(found: &Consistency, unit: &SpeedUnit) -> TextTable {
 }
 
 /// One sentence with the answer.
-pub(crate) fn verdict(found: &Consistency, unit: &SpeedUnit) -> String {
+pub(super) fn verdict(found: &Consistency, unit: &SpeedUnit) -> String {
     let [low, _, high] = &found.at;
     if found.exponents_contradict() {
         let time = |at: &AtSpeed| {
@@ -206,7 +233,7 @@ fn power(value: f64) -> String {
 }
 
 /// The comparison as JSON.
-pub(crate) fn members(found: &Consistency) -> Value {
+pub(super) fn members(found: &Consistency) -> Value {
     let exponent =
         |e: &Exponent| json!({ "value": e.value, "unit": "1", "standard_error": e.standard_error });
     let scalar = SiValue::new;

@@ -3,7 +3,6 @@
 use std::io;
 
 use lptn_fit::step::{Estimated, FittedValue, Parted, Power, TwoExponentials};
-use lptn_netlist::{Diagnostic, Severity};
 use lptn_plot::Figure;
 use lptn_report::{
     Align, Column as TextColumn, Json, Look, Page, Report, Rows, Text, TextTable, WIDTH, plain,
@@ -17,15 +16,15 @@ use serde_json::{Map, Value, json};
 use super::estimate::{to_error, with_error};
 use super::model::Model;
 use super::request::{Reference, Request};
-use super::{Answer, Column};
-use lptn_answer::about;
-use lptn_answer::messages;
-use lptn_answer::scale;
+use super::{FitStepAnswer, StepColumn};
+use crate::about;
+use crate::messages;
+use crate::scale;
 
 const TEMPERATURE: Type = Type::ABSOLUTE_TEMPERATURE;
 const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
 
-impl Page for Answer<'_> {
+impl Page for FitStepAnswer {
     fn text(&self) -> Text {
         let record = &self.request.record;
         let (from, to) = (record.time.first().copied(), record.time.last().copied());
@@ -46,7 +45,7 @@ impl Page for Answer<'_> {
         let unit = &self.request.unit;
         let mut table = Table::of(&self.columns);
         table.label("column", |column| column.column.name.clone());
-        let mut put = |name: &str, unit: &str, value: &dyn Fn(&Column<'_>) -> f64| {
+        let mut put = |name: &str, unit: &str, value: &dyn Fn(&StepColumn) -> f64| {
             table.column(name, unit, value)
         };
         put("T_i", &unit.text, &|c| unit.from_si(c.fit.initial.value));
@@ -75,15 +74,15 @@ impl Page for Answer<'_> {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&[], &crate::files::arguments())
+        about::of_command(&[], &self.command)
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        let request = self.request;
+        let request = &self.request;
         let mut columns: Map<String, Value> =
             self.columns.iter().map(|c| (c.column.name.clone(), column(c, request))).collect();
         for (name, code) in &self.without {
-            columns.insert((*name).to_owned(), json!({ "error": code }));
+            columns.insert(name.clone(), json!({ "error": code }));
         }
         let time = |row: Option<&f64>| scalar(row.copied().unwrap_or(f64::NAN), "s");
         let reference = match &request.reference {
@@ -96,10 +95,11 @@ impl Page for Answer<'_> {
             .as_ref()
             .map(|c| json!({ "value": c.value, "unit": "J/K", "standard_error": c.deviation.map(|d| d.sigma) }));
         let network = self.model.as_ref().map(|model| &model.stem);
+        let all = [self.doubts.as_slice(), &self.problems].concat();
         json.member("format", &1)?;
         json.member("network", &network)?;
         json.member("record", &request.name)?;
-        json.member("warnings", &messages::list(&request.files, &self.warnings))?;
+        json.member("warnings", &messages::list(&request.files, &all))?;
         json.member("from", &time(request.record.time.first()))?;
         json.member("to", &time(request.record.time.last()))?;
         json.member("reference", reference)?;
@@ -108,12 +108,10 @@ impl Page for Answer<'_> {
         json.member("sensor", &sensor)?;
         json.member("columns", &columns)?;
         json.member("model", &self.model.as_ref().map(|of| model(of, &request.unit)))?;
-        let errors: Vec<Diagnostic> =
-            self.warnings.iter().filter(|w| w.severity == Severity::Error).cloned().collect();
-        if errors.is_empty() {
+        if self.problems.is_empty() {
             return Ok(());
         }
-        messages::failed(json, self.exit, &messages::list(&request.files, &errors))
+        messages::failed(json, self.exit, &messages::list(&request.files, &self.problems))
     }
 }
 
@@ -121,12 +119,12 @@ impl Page for Answer<'_> {
 const LONGEST_NAME: usize = 40;
 
 /// A heading, and what stands below it for each column of the record.
-type Cells<'c> = (String, &'c dyn Fn(&Column<'_>) -> String);
+type Cells<'c> = (String, &'c dyn Fn(&StepColumn) -> String);
 
 /// A table with a row for each column of the record: several below each other where one were too
 /// wide.
-fn table(answer: &Answer<'_>, text: &mut Text, cells: &[Cells<'_>]) {
-    let column = |title: &str, align, cell: &dyn Fn(&Column<'_>) -> String| {
+fn table(answer: &FitStepAnswer, text: &mut Text, cells: &[Cells<'_>]) {
+    let column = |title: &str, align, cell: &dyn Fn(&StepColumn) -> String| {
         TextColumn::new(title, align, answer.columns.iter().map(cell).collect())
     };
     let names = column("column", Align::Left, &|column| plain(&column.column.name));
@@ -139,7 +137,7 @@ fn table(answer: &Answer<'_>, text: &mut Text, cells: &[Cells<'_>]) {
     }
 }
 
-fn fits(answer: &Answer<'_>, text: &mut Text) {
+fn fits(answer: &FitStepAnswer, text: &mut Text) {
     let unit = &answer.request.unit;
     let temperature =
         |t: &Estimated| with_error(unit.from_si(t.value), t.standard_error / unit.scale);
@@ -157,7 +155,7 @@ fn fits(answer: &Answer<'_>, text: &mut Text) {
 }
 
 /// How sure the numbers are.
-fn intervals(answer: &Answer<'_>, text: &mut Text) {
+fn intervals(answer: &FitStepAnswer, text: &mut Text) {
     let unit = &answer.request.unit;
     let range = |t: &Estimated, of: &dyn Fn(f64) -> f64| {
         let (low, high) = t.interval();
@@ -182,7 +180,7 @@ fn intervals(answer: &Answer<'_>, text: &mut Text) {
 }
 
 /// dT, and with a capacity what follows from it.
-fn rises(answer: &Answer<'_>, text: &mut Text) {
+fn rises(answer: &FitStepAnswer, text: &mut Text) {
     text.sentence("", &reference(answer));
     if let Some(capacity) = &answer.request.capacity {
         let capacity = with_error(capacity.value, capacity.sigma());
@@ -221,8 +219,8 @@ fn error(error: f64) -> String {
 }
 
 /// From where dT is counted.
-fn reference(answer: &Answer<'_>) -> String {
-    let request = answer.request;
+fn reference(answer: &FitStepAnswer) -> String {
+    let request = &answer.request;
     let shown = |kelvin: f64, error: f64| {
         let unit = &request.unit;
         format!("{} {}", with_error(unit.from_si(kelvin), error / unit.scale), unit.text)
@@ -244,7 +242,7 @@ fn reference(answer: &Answer<'_>) -> String {
 }
 
 /// What the method itself gets wrong.
-fn bias(answer: &Answer<'_>, text: &mut Text) {
+fn bias(answer: &FitStepAnswer, text: &mut Text) {
     let Some(model) = &answer.model else {
         text.sentence(
             "",
@@ -325,7 +323,7 @@ fn parted(number: &Parted, (ty, unit): Of<'_>) -> Value {
     })
 }
 
-fn column(column: &Column<'_>, request: &Request) -> Value {
+fn column(column: &StepColumn, request: &Request) -> Value {
     let (fit, power, unit) = (&column.fit, &column.power, &request.unit);
     let reference = scale::in_unit(power.reference_temperature, TEMPERATURE, unit);
     let kelvin = |value: f64| scale::of_difference(value, unit);

@@ -5,27 +5,27 @@ use lptn_units::{Dimension, Unit};
 
 /// The unit in which speeds are shown.
 #[derive(Clone, Debug)]
-pub(crate) struct SpeedUnit(pub(crate) Unit);
+pub(super) struct SpeedUnit(pub(crate) Unit);
 
 impl SpeedUnit {
-    pub(crate) fn rpm() -> Self {
+    pub(super) fn rpm() -> Self {
         let ty = lptn_units::Type::of(Dimension::ANGULAR_VELOCITY);
         let scale = std::f64::consts::TAU / 60.0;
         Self(Unit { text: "rpm".to_owned(), scale, offset: 0.0, ty })
     }
 
     /// `2646 rpm`.
-    pub(crate) fn speed(&self, si: f64) -> String {
+    pub(super) fn speed(&self, si: f64) -> String {
         format!("{} {}", significant(self.0.from_si(si), 4), self.0.text)
     }
 
     /// `1000 .. 7000 rpm`.
-    pub(crate) fn range(&self, (low, high): (f64, f64)) -> String {
+    pub(super) fn range(&self, (low, high): (f64, f64)) -> String {
         format!("{} .. {}", significant(self.0.from_si(low), 4), self.speed(high))
     }
 
     /// A unit over that of the speed: `K/rpm`, `K/(rad/s)`.
-    pub(crate) fn per(&self, unit: &str) -> String {
+    pub(super) fn per(&self, unit: &str) -> String {
         let speed = &self.0.text;
         if speed.contains(['/', ' ']) {
             format!("{unit}/({speed})")
@@ -35,7 +35,7 @@ impl SpeedUnit {
     }
 
     /// A value with its standard error and a unit that suits its size: `87.2 ± 0.3 uW/rpm^(5/3)`.
-    pub(crate) fn quantity(&self, value: f64, error: Option<f64>, of: Dimension) -> String {
+    pub(super) fn quantity(&self, value: f64, error: Option<f64>, of: Dimension) -> String {
         let (scale, unit) = self.unit(value, of);
         let number = with_error(value / scale, error.map(|error| error / scale));
         if unit.is_empty() { number } else { format!("{number} {unit}") }
@@ -43,7 +43,7 @@ impl SpeedUnit {
 
     /// A unit for a value: its size in SI and its text; `W` and the unit of the speed, where the
     /// dimension is made of these.
-    pub(crate) fn unit(&self, value: f64, of: Dimension) -> (f64, String) {
+    pub(super) fn unit(&self, value: f64, of: Dimension) -> (f64, String) {
         let [_, mass, .., angle] = of.exponents();
         let parts = Dimension::ANGULAR_VELOCITY.checked_pow(angle);
         let parts =
@@ -75,7 +75,7 @@ impl SpeedUnit {
 }
 
 /// How likely chance alone is: `p = 0.42`.
-pub(crate) fn chance(probability: f64) -> String {
+pub(super) fn chance(probability: f64) -> String {
     match probability {
         p if p < 1e-4 => "p < 0.0001".to_owned(),
         p => format!("p = {}", significant(p, 2)),
@@ -102,7 +102,7 @@ fn prefix(value: f64) -> (f64, &'static str) {
 }
 
 /// A value with as many digits as its standard error has meaning: two of the error.
-pub(crate) fn with_error(value: f64, error: Option<f64>) -> String {
+pub(super) fn with_error(value: f64, error: Option<f64>) -> String {
     let Some(error) = error.filter(|error| error.is_finite() && *error > 0.0) else {
         return significant(value, 4);
     };

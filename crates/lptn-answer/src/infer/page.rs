@@ -10,10 +10,10 @@ use lptn_report::{
 use lptn_solve::Table;
 use serde_json::{Value, json};
 
-use super::Answer;
-use lptn_answer::about::{self, Known as Trust};
-use lptn_answer::messages;
-use lptn_answer::words::{count, difference, symbol};
+use super::InferAnswer;
+use crate::about::{self, Known as Trust};
+use crate::messages;
+use crate::words::{count, difference, symbol};
 
 /// Moments that are shown, at most.
 const MOMENTS: usize = 13;
@@ -26,7 +26,7 @@ const END: usize = 8;
 /// A walk is told by what it changes in so many s.
 const MINUTE: f64 = 60.0;
 
-impl Page for Answer<'_> {
+impl Page for InferAnswer {
     fn text(&self) -> Text {
         let mut text = Text::titled(self.input.title());
         let names: Vec<&str> = self.task.sought.iter().map(|s| s.name.as_str()).collect();
@@ -68,7 +68,7 @@ impl Page for Answer<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.input, Trust::default())
+        about::about(&self.input, Trust::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -108,7 +108,7 @@ fn with_error(value: f64, error: f64) -> (String, String) {
     (significant(value, 6), String::new())
 }
 
-impl Answer<'_> {
+impl InferAnswer {
     fn length(&self) -> f64 {
         let times = &self.found.times;
         times.last().copied().unwrap_or(0.0) - times.first().copied().unwrap_or(0.0)
@@ -119,7 +119,7 @@ impl Answer<'_> {
     }
 
     /// Every moment: courses with the ends of their bands, temperatures with their deviations.
-    pub(super) fn table(&self) -> Table {
+    pub fn table(&self) -> Table {
         let rows: Vec<usize> = (0..self.found.times.len()).collect();
         let mut table = Table::of(&rows);
         table.column("time", "s", |&k| self.found.times[k]);

@@ -12,11 +12,11 @@ use serde_json::{Value, json};
 
 use super::laws::{sections, verdict};
 use super::shown::{chance, with_error};
-use super::{Answer, laws};
-use lptn_answer::about;
-use lptn_answer::messages;
+use super::{FitLawAnswer, laws};
+use crate::about;
+use crate::messages;
 
-impl Page for Answer {
+impl Page for FitLawAnswer {
     fn text(&self) -> Text {
         let (data, study) = (&self.data, &self.study);
         let weights = if data.points.deviation().is_some() {
@@ -84,7 +84,7 @@ impl Page for Answer {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&[], &crate::files::arguments())
+        about::of_command(&[], &self.command)
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -107,7 +107,7 @@ impl Page for Answer {
     }
 }
 
-pub(crate) fn ends(speeds: &[f64]) -> (f64, f64) {
+pub(super) fn ends(speeds: &[f64]) -> (f64, f64) {
     let of = |pick: fn(f64, f64) -> f64| speeds.iter().copied().reduce(pick).unwrap_or(f64::NAN);
     (of(f64::min), of(f64::max))
 }
@@ -119,7 +119,7 @@ struct Line {
     numbers: [String; 4],
 }
 
-fn laws(answer: &Answer) -> TextTable {
+fn laws(answer: &FitLawAnswer) -> TextTable {
     let lines: Vec<Line> = answer.study.candidates.iter().flat_map(|c| lines(answer, c)).collect();
     let mut table = TextTable::of(&lines)
         .left("law", |line| line.law.as_str())
@@ -133,7 +133,7 @@ fn laws(answer: &Answer) -> TextTable {
 }
 
 /// The lines of a law: one for each coefficient.
-fn lines(answer: &Answer, candidate: &LawFit) -> Vec<Line> {
+fn lines(answer: &FitLawAnswer, candidate: &LawFit) -> Vec<Line> {
     let Some(fit) = candidate.fitted() else {
         let remark = candidate.remark().unwrap_or_default();
         let law = plain(&candidate.law.to_string());
@@ -163,14 +163,19 @@ fn names(law: &LossLaw, count: usize) -> Vec<String> {
     }
 }
 
-pub(super) fn coefficient(answer: &Answer, candidate: &LawFit, fit: &Fitted, i: usize) -> String {
+pub(super) fn coefficient(
+    answer: &FitLawAnswer,
+    candidate: &LawFit,
+    fit: &Fitted,
+    i: usize,
+) -> String {
     let c = &fit.coefficients[i];
     with_unit(answer, candidate, (i, c), c.standard_error)
 }
 
 /// A coefficient with an error of some kind.
 fn with_unit(
-    answer: &Answer,
+    answer: &FitLawAnswer,
     candidate: &LawFit,
     (i, c): (usize, &Coefficient),
     error: Option<f64>,
@@ -246,7 +251,7 @@ fn notes(study: &LawStudy, text: &mut Text) {
 }
 
 /// The 95 % intervals of the best law.
-fn intervals(answer: &Answer, text: &mut Text) {
+fn intervals(answer: &FitLawAnswer, text: &mut Text) {
     let Some((best, fit)) = answer.study.best().and_then(|best| Some((best, best.fitted()?)))
     else {
         return;
@@ -304,7 +309,7 @@ fn claims(found: &Consistency) -> TextTable {
 /// A law and one of its coefficients.
 type Row<'a> = (&'a LawFit, Option<(&'a Fitted, &'a Coefficient)>);
 
-fn law(answer: &Answer, candidate: &LawFit) -> Value {
+fn law(answer: &FitLawAnswer, candidate: &LawFit) -> Value {
     let watts = |value: Option<f64>| value.map(|value| json!({ "value": value, "unit": "W" }));
     let Some(fit) = candidate.fitted() else {
         return json!({ "law": candidate.law.to_string(), "remark": candidate.remark() });

@@ -1,92 +1,117 @@
-//! `lptn fit law FOLDER`: from records to a law.
+//! From a folder of records to a law.
 
 mod figure;
 mod folder;
 mod lines;
-mod output;
+mod tables;
 
 use std::io;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
 use lptn_fit::law::{
-    ColumnFits, LawFit, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy,
+    ColumnFits, LawFit, LawStudy, Run, RunFit, RunReference, RunsError, RunsSettings, RunsStudy,
 };
 use lptn_fit::step::{Capacity, LONG_ENOUGH, Sensor};
 use lptn_netlist::{Diagnostic, Files};
 use lptn_plot::Figure;
-use lptn_report::{
-    Json, Page, Report, Rows, Text, TextTable, WIDTH, duration, fixed, labelled, significant, words,
-};
+use lptn_report::{Json, Page, Report, Rows, Text, TextTable, fixed, significant};
 use lptn_solve::available_threads;
 use lptn_study::FileHash;
 use lptn_units::{Dimension, Type, parse_quantity};
 
 use folder::Folder;
 
-use super::args::LawArgs;
 use super::points::Data;
 use super::shown::with_error;
-use super::{Answer, laws_to_fit};
-use crate::console::Console;
-use crate::files;
-use lptn_answer::about;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::input::{quantity, wrong_unit};
+use super::{FitLawAnswer, FitLawQuestion};
+use crate::about;
+use crate::answer::Answer;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::gathered::Gathered;
+use crate::input::{quantity, wrong_unit};
+use crate::listener::Listener;
 
-/// What is shown of a folder.
-pub(crate) struct Runs {
-    pub(crate) study: RunsStudy,
-    /// Laws and consistency of the first column.
-    pub(crate) answer: Answer,
-    pub(crate) inputs: Vec<FileHash>,
-    pub(crate) wall_time: f64,
+/// A fit of the records of a folder that can be computed.
+#[derive(Debug)]
+pub struct FitOfRuns {
+    question: FitLawQuestion,
+    folder: PathBuf,
+    capacity: Capacity,
 }
 
-pub(crate) fn runs(
-    path: &Path,
-    args: &LawArgs,
-    capacity: Option<Capacity>,
-    console: &Console,
-) -> Result<Exit, Failure> {
-    let begun = Instant::now();
-    let capacity = capacity.ok_or_else(no_capacity)?;
-    let place = (!args.no_files).then(|| files::Folder::prepare(target(path, args))).transpose()?;
-    let folder = folder::read(path)?;
-    folder.warnings.iter().for_each(|(files, warnings)| console.warn(files, warnings));
-    let study = study(&folder, settings(args, &folder.runs, capacity)?, (args, console))?;
-    let found = Runs::new(path, args, (study, folder), begun)?;
-    if let Some(place) = &place {
-        output::write(&found, place)?;
+/// Exponentials of all records, and the law that the power of the first column follows.
+#[derive(Debug)]
+pub struct FitRunsAnswer {
+    /// The exponentials, and lines through rises and time constants.
+    pub study: RunsStudy,
+    /// Laws and consistency of the first column.
+    pub answer: FitLawAnswer,
+    /// Every file that was read.
+    pub inputs: Vec<FileHash>,
+}
+
+impl Answer for FitRunsAnswer {
+    fn files(&self) -> &Files {
+        self.answer.files()
     }
-    console.page(&found, args.format)?;
-    if let Some(place) = &place {
-        let took = duration(found.wall_time, 2);
-        let names = output::NAMES.join(", ");
-        let text = format!("{}/: {names} (in {took})", place.path().display());
-        console.note(&labelled("wrote  ", &words(&text), WIDTH).join("\n"));
+
+    fn doubts(&self) -> Vec<Diagnostic> {
+        self.answer.doubts()
     }
-    Ok(found.answer.conclude(args.format, console))
+
+    fn exit(&self) -> Exit {
+        self.answer.exit()
+    }
+}
+
+impl FitOfRuns {
+    pub(super) fn new(
+        question: &FitLawQuestion,
+        folder: &Path,
+        capacity: Option<Capacity>,
+    ) -> Result<Self, Failure> {
+        let capacity = capacity.ok_or_else(no_capacity)?;
+        Ok(Self { question: question.clone(), folder: folder.to_owned(), capacity })
+    }
+
+    /// Reads the folder and computes.
+    ///
+    /// # Errors
+    /// What is wrong with a record, with its speed, or with the question.
+    pub fn compute(self, listener: &dyn Listener) -> Result<FitRunsAnswer, Failure> {
+        let Self { question, folder: path, capacity } = self;
+        let folder = folder::read(&path)?;
+        let mut doubts = Gathered::default();
+        for (files, warnings) in &folder.warnings {
+            listener.warn(files, warnings);
+            doubts.add(files, warnings);
+        }
+        let settings = settings(&question, &folder.runs, capacity)?;
+        let study = study(&folder, (settings, &question), (&mut doubts, listener))?;
+        FitRunsAnswer::new(&path, &question, (study, folder, doubts))
+    }
 }
 
 /// Fits the columns. One that nobody asked for by name and that has no exponential, such as a bed
 /// that hardly warms, is left out with a warning.
 fn study(
     folder: &Folder,
-    mut settings: RunsSettings,
-    (args, console): (&LawArgs, &Console),
+    (mut settings, question): (RunsSettings, &FitLawQuestion),
+    (doubts, listener): (&mut Gathered, &dyn Listener),
 ) -> Result<RunsStudy, Failure> {
     loop {
         match RunsStudy::new(&folder.runs, settings.clone()) {
             Ok(study) => return Ok(study),
             Err(RunsError::Step { run, column, error })
-                if args.records.column.is_empty() && settings.columns.first() != Some(&column) =>
+                if question.columns.is_empty() && settings.columns.first() != Some(&column) =>
             {
                 let message = format!("column `{column}` is left out: {run}: {error}");
                 let help = "name the columns that are to be fitted: --column ring_gear";
                 let warning = Diagnostic::warning("fit::law_column_left_out", message).help(help);
-                console.warn(&Files::new(), &[warning]);
+                let (files, warnings) = (Files::new(), [warning]);
+                listener.warn(&files, &warnings);
+                doubts.add(&files, &warnings);
                 settings.columns.retain(|other| *other != column);
             }
             // a record that has no exponential is not a failure of the numbers
@@ -95,27 +120,24 @@ fn study(
     }
 }
 
-fn target(path: &Path, args: &LawArgs) -> PathBuf {
-    let whole = path.canonicalize();
-    let name = whole.as_deref().unwrap_or(path).file_name();
-    let usual = || PathBuf::from("out").join(name.unwrap_or_else(|| "records".as_ref()));
-    args.output.clone().unwrap_or_else(usual)
-}
-
 fn no_capacity() -> Failure {
     let problem =
         Diagnostic::error("fit::law_capacity", "a power needs the heat capacity, P = C dT / t_RC");
     Failure::new(Exit::Input, problem.help("write for example --capacity \"2659 J/K ± 5 %\""))
 }
 
-fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunsSettings, Failure> {
+fn settings(
+    question: &FitLawQuestion,
+    runs: &[Run],
+    capacity: Capacity,
+) -> Result<RunsSettings, Failure> {
     let known: Vec<&str> = runs
         .first()
         .map_or(Vec::new(), |run| run.columns.iter().map(|(name, _)| name.as_str()).collect());
-    let reference = reference(&args.records.reference, &known)?;
+    let reference = reference(question.reference.as_deref().unwrap_or("initial"), &known)?;
     let is_reference =
         |name: &str| matches!(&reference, RunReference::Column(column) if column == name);
-    let columns: Vec<String> = match args.records.column.as_slice() {
+    let columns: Vec<String> = match question.columns.as_slice() {
         [] => {
             known.iter().filter(|name| !is_reference(name)).map(|name| (*name).to_owned()).collect()
         }
@@ -131,7 +153,7 @@ fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunsSett
         );
         return Err(Failure::new(Exit::Input, problem));
     }
-    let class = match &args.records.sensor {
+    let class = match &question.sensor {
         None => 0.0,
         Some(text) => quantity("--sensor", text, Type::of(Dimension::TEMPERATURE))?.value.abs(),
     };
@@ -140,7 +162,7 @@ fn settings(args: &LawArgs, runs: &[Run], capacity: Capacity) -> Result<RunsSett
         capacity,
         reference,
         sensor: Sensor { class, gain: 0.0 },
-        unweighted: args.unweighted,
+        unweighted: question.unweighted,
         laws: Vec::new(),
         threads: available_threads(),
     })
@@ -169,18 +191,17 @@ fn no_column(name: &str, known: &[&str]) -> Failure {
     Failure::new(Exit::Input, problem.did_you_mean(name, known.iter().copied(), all))
 }
 
-impl Runs {
+impl FitRunsAnswer {
     fn new(
         path: &Path,
-        args: &LawArgs,
-        (study, folder): (RunsStudy, Folder),
-        begun: Instant,
+        question: &FitLawQuestion,
+        (study, folder, doubts): (RunsStudy, Folder, Gathered),
     ) -> Result<Self, Failure> {
         let column = study.columns.first().map_or("", |column| column.column.as_str());
         let data = Data {
             name: path.display().to_string(),
-            files: Files::new(),
-            warnings: Vec::new(),
+            files: doubts.files,
+            warnings: doubts.doubts,
             points: study.laws.points.clone(),
             unit: folder.unit,
             power_name: format!("P_disp from {column}"),
@@ -188,16 +209,15 @@ impl Runs {
             time_constant: None,
             errors: None,
         };
-        let laws = if args.law.is_empty() {
+        let laws = if question.laws.is_empty() {
             study.laws.clone()
         } else {
-            let laws = laws_to_fit(args, &data)?;
-            lptn_fit::law::LawStudy::new(data.points.clone(), laws)
+            LawStudy::new(data.points.clone(), question.laws_to_fit(&data)?)
         };
         let consistency = study.consistency.clone();
-        let answer = Answer { data, study: laws, consistency };
-        let wall_time = begun.elapsed().as_secs_f64();
-        Ok(Self { study, answer, inputs: folder.inputs, wall_time })
+        let command = question.command.clone();
+        let answer = FitLawAnswer { data, study: laws, consistency, command };
+        Ok(Self { study, answer, inputs: folder.inputs })
     }
 
     fn first(&self) -> &[RunFit] {
@@ -297,17 +317,17 @@ impl Runs {
         }
     }
 
-    pub(crate) fn best(&self) -> Option<(&LawFit, &lptn_fit::law::Fitted)> {
+    pub(super) fn best(&self) -> Option<(&LawFit, &lptn_fit::law::Fitted)> {
         let best = self.answer.study.best()?;
         Some((best, best.fitted()?))
     }
 
-    pub(crate) fn columns(&self) -> &[ColumnFits] {
+    pub(super) fn columns(&self) -> &[ColumnFits] {
         &self.study.columns
     }
 }
 
-impl Page for Runs {
+impl Page for FitRunsAnswer {
     fn text(&self) -> Text {
         let count = self.study.runs.len();
         let mut text = Text::titled(format!("{count} records of {}", self.answer.data.name));
@@ -321,7 +341,7 @@ impl Page for Runs {
     }
 
     fn rows(&self) -> Rows<'_> {
-        output::power(self).into()
+        tables::power(self).into()
     }
 
     fn figures(&self) -> Vec<Figure> {
@@ -329,10 +349,10 @@ impl Page for Runs {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&self.inputs, &crate::files::arguments())
+        about::of_command(&self.inputs, &self.answer.command)
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        output::json(self, json)
+        tables::json(self, json)
     }
 }

@@ -7,8 +7,8 @@ use lptn_solve::Table;
 use lptn_units::Dimension;
 use serde_json::{Map, Value, json};
 
-use super::Runs;
-use crate::verbs::fit::law::shown::{SpeedUnit, chance, with_error};
+use super::FitRunsAnswer;
+use crate::fit::law::shown::{SpeedUnit, chance, with_error};
 
 /// A quantity that has a line.
 #[derive(Clone, Copy)]
@@ -56,7 +56,7 @@ impl Of {
 }
 
 /// Puts the lines of all columns, and their differences; nothing where there is no interval.
-pub(super) fn put(found: &Runs, text: &mut Text) {
+pub(super) fn put(found: &FitRunsAnswer, text: &mut Text) {
     let (study, speed) = (&found.study, &found.answer.data.unit);
     if study.lines.iter().all(|lines| lines.time_constant.is_none()) {
         return;
@@ -125,7 +125,7 @@ fn estimate(of: Of, found: Option<Estimate>, speed: &SpeedUnit) -> Value {
 }
 
 /// All lines as JSON.
-pub(super) fn json(found: &Runs) -> Value {
+pub(super) fn json(found: &FitRunsAnswer) -> Value {
     let speed = &found.answer.data.unit;
     let column = |lines: &ColumnLines| {
         let exponent = lines.exponent.map(|(exponent, found)| {
@@ -161,7 +161,7 @@ pub(super) fn json(found: &Runs) -> Value {
 type Row<'a> = (&'a str, &'a str, Of, Estimate);
 
 /// One row a number.
-pub(super) fn sheet(found: &Runs) -> Table {
+pub(super) fn sheet(found: &FitRunsAnswer) -> Table {
     let mut rows: Vec<Row<'_>> = Vec::new();
     let mut put = |of, less, quantity, found: Option<Estimate>| {
         rows.extend(found.map(|found| (of, less, quantity, found)));

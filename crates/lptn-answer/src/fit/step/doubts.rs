@@ -7,12 +7,12 @@ use lptn_units::Problem as _;
 
 use super::estimate::with_error;
 use super::request::{Reference, Request};
-use super::{Column, shown};
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::told;
+use super::{StepColumn, shown};
+use crate::exit::Exit;
+use crate::failure::told;
 
 /// The warnings about a column's fit.
-pub(crate) fn of(request: &Request, column: &Column<'_>) -> Vec<Diagnostic> {
+pub(super) fn of(request: &Request, column: &StepColumn) -> Vec<Diagnostic> {
     let name = &column.column.name;
     let at = |problem: Diagnostic| problem.at(column.column.span.clone(), "");
     let fit = &column.fit;
@@ -92,7 +92,7 @@ fn short(name: &str, fit: &StepFit) -> Diagnostic {
 }
 
 /// That dT is counted from where the record is cut.
-fn cut(request: &Request, column: &Column<'_>) -> Option<Diagnostic> {
+fn cut(request: &Request, column: &StepColumn) -> Option<Diagnostic> {
     if request.reference != Reference::Initial || !request.is_cut() {
         return None;
     }
@@ -111,7 +111,7 @@ fn cut(request: &Request, column: &Column<'_>) -> Option<Diagnostic> {
 
 /// That a power is negative by more than its noise: no part of a gearbox takes heat out of the
 /// world.
-fn cooling(request: &Request, column: &Column<'_>) -> Option<Diagnostic> {
+fn cooling(request: &Request, column: &StepColumn) -> Option<Diagnostic> {
     let (name, fit, power) = (&column.column.name, &column.fit, &column.power.power);
     if request.capacity.is_none() || power.value + power.half_width >= 0.0 {
         return None;
@@ -193,7 +193,7 @@ fn turns(times: &[f64], values: &[f64]) -> Option<f64> {
 }
 
 /// Why a column has no fit, and how the command ends.
-pub(crate) fn failed(
+pub(super) fn failed(
     request: &Request,
     column: &RecordColumn,
     error: &StepError,

@@ -4,18 +4,18 @@ use lptn_fit::law::{LawOf, RunFit};
 use lptn_plot::Figure;
 use lptn_report::{MOST_CURVES, plain};
 
-use super::Runs;
-use crate::verbs::fit::law::figure::{OverSpeed, mean, power_laws, rise_laws, time_laws};
-use crate::verbs::fit::law::page::ends;
+use super::FitRunsAnswer;
+use crate::fit::law::figure::{OverSpeed, mean, power_laws, rise_laws, time_laws};
+use crate::fit::law::page::ends;
 
 const BARS: &str = "bars: one standard error, by the noise of each record";
 
 /// The value of a run, and its standard error.
 type Pick = fn(&RunFit) -> (f64, f64);
 
-impl Runs {
+impl FitRunsAnswer {
     pub(super) fn pictures(&self) -> Vec<Figure> {
-        vec![self.rises(), self.time_constants(), self.powers()]
+        vec![self.rise_figure(), self.time_figure(), self.power_figure()]
     }
 
     fn over(&self, of: LawOf) -> OverSpeed<'_> {
@@ -42,7 +42,7 @@ impl Runs {
     }
 
     /// Figure 7.
-    fn rises(&self) -> Figure {
+    fn rise_figure(&self) -> Figure {
         let mut over = self.over(LawOf::Rise);
         self.measured(&mut over, MOST_CURVES, |f| (f.power.rise.value, f.power.rise.random));
         let mut notes = vec![self.zero()];
@@ -51,7 +51,7 @@ impl Runs {
     }
 
     /// Figure 8.
-    fn time_constants(&self) -> Figure {
+    fn time_figure(&self) -> Figure {
         let mut over = self.over(LawOf::TimeConstant);
         self.measured(&mut over, MOST_CURVES, |f| (f.fit.tau.value, f.fit.tau.standard_error));
         for (place, column) in self.columns().iter().take(MOST_CURVES).enumerate() {
@@ -63,7 +63,7 @@ impl Runs {
     }
 
     /// Figure 9.
-    fn powers(&self) -> Figure {
+    fn power_figure(&self) -> Figure {
         let mut over = self.over(LawOf::Power);
         self.measured(&mut over, 1, |f| (f.power.power.value, f.power.power.random));
         let notes = power_laws(&mut over, &self.answer);

@@ -4,9 +4,9 @@ use lptn_fit::infer::{InferredColumn, InferredJump, InferredSensor, Known};
 use lptn_study::SiValue;
 use serde_json::{Map, Value, json};
 
-use super::Answer;
+use super::InferAnswer;
 
-impl Answer<'_> {
+impl InferAnswer {
     pub(super) fn courses_json(&self) -> Value {
         let one = |j: usize| {
             let (sought, course) = (&self.task.sought[j], &self.found.courses[j]);

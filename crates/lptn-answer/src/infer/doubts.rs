@@ -4,7 +4,7 @@ use lptn_fit::infer::{Drift, InferredColumn, Start};
 use lptn_netlist::{Diagnostic, Observed};
 use lptn_report::{duration, significant};
 
-use super::Answer;
+use super::InferAnswer;
 
 /// A surprise of so many standard deviations is not chance.
 const FAR: f64 = 5.0;
@@ -15,7 +15,7 @@ const WIDE: f64 = 1.3;
 /// Neighbours that correlate by less make bands no narrower than they should be by more than a tenth.
 const ALIKE: f64 = 0.08;
 
-pub(super) fn of(answer: &Answer<'_>) -> Vec<Diagnostic> {
+pub(super) fn of(answer: &InferAnswer) -> Vec<Diagnostic> {
     let observed = &answer.study.reads.observed;
     let columns = || answer.found.columns.iter().zip(observed);
     let mut doubts: Vec<Diagnostic> = Vec::new();
@@ -33,7 +33,7 @@ pub(super) fn of(answer: &Answer<'_>) -> Vec<Diagnostic> {
     doubts
 }
 
-fn start(answer: &Answer<'_>, column: &InferredColumn, observed: &Observed) -> Diagnostic {
+fn start(answer: &InferAnswer, column: &InferredColumn, observed: &Observed) -> Diagnostic {
     let message = format!(
         "column `{}` begins {} standard deviations from where the network does",
         observed.column,
@@ -48,7 +48,11 @@ fn start(answer: &Answer<'_>, column: &InferredColumn, observed: &Observed) -> D
     ))
 }
 
-fn drifts(answer: &Answer<'_>, column: &InferredColumn, observed: &Observed) -> Option<Diagnostic> {
+fn drifts(
+    answer: &InferAnswer,
+    column: &InferredColumn,
+    observed: &Observed,
+) -> Option<Diagnostic> {
     let drift = column.drift?;
     let length = answer.found.times.last()? - answer.found.times.first()?;
     let message = format!(
@@ -75,7 +79,7 @@ fn is_alike(column: &InferredColumn) -> bool {
 }
 
 fn surprised(
-    (answer, i): (&Answer<'_>, usize),
+    (answer, i): (&InferAnswer, usize),
     column: &InferredColumn,
     observed: &Observed,
 ) -> Diagnostic {
