@@ -3,7 +3,6 @@
 //!
 //! A doubt is a [`Diagnostic`](lptn_netlist::Diagnostic) of severity warning with its code, its
 //! sentence, its place in the netlist and what to do. Clients print what this crate gives.
-//! Doubts of fits, inferences and plans are still made by the command line.
 
 pub mod about;
 pub mod answer;
@@ -15,7 +14,11 @@ pub mod cycle;
 pub mod exit;
 pub mod failure;
 pub mod families;
+pub mod fit;
+pub mod folder;
 mod gaps;
+mod gathered;
+pub mod infer;
 pub mod input;
 pub mod limits;
 pub mod listener;
@@ -23,6 +26,7 @@ pub mod lumping;
 pub mod messages;
 pub mod operating_point;
 pub mod period;
+pub mod plan;
 pub mod ranges;
 pub mod rank;
 pub mod refused;

@@ -1,5 +1,6 @@
 //! Whoever asked, while the answer is computed.
 
+use std::fmt::Display;
 use std::time::Instant;
 
 use lptn_netlist::{Diagnostic, Files};
@@ -39,6 +40,11 @@ pub trait Listener: Sync {
 
     /// A part of the work took this long, in s.
     fn took(&self, _part: &'static str, _seconds: f64) {}
+
+    /// One of several runs has come this far, which may go on at the same time; `stage` names it.
+    fn stage(&self, _stage: &dyn Display, progress: Progress) -> Proceed {
+        self.progress(progress)
+    }
 }
 
 /// One of several runs.

@@ -50,7 +50,7 @@ impl<'o> Matters<'o> {
 /// Of a fit.
 pub fn of_fit(
     (input, study): (&Input, &FitStudy),
-    (task, fit): (&NetworkFitTask<'_>, &NetworkFit),
+    (task, fit): (&NetworkFitTask, &NetworkFit),
     named: &Named<'_>,
 ) -> Option<Diagnostic> {
     let off = task.taken_as_exact();
@@ -90,7 +90,7 @@ fn counted(study: &FitStudy, names: &[&str]) -> String {
 /// Of a fit beside a posterior that every other verb takes: what it holds at another value.
 pub fn beside_posterior(
     input: &Input,
-    (study, task, fit): (&FitStudy, &NetworkFitTask<'_>, &NetworkFit),
+    (study, task, fit): (&FitStudy, &NetworkFitTask, &NetworkFit),
     named: &Named<'_>,
 ) -> Option<Diagnostic> {
     let posterior = input.netlist.posterior()?;
@@ -140,7 +140,7 @@ pub fn beside_posterior(
 /// Of a plan.
 pub fn of_plan(
     (input, study): (&Input, &PlanStudy),
-    (task, design): (&DesignTask<'_>, &Design),
+    (task, design): (&DesignTask, &Design),
     named: &Named<'_>,
 ) -> Option<Diagnostic> {
     let (off, moved) = task.taken_as_exact(design);

@@ -41,6 +41,8 @@ pub(crate) struct Console {
     printed: AtomicBool,
     /// Commands to type next.
     next: Mutex<Vec<String>>,
+    /// Warnings that were said, as texts.
+    said: Mutex<Vec<String>>,
     pub(crate) phases: Phases,
 }
 
@@ -68,6 +70,7 @@ impl Console {
             refusal: Refusal::wanted(),
             printed: AtomicBool::new(false),
             next: Mutex::default(),
+            said: Mutex::default(),
             phases: Phases::default(),
         }
     }
@@ -78,9 +81,13 @@ impl Console {
         Ok(self.conclude(page, format))
     }
 
-    /// Reports the doubts in an answer, and writes it in a format.
+    /// Reports the doubts in an answer that were not said while it was computed, and writes it in a
+    /// format.
     pub(crate) fn answer(&self, answer: &dyn Answer, format: Format) -> Result<Exit, Failure> {
-        self.warn(answer.files(), &answer.doubts());
+        let mut doubts = answer.doubts();
+        let said = self.said.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        doubts.retain(|doubt| !said.contains(&render(answer.files(), doubt, false)));
+        self.warn(answer.files(), &doubts);
         self.show(answer, format)
     }
 
@@ -243,6 +250,13 @@ impl Console {
         } else {
             self.report(files, warnings);
         }
+    }
+
+    /// Warnings before there is a result, which does not say them again.
+    pub(crate) fn warn_early(&self, files: &Files, warnings: &[Diagnostic]) {
+        let said = warnings.iter().map(|warning| render(files, warning, false));
+        self.said.lock().unwrap_or_else(PoisonError::into_inner).extend(said);
+        self.warn(files, warnings);
     }
 
     /// Keeps what was said for the report, and for a program that gets no result.

@@ -1,5 +1,6 @@
 //! The console as a listener: doubts to stderr, progress on a line, Ctrl-C ends runs.
 
+use std::fmt::Display;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use std::time::Instant;
 
@@ -44,7 +45,7 @@ impl Listening<'_> {
 impl Listener for Listening<'_> {
     fn warn(&self, files: &Files, doubts: &[Diagnostic]) {
         self.line().clear();
-        self.console.warn(files, doubts);
+        self.console.warn_early(files, doubts);
     }
 
     fn note(&self, text: &str) {
@@ -80,6 +81,25 @@ impl Listener for Listening<'_> {
 
     fn took(&self, part: &'static str, seconds: f64) {
         self.console.phases.add(part, seconds);
+    }
+
+    fn stage(&self, stage: &dyn Display, progress: Progress) -> Proceed {
+        // no run waits for the line: the next step says more
+        if let Ok(mut line) = self.line.try_lock() {
+            line.update_of(stage, progress);
+        }
+        self.proceed()
+    }
+}
+
+/// Without a line and without an ear for Ctrl-C, which ends the program.
+impl Listener for Console {
+    fn warn(&self, files: &Files, doubts: &[Diagnostic]) {
+        self.warn(files, doubts);
+    }
+
+    fn note(&self, text: &str) {
+        self.note(text);
     }
 }
 

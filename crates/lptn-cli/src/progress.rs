@@ -1,5 +1,6 @@
 //! How far a long run is, on a terminal.
 
+use std::fmt::Display;
 use std::io::{IsTerminal as _, Write as _};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -35,7 +36,7 @@ impl ProgressLine {
     }
 
     /// The same, of one of several runs.
-    pub(crate) fn update_of(&mut self, which: &str, progress: Progress) {
+    pub(crate) fn update_of(&mut self, which: &dyn Display, progress: Progress) {
         self.show(|| format!("{which}: {}", run(progress)));
     }
 

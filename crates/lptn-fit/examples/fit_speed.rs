@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         };
     let ranges = [("R", 1e-3, 0.1), ("G", 1.0, 10.0), ("Cs", 50.0, 5000.0), ("Ca", 300.0, 5000.0)];
     let task = NetworkFitTask {
-        network,
+        network: network.clone(),
         parameters: ranges.into_iter().map(varied).collect::<Result<_, _>>()?,
         correlations: Correlations::none(ranges.len()),
         sensors: Vec::new(),

@@ -43,7 +43,7 @@ fn main() {
 
 /// By how much a fit of records of this seed misses every unknown; without a minimum why.
 fn missed(
-    task: &DesignTask<'_>,
+    task: &DesignTask,
     planned: (&[usize], &[(usize, usize)]),
     seed: u32,
 ) -> Result<Vec<f64>, String> {

@@ -89,14 +89,14 @@ fn varying(shares: &[&str], what: &str) -> Netlist {
     netlist(shares, &format!("{RING}vary = [{what}]"))
 }
 
-fn contender<'a>(netlist: &'a Netlist, name: &str) -> Contender<'a> {
+fn contender(netlist: &Netlist, name: &str) -> Contender {
     let task = NetworkFitTask::of(netlist, &netlist.studies.fits[0], 2).unwrap();
     Contender { name: name.to_owned(), task }
 }
 
-fn chosen<'a>(netlists: &[&'a Netlist], threads: usize) -> Result<Choice<'a>, ChoiceError> {
+fn chosen(netlists: &[&Netlist], threads: usize) -> Result<Choice, ChoiceError> {
     let named = netlists.iter().zip(["a", "b", "c"]);
-    let all: Vec<Contender<'a>> = named.map(|(netlist, name)| contender(netlist, name)).collect();
+    let all: Vec<Contender> = named.map(|(netlist, name)| contender(netlist, name)).collect();
     choose(&all, threads, &|_, _| Proceed::Continue)
 }
 
@@ -188,7 +188,7 @@ fn the_order_of_records_and_the_number_of_threads_do_not_matter() {
     let turned = varying(&["1", "0.6", "0.2", "0.4", "0.8"], "\"P\", \"T_start\"");
     let [one, other] = [(&b, 1), (&turned, 5)].map(|(b, n)| chosen(&[&a, b], n).unwrap());
     for (one, other) in one.contenders.iter().zip(&other.contenders) {
-        let rms = |judged: &lptn_fit::choice::Judged<'_>| -> Vec<u64> {
+        let rms = |judged: &lptn_fit::choice::Judged| -> Vec<u64> {
             judged.unseen.iter().map(|part| part.rms.to_bits()).collect()
         };
         assert_eq!(rms(one).len(), 5);

@@ -89,9 +89,9 @@ fn record(netlist: &Netlist, (node, values): (&str, &[f64]), set: &[(&str, &str)
     }
 }
 
-fn task(netlist: &Netlist, parameters: Vec<Varied>, runs: Vec<MeasuredRun>) -> NetworkFitTask<'_> {
+fn task(netlist: &Netlist, parameters: Vec<Varied>, runs: Vec<MeasuredRun>) -> NetworkFitTask {
     NetworkFitTask {
-        network: &netlist.network,
+        network: netlist.network.clone(),
         correlations: Correlations::none(parameters.len()),
         parameters,
         sensors: Vec::new(),

@@ -35,7 +35,7 @@ fn netlist(text: &str) -> Netlist {
         .unwrap_or_else(|rejected| panic!("{rejected}"))
 }
 
-fn follower(netlist: &Netlist) -> Follower<'_> {
+fn follower(netlist: &Netlist) -> Follower {
     Follower::new(InferTask::of(netlist, &netlist.studies.infers[0]).unwrap()).unwrap()
 }
 

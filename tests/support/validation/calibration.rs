@@ -32,7 +32,7 @@ pub fn fit(case: &Case) -> Result<NetworkFit, Trouble> {
     let run = measured(case, calibration, &model)?;
     let threads = available_threads();
     let fit = fit_network(&NetworkFitTask {
-        network,
+        network: network.clone(),
         parameters,
         correlations,
         sensors: Vec::new(),

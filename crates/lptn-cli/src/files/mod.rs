@@ -12,7 +12,6 @@ use std::time::Duration;
 
 use lptn_netlist::Diagnostic;
 use lptn_study::{Environment, FileHash, SiValue};
-use lptn_units::Help;
 use serde_json::{Value, json};
 
 pub(crate) use batch::Batch;
@@ -20,6 +19,7 @@ use commit::Commit;
 use lock::{Lock, NotLocked};
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::{Failure, reason};
+pub(crate) use lptn_answer::folder::of_folder;
 
 /// How long one who only replaces a file waits for another one who does.
 const MOMENT: Duration = Duration::from_secs(2);
@@ -121,21 +121,6 @@ pub(crate) fn manifest(inputs: &[FileHash], results: &[FileHash], wall_time: f64
 /// The words of the command line.
 pub(crate) fn arguments() -> Vec<String> {
     std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect()
-}
-
-/// The files of a folder with this ending, by name.
-pub(crate) fn of_folder(
-    folder: &Path,
-    ending: &str,
-    help: impl Help,
-) -> Result<Vec<PathBuf>, Failure> {
-    let entries = fs::read_dir(folder);
-    let entries = entries.map_err(|error| Failure::cannot_read(folder.display(), &error, help))?;
-    let paths = entries.filter_map(|entry| Some(entry.ok()?.path()));
-    let is_one = |path: &PathBuf| path.is_file() && path.extension().is_some_and(|e| e == ending);
-    let mut paths: Vec<PathBuf> = paths.filter(is_one).collect();
-    paths.sort_unstable();
-    Ok(paths)
 }
 
 /// Puts a file in the place of what stands there, if anything does, at once and whole.

@@ -42,7 +42,7 @@ struct Means {
 
 impl Likely {
     /// Of a fit.
-    pub(crate) fn of(task: &NetworkFitTask<'_>, fit: &NetworkFit) -> Self {
+    pub(crate) fn of(task: &NetworkFitTask, fit: &NetworkFit) -> Self {
         let all: Vec<Means> = fit.columns.iter().map(|column| Means::of(task, column)).collect();
         let means = all.iter().map(|one| one.count()).sum();
         let (mut misfit, mut of_noise) = (0.0, 0);
@@ -68,7 +68,7 @@ fn aicc(misfit: f64, values: usize, numbers: usize) -> Option<f64> {
 
 impl Means {
     /// Stretches depend on the number of values alone, so they are the same for every network.
-    fn of(task: &NetworkFitTask<'_>, column: &ColumnMisfit) -> Self {
+    fn of(task: &NetworkFitTask, column: &ColumnMisfit) -> Self {
         let run = &task.runs[column.run];
         let values = &run.columns[column.column].values;
         let rows = run.times.iter().zip(values.iter().zip(&column.modelled));
@@ -123,7 +123,7 @@ fn together(all: &[Means]) -> Vec<(f64, usize)> {
 /// The share of each network in the likelihood of all: exp(-d / 2), with the distance d of its
 /// criterion from the least (K. P. Burnham, D. R. Anderson, Model Selection and Multimodel Inference,
 /// 2nd edition, Springer 2002, section 2.9).
-pub(crate) fn weights(judged: &[Judged<'_>]) -> Vec<Option<f64>> {
+pub(crate) fn weights(judged: &[Judged]) -> Vec<Option<f64>> {
     let all: Option<Vec<f64>> = judged.iter().map(|one| one.likely.aicc).collect();
     let Some(all) = all else { return vec![None; judged.len()] };
     let least = all.iter().copied().fold(f64::INFINITY, f64::min);
@@ -145,7 +145,7 @@ pub struct Whiteness {
 }
 
 /// For each column; `None` where no record has twice as many means as lags.
-pub(crate) fn whiteness(task: &NetworkFitTask<'_>, fit: &NetworkFit) -> Vec<Option<Whiteness>> {
+pub(crate) fn whiteness(task: &NetworkFitTask, fit: &NetworkFit) -> Vec<Option<Whiteness>> {
     let all: Vec<Means> = fit.columns.iter().map(|column| Means::of(task, column)).collect();
     let columns = task.runs.first().map_or(0, |run| run.columns.len());
     let of = |column: usize| {

@@ -45,11 +45,11 @@ pub const MARGIN: f64 = 6.0;
 
 /// A network that may be the one, and what it is fitted to.
 #[derive(Clone, Debug)]
-pub struct Contender<'a> {
+pub struct Contender {
     /// What it is called.
     pub name: String,
     /// Its fit.
-    pub task: NetworkFitTask<'a>,
+    pub task: NetworkFitTask,
 }
 
 /// How far a choice is.
@@ -80,9 +80,9 @@ pub type ChoiceObserver<'a> = dyn Fn(&ChoiceStage<'_>, Progress) -> Proceed + Sy
 
 /// What records say of several networks.
 #[derive(Clone, Debug)]
-pub struct Choice<'a> {
+pub struct Choice {
     /// The networks, in the order in which they were given.
-    pub contenders: Vec<Judged<'a>>,
+    pub contenders: Vec<Judged>,
     /// What was left out of the fits.
     pub held: Held,
     /// The network that says best what it has not seen.
@@ -91,11 +91,11 @@ pub struct Choice<'a> {
 
 /// A network, and how it fares.
 #[derive(Clone, Debug)]
-pub struct Judged<'a> {
+pub struct Judged {
     /// What it is called.
     pub name: String,
     /// Its task, with records and columns in the order of the first network.
-    pub task: NetworkFitTask<'a>,
+    pub task: NetworkFitTask,
     /// Its fit to all records; one without a minimum is never the best.
     pub fit: NetworkFit,
     /// How likely the records are with it.
@@ -126,7 +126,7 @@ pub struct Apart {
     pub by: f64,
 }
 
-impl Choice<'_> {
+impl Choice {
     /// The networks that the records do not tell from the best, in the order given.
     pub fn rivals(&self) -> Vec<usize> {
         let told = |i: &usize| self.is_told(*i);
@@ -174,15 +174,14 @@ impl Choice<'_> {
 /// # Errors
 /// [`ChoiceError`]: networks that are not fitted to the same values, too little to leave out, and a
 /// fit that fails.
-pub fn choose<'a>(
-    contenders: &[Contender<'a>],
+pub fn choose(
+    contenders: &[Contender],
     threads: usize,
     observer: &ChoiceObserver<'_>,
-) -> Result<Choice<'a>, ChoiceError> {
+) -> Result<Choice, ChoiceError> {
     let contenders = same::aligned(contenders)?;
     let held = Held::of(&contenders)?;
-    let each =
-        |task: &NetworkFitTask<'_>, jobs: usize| (threads / jobs.max(1)).clamp(1, task.threads);
+    let each = |task: &NetworkFitTask, jobs: usize| (threads / jobs.max(1)).clamp(1, task.threads);
     let fits = in_parallel(&contenders, threads, |one| {
         fit(one, each(&one.task, contenders.len()), observer)
     });
@@ -206,7 +205,7 @@ pub fn choose<'a>(
         apart: None,
         fit,
     });
-    let mut judged: Vec<Judged<'a>> = judged.collect();
+    let mut judged: Vec<Judged> = judged.collect();
     let best = paired::best(&judged);
     if let Some(stop) = &judged[best].fit.not_converged {
         let (contender, why) = (judged[best].name.clone(), stop.text().to_string());
@@ -217,7 +216,7 @@ pub fn choose<'a>(
 }
 
 fn fit(
-    one: &Contender<'_>,
+    one: &Contender,
     threads: usize,
     observer: &ChoiceObserver<'_>,
 ) -> Result<NetworkFit, ChoiceError> {
@@ -230,7 +229,7 @@ fn fit(
 }
 
 /// What each network is beside the others.
-fn compare(judged: &mut [Judged<'_>], best: usize, task: &NetworkFitTask<'_>) {
+fn compare(judged: &mut [Judged], best: usize, task: &NetworkFitTask) {
     let weights = likelihood::weights(judged);
     let behind: Vec<Behind> =
         judged.iter().map(|one| Behind::of(&one.unseen, &judged[best].unseen)).collect();
@@ -245,7 +244,7 @@ fn compare(judged: &mut [Judged<'_>], best: usize, task: &NetworkFitTask<'_>) {
 }
 
 /// Where two fits to the same records differ most.
-fn apart(task: &NetworkFitTask<'_>, a: &NetworkFit, b: &NetworkFit) -> Option<Apart> {
+fn apart(task: &NetworkFitTask, a: &NetworkFit, b: &NetworkFit) -> Option<Apart> {
     let columns = a.columns.iter().zip(&b.columns).flat_map(|(a, b)| {
         let both = a.modelled.iter().zip(&b.modelled);
         both.zip(&task.runs[a.run].times).map(move |((x, y), &time)| {

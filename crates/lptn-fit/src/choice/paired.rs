@@ -43,8 +43,8 @@ impl Behind {
 
 /// The network that misses least of what it has not seen, by the mean of the logarithms; the first
 /// of equals. One whose fit has no minimum comes last.
-pub(crate) fn best(judged: &[Judged<'_>]) -> usize {
-    let mean = |one: &Judged<'_>| one.unseen.iter().map(|part| part.over_sigma.ln()).sum::<f64>();
+pub(crate) fn best(judged: &[Judged]) -> usize {
+    let mean = |one: &Judged| one.unseen.iter().map(|part| part.over_sigma.ln()).sum::<f64>();
     let lost = |i: usize| judged[i].fit.not_converged.is_some();
     let by = |a: &usize, b: &usize| {
         lost(*a).cmp(&lost(*b)).then(mean(&judged[*a]).total_cmp(&mean(&judged[*b])))
@@ -52,7 +52,7 @@ pub(crate) fn best(judged: &[Judged<'_>]) -> usize {
     (0..judged.len()).min_by(by).unwrap_or(0)
 }
 
-impl Judged<'_> {
+impl Judged {
     /// Root of the mean square, over all values that it has not seen, of what it misses, in the
     /// unit of [`UnseenRecord::rms`].
     pub fn unseen_rms(&self) -> f64 {

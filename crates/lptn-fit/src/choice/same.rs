@@ -5,7 +5,7 @@ use crate::choice::error::ChoiceError;
 use crate::network::{MeasuredColumn, MeasuredRun};
 
 /// The networks with the records and columns of each in the order of the first.
-pub(crate) fn aligned<'a>(contenders: &[Contender<'a>]) -> Result<Vec<Contender<'a>>, ChoiceError> {
+pub(crate) fn aligned(contenders: &[Contender]) -> Result<Vec<Contender>, ChoiceError> {
     let [first, others @ ..] = contenders else { return Err(ChoiceError::Alone) };
     if others.is_empty() {
         return Err(ChoiceError::Alone);
@@ -17,10 +17,7 @@ pub(crate) fn aligned<'a>(contenders: &[Contender<'a>]) -> Result<Vec<Contender<
     Ok(all)
 }
 
-fn in_order_of<'a>(
-    first: &Contender<'_>,
-    other: &Contender<'a>,
-) -> Result<Contender<'a>, ChoiceError> {
+fn in_order_of(first: &Contender, other: &Contender) -> Result<Contender, ChoiceError> {
     let mut left = other.task.runs.clone();
     let mut runs = Vec::with_capacity(left.len());
     for run in &first.task.runs {
@@ -67,8 +64,8 @@ fn equal(a: &[f64], b: &[f64]) -> bool {
 
 /// What is wrong with a record of the first network that the other one does not read alike.
 fn differing(
-    (first, run): (&Contender<'_>, &MeasuredRun),
-    (other, left): (&Contender<'_>, &[MeasuredRun]),
+    (first, run): (&Contender, &MeasuredRun),
+    (other, left): (&Contender, &[MeasuredRun]),
 ) -> ChoiceError {
     let names = (first.name.clone(), other.name.clone());
     let Some(theirs) = left.iter().find(|theirs| theirs.name == run.name) else {
@@ -82,7 +79,7 @@ fn differing(
 
 /// A value has to count as known as well with both.
 fn weighed_alike(
-    (first, of_first): (&Contender<'_>, &[MeasuredRun]),
+    (first, of_first): (&Contender, &[MeasuredRun]),
     (other, of_other): (&str, &[MeasuredRun]),
 ) -> Result<(), ChoiceError> {
     let columns = |runs: &'_ [MeasuredRun]| -> Vec<MeasuredColumn> {

@@ -48,14 +48,14 @@ pub struct UnseenRecord {
 }
 
 /// A network without a part of the records, and that part alone.
-struct Split<'a> {
-    seen: NetworkFitTask<'a>,
-    unseen: NetworkFitTask<'a>,
+struct Split {
+    seen: NetworkFitTask,
+    unseen: NetworkFitTask,
 }
 
 impl Held {
     /// By the number of records.
-    pub(crate) fn of(contenders: &[Contender<'_>]) -> Result<Self, ChoiceError> {
+    pub(crate) fn of(contenders: &[Contender]) -> Result<Self, ChoiceError> {
         let runs = &contenders[0].task.runs;
         if runs.len() > 1 {
             contenders.iter().try_for_each(known_offsets)?;
@@ -76,7 +76,7 @@ impl Held {
     }
 
     /// How many parts are left out, one after the other.
-    pub(crate) fn parts(&self, contender: &Contender<'_>) -> usize {
+    pub(crate) fn parts(&self, contender: &Contender) -> usize {
         match self {
             Self::EachRecord => contender.task.runs.len(),
             Self::LastThird { .. } => 1,
@@ -86,7 +86,7 @@ impl Held {
     /// Fits a network without a part, beginning at its fit to all records, and says that part.
     pub(crate) fn predict(
         &self,
-        (contender, whole): (&Contender<'_>, &NetworkFit),
+        (contender, whole): (&Contender, &NetworkFit),
         (part, threads): (usize, usize),
         observer: &ChoiceObserver<'_>,
     ) -> Result<UnseenRecord, ChoiceError> {
@@ -120,7 +120,7 @@ impl Held {
         Ok(UnseenRecord { run: part, samples, over_sigma, rms, converged, whole, modelled })
     }
 
-    fn split<'a>(&self, task: &NetworkFitTask<'a>, part: usize, threads: usize) -> Split<'a> {
+    fn split(&self, task: &NetworkFitTask, part: usize, threads: usize) -> Split {
         let with = |runs: Vec<MeasuredRun>| NetworkFitTask {
             runs,
             more_starts: 0,
@@ -171,7 +171,7 @@ impl Held {
 
 /// An offset that is another one in each record, and of which nothing is known, leaves the level of
 /// an unseen record open.
-fn known_offsets(contender: &Contender<'_>) -> Result<(), ChoiceError> {
+fn known_offsets(contender: &Contender) -> Result<(), ChoiceError> {
     let unknowns = contender.task.unknowns();
     let open = |unknown: &&Unknown| unknown.run().is_some() && unknown.prior.is_none();
     match unknowns.iter().find(open).and_then(Unknown::sensor) {

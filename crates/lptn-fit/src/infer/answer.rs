@@ -25,7 +25,7 @@ use crate::kalman::Smoother;
 ///
 /// # Errors
 /// [`InferError`]
-pub fn infer(task: &InferTask<'_>, observer: &InferObserver<'_>) -> Result<Inferred, InferError> {
+pub fn infer(task: &InferTask, observer: &InferObserver<'_>) -> Result<Inferred, InferError> {
     let mut settled = settle(task, observer)?;
     let mut found = told(task, &settled);
     let Settled { model, strength, free, .. } = &mut settled;
@@ -43,7 +43,7 @@ fn size(positive: bool, course: &InferredCourse) -> f64 {
 }
 
 /// All that follows from where the rounds ended, but for whether courses are determined.
-fn told(task: &InferTask<'_>, settled: &Settled) -> Inferred {
+fn told(task: &InferTask, settled: &Settled) -> Inferred {
     let Settled { model, strength, reference, moments, .. } = settled;
     let (smoother, surprises) = model.smoothed(strength);
     let asked = Asked::new(task, settled);
@@ -83,7 +83,7 @@ fn told(task: &InferTask<'_>, settled: &Settled) -> Inferred {
 
 /// Each course if none changes.
 fn still(
-    task: &InferTask<'_>,
+    task: &InferTask,
     (reference, model): (&Reference, &Model),
     strength: &Strength,
 ) -> Vec<(Known, f64)> {
@@ -105,14 +105,14 @@ fn still(
 
 /// What is asked of the states at every moment.
 struct Asked<'a> {
-    task: &'a InferTask<'a>,
+    task: &'a InferTask,
     settled: &'a Settled,
     /// The nodes that are shown.
     shown: Vec<NodeId>,
 }
 
 impl<'a> Asked<'a> {
-    fn new(task: &'a InferTask<'a>, settled: &'a Settled) -> Self {
+    fn new(task: &'a InferTask, settled: &'a Settled) -> Self {
         Self { task, settled, shown: task.network.node_ids().collect() }
     }
 

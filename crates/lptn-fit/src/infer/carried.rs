@@ -8,7 +8,7 @@ use crate::kalman::{Filter, Gaussian};
 
 /// What is known of a moment as the reference of the next, and how the states stand to it.
 pub(crate) fn carried(
-    task: &InferTask<'_>,
+    task: &InferTask,
     (model, reference): (&Model, &Reference),
     (filter, begins, k): (&Filter, &Begins, usize),
 ) -> (Reference, Gaussian) {

@@ -17,7 +17,7 @@ const HIDDEN: f64 = 2.0;
 /// hangs on something of which nothing is known: what was taken for that is no knowledge. And it is
 /// not where what is known with a `±` makes it wider than the course is large, `sizes`.
 pub(crate) fn courses(
-    task: &InferTask<'_>,
+    task: &InferTask,
     free: &[bool],
     (model, strength): (&mut Model, &Strength),
     sizes: &[f64],
@@ -38,7 +38,7 @@ pub(crate) fn courses(
 }
 
 /// The states of which nothing is known beforehand; `free` says it of the bodies.
-fn unknown(task: &InferTask<'_>, states: &States, free: &[bool]) -> Vec<bool> {
+fn unknown(task: &InferTask, states: &States, free: &[bool]) -> Vec<bool> {
     let mut all = vec![false; states.count()];
     free.iter().enumerate().for_each(|(i, free)| all[i] = *free);
     let started = free.contains(&true);

@@ -68,9 +68,9 @@ pub struct Followed {
 
 /// Follows a record row by row.
 #[derive(Debug)]
-pub struct Follower<'a> {
+pub struct Follower {
     /// What is sought, without rows.
-    task: InferTask<'a>,
+    task: InferTask,
     /// Whether readings that nobody would expect are left out.
     drops: bool,
     waiting: Vec<Row>,
@@ -92,12 +92,12 @@ struct Now {
     state: Gaussian,
 }
 
-impl<'a> Follower<'a> {
+impl Follower {
     /// With the strengths that the task says.
     ///
     /// # Errors
     /// [`InferError`] where it leaves open how much a course changes, or the noise of a column.
-    pub fn new(task: InferTask<'a>) -> Result<Self, InferError> {
+    pub fn new(task: InferTask) -> Result<Self, InferError> {
         checked(&task)?;
         if let Some(sought) = task.sought.iter().find(|sought| sought.intensity.is_none()) {
             return Err(InferError::Smoothness { signal: sought.name.clone() });
@@ -243,7 +243,7 @@ impl<'a> Follower<'a> {
     }
 
     /// The task of some rows: where a row was answered before, only its signals count.
-    fn of_rows(&self, times: &[f64], rows: &[&Row]) -> InferTask<'a> {
+    fn of_rows(&self, times: &[f64], rows: &[&Row]) -> InferTask {
         let mut task = self.task.clone();
         task.run.times = times.to_vec();
         for (i, column) in task.run.columns.iter_mut().enumerate() {
@@ -271,7 +271,7 @@ fn course(signal: &mut RecordedSignal, place: usize, (first, rows): (f64, &[&Row
 }
 
 /// The noise that is said.
-fn noises(task: &InferTask<'_>) -> Vec<Noise> {
+fn noises(task: &InferTask) -> Vec<Noise> {
     let said = |column: &MeasuredColumn| match (column.sigma.unwrap_or(1.0), task.drift) {
         (white, Drift::Known { deviation, time }) => Noise { white, drift: deviation, time },
         (white, Drift::Open) => Noise::white(white),
@@ -281,7 +281,7 @@ fn noises(task: &InferTask<'_>) -> Vec<Noise> {
 
 /// Goes on to a moment and takes its readings in.
 fn step(
-    task: &InferTask<'_>,
+    task: &InferTask,
     (model, reference): (&Model, &Reference),
     (filter, k): (&mut Filter, usize),
     time: f64,

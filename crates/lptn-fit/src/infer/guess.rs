@@ -7,7 +7,7 @@ use crate::infer::task::{Drift, InferTask};
 impl Strength {
     /// What is said, and first guesses of what is not. Where it is said how much a course changes,
     /// its slope is none.
-    pub(crate) fn guess(task: &InferTask<'_>, model: &Model) -> Self {
+    pub(crate) fn guess(task: &InferTask, model: &Model) -> Self {
         let length = model.length();
         let walk = |(sought, size): (&crate::infer::Sought, &f64)| match sought.intensity {
             Some(intensity) => [intensity, 0.0],
@@ -18,7 +18,7 @@ impl Strength {
     }
 
     /// The same, where walks that stood still are given another chance.
-    pub(crate) fn revived(mut self, task: &InferTask<'_>, model: &Model) -> Self {
+    pub(crate) fn revived(mut self, task: &InferTask, model: &Model) -> Self {
         let guess = Self::guess(task, model).intensities;
         let stood = self.intensities.iter_mut().zip(guess).filter(|(q, _)| **q <= 0.0);
         stood.for_each(|(q, guess)| *q = guess);
@@ -27,7 +27,7 @@ impl Strength {
 }
 
 /// What is said, and first guesses of what is not.
-fn noises(task: &InferTask<'_>) -> Vec<Noise> {
+fn noises(task: &InferTask) -> Vec<Noise> {
     let one = |i: usize| match task.drift {
         Drift::Known { deviation, time } => {
             let all = Scatter::of(task, i);
@@ -40,7 +40,7 @@ fn noises(task: &InferTask<'_>) -> Vec<Noise> {
 }
 
 /// The noise of a column if so large a share of its variance dies away in such a time.
-pub(crate) fn with(task: &InferTask<'_>, column: usize, (part, time): (f64, f64)) -> Noise {
+pub(crate) fn with(task: &InferTask, column: usize, (part, time): (f64, f64)) -> Noise {
     let said = task.run.columns[column].sigma;
     Noise::split(said.unwrap_or_else(|| Scatter::of(task, column).noise(part, time)), part, time)
 }
@@ -54,7 +54,7 @@ struct Scatter {
 }
 
 impl Scatter {
-    fn of(task: &InferTask<'_>, column: usize) -> Self {
+    fn of(task: &InferTask, column: usize) -> Self {
         let all = task.run.times.iter().zip(&task.run.columns[column].values);
         let read: Vec<(f64, f64)> =
             all.filter(|(_, value)| !value.is_nan()).map(|(t, value)| (*t, *value)).collect();

@@ -35,7 +35,7 @@ const MOST: usize = 60;
 /// The most likely strengths with the jumps that pay, from `start` on, or from the best of many near
 /// it where that is a guess.
 pub(crate) fn most_likely(
-    (task, model): (&InferTask<'_>, &Model),
+    (task, model): (&InferTask, &Model),
     (start, guessed): (&Strength, bool),
 ) -> Strength {
     let open = Open::of(task, model);

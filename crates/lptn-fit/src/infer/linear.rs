@@ -34,7 +34,7 @@ pub(crate) struct Systems {
 impl Systems {
     /// Courses first, then parameters.
     pub(crate) fn new(
-        task: &InferTask<'_>,
+        task: &InferTask,
         (reference, times): (&Reference, &[f64]),
     ) -> Result<Self, InferError> {
         let of = |changed: Changed| {
@@ -65,7 +65,7 @@ impl Systems {
 
 /// Looks at moments one after the other.
 pub(crate) struct Linearise<'a> {
-    task: &'a InferTask<'a>,
+    task: &'a InferTask,
     states: &'a States,
     own: StateRates<'a>,
     changed: Vec<([StateRates<'a>; 2], f64)>,
@@ -77,7 +77,7 @@ pub(crate) struct Linearise<'a> {
 
 impl<'a> Linearise<'a> {
     pub(crate) fn new(
-        task: &'a InferTask<'a>,
+        task: &'a InferTask,
         states: &'a States,
         systems: &'a Systems,
     ) -> Result<Self, InferError> {
@@ -183,7 +183,7 @@ fn difference((below, above): &(Rates, Rates), by: f64) -> Rates {
 
 /// What the states bring to the temperature that a column's instrument is exposed to.
 pub(crate) fn measured(
-    task: &InferTask<'_>,
+    task: &InferTask,
     column: usize,
     nodes: &[Vec<(usize, f64)>],
 ) -> Vec<(usize, f64)> {
@@ -198,7 +198,7 @@ impl Linear {
     /// What the states bring to the reading of a column, whose instrument shows `shown` in K.
     pub(crate) fn reading(
         &self,
-        task: &InferTask<'_>,
+        task: &InferTask,
         (states, reads): (&States, &[f64]),
         (column, shown): (usize, f64),
     ) -> (Vec<f64>, f64) {

@@ -64,7 +64,7 @@ fn slope(positive: bool, value: f64) -> f64 {
 impl Model {
     /// `sizes` are those that were found in the first round, where nothing was explained yet.
     pub(crate) fn new(
-        task: &InferTask<'_>,
+        task: &InferTask,
         (moments, begins): (&Moments, &Begins),
         (reference, own): (&Reference, &Reference),
         (sizes, observer): (&[f64], &InferObserver<'_>),
@@ -154,7 +154,7 @@ impl Model {
     }
 
     /// How large each course has to be to explain the farthest reading, if it stands still.
-    fn found_sizes(&self, task: &InferTask<'_>) -> Result<Vec<f64>, InferError> {
+    fn found_sizes(&self, task: &InferTask) -> Result<Vec<f64>, InferError> {
         let all = self.readings.iter().flatten();
         let farthest = all.map(|read| read.beyond.abs()).fold(0.0, f64::max);
         let noise = task.run.columns.iter().filter_map(|column| column.sigma).fold(0.0, f64::max);
@@ -333,7 +333,7 @@ impl Read {
 }
 
 /// Coordinates of all courses at one moment.
-pub(crate) fn coordinates(task: &InferTask<'_>, reference: &Reference, k: usize) -> Vec<f64> {
+pub(crate) fn coordinates(task: &InferTask, reference: &Reference, k: usize) -> Vec<f64> {
     let courses = task.sought.iter().zip(&reference.courses);
     courses.map(|(s, course)| if s.positive { course[k].ln() } else { course[k] }).collect()
 }
@@ -344,7 +344,7 @@ fn start(bodies: &[NodeId], nodes: &[f64]) -> Vec<f64> {
 
 /// Between each two moments rates are the mean of both.
 fn steps(
-    (task, states): (&InferTask<'_>, &States),
+    (task, states): (&InferTask, &States),
     (times, reference): (&[f64], &Reference),
     all: &[Linear],
 ) -> Vec<(Rc<Discrete>, Rc<Vec<f64>>)> {
@@ -377,7 +377,7 @@ fn same((known, long): (&[f64], f64), (rates, time): (&[f64], f64), end: f64) ->
 }
 
 fn readings(
-    (task, moments): (&InferTask<'_>, &Moments),
+    (task, moments): (&InferTask, &Moments),
     (states, reference): (&States, &Reference),
     (all, shown): (&[Linear], &[Vec<f64>]),
 ) -> Vec<Vec<Read>> {

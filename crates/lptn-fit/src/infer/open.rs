@@ -32,7 +32,7 @@ const FACTOR: f64 = 2.0;
 const NOT_FELT: f64 = 0.05;
 
 /// The strengths that may be, with their shares.
-fn possible(task: &InferTask<'_>, model: &Model, most: &Strength) -> Vec<(Strength, f64)> {
+fn possible(task: &InferTask, model: &Model, most: &Strength) -> Vec<(Strength, f64)> {
     let alone = vec![(most.clone(), 1.0)];
     let open = open_walks(task);
     let [course, slope] = open.as_slice() else { return alone };
@@ -91,7 +91,7 @@ impl Axis<'_> {
 
 /// Means and standard deviations of what is `asked` of the states of all moments.
 pub(crate) fn mixture(
-    (task, model, most): (&InferTask<'_>, &Model, &Strength),
+    (task, model, most): (&InferTask, &Model, &Strength),
     asked: impl Fn(&Smoother) -> Vec<(f64, f64)>,
 ) -> Vec<(f64, f64)> {
     let of = |strength: &Strength| asked(&model.smoothed(strength).0);

@@ -27,7 +27,7 @@ pub(crate) struct Begins {
 
 impl Begins {
     pub(crate) fn of(
-        task: &InferTask<'_>,
+        task: &InferTask,
         (own, bodies, times): (&Reference, &[NodeId], &[f64]),
     ) -> Result<Self, InferError> {
         let at = |changed: Changed| -> Result<Vec<f64>, InferError> {
@@ -67,7 +67,7 @@ impl Begins {
     /// far each course may be from its own, `shown` what a slow instrument shows of the bodies.
     pub(crate) fn prior(
         &self,
-        (task, states): (&InferTask<'_>, &States),
+        (task, states): (&InferTask, &States),
         (reference, own, start): (&Reference, &Reference, &[f64]),
         (courses, spreads): (&[f64], &[f64]),
         shown: &[Vec<(usize, f64)>],

@@ -24,7 +24,7 @@ pub(crate) struct Moments {
 }
 
 impl Moments {
-    pub(crate) fn of(task: &InferTask<'_>) -> Result<Self, InferError> {
+    pub(crate) fn of(task: &InferTask) -> Result<Self, InferError> {
         let (start, mut times) = (task.run.settings.start(), task.run.times.clone());
         let span = (times.first().copied(), times.last().copied());
         if let (Some(first), Some(last)) = span
@@ -86,7 +86,7 @@ impl Reference {
     /// The network whose run it is.
     pub(crate) fn network(
         &self,
-        task: &InferTask<'_>,
+        task: &InferTask,
         times: &[f64],
         changed: Changed,
     ) -> Result<Network, InferError> {
@@ -119,7 +119,7 @@ impl Reference {
     /// Its run.
     pub(crate) fn run(
         &self,
-        task: &InferTask<'_>,
+        task: &InferTask,
         (system, times): (&ThermalSystem, &[f64]),
         observer: &InferObserver<'_>,
     ) -> Result<Ran, InferError> {
@@ -148,7 +148,7 @@ impl Reference {
 
     fn solution(
         &self,
-        task: &InferTask<'_>,
+        task: &InferTask,
         (system, times): (&ThermalSystem, &[f64]),
         observer: &InferObserver<'_>,
     ) -> Result<Solution, InferError> {

@@ -41,7 +41,7 @@ pub(crate) struct Settled {
 }
 
 pub(crate) fn settle(
-    task: &InferTask<'_>,
+    task: &InferTask,
     observer: &InferObserver<'_>,
 ) -> Result<Settled, InferError> {
     checked(task)?;
@@ -88,7 +88,7 @@ pub(crate) fn settle(
 
 /// What the network itself says, and how it begins.
 pub(crate) fn begun(
-    task: &InferTask<'_>,
+    task: &InferTask,
     moments: &Moments,
 ) -> Result<(Reference, Begins), InferError> {
     let own = own(task, moments)?;
@@ -98,7 +98,7 @@ pub(crate) fn begun(
     Ok((own, begins))
 }
 
-pub(crate) fn checked(task: &InferTask<'_>) -> Result<(), InferError> {
+pub(crate) fn checked(task: &InferTask) -> Result<(), InferError> {
     if task.network.has_events() {
         return Err(InferError::Events);
     }
@@ -114,7 +114,7 @@ pub(crate) fn checked(task: &InferTask<'_>) -> Result<(), InferError> {
 }
 
 /// The courses and values that the network itself says.
-fn own(task: &InferTask<'_>, moments: &Moments) -> Result<Reference, InferError> {
+fn own(task: &InferTask, moments: &Moments) -> Result<Reference, InferError> {
     let network = task.network.with(&task.run.parameters).map_err(ChangeError::from)?;
     let network = network.recorded(&task.inputs(), &[]).map_err(ChangeError::from)?;
     let course = |sought: &crate::infer::Sought| {
@@ -133,7 +133,7 @@ fn own(task: &InferTask<'_>, moments: &Moments) -> Result<Reference, InferError>
 
 /// What all that was read makes of a reference: a share of the way there.
 fn moved(
-    (task, begins): (&InferTask<'_>, &Begins),
+    (task, begins): (&InferTask, &Begins),
     (reference, model): (&Reference, &Model),
     smoothed: &[Gaussian],
     share: f64,
@@ -164,7 +164,7 @@ fn moved(
 
 /// How far a round has moved anything that is not known, over its standard deviation.
 fn distance(
-    (task, model): (&InferTask<'_>, &Model),
+    (task, model): (&InferTask, &Model),
     (reference, next): (&Reference, &Reference),
     smoothed: &[Gaussian],
 ) -> f64 {
@@ -184,7 +184,7 @@ fn distance(
 
 /// The same of what stands still: parameters, and values of instruments.
 fn unmoving(
-    (task, model): (&InferTask<'_>, &Model),
+    (task, model): (&InferTask, &Model),
     (reference, next): (&Reference, &Reference),
     last: &Gaussian,
 ) -> f64 {

@@ -23,18 +23,18 @@ const APART: f64 = 1.0;
 pub(crate) struct Open<'a> {
     /// Places of the intensities.
     walks: Vec<usize>,
-    pub(crate) task: &'a InferTask<'a>,
+    pub(crate) task: &'a InferTask,
     pub(crate) model: &'a Model,
 }
 
 /// Places of the intensities that are not said.
-pub(crate) fn open_walks(task: &InferTask<'_>) -> Vec<usize> {
+pub(crate) fn open_walks(task: &InferTask) -> Vec<usize> {
     let open = task.sought.iter().enumerate().filter(|(_, sought)| sought.intensity.is_none());
     open.flat_map(|(j, _)| [2 * j, 2 * j + 1]).collect()
 }
 
 impl<'a> Open<'a> {
-    pub(crate) fn of(task: &'a InferTask<'a>, model: &'a Model) -> Self {
+    pub(crate) fn of(task: &'a InferTask, model: &'a Model) -> Self {
         Self { walks: open_walks(task), task, model }
     }
 

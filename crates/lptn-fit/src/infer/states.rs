@@ -43,7 +43,7 @@ pub(crate) struct States {
 const ENOUGH: usize = 30;
 
 impl States {
-    pub(crate) fn of(task: &InferTask<'_>, bodies: usize) -> Self {
+    pub(crate) fn of(task: &InferTask, bodies: usize) -> Self {
         let slow = task.run.columns.iter().enumerate().filter_map(|(i, column)| {
             let lag = task.sensors[column.sensor?].lag.value;
             (lag > 0.0).then_some((i, lag))
@@ -112,7 +112,7 @@ impl States {
 }
 
 /// The columns whose noise may hold a part that dies away slowly.
-fn drifts(task: &InferTask<'_>) -> Vec<usize> {
+fn drifts(task: &InferTask) -> Vec<usize> {
     let columns = task.run.columns.iter().enumerate();
     let read = |values: &[f64]| values.iter().filter(|value| !value.is_nan()).count();
     let may = columns.filter(|(_, column)| match task.drift {
@@ -123,7 +123,7 @@ fn drifts(task: &InferTask<'_>) -> Vec<usize> {
 }
 
 /// The uncertain values of the instruments that columns name.
-pub(crate) fn reads(task: &InferTask<'_>) -> Vec<Reads> {
+pub(crate) fn reads(task: &InferTask) -> Vec<Reads> {
     let mut all = Vec::new();
     for (sensor, instrument) in task.sensors.iter().enumerate() {
         if task.run.columns.iter().all(|column| column.sensor != Some(sensor)) {

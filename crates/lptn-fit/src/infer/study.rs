@@ -10,14 +10,14 @@ use crate::infer::task::{Drift, InferTask, Sought, Start, Uncertain};
 use crate::network::plan::weights;
 use crate::network::{Instrument, NetworkFitError, NetworkFitTask};
 
-impl<'a> InferTask<'a> {
+impl InferTask {
     /// The task of a study. Every parameter with a `±`, its own or that of a posterior, is
     /// uncertain, with its correlations.
     ///
     /// # Errors
     /// [`InferError`] for a column that is no temperature of a node, no mean and no difference of some,
     /// and what the evaluation of the study's numbers reports.
-    pub fn of(netlist: &'a Netlist, study: &InferStudy) -> Result<Self, InferError> {
+    pub fn of(netlist: &Netlist, study: &InferStudy) -> Result<Self, InferError> {
         let network = &netlist.network;
         let mut read = NetworkFitTask::of(netlist, &study.reads, 1)?;
         let changes = study.changes(network)?;
@@ -58,6 +58,15 @@ impl<'a> InferTask<'a> {
         let uncertain: Vec<Uncertain> = believed.uncertain().into_iter().map(known).collect();
         let ids: Vec<ParameterId> = uncertain.iter().map(|own| own.parameter).collect();
         let together = believed.correlations_of(&ids);
-        Ok(Self { network, run, sensors: read.sensors, sought, uncertain, together, start, drift })
+        Ok(Self {
+            network: network.clone(),
+            run,
+            sensors: read.sensors,
+            sought,
+            uncertain,
+            together,
+            start,
+            drift,
+        })
     }
 }

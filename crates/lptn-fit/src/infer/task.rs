@@ -7,9 +7,9 @@ use crate::network::{Held, Instrument, MeasuredRun};
 
 /// Courses of signals to infer from one record.
 #[derive(Clone, Debug)]
-pub struct InferTask<'a> {
+pub struct InferTask {
     /// The network. What is sought begins as its own courses say.
-    pub network: &'a Network,
+    pub network: Network,
     /// The record. Its run begins at `settings.start`.
     pub run: MeasuredRun,
     /// The instruments that columns name.
@@ -26,7 +26,7 @@ pub struct InferTask<'a> {
     pub drift: Drift,
 }
 
-impl InferTask<'_> {
+impl InferTask {
     /// The courses of the signals that follow the record, whose instruments are known.
     pub(crate) fn inputs(&self) -> Vec<(SignalId, Course)> {
         let held = |sensor: Option<usize>| Held::of(sensor.and_then(|i| self.sensors.get(i)));

@@ -36,7 +36,7 @@ pub(crate) fn accuracy(gradient: Gradient) -> f64 {
 
 /// What the residuals and their derivatives where the search ended tell of the parameters.
 pub(crate) fn told_apart(
-    (task, unknowns): (&NetworkFitTask<'_>, &[Unknown]),
+    (task, unknowns): (&NetworkFitTask, &[Unknown]),
     (at_end, accuracy): (&Evaluated, f64),
     model: &mut Model<'_>,
 ) -> Option<Identifiability> {

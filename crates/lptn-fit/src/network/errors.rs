@@ -15,7 +15,7 @@ const FEW: usize = 10;
 
 /// Residuals and derivatives at the end of a fit, and the noise of every column.
 pub(crate) struct Errors<'a> {
-    task: &'a NetworkFitTask<'a>,
+    task: &'a NetworkFitTask,
     at_end: &'a Evaluated,
     /// Number of residuals that are data.
     data: usize,
@@ -44,7 +44,7 @@ impl<'a> Errors<'a> {
     /// With the parameters that sit on no bound. Where some cannot be told apart, so many of them
     /// are held that the others can; the errors of the determined ones do not depend on which.
     pub(crate) fn new(
-        task: &'a NetworkFitTask<'a>,
+        task: &'a NetworkFitTask,
         model: &'a Model<'_>,
         (at_end, inside, known): (&'a Evaluated, &[usize], Option<&Identifiability>),
     ) -> Self {

@@ -20,7 +20,7 @@ impl Held {
     }
 }
 
-impl NetworkFitTask<'_> {
+impl NetworkFitTask {
     /// What an instrument is held to be in a record, with these values of what is sought.
     pub(crate) fn held(
         &self,
@@ -43,7 +43,7 @@ impl NetworkFitTask<'_> {
     }
 }
 
-impl NetworkFitTask<'_> {
+impl NetworkFitTask {
     /// Whether some of what is sought changes runs by their starts or inputs, so that its
     /// derivatives are differences.
     pub(crate) fn has_inputs_sought(&self, unknowns: &[Unknown]) -> bool {

@@ -24,7 +24,7 @@ const LEFT: f64 = 0.03;
 
 /// What there is to ask.
 pub(crate) struct Missed<'a> {
-    pub(crate) task: &'a NetworkFitTask<'a>,
+    pub(crate) task: &'a NetworkFitTask,
     pub(crate) at_end: &'a Evaluated,
     /// The blocks that hold values.
     pub(crate) blocks: Vec<&'a Block>,

@@ -82,7 +82,7 @@ use crate::network::search::{Found, search};
 /// # Errors
 /// [`NetworkFitError`] for a task that asks for nothing, or where the own values have no run. That
 /// the search does not converge is an answer: [`NetworkFit::not_converged`].
-pub fn fit_network(task: &NetworkFitTask<'_>) -> Result<NetworkFit, NetworkFitError> {
+pub fn fit_network(task: &NetworkFitTask) -> Result<NetworkFit, NetworkFitError> {
     fit_network_observed(task, &|_, _| Proceed::Continue)
 }
 
@@ -91,7 +91,7 @@ pub fn fit_network(task: &NetworkFitTask<'_>) -> Result<NetworkFit, NetworkFitEr
 /// # Errors
 /// As [`fit_network`]; [`NetworkFitError::Interrupted`] with the best values so far.
 pub fn fit_network_observed(
-    task: &NetworkFitTask<'_>,
+    task: &NetworkFitTask,
     observer: &FitObserver<'_>,
 ) -> Result<NetworkFit, NetworkFitError> {
     let unknowns = task.unknowns();
@@ -182,7 +182,7 @@ fn fitted_parameters(
 /// The parameters whose interval is no value ± error, with the rise of the sum of squares at its
 /// ends: those for which that would hold what cannot be, and those on a bound.
 fn one_sided(
-    (task, model, at_end): (&NetworkFitTask<'_>, &Model<'_>, &Evaluated),
+    (task, model, at_end): (&NetworkFitTask, &Model<'_>, &Evaluated),
     (unknowns, parameters): (&[Unknown], &[FittedParameter]),
     (errors, free, known): (&Errors<'_>, &[usize], Option<&Identifiability>),
 ) -> Vec<(usize, Rise)> {
@@ -212,7 +212,7 @@ fn one_sided(
     (0..parameters.len()).filter_map(|i| Some((i, one(i)?))).collect()
 }
 
-fn check(task: &NetworkFitTask<'_>, unknowns: &[Unknown]) -> Result<(), NetworkFitError> {
+fn check(task: &NetworkFitTask, unknowns: &[Unknown]) -> Result<(), NetworkFitError> {
     if unknowns.is_empty() {
         return Err(NetworkFitError::NoParameter);
     }

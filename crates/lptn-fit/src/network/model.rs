@@ -41,7 +41,7 @@ pub(crate) struct Evaluated {
 
 /// Computes the task's runs at some of the records' rows.
 pub(crate) struct Model<'a> {
-    task: &'a NetworkFitTask<'a>,
+    task: &'a NetworkFitTask,
     unknowns: &'a [Unknown],
     coordinates: &'a Coordinates,
     /// What is known beforehand.
@@ -68,7 +68,7 @@ pub(crate) struct Model<'a> {
 impl<'a> Model<'a> {
     /// With at most `most` rows of each record, taken at equal intervals.
     pub(crate) fn new(
-        (task, observer): (&'a NetworkFitTask<'a>, &'a FitObserver<'a>),
+        (task, observer): (&'a NetworkFitTask, &'a FitObserver<'a>),
         (unknowns, coordinates): (&'a [Unknown], &'a Coordinates),
         (most, tolerance): (usize, f64),
     ) -> Self {
@@ -197,7 +197,7 @@ impl<'a> Model<'a> {
     }
 }
 
-impl NetworkFitTask<'_> {
+impl NetworkFitTask {
     /// A record's run with these values of what is sought, compared with the record.
     pub(crate) fn measured(
         &self,
@@ -253,7 +253,7 @@ impl NetworkFitTask<'_> {
     }
 }
 
-fn blocks(task: &NetworkFitTask<'_>, rows: &[Rows]) -> Vec<Block> {
+fn blocks(task: &NetworkFitTask, rows: &[Rows]) -> Vec<Block> {
     let mut blocks = Vec::new();
     let (mut from, mut first) = (0, 0);
     for (run, measured) in task.runs.iter().enumerate() {

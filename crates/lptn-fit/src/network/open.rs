@@ -25,7 +25,7 @@ type ToldApart<'t, 'a> = dyn Fn(&mut Found<'a>, &[f64]) -> Option<Identifiabilit
 /// The same where the first search converged; else what a search finds that holds what is open.
 pub(crate) fn settled<'a>(
     mut found: Found<'a>,
-    (task, unknowns, coordinates): (&NetworkFitTask<'_>, &[Unknown], &Coordinates),
+    (task, unknowns, coordinates): (&NetworkFitTask, &[Unknown], &Coordinates),
     own: &[f64],
 ) -> Result<Found<'a>, NetworkFitError> {
     if found.outcome.is_ok() {

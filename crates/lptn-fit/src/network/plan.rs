@@ -18,7 +18,7 @@ const BASE: f64 = 256.0;
 /// By how much one of them is raised.
 const RAISED: f64 = 64.0;
 
-impl<'a> NetworkFitTask<'a> {
+impl NetworkFitTask {
     /// The task of a study: each record is a run of the network that begins at `[run] start` (0 s
     /// without one), and the times of its rows are times of that run.
     ///
@@ -26,7 +26,7 @@ impl<'a> NetworkFitTask<'a> {
     /// [`NetworkFitError`] for a column that measures nothing that a run has, for columns whose units
     /// cannot be compared, and what the evaluation of the study's numbers reports.
     pub fn of(
-        netlist: &'a Netlist,
+        netlist: &Netlist,
         study: &FitStudy,
         threads: usize,
     ) -> Result<Self, NetworkFitError> {
@@ -75,7 +75,15 @@ impl<'a> NetworkFitTask<'a> {
         }
         let sensors = sensors.iter().map(Instrument::from).collect();
         let (parameters, correlations, more_starts) = (plan.varied, plan.correlations, MORE_STARTS);
-        Ok(Self { network, parameters, correlations, sensors, runs, more_starts, threads })
+        Ok(Self {
+            network: network.clone(),
+            parameters,
+            correlations,
+            sensors,
+            runs,
+            more_starts,
+            threads,
+        })
     }
 }
 

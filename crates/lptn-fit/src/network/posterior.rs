@@ -15,7 +15,7 @@ impl NetworkFit {
     /// `None` where a value is not determined, or nothing tells how far any may be off.
     pub fn posterior(
         &self,
-        task: &NetworkFitTask<'_>,
+        task: &NetworkFitTask,
         (network, fit): (&str, &str),
         names: &[String],
     ) -> Option<Posterior> {

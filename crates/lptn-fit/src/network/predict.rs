@@ -24,7 +24,7 @@ pub(crate) struct Refitted {
 
 /// Fits a task from values in SI units, one for each of its unknowns.
 pub(crate) fn refit(
-    task: &NetworkFitTask<'_>,
+    task: &NetworkFitTask,
     begin: &[f64],
     observer: &FitObserver<'_>,
 ) -> Result<Refitted, NetworkFitError> {
@@ -55,7 +55,7 @@ pub(crate) struct Misses {
 
 /// What a network with these values misses of the records of a task.
 pub(crate) fn misses(
-    task: &NetworkFitTask<'_>,
+    task: &NetworkFitTask,
     values: &[f64],
     observer: &FitObserver<'_>,
 ) -> Result<Vec<Misses>, SensitiveError> {

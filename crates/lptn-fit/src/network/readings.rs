@@ -27,7 +27,7 @@ pub(crate) struct Rows {
 
 impl Rows {
     /// At most `most` rows of a record. Where an instrument follows slowly, its run has more.
-    pub(crate) fn new(task: &NetworkFitTask<'_>, run: &MeasuredRun, most: usize) -> Self {
+    pub(crate) fn new(task: &NetworkFitTask, run: &MeasuredRun, most: usize) -> Self {
         let chosen = chosen(run.times.len(), most);
         let mut times: Vec<f64> = chosen.iter().map(|&row| run.times[row]).collect();
         if times.first().is_some_and(|first| *first > run.settings.start()) {
@@ -75,7 +75,7 @@ pub(crate) struct Measure {
 
 /// One record with the values of what is sought.
 pub(crate) struct Reader<'a> {
-    pub(crate) task: &'a NetworkFitTask<'a>,
+    pub(crate) task: &'a NetworkFitTask,
     /// Place of the record.
     pub(crate) run: usize,
     pub(crate) rows: &'a Rows,

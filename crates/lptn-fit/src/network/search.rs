@@ -54,7 +54,7 @@ pub(crate) struct Found<'a> {
 
 /// Finds the best minimum.
 pub(crate) fn search<'a>(
-    (task, observer): (&'a NetworkFitTask<'a>, &'a FitObserver<'a>),
+    (task, observer): (&'a NetworkFitTask, &'a FitObserver<'a>),
     (unknowns, coordinates): (&'a [Unknown], &'a Coordinates),
     own: &[f64],
 ) -> Result<Found<'a>, NetworkFitError> {
@@ -124,7 +124,7 @@ pub(crate) fn exactly(coordinates: &Coordinates, (gradient, error): (Gradient, f
 
 /// The own values, then points of a scrambled Sobol sequence between the bounds (A. B. Owen, in
 /// Monte Carlo and Quasi-Monte Carlo Methods in Scientific Computing, 1995, 299).
-fn starts(task: &NetworkFitTask<'_>, coordinates: &Coordinates, own: &[f64]) -> Vec<Vec<f64>> {
+fn starts(task: &NetworkFitTask, coordinates: &Coordinates, own: &[f64]) -> Vec<Vec<f64>> {
     let mut starts = vec![own.to_vec()];
     if (0..own.len()).any(|j| coordinates.is_bounded(j)) {
         let more = u32::try_from(task.more_starts).unwrap_or(u32::MAX);

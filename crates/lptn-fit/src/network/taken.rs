@@ -44,7 +44,7 @@ pub struct Moved {
     pub rows: f64,
 }
 
-impl NetworkFitTask<'_> {
+impl NetworkFitTask {
     /// The parameters that are not sought although something is known of how far they may be off: by
     /// a `±`, of the netlist or of the record, or by a posterior.
     pub fn taken_as_exact(&self) -> Vec<Off> {
@@ -160,7 +160,7 @@ impl NetworkFit {
     /// Where a run fails.
     pub fn moved_by(
         &self,
-        task: &NetworkFitTask<'_>,
+        task: &NetworkFitTask,
         off: &[Off],
     ) -> Result<Vec<Moved>, SensitiveError> {
         let values: Vec<f64> = self.parameters.iter().map(|fitted| fitted.value).collect();

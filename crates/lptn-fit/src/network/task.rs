@@ -12,9 +12,9 @@ use crate::network::recorded::{RecordedSignal, RecordedStart};
 
 /// A fit of parameters of a network to records of its temperatures and heat flows.
 #[derive(Clone, Debug)]
-pub struct NetworkFitTask<'a> {
+pub struct NetworkFitTask {
     /// The network; the start values of the parameters are its own.
-    pub network: &'a Network,
+    pub network: Network,
     /// What is varied; each parameter once.
     pub parameters: Vec<Varied>,
     /// How what is known of them beforehand is correlated, in their order.
@@ -150,7 +150,7 @@ impl MeasuredColumn {
     }
 }
 
-impl NetworkFitTask<'_> {
+impl NetworkFitTask {
     /// The type whose unit all columns have in common, of differences of what they measure; `None`
     /// where there is none.
     pub fn unit(&self) -> Option<Type> {

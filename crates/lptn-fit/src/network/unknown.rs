@@ -87,7 +87,7 @@ impl Unknown {
     }
 }
 
-impl NetworkFitTask<'_> {
+impl NetworkFitTask {
     /// What the fit finds: the varied parameters, then what is not known of the sensors that its
     /// columns name, sensor by sensor.
     pub fn unknowns(&self) -> Vec<Unknown> {

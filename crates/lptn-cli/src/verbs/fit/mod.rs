@@ -2,14 +2,12 @@
 
 mod args;
 mod compare;
-mod figure;
 mod law;
 mod network;
 mod posterior;
 mod step;
 
 pub(crate) use args::FitArgs;
-pub(crate) use network::{Answer as NetworkAnswer, doubts, record_place, verdict};
 
 use args::FitVerb;
 

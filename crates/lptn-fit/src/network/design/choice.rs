@@ -18,7 +18,7 @@ pub(super) struct Choice {
 }
 
 impl Choice {
-    fn new(space: &Space<'_, '_>, (places, legs): (&[usize], Vec<Leg>), score: Score) -> Self {
+    fn new(space: &Space<'_>, (places, legs): (&[usize], Vec<Leg>), score: Score) -> Self {
         let runs: f64 = legs.iter().map(|leg| space.cost_of(*leg)).sum();
         let seconds = legs.iter().map(|leg| space.task.lasts(space.samples(*leg))).sum();
         let cost = space.cost_of_places(places) + runs;
@@ -40,7 +40,7 @@ impl Choice {
 /// The best design: of one run, as short as it can be, with any of the sets; where none reaches
 /// all, of several runs with the best sets, each time the run that tells most.
 pub(super) fn choose(
-    space: &Space<'_, '_>,
+    space: &Space<'_>,
     (best, sets): (&[BestSet], &[Vec<usize>]),
 ) -> Option<Choice> {
     let first = |choices: Vec<Choice>| {
@@ -51,7 +51,7 @@ pub(super) fn choose(
 }
 
 /// Designs of one run, or of none where all is known already.
-fn single(space: &Space<'_, '_>, places: &[usize]) -> Vec<Choice> {
+fn single(space: &Space<'_>, places: &[usize]) -> Vec<Choice> {
     let base = space.base(places);
     let score = space.score(&base);
     if score.is_reached() {
@@ -66,7 +66,7 @@ fn single(space: &Space<'_, '_>, places: &[usize]) -> Vec<Choice> {
 }
 
 fn reached(
-    space: &Space<'_, '_>,
+    space: &Space<'_>,
     places: &[usize],
     (base, leg): (&Information, Leg),
 ) -> (Information, Score) {
@@ -78,7 +78,7 @@ fn reached(
 
 /// One run after the other until all is reached, then each as short as it can be; or until a further
 /// one does not lead further, or the budget is used up.
-fn several(space: &Space<'_, '_>, places: &[usize]) -> Option<Choice> {
+fn several(space: &Space<'_>, places: &[usize]) -> Option<Choice> {
     let mut base = space.base(places);
     let mut left = space.task.budget - space.cost_of_places(places);
     let mut score = space.score(&base);
@@ -100,7 +100,7 @@ fn several(space: &Space<'_, '_>, places: &[usize]) -> Option<Choice> {
 
 /// The cheapest of three ways to shorten runs that reach all: the last before the first, the first
 /// before the last, and all by the same part before each by itself.
-fn shortened(space: &Space<'_, '_>, places: &[usize], legs: &[Leg]) -> Option<Choice> {
+fn shortened(space: &Space<'_>, places: &[usize], legs: &[Leg]) -> Option<Choice> {
     let forth: Vec<usize> = (0..legs.len()).collect();
     let back: Vec<usize> = forth.iter().rev().copied().collect();
     let even = evenly(space, places, legs);
@@ -113,14 +113,14 @@ fn shortened(space: &Space<'_, '_>, places: &[usize], legs: &[Leg]) -> Option<Ch
     all.reduce(|a, b| if b.is_before(&a) { b } else { a })
 }
 
-fn together(space: &Space<'_, '_>, places: &[usize], legs: &[Leg]) -> Information {
+fn together(space: &Space<'_>, places: &[usize], legs: &[Leg]) -> Information {
     let mut all = space.base(places);
     legs.iter().for_each(|leg| all.add(&space.tells(places, *leg)));
     all
 }
 
 /// Runs that are all cut to the least part of themselves with which all is reached.
-fn evenly(space: &Space<'_, '_>, places: &[usize], legs: &[Leg]) -> Vec<Leg> {
+fn evenly(space: &Space<'_>, places: &[usize], legs: &[Leg]) -> Vec<Leg> {
     const PARTS: usize = 50;
     let cut = |part: usize| -> Vec<Leg> {
         let one = |leg: &Leg| {
@@ -137,11 +137,7 @@ fn evenly(space: &Space<'_, '_>, places: &[usize], legs: &[Leg]) -> Vec<Leg> {
 
 /// Each run as short as it can be beside the others, in this order; one that is not needed is left
 /// out.
-fn one_by_one(
-    space: &Space<'_, '_>,
-    places: &[usize],
-    (legs, order): (&[Leg], &[usize]),
-) -> Vec<Leg> {
+fn one_by_one(space: &Space<'_>, places: &[usize], (legs, order): (&[Leg], &[usize])) -> Vec<Leg> {
     let mut now: Vec<Option<Leg>> = legs.iter().copied().map(Some).collect();
     for &i in order {
         let Some(leg) = now[i].take() else { continue };

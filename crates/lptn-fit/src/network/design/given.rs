@@ -11,19 +11,19 @@ use crate::network::task::{FitObserver, MeasuredRun, NetworkFitTask};
 
 /// The fit of records that are there already.
 #[derive(Clone, Debug)]
-pub struct GivenFit<'a> {
+pub struct GivenFit {
     /// Its name.
     pub name: String,
     /// What was fitted.
-    pub task: NetworkFitTask<'a>,
+    pub task: NetworkFitTask,
     /// What came of it.
     pub fit: NetworkFit,
 }
 
 /// The records of fits, and what they tell.
 #[derive(Default)]
-pub(super) struct Given<'a> {
-    pub(super) fits: Vec<GivenFit<'a>>,
+pub(super) struct Given {
+    pub(super) fits: Vec<GivenFit>,
     pub(super) runs: Vec<MeasuredRun>,
     /// For each column of each record the variance that its residuals leave in what all of them
     /// have in common, over that of independent ones of its weight.
@@ -32,11 +32,11 @@ pub(super) struct Given<'a> {
     pub(super) values: Vec<(ParameterId, f64)>,
 }
 
-pub(super) fn given<'a>(
-    netlist: &'a Netlist,
+pub(super) fn given(
+    netlist: &Netlist,
     study: &PlanStudy,
     (threads, observer): (usize, &FitObserver<'_>),
-) -> Result<Given<'a>, DesignError> {
+) -> Result<Given, DesignError> {
     let mut given = Given::default();
     for name in &study.given {
         let Some(own) = netlist.studies.fits.iter().find(|fit| fit.name == *name) else { continue };
@@ -60,7 +60,7 @@ pub(super) fn given<'a>(
     Ok(given)
 }
 
-fn factors(task: &NetworkFitTask<'_>, fit: &NetworkFit) -> Vec<Vec<f64>> {
+fn factors(task: &NetworkFitTask, fit: &NetworkFit) -> Vec<Vec<f64>> {
     let mut factors: Vec<Vec<f64>> =
         task.runs.iter().map(|run| vec![1.0; run.columns.len()]).collect();
     for misfit in &fit.columns {

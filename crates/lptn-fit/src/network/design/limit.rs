@@ -21,7 +21,7 @@ const NONE: f64 = 0.05;
 /// Behind its end a run tells more and more of what it then stays at, and no more of anything else:
 /// the variance falls to its limit as 1/t, so those of half the time and of all of it tell that.
 pub(super) fn limits(
-    space: &Space<'_, '_>,
+    space: &Space<'_>,
     (places, runs): (&[usize], &[(usize, usize)]),
     (base, now, observer): (&Information, &[f64], &DesignObserver<'_>),
 ) -> Result<Vec<f64>, DesignError> {
@@ -45,7 +45,7 @@ pub(super) fn limits(
 
 /// What a run of so many samples tells if it goes on, half as long and as long as is looked at.
 fn longer(
-    space: &Space<'_, '_>,
+    space: &Space<'_>,
     places: &[usize],
     ((run, samples), observer): ((usize, usize), &DesignObserver<'_>),
 ) -> Result<[Information; 2], DesignError> {

@@ -140,7 +140,7 @@ pub struct Never {
 /// # Errors
 /// [`DesignError`] where a run fails or is interrupted. That nothing reaches what shall be known is
 /// an answer.
-pub fn design(task: &DesignTask<'_>, observer: &DesignObserver<'_>) -> Result<Design, DesignError> {
+pub fn design(task: &DesignTask, observer: &DesignObserver<'_>) -> Result<Design, DesignError> {
     let space = Space::new(task, observer)?;
     let (best, sets, searched) = best_sets(&space);
     let never = never(&space, observer)?;
@@ -170,7 +170,7 @@ pub fn design(task: &DesignTask<'_>, observer: &DesignObserver<'_>) -> Result<De
 }
 
 /// Whether something that shall be known is never determined.
-fn is_lost(task: &DesignTask<'_>, never: Option<&Never>) -> bool {
+fn is_lost(task: &DesignTask, never: Option<&Never>) -> bool {
     never.is_some_and(|never| {
         let lost = |known: &Known| !never.determines(&task.unknowns[known.unknown]);
         task.known.iter().any(lost)
@@ -185,7 +185,7 @@ impl Never {
     }
 }
 
-fn of_set(space: &Space<'_, '_>, set: &BestSet) -> DesignSet {
+fn of_set(space: &Space<'_>, set: &BestSet) -> DesignSet {
     let mut told = space.base(&set.places);
     let enough = set.leg.and_then(|leg| enough(space, &set.places, (&told, leg)));
     set.leg.iter().for_each(|leg| told.add(&space.tells(&set.places, *leg)));
@@ -198,18 +198,14 @@ fn of_set(space: &Space<'_, '_>, set: &BestSet) -> DesignSet {
 }
 
 /// After how many samples of a run all is known that shall be; one where it is known already.
-fn enough(
-    space: &Space<'_, '_>,
-    places: &[usize],
-    (base, leg): (&Information, Leg),
-) -> Option<usize> {
+fn enough(space: &Space<'_>, places: &[usize], (base, leg): (&Information, Leg)) -> Option<usize> {
     match space.score(base).is_reached() {
         true => Some(1),
         false => space.shortest(places, (base, leg)).map(|leg| space.samples(leg)),
     }
 }
 
-fn next(space: &Space<'_, '_>, places: &[usize]) -> Vec<NextRun> {
+fn next(space: &Space<'_>, places: &[usize]) -> Vec<NextRun> {
     let base = space.base(places);
     let one = |run: usize| {
         let leg = space.whole(run);
@@ -226,7 +222,7 @@ fn next(space: &Space<'_, '_>, places: &[usize]) -> Vec<NextRun> {
 }
 
 /// What is known before the last run of a design, and that run.
-fn before_last(space: &Space<'_, '_>, choice: &Choice) -> (Information, Option<Leg>) {
+fn before_last(space: &Space<'_>, choice: &Choice) -> (Information, Option<Leg>) {
     let mut base = space.base(&choice.places);
     let [all @ .., last] = choice.legs.as_slice() else { return (base, None) };
     all.iter().for_each(|leg| base.add(&space.tells(&choice.places, *leg)));
@@ -234,7 +230,7 @@ fn before_last(space: &Space<'_, '_>, choice: &Choice) -> (Information, Option<L
 }
 
 fn plan(
-    space: &Space<'_, '_>,
+    space: &Space<'_>,
     choice: &Choice,
     observer: &DesignObserver<'_>,
 ) -> Result<DesignPlan, DesignError> {
@@ -271,7 +267,7 @@ fn plan(
 }
 
 /// For each unknown the one of whose `±` most of its variance comes.
-fn causes(space: &Space<'_, '_>, told: &Information) -> Vec<Option<(usize, f64)>> {
+fn causes(space: &Space<'_>, told: &Information) -> Vec<Option<(usize, f64)>> {
     let (covariance, known) = (told.covariance(), space.task.of_priors());
     let unknowns = space.task.unknowns.iter().enumerate();
     let priors: Vec<usize> =
@@ -287,7 +283,7 @@ fn causes(space: &Space<'_, '_>, told: &Information) -> Vec<Option<(usize, f64)>
 }
 
 /// Errors over the time that is measured, run after run, the last one to its end.
-fn curve(space: &Space<'_, '_>, choice: &Choice) -> Vec<(f64, Vec<f64>)> {
+fn curve(space: &Space<'_>, choice: &Choice) -> Vec<(f64, Vec<f64>)> {
     let (mut base, mut begun) = (space.base(&choice.places), 0.0);
     let mut points = Vec::new();
     for (i, leg) in choice.legs.iter().enumerate() {
@@ -306,10 +302,7 @@ fn curve(space: &Space<'_, '_>, choice: &Choice) -> Vec<(f64, Vec<f64>)> {
 }
 
 /// What sensors everywhere and every run together do not determine.
-fn never(
-    space: &Space<'_, '_>,
-    observer: &DesignObserver<'_>,
-) -> Result<Option<Never>, DesignError> {
+fn never(space: &Space<'_>, observer: &DesignObserver<'_>) -> Result<Option<Never>, DesignError> {
     let (task, mut all) = (space.task, space.before.clone());
     let places: Vec<usize> = (0..task.places.len()).collect();
     (0..space.runs.len()).for_each(|run| all.add(&space.tells(&places, space.whole(run))));

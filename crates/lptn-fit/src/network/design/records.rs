@@ -6,7 +6,7 @@ use crate::network::design::error::DesignError;
 use crate::network::design::task::DesignTask;
 use crate::network::task::{MeasuredColumn, MeasuredRun, NetworkFitTask};
 
-impl DesignTask<'_> {
+impl DesignTask {
     /// The fit of the records that runs of so many samples bring with sensors at some places, as
     /// they are without noise, for the values of the unknowns. Noise added to them makes records to
     /// try a plan with.
@@ -16,7 +16,7 @@ impl DesignTask<'_> {
     pub fn records(
         &self,
         (places, runs): (&[usize], &[(usize, usize)]),
-    ) -> Result<NetworkFitTask<'_>, DesignError> {
+    ) -> Result<NetworkFitTask, DesignError> {
         let mut all = Vec::with_capacity(runs.len());
         for (number, &(run, samples)) in runs.iter().enumerate() {
             let at = self.given() + run;

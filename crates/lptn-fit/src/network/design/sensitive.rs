@@ -56,7 +56,7 @@ impl PlannedRecord {
     }
 }
 
-impl DesignTask<'_> {
+impl DesignTask {
     /// What every run that could be measured tells.
     pub(super) fn informations(
         &self,
@@ -149,7 +149,7 @@ impl DesignTask<'_> {
     /// deviations; `fit` is the task's own, or one with other rows.
     pub(super) fn measure(
         &self,
-        (fit, run): (&NetworkFitTask<'_>, usize),
+        (fit, run): (&NetworkFitTask, usize),
         observer: &dyn Fn(Progress) -> Proceed,
     ) -> Result<Measure, DesignError> {
         let (unknowns, measured) = (self.unknowns_of(run), &fit.runs[run]);

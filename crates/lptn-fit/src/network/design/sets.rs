@@ -27,7 +27,7 @@ pub struct Searched {
 
 /// The best set for each number of places, the smallest first; all sets that were looked at where
 /// those are all.
-pub(super) fn best_sets(space: &Space<'_, '_>) -> (Vec<BestSet>, Vec<Vec<usize>>, Searched) {
+pub(super) fn best_sets(space: &Space<'_>) -> (Vec<BestSet>, Vec<Vec<usize>>, Searched) {
     let count = space.task.places.len();
     if count > MOST_PLACES {
         return exchanged(space, count);
@@ -48,12 +48,12 @@ pub(super) fn best_sets(space: &Space<'_, '_>) -> (Vec<BestSet>, Vec<Vec<usize>>
 }
 
 /// Of two that lead equally far the cheaper one is better.
-fn better(space: &Space<'_, '_>, one: &BestSet, other: &BestSet) -> bool {
+fn better(space: &Space<'_>, one: &BestSet, other: &BestSet) -> bool {
     let cost = |set: &BestSet| space.cost_of_places(&set.places);
     one.score < other.score || (one.score == other.score && cost(one) < cost(other))
 }
 
-fn judge(space: &Space<'_, '_>, places: &[usize]) -> BestSet {
+fn judge(space: &Space<'_>, places: &[usize]) -> BestSet {
     let left = space.task.budget - space.cost_of_places(places);
     let found = space.best_run(places, (&space.base(places), left));
     let (leg, score) = found.map_or((None, Score::WORST), |(leg, score)| (Some(leg), score));
@@ -62,7 +62,7 @@ fn judge(space: &Space<'_, '_>, places: &[usize]) -> BestSet {
 
 /// Adds the place that leads furthest, then takes another place for one of the set as long as that
 /// leads further (V. V. Fedorov, Theory of Optimal Experiments, 1972).
-fn exchanged(space: &Space<'_, '_>, count: usize) -> (Vec<BestSet>, Vec<Vec<usize>>, Searched) {
+fn exchanged(space: &Space<'_>, count: usize) -> (Vec<BestSet>, Vec<Vec<usize>>, Searched) {
     let (mut best, mut sets): (Vec<BestSet>, usize) = (Vec::new(), 0);
     let mut pick = |from: Vec<Vec<usize>>| {
         sets += from.len();

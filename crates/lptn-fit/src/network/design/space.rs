@@ -31,16 +31,16 @@ pub(super) struct Leg {
     pub(super) length: usize,
 }
 
-pub(super) struct Space<'t, 'a> {
-    pub(super) task: &'t DesignTask<'a>,
+pub(super) struct Space<'t> {
+    pub(super) task: &'t DesignTask,
     pub(super) runs: Vec<RunInformation>,
     /// What is known beforehand, by `±` and by the records that are there already.
     pub(super) before: Information,
 }
 
-impl<'t, 'a> Space<'t, 'a> {
+impl<'t> Space<'t> {
     pub(super) fn new(
-        task: &'t DesignTask<'a>,
+        task: &'t DesignTask,
         observer: &DesignObserver<'_>,
     ) -> Result<Self, DesignError> {
         let runs = task.informations(observer)?;

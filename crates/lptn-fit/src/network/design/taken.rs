@@ -7,7 +7,7 @@ use crate::network::taken::{Moved, Off};
 use crate::network::task::NetworkFitTask;
 use crate::network::unknown::Unknown;
 
-impl DesignTask<'_> {
+impl DesignTask {
     /// The parameters that are not sought although something is known of how far they may be off,
     /// and what each moves in the fit of the records that are there and of those that are planned;
     /// `None` where a run fails.
@@ -24,7 +24,7 @@ impl DesignTask<'_> {
     }
 
     /// The records that are there and those of the plan; every run where there is none.
-    fn with_plan(&self, design: &Design) -> Result<NetworkFitTask<'_>, DesignError> {
+    fn with_plan(&self, design: &Design) -> Result<NetworkFitTask, DesignError> {
         let (given, possible) = self.fit.runs.split_at(self.given());
         let planned = match &design.plan {
             Some(plan) if !plan.runs.is_empty() => self.records((&plan.places, &plan.runs))?.runs,

@@ -18,14 +18,14 @@ use crate::network::unknown::Unknown;
 
 /// A measurement to plan.
 #[derive(Clone, Debug)]
-pub struct DesignTask<'a> {
+pub struct DesignTask {
     /// The records that are there already, then one that could be for each run, with every place.
-    pub(super) fit: NetworkFitTask<'a>,
+    pub(super) fit: NetworkFitTask,
     /// For each column of the records that are there the variance that its residuals leave in what
     /// all of them have in common, over that of independent ones of its weight.
     pub(super) factors: Vec<Vec<f64>>,
     /// The fits of the records that are there.
-    pub given_fits: Vec<GivenFit<'a>>,
+    pub given_fits: Vec<GivenFit>,
     /// What is not known: parameters, then values of sensors that are those of every record.
     pub unknowns: Vec<Unknown>,
     /// The values of the unknowns for which the plan is made.
@@ -81,7 +81,7 @@ pub struct DesignRun {
     pub samples: usize,
 }
 
-impl<'a> DesignTask<'a> {
+impl DesignTask {
     /// The task of a study; the records that it says are there already are fitted first, and the
     /// plan is made for the values that they tell.
     ///
@@ -89,7 +89,7 @@ impl<'a> DesignTask<'a> {
     /// [`DesignError`] for a place that is not measured as a temperature of a node or a mean of
     /// some, for a fit that fails, and what the evaluation of the study's numbers reports.
     pub fn of(
-        netlist: &'a Netlist,
+        netlist: &Netlist,
         study: &PlanStudy,
         (threads, observer): (usize, &FitObserver<'_>),
     ) -> Result<Self, DesignError> {
@@ -108,7 +108,7 @@ impl<'a> DesignTask<'a> {
         let correlations = netlist.overrides().correlations_of(&ids);
         let (more_starts, found) = (0, given.values);
         let mut fit = NetworkFitTask {
-            network,
+            network: network.clone(),
             parameters,
             correlations,
             sensors,
@@ -169,7 +169,7 @@ impl<'a> DesignTask<'a> {
 
 /// What is sought: what shall be known, then what else is not, and what the records that are there
 /// were fitted with: they tell of all of these together, and of none alone.
-fn sought(netlist: &Netlist, (numbers, given): (&PlanNumbers, &Given<'_>)) -> Vec<Varied> {
+fn sought(netlist: &Netlist, (numbers, given): (&PlanNumbers, &Given)) -> Vec<Varied> {
     let mut ids: Vec<ParameterId> = numbers.known.iter().map(|(id, _)| *id).collect();
     for id in numbers.varied.iter().chain(given.values.iter().map(|(id, _)| id)) {
         if !ids.contains(id) {

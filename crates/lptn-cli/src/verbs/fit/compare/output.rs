@@ -1,17 +1,21 @@
 //! The files of `lptn fit compare -o DIR`: the candidates, what each misses of what it has not seen,
 //! the answer, and their manifest.
 
+use lptn_answer::failure::Failure;
+use lptn_answer::fit::compare::FitCompareAnswer;
 use lptn_report::{Format, Look, write_csv};
 
-use super::Answer;
 use crate::files::names::{CANDIDATES, CHOICE, MANIFEST, UNSEEN};
 use crate::files::{self, Folder};
-use lptn_answer::failure::Failure;
 
 /// What is written.
 pub(super) const NAMES: [&str; 4] = [CANDIDATES, UNSEEN, CHOICE, MANIFEST];
 
-pub(super) fn write(answer: &Answer<'_>, folder: &Folder, wall_time: f64) -> Result<(), Failure> {
+pub(super) fn write(
+    answer: &FitCompareAnswer,
+    folder: &Folder,
+    wall_time: f64,
+) -> Result<(), Failure> {
     let mut files = folder.batch();
     files.write(CANDIDATES, |out| write_csv(&answer.table(), out))?;
     files.write(UNSEEN, |out| write_csv(&answer.unseen(), out))?;

@@ -1,0 +1,305 @@
+//! What a fit of a network says in words.
+
+use lptn_fit::least_squares::{Side, Stop};
+use lptn_fit::network::{
+    ColumnMisfit, Combination, FAR, FittedParameter, Hint, NetworkFit, NetworkFitTask,
+};
+use lptn_netlist::Diagnostic;
+use lptn_report::significant;
+use lptn_units::Type;
+
+use super::FitNetworkAnswer;
+use super::units::common;
+use crate::taken;
+use crate::words::count as number;
+
+/// Digits of a value that nothing says the accuracy of.
+const DIGITS: usize = 5;
+
+/// What became of a parameter, in a word.
+pub(super) fn state(answer: &FitNetworkAnswer, i: usize) -> &'static str {
+    let known = answer.fit.identifiability.as_ref();
+    match answer.fit.parameters[i].on_bound {
+        _ if known.is_some_and(|known| known.unfelt.contains(&i)) => "not felt",
+        _ if known.is_some_and(|known| !known.determines(i)) => "not determined",
+        Some(Side::Lower) => "on its least value",
+        Some(Side::Upper) => "on its greatest value",
+        None => "free",
+    }
+}
+
+/// What helps a search that did not converge.
+pub(super) fn unfound(task: &NetworkFitTask, (stop, fit): (Stop, &NetworkFit)) -> String {
+    let part = |fitted: &FittedParameter| (fitted.value / fitted.start).abs();
+    let ends = task.unknowns().into_iter().zip(fit.parameters.iter().map(part));
+    match ends.min_by(|a, b| a.1.total_cmp(&b.1)) {
+        Some((unknown, part))
+            if stop == Stop::Edge && part < 1e-2 && unknown.sensor().is_some() =>
+        {
+            format!(
+                "the records would have `{}` be nothing: hold it, or leave it out of its sensor",
+                unknown.name
+            )
+        }
+        Some((unknown, part)) if stop == Stop::Edge && part < 1e-2 => format!(
+            "the records would have `{}` be nothing, or less: give it a least value with `from`, \
+             which the fit may then name as its end, or hold it",
+            unknown.name
+        ),
+        _ => "give the parameters start values nearer to what is expected, and bounds with `from` \
+              and `to`"
+            .to_owned(),
+    }
+}
+
+/// Parameters on bounds and other doubts, each at its place.
+pub(crate) fn doubts(answer: &FitNetworkAnswer) -> Vec<Diagnostic> {
+    let mut doubts = Vec::new();
+    for (i, parameter) in answer.fit.parameters.iter().enumerate() {
+        let determined =
+            answer.fit.identifiability.as_ref().is_some_and(|known| known.determines(i));
+        let (Some(side), true) = (parameter.on_bound, determined) else { continue };
+        if answer.unknowns[i].sensor().is_some() {
+            doubts.push(no_lag(answer, i));
+            continue;
+        }
+        let end = if side == Side::Lower { "least" } else { "greatest" };
+        let message = format!(
+            "`{}` sits on the {end} value of its range: it has no standard error, and those of the \
+             others hold only if this value is right",
+            answer.name(i)
+        );
+        let place = answer.place(i).clone();
+        let doubt = Diagnostic::warning("fit::on_bound", message).at(place, "");
+        doubts.push(doubt.help("make the range wider, unless the parameter cannot be beyond it"));
+    }
+    let priors = answer.unknowns.iter().any(|unknown| unknown.prior.is_some());
+    let unweighted =
+        answer.task.runs.iter().flat_map(|run| &run.columns).any(|column| column.sigma.is_none());
+    if priors && unweighted {
+        let message = format!(
+            "without `sigma` a value of a record counts as known to 1 {} beside what `±` says of a \
+             parameter",
+            common(&answer.task)
+        );
+        let doubt = Diagnostic::warning("fit::no_sigma", message).at(answer.study.span.clone(), "");
+        doubts
+            .push(doubt.help("write how far one value scatters, for example `sigma = \"0.2 K\"`"));
+    }
+    doubts.extend((0..answer.fit.parameters.len()).filter_map(|i| off_prior(answer, i)));
+    let (of, found) = ((&*answer.input, &answer.study), (&answer.task, &answer.fit));
+    doubts.extend(taken::of_fit(of, found, &answer.named()));
+    let of = (&answer.study, &answer.task, &answer.fit);
+    doubts.extend(taken::beside_posterior(&answer.input, of, &answer.named()));
+    doubts.extend(misfits(answer));
+    doubts.extend(drifting(answer));
+    doubts.extend(differing(answer));
+    doubts
+}
+
+/// That an instrument, as far as the records say, follows at once.
+fn no_lag(answer: &FitNetworkAnswer, i: usize) -> Diagnostic {
+    let name = answer.name(i);
+    let message = format!(
+        "the records speak for no lag: `{name}` comes to 0 s and has no standard error, and those \
+         of the others hold only if that is right"
+    );
+    let doubt = Diagnostic::warning("fit::on_bound", message).at(answer.place(i).clone(), "");
+    doubt.help("leave `lag` out of the sensor, or give it from a test of its own")
+}
+
+/// An interval of more standard errors to each side is worth a word: many values have two.
+const WIDE: f64 = 2.5;
+
+/// That drift as slow as the record is in the intervals, where that makes one much wider.
+fn drifting(answer: &FitNetworkAnswer) -> Option<Diagnostic> {
+    let name = |column: &ColumnMisfit| &answer.task.runs[column.run].columns[column.column].name;
+    let drifting = answer.fit.columns.iter().filter(|column| column.slow_drift);
+    let names: Vec<String> = drifting.map(|column| format!("`{}`", name(column))).collect();
+    let wide = |i: usize| {
+        let fitted = &answer.fit.parameters[i];
+        Some((i, fitted.half_width? / fitted.standard_error?))
+    };
+    let ratios = (0..answer.fit.parameters.len()).filter_map(wide);
+    let (widest, ratio) = ratios.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    let message = format!(
+        "{} {}: a drift as slow as the record is as likely as none: the 95 % intervals count it, \
+         and that of {} is {} standard errors wide to each side",
+        if names.len() == 1 { "column" } else { "columns" },
+        names.join(", "),
+        answer.name(widest),
+        significant(ratio, 2)
+    );
+    let doubt = Diagnostic::warning("fit::slow_drift", message).at(answer.study.span.clone(), "");
+    let doubt = doubt.help(
+        "the curve takes such a drift up, and one or two records cannot tell it; a sensor beside it \
+         whose temperature stays can, and so can three records and more by how far they differ",
+    );
+    (!names.is_empty() && ratio > WIDE).then_some(doubt)
+}
+
+/// That something changes from record to record which the network holds fixed.
+fn differing(answer: &FitNetworkAnswer) -> Option<Diagnostic> {
+    let between = |i: usize| Some((i, answer.fit.parameters[i].between.filter(|b| b.differ)?));
+    let all: Vec<_> = (0..answer.fit.parameters.len()).filter_map(between).collect();
+    let (widest, most) = all.iter().max_by(|a, b| a.1.ratio.total_cmp(&b.1.ratio))?;
+    let names: Vec<String> = all.iter().map(|(i, _)| format!("`{}`", answer.name(*i))).collect();
+    let (ratio, name) = (significant(most.ratio, 2), answer.name(*widest));
+    let message = match all.len() {
+        1 => format!(
+            "what the records say of `{name}` differs {ratio} times as far as their noise tells: \
+             its error follows from how they scatter"
+        ),
+        _ => format!(
+            "what the records say of {} differs farther than their noise tells, of `{name}` \
+             {ratio} times as far: their errors follow from how they scatter",
+            names.join(", ")
+        ),
+    };
+    let doubt = Diagnostic::warning("fit::records_differ", message);
+    Some(doubt.at(answer.study.span.clone(), "").help(
+        "something changes from run to run that the network holds fixed, such as mounting, oil, a \
+         start or a law of the speed: fit the records one by one to see with what it changes, and \
+         let `lptn fit compare` say which network foretells a record that it has not seen",
+    ))
+}
+
+/// A value that contradicts what is known of it beforehand, which is its own value.
+fn off_prior(answer: &FitNetworkAnswer, i: usize) -> Option<Diagnostic> {
+    let (fitted, prior) = (&answer.fit.parameters[i], answer.unknowns[i].prior?);
+    let off = (fitted.value - fitted.start).abs() / prior;
+    let shown = |si: f64| significant(answer.shown(i, si), DIGITS);
+    let message = format!(
+        "`{}` is fitted as {} {}, {} standard deviations from the {} known beforehand",
+        answer.name(i),
+        shown(fitted.value),
+        answer.units[i].text,
+        significant(off, 2),
+        shown(fitted.start)
+    );
+    let doubt = Diagnostic::warning("fit::prior", message).at(answer.place(i).clone(), "");
+    (off > FAR).then(|| {
+        doubt.help(
+            "the record and what `±` says of it contradict each other: one of them is wrong, or \
+             the model",
+        )
+    })
+}
+
+/// The columns that the model misses by far more than their values scatter: each once, with the
+/// record in which it is worst.
+fn misfits(answer: &FitNetworkAnswer) -> Vec<Diagnostic> {
+    let name = |column: &ColumnMisfit| &answer.task.runs[column.run].columns[column.column].name;
+    let off = |column: &ColumnMisfit| column.sigma.map_or(0.0, |sigma| column.rms / sigma);
+    let mut found: Vec<(&ColumnMisfit, usize)> = Vec::new();
+    for column in answer.fit.columns.iter().filter(|column| off(column) > FAR) {
+        match found.iter_mut().find(|(other, _)| name(other) == name(column)) {
+            Some((worst, count)) => {
+                *count += 1;
+                *worst = if off(column) > off(worst) { column } else { *worst };
+            }
+            None => found.push((column, 1)),
+        }
+    }
+    let doubts =
+        found.into_iter().map(|(worst, count)| misfit(answer, worst, (name(worst), count)));
+    doubts.collect()
+}
+
+fn misfit(
+    answer: &FitNetworkAnswer,
+    worst: &ColumnMisfit,
+    (name, count): (&str, usize),
+) -> Diagnostic {
+    let record = &answer.task.runs[worst.run].name;
+    let unit = answer.unit_of(worst);
+    let [rms, sigma] = [worst.rms, worst.sigma.unwrap_or(f64::NAN)]
+        .map(|value| format!("{} {unit}", significant(value, 3)));
+    let message = match count {
+        1 => format!(
+            "the model does not describe column `{name}` of {record}: it misses it by {rms} rms, \
+             where `sigma` is {sigma}"
+        ),
+        _ => format!(
+            "the model does not describe column `{name}` in {count} records: it misses it by more \
+             than {FAR} times `sigma`, most in {record}, by {rms} rms, where `sigma` is {sigma}"
+        ),
+    };
+    let doubt = Diagnostic::warning("fit::misfit", message).at(answer.study.span.clone(), "");
+    doubt.help(match worst.hint {
+        Some(Hint::Offset(offset)) => format!(
+            "a constant would explain it: does the sensor have an offset of {} {unit}? A `[sensor]` \
+             with `offset = \"0 ± {} {unit}\"`, named by the column, lets the fit find it",
+            significant(offset, 2),
+            significant(offset.abs().ceil(), 6)
+        ),
+        Some(Hint::Lag(seconds)) => format!(
+            "a delay would explain it: does the sensor have a lag of {0} s? A `[sensor]` \
+             with `lag = \"{0} s\"`, named by the column, follows as slowly",
+            significant(seconds, 2)
+        ),
+        None => {
+            "look for what the network leaves out, or for a `sigma` that is too small".to_owned()
+        }
+    })
+}
+
+/// "P R", "P / C", "2 G1 + G2".
+pub(super) fn combination(answer: &FitNetworkAnswer, combination: &Combination) -> String {
+    answer.named().combination(combination)
+}
+
+/// The type of a combination; `None` if its exponents cannot be held.
+pub(super) fn type_of(answer: &FitNetworkAnswer, combination: &Combination) -> Option<Type> {
+    answer.named().type_of(combination)
+}
+
+/// The last line: what the fit determined.
+pub(crate) fn verdict(answer: &FitNetworkAnswer) -> String {
+    let Some(known) = &answer.fit.identifiability else {
+        return "what the records determine cannot be told: derivatives are not finite".to_owned();
+    };
+    let mut parts = Vec::new();
+    if !known.unfelt.is_empty() {
+        parts.push(format!("no column depends on {}", answer.named().listed(&known.unfelt)));
+    }
+    parts.extend(known.unseparated.iter().map(|group| answer.named().unseparated(group)));
+    if !parts.is_empty() {
+        return format!("not determined: {}", parts.join("; "));
+    }
+    let count = answer.fit.parameters.len();
+    let by = if answer.unknowns.iter().any(|unknown| unknown.prior.is_some()) {
+        "the records and what is known beforehand (±)"
+    } else {
+        "the records"
+    };
+    let text = match answer.fit.parameters.iter().filter(|p| p.on_bound.is_some()).count() {
+        0 if count == 1 => format!("{by} determine the parameter"),
+        0 => format!("{by} determine the {}", sought(answer)),
+        on => format!("{} of {count} parameters determined, {on} on a bound", count - on),
+    };
+    text + unchecked(answer)
+}
+
+/// "6 parameters and 3 values of sensors".
+pub(super) fn sought(answer: &FitNetworkAnswer) -> String {
+    let (parameters, of_sensors) = answer.sought();
+    let parameters = number(parameters.len(), "parameter");
+    match of_sensors.len() {
+        0 => parameters,
+        1 => format!("{parameters} and 1 value of a sensor"),
+        n => format!("{parameters} and {n} values of sensors"),
+    }
+}
+
+/// What there is to say of errors where the records have no value beyond those that the parameters
+/// take up.
+fn unchecked(answer: &FitNetworkAnswer) -> &'static str {
+    match (answer.fit.left_over, &answer.fit.covariance) {
+        (0, Some(_)) => {
+            "; no values are left over to tell errors from, so they are those of `sigma`"
+        }
+        (0, None) => "; no values are left over to tell errors from",
+        _ => "",
+    }
+}

@@ -1,0 +1,109 @@
+//! What is to be said about an inference beside its bands.
+
+use lptn_fit::infer::{Drift, InferredColumn, Start};
+use lptn_netlist::{Diagnostic, Observed};
+use lptn_report::{duration, significant};
+
+use super::InferAnswer;
+
+/// A surprise of so many standard deviations is not chance.
+const FAR: f64 = 5.0;
+
+/// Readings that scatter so many times as far as was expected.
+const WIDE: f64 = 1.3;
+
+/// Neighbours that correlate by less make bands no narrower than they should be by more than a tenth.
+const ALIKE: f64 = 0.08;
+
+pub(super) fn of(answer: &InferAnswer) -> Vec<Diagnostic> {
+    let observed = &answer.study.reads.observed;
+    let columns = || answer.found.columns.iter().zip(observed);
+    let mut doubts: Vec<Diagnostic> = Vec::new();
+    let starts = columns()
+        .filter(|(column, _)| answer.task.start == Start::Known && column.first.abs() > FAR);
+    doubts.extend(starts.map(|(column, observed)| start(answer, column, observed)));
+    let drift = |column: &InferredColumn| {
+        column.drift.map_or(0.0, |drift| (drift.value / drift.deviation).abs())
+    };
+    let most = columns().max_by(|a, b| drift(a.0).total_cmp(&drift(b.0)));
+    let drifted = most.filter(|(column, _)| drift(column) > FAR);
+    doubts.extend(drifted.and_then(|(column, observed)| drifts(answer, column, observed)));
+    let odd = columns().enumerate().filter(|(_, (column, _))| is_wide(column) || is_alike(column));
+    doubts.extend(odd.map(|(i, (column, observed))| surprised((answer, i), column, observed)));
+    doubts
+}
+
+fn start(answer: &InferAnswer, column: &InferredColumn, observed: &Observed) -> Diagnostic {
+    let message = format!(
+        "column `{}` begins {} standard deviations from where the network does",
+        observed.column,
+        significant(column.first.abs(), 2)
+    );
+    let at = Diagnostic::warning("infer::start", message).at(observed.span.clone(), "");
+    let first = answer.found.times.first().copied().unwrap_or(0.0);
+    at.help(format!(
+        "the network stands at `T0` at {}: write `initial = \"free\"` if that is not known, or \
+         `initial = \"record\"` if it is known of all nodes that are not measured",
+        duration(first, 3)
+    ))
+}
+
+fn drifts(
+    answer: &InferAnswer,
+    column: &InferredColumn,
+    observed: &Observed,
+) -> Option<Diagnostic> {
+    let drift = column.drift?;
+    let length = answer.found.times.last()? - answer.found.times.first()?;
+    let message = format!(
+        "column `{}` reads as if its instrument drifted by {} ± {} K over {}",
+        observed.column,
+        significant(drift.value, 3),
+        significant(drift.deviation, 2),
+        duration(length, 3)
+    );
+    let at = Diagnostic::warning("infer::drift", message).at(observed.span.clone(), "");
+    Some(at.help(
+        "the other columns and the network contradict it: look at the instrument, or at what the \
+         network lacks near it",
+    ))
+}
+
+fn is_wide(column: &InferredColumn) -> bool {
+    column.rms > WIDE
+}
+
+/// Whether neighbours are off together, and not by chance.
+fn is_alike(column: &InferredColumn) -> bool {
+    column.neighbours * (column.readings as f64).sqrt() > FAR && column.neighbours > ALIKE
+}
+
+fn surprised(
+    (answer, i): (&InferAnswer, usize),
+    column: &InferredColumn,
+    observed: &Observed,
+) -> Diagnostic {
+    let message = format!(
+        "column `{}`: readings are {} times as far from what was expected as they should be, and \
+         neighbours correlate by {}",
+        observed.column,
+        significant(column.rms, 3),
+        significant(column.neighbours, 2)
+    );
+    let task = &answer.task;
+    let mut reasons: Vec<&str> = Vec::new();
+    if is_wide(column) && task.run.columns[i].sigma.is_some() {
+        reasons.push("`sigma` is larger than is said");
+    }
+    if is_alike(column) && matches!(task.drift, Drift::Known { .. }) {
+        reasons.push("a slow part of the noise is larger than `drift` says");
+    }
+    if task.sought.iter().any(|sought| sought.intensity.is_some()) {
+        reasons.push("what is sought changes faster than `change` says");
+    }
+    let mut help = "the bands are too narrow: ".to_owned();
+    reasons.iter().for_each(|reason| help += &format!("{reason}, "));
+    help += if reasons.is_empty() { "the network " } else { "or the network " };
+    help += "lacks something";
+    Diagnostic::warning("infer::surprised", message).at(observed.span.clone(), "").help(help)
+}

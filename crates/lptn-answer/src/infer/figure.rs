@@ -1,0 +1,58 @@
+//! What `lptn infer` draws: each course with its band, and what was measured beside what the network
+//! comes to.
+
+use lptn_plot::Figure;
+use lptn_plot::figure::{Axis, Curve, Look, Panel};
+use lptn_report::{MOST_CURVES, TEMPERATURE};
+
+use super::InferAnswer;
+
+impl InferAnswer {
+    pub(super) fn pictures(&self) -> Vec<Figure> {
+        let mut panels: Vec<Panel> = (0..self.task.sought.len()).map(|j| self.course(j)).collect();
+        panels.push(self.temperatures());
+        let title = self.input.title();
+        let note = format!("bands of 95 %; dots measured ({})", self.study.reads.records[0].csv);
+        vec![Figure { title, note, panels }]
+    }
+
+    fn course(&self, j: usize) -> Panel {
+        let (name, unit) = (&self.task.sought[j].name, &self.units[j]);
+        let mut panel = Panel::new(Axis::time(), Axis::linear(name, &*unit.text));
+        let band = &self.found.courses[j].band;
+        let times = self.found.times.iter().copied();
+        let points = times.zip(band.iter().map(|band| self.shown(j, band.value)));
+        let ends = band.iter().map(|band| (self.shown(j, band.ends.0), self.shown(j, band.ends.1)));
+        panel.curves.push(Curve::line(name, points.collect()).within(ends.collect()));
+        panel
+    }
+
+    fn temperatures(&self) -> Panel {
+        let unit = &self.input.netlist.temperature_unit;
+        let mut panel = Panel::new(Axis::time(), Axis::linear(TEMPERATURE, &*unit.text));
+        let network = &self.input.netlist.network;
+        for (place, (id, known)) in self.found.nodes.iter().enumerate().take(MOST_CURVES) {
+            let name = &network.nodes()[id.index()].name;
+            let times = self.found.times.iter().copied();
+            let points = times.zip(known.iter().map(|known| unit.from_si(known.value)));
+            let half = lptn_units::statistics::NORMAL_95;
+            let ends = known.iter().map(|known| {
+                let (value, half) = (known.value, half * known.deviation);
+                (unit.from_si(value - half), unit.from_si(value + half))
+            });
+            let curve = Curve::line(name, points.collect()).within(ends.collect());
+            panel.curves.push(curve.as_place(place));
+        }
+        // a difference of two temperatures is none
+        let columns = self.task.run.columns.iter().enumerate().take(MOST_CURVES);
+        for (i, column) in columns.filter(|(_, column)| column.ty.absolute) {
+            let times = self.task.run.times.iter().copied();
+            let points = times.zip(column.values.iter().map(|kelvin| unit.from_si(*kelvin)));
+            let of = column.nodes().first().map(|(id, _)| *id);
+            let place = self.found.nodes.iter().position(|(id, _)| Some(*id) == of).unwrap_or(i);
+            let curve = Curve::line(&column.name, points.collect()).looks(Look::Dots);
+            panel.curves.push(curve.as_place(place));
+        }
+        panel
+    }
+}

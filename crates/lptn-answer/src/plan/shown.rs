@@ -1,0 +1,111 @@
+//! Numbers and names of a plan as they are shown.
+
+use lptn_fit::network::design::Known;
+use lptn_report::{duration, significant};
+
+use super::PlanAnswer;
+use crate::unseparated::joined;
+use crate::words::{spaced, symbol};
+
+/// Half the width of a 95 % interval of a normal distribution, over its standard deviation.
+pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
+
+/// What stands where nothing is.
+pub(super) const NOTHING: &str = "-";
+
+impl PlanAnswer {
+    /// A standard error in the unit of its unknown.
+    pub(super) fn error(&self, i: usize, si: f64) -> f64 {
+        si / self.units[i].scale
+    }
+
+    /// "1.2 %" of the value, or "0.3 K" where its zero says nothing.
+    pub(super) fn part(&self, i: usize, si: f64) -> String {
+        if !si.is_finite() {
+            return NOTHING.to_owned();
+        }
+        match self.value_of(i) {
+            Some(value) => format!("{} %", significant(100.0 * si / value, 2)),
+            None => self.own(i, si),
+        }
+    }
+
+    /// "0.87 uW/rpm^(5/3)".
+    pub(super) fn own(&self, i: usize, si: f64) -> String {
+        format!("{}{}", significant(self.error(i, si), 2), spaced(symbol(&self.units[i].text)))
+    }
+
+    /// Its size, where an error can be a part of it.
+    fn value_of(&self, i: usize) -> Option<f64> {
+        let value = self.task.values[i].abs();
+        (value > 0.0 && !self.task.unknowns[i].is_shift()).then_some(value)
+    }
+
+    /// What shall be known of the first few.
+    pub(super) fn few_known(&self) -> &[Known] {
+        const MOST: usize = 3;
+        &self.task.known[..self.task.known.len().min(MOST)]
+    }
+
+    /// "steel, bed".
+    pub(super) fn places(&self, places: &[usize]) -> Vec<String> {
+        places.iter().map(|&place| self.task.places[place].name.clone()).collect()
+    }
+
+    pub(super) fn run(&self, run: usize) -> &str {
+        &self.task.runs[run].name
+    }
+
+    /// How long a run of so many samples is.
+    pub(super) fn lasts(&self, samples: usize) -> String {
+        duration(self.task.lasts(samples), 3)
+    }
+
+    /// "fast for 30 min, then 2 times slow for 10 min".
+    pub(super) fn runs(&self, runs: &[(usize, usize)]) -> String {
+        let mut parts: Vec<((usize, usize), usize)> = Vec::new();
+        for &run in runs {
+            match parts.last_mut() {
+                Some((last, count)) if *last == run => *count += 1,
+                _ => parts.push((run, 1)),
+            }
+        }
+        let part = |((run, samples), count): &((usize, usize), usize)| {
+            let times = if *count > 1 { format!("{count} times ") } else { String::new() };
+            format!("{times}{} for {}", self.run(*run), self.lasts(*samples))
+        };
+        parts.iter().map(part).collect::<Vec<_>>().join(", then ")
+    }
+
+    /// The unknowns that sensors at these places have to do with.
+    pub(super) fn concerned(&self, places: &[usize]) -> Vec<usize> {
+        let unknowns = &self.task.unknowns;
+        (0..unknowns.len()).filter(|&i| self.task.concerns(&unknowns[i], places)).collect()
+    }
+
+    /// "alpha to 1 % and R_skin to 5 %".
+    pub(super) fn wanted(&self) -> String {
+        let one = |known: &Known| {
+            format!("{} to {}", self.names[known.unknown], self.part(known.unknown, known.error))
+        };
+        joined(&self.task.known.iter().map(one).collect::<Vec<_>>())
+    }
+
+    /// What an unknown shall be known to.
+    pub(super) fn target(&self, i: usize) -> Option<f64> {
+        self.task.known.iter().find(|known| known.unknown == i).map(|known| known.error)
+    }
+
+    /// Whether anything costs anything.
+    pub(super) fn has_costs(&self) -> bool {
+        let task = &self.task;
+        let places = task.places.iter().map(|place| place.cost);
+        let runs = task.runs.iter().map(|run| run.cost);
+        places.chain(runs).chain([task.hour]).any(|cost| cost > 0.0) || task.budget.is_finite()
+    }
+}
+
+/// A cost, or what a cell shows of it.
+pub(super) fn cost(value: f64) -> String {
+    significant(value, 4)
+}
