@@ -209,6 +209,15 @@ fn one_crate_alone_asks_networks() {
     }
 }
 
+/// Doubts are data of answers: the command line prints them.
+#[test]
+fn no_doubt_is_made_by_the_command_line() {
+    for (name, text) in all_sources() {
+        let made = text.contains(concat!("Diagnostic::", "warning("));
+        assert!(!(made && name.starts_with("crates/lptn-cli/src/")), "{name} makes a doubt");
+    }
+}
+
 /// A file of tests that no `main.rs` names is compiled by nobody.
 #[test]
 fn every_file_of_tests_is_run() {

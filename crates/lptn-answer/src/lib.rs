@@ -27,6 +27,7 @@ pub mod messages;
 pub mod operating_point;
 pub mod period;
 pub mod plan;
+pub mod plot;
 pub mod ranges;
 pub mod rank;
 pub mod refused;

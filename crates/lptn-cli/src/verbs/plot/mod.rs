@@ -1,8 +1,6 @@
 //! `lptn plot`
 
 mod args;
-mod overlay;
-pub(crate) mod source;
 
 pub(crate) use args::PlotArgs;
 
@@ -10,19 +8,25 @@ use crate::console::Console;
 use crate::drawing::Drawing;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
+use lptn_answer::input::Input;
 use lptn_answer::input::quoted;
+use lptn_answer::plot::{Columns, Source, is_netlist, is_record, overlay};
 use lptn_netlist::{Diagnostic, RunTime};
-use overlay::overlay;
-use source::Source;
+use lptn_report::Format;
+use std::path::Path;
+
+use crate::input::Load as _;
+use crate::options::{Scale, Shown, TimeScale};
+use crate::verbs::run::{self, RunArgs};
 
 pub(crate) fn plot(args: &PlotArgs, console: &Console) -> Result<Exit, Failure> {
-    if !args.sources.iter().any(|path| source::is_netlist(path)) {
+    if !args.sources.iter().any(|path| is_netlist(path)) {
         nothing_to_run(args)?;
     }
     let mut exit = Exit::Done;
     let mut sources = Vec::new();
     for path in &args.sources {
-        let (source, ended) = Source::of(path, args, console)?;
+        let (source, ended) = source(path, args, console)?;
         sources.push(source);
         exit = if exit == Exit::Done { ended } else { exit };
     }
@@ -31,7 +35,7 @@ pub(crate) fn plot(args: &PlotArgs, console: &Console) -> Result<Exit, Failure> 
     console.draw(&[overlay(sources)], drawing)?;
     if let [path] = args.sources.as_slice() {
         let name = quoted(&path.display().to_string());
-        match (source::is_netlist(path), path.is_dir()) {
+        match (is_netlist(path), path.is_dir()) {
             (true, _) => console.next(&format!("lptn run {name} --report")),
             (_, true) => console.next(&format!("lptn report {name}")),
             _ => {}
@@ -52,4 +56,45 @@ fn nothing_to_run(args: &PlotArgs) -> Result<(), Failure> {
     let message = format!("{option} changes a run, and no netlist is among the files");
     let problem = Diagnostic::error("plot::no_netlist", message);
     Err(Failure::new(Exit::Input, problem.help("name the netlist instead of its results")))
+}
+
+/// Reads a record or results, or runs a netlist, which has an exit code.
+fn source(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source, Exit), Failure> {
+    if is_netlist(path) {
+        return of_netlist(path, args, console);
+    }
+    let columns = Columns {
+        select: args.select.clone(),
+        temperature_unit: args.scale.temperature_unit.clone(),
+    };
+    let source = match is_record(path) {
+        true => Source::of_record(path, &columns)?,
+        false => Source::of_folder(path, &columns)?,
+    };
+    console.warn(&source.doubts.0, &source.doubts.1);
+    Ok((source, Exit::Done))
+}
+
+fn of_netlist(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source, Exit), Failure> {
+    let source =
+        crate::options::Source { set: args.set.clone(), ..crate::options::Source::of(path.into()) };
+    let scale = Scale { temperature_unit: args.scale.temperature_unit.clone() };
+    let args = RunArgs {
+        source,
+        times: args.times.clone(),
+        shown: Shown { format: Format::Csv, select: args.select.clone(), scale },
+        time_scale: TimeScale::default(),
+        balance: None,
+        tolerance: None,
+        output: None,
+        at: Vec::new(),
+        no_files: true,
+        uncertainty: run::uncertainty::UncertaintyArgs::default(),
+    };
+    let mut input = Input::load(&args.source)?;
+    input.set_run_times(&args.times)?;
+    let (answer, _) = run::answer(&args, input, console)?;
+    run::messages::beside(&answer, None, console);
+    let exit = run::messages::conclude(&answer, false, console);
+    Ok((Source::of_run(path, &answer), exit))
 }

@@ -15,7 +15,6 @@ use lptn_solve::RunStatus;
 use serde_json::Value;
 
 use super::Verb;
-use super::plot::source::of_folder;
 use super::run::{self, RunArgs};
 use crate::args::Args;
 use crate::console::Console;
@@ -25,10 +24,13 @@ use lptn_answer::about;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::Input;
+use lptn_answer::plot::{Columns, Source};
 
 pub(crate) fn report(args: &ReportArgs, console: &Console) -> Result<Exit, Failure> {
     let folder = &args.folder;
-    let figure = of_folder(folder, console)?;
+    let source = Source::of_folder(folder, &Columns::default())?;
+    console.warn(&source.doubts.0, &source.doubts.1);
+    let figure = source.figure;
     console.results_in(folder);
     let manifest = std::fs::read_to_string(folder.join(MANIFEST)).unwrap_or_default();
     let manifest: Value = serde_json::from_str(&manifest).unwrap_or_default();

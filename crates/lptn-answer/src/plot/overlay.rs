@@ -11,7 +11,7 @@ const RESIDUALS: f64 = 0.4;
 
 /// One figure of all sources. Where there are several runs, a curve is named by its run; below a
 /// panel that has measured and computed values of the same name stand their differences.
-pub(super) fn overlay(sources: Vec<Source>) -> Figure {
+pub fn overlay(sources: Vec<Source>) -> Figure {
     let runs = sources.iter().filter(|source| !source.measured).count();
     let several = sources.len() > 1;
     let sources = named_apart(sources);

@@ -1,0 +1,191 @@
+//! The things that are drawn: a run, the results of a run, a record.
+
+use std::path::{Path, PathBuf};
+
+use lptn_netlist::{Diagnostic, Files, Record, RecordColumn, RecordQuery, read_record};
+use lptn_plot::Figure;
+use lptn_plot::figure::{Look, Moment};
+use lptn_report::panels;
+use lptn_solve::{Table, name_matches};
+use lptn_units::Unit;
+
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::{self, RESULT, quoted};
+use crate::run::{RunAnswer, figure};
+
+/// The events among the results of a run, and what made them.
+const EVENTS: &str = "events.csv";
+const MANIFEST: &str = "manifest.json";
+
+/// The columns that are drawn.
+#[derive(Clone, Debug, Default)]
+pub struct Columns {
+    /// Patterns, such as `*.T`; empty for all.
+    pub select: Vec<String>,
+    /// The unit of temperatures; `None` for that of the file.
+    pub temperature_unit: Option<String>,
+}
+
+/// One of the things that are drawn over each other.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// Its name next to others.
+    pub name: String,
+    /// Its file or folder: two of one name are told apart by it.
+    pub path: PathBuf,
+    /// Whether it was measured.
+    pub measured: bool,
+    /// Its curves.
+    pub figure: Figure,
+    /// Doubts, with the files that their places are in.
+    pub doubts: (Files, Vec<Diagnostic>),
+}
+
+impl Source {
+    /// A CSV file of measured columns.
+    ///
+    /// # Errors
+    /// A file that cannot be read, and columns that it does not have.
+    pub fn of_record(path: &Path, wanted: &Columns) -> Result<Self, Failure> {
+        let (table, doubts) = wanted.of(path)?;
+        let mut figure = drawn(&table, &stem(path));
+        let curves = figure.panels.iter_mut().flat_map(|panel| &mut panel.curves);
+        curves.for_each(|curve| curve.look = Look::Dots);
+        Ok(Self { name: stem(path), path: path.into(), measured: true, figure, doubts })
+    }
+
+    /// The results of a run, as they were written into a folder.
+    ///
+    /// # Errors
+    /// A folder without results, and columns that they do not have.
+    pub fn of_folder(path: &Path, wanted: &Columns) -> Result<Self, Failure> {
+        let result = path.join(RESULT);
+        if !result.is_file() {
+            return Err(no_result(path));
+        }
+        let (table, _) = wanted.of(&result)?;
+        let mut figure = drawn(&table, &stem(path));
+        let moments = events(&path.join(EVENTS));
+        figure.panels.iter_mut().for_each(|panel| panel.moments.clone_from(&moments));
+        let doubts = (Files::new(), not_as_written(path, &result).into_iter().collect());
+        Ok(Self { name: stem(path), path: path.into(), measured: false, figure, doubts })
+    }
+
+    /// A run of a netlist; its doubts are those of the answer.
+    pub fn of_run(path: &Path, answer: &RunAnswer) -> Self {
+        Self {
+            name: answer.task.input.text.stem.clone(),
+            path: path.into(),
+            measured: false,
+            figure: answer.figure(),
+            doubts: (Files::new(), Vec::new()),
+        }
+    }
+}
+
+/// Whether a path is a record: a CSV file.
+pub fn is_record(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
+}
+
+/// Whether a path is neither results nor a record.
+pub fn is_netlist(path: &Path) -> bool {
+    !path.is_dir() && !is_record(path)
+}
+
+fn no_result(path: &Path) -> Failure {
+    let message = format!("there is no {RESULT} in the folder {}", path.display());
+    let problem = Diagnostic::error("plot::no_result", message);
+    let help = match path.extension().is_some_and(|ending| ending == "toml") {
+        true => {
+            format!("this is a netlist: lptn run {} --report", quoted(&path.display().to_string()))
+        }
+        false => "`lptn run FILE` writes one into out/NAME".to_owned(),
+    };
+    Failure::new(Exit::Input, problem.help(help))
+}
+
+/// That results are not those of their manifest: one that was cut off reads as another.
+fn not_as_written(folder: &Path, result: &Path) -> Option<Diagnostic> {
+    let manifest = std::fs::read_to_string(folder.join(MANIFEST)).unwrap_or_default();
+    let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap_or_default();
+    let files = manifest["results"].as_array().map_or(&[][..], Vec::as_slice);
+    let written = files.iter().find(|file| file["name"] == RESULT).map(|file| &file["sha256"]);
+    let found = std::fs::read(result).map(|bytes| lptn_study::sha256(&bytes)).ok();
+    let message = match (written, found) {
+        (Some(written), Some(found)) if written.as_str() == Some(found.as_str()) => return None,
+        (Some(_), _) => format!("{} is not the file that its run has written", result.display()),
+        (None, _) => format!("no {MANIFEST} says whether {} is whole", result.display()),
+    };
+    let doubt = Diagnostic::warning("plot::not_as_written", message);
+    Some(doubt.help("`lptn run FILE` writes it again"))
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+fn drawn(table: &Table, title: &str) -> Figure {
+    let (panels, left_out) = panels(table);
+    let note = match left_out {
+        0 => String::new(),
+        _ => format!("{left_out} lower curves are not shown; --select chooses"),
+    };
+    Figure { title: title.into(), note, panels }
+}
+
+impl Columns {
+    /// The columns of a CSV file over its times, with doubts in it.
+    fn of(&self, path: &Path) -> Result<(Table, (Files, Vec<Diagnostic>)), Failure> {
+        let scale = self.temperature_unit.as_deref();
+        let scale = scale.map(|scale| input::scale_of("--temperature-unit", scale)).transpose()?;
+        let text = input::read(path)?;
+        let of_run = path.file_name().is_some_and(|name| name == RESULT);
+        let query = RecordQuery { of_run, ..RecordQuery::default() };
+        let (record, files) = read_record(Path::new(&text.name), &text.bytes, &query)?;
+        let wanted = |column: &&RecordColumn| {
+            self.select.is_empty()
+                || self.select.iter().any(|pattern| name_matches(pattern, &column.name))
+        };
+        let chosen: Vec<&RecordColumn> = record.columns.iter().filter(wanted).collect();
+        if chosen.is_empty() {
+            return Err(no_column(&text.name, &record));
+        }
+        let rows: Vec<usize> = (0..record.time.len()).collect();
+        let mut table = Table::of(&rows);
+        table.column("time", "s", |row| record.time[*row]);
+        for column in chosen {
+            let scale = scale.as_ref().filter(|_| column.unit.ty.absolute);
+            let unit = scale.unwrap_or(&column.unit);
+            table.column(&column.name, &unit.text, |row| shown(column.values[*row], unit));
+        }
+        // our own results need no doubts
+        let doubts = if of_run { Vec::new() } else { record.warnings };
+        Ok((table.done(), (files, doubts)))
+    }
+}
+
+fn shown(value: f64, unit: &Unit) -> f64 {
+    if value.is_finite() { unit.from_si(value) } else { f64::NAN }
+}
+
+fn no_column(name: &str, record: &Record) -> Failure {
+    let names: Vec<&str> = record.columns.iter().map(|column| column.name.as_str()).collect();
+    let problem = Diagnostic::error("select::no_match", format!("no column of {name} is selected"));
+    Failure::new(Exit::Input, problem.help(format!("it has {}", names.join(", "))))
+}
+
+/// What a run has written of its events; nothing where that cannot be read, since a picture does
+/// not depend on it.
+fn events(path: &Path) -> Vec<Moment> {
+    let Ok(text) = std::fs::read_to_string(path) else { return Vec::new() };
+    let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|line| line.split(',').collect()).collect();
+    let moment = |row: &Vec<&str>| {
+        let [time, kind, name, _, after] = row[..] else { return None };
+        let what = figure::what(kind, after != "0");
+        Some(Moment { name: format!("{name} {what}"), at: time.parse().ok()? })
+    };
+    let moments: Vec<Moment> = rows.iter().filter_map(moment).collect();
+    if moments.len() > figure::MOST_EVENTS { Vec::new() } else { moments }
+}
