@@ -23,6 +23,7 @@ pub mod operating_point;
 pub mod period;
 pub mod ranges;
 pub mod rank;
+pub mod reduce;
 pub mod refused;
 pub mod run;
 pub mod scale;
@@ -32,6 +33,7 @@ pub mod taken;
 pub mod trust;
 pub mod unseparated;
 pub mod words;
+pub mod written;
 
 pub use gaps::gaps;
 pub use steady::{adiabatic, inputs_vary, others};

@@ -1,63 +1,62 @@
 //! A few nodes in place of one, and the largest error over every load.
 
-use std::path::Path;
-
 use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
 use lptn_reduce::{Allowed, Deviation, Dynamics, Judge, Nodes, ReduceError, Reduction, Stretch};
-use lptn_report::{Text, TextTable, duration, fixed, plain, significant};
+use lptn_report::{Text, TextTable, duration, fixed, significant};
 use lptn_solve::largest_of_inputs;
 use lptn_units::Dimension;
 use serde_json::{Value, json};
 
-use super::args::ReduceArgs;
-use super::{Limit, View};
-use lptn_answer::failure::Failure;
-use lptn_answer::input;
-use lptn_answer::scale;
+use super::limit::Limit;
+use super::{ReduceAnswer, ReduceQuestion};
+use crate::failure::Failure;
+use crate::input;
+use crate::scale;
 
 /// Most nodes that are tried where a limit is to be kept.
 const MOST: usize = 20;
 
-/// What is known of every load at the port.
-pub(crate) struct Loads {
+/// Errors over every load at the port: all powers between 0 and the largest, in any order.
+#[derive(Debug)]
+pub struct Loads {
     /// The largest power in W.
-    pub(crate) power: f64,
-    /// Whether the command line gave it.
+    pub power: f64,
+    /// Whether the question gave it.
     given: bool,
-    /// What has to be kept over every load.
-    pub(crate) limit: Option<Limit>,
-    /// What is judged and written; `None` where nothing keeps the limit, or no load can be judged.
-    pub(crate) nodes: Option<Nodes>,
+    /// The largest error over every load that is allowed, if one is given.
+    pub limit: Option<Limit>,
+    /// The nodes that are judged and written; `None` if no number of them keeps the limit, or no
+    /// load can be judged.
+    pub nodes: Option<Nodes>,
     /// Numbers of nodes that were not enough.
-    short: Vec<Nodes>,
-    /// Its error of the run or of a step, where it is more than one node.
-    pub(crate) error: Option<(Judge, Deviation)>,
-    /// The smallest number of nodes that does what one does not.
-    pub(crate) more: Option<(Nodes, Judge, Deviation)>,
+    pub short: Vec<Nodes>,
+    /// Their error of the run or of a step, where they are more than one node.
+    pub error: Option<(Judge, Deviation)>,
+    /// The smallest number of nodes that keeps the limit where one node does not, with its error.
+    pub more: Option<(Nodes, Judge, Deviation)>,
 }
 
-/// What the reduction is asked for.
-pub(crate) struct Asked<'a> {
-    pub(crate) args: &'a ReduceArgs,
-    pub(crate) system: &'a ThermalSystem,
-    /// The run that was compared.
-    pub(crate) run: Option<&'a RunAnalysis>,
-    pub(crate) allowed: Allowed,
-}
+/// The question, and the equations of the network.
+type Asked<'a> = (&'a ReduceQuestion, &'a ThermalSystem);
+
+/// The run that is compared, if one is, and the largest error of it that is allowed.
+type Judging<'a> = (Option<&'a RunAnalysis>, Allowed);
 
 impl Loads {
-    pub(crate) fn new(
-        asked: &Asked<'_>,
+    pub(super) fn new(
+        asked: Asked<'_>,
+        judging: Judging<'_>,
         reduction: &Reduction,
         explain: &dyn Fn(ReduceError) -> Failure,
     ) -> Result<Self, Failure> {
-        let args = asked.args;
-        let given = args.power.as_deref().map(power).transpose()?;
-        let limit = args.error.as_deref().map(|text| Limit::parse("--error", text)).transpose()?;
+        let (question, system) = asked;
+        let given = question.power.as_deref().map(power).transpose()?;
+        let limit = question.error.as_deref().map(|text| Limit::parse("--error", text));
+        let limit = limit.transpose()?;
         let power = match given {
             Some(power) => power,
-            None => largest(asked, reduction).map_err(|e| explain(e.into()))?,
+            None => largest((system, judging.0), reduction).map_err(|e| explain(e.into()))?,
         };
         let mut loads = Self {
             power,
@@ -69,26 +68,29 @@ impl Loads {
             more: None,
         };
         if let Some(dynamics) = &reduction.dynamics {
-            loads.choose(asked, dynamics).map_err(explain)?;
-            loads.judge(asked, (reduction, dynamics)).map_err(explain)?;
+            loads.choose(question, dynamics).map_err(explain)?;
+            loads.judge(asked, judging, (reduction, dynamics)).map_err(explain)?;
         }
         Ok(loads)
     }
 
-    fn choose(&mut self, asked: &Asked<'_>, dynamics: &Dynamics) -> Result<(), ReduceError> {
-        let args = asked.args;
+    fn choose(
+        &mut self,
+        question: &ReduceQuestion,
+        dynamics: &Dynamics,
+    ) -> Result<(), ReduceError> {
         let Some(step) = &dynamics.step else {
-            return match (args.nodes, &self.limit) {
+            return match (question.nodes, &self.limit) {
                 (None, None) => Ok(()),
                 _ => Err(ReduceError::OneWay),
             };
         };
-        let pair = args.definition.and_then(|d| dynamics.pair(d)).unwrap_or(dynamics.best());
+        let pair = question.definition.and_then(|d| dynamics.pair(d)).unwrap_or(dynamics.best());
         if let Some(limit) = &self.limit {
             let kelvin = limit.allowed.of(step.resistance * self.power) / self.power;
             let (found, short) = Nodes::enough(step, &dynamics.pairs, (kelvin, MOST));
             (self.nodes, self.short) = (found, short);
-        } else if let Some(count) = args.nodes.filter(|count| *count > 1) {
+        } else if let Some(count) = question.nodes.filter(|count| *count > 1) {
             self.nodes = Nodes::of(step, count);
         } else {
             self.nodes = Nodes::of_pair(step, pair);
@@ -98,35 +100,35 @@ impl Loads {
 
     fn judge(
         &mut self,
-        asked: &Asked<'_>,
+        (question, system): Asked<'_>,
+        judging: Judging<'_>,
         (reduction, dynamics): (&Reduction, &Dynamics),
     ) -> Result<(), ReduceError> {
-        let judging = (asked.run, asked.allowed);
-        let free = self.limit.is_none() && asked.args.definition.is_none();
+        let free = self.limit.is_none() && question.definition.is_none();
         match &self.nodes {
             Some(nodes) if nodes.count() > 1 => {
-                self.error = reduction.judged(asked.system, nodes, judging)?;
+                self.error = reduction.judged(system, nodes, judging)?;
             }
             _ if free && dynamics.collapses(dynamics.best()) == Some(false) => {
-                self.more = reduction.fewest(asked.system, judging)?;
+                self.more = reduction.fewest(system, judging)?;
             }
             _ => {}
         }
         Ok(())
     }
 
-    /// The largest error over every load in K.
-    pub(crate) fn kelvin(&self, nodes: &Nodes) -> f64 {
+    /// The largest error of some nodes over every load, in K.
+    pub fn kelvin(&self, nodes: &Nodes) -> f64 {
         nodes.worst.most() * self.power
     }
 
     /// Whether the limit over every load is kept; `None` without one.
-    pub(crate) fn kept(&self) -> Option<bool> {
+    pub fn kept(&self) -> Option<bool> {
         self.limit.as_ref().map(|_| self.nodes.is_some())
     }
 
     /// "2 nodes keep 0.1K over every load up to 220.6 W (0.012 K)".
-    pub(crate) fn verdict(&self) -> Option<String> {
+    pub(super) fn verdict(&self) -> Option<String> {
         let (limit, power) = (self.limit.as_ref()?, significant(self.power, 4));
         Some(match (&self.nodes, self.short.last()) {
             (Some(nodes), _) => {
@@ -152,8 +154,9 @@ impl Loads {
         })
     }
 
-    /// The load with the largest error as a signal: power from each time on.
-    pub(crate) fn csv(&self) -> Option<String> {
+    /// The load with the largest error as a signal, in rows of CSV: the power from each time on.
+    /// `None` if no load was judged.
+    pub fn csv(&self) -> Option<String> {
         let nodes = self.nodes.as_ref()?;
         let (stretches, end) = nodes.worst.load();
         let mut text = "t [s],P [W]\n".to_owned();
@@ -165,7 +168,7 @@ impl Loads {
     }
 }
 
-impl View<'_> {
+impl ReduceAnswer {
     /// What is said of every load.
     pub(super) fn loads_text(&self) -> Text {
         let mut text = Text::new();
@@ -249,15 +252,6 @@ impl View<'_> {
             "chosen": chosen,
         })
     }
-
-    /// What to do with the file of the load.
-    pub(super) fn load_help(&self, path: &Path) -> String {
-        format!(
-            "in a netlist: worst = {{ csv = \"{}\", time = \"t\", value = \"P\", interp = \"previous\", \
-             after_end = \"hold\" }}",
-            plain(&path.display().to_string())
-        )
-    }
 }
 
 /// "5.15 d on, 23.3 h off, 7.7 h on and 3 shorter ones": the last are short and close to the end.
@@ -281,14 +275,15 @@ fn exact(nodes: &Nodes) -> bool {
 }
 
 /// The largest heat at the port over the run, or at its start; 1 W where there is none.
-fn largest(asked: &Asked<'_>, reduction: &Reduction) -> Result<f64, lptn_network::InputError> {
+fn largest(
+    (system, run): (&ThermalSystem, Option<&RunAnalysis>),
+    reduction: &Reduction,
+) -> Result<f64, lptn_network::InputError> {
     let norton = &reduction.norton;
-    let most = match asked.run {
-        Some(run) => {
-            largest_of_inputs(asked.system, (run.start(), run.stop()), &|system, work| {
-                norton.heat(system.source_powers(work))
-            })?
-        }
+    let most = match run {
+        Some(run) => largest_of_inputs(system, (run.start(), run.stop()), &|system, work| {
+            norton.heat(system.source_powers(work))
+        })?,
         None => reduction.inputs.heat,
     };
     let most = most.max(reduction.inputs.heat);

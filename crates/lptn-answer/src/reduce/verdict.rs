@@ -1,16 +1,16 @@
-//! Whether one node may stand for the network: the first line of the report.
+//! Whether one node, or a few, may stand for the network: the first line of the page.
 
-use lptn_reduce::{Deviation, Judge, Nodes};
+use lptn_reduce::{Deviation, Judge};
 use lptn_report::{Standing, Text, duration, significant};
 use serde_json::{Value, json};
 
-use super::View;
+use super::ReduceAnswer;
 use super::near::Near;
 use super::page::error_json;
 
-impl View<'_> {
+impl ReduceAnswer {
     /// "collapses to one node within 0.78 % (0.444 K)".
-    pub(super) fn verdict(&self) -> String {
+    pub fn verdict(&self) -> String {
         match &self.near {
             Some(near) => format!("near {} it {}", near.name(), self.of_the_linear()),
             None => self.of_the_linear(),
@@ -28,7 +28,7 @@ impl View<'_> {
             return "is one resistance in steady state; over time nothing was judged".to_owned();
         };
         let (share, of) = size(judge, &error);
-        let one = match self.loads.nodes.as_ref().map_or(1, Nodes::count) {
+        let one = match self.count() {
             1 => "one node".to_owned(),
             nodes => format!("{nodes} nodes"),
         };
@@ -110,7 +110,7 @@ impl View<'_> {
                 None => self.reduction.dynamics.is_none().then_some(true),
                 Some((_, _, within)) => *within,
             },
-            "nodes": self.loads.nodes.as_ref().map_or(1, Nodes::count),
+            "nodes": self.count(),
             "definition": self.definition().map(|definition| definition.key()),
             "judged_by": judged.map(|(judge, _, _)| judge.key()),
             "error": judged.map(|(_, error, _)| error_json(&error, &self.unit)),

@@ -3,12 +3,12 @@
 use lptn_reduce::{Definition, Dynamics, LeastSquaresWindow};
 use lptn_report::{duration, significant};
 
-use super::View;
-use lptn_answer::words::count;
+use super::ReduceAnswer;
+use crate::words::count;
 
-impl View<'_> {
+impl ReduceAnswer {
     /// What has to be known beside the numbers.
-    pub(crate) fn notes(&self) -> Vec<String> {
+    pub(super) fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         if self.near.is_some() {
             notes.push(
@@ -51,6 +51,13 @@ impl View<'_> {
         notes.extend(self.at_once(dynamics));
         notes.extend(unresolved(dynamics));
         notes
+    }
+
+    /// The notes as lines by themselves, for CSV, which has no place for them.
+    pub fn beside_rows(&self) -> Vec<String> {
+        let short = self.reduction.dynamics.as_ref().and_then(|dynamics| self.short(dynamics));
+        let short = short.map(|short| format!("warning: {short}"));
+        short.into_iter().chain(self.notes().iter().map(|note| format!("note: {note}"))).collect()
     }
 
     /// What is said of controls.

@@ -1,4 +1,4 @@
-//! What `lptn reduce` shows.
+//! A reduction as a page.
 
 use std::borrow::Cow;
 use std::io;
@@ -12,11 +12,11 @@ use lptn_study::SiValue;
 use lptn_units::Unit;
 use serde_json::{Value, json};
 
-use super::View;
-use lptn_answer::about::{self, Known};
-use lptn_answer::scale;
+use super::ReduceAnswer;
+use crate::about::{self, Known};
+use crate::scale;
 
-impl Page for View<'_> {
+impl Page for ReduceAnswer {
     fn text(&self) -> Text {
         let mut text = self.judgement();
         text.append(self.input.begun());
@@ -46,7 +46,7 @@ impl Page for View<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.input, Known::default())
+        about::about(&self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -54,8 +54,8 @@ impl Page for View<'_> {
         let (norton, inputs) = (&self.reduction.norton, &self.reduction.inputs);
         let boundaries = netlist.network.boundaries().iter().map(|b| Cow::from(&b.name));
         let sources = netlist.network.sources().iter().map(|s| s.name());
-        self.input.head(json, &[])?;
-        json.member("port", self.port)?;
+        self.input.head(json, self.doubts_of_state())?;
+        json.member("port", &self.port)?;
         json.optional("at", self.near.as_ref().map(super::near::Near::json))?;
         json.member("verdict", &self.verdict_json())?;
         json.member("R_eq", &scalar(norton.resistance, "K/W"))?;
@@ -72,7 +72,7 @@ impl Page for View<'_> {
     }
 }
 
-impl View<'_> {
+impl ReduceAnswer {
     /// What the port sees in steady state.
     fn equivalent(&self) -> TextTable {
         let network = &self.input.netlist.network;

@@ -1,4 +1,4 @@
-//! What `lptn reduce --keep` shows.
+//! Kept nodes as a page.
 
 use std::io;
 
@@ -9,11 +9,11 @@ use lptn_report::{
 use lptn_solve::Table;
 use serde_json::{Value, json};
 
-use super::keep::KeptView;
+use super::keep::KeptAnswer;
 use super::page::error_json;
-use lptn_answer::about::{self, Known};
-use lptn_answer::scale;
-use lptn_answer::words::count;
+use crate::about::{self, Known};
+use crate::scale;
+use crate::words::count;
 
 /// So many conductances are shown.
 const MOST_LINKS: usize = 12;
@@ -28,7 +28,7 @@ struct Row<'a> {
     load: Option<(f64, f64)>,
 }
 
-impl Page for KeptView<'_> {
+impl Page for KeptAnswer {
     fn text(&self) -> Text {
         let mut text = Text::new();
         let standing = if self.holds() { Standing::Holds } else { Standing::Fails };
@@ -59,7 +59,7 @@ impl Page for KeptView<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.input, Known::default())
+        about::about(&self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -70,11 +70,7 @@ impl Page for KeptView<'_> {
             "text": self.verdict(),
             "holds": self.holds(),
             "limit": self.limit.text,
-            "judged_by": if self.errors.run.is_some() && self.args.error.is_none() {
-                "run"
-            } else {
-                "any_load"
-            },
+            "judged_by": if self.judges_run() { "run" } else { "any_load" },
         });
         json.member("verdict", &verdict)?;
         json.member("power", &si(self.power, "W"))?;
@@ -101,7 +97,7 @@ impl Page for KeptView<'_> {
     }
 }
 
-impl KeptView<'_> {
+impl KeptAnswer {
     fn all(&self) -> Vec<Row<'_>> {
         let network = &self.input.netlist.network;
         let row = |(k, node): (usize, &lptn_network::NodeId)| Row {
@@ -201,7 +197,7 @@ impl KeptView<'_> {
             let all = count(links, "conductance");
             notes.push(format!("the {MOST_LINKS} largest of {all} are shown"));
         }
-        if self.args.nodes.is_some_and(|nodes| nodes > self.kept.count()) {
+        if self.question.nodes.is_some_and(|nodes| nodes > self.kept.count()) {
             notes.push(format!(
                 "the kept nodes feel {} with capacity: there are no more",
                 count(self.kept.count(), "node")

@@ -4,7 +4,7 @@ use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Panel};
 use lptn_reduce::{Dynamics, Pair};
 
-use super::View;
+use super::ReduceAnswer;
 
 /// Times at which the curves are drawn, evenly by their logarithms.
 const POINTS: i32 = 240;
@@ -16,10 +16,10 @@ const TO: f64 = 8.0;
 /// Height of the panel of errors.
 const ERRORS: f64 = 0.6;
 
-impl View<'_> {
+impl ReduceAnswer {
     /// The rise for 1 W at the port over time, and by how much each pair misses it.
     pub(super) fn figure(&self, dynamics: &Dynamics) -> Option<Figure> {
-        let (step, port) = (dynamics.step.as_ref()?, self.port);
+        let (step, port) = (dynamics.step.as_ref()?, &self.port);
         let slowest = step.slowest().tau;
         let ratio = (TO / FROM).powf(f64::from(POINTS).recip());
         let times = (0..=POINTS).map(|i| FROM * slowest * ratio.powi(i));
