@@ -28,6 +28,7 @@ pub mod refused;
 pub mod run;
 pub mod scale;
 pub mod select;
+pub mod size;
 mod steady;
 pub mod taken;
 pub mod trust;

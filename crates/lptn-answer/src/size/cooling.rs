@@ -1,62 +1,86 @@
-//! `lptn size` without a netlist: what a cooling has to do.
+//! What a cooling has to do, without a netlist.
 
 use std::io;
 
-use lptn_netlist::Files;
+use lptn_netlist::{Diagnostic, Files};
 use lptn_report::{Json, Page, Report, Rows, Text, TextTable, plain, significant};
 use lptn_solve::Table;
 use lptn_study::{Coolant, CoolantFlow, Cooling, CoolingTask, SiValue};
 use lptn_units::{Dimension, Type};
 use serde_json::{Map, json};
 
-use super::args::{CoolingArgs, SizeArgs};
-use crate::console::Console;
-use lptn_answer::about;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::input::quantity;
-use lptn_answer::messages;
+use crate::about;
+use crate::answer::Answer;
+use crate::failure::Failure;
+use crate::input::quantity;
+use crate::messages;
 
 /// How much a coolant warms unless said otherwise.
 const USUAL_RISE: &str = "10 K";
 
-pub(crate) fn cooling(args: &SizeArgs, console: &Console) -> Result<Exit, Failure> {
-    let task = task(&args.cooling)?;
-    let cooling = task.cooling().map_err(|error| Failure::of(&error))?;
-    let answer = Answer {
-        asked: &args.cooling,
-        task,
-        cooling,
-        air: Coolant::air(task.ambient).map(|air| (air, task.flow(air))),
-        oil: Coolant::oil().map(|oil| (oil, task.flow(oil))),
-    };
-    console.show(&answer, args.printed.format)
+/// The question for the resistance and the flow of a cooling. Quantities are text with units.
+#[derive(Clone, Debug, Default)]
+pub struct CoolingQuestion {
+    /// Heat to be taken away: `223 W`.
+    pub power: String,
+    /// Temperature that must not be exceeded: `110 degC`.
+    pub limit: String,
+    /// Temperature of the surroundings: `35 degC`.
+    pub ambient: String,
+    /// How much a coolant warms on its way; `None` for 10 K.
+    pub rise: Option<String>,
+    /// The words of the command that asked, for reports; empty if a program asked.
+    pub command: Vec<String>,
 }
 
-fn task(args: &CoolingArgs) -> Result<CoolingTask, Failure> {
-    let value = |name: &str, text: Option<&String>, usual: &str, ty: Type| {
-        let text = text.map_or(usual, String::as_str);
-        quantity(name, text, ty).map(|quantity| quantity.value)
-    };
-    let absolute = Type::ABSOLUTE_TEMPERATURE;
-    Ok(CoolingTask {
-        power: value("--power", args.power.as_ref(), "", Type::of(Dimension::POWER))?,
-        limit: value("--limit", args.limit.as_ref(), "", absolute)?,
-        ambient: value("--ambient", args.ambient.as_ref(), "", absolute)?,
-        rise: value("--rise", args.rise.as_ref(), USUAL_RISE, Type::of(Dimension::TEMPERATURE))?,
-    })
+impl CoolingQuestion {
+    /// Asks without a netlist.
+    ///
+    /// # Errors
+    /// A text that is not a quantity, a rise or a power that is not more than zero.
+    pub fn ask(&self) -> Result<CoolingAnswer, Failure> {
+        let task = self.task()?;
+        let cooling = task.cooling().map_err(|error| Failure::of(&error))?;
+        Ok(CoolingAnswer {
+            asked: self.clone(),
+            task,
+            cooling,
+            air: Coolant::air(task.ambient).map(|air| (air, task.flow(air))),
+            oil: Coolant::oil().map(|oil| (oil, task.flow(oil))),
+            files: Files::new(),
+        })
+    }
+
+    fn task(&self) -> Result<CoolingTask, Failure> {
+        let value = |name: &str, text: &str, ty: Type| {
+            quantity(name, text, ty).map(|quantity| quantity.value)
+        };
+        let absolute = Type::ABSOLUTE_TEMPERATURE;
+        let rise = self.rise.as_deref().unwrap_or(USUAL_RISE);
+        Ok(CoolingTask {
+            power: value("--power", &self.power, Type::of(Dimension::POWER))?,
+            limit: value("--limit", &self.limit, absolute)?,
+            ambient: value("--ambient", &self.ambient, absolute)?,
+            rise: value("--rise", rise, Type::of(Dimension::TEMPERATURE))?,
+        })
+    }
 }
 
-struct Answer<'a> {
-    asked: &'a CoolingArgs,
-    task: CoolingTask,
-    cooling: Cooling,
+/// The resistance and the flow of a cooling.
+#[derive(Debug)]
+pub struct CoolingAnswer {
+    asked: CoolingQuestion,
+    /// The question in SI units.
+    pub task: CoolingTask,
+    /// The largest resistance, and the temperature difference over it.
+    pub cooling: Cooling,
     /// Properties and flow; the flow is `None` where the coolant would leave warmer than the limit.
     air: Option<(Coolant, Option<CoolantFlow>)>,
     oil: Option<(Coolant, Option<CoolantFlow>)>,
+    files: Files,
 }
 
-impl Answer<'_> {
+impl CoolingAnswer {
     fn feasible(&self) -> bool {
         self.cooling.available > 0.0
     }
@@ -119,11 +143,21 @@ impl Answer<'_> {
     }
 }
 
-impl Page for Answer<'_> {
+impl Answer for CoolingAnswer {
+    fn files(&self) -> &Files {
+        &self.files
+    }
+
+    fn doubts(&self) -> Vec<Diagnostic> {
+        Vec::new()
+    }
+}
+
+impl Page for CoolingAnswer {
     fn text(&self) -> Text {
-        let said = |text: &Option<String>| plain(text.as_deref().unwrap_or_default());
+        let asked = &self.asked;
         let [power, limit, ambient] =
-            [&self.asked.power, &self.asked.limit, &self.asked.ambient].map(said);
+            [&asked.power, &asked.limit, &asked.ambient].map(|text| plain(text));
         let mut text = Text::titled(format!("Cooling of {power} at {limit} in {ambient}"));
         match self.feasible() {
             true => text.section().table(self.needs()),
@@ -140,14 +174,14 @@ impl Page for Answer<'_> {
     }
 
     fn more(&self) -> Report {
-        about::of_command(&[], &crate::files::arguments())
+        about::of_command(&[], &self.asked.command)
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let member = |(name, value, unit): (&str, f64, &str)| {
             (name.to_owned(), json!(SiValue::new(value, unit)))
         };
-        messages::head(json, None, (&Files::new(), &[]))?;
+        messages::head(json, None, (&self.files, &[]))?;
         json.member("values", &self.values().map(member).into_iter().collect::<Map<_, _>>())?;
         json.member("margin", &SiValue::new(self.cooling.available, "K"))?;
         json.member("binding", &self.feasible().then_some("limit"))?;

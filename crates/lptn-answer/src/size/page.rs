@@ -1,4 +1,4 @@
-//! What `lptn size` shows.
+//! What came of sizing a parameter, as a page; words that all pages of sizes share.
 
 use std::io;
 
@@ -13,12 +13,13 @@ use lptn_study::{SiValue, Verdict};
 use lptn_units::Unit;
 use serde_json::json;
 
+use super::Asked;
 use super::kept::Kept;
-use super::{Answer, Asked};
-use lptn_answer::about::{self, Known};
-use lptn_answer::input;
-use lptn_answer::ranges;
-use lptn_answer::words::{spaced, unverified};
+use super::single::Sized;
+use crate::about::{self, Known};
+use crate::input;
+use crate::ranges;
+use crate::words::{spaced, unverified};
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;
@@ -26,9 +27,10 @@ const DIGITS: usize = 6;
 /// Digits of an edge, which stands beside a value that is near to it.
 const EDGE_DIGITS: usize = 8;
 
-impl Page for Answer<'_> {
+impl Page for Sized {
     fn text(&self) -> Text {
-        let (study, range, goal) = (self.study, self.range, goal(self.study.goal));
+        let Asked { input, study, kept } = &self.asked;
+        let (range, goal) = (self.range, goal(study.goal));
         let unit = &self.unit;
         let number = |si: f64| significant(unit.from_si(si), DIGITS);
         let sought = format!(
@@ -39,9 +41,9 @@ impl Page for Answer<'_> {
             number(range.1),
             spaced(&unit.text)
         );
-        let mut text = Text::titled(self.input.title());
+        let mut text = Text::titled(input.title());
         text.sentence("", &sought);
-        when(&mut text, &self.input.netlist, (study, self.kept));
+        when(&mut text, &input.netlist, (study, kept));
         text.section().table(requirements(self));
         text.section();
         for (label, note) in notes(self) {
@@ -55,10 +57,10 @@ impl Page for Answer<'_> {
     fn rows(&self) -> Rows<'_> {
         let mut table = Table::of(&[()]);
         let value = self.unit.from_si(self.sizing.trial.value);
-        table.column(self.name, &self.unit.text, |()| value);
+        table.column(&self.name, &self.unit.text, |()| value);
         table.column("feasible", "-", |()| if self.sizing.feasible() { 1.0 } else { 0.0 });
         for (i, &margin) in self.sizing.trial.judged.margins.iter().enumerate() {
-            table.column(self.kept.text(i), self.kept.unit(i), |()| margin);
+            table.column(self.asked.kept.text(i), self.asked.kept.unit(i), |()| margin);
         }
         table.done().into()
     }
@@ -68,24 +70,24 @@ impl Page for Answer<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.input, Known::default())
+        about::about(&self.asked.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        let (network, sizing) = (&self.input.netlist.network, &self.sizing);
+        let (network, sizing) = (&self.asked.input.netlist.network, &self.sizing);
         let si = network.parameters()[self.parameter.index()].ty.dimension.si_unit();
-        let requirements = self.kept.members(&sizing.trial.judged);
+        let requirements = self.asked.kept.members(&sizing.trial.judged);
         let scalar = |value: f64| SiValue::new(value, &si);
         let of_margin = |value: f64| SiValue::new(value, &self.closest_unit());
-        self.input.head(json, &[])?;
-        json.member("values", &json!({ (self.name): scalar(sizing.trial.value) }))?;
+        self.asked.input.head(json, &[])?;
+        json.member("values", &json!({ (self.name.as_str()): scalar(sizing.trial.value) }))?;
         json.member("margin", &of_margin(sizing.margin()))?;
         json.member("binding", &self.binding().map(|requirement| &requirement.text))?;
         json.member("feasible", &sizing.feasible())?;
         json.member("requirements", &requirements)?;
-        json.member("over", self.study.over.word())?;
+        json.member("over", self.asked.study.over.word())?;
         if let Some(edge) = &sizing.edge {
-            let beyond = SiValue::new(edge.beyond, &self.kept.unit(edge.broken));
+            let beyond = SiValue::new(edge.beyond, &self.asked.kept.unit(edge.broken));
             json.member("edge", &json!({ "value": scalar(edge.value), "beyond": beyond }))?;
         }
         json.member("error", &sizing.error.map(scalar))?;
@@ -104,7 +106,7 @@ impl Page for Answer<'_> {
 }
 
 /// When it has to be kept: over which moments, and in which load cases.
-pub(super) fn when(text: &mut Text, netlist: &Netlist, (study, kept): (&SizeStudy, &Kept<'_>)) {
+pub(super) fn when(text: &mut Text, netlist: &Netlist, (study, kept): (&SizeStudy, &Kept)) {
     if let Some(over) = over(netlist, study) {
         text.sentence("", &over);
     }
@@ -157,7 +159,7 @@ pub(super) fn goal(goal: Goal) -> &'static str {
 }
 
 /// What is sought as people read it.
-pub(super) fn sought(asked: &Asked<'_>, si: f64) -> String {
+pub(super) fn sought(asked: &Asked, si: f64) -> String {
     let ty = asked.study.objective.ty;
     let degrees = input::temperature_unit(None, &asked.input.netlist).ok().filter(|_| ty.absolute);
     match degrees {
@@ -167,15 +169,15 @@ pub(super) fn sought(asked: &Asked<'_>, si: f64) -> String {
 }
 
 /// "G_fan = 3.41 W/K".
-pub(crate) fn quantity(name: &str, si: f64, unit: &Unit) -> String {
+pub(super) fn quantity(name: &str, si: f64, unit: &Unit) -> String {
     format!("{name} = {}{}", significant(unit.from_si(si), DIGITS), spaced(&unit.text))
 }
 
 /// The value, rounded so that what is shown keeps the requirements.
-fn value(answer: &Answer<'_>) -> String {
+fn value(answer: &Sized) -> String {
     let value = answer.unit.from_si(answer.sizing.trial.value);
     let shown = if matches!(answer.sizing.verdict, Verdict::Bound | Verdict::Edge) {
-        significant(rounded(value, DIGITS, answer.study.goal == Goal::Minimise), DIGITS)
+        significant(rounded(value, DIGITS, answer.asked.study.goal == Goal::Minimise), DIGITS)
     } else {
         significant(value, DIGITS)
     };
@@ -183,7 +185,7 @@ fn value(answer: &Answer<'_>) -> String {
 }
 
 /// `value` with so many digits, rounded up or down.
-pub(crate) fn rounded(value: f64, digits: usize, up: bool) -> f64 {
+pub(super) fn rounded(value: f64, digits: usize, up: bool) -> f64 {
     let text = |x: f64| format!("{x:.*e}", digits.saturating_sub(1));
     let read = |text: &str| text.parse::<f64>().unwrap_or(value);
     let near = text(value);
@@ -197,9 +199,9 @@ pub(crate) fn rounded(value: f64, digits: usize, up: bool) -> f64 {
     read(&text(if up { nearest + step } else { nearest - step }))
 }
 
-fn requirements(answer: &Answer<'_>) -> TextTable {
-    let (study, sizing) = (answer.study, &answer.sizing);
-    let kept = answer.kept;
+fn requirements(answer: &Sized) -> TextTable {
+    let (study, sizing) = (&answer.asked.study, &answer.sizing);
+    let kept = &answer.asked.kept;
     let margin = |i: usize| kept.margin(i, sizing.trial.judged.margins[i]);
     let word = |i: usize| match sizing.verdict {
         _ if sizing.trial.judged.margins[i] < 0.0 => "broken",
@@ -220,16 +222,16 @@ fn requirements(answer: &Answer<'_>) -> TextTable {
 }
 
 /// What the table cannot say, each with its label.
-fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
-    let (study, sizing) = (answer.study, &answer.sizing);
-    let name = answer.name;
-    let unit = answer.kept.unit(sizing.closest);
+fn notes(answer: &Sized) -> Vec<(&'static str, String)> {
+    let (study, sizing) = (&answer.asked.study, &answer.sizing);
+    let name = answer.name.as_str();
+    let unit = answer.asked.kept.unit(sizing.closest);
     let mut notes = Vec::new();
     if let Some(sensitivity) = sizing.sensitivity {
         let change = significant(sensitivity, 3);
         notes.push(("sensitivity", format!("{change} {unit} of margin for 1 % more {name}")));
     }
-    notes.extend(answer.kept.doubt(&sizing.trial.judged).map(|doubt| ("scatter", doubt)));
+    notes.extend(answer.asked.kept.doubt(&sizing.trial.judged).map(|doubt| ("scatter", doubt)));
     notes.extend(edge(answer).map(|edge| ("edge", edge)));
     if let Some(guess) = sizing.first_guess {
         notes.push((
@@ -237,8 +239,9 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
             format!("{} (Norton equivalent)", quantity(name, guess, &answer.unit)),
         ));
     }
-    notes.extend(unverified(&answer.input.netlist.network).map(|unsure| ("note", unsure)));
-    let outside = ranges::warnings(&answer.input.netlist, &sizing.trial.judged.out_of_range, false);
+    notes.extend(unverified(&answer.asked.input.netlist.network).map(|unsure| ("note", unsure)));
+    let outside =
+        ranges::warnings(&answer.asked.input.netlist, &sizing.trial.judged.out_of_range, false);
     notes.extend(outside.into_iter().map(|warning| ("note", warning.message)));
     if let Some(error) = sizing.error {
         let error = format!("{:.0e}{}", error / answer.unit.scale.abs(), spaced(&answer.unit.text));
@@ -258,18 +261,18 @@ fn notes(answer: &Answer<'_>) -> Vec<(&'static str, String)> {
 }
 
 /// Where the network goes elsewhere, and what that does to the requirements.
-fn edge(answer: &Answer<'_>) -> Option<String> {
+fn edge(answer: &Sized) -> Option<String> {
     let edge = answer.sizing.edge.as_ref()?;
     let value = significant(answer.unit.from_si(edge.value), EDGE_DIGITS);
     let at = format!("{} = {value}{}", answer.name, spaced(&answer.unit.text));
-    let unit = answer.kept.unit(edge.broken);
+    let unit = answer.asked.kept.unit(edge.broken);
     let off = significant(-edge.beyond, 4);
-    let broken = format!("breaks `{}` by {off} {unit}", answer.kept.text(edge.broken));
-    let unit = input::temperature_unit(None, &answer.input.netlist).ok();
+    let broken = format!("breaks `{}` by {off} {unit}", answer.asked.kept.text(edge.broken));
+    let unit = input::temperature_unit(None, &answer.asked.input.netlist).ok();
     let Some(((node, [here, there]), unit)) = edge.states.zip(unit) else {
         return Some(format!("beyond {at} the network goes another way, which {broken}"));
     };
-    let name = answer.input.netlist.network.name_of(Item::Node(node));
+    let name = answer.asked.input.netlist.network.name_of(Item::Node(node));
     let at_once = |kelvin: f64| format!("{} {}", significant(unit.from_si(kelvin), 4), unit.text);
     Some(format!(
         "several steady states: up to {at} the network comes to the one with `{name}` at {}, beyond \
@@ -280,8 +283,8 @@ fn edge(answer: &Answer<'_>) -> Option<String> {
 }
 
 /// One sentence with the answer.
-pub(crate) fn verdict(answer: &Answer<'_>) -> String {
-    let (study, sizing) = (answer.study, &answer.sizing);
+pub(super) fn verdict(answer: &Sized) -> String {
+    let (study, sizing) = (&answer.asked.study, &answer.sizing);
     match sizing.verdict {
         Verdict::Bound => format!("{} keeps every requirement", value(answer)),
         Verdict::Edge => {
@@ -301,17 +304,17 @@ pub(crate) fn verdict(answer: &Answer<'_>) -> String {
         }
         Verdict::Infeasible => {
             let off = significant(-sizing.margin(), 4);
-            let at = quantity(answer.name, sizing.trial.value, &answer.unit);
-            let unit = answer.kept.unit(sizing.closest);
+            let at = quantity(&answer.name, sizing.trial.value, &answer.unit);
+            let unit = answer.asked.kept.unit(sizing.closest);
             let end = end(answer).map_or(String::new(), |end| format!(", the {end} of the range"));
-            let text = answer.kept.text(sizing.closest);
+            let text = answer.asked.kept.text(sizing.closest);
             format!("infeasible: at best, with {at}{end}, `{text}` is broken by {off} {unit}")
         }
     }
 }
 
 /// Whether the value stands at an end of the range.
-fn end(answer: &Answer<'_>) -> Option<&'static str> {
+fn end(answer: &Sized) -> Option<&'static str> {
     let (from, to) = answer.range;
     let value = answer.sizing.trial.value;
     // in a range over decades the least end is near only for values of its own size

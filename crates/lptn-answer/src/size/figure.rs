@@ -4,18 +4,19 @@ use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Level, Look, Moment, Panel};
 use lptn_study::Design;
 
-use super::{Answer, Asked};
+use super::Asked;
+use super::single::Sized;
 
 /// A range that spans more than this is shown by its logarithms.
 const WIDE: f64 = 10.0;
 
-impl Answer<'_> {
+impl Sized {
     /// The margins over the parameter, a panel for each unit; the answer is marked.
     pub(super) fn figure(&self) -> Figure {
         let unit = &self.unit;
         let mut panels: Vec<Panel> = Vec::new();
-        for i in self.kept.all() {
-            let axis = Axis::linear("margin", self.kept.unit(i));
+        for i in self.asked.kept.all() {
+            let axis = Axis::linear("margin", self.asked.kept.unit(i));
             let curve = self.curve(i);
             match panels.iter_mut().find(|panel| panel.y == axis) {
                 Some(panel) => panel.curves.push(curve),
@@ -32,7 +33,7 @@ impl Answer<'_> {
             panel.limits.push(Level { name: "margin 0: broken below it".into(), value: 0.0 });
             panel.moments.push(Moment { name: answer.into(), at });
         }
-        let title = format!("{}: size {}", self.input.title(), self.study.name);
+        let title = format!("{}: size {}", self.asked.input.title(), self.asked.study.name);
         Figure { title, note: String::new(), panels }
     }
 
@@ -40,7 +41,7 @@ impl Answer<'_> {
     fn across(&self) -> Axis {
         let values = self.sizing.looked_at.iter().map(|trial| self.unit.from_si(trial.value));
         let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(l, h), v| (l.min(v), h.max(v)));
-        let (name, unit) = (self.name, &self.unit.text);
+        let (name, unit) = (self.name.as_str(), &self.unit.text);
         if low > 0.0 && high / low > WIDE {
             Axis::log(name, unit)
         } else {
@@ -54,13 +55,13 @@ impl Answer<'_> {
         trials.sort_by(|a, b| a.value.total_cmp(&b.value));
         let points =
             trials.iter().map(|trial| (self.unit.from_si(trial.value), trial.judged.margins[i]));
-        Curve::line(self.kept.text(i), points.collect())
+        Curve::line(self.asked.kept.text(i), points.collect())
     }
 }
 
 /// What designs leave of every requirement over what is sought, a panel for each unit; the answer is
 /// marked.
-pub(super) fn designs(asked: &Asked<'_>, all: &[&Design], answer: Option<&Design>) -> Figure {
+pub(super) fn designs(asked: &Asked, all: &[&Design], answer: Option<&Design>) -> Figure {
     let objective = &asked.study.objective;
     let across = || Axis::linear(&objective.text, objective.ty.dimension.si_unit());
     let mut panels: Vec<Panel> = Vec::new();

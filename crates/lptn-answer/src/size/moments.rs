@@ -6,9 +6,9 @@ use lptn_study::uncertainty::uncertain;
 use lptn_study::{Demand, Doubt, Moments, Watcher};
 
 use super::kept::cases;
-use lptn_answer::failure::Failure;
-use lptn_answer::input::Input;
-use lptn_answer::period;
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::period;
 
 /// What to do where the period of a cycle is not known, and where nothing changes.
 const HELPS: [&str; 2] = [

@@ -1,19 +1,18 @@
-//! Why `lptn size` does not size a network whose inputs change with time, and what to write
-//! instead.
+//! Why a network whose inputs change with time is not sized, and what to write instead.
 
 use lptn_netlist::{Diagnostic, SizeStudy};
 use lptn_network::{Changing, Course, Item, Network, SignalId, list_of};
 use lptn_report::significant;
 use lptn_study::SizeError;
 
-use lptn_answer::input::Input;
-use lptn_answer::words::spaced;
+use crate::input::Input;
+use crate::words::spaced;
 
 const OVER: &str = "size over all moments with `over = \"run\"`, or `over = \"periodic\"` for a \
                     cycle to which the network settles";
 
 /// The error with the place of everything that changes.
-pub(crate) fn explained(
+pub(super) fn explained(
     input: &Input,
     study: &SizeStudy,
     (error, changing): (&SizeError, &[Changing]),

@@ -1,4 +1,4 @@
-//! `lptn size` with catalogues: which parts.
+//! Catalogues, and which part of each to take.
 
 use std::io;
 
@@ -8,16 +8,16 @@ use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Report, Rows, Standing, Text, TextTable, duration, plain, significant,
 };
-use lptn_solve::{Table, available_threads};
-use lptn_study::{Choice, ChoiceTask, Choices, Design, Parts, SiValue, choose};
+use lptn_solve::Table;
+use lptn_study::{Choice, ChoiceTask, Choices, Design, Parts, SiValue};
 use serde_json::{Map, Value, json};
 
 use super::kept::Kept;
-use super::{Asked, aim, failed, figure, page, write};
-use lptn_answer::about::{self, Known};
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::words::{count, unverified};
+use super::{Asked, aim, figure, page};
+use crate::about::{self, Known};
+use crate::failure::Failure;
+use crate::listener::Listener;
+use crate::words::{count, unverified};
 
 /// What is not known.
 const NOTHING: &str = "-";
@@ -29,8 +29,12 @@ const NO_PART: &str = "none";
 const MOST_CHEAPER: usize = 12;
 const MOST_DEARER: usize = 4;
 
-pub(super) fn choice(asked: &Asked<'_>) -> Result<Exit, Failure> {
-    let &Asked { input, study, .. } = asked;
+pub(super) fn choose(
+    asked: Asked,
+    threads: usize,
+    listener: &dyn Listener,
+) -> Result<Chosen, Failure> {
+    let Asked { input, study, .. } = &asked;
     let network = &input.netlist.network;
     let known = |catalogue: &Catalogue| {
         let ids = catalogue.columns.iter().filter_map(|one| network.parameter(&one.name).ok());
@@ -42,21 +46,20 @@ pub(super) fn choice(asked: &Asked<'_>) -> Result<Exit, Failure> {
     };
     let catalogues: Vec<Parts> = study.catalogues.iter().map(known).collect();
     let varied = study.ranges(network).unwrap_or_default();
-    let threads = asked.args.threads.unwrap_or_else(available_threads);
-    let choices = asked.demand(|demand| {
+    let choices = asked.demand(listener, |demand| {
         let (aim, catalogues, varied) = (aim(study), &catalogues, &varied);
-        choose(&ChoiceTask { demand, aim, catalogues, varied, threads })
-    });
-    let choices = choices.map_err(|error| failed(input, study, &error))?;
+        lptn_study::choose(&ChoiceTask { demand, aim, catalogues, varied, threads })
+    })?;
     let set = catalogues.iter().flat_map(|parts| parts.parameters.iter().copied());
     let ids = set.chain(varied.iter().map(|(id, _)| *id)).collect();
     let scale = scale(&choices);
-    let answer = Answer { asked, choices, ids, scale };
-    asked.show(&answer, || answer.write())
+    Ok(Chosen { asked, choices, ids, scale })
 }
 
-struct Answer<'a> {
-    asked: &'a Asked<'a>,
+/// What came of choosing parts.
+#[derive(Debug)]
+pub(super) struct Chosen {
+    pub(super) asked: Asked,
     choices: Choices,
     /// The parameters in the order in which designs have them.
     ids: Vec<ParameterId>,
@@ -74,12 +77,12 @@ fn scale(choices: &Choices) -> Vec<f64> {
     scale
 }
 
-impl Answer<'_> {
+impl Chosen {
     fn catalogues(&self) -> &[Catalogue] {
         &self.asked.study.catalogues
     }
 
-    fn kept(&self) -> &Kept<'_> {
+    fn kept(&self) -> &Kept {
         &self.asked.kept
     }
 
@@ -100,7 +103,7 @@ impl Answer<'_> {
     fn objective(&self, choice: &Choice) -> String {
         match choice.objective.is_nan() {
             true => NOTHING.to_owned(),
-            false => page::sought(self.asked, choice.objective),
+            false => page::sought(&self.asked, choice.objective),
         }
     }
 
@@ -264,17 +267,16 @@ impl Answer<'_> {
         })
     }
 
-    fn write(&self) -> Result<(), Failure> {
-        let Some(best) = self.best() else { return Ok(()) };
-        let values: Vec<_> = self.ids.iter().copied().zip(best.values.iter().copied()).collect();
-        let &Asked { input, study, file, console, .. } = self.asked;
-        write::write_all((input, study), &values, (file, console))
+    /// The values of the answer in SI units by parameter.
+    pub(super) fn best_values(&self) -> Option<Vec<(ParameterId, f64)>> {
+        let values = self.best()?.values.iter().copied();
+        Some(self.ids.iter().copied().zip(values).collect())
     }
 }
 
-impl Page for Answer<'_> {
+impl Page for Chosen {
     fn text(&self) -> Text {
-        let (input, study) = (self.asked.input, self.asked.study);
+        let Asked { input, study, .. } = &self.asked;
         let goal = page::goal(study.goal);
         let files: Vec<String> = self.catalogues().iter().map(|one| plain(&one.csv)).collect();
         let mut text = Text::titled(input.title());
@@ -358,11 +360,11 @@ impl Page for Answer<'_> {
         };
         let all: Vec<Design> = self.choices.judged.iter().filter_map(design).collect();
         let best = self.best().and_then(design);
-        vec![figure::designs(self.asked, &all.iter().collect::<Vec<_>>(), best.as_ref())]
+        vec![figure::designs(&self.asked, &all.iter().collect::<Vec<_>>(), best.as_ref())]
     }
 
     fn more(&self) -> Report {
-        about::about(self.asked.input, Known::default())
+        about::about(&self.asked.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {

@@ -1,4 +1,4 @@
-//! `lptn size` with several parameters.
+//! Several parameters, and what is sought of them.
 
 use std::io;
 
@@ -7,18 +7,18 @@ use lptn_plot::Figure;
 use lptn_report::{
     Json, Page, Report, Rows, Standing, Text, TextTable, duration, plain, significant,
 };
-use lptn_solve::{Table, available_threads};
+use lptn_solve::Table;
 use lptn_study::{Design, Several, SeveralTask, SiValue, size_several};
 use lptn_units::Unit;
 use serde_json::{Map, Value, json};
 
 use super::kept::Kept;
-use super::{Asked, aim, failed, figure, page, write};
-use lptn_answer::about::{self, Known};
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::ranges;
-use lptn_answer::words::unverified;
+use super::{Asked, aim, figure, page};
+use crate::about::{self, Known};
+use crate::failure::Failure;
+use crate::listener::Listener;
+use crate::ranges;
+use crate::words::unverified;
 
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;
@@ -26,29 +26,38 @@ const DIGITS: usize = 6;
 /// A value nearer to an end of its range than this share of it stands there.
 const AT_END: f64 = 1e-6;
 
-pub(super) fn several(asked: &Asked<'_>) -> Result<Exit, Failure> {
-    let &Asked { input, study, .. } = asked;
-    let varied = study.ranges(&input.netlist.network).unwrap_or_default();
-    let aim = aim(study);
-    let threads = asked.args.threads.unwrap_or_else(available_threads);
-    let ranges = varied.clone();
-    let found = asked.demand(|demand| size_several(&SeveralTask { demand, aim, varied, threads }));
-    let found = found.map_err(|error| failed(input, study, &error))?;
+pub(super) fn size(
+    asked: Asked,
+    threads: usize,
+    listener: &dyn Listener,
+) -> Result<Sized, Failure> {
+    let Asked { input, study, .. } = &asked;
+    let ranges = study.ranges(&input.netlist.network).unwrap_or_default();
+    let (aim, varied) = (aim(study), ranges.clone());
+    let found = asked
+        .demand(listener, |demand| size_several(&SeveralTask { demand, aim, varied, threads }))?;
     let units = ranges.iter().map(|(id, _)| input.unit_of(*id)).collect();
-    let answer = Answer { asked, found, ranges, units };
-    asked.show(&answer, || answer.write())
+    Ok(Sized { asked, found, ranges, units })
 }
 
-struct Answer<'a> {
-    asked: &'a Asked<'a>,
+/// What came of sizing several parameters.
+#[derive(Debug)]
+pub(super) struct Sized {
+    pub(super) asked: Asked,
     found: Several,
     ranges: Vec<(ParameterId, (f64, f64))>,
     units: Vec<Unit>,
 }
 
-impl Answer<'_> {
-    fn kept(&self) -> &Kept<'_> {
+impl Sized {
+    fn kept(&self) -> &Kept {
         &self.asked.kept
+    }
+
+    /// The values in SI units by parameter.
+    pub(super) fn values(&self) -> Vec<(ParameterId, f64)> {
+        let of = self.ranges.iter().zip(&self.found.design.values);
+        of.map(|((id, _), value)| (*id, *value)).collect()
     }
 
     fn name(&self, i: usize) -> &str {
@@ -103,7 +112,7 @@ impl Answer<'_> {
 
     fn objective(&self) -> String {
         let text = plain(&self.asked.study.objective.text);
-        format!("{text} = {}", page::sought(self.asked, self.found.design.objective))
+        format!("{text} = {}", page::sought(&self.asked, self.found.design.objective))
     }
 
     fn worst(&self) -> Option<usize> {
@@ -127,28 +136,21 @@ impl Answer<'_> {
         format!("infeasible: where the search came closest {broken}")
     }
 
-    fn values(&self) -> Map<String, Value> {
+    fn values_json(&self) -> Map<String, Value> {
         let parameters = self.asked.input.netlist.network.parameters();
-        let of = self.ranges.iter().zip(&self.found.design.values);
-        of.map(|((id, _), &value)| {
+        let of = self.values().into_iter();
+        of.map(|(id, value)| {
             let parameter = &parameters[id.index()];
             let value = SiValue::new(value, &parameter.ty.dimension.si_unit());
             (parameter.name.clone(), json!(value))
         })
         .collect()
     }
-
-    fn write(&self) -> Result<(), Failure> {
-        let of = self.ranges.iter().zip(&self.found.design.values);
-        let values: Vec<_> = of.map(|((id, _), value)| (*id, *value)).collect();
-        let &Asked { input, study, file, console, .. } = self.asked;
-        write::write_all((input, study), &values, (file, console))
-    }
 }
 
-impl Page for Answer<'_> {
+impl Page for Sized {
     fn text(&self) -> Text {
-        let (input, study) = (self.asked.input, self.asked.study);
+        let Asked { input, study, .. } = &self.asked;
         let goal = page::goal(study.goal);
         let mut text = Text::titled(input.title());
         let sought = plain(&study.objective.text);
@@ -198,11 +200,11 @@ impl Page for Answer<'_> {
     fn figures(&self) -> Vec<Figure> {
         let all: Vec<&Design> = self.found.looked_at.iter().chain([&self.found.design]).collect();
         let answer = Some(&self.found.design).filter(|_| self.found.feasible);
-        vec![figure::designs(self.asked, &all, answer)]
+        vec![figure::designs(&self.asked, &all, answer)]
     }
 
     fn more(&self) -> Report {
-        about::about(self.asked.input, Known::default())
+        about::about(&self.asked.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
@@ -215,7 +217,7 @@ impl Page for Answer<'_> {
         let value = SiValue::new(self.found.design.objective, &objective.ty.dimension.si_unit());
         let binding = self.found.binding.first().map(|&i| &self.kept().requirement(i).text);
         self.asked.input.head(json, &[])?;
-        json.member("values", &self.values())?;
+        json.member("values", &self.values_json())?;
         json.member(
             "margin",
             &worst.map(|i| SiValue::new(judged.margins[i], &self.kept().unit(i))),

@@ -1,49 +1,59 @@
-//! `lptn size --write`: the value goes into the netlist, and the netlist proves it.
+//! Values in the netlist, which proves them.
 
 use std::path::Path;
 
-use lptn_netlist::{Diagnostic, Goal, Netlist, SizeStudy, parse_file};
+use lptn_netlist::{Diagnostic, Goal, Netlist, parse_file};
 use lptn_network::ParameterId;
 use lptn_report::Shortest;
 use lptn_solve::Proceed;
 use lptn_study::judge;
 
-use super::Answer;
+use super::Asked;
 use super::moments::demanded;
 use super::page::rounded;
-use crate::console::Console;
-use crate::written::{can_be_written, put, with_numbers};
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::input::Input;
-use lptn_answer::words::{count, spaced};
+use super::single::Sized;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::words::{count, spaced};
+use crate::written::{can_be_written, with_numbers};
 
 /// Digits that are tried, the fewest first.
 const DIGITS: std::ops::RangeInclusive<usize> = 6..=17;
 
 /// Refuses before anything is computed what could not be written afterwards.
-pub(crate) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Failure> {
+pub(super) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Failure> {
     can_be_written(input, parameter, ["size::write", "size::write_shared"])
 }
 
-pub(crate) fn write(answer: &Answer<'_>, file: &Path, console: &Console) -> Result<(), Failure> {
-    let Some(number) = proven(answer) else {
-        let problem =
-            Diagnostic::error("size::write", "no number of 17 digits keeps what is required");
-        return Err(Failure::new(Exit::Failed, problem));
-    };
-    put(file, &with_numbers(answer.input, &[(answer.parameter, number.clone())])?)?;
-    let unit = spaced(&answer.unit.text);
-    console.note(&format!("wrote  {}: {} = {number}{unit}", file.display(), answer.name));
-    Ok(())
+/// A netlist with values in it.
+#[derive(Clone, Debug)]
+pub struct Written {
+    /// The text of the file.
+    pub text: String,
+    /// The value that was written, `G = 3.41 W/K`, or how many were.
+    pub values: String,
 }
 
-/// Writes several values, with as few digits as keep everything, and the exact ones of parts.
-pub(super) fn write_all(
-    (input, study): (&Input, &SizeStudy),
+/// The netlist with the value of one parameter.
+pub(super) fn of_one(answer: &Sized) -> Result<Written, Failure> {
+    let Some(number) = proven(answer) else { return Err(no_number("no number of", "keeps")) };
+    let text = with_numbers(&answer.asked.input, &[(answer.parameter, number.clone())])?;
+    let unit = spaced(&answer.unit.text);
+    Ok(Written { text, values: format!("{} = {number}{unit}", answer.name) })
+}
+
+fn no_number(which: &str, keep: &str) -> Failure {
+    let message = format!("{which} 17 digits {keep} what is required");
+    Failure::new(Exit::Failed, Diagnostic::error("size::write", message))
+}
+
+/// The netlist with several values in SI units, with as few digits as keep everything. Values of
+/// parts are exact.
+pub(super) fn of_all(
+    Asked { input, study, .. }: &Asked,
     values: &[(ParameterId, f64)],
-    (file, console): (&Path, &Console),
-) -> Result<(), Failure> {
+) -> Result<Written, Failure> {
     let numbers = |digits: usize| -> Vec<(ParameterId, String)> {
         let number = |&(id, value): &(ParameterId, f64)| {
             let shown = input.unit_of(id).from_si(value);
@@ -58,28 +68,22 @@ pub(super) fn write_all(
         let again = parse_file(Path::new(&input.text.name), text.as_bytes()).ok()?;
         keeps(&study.name, &again)?.then_some(text)
     });
-    let Some(text) = proven else {
-        let problem =
-            Diagnostic::error("size::write", "no numbers of 17 digits keep what is required");
-        return Err(Failure::new(Exit::Failed, problem));
-    };
-    put(file, &text)?;
-    console.note(&format!("wrote  {}: {}", file.display(), count(values.len(), "parameter")));
-    Ok(())
+    let text = proven.ok_or_else(|| no_number("no numbers of", "keep"))?;
+    Ok(Written { text, values: count(values.len(), "parameter") })
 }
 
 /// The number with the fewest digits whose netlist, read again from its text, keeps every
 /// requirement.
-fn proven(answer: &Answer<'_>) -> Option<String> {
-    let netlist = &answer.input.netlist;
+fn proven(answer: &Sized) -> Option<String> {
+    let netlist = &answer.asked.input.netlist;
     let written = netlist.written_number(answer.parameter)?;
     let value = answer.unit.from_si(answer.sizing.trial.value);
-    let up = answer.study.goal == Goal::Minimise;
+    let up = answer.asked.study.goal == Goal::Minimise;
     DIGITS.into_iter().find_map(|digits| {
         let number = Shortest::new().text(rounded(value, digits, up)).to_owned();
         let text = netlist.text_with_number(&written, &number);
-        let again = parse_file(Path::new(&answer.input.text.name), text.as_bytes()).ok()?;
-        keeps(&answer.study.name, &again)?.then_some(number)
+        let again = parse_file(Path::new(&answer.asked.input.text.name), text.as_bytes()).ok()?;
+        keeps(&answer.asked.study.name, &again)?.then_some(number)
     })
 }
 

@@ -5,21 +5,22 @@ use lptn_report::{plain, significant};
 use lptn_study::{Judged, LoadCase, SiValue};
 use serde_json::{Value, json};
 
-use lptn_answer::words::spaced;
+use crate::words::spaced;
 
 /// Margins below this share of a unit are rounding.
 const ZERO: f64 = 1e-9;
 
 /// The requirements of the first case, then those of the next; in the order of margins.
-pub(crate) struct Kept<'a> {
-    requirements: &'a [Requirement],
+#[derive(Debug)]
+pub(super) struct Kept {
+    requirements: Vec<Requirement>,
     cases: Vec<String>,
 }
 
-impl<'a> Kept<'a> {
-    pub(super) fn of(netlist: &Netlist, study: &'a SizeStudy) -> Self {
+impl Kept {
+    pub(super) fn of(netlist: &Netlist, study: &SizeStudy) -> Self {
         let cases = cases(netlist, study).into_iter().map(|case| case.name).collect();
-        Self { requirements: &study.requirements, cases }
+        Self { requirements: study.requirements.clone(), cases }
     }
 
     /// Their positions.
@@ -32,7 +33,7 @@ impl<'a> Kept<'a> {
         &self.cases
     }
 
-    pub(super) fn requirement(&self, i: usize) -> &'a Requirement {
+    pub(super) fn requirement(&self, i: usize) -> &Requirement {
         &self.requirements[i % self.requirements.len()]
     }
 
