@@ -6,10 +6,9 @@ use lptn_network::{Cauer, Foster};
 use lptn_reduce::{Nodes, NortonEquivalent, ResponseTerm, StepResponse};
 use lptn_solve::StepAnswer;
 
-use super::Asked;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::input::Input;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input::Input;
 
 /// Terms below this share of the largest are rounding.
 const VISIBLE: f64 = 1e-9;
@@ -24,18 +23,19 @@ const LIMIT: f64 = 1e-3;
 const REAL: f64 = 1e-9;
 
 /// An impedance as elements.
-pub(super) struct Chain {
+#[derive(Clone, Debug)]
+pub struct Chain {
     /// Resistance in K/W and time constant in s of each term, fastest first; between two places
     /// resistances may be negative.
-    pub(super) terms: Vec<(f64, f64)>,
+    pub terms: Vec<(f64, f64)>,
     /// What comes at once in K/W.
-    pub(super) direct: f64,
+    pub direct: f64,
     /// The ladder, if that was asked for.
-    pub(super) ladder: Option<Cauer>,
+    pub ladder: Option<Cauer>,
     /// How many terms there are.
-    pub(super) all: usize,
+    pub all: usize,
     /// The largest error over every load in K/W, where there are fewer.
-    pub(super) error: Option<f64>,
+    pub error: Option<f64>,
 }
 
 /// What stands between a place that is heated and its own rise, as far as it is known.
@@ -79,19 +79,19 @@ impl Spectrum {
         Ok(Self { step: step.ok_or_else(at_once)?, own: true })
     }
 
-    /// As an R-tau table, or as a ladder too.
-    pub(super) fn chain(&self, asked: Asked) -> Result<Chain, Failure> {
+    /// As an R-tau table of so many terms, or as a ladder too.
+    pub(super) fn chain(&self, count: Option<usize>, ladder: bool) -> Result<Chain, Failure> {
         if self.step.terms.is_empty() {
             return Err(at_once());
         }
         let all = self.step.terms.len();
-        match (self.own, asked.count) {
-            (false, _) if asked.ladder => Err(between("a ladder")),
+        match (self.own, count) {
+            (false, _) if ladder => Err(between("a ladder")),
             (false, Some(_)) => Err(between("a chain of fewer terms")),
             (false, None) => Ok(self.between()),
-            (true, Some(count)) => self.few(self.nodes(count)?, all, asked),
-            (true, None) if all <= SHOWN => self.few(self.nodes(all)?, all, asked),
-            (true, None) => self.few(self.enough(all)?, all, asked),
+            (true, Some(count)) => self.few(self.nodes(count)?, all, ladder),
+            (true, None) if all <= SHOWN => self.few(self.nodes(all)?, all, ladder),
+            (true, None) => self.few(self.enough(all)?, all, ladder),
         }
     }
 
@@ -113,10 +113,10 @@ impl Spectrum {
         found.ok_or_else(|| too_close(all))
     }
 
-    fn few(&self, nodes: Nodes, all: usize, asked: Asked) -> Result<Chain, Failure> {
+    fn few(&self, nodes: Nodes, all: usize, ladder: bool) -> Result<Chain, Failure> {
         let Foster { direct, terms, .. } = nodes.foster;
         let error = (terms.len() < all).then(|| nodes.worst.most());
-        Ok(Chain { terms, direct, ladder: asked.ladder.then_some(nodes.ladder), all, error })
+        Ok(Chain { terms, direct, ladder: ladder.then_some(nodes.ladder), all, error })
     }
 }
 

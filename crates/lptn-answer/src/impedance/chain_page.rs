@@ -8,7 +8,7 @@ use lptn_solve::Table;
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
-use super::View;
+use super::ImpedanceAnswer;
 use super::chain::Chain;
 
 /// A rung with the sums of all up to it: a point of the structure function.
@@ -37,7 +37,7 @@ impl Chain {
     }
 }
 
-impl View<'_> {
+impl ImpedanceAnswer {
     pub(super) fn chain_line(&self, chain: &Chain) -> String {
         let (count, unit) = (chain.terms.len(), self.unit());
         let settled = significant(chain.settled(), 5);
@@ -47,7 +47,7 @@ impl View<'_> {
             (false, 1) => "one exponential".to_owned(),
             (false, count) => format!("a sum of {count} exponentials"),
         };
-        let (to, name) = (self.to, self.name);
+        let (to, name) = (&self.to, &self.name);
         let which = if to == name { String::new() } else { format!(" of `{name}`") };
         let head = format!("`{to}` rises by {settled} {unit}{which}: {what}");
         match chain.error {

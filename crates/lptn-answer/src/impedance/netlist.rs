@@ -2,16 +2,22 @@
 
 use lptn_network::is_name;
 
-use super::View;
 use super::chain::Chain;
+use super::{Found, ImpedanceAnswer};
 
 /// Where the impedance ends.
 const END: &str = "reference";
 
-impl View<'_> {
-    /// 1 W into the port, whose rise is then the impedance.
-    pub(super) fn netlist(&self, chain: &Chain) -> String {
-        let port = if is_name(self.to) && self.to != END { self.to } else { "port" };
+impl ImpedanceAnswer {
+    /// The table or the ladder as a netlist that runs, with 1 W into the port, whose rise is then
+    /// the impedance; `None` where the answer is neither.
+    pub fn netlist(&self) -> Option<String> {
+        let Found::Chain(chain) = &self.found else { return None };
+        Some(self.of_chain(chain))
+    }
+
+    fn of_chain(&self, chain: &Chain) -> String {
+        let port = if is_name(&self.to) && self.to != END { &self.to } else { "port" };
         let title = format!("Impedance of `{}` in {}", self.to, self.input.title());
         let mut text = format!(
             "format = 1\ntitle = {title:?}\n\n[default]\nT0 = \"20 degC\"\n\n[boundary]\n{END} = {{ T = \

@@ -3,9 +3,9 @@
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Panel};
 
-use super::{Answer, View};
+use super::{Found, ImpedanceAnswer};
 
-impl View<'_> {
+impl ImpedanceAnswer {
     pub(super) fn figure(&self) -> Figure {
         let unit = self.unit();
         let ends = match self.name == self.to {
@@ -13,8 +13,8 @@ impl View<'_> {
             false => format!("`{}` to `{}`", self.name, self.to),
         };
         let title = format!("{}: {ends}", self.input.title());
-        match &self.answer {
-            Answer::Step { rows, .. } => {
+        match &self.found {
+            Found::Step { rows, .. } => {
                 let mut panel = Panel::new(Axis::log("time", "s"), Axis::log("rise", unit));
                 let curve = |name: &str, of: &dyn Fn(usize) -> f64| {
                     let points = rows.iter().enumerate().map(|(i, row)| (row.time, of(i)));
@@ -32,18 +32,18 @@ impl View<'_> {
                 };
                 Figure { title, note, panels: vec![panel] }
             }
-            Answer::Chain(chain) => {
+            Found::Chain(chain) => {
                 Figure { title, note: String::new(), panels: vec![self.chain_panel(chain)] }
             }
-            Answer::Swing(rows) => {
+            Found::Swing(rows) => {
                 let swings = || rows.iter().filter(|row| row.omega > 0.0);
                 let axis = || Axis::log("angular frequency", "rad/s");
                 let mut gain = Panel::new(axis(), Axis::log("amplitude", unit));
                 let points = swings().map(|row| (row.omega, row.answer.norm()));
-                gain.curves.push(Curve::line(self.to, points.collect()));
+                gain.curves.push(Curve::line(&self.to, points.collect()));
                 let mut phase = Panel::new(axis(), Axis::linear("phase", "deg"));
                 let points = swings().map(|row| (row.omega, row.answer.arg().to_degrees()));
-                phase.curves.push(Curve::line(self.to, points.collect()));
+                phase.curves.push(Curve::line(&self.to, points.collect()));
                 Figure { title, note: String::new(), panels: vec![gain, phase] }
             }
         }

@@ -1,44 +1,43 @@
-//! What is asked of an impedance, and the answer.
+//! An impedance that is asked for of a network that is linear, or taken for that.
 
 use lptn_network::NodeId;
 use lptn_solve::{Drive, FrequencyResponse, Linearised, ModesError, ResponseError, StepAnswer};
 
-use super::args::ImpedanceArgs;
 use super::chain::Spectrum;
 use super::curve::Curve;
-use super::{Answer, Stepped, Swung, failed, is_at, lists};
-use lptn_answer::failure::Failure;
-use lptn_answer::input::Input;
+use super::{Form, Found, ImpedanceQuestion, Stepped, Swung, failed, is_at, lists};
+use crate::failure::Failure;
+use crate::input::Input;
 
 /// Shares of the time constants up to which the answer is shown, and from which on.
 const BEFORE: f64 = 0.1;
 const AFTER: f64 = 5.0;
 
 /// What is asked of a network that is linear, or taken for that.
-pub(super) struct Question<'a> {
-    pub(super) args: &'a ImpedanceArgs,
+pub(super) struct Posed<'a> {
+    pub(super) question: &'a ImpedanceQuestion,
     pub(super) input: &'a Input,
     pub(super) linear: &'a Linearised<'a>,
     pub(super) drive: Drive,
     /// The node that answers.
     pub(super) to: NodeId,
-    /// The shares of their periods that pulses take.
-    pub(super) shares: &'a [f64],
 }
 
-impl Question<'_> {
-    /// The answer, given that to a step as far as it is known.
+impl Posed<'_> {
+    /// The answer, given that to a step as far as it is known; `shares` are those of their periods
+    /// that pulses take.
     pub(super) fn answer(
         &self,
         step: Result<StepAnswer, ResponseError>,
-    ) -> Result<Answer, Failure> {
-        if let Some(list) = &self.args.omega {
+        shares: &[f64],
+    ) -> Result<Found, Failure> {
+        if let Form::Swing(list) = &self.question.form {
             return self.swing(list.as_deref(), step.as_ref().ok());
         }
         match step {
-            Ok(step) => self.of_modes(&step),
-            Err(error) if is_large(&error) && self.is_own() && self.args.at.at.is_none() => {
-                self.of_port()
+            Ok(step) => self.of_modes(&step, shares),
+            Err(error) if is_large(&error) && self.is_own() && self.question.at.is_none() => {
+                self.of_port(shares)
             }
             Err(error) => Err(failed(self.input, &error)),
         }
@@ -49,33 +48,33 @@ impl Question<'_> {
         is_at(&self.input.netlist.network, self.drive, self.to)
     }
 
-    fn of_modes(&self, step: &StepAnswer) -> Result<Answer, Failure> {
+    fn of_modes(&self, step: &StepAnswer, shares: &[f64]) -> Result<Found, Failure> {
         let node = self.to.index();
-        match self.args.chain() {
-            Some(_) if !step.has_terms() => {
+        match self.question.form {
+            Form::Chain { .. } if !step.has_terms() => {
                 Err(failed(self.input, &ResponseError::Modes(ModesError::Defective)))
             }
-            Some(asked) => {
+            Form::Chain { count, ladder } => {
                 let spectrum = Spectrum::of(step, (node, self.is_own()))?;
-                Ok(Answer::Chain(spectrum.chain(asked)?))
+                Ok(Found::Chain(spectrum.chain(count, ladder)?))
             }
-            None => self.stepped(&Curve::Modes(step, node)),
+            _ => self.stepped(&Curve::Modes(step, node), shares),
         }
     }
 
     /// What the port of a large network sees, without all of its modes.
-    fn of_port(&self) -> Result<Answer, Failure> {
+    fn of_port(&self, shares: &[f64]) -> Result<Found, Failure> {
         let spectrum = Spectrum::of_large(self.input, self.linear.system(), self.to)?;
-        match self.args.chain() {
-            Some(asked) => Ok(Answer::Chain(spectrum.chain(asked)?)),
-            None => self.stepped(&Curve::from(&spectrum)),
+        match self.question.form {
+            Form::Chain { count, ladder } => Ok(Found::Chain(spectrum.chain(count, ladder)?)),
+            _ => self.stepped(&Curve::from(&spectrum), shares),
         }
     }
 
-    fn stepped(&self, curve: &Curve<'_>) -> Result<Answer, Failure> {
-        let times = match &self.args.time {
-            Some(list) => lists::times(list)?,
-            None => {
+    fn stepped(&self, curve: &Curve<'_>, shares: &[f64]) -> Result<Found, Failure> {
+        let times = match &self.question.form {
+            Form::Step { times: Some(list), .. } => lists::times(list)?,
+            _ => {
                 let (fastest, slowest) = curve.span().unwrap_or((1.0, 1.0));
                 lists::three_a_decade(BEFORE * fastest, AFTER * slowest)
             }
@@ -83,12 +82,12 @@ impl Question<'_> {
         let row = |time: f64| Stepped {
             time,
             rise: curve.value(time),
-            pulses: self.shares.iter().map(|share| curve.pulse(time, *share)).collect(),
+            pulses: shares.iter().map(|share| curve.pulse(time, *share)).collect(),
         };
-        Ok(Answer::Step { settled: curve.settled(), rows: times.into_iter().map(row).collect() })
+        Ok(Found::Step { settled: curve.settled(), rows: times.into_iter().map(row).collect() })
     }
 
-    fn swing(&self, list: Option<&str>, step: Option<&StepAnswer>) -> Result<Answer, Failure> {
+    fn swing(&self, list: Option<&str>, step: Option<&StepAnswer>) -> Result<Found, Failure> {
         let node = self.to.index();
         let omegas = match list {
             Some(list) => lists::omegas(list)?,
@@ -100,7 +99,7 @@ impl Question<'_> {
         let answers = || {
             let mut response = FrequencyResponse::new(self.linear, self.drive)?;
             let one = |omega: f64| Ok(Swung { omega, answer: response.at(omega)?[node] });
-            Ok(Answer::Swing(omegas.into_iter().map(one).collect::<Result<_, ResponseError>>()?))
+            Ok(Found::Swing(omegas.into_iter().map(one).collect::<Result<_, ResponseError>>()?))
         };
         answers().map_err(|error| failed(self.input, &error))
     }

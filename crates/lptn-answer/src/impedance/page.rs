@@ -8,32 +8,32 @@ use lptn_solve::{Drive, Table};
 use lptn_study::SiValue;
 use serde_json::{Value, json};
 
-use super::{Answer, Stepped, Swung, View};
-use lptn_answer::about::{self, Known};
+use super::{Found, ImpedanceAnswer, Stepped, Swung};
+use crate::about::{self, Known};
 
-impl View<'_> {
+impl ImpedanceAnswer {
     /// The unit of an answer.
     pub(super) fn unit(&self) -> &'static str {
         if matches!(self.drive, Drive::Boundary(_)) { "K/K" } else { "K/W" }
     }
 
     fn headline(&self) -> String {
-        let (to, name, unit) = (self.to, self.name, self.unit());
-        match &self.answer {
-            Answer::Step { settled, .. } => {
+        let (to, name, unit) = (&self.to, &self.name, self.unit());
+        match &self.found {
+            Found::Step { settled, .. } => {
                 format!("`{to}` rises by {} {unit} of `{name}`, settled", significant(*settled, 5))
             }
-            Answer::Swing(_) => {
+            Found::Swing(_) => {
                 format!("`{to}` in {unit} of `{name}`, which swings as cos(omega t)")
             }
-            Answer::Chain(chain) => self.chain_line(chain),
+            Found::Chain(chain) => self.chain_line(chain),
         }
     }
 
     fn shown(&self) -> TextTable {
         let unit = self.unit();
-        match &self.answer {
-            Answer::Step { settled, rows } => {
+        match &self.found {
+            Found::Step { settled, rows } => {
                 let mut table = TextTable::of(rows)
                     .right("time [s]", |row| significant(row.time, 4))
                     .right(format!("rise [{unit}]"), |row| significant(row.rise, 5))
@@ -44,20 +44,20 @@ impl View<'_> {
                 }
                 table.into()
             }
-            Answer::Swing(rows) => TextTable::of(rows)
+            Found::Swing(rows) => TextTable::of(rows)
                 .right("omega [rad/s]", |row| significant(row.omega, 5))
                 .right("period", |row| period(row.omega))
                 .right(format!("amplitude [{unit}]"), |row| significant(row.answer.norm(), 5))
                 .right("phase [deg]", |row| significant(row.answer.arg().to_degrees(), 4))
                 .into(),
-            Answer::Chain(chain) => self.chain_shown(chain),
+            Found::Chain(chain) => self.chain_shown(chain),
         }
     }
 
     fn table(&self) -> Table {
         let unit = self.unit();
-        match &self.answer {
-            Answer::Step { rows, .. } => {
+        match &self.found {
+            Found::Step { rows, .. } => {
                 let mut table = Table::of(rows);
                 table.column("time", "s", |row: &Stepped| row.time);
                 table.column("rise", unit, |row| row.rise);
@@ -66,46 +66,46 @@ impl View<'_> {
                 }
                 table.done()
             }
-            Answer::Swing(rows) => {
+            Found::Swing(rows) => {
                 let mut table = Table::of(rows);
                 table.column("omega", "rad/s", |row: &Swung| row.omega);
                 table.column("re", unit, |row| row.answer.re);
                 table.column("im", unit, |row| row.answer.im);
                 table.done()
             }
-            Answer::Chain(chain) => self.chain_table(chain),
+            Found::Chain(chain) => self.chain_table(chain),
         }
     }
 
     fn points(&self) -> Vec<Value> {
         let of = |value: f64| SiValue::new(value, self.unit());
-        match &self.answer {
-            Answer::Step { rows, .. } => rows.iter().map(|row| {
+        match &self.found {
+            Found::Step { rows, .. } => rows.iter().map(|row| {
                 let pulses = self.shares.iter().zip(&row.pulses);
                 let pulses: Vec<Value> = pulses
                     .map(|(share, rise)| json!({ "duty": SiValue::new(*share, "1"), "rise": of(*rise) }))
                     .collect();
                 json!({ "time": SiValue::new(row.time, "s"), "rise": of(row.rise), "pulses": pulses })
             }).collect(),
-            Answer::Swing(rows) => rows.iter().map(|row| {
+            Found::Swing(rows) => rows.iter().map(|row| {
                 let omega = SiValue::new(row.omega, "rad/s");
                 json!({ "omega": omega, "re": of(row.answer.re), "im": of(row.answer.im) })
             }).collect(),
-            Answer::Chain(_) => Vec::new(),
+            Found::Chain(_) => Vec::new(),
         }
     }
 
     fn notes(&self) -> Vec<String> {
         let mut notes =
             self.point.as_ref().map(|point| point.notes(self.tried)).unwrap_or_default();
-        if let Answer::Chain(chain) = &self.answer {
+        if let Found::Chain(chain) = &self.found {
             notes.extend(self.chain_note(chain));
         }
         notes
     }
 }
 
-impl Page for View<'_> {
+impl Page for ImpedanceAnswer {
     fn text(&self) -> Text {
         let mut text = self.input.begun();
         text.section().sentence("", &self.headline());
@@ -123,20 +123,20 @@ impl Page for View<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.input, Known::default())
+        about::about(&self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        self.input.head(json, &[])?;
+        self.input.head(json, self.doubts_of_state())?;
         json.member("port", &self.name)?;
         json.member("to", &self.to)?;
         if let Some(point) = &self.point {
             json.member("at", &point.json(self.tried))?;
         }
-        if let Answer::Step { settled, .. } = &self.answer {
+        if let Found::Step { settled, .. } = &self.found {
             json.member("settled", &SiValue::new(*settled, self.unit()))?;
         }
-        if let Answer::Chain(chain) = &self.answer {
+        if let Found::Chain(chain) = &self.found {
             return self.chain_json(chain, json);
         }
         json.member("points", &self.points())

@@ -1,14 +1,14 @@
-//! Lists of times, frequencies and shares on the command line, and those that stand in for them.
+//! Lists of times, frequencies and shares, and those that stand in for them.
 
 use std::f64::consts::TAU;
 
 use lptn_netlist::Diagnostic;
 use lptn_units::{Dimension, Type, parse_quantity};
 
-use super::args::ImpedanceArgs;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::input;
+use super::Form;
+use crate::exit::Exit;
+use crate::failure::Failure;
+use crate::input;
 
 /// Positive numbers in s.
 pub(super) fn times(text: &str) -> Result<Vec<f64>, Failure> {
@@ -73,14 +73,14 @@ fn ascending(
 }
 
 /// A note that a list is shown in another order than it was given in, or without repetitions.
-pub(super) fn reordered(args: &ImpedanceArgs) -> Option<String> {
+pub(super) fn reordered(form: &Form) -> Option<String> {
     let given = |text: &str, one: &dyn Fn(&str) -> Result<f64, Failure>| {
         let values = text.split(',').filter_map(|word| one(word.trim()).ok());
         values.collect::<Vec<f64>>().windows(2).any(|pair| pair[0] >= pair[1])
     };
-    let option = match (&args.time, &args.omega) {
-        (Some(times), _) if given(times, &time) => "--time",
-        (None, Some(Some(omegas))) if given(omegas, &omega) => "--omega",
+    let option = match form {
+        Form::Step { times: Some(times), .. } if given(times, &time) => "--time",
+        Form::Swing(Some(omegas)) if given(omegas, &omega) => "--omega",
         _ => return None,
     };
     Some(format!("note: the values of {option} are listed in ascending order, each once"))
