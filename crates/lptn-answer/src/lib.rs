@@ -20,6 +20,7 @@ pub mod limits;
 pub mod listener;
 pub mod lumping;
 pub mod messages;
+pub mod modes;
 pub mod operating_point;
 pub mod period;
 pub mod ranges;

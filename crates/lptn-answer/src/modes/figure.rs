@@ -3,12 +3,12 @@
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Panel};
 
-use super::View;
+use super::ModesAnswer;
 
 /// Nodes that are shown, those that take most part in any mode.
 const MOST: usize = 8;
 
-impl View<'_> {
+impl ModesAnswer {
     /// Stems at the time constants of the modes, as high as the part of each node.
     pub(super) fn figure(&self) -> Figure {
         let (modes, nodes) = (self.modes.modes(), self.network().nodes());
