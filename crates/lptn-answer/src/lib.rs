@@ -35,6 +35,7 @@ mod steady;
 pub mod taken;
 pub mod trust;
 pub mod unseparated;
+pub mod verify;
 pub mod words;
 pub mod written;
 

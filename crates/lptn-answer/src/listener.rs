@@ -13,6 +13,11 @@ pub trait Listener: Sync {
 
     /// A run has come this far. [`Proceed::Interrupt`] ends it; what is finished is kept.
     fn progress(&self, progress: Progress) -> Proceed;
+
+    /// The same of one of several runs, by what it is called: `at 1e-5 K`.
+    fn progress_of(&self, _run: &str, progress: Progress) -> Proceed {
+        self.progress(progress)
+    }
 }
 
 /// Nobody: every run goes to its end, and doubts are in the answers alone.

@@ -55,6 +55,10 @@ impl Listener for Listening<'_> {
     fn progress(&self, progress: Progress) -> Proceed {
         self.shown(|line| line.update(progress))
     }
+
+    fn progress_of(&self, run: &str, progress: Progress) -> Proceed {
+        self.shown(|line| line.update_of(run, progress))
+    }
 }
 
 impl Drop for Listening<'_> {

@@ -1,7 +1,9 @@
-//! `lptn verify --at`: the linear network near a state beside the full one.
+//! The linear network near a state beside the full one.
 
 use std::io;
+use std::sync::Arc;
 
+use lptn_netlist::Diagnostic;
 use lptn_report::{
     Json, Page, Report, Rows, Standing, Text, TextTable, duration, shortened, significant,
 };
@@ -10,26 +12,12 @@ use lptn_study::SiValue;
 use serde_json::json;
 
 use super::{NODE_WIDTH, NOTHING, with_units};
-use crate::console::Console;
-use crate::options::Printed;
-use lptn_answer::about::{self, Known};
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::input::Input;
-use lptn_answer::operating_point::{OperatingPoint, place};
-use lptn_answer::words::count;
-
-pub(super) fn near(
-    input: &Input,
-    point: &OperatingPoint,
-    printed: &Printed,
-    console: &Console,
-) -> Result<Exit, Failure> {
-    let system = input.assemble()?;
-    console.warn(&input.netlist.files, &input.netlist.warnings);
-    let near = NearState::of(&system, &point.state).map_err(|error| failed(input, &error))?;
-    console.show(&View { input, point, near: &near }, printed.format)
-}
+use crate::about::{self, Known};
+use crate::failure::Failure;
+use crate::input::Input;
+use crate::listener::Listener;
+use crate::operating_point::{OperatingPoint, place};
+use crate::words::count;
 
 /// With the place of what makes the state one that cannot be disturbed.
 fn failed(input: &Input, error: &NearError) -> Failure {
@@ -41,13 +29,34 @@ fn failed(input: &Input, error: &NearError) -> Failure {
     input.failure(error, place)
 }
 
-struct View<'a> {
-    input: &'a Input,
-    point: &'a OperatingPoint,
-    near: &'a NearState,
+/// A linear network near a state, and what it is compared with.
+#[derive(Debug)]
+pub(super) struct NearAnswer {
+    pub(super) input: Arc<Input>,
+    point: OperatingPoint,
+    near: NearState,
 }
 
-impl View<'_> {
+impl NearAnswer {
+    /// Compares the linear network near the state that a text names.
+    pub(super) fn of(
+        text: &str,
+        input: Arc<Input>,
+        listener: &dyn Listener,
+    ) -> Result<Self, Failure> {
+        let point = OperatingPoint::find(text, &input, listener)?;
+        let system = input.assemble()?;
+        let netlist = &input.netlist;
+        listener.warn(&netlist.files, &[netlist.warnings.as_slice(), &point.doubts].concat());
+        let near = NearState::of(&system, &point.state).map_err(|error| failed(&input, &error))?;
+        Ok(Self { input, point, near })
+    }
+
+    /// Doubts in the state.
+    pub(super) fn doubts_of_state(&self) -> &[Diagnostic] {
+        &self.point.doubts
+    }
+
     fn node(&self, disturbance: &Disturbance) -> &str {
         &self.input.netlist.network.nodes()[disturbance.difference.node.index()].name
     }
@@ -63,7 +72,7 @@ impl View<'_> {
     }
 
     fn reference(&self) -> String {
-        let NearState { modes, span, .. } = self.near;
+        let NearState { modes, span, .. } = &self.near;
         let (modes, span) = (count(*modes, "mode"), duration(*span, 3));
         format!(
             "exact solution of the linear network near {}, {modes}, over {span}",
@@ -105,7 +114,7 @@ impl View<'_> {
     }
 }
 
-impl Page for View<'_> {
+impl Page for NearAnswer {
     fn text(&self) -> Text {
         let mut text = self.input.begun();
         text.section().table(self.disturbances());
@@ -121,11 +130,11 @@ impl Page for View<'_> {
     }
 
     fn more(&self) -> Report {
-        about::about(self.input, Known::default())
+        about::about(&self.input, Known::default())
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        self.input.head(json, &[])?;
+        self.input.head(json, &self.point.doubts)?;
         json.table(&self.table())?;
         json.member("at", &self.point.json(self.near.tried))?;
         json.member(
