@@ -14,6 +14,7 @@ pub mod exit;
 pub mod failure;
 pub mod families;
 mod gaps;
+pub mod gear;
 pub mod impedance;
 pub mod input;
 pub mod limits;

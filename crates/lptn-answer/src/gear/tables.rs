@@ -1,11 +1,11 @@
-//! The tables of `lptn gear`: members, and parts over speed.
+//! The tables of gears: members, and parts over speed.
 
 use std::f64::consts::PI;
 
 use lptn_report::{TextTable, fixed, significant};
 use lptn_study::{GearState, PartLoss};
 
-use super::{Block, View};
+use super::{Block, GearAnswer};
 
 /// Digits of heats and torques.
 const DIGITS: usize = 4;
@@ -29,12 +29,12 @@ struct Row {
     cells: Vec<String>,
 }
 
-impl View<'_> {
+impl GearAnswer {
     /// Every member at one point: its speed, and without losses its torque and power.
     pub(super) fn members(&self, state: &GearState) -> TextTable {
-        let several = self.task.stages.len() > 1;
+        let several = self.task().stages.len() > 1;
         let name = |stage: usize, word: &str| match several {
-            true => format!("{}.{word}", self.task.stages[stage].name),
+            true => format!("{}.{word}", self.task().stages[stage].name),
             false => word.to_owned(),
         };
         let or_dash =
@@ -42,13 +42,13 @@ impl View<'_> {
         let mut table = TextTable::of(&state.members)
             .left("member", |m| name(m.stage, m.member.word()))
             .right("speed [rpm]", |m| in_rpm(m.speed));
-        if self.task.stages[0].loaded {
+        if self.task().stages[0].loaded {
             table = table
                 .right("torque [N m]", |m| or_dash(m.torque))
                 .right("power [W]", |m| or_dash(m.power()));
         }
         let role = |stage: usize, member| {
-            let gearbox = self.task.stages[stage];
+            let gearbox = self.task().stages[stage];
             match member {
                 _ if member == gearbox.input => "input",
                 _ if member == gearbox.output => "output",
@@ -105,13 +105,13 @@ impl View<'_> {
             rows.push(Row { name: name.to_owned(), cells });
         };
         sum("all", &|state| significant(state.loss(), DIGITS));
-        let drag = |state: &GearState| state.drag(self.task);
+        let drag = |state: &GearState| state.drag(&self.task());
         sum("drag at the input [N m]", &|state| {
             drag(state).map_or("-".into(), |drag| significant(drag, DIGITS))
         });
-        if self.task.stages[0].loaded {
+        if self.task().stages[0].loaded {
             sum("efficiency [%]", &|state| {
-                let efficiency = state.efficiency(self.task);
+                let efficiency = state.efficiency(&self.task());
                 efficiency.map_or("-".into(), |efficiency| fixed(100.0 * efficiency, 2))
             });
         }

@@ -1,4 +1,4 @@
-//! The page of `lptn gear`.
+//! What gears do as a page.
 
 use std::io;
 
@@ -9,14 +9,14 @@ use lptn_study::{GearState, MemberState, PartLoss, SiValue};
 use serde_json::{Value, json};
 
 use super::tables::{of_all, rpm, warmest};
-use super::{Block, View};
-use lptn_answer::about::{self, Known};
-use lptn_answer::ranges;
+use super::{Block, GearAnswer};
+use crate::about::{self, Known};
+use crate::ranges;
 
 /// A piece of a table: its column and the value of it, if it has one.
 type Cell = (String, Option<f64>);
 
-impl View<'_> {
+impl GearAnswer {
     /// What a stage is: `planetary, ring held, 18/42/102 teeth, 3 planets, ratio 6.667`.
     fn stage(&self, gearbox: &Gearbox) -> String {
         let network = &self.input.netlist.network;
@@ -41,18 +41,18 @@ impl View<'_> {
     /// Speed of the input over that of the output.
     fn ratio(&self) -> Option<f64> {
         let (_, _, state) = self.states().next()?;
-        let (first, last) = (self.task.stages[0], self.task.stages.len() - 1);
+        let (first, last) = (self.task().stages[0], self.task().stages.len() - 1);
         let of = |stage: usize, member: Member| {
             state.members.iter().find(|m| m.stage == stage && m.member == member)
         };
-        let output = of(last, self.task.stages[last].output)?.speed;
+        let output = of(last, self.task().stages[last].output)?.speed;
         let ratio = of(0, first.input)?.speed / output;
         ratio.is_finite().then_some(ratio)
     }
 
     /// At which load and temperatures a block is.
     pub(super) fn said(&self, block: &Block) -> String {
-        let mut torques = block.states.iter().map(|(_, state)| state.torque(self.task));
+        let mut torques = block.states.iter().map(|(_, state)| state.torque(&self.task()));
         let first = torques.next().flatten();
         let load = match first {
             Some(torque) if torques.all(|other| other == first) => {
@@ -75,13 +75,13 @@ impl View<'_> {
         if self.states().any(|(_, _, s)| s.losses.iter().any(|part| !part.outside.is_empty())) {
             notes.push("* outside the range in which its formula is known".to_owned());
         }
-        if self.task.network.has_time_dependent_inputs() {
+        if self.task().network.has_time_dependent_inputs() {
             notes.push(format!(
                 "inputs change with time: but for the speed they are taken as they are at {} s",
-                self.task.time
+                self.task().time
             ));
         }
-        if self.task.stages[0].loaded {
+        if self.task().stages[0].loaded {
             notes
                 .push("torques and the losses of meshes are those without losses elsewhere".into());
         } else {
@@ -92,7 +92,7 @@ impl View<'_> {
 
     fn cells(&self, speed: f64, state: &GearState) -> Vec<Cell> {
         let mut cells: Vec<Cell> = vec![("speed [rpm]".into(), Some(rpm(speed)))];
-        cells.push(("torque [N m]".into(), state.torque(self.task)));
+        cells.push(("torque [N m]".into(), state.torque(&self.task())));
         cells.push((
             format!("warmest node [{}]", self.unit.text),
             Some(self.unit.from_si(warmest(state))),
@@ -100,8 +100,8 @@ impl View<'_> {
         cells.push(("loss [W]".into(), Some(state.loss())));
         cells.push(("exponent [-]".into(), of_all(state, |part| part.exponent)));
         cells.push(("exponent settled [-]".into(), of_all(state, |part| part.followed)));
-        cells.push(("efficiency [-]".into(), state.efficiency(self.task)));
-        cells.push(("drag [N m]".into(), state.drag(self.task)));
+        cells.push(("efficiency [-]".into(), state.efficiency(&self.task())));
+        cells.push(("drag [N m]".into(), state.drag(&self.task())));
         for part in &state.losses {
             cells.push((format!("{} [W]", part.name), Some(part.heat)));
             cells.push((format!("{} exponent [-]", part.name), part.exponent));
@@ -112,7 +112,7 @@ impl View<'_> {
 
     fn member(&self, member: &MemberState) -> Value {
         json!({
-            "gearbox": self.task.stages[member.stage].name,
+            "gearbox": self.task().stages[member.stage].name,
             "member": member.member.word(),
             "speed": SiValue::new(member.speed, "rad/s"),
             "torque": member.torque.map(|torque| SiValue::new(torque, "N m")),
@@ -131,7 +131,7 @@ impl View<'_> {
                 "out_of_range": !part.outside.is_empty(),
             })
         };
-        let nodes = self.task.network.nodes().iter().zip(&state.temperatures);
+        let nodes = self.task().network.nodes().iter().zip(&state.temperatures);
         let nodes: serde_json::Map<String, Value> = nodes
             .map(|(node, &t)| {
                 let value = SiValue::new(self.unit.from_si(t), &self.unit.text);
@@ -140,24 +140,24 @@ impl View<'_> {
             .collect();
         json!({
             "speed": SiValue::new(speed, "rad/s"),
-            "torque": state.torque(self.task).map(|torque| SiValue::new(torque, "N m")),
+            "torque": state.torque(&self.task()).map(|torque| SiValue::new(torque, "N m")),
             "settled": block.temperature.is_none(),
             "members": state.members.iter().map(|m| self.member(m)).collect::<Vec<_>>(),
             "losses": state.losses.iter().map(part).collect::<Vec<_>>(),
             "loss": SiValue::new(state.loss(), "W"),
             "exponent": of_all(state, |part| part.exponent),
             "exponent_settled": of_all(state, |part| part.followed),
-            "drag": state.drag(self.task).map(|drag| SiValue::new(drag, "N m")),
-            "efficiency": state.efficiency(self.task),
+            "drag": state.drag(&self.task()).map(|drag| SiValue::new(drag, "N m")),
+            "efficiency": state.efficiency(&self.task()),
             "temperatures": nodes,
         })
     }
 }
 
-impl Page for View<'_> {
+impl Page for GearAnswer {
     fn text(&self) -> Text {
         let mut text = self.input.begun();
-        text.lines(self.task.stages.iter().map(|gearbox| self.stage(gearbox)));
+        text.lines(self.task().stages.iter().map(|gearbox| self.stage(gearbox)));
         if let Some(ratio) = self.ratio() {
             text.line(format!("ratio {}", significant(ratio, 5)));
         }
@@ -196,14 +196,14 @@ impl Page for View<'_> {
 
     fn more(&self) -> Report {
         let claims = about::laws(&self.input.netlist.network, &self.outside());
-        about::about(self.input, Known { claims, ..Known::default() })
+        about::about(&self.input, Known { claims, ..Known::default() })
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
         let (netlist, outside) = (&self.input.netlist, self.outside());
-        self.input.head(json, &ranges::warnings(netlist, &outside, false))?;
+        self.input.head(json, &self.doubts_of_ranges())?;
         json.optional("out_of_range", ranges::members(&netlist.network, &outside, false))?;
-        json.member("gearbox", &self.task.stages[0].name)?;
+        json.member("gearbox", &self.task().stages[0].name)?;
         json.member("ratio", &self.ratio())?;
         let points = self.states().map(|(block, speed, state)| self.point(block, speed, state));
         json.member("points", &points.collect::<Vec<_>>())

@@ -4,13 +4,13 @@ use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Panel};
 
 use super::tables::rpm;
-use super::{Block, View};
+use super::{Block, GearAnswer};
 use lptn_study::GearState;
 
 /// Parts that are shown, those that lose most.
 const MOST: usize = 8;
 
-impl View<'_> {
+impl GearAnswer {
     /// A figure for each load and state of the oil that has several speeds.
     pub(super) fn drawn(&self) -> Vec<Figure> {
         let blocks = self.blocks.iter().filter(|block| block.states.len() > 1);
