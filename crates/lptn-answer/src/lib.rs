@@ -15,6 +15,7 @@ pub mod failure;
 pub mod families;
 mod gaps;
 pub mod gear;
+pub mod graph;
 pub mod impedance;
 pub mod input;
 pub mod limits;

@@ -1,22 +1,11 @@
-//! What a picture is written as, and where it goes.
+//! What a drawing is written as, and where it goes.
 
 use std::path::{Path, PathBuf};
 
-use lptn_netlist::Diagnostic;
-
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
-
-/// What is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
-    Svg,
-    Png,
-    Dot,
-    Mermaid,
-    Vtk,
-    Csv,
-}
+use lptn_answer::graph::Kind;
+use lptn_netlist::Diagnostic;
 
 /// Where it goes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -25,41 +14,6 @@ pub(super) enum Place {
     File(PathBuf),
     /// Among the results of the network, under a usual name.
     Results,
-}
-
-impl Kind {
-    /// All of them.
-    pub(crate) const ALL: [Self; 6] =
-        [Self::Svg, Self::Png, Self::Dot, Self::Mermaid, Self::Vtk, Self::Csv];
-
-    /// Its name on the command line.
-    pub(crate) fn key(self) -> &'static str {
-        ["svg", "png", "dot", "mermaid", "vtk", "csv"][self as usize]
-    }
-
-    /// The ending of its files.
-    pub(super) fn ending(self) -> &'static str {
-        if self == Self::Mermaid { "mmd" } else { self.key() }
-    }
-
-    /// Whether it is of a grid only.
-    pub(super) fn is_of_grid(self) -> bool {
-        matches!(self, Self::Vtk | Self::Csv)
-    }
-
-    /// Whether it is text that other programs are given through a pipe.
-    fn is_piped(self) -> bool {
-        matches!(self, Self::Dot | Self::Mermaid | Self::Csv)
-    }
-
-    fn of_ending(path: &Path) -> Option<Self> {
-        let ending = path.extension()?.to_str()?.to_ascii_lowercase();
-        match ending.as_str() {
-            "gv" => Some(Self::Dot),
-            "mermaid" => Some(Self::Mermaid),
-            ending => Self::ALL.into_iter().find(|kind| kind.ending() == ending),
-        }
-    }
 }
 
 /// What is written and where, by `--format` and `-o`; `only` says what can be nothing but a picture,

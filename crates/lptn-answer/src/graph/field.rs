@@ -6,41 +6,30 @@ use lptn_network::GridId;
 use lptn_report::Shortest;
 use lptn_units::{Problem as _, Unit};
 
-use super::args::GraphArgs;
 use super::kind::Kind;
-use super::picture;
-use super::state::state;
-use crate::console::Console;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::{Failure, told};
-use lptn_answer::input::{Input, wrong_unit};
+use super::{Asked, Parts, picture};
+use crate::exit::Exit;
+use crate::failure::{Failure, told};
+use crate::input::{Input, wrong_unit};
 
-/// Whether a grid is asked for and not the network.
-pub(super) fn is_wanted(args: &GraphArgs, kind: Kind) -> bool {
-    args.field.slice.is_some() || args.field.grid.is_some() || kind.is_of_grid()
-}
-
-/// What is written of a grid, and its usual name.
-pub(super) fn written(
-    args: &GraphArgs,
-    kind: Kind,
-    (input, unit, console): (&Input, &Unit, &Console),
-) -> Result<(Vec<u8>, String), Failure> {
-    let id = grid(input, args.field.grid.as_deref())?;
+/// What is written of a grid.
+pub(super) fn written(asked: &mut Asked<'_>) -> Result<Parts, Failure> {
+    let (question, input) = (asked.question, asked.input);
+    let (kind, id) = (question.kind, grid(input, question.grid.as_deref())?);
     let network = &input.netlist.network;
     let name = &network.grids()[id.index()].name;
     // what is asked for is looked at before anything is computed
     let shape = GridField::of(network, id, None);
-    let cut = match &args.field.slice {
+    let cut = match &question.slice {
         Some(text) => Some(shape.cut(text).map_err(|error| no_slice(text, &error))?),
         None if kind.is_of_grid() => None,
         None => return Err(which_slice(name, &shape)),
     };
-    let state = state(args, (input, unit, console))?;
-    let field = GridField::of(network, id, Some(&state));
+    let state = asked.state()?;
+    let (field, unit) = (GridField::of(network, id, Some(&state)), &asked.unit);
     let title = input.title();
     let ending = kind.ending();
-    Ok(match (kind, cut) {
+    let (bytes, name) = match (kind, cut) {
         (Kind::Vtk, _) => {
             (lptn_graph::vtk(&field, &title, unit).into_bytes(), format!("{name}.{ending}"))
         }
@@ -50,7 +39,8 @@ pub(super) fn written(
             (picture(kind, &scene)?, format!("{name}_{axis}{}.{ending}", cut.layer + 1))
         }
         (_, None) => (csv(&field, unit).into_bytes(), format!("{name}.{ending}")),
-    })
+    };
+    Ok((bytes, name, None))
 }
 
 /// A line a cell: its name, the place of its middle, its temperature.
