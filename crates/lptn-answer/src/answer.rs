@@ -45,3 +45,28 @@ pub trait Answer: Page {
         if self.no().is_some() { Exit::No } else { Exit::Done }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use crate::gear::GearAnswer;
+    use crate::graph::GraphAnswer;
+    use crate::impedance::ImpedanceAnswer;
+    use crate::modes::ModesAnswer;
+    use crate::rank::RankAnswer;
+    use crate::reduce::{KeptAnswer, ReduceAnswer};
+    use crate::size::{CoolingAnswer, SizeAnswer};
+    use crate::verify::VerifyAnswer;
+
+    #[test]
+    fn answers_go_from_thread_to_thread() {
+        fn sent<T: Send + 'static>() {}
+        sent::<GearAnswer>();
+        sent::<GraphAnswer>();
+        sent::<ImpedanceAnswer>();
+        sent::<ModesAnswer>();
+        sent::<RankAnswer>();
+        sent::<(KeptAnswer, ReduceAnswer)>();
+        sent::<(CoolingAnswer, SizeAnswer)>();
+        sent::<VerifyAnswer>();
+    }
+}

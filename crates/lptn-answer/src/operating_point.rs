@@ -19,6 +19,7 @@ use crate::run::observed;
 use crate::steady::{adiabatic, inputs_vary, others};
 
 /// A state of a network, and how it is called.
+#[derive(Debug)]
 pub struct OperatingPoint {
     /// Temperatures and heat flows.
     pub state: Snapshot,
@@ -46,6 +47,19 @@ impl OperatingPoint {
     /// "the steady state", "the state at 20 min".
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// Passes on what came of a question about this state. If that is an error, the listener hears
+    /// the doubts in the state.
+    ///
+    /// # Errors
+    /// The error that is passed on.
+    pub fn passed<T>(
+        &self,
+        found: Result<T, Failure>,
+        (input, listener): (&Input, &dyn Listener),
+    ) -> Result<T, Failure> {
+        found.inspect_err(|_| listener.warn(&input.netlist.files, &self.doubts))
     }
 
     /// That a linear network stands for another, and how far it was tried; `None` where the network

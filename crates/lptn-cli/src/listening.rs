@@ -12,11 +12,12 @@ use crate::console::Console;
 use crate::interrupt::Interrupt;
 use crate::progress::{ProgressLine, ProgressOfAll};
 
-/// A console that listens for Ctrl-C until it is dropped.
+/// A console that listens for Ctrl-C from the first progress on: before that nothing asks it, and
+/// Ctrl-C ends the program.
 #[derive(Debug)]
 pub(crate) struct Listening<'a> {
     console: &'a Console,
-    interrupt: Interrupt,
+    interrupt: OnceLock<Interrupt>,
     line: Mutex<ProgressLine>,
     /// How far several runs are, once one of them reports.
     several: OnceLock<ProgressOfAll>,
@@ -27,8 +28,9 @@ impl Console {
     /// Begins to listen.
     pub(crate) fn listening(&self) -> Listening<'_> {
         let line = Mutex::new(ProgressLine::new(self.quiet));
-        let (interrupt, begun) = (Interrupt::listen(), Instant::now());
-        Listening { console: self, interrupt, line, several: OnceLock::new(), begun }
+        let begun = Instant::now();
+        let (interrupt, several) = (OnceLock::new(), OnceLock::new());
+        Listening { console: self, interrupt, line, several, begun }
     }
 }
 
@@ -39,6 +41,14 @@ impl Listening<'_> {
 
     fn several(&self, Which { all, noun, .. }: Which) -> &ProgressOfAll {
         self.several.get_or_init(|| ProgressOfAll::new(self.console.quiet, all, noun))
+    }
+
+    /// Shows how far it is, unless another thread does, and says whether to go on.
+    fn shown(&self, update: impl FnOnce(&mut ProgressLine)) -> Proceed {
+        if let Ok(mut line) = self.line.try_lock() {
+            update(&mut line);
+        }
+        self.proceed()
     }
 }
 
@@ -54,12 +64,11 @@ impl Listener for Listening<'_> {
     }
 
     fn proceed(&self) -> Proceed {
-        self.interrupt.control()
+        self.interrupt.get_or_init(Interrupt::listen).control()
     }
 
     fn progress(&self, progress: Progress) -> Proceed {
-        self.line().update(progress);
-        self.proceed()
+        self.shown(|line| line.update(progress))
     }
 
     fn progress_of(&self, which: Which, progress: Progress) -> Proceed {
@@ -84,11 +93,7 @@ impl Listener for Listening<'_> {
     }
 
     fn stage(&self, stage: &dyn Display, progress: Progress) -> Proceed {
-        // no run waits for the line: the next step says more
-        if let Ok(mut line) = self.line.try_lock() {
-            line.update_of(stage, progress);
-        }
-        self.proceed()
+        self.shown(|line| line.update_of(stage, progress))
     }
 }
 

@@ -1,109 +1,12 @@
-//! Netlists that are written: each is read again, and compared, before anybody gets it.
+//! Netlists that are written over.
 
 use std::path::Path;
 
-use lptn_netlist::{Diagnostic, RunSettings, WrittenError, parse_file, prove};
-use lptn_network::{BuildErrors, Network, ParameterId};
+use lptn_answer::failure::Failure;
 
 use crate::files;
-use lptn_answer::exit::Exit;
-use lptn_answer::failure::Failure;
-use lptn_answer::input::Input;
 
-/// Without a run, the values are compared over this time in s.
-const AN_HOUR: f64 = 3600.0;
-
-/// A text that is going to stand at `place`, if it is read there as this network.
-pub(crate) fn proven(
-    text: String,
-    place: &Path,
-    network: &Network,
-    run: Option<&RunSettings>,
-) -> Result<String, Failure> {
-    let span = run.map_or((0.0, AN_HOUR), |run| (run.start, run.stop));
-    prove(&text, place, network, span).map(|_| text).map_err(|error| mistake(&error))
-}
-
-/// The netlist with other numbers in the places of some parameters' own, where these are written as
-/// numbers.
-pub(crate) fn with_numbers(
-    input: &Input,
-    numbers: &[(ParameterId, String)],
-) -> Result<String, Failure> {
-    let (netlist, place) = (&input.netlist, Path::new(&input.text.name));
-    // what was set on the command line is not in the file
-    let original = parse_file(place, &input.text.bytes)?;
-    let mut parameters = original.network.overrides();
-    let mut written = Vec::with_capacity(numbers.len());
-    for (id, number) in numbers {
-        let name = &netlist.network.parameters()[id.index()].name;
-        let (Some(place), Ok(value)) = (netlist.written_number(*id), number.parse()) else {
-            continue;
-        };
-        if let Ok(id) = original.network.parameter(name) {
-            parameters.set(id, place.unit.to_si(value));
-        }
-        written.push((place, number.clone()));
-    }
-    let text = netlist.text_with_numbers(&written);
-    let network =
-        original.network.with(&parameters).map_err(|errors| mistake(&rejected(&errors)))?;
-    proven(text, place, &network, original.run.as_ref())
-}
-
-fn rejected(errors: &BuildErrors) -> WrittenError {
-    WrittenError::Rejected { reason: errors.0.first().map(ToString::to_string).unwrap_or_default() }
-}
-
-fn mistake(error: &WrittenError) -> Failure {
-    let problem = Diagnostic::error("output::written_netlist", error.to_string());
-    let help = "nothing was written; this is a mistake of lptn: please report it with the netlist";
-    Failure::new(Exit::Failed, problem.help(help))
-}
-
-/// Refuses before anything is computed what could not be written afterwards; with the codes of a
-/// verb.
-pub(crate) fn can_be_written(
-    input: &Input,
-    parameter: ParameterId,
-    [code, shared]: [&'static str; 2],
-) -> Result<(), Failure> {
-    let netlist = &input.netlist;
-    let name = &netlist.network.parameters()[parameter.index()].name;
-    let problem = if input.typed().is_none() {
-        Diagnostic::error(code, "there is no file to write into: the netlist came from stdin")
-    } else if is_protected(&input.text.name) {
-        let message = format!("{} is protected against writing", input.text.name);
-        Diagnostic::error(code, message).help("allow it with `chmod u+w`, or leave `--write` out")
-    } else if netlist.written_number(parameter).is_some_and(|written| !netlist.is_own(&written)) {
-        let problem =
-            Diagnostic::error(code, format!("`{name}` stands in a file that is included"));
-        problem
-            .help("other netlists may include it too: change it there, or move the parameter here")
-    } else if let Some(other) = netlist.written_together(parameter) {
-        let message =
-            format!("`{name}` is written once for several instances, `{other}` among them");
-        let problem = Diagnostic::error(shared, message).help(
-            "give each its own value, `set = { .. = [.., ..] }`, or make it a parameter of the \
-                file",
-        );
-        problem.at(netlist.source_map.parameter(parameter), "")
-    } else if netlist.written_number(parameter).is_none() {
-        let message =
-            format!("`{name}` is not written as a number, so no other can be written in its place");
-        let problem = Diagnostic::error(code, message)
-            .help("give it a value of its own, for example `\"5 W/K\"`, or leave `--write` out");
-        problem.at(netlist.source_map.parameter(parameter), "")
-    } else {
-        return Ok(());
-    };
-    Err(Failure::at(Exit::Input, netlist.files.clone(), problem))
-}
-
-/// A file that is replaced would not be protected by its permissions.
-fn is_protected(file: &str) -> bool {
-    std::fs::metadata(file).is_ok_and(|metadata| metadata.permissions().readonly())
-}
+pub(crate) use lptn_answer::written::{can_be_written, proven, with_numbers};
 
 /// Replaces a netlist by another text.
 pub(crate) fn put(file: &Path, text: &str) -> Result<(), Failure> {

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use clap::Args as Arguments;
 
-use super::kind::Kind;
 use crate::options::{NoFiles, Scale, Source, TEMPLATE, one_of};
+use lptn_answer::graph::Kind;
 
 const EXAMPLES: &str = "\
 Examples:
@@ -52,11 +52,6 @@ pub(crate) struct GraphArgs {
 }
 
 impl GraphArgs {
-    /// Whether temperatures and heat flows are shown.
-    pub(super) fn shows_state(&self) -> bool {
-        self.steady || self.sankey || self.at.is_some()
-    }
-
     /// What can be nothing but a picture, and the option that asks for it.
     pub(super) fn only_a_picture(&self) -> Option<[&'static str; 2]> {
         match (&self.field.slice, self.sankey) {

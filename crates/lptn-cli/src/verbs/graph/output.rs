@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use lptn_netlist::Diagnostic;
 
-use super::kind::Place;
+use super::place::Place;
 use crate::console::Console;
 use crate::files;
 use lptn_answer::exit::Exit;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args as Arguments;
 use clap::builder::TypedValueParser as _;
+use lptn_answer::impedance::Form;
 
 use crate::operating_point::At;
 use crate::options::{Printed, Source, TEMPLATE};
@@ -54,20 +55,14 @@ pub(crate) struct ImpedanceArgs {
     pub(crate) printed: Printed,
 }
 
-/// A chain that is asked for.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Asked {
-    /// How many terms, where that is said.
-    pub(super) count: Option<usize>,
-    /// As a ladder.
-    pub(super) ladder: bool,
-}
-
 impl ImpedanceArgs {
-    /// The chain that is asked for, if one is.
-    pub(super) fn chain(&self) -> Option<Asked> {
-        let asked = |count: Option<usize>, ladder: bool| Asked { count, ladder };
-        let foster = self.foster.map(|count| asked(count, false));
-        foster.or(self.cauer.map(|count| asked(count, true)))
+    /// To what the node answers, and in which form.
+    pub(super) fn form(&self) -> Form {
+        match (self.foster, self.cauer, &self.omega) {
+            (Some(count), ..) => Form::Chain { count, ladder: false },
+            (_, Some(count), _) => Form::Chain { count, ladder: true },
+            (_, _, Some(list)) => Form::Swing(list.clone()),
+            _ => Form::Step { times: self.time.clone(), shares: self.duty.clone() },
+        }
     }
 }

@@ -1,262 +1,27 @@
 //! `lptn modes`
 
 mod args;
-mod figure;
 
 pub(crate) use args::ModesArgs;
 
-use std::io;
+use std::sync::Arc;
 
-use lptn_network::{Network, Node};
-use lptn_plot::Figure;
-use lptn_report::{Json, Page, Report, Rows, Text, TextTable, duration, fixed, shortened};
-use lptn_solve::{EventKind, Mode, Modes, ModesError};
-use lptn_study::SiValue;
-use serde_json::{Map, Value, json};
-
-use crate::console::Console;
-use crate::input::Load as _;
-use lptn_answer::about::{self, Known};
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::{Input, quoted};
-use lptn_answer::operating_point::{OperatingPoint, place};
-use lptn_answer::words::{MOST_NODES, count};
+use lptn_answer::modes::ModesQuestion;
 
-/// Modes that are shown without `--count`: all of up to so many, else the slowest so many.
-const ALL_UP_TO: usize = 20;
-const OF_MORE: usize = 10;
-
-/// Modes whose shapes stand side by side.
-const MOST_SHAPES: usize = 6;
-
-/// Nodes named for each mode.
-const PARTNERS: usize = 3;
-
-/// Letters for them together and for a name, beside the other columns.
-const PARTNERS_WIDTH: usize = 58;
-const PARTNER_WIDTH: usize = 44;
+use crate::console::Console;
+use crate::input::Load as _;
 
 pub(crate) fn modes(args: &ModesArgs, console: &Console) -> Result<Exit, Failure> {
-    let input = Input::load(&args.source)?;
-    let netlist = &input.netlist;
-    let system = input.assemble()?;
-    let point = args.at.find(&input, console)?;
-    let asked = args.count.map(|count| usize::try_from(count).unwrap_or(usize::MAX));
-    let state = point.as_ref().map(|point| &point.state);
-    let modes = Modes::of(&system, state, asked.unwrap_or(OF_MORE));
-    let mut modes = modes.map_err(|error| failed(&input, &error))?;
-    let all = modes.all();
-    modes.truncate(asked.unwrap_or(if all <= ALL_UP_TO { all } else { OF_MORE }));
-    console.warn(&netlist.files, &netlist.warnings);
-    let view = View { input: &input, modes: &modes, all, point };
-    let exit = console.show(&view, args.printed.format)?;
-    if let (Some(file), Some(node)) = (input.typed(), view.slowest()) {
+    let count = args.count.map(|count| usize::try_from(count).unwrap_or(usize::MAX));
+    let question = ModesQuestion { count, at: args.at.at.clone() };
+    let input = Arc::new(Input::load(&args.source)?);
+    let answer = question.ask(Arc::clone(&input), &console.listening())?;
+    let exit = console.answer(&answer, args.printed.format)?;
+    if let (Some(file), Some(node)) = (input.typed(), answer.slowest()) {
         console.next(&format!("lptn reduce {file} --port {}", quoted(node)));
     }
     Ok(exit)
-}
-
-/// With the place of what makes a network not linear.
-fn failed(input: &Input, error: &ModesError) -> Failure {
-    let place = match error {
-        ModesError::Linearised(error) => place(input, error),
-        _ => None,
-    };
-    input.failure(error, place)
-}
-
-struct View<'a> {
-    input: &'a Input,
-    modes: &'a Modes,
-    /// How many modes there are in all.
-    all: usize,
-    /// The state whose small disturbances have these modes.
-    point: Option<OperatingPoint>,
-}
-
-impl View<'_> {
-    fn network(&self) -> &Network {
-        &self.input.netlist.network
-    }
-
-    /// A line a mode: its time constant, and the nodes that take most part in it.
-    fn overview(&self) -> TextTable {
-        let modes: Vec<(usize, &Mode)> = (1..).zip(self.modes.modes()).collect();
-        let mut table = TextTable::of(&modes)
-            .right("mode", |(number, _)| number.to_string())
-            .right("tau", |(_, mode)| tau(mode));
-        if self.modes.swing() {
-            table = table.right("period", |(_, mode)| period(mode));
-        }
-        table.left("participation", |(_, mode)| self.partners(mode)).into()
-    }
-
-    /// The node that takes most part in the slowest mode.
-    fn slowest(&self) -> Option<&str> {
-        let parts = &self.modes.modes().first()?.participation;
-        let most = parts.iter().zip(self.network().nodes());
-        most.max_by(|a, b| a.0.total_cmp(b.0)).map(|(_, node)| node.name.as_str())
-    }
-
-    /// The nodes that take most part, most first, those of equal part in the order of the file.
-    fn partners(&self, mode: &Mode) -> String {
-        let nodes = self.network().nodes();
-        let mut parts: Vec<(f64, &str)> = mode
-            .participation
-            .iter()
-            .zip(nodes)
-            .map(|(&part, node)| (part, node.name.as_str()))
-            .collect();
-        // rounded, so that equal parts keep their order
-        parts.sort_by_key(|part| std::cmp::Reverse(fixed(part.0, 6)));
-        let shown = parts.iter().take(PARTNERS).filter(|(part, _)| *part >= 5e-4);
-        let words = shown.map(|(part, name)| {
-            format!("{} {} %", shortened(name, PARTNER_WIDTH), fixed(100.0 * part, 1))
-        });
-        let mut text = String::new();
-        for word in words {
-            let separator = if text.is_empty() { "" } else { ", " };
-            if text.len() + separator.len() + word.len() <= PARTNERS_WIDTH {
-                text += separator;
-                text += &word;
-            }
-        }
-        text
-    }
-
-    /// A line a node: its temperature in each of the slowest modes.
-    fn shapes(&self) -> TextTable {
-        let nodes: Vec<(usize, &Node)> =
-            self.network().nodes().iter().take(MOST_NODES).enumerate().collect();
-        let mut table = TextTable::of(&nodes).left("shape", |(_, node)| node.name.as_str());
-        for (k, mode) in self.modes.modes().iter().take(MOST_SHAPES).enumerate() {
-            table = table.right(format!("mode {}", k + 1), |(i, _)| fixed(mode.shape[*i], 3));
-        }
-        table.into()
-    }
-
-    /// What the tables cannot say.
-    fn notes(&self) -> Vec<String> {
-        let mut notes = self.findings();
-        let (modes, nodes) = (self.modes.modes().len(), self.network().nodes().len());
-        if modes < self.all {
-            notes
-                .push(format!("the {modes} slowest of {} modes; --count N shows others", self.all));
-        }
-        if modes > MOST_SHAPES || nodes > MOST_NODES {
-            notes.push("every shape and every node is in --format csv and json".to_owned());
-        }
-        notes
-    }
-
-    /// What is worth knowing about the modes themselves.
-    fn findings(&self) -> Vec<String> {
-        let lasting = self.modes.modes().iter().filter(|mode| mode.rate == 0.0).count();
-        let mut notes = Vec::new();
-        if self.all == 0 {
-            notes.push("no node stores heat: temperatures follow the inputs at once".to_owned());
-        }
-        if let Some(point) = self.point.as_ref().filter(|_| self.all > 0) {
-            notes.extend(point.notes(self.modes.tried()));
-        }
-        if self.modes.swing() {
-            notes.push(
-                "modes with a period swing: their shapes are amplitudes; --format csv and json have \
-                 the phases"
-                    .to_owned(),
-            );
-        }
-        if self.modes.modes().iter().any(|mode| mode.rate < 0.0) {
-            notes.push("a mode that grows: the network leaves this state by itself".to_owned());
-        }
-        // conductances that switch are refused: what is left are sources and boundaries
-        if let Some(kind) = EventKind::switching(self.network()).next() {
-            let name = kind.name(self.network());
-            notes.push(format!(
-                "`{name}` switches heat, which plays no part in these modes: the network has them \
-                 between two switches"
-            ));
-        }
-        if lasting > 0 {
-            let verb = if lasting == 1 { "lasts" } else { "last" };
-            let which = count(lasting, "mode");
-            notes.push(format!(
-                "{which} {verb} for ever: no path leads from its nodes to a boundary"
-            ));
-        }
-        notes
-    }
-
-    fn mode(&self, mode: &Mode) -> Value {
-        let by_node = |values: &[f64], unit: &'static str| -> Map<String, Value> {
-            let named = self.network().nodes().iter().zip(values);
-            named.map(|(node, &x)| (node.name.clone(), json!(SiValue::new(x, unit)))).collect()
-        };
-        let mut members = json!({
-            "tau": SiValue::new(mode.tau(), "s"),
-            "shape": by_node(&mode.shape, "1"),
-            "participation": by_node(&mode.participation, "1"),
-        });
-        if mode.omega != 0.0 {
-            members["omega"] = json!(SiValue::new(mode.omega, "rad/s"));
-            members["phase"] = json!(by_node(&mode.phase, "rad"));
-        }
-        members
-    }
-}
-
-impl Page for View<'_> {
-    fn text(&self) -> Text {
-        let mut text = self.input.begun();
-        if !self.modes.modes().is_empty() {
-            text.section().table(self.overview());
-            text.section().table(self.shapes());
-        }
-        text.section().notes(self.notes());
-        text
-    }
-
-    fn rows(&self) -> Rows<'_> {
-        self.modes.table(self.network()).into()
-    }
-
-    fn figures(&self) -> Vec<Figure> {
-        if self.modes.modes().is_empty() { Vec::new() } else { vec![self.figure()] }
-    }
-
-    fn more(&self) -> Report {
-        about::about(self.input, Known::default())
-    }
-
-    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        let modes: Vec<Value> = self.modes.modes().iter().map(|mode| self.mode(mode)).collect();
-        self.input.head(json, &[])?;
-        json.member("notes", &self.findings())?;
-        json.member("count", &SiValue::new(count_as_number(self.all), "1"))?;
-        if let Some(point) = &self.point {
-            json.member("at", &point.json(self.modes.tried()))?;
-        }
-        json.member("modes", &modes)
-    }
-}
-
-#[expect(clippy::cast_precision_loss, reason = "far fewer than 2^53")]
-fn count_as_number(n: usize) -> f64 {
-    n as f64
-}
-
-fn tau(mode: &Mode) -> String {
-    match mode.rate {
-        0.0 => "for ever".to_owned(),
-        rate if rate < 0.0 => format!("grows, {}", duration(-mode.tau(), 5)),
-        _ => duration(mode.tau(), 5),
-    }
-}
-
-fn period(mode: &Mode) -> String {
-    match mode.omega {
-        0.0 => "-".to_owned(),
-        omega => duration(std::f64::consts::TAU / omega, 5),
-    }
 }

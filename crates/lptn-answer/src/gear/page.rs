@@ -1,0 +1,211 @@
+//! What gears do as a page.
+
+use std::io;
+
+use lptn_netlist::{Arrangement, Gearbox, Member};
+use lptn_plot::Figure;
+use lptn_report::{Json, Page, Report, Rows, Shortest, Text, significant};
+use lptn_study::{GearState, MemberState, PartLoss, SiValue};
+use serde_json::{Value, json};
+
+use super::tables::{of_all, rpm, warmest};
+use super::{Block, GearAnswer};
+use crate::about::{self, Known};
+use crate::ranges;
+
+/// A piece of a table: its column and the value of it, if it has one.
+type Cell = (String, Option<f64>);
+
+impl GearAnswer {
+    /// What a stage is: `planetary, ring held, 18/42/102 teeth, 3 planets, ratio 6.667`.
+    fn stage(&self, gearbox: &Gearbox) -> String {
+        let network = &self.input.netlist.network;
+        let teeth = |member: &Member| {
+            let id = network.parameter(&gearbox.teeth_of(*member));
+            id.map_or(f64::NAN, |id| network.parameter_value(id))
+        };
+        let teeth: Vec<String> =
+            gearbox.arrangement.wheels().iter().map(|m| significant(teeth(m), 6)).collect();
+        let teeth = teeth.join("/");
+        match (gearbox.arrangement, gearbox.held) {
+            (Arrangement::Planetary, Some(held)) => format!(
+                "{}: planetary, {} held, {teeth} teeth, {} planets",
+                gearbox.name,
+                held.word(),
+                gearbox.planets
+            ),
+            _ => format!("{}: a pair of gears, {teeth} teeth", gearbox.name),
+        }
+    }
+
+    /// Speed of the input over that of the output.
+    fn ratio(&self) -> Option<f64> {
+        let (_, _, state) = self.states().next()?;
+        let (first, last) = (self.task().stages[0], self.task().stages.len() - 1);
+        let of = |stage: usize, member: Member| {
+            state.members.iter().find(|m| m.stage == stage && m.member == member)
+        };
+        let output = of(last, self.task().stages[last].output)?.speed;
+        let ratio = of(0, first.input)?.speed / output;
+        ratio.is_finite().then_some(ratio)
+    }
+
+    /// At which load and temperatures a block is.
+    pub(super) fn said(&self, block: &Block) -> String {
+        let mut torques = block.states.iter().map(|(_, state)| state.torque(&self.task()));
+        let first = torques.next().flatten();
+        let load = match first {
+            Some(torque) if torques.all(|other| other == first) => {
+                format!("{} N m on the input", significant(torque, 6))
+            }
+            Some(_) => "the torque of the input follows its speed".to_owned(),
+            None => "without load".to_owned(),
+        };
+        match block.temperature {
+            Some(kelvin) => {
+                let held = significant(self.unit.from_si(kelvin), 6);
+                format!("{load}, all nodes at {held} {}", self.unit.text)
+            }
+            None => format!("{load}, temperatures settled"),
+        }
+    }
+
+    fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.states().any(|(_, _, s)| s.losses.iter().any(|part| !part.outside.is_empty())) {
+            notes.push("* outside the range in which its formula is known".to_owned());
+        }
+        if self.task().network.has_time_dependent_inputs() {
+            notes.push(format!(
+                "inputs change with time: but for the speed they are taken as they are at {} s",
+                self.task().time
+            ));
+        }
+        if self.task().stages[0].loaded {
+            notes
+                .push("torques and the losses of meshes are those without losses elsewhere".into());
+        } else {
+            notes.push("no torque is given: meshes lose nothing and are left out".into());
+        }
+        notes
+    }
+
+    fn cells(&self, speed: f64, state: &GearState) -> Vec<Cell> {
+        let mut cells: Vec<Cell> = vec![("speed [rpm]".into(), Some(rpm(speed)))];
+        cells.push(("torque [N m]".into(), state.torque(&self.task())));
+        cells.push((
+            format!("warmest node [{}]", self.unit.text),
+            Some(self.unit.from_si(warmest(state))),
+        ));
+        cells.push(("loss [W]".into(), Some(state.loss())));
+        cells.push(("exponent [-]".into(), of_all(state, |part| part.exponent)));
+        cells.push(("exponent settled [-]".into(), of_all(state, |part| part.followed)));
+        cells.push(("efficiency [-]".into(), state.efficiency(&self.task())));
+        cells.push(("drag [N m]".into(), state.drag(&self.task())));
+        for part in &state.losses {
+            cells.push((format!("{} [W]", part.name), Some(part.heat)));
+            cells.push((format!("{} exponent [-]", part.name), part.exponent));
+            cells.push((format!("{} exponent settled [-]", part.name), part.followed));
+        }
+        cells
+    }
+
+    fn member(&self, member: &MemberState) -> Value {
+        json!({
+            "gearbox": self.task().stages[member.stage].name,
+            "member": member.member.word(),
+            "speed": SiValue::new(member.speed, "rad/s"),
+            "torque": member.torque.map(|torque| SiValue::new(torque, "N m")),
+            "power": member.power().map(|power| SiValue::new(power, "W")),
+        })
+    }
+
+    fn point(&self, block: &Block, speed: f64, state: &GearState) -> Value {
+        let part = |part: &PartLoss| {
+            json!({
+                "name": part.name,
+                "count": part.count,
+                "heat": SiValue::new(part.heat, "W"),
+                "exponent": part.exponent,
+                "exponent_settled": part.followed,
+                "out_of_range": !part.outside.is_empty(),
+            })
+        };
+        let nodes = self.task().network.nodes().iter().zip(&state.temperatures);
+        let nodes: serde_json::Map<String, Value> = nodes
+            .map(|(node, &t)| {
+                let value = SiValue::new(self.unit.from_si(t), &self.unit.text);
+                (node.name.clone(), json!(value))
+            })
+            .collect();
+        json!({
+            "speed": SiValue::new(speed, "rad/s"),
+            "torque": state.torque(&self.task()).map(|torque| SiValue::new(torque, "N m")),
+            "settled": block.temperature.is_none(),
+            "members": state.members.iter().map(|m| self.member(m)).collect::<Vec<_>>(),
+            "losses": state.losses.iter().map(part).collect::<Vec<_>>(),
+            "loss": SiValue::new(state.loss(), "W"),
+            "exponent": of_all(state, |part| part.exponent),
+            "exponent_settled": of_all(state, |part| part.followed),
+            "drag": state.drag(&self.task()).map(|drag| SiValue::new(drag, "N m")),
+            "efficiency": state.efficiency(&self.task()),
+            "temperatures": nodes,
+        })
+    }
+}
+
+impl Page for GearAnswer {
+    fn text(&self) -> Text {
+        let mut text = self.input.begun();
+        text.lines(self.task().stages.iter().map(|gearbox| self.stage(gearbox)));
+        if let Some(ratio) = self.ratio() {
+            text.line(format!("ratio {}", significant(ratio, 5)));
+        }
+        // members turn in proportion: the last point shows them at their own speed
+        if let Some((_, _, state)) = self.states().last() {
+            text.section().table(self.members(state));
+        }
+        for block in &self.blocks {
+            text.section().line(self.said(block));
+            for table in self.over_speed(block) {
+                text.section().table(table);
+            }
+        }
+        text.section().notes(self.notes());
+        text
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        let mut shortest = Shortest::new();
+        let mut text = |value: f64| shortest.text(value).to_owned();
+        let mut rows: Vec<Vec<String>> = Vec::new();
+        for (_, speed, state) in self.states() {
+            let cells = self.cells(speed, state);
+            if rows.is_empty() {
+                rows.push(cells.iter().map(|(name, _)| name.clone()).collect());
+            }
+            let values = cells.iter().map(|(_, value)| value.map_or_else(String::new, &mut text));
+            rows.push(values.collect());
+        }
+        Rows::Words(rows)
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        self.drawn()
+    }
+
+    fn more(&self) -> Report {
+        let claims = about::laws(&self.input.netlist.network, &self.outside());
+        about::about(&self.input, Known { claims, ..Known::default() })
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let (netlist, outside) = (&self.input.netlist, self.outside());
+        self.input.head(json, &self.doubts_of_ranges())?;
+        json.optional("out_of_range", ranges::members(&netlist.network, &outside, false))?;
+        json.member("gearbox", &self.task().stages[0].name)?;
+        json.member("ratio", &self.ratio())?;
+        let points = self.states().map(|(block, speed, state)| self.point(block, speed, state));
+        json.member("points", &points.collect::<Vec<_>>())
+    }
+}

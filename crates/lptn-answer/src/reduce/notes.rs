@@ -1,0 +1,168 @@
+//! What has to be known beside the numbers of a reduction.
+
+use lptn_reduce::{Definition, Dynamics, LeastSquaresWindow};
+use lptn_report::{duration, significant};
+
+use super::ReduceAnswer;
+use crate::words::count;
+
+impl ReduceAnswer {
+    /// What has to be known beside the numbers.
+    pub(super) fn notes(&self) -> Vec<String> {
+        let mut notes = Vec::new();
+        if self.near.is_some() {
+            notes.push(
+                "inputs, controls and comparisons are held as they are there; Q_N is the heat of \
+                 the sources there, and T_ref such that the port has its temperature"
+                    .to_owned(),
+            );
+        } else if self.input.netlist.network.has_time_dependent_inputs() {
+            notes.push(
+                "the inputs change with time; T_ref and Q_N are those at the start of the run"
+                    .to_owned(),
+            );
+        }
+        notes.extend(self.switched().filter(|_| self.near.is_none()));
+        notes.extend(self.apart());
+        let Some(dynamics) = &self.reduction.dynamics else {
+            notes.push(
+                "the port sees no capacity: T = T_ref + R_eq Q_N holds at every moment".to_owned(),
+            );
+            return notes;
+        };
+        notes.extend(self.elsewhere());
+        notes.push(match dynamics.window {
+            Some(window) => fitted(window, dynamics, self.near.is_some()),
+            None if self.near.is_some() => "modes swing, coincide or fall at first: R_eq, T_ref, \
+                 Q_N, sum and first_moment are those of the linear network, and no error of a step \
+                 is known"
+                .to_owned(),
+            None => "streams go on from node to node: R_eq, T_ref, Q_N, sum and first_moment are \
+                     exact, while tau_1, the other definitions and the error of a step would need \
+                     modes that may swing"
+                .to_owned(),
+        });
+        if let Some(tolerance) = dynamics.tolerance {
+            notes.push(format!(
+                "runs are compared at a tolerance of {} K",
+                significant(tolerance, 2)
+            ));
+        }
+        notes.extend(self.at_once(dynamics));
+        notes.extend(unresolved(dynamics));
+        notes
+    }
+
+    /// The notes as lines by themselves, for CSV, which has no place for them.
+    pub fn beside_rows(&self) -> Vec<String> {
+        let short = self.reduction.dynamics.as_ref().and_then(|dynamics| self.short(dynamics));
+        let short = short.map(|short| format!("warning: {short}"));
+        short.into_iter().chain(self.notes().iter().map(|note| format!("note: {note}"))).collect()
+    }
+
+    /// What is said of controls.
+    fn switched(&self) -> Option<String> {
+        let network = &self.input.netlist.network;
+        let stands = |id: lptn_network::ControlId| {
+            let on = network.thermostat(id).is_some_and(|thermostat| thermostat.start);
+            format!("`{}` {}", network.controls()[id.index()].name, if on { "on" } else { "off" })
+        };
+        let stand: Vec<String> = network.control_ids().map(stands).collect();
+        let says =
+            if self.input.netlist.initial().is_some() { "the state" } else { "their `start`" };
+        (!stand.is_empty()).then(|| {
+            format!(
+                "T_ref and Q_N are those with {}, as {says} says; what switches over the run is \
+                 not compared",
+                stand.join(", ")
+            )
+        })
+    }
+
+    /// What is said of nodes that the port does not feel.
+    fn apart(&self) -> Option<String> {
+        let response = &self.reduction.norton.response;
+        let reached = response.iter().filter(|rise| **rise > 0.0).count();
+        let apart = response.len() - reached;
+        (apart > 0).then(|| {
+            let reached = count(reached, "node");
+            format!(
+                "C_eq is that of the {reached} that heat from the port reaches; {apart} apart from \
+                it do not matter"
+            )
+        })
+    }
+
+    /// What is said of heat that does not go in at the port.
+    fn elsewhere(&self) -> Option<String> {
+        let network = &self.input.netlist.network;
+        let norton = &self.reduction.norton;
+        let away = network.sources().iter().zip(&norton.source_weights).find(|(source, weight)| {
+            **weight > 0.0 && source.into.iter().any(|(node, _)| *node != norton.port)
+        });
+        away.map(|(source, _)| {
+            format!(
+                "`{}` heats other nodes than {}: in one node its heat comes at once",
+                source.name(),
+                self.port
+            )
+        })
+    }
+
+    /// What is said of a run that ends before the network has settled.
+    pub(super) fn short(&self, dynamics: &Dynamics) -> Option<String> {
+        dynamics.tolerance?;
+        let run = self.input.netlist.run.as_ref()?;
+        let (length, slowest) = (run.stop - run.start, dynamics.step.as_ref()?.slowest().tau);
+        (length < slowest).then(|| {
+            format!(
+                "the run of {} is shorter than tau_1, {}: its error says nothing of what comes \
+                 later",
+                duration(length, 4),
+                duration(slowest, 4)
+            )
+        })
+    }
+
+    /// What is said of a port that leaps.
+    fn at_once(&self, dynamics: &Dynamics) -> Option<String> {
+        let step = dynamics.step.as_ref()?;
+        let nearest = dynamics.pair(Definition::LeastSquares)?;
+        (nearest.capacity <= 0.0).then(|| {
+            let share = significant(100.0 * step.direct / step.resistance, 3);
+            format!(
+                "the port answers at once with {share} % of the rise: no capacity at all is \
+                 nearest to that"
+            )
+        })
+    }
+}
+
+/// What least squares fits.
+fn fitted(window: LeastSquaresWindow, dynamics: &Dynamics, near: bool) -> String {
+    let length = duration(window.length(), 4);
+    let fits = format!("least_squares fits the response to a step over {length}");
+    match window {
+        LeastSquaresWindow::Given(_) => fits,
+        LeastSquaresWindow::Run(_) => format!("{fits}, as long as the run"),
+        LeastSquaresWindow::TimeConstants(_) if near => {
+            format!("no run is compared near a state; {fits}, five times tau_1")
+        }
+        LeastSquaresWindow::TimeConstants(_) if dynamics.tolerance.is_none() => {
+            format!("without [run] no run is compared; {fits}, five times tau_1")
+        }
+        LeastSquaresWindow::TimeConstants(_) => format!("{fits}, five times tau_1"),
+    }
+}
+
+/// What is said of modes that are too fast to be known.
+fn unresolved(dynamics: &Dynamics) -> Option<String> {
+    let step = dynamics.step.as_ref()?;
+    (step.residual > 1e-6 * step.resistance).then(|| {
+        let share = significant(100.0 * step.residual / step.resistance, 2);
+        format!(
+            "the fastest modes, {share} % of R_eq, are not resolved: the errors for a step \
+            hold but for its very beginning"
+        )
+    })
+}

@@ -1,0 +1,112 @@
+//! What has to be kept: every requirement, in every load case.
+
+use lptn_netlist::{Netlist, Requirement, SizeStudy};
+use lptn_report::{plain, significant};
+use lptn_study::{Judged, LoadCase, SiValue};
+use serde_json::{Value, json};
+
+use crate::words::spaced;
+
+/// Margins below this share of a unit are rounding.
+const ZERO: f64 = 1e-9;
+
+/// The requirements of the first case, then those of the next; in the order of margins.
+#[derive(Debug)]
+pub(super) struct Kept {
+    requirements: Vec<Requirement>,
+    cases: Vec<String>,
+}
+
+impl Kept {
+    pub(super) fn of(netlist: &Netlist, study: &SizeStudy) -> Self {
+        let cases = cases(netlist, study).into_iter().map(|case| case.name).collect();
+        Self { requirements: study.requirements.clone(), cases }
+    }
+
+    /// Their positions.
+    pub(super) fn all(&self) -> Vec<usize> {
+        (0..self.requirements.len() * self.cases.len().max(1)).collect()
+    }
+
+    /// The cases by name; none where the network is taken as it is.
+    pub(super) fn cases(&self) -> &[String] {
+        &self.cases
+    }
+
+    pub(super) fn requirement(&self, i: usize) -> &Requirement {
+        &self.requirements[i % self.requirements.len()]
+    }
+
+    /// The name of its case.
+    pub(super) fn case(&self, i: usize) -> Option<&str> {
+        self.cases.get(i / self.requirements.len()).map(String::as_str)
+    }
+
+    /// "hot: chip.T <= 75 [degC]".
+    pub(super) fn text(&self, i: usize) -> String {
+        let text = plain(&self.requirement(i).text);
+        self.case(i).map_or(text.clone(), |case| format!("{}: {text}", plain(case)))
+    }
+
+    pub(super) fn unit(&self, i: usize) -> String {
+        self.requirement(i).ty.dimension.si_unit()
+    }
+
+    /// As members of an object: what came of each.
+    pub(super) fn members(&self, judged: &Judged) -> Vec<Value> {
+        let one = |i: usize| {
+            let at = judged.worst_at[i].map(|at| SiValue::new(at, "s"));
+            let mut member = json!({
+                "requirement": self.requirement(i).text,
+                "margin": SiValue::new(judged.margins[i], &self.unit(i)),
+                "worst_at": at,
+            });
+            if let (Some(deviation), Some(left_out)) =
+                (judged.deviations.get(i), judged.left_out.get(i))
+            {
+                member["deviation"] = json!(SiValue::new(*deviation, &self.unit(i)));
+                member["left_out"] = json!(SiValue::new(*left_out, &self.unit(i)));
+            }
+            if let Some(case) = self.case(i) {
+                member["case"] = case.into();
+            }
+            member
+        };
+        self.all().into_iter().map(one).collect()
+    }
+
+    /// How margins scatter, and what the first order leaves out, where a probability is asked for.
+    pub(super) fn doubt(&self, judged: &Judged) -> Option<String> {
+        let most = |list: &[f64]| {
+            let sizes = list.iter().enumerate().map(|(i, value)| (i, value.abs()));
+            sizes.max_by(|a, b| a.1.total_cmp(&b.1))
+        };
+        let (i, deviation) = most(&judged.deviations)?;
+        let (k, left_out) = most(&judged.left_out)?;
+        let said =
+            |i: usize, value: f64| format!("{}{}", significant(value, 2), spaced(&self.unit(i)));
+        Some(format!(
+            "by the ± of parameters margins scatter by up to {}, to first order; the second would move \
+             them by up to {}",
+            said(i, deviation),
+            said(k, left_out)
+        ))
+    }
+
+    /// "0.4 K".
+    pub(super) fn margin(&self, i: usize, margin: f64) -> String {
+        let margin = if margin.abs() < ZERO { 0.0 } else { margin };
+        format!("{}{}", significant(margin, 4), spaced(&self.unit(i)))
+    }
+}
+
+/// The load cases of a study with their values.
+pub(super) fn cases(netlist: &Netlist, study: &SizeStudy) -> Vec<LoadCase> {
+    let counts = |name: &String| study.cases.as_ref().is_none_or(|names| names.contains(name));
+    let all = netlist.studies.cases.iter().filter(|case| counts(&case.name));
+    all.filter_map(|case| {
+        let set = case.values(&netlist.network).ok()?;
+        Some(LoadCase { name: case.name.clone(), set })
+    })
+    .collect()
+}

@@ -1,0 +1,236 @@
+//! The values of parameters, the parts or the cooling that keep a limit.
+
+mod changing;
+mod choice;
+mod cooling;
+mod figure;
+mod kept;
+mod moments;
+mod page;
+mod several;
+mod single;
+mod write;
+
+pub use cooling::{CoolingAnswer, CoolingQuestion};
+pub use write::Written;
+
+use std::io;
+use std::sync::Arc;
+
+use kept::Kept;
+use lptn_netlist::{Diagnostic, Files, SizeStudy};
+use lptn_network::ParameterId;
+use lptn_plot::Figure;
+use lptn_report::{Json, Page, Report, Rows, Text};
+use lptn_solve::available_threads;
+use lptn_study::{Aim, Demand, SizeError};
+use lptn_units::Problem as _;
+use moments::demanded;
+
+use crate::answer::Answer;
+use crate::exit::Exit;
+use crate::failure::{Failure, told};
+use crate::input::{Input, Studies};
+use crate::listener::Listener;
+
+/// The question for values of parameters, or for parts, that keep what a `[size.NAME]` requires.
+#[derive(Clone, Debug, Default)]
+pub struct SizeQuestion {
+    /// Which `[size.NAME]`; `None` for the only one.
+    pub name: Option<String>,
+    /// How many threads work; `None` for all of the machine. The answer is the same.
+    pub threads: Option<usize>,
+    /// Whether the values are to be written into the netlist. Values that cannot be written are
+    /// then refused before anything is computed.
+    pub writes: bool,
+}
+
+/// The values or parts that keep the requirements, or come closest.
+#[derive(Debug)]
+pub struct SizeAnswer(Found);
+
+#[derive(Debug)]
+enum Found {
+    Single(single::Sized),
+    Several(several::Sized),
+    Choice(choice::Chosen),
+}
+
+impl SizeQuestion {
+    /// Asks a netlist. The listener hears its doubts before anything is computed, for that may
+    /// take a while.
+    ///
+    /// # Errors
+    /// A study that does not exist, a question that does not fit the netlist, and a network that
+    /// cannot be solved.
+    pub fn ask(&self, input: Arc<Input>, listener: &dyn Listener) -> Result<SizeAnswer, Failure> {
+        let sizes = &input.netlist.studies.sizes;
+        let study = STUDIES.find(&input, (sizes, |study| &study.name), self.name.as_deref())?;
+        if self.writes {
+            for name in changed(study) {
+                write::possible(&input, parameter(&input, study, name)?)?;
+            }
+        }
+        listener.warn(&input.netlist.files, &input.netlist.warnings);
+        moments::check_period(&input, study)?;
+        let (kept, study) = (Kept::of(&input.netlist, study), study.clone());
+        let asked = Asked { input, study, kept };
+        let threads = self.threads.unwrap_or_else(available_threads);
+        Ok(SizeAnswer(match asked.study.single() {
+            Some(_) => Found::Single(single::size(asked, listener)?),
+            None if asked.study.catalogues.is_empty() => {
+                Found::Several(several::size(asked, threads, listener)?)
+            }
+            None => Found::Choice(choice::choose(asked, threads, listener)?),
+        }))
+    }
+}
+
+/// What is asked.
+#[derive(Debug)]
+struct Asked {
+    input: Arc<Input>,
+    study: SizeStudy,
+    kept: Kept,
+}
+
+impl Asked {
+    /// Answers a question about what has to be kept.
+    fn demand<T>(
+        &self,
+        listener: &dyn Listener,
+        ask: impl FnOnce(Demand<'_>) -> Result<T, SizeError>,
+    ) -> Result<T, Failure> {
+        let watcher = |progress| listener.progress(progress);
+        let answer = demanded((&self.input.netlist, &self.study), &watcher, ask);
+        answer.map_err(|error| failed(&self.input, &self.study, &error))
+    }
+}
+
+const STUDIES: Studies = Studies {
+    section: "size",
+    codes: ["size::no_study", "size::which_study"],
+    question: "what is to be sized?",
+    example: "[size.fan]\nminimise = \"p\"\nvary = { p = { from = \"1 W/K\", to = \"10 W/K\" } }\n\
+              require = [\"steel.T <= 80 [degC]\"]",
+};
+
+fn parameter(input: &Input, study: &SizeStudy, name: &str) -> Result<ParameterId, Failure> {
+    input.netlist.network.parameter(name).map_err(|_| {
+        let message = format!("there is no parameter `{name}`");
+        let problem = Diagnostic::error("netlist::unknown_parameter", message);
+        input.refused(Exit::Input, problem.at(study.span.clone(), ""))
+    })
+}
+
+/// What a study seeks.
+fn aim(study: &SizeStudy) -> Aim<'_> {
+    let objective = &study.objective;
+    Aim { value: &objective.value, goal: study.goal, of_results: objective.of_results }
+}
+
+/// The parameters that a study changes, in the order in which designs have them.
+fn changed(study: &SizeStudy) -> impl Iterator<Item = &String> {
+    let set = study.catalogues.iter().flat_map(|one| &one.columns).map(|one| &one.name);
+    study.varied.iter().map(|one| &one.name).chain(set)
+}
+
+fn failed(input: &Input, study: &SizeStudy, error: &SizeError) -> Failure {
+    let problem = match error {
+        SizeError::Changing(changing) => changing::explained(input, study, (error, changing)),
+        _ => told(error).at(study.span.clone(), ""),
+    };
+    // the library does not know the units
+    let message = match error {
+        SizeError::Trial { values, case, error } => {
+            let at = |(name, value): (&String, &f64)| {
+                let id = input.netlist.network.parameter(name).ok()?;
+                Some(page::quantity(name, *value, &input.unit_of(id)))
+            };
+            let with: Vec<String> = changed(study).zip(values).filter_map(at).collect();
+            let case = if case.is_empty() { String::new() } else { format!(", case `{case}`") };
+            format!("with {}{case}: {error}", with.join(", "))
+        }
+        _ => problem.message,
+    };
+    input.refused(error.class().into(), Diagnostic { message, ..problem })
+}
+
+impl SizeAnswer {
+    fn asked(&self) -> &Asked {
+        match &self.0 {
+            Found::Single(found) => &found.asked,
+            Found::Several(found) => &found.asked,
+            Found::Choice(found) => &found.asked,
+        }
+    }
+
+    fn page(&self) -> &dyn Page {
+        match &self.0 {
+            Found::Single(found) => found,
+            Found::Several(found) => found,
+            Found::Choice(found) => found,
+        }
+    }
+
+    /// The name of the study, where the netlist has several.
+    pub fn one_of_several(&self) -> Option<&str> {
+        let Asked { input, study, .. } = self.asked();
+        (input.netlist.studies.sizes.len() > 1).then_some(study.name.as_str())
+    }
+
+    /// The netlist with the values in it, read again and solved: it keeps every requirement.
+    /// `None` if no values do.
+    ///
+    /// # Errors
+    /// A netlist that cannot be written, or that no digits make keep what is required.
+    pub fn written(&self) -> Result<Option<Written>, Failure> {
+        if self.no().is_some() {
+            return Ok(None);
+        }
+        match &self.0 {
+            Found::Single(found) => write::of_one(found).map(Some),
+            Found::Several(found) => write::of_all(&found.asked, &found.values()).map(Some),
+            Found::Choice(found) => {
+                let values = found.best_values();
+                values.map(|values| write::of_all(&found.asked, &values)).transpose()
+            }
+        }
+    }
+}
+
+impl Answer for SizeAnswer {
+    fn files(&self) -> &Files {
+        &self.asked().input.netlist.files
+    }
+
+    fn doubts(&self) -> Vec<Diagnostic> {
+        self.asked().input.netlist.warnings.clone()
+    }
+}
+
+impl Page for SizeAnswer {
+    fn text(&self) -> Text {
+        self.page().text()
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        self.page().rows()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        self.page().figures()
+    }
+
+    fn more(&self) -> Report {
+        self.page().more()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        self.page().json(json)
+    }
+
+    fn no(&self) -> Option<String> {
+        self.page().no()
+    }
+}

@@ -1,0 +1,235 @@
+//! Several parameters, and what is sought of them.
+
+use std::io;
+
+use lptn_network::ParameterId;
+use lptn_plot::Figure;
+use lptn_report::{
+    Json, Page, Report, Rows, Standing, Text, TextTable, duration, plain, significant,
+};
+use lptn_solve::Table;
+use lptn_study::{Design, Several, SeveralTask, SiValue, size_several};
+use lptn_units::Unit;
+use serde_json::{Map, Value, json};
+
+use super::kept::Kept;
+use super::{Asked, aim, figure, page};
+use crate::about::{self, Known};
+use crate::failure::Failure;
+use crate::listener::Listener;
+use crate::ranges;
+use crate::words::unverified;
+
+/// Digits of a value that is shown.
+const DIGITS: usize = 6;
+
+/// A value nearer to an end of its range than this share of it stands there.
+const AT_END: f64 = 1e-6;
+
+pub(super) fn size(
+    asked: Asked,
+    threads: usize,
+    listener: &dyn Listener,
+) -> Result<Sized, Failure> {
+    let Asked { input, study, .. } = &asked;
+    let ranges = study.ranges(&input.netlist.network).unwrap_or_default();
+    let (aim, varied) = (aim(study), ranges.clone());
+    let found = asked
+        .demand(listener, |demand| size_several(&SeveralTask { demand, aim, varied, threads }))?;
+    let units = ranges.iter().map(|(id, _)| input.unit_of(*id)).collect();
+    Ok(Sized { asked, found, ranges, units })
+}
+
+/// What came of sizing several parameters.
+#[derive(Debug)]
+pub(super) struct Sized {
+    pub(super) asked: Asked,
+    found: Several,
+    ranges: Vec<(ParameterId, (f64, f64))>,
+    units: Vec<Unit>,
+}
+
+impl Sized {
+    fn kept(&self) -> &Kept {
+        &self.asked.kept
+    }
+
+    /// The values in SI units by parameter.
+    pub(super) fn values(&self) -> Vec<(ParameterId, f64)> {
+        let of = self.ranges.iter().zip(&self.found.design.values);
+        of.map(|((id, _), value)| (*id, *value)).collect()
+    }
+
+    fn name(&self, i: usize) -> &str {
+        &self.asked.study.varied[i].name
+    }
+
+    fn parameters(&self) -> TextTable {
+        let places: Vec<usize> = (0..self.ranges.len()).collect();
+        let number = |i: usize, si: f64| significant(self.units[i].from_si(si), DIGITS);
+        let range = |&i: &usize| {
+            let (from, to) = self.ranges[i].1;
+            format!("{} .. {}", number(i, from), number(i, to))
+        };
+        let end = |&i: &usize| {
+            let ((from, to), value) = (self.ranges[i].1, self.found.design.values[i]);
+            match (value - from, to - value) {
+                (low, _) if low <= AT_END * (to - from) => "the least of its range",
+                (_, high) if high <= AT_END * (to - from) => "the largest of its range",
+                _ => "",
+            }
+        };
+        TextTable::of(&places)
+            .left("parameter", |&i| self.name(i).to_owned())
+            .right("value", |&i| number(i, self.found.design.values[i]))
+            .left("", |&i| self.units[i].text.clone())
+            .left("range", range)
+            .left("", end)
+            .into()
+    }
+
+    fn requirement_table(&self) -> TextTable {
+        let judged = &self.found.design.judged;
+        let all = self.kept().all();
+        let margin = |i: usize| self.kept().margin(i, judged.margins[i]);
+        let word = |i: usize| match judged.margins[i] {
+            margin if margin < 0.0 => "broken",
+            _ if self.found.binding.contains(&i) => "binds",
+            _ => "kept",
+        };
+        let mut table = TextTable::of(&all)
+            .left("requirement", |&i| self.kept().text(i))
+            .right("margin", |&i| margin(i));
+        if judged.worst_at.iter().any(Option::is_some) {
+            let at = |&i: &usize| judged.worst_at[i].map_or("-".into(), |at| duration(at, 4));
+            table = table.right("at", at);
+        }
+        table
+            .left("", |&i| word(i))
+            .judged(|&i| if word(i) == "broken" { Standing::Fails } else { Standing::Holds })
+            .into()
+    }
+
+    fn objective(&self) -> String {
+        let text = plain(&self.asked.study.objective.text);
+        format!("{text} = {}", page::sought(&self.asked, self.found.design.objective))
+    }
+
+    fn worst(&self) -> Option<usize> {
+        let judged = &self.found.design.judged;
+        let margins = judged.margins.iter().enumerate();
+        margins.min_by(|a, b| a.1.total_cmp(b.1)).map(|(i, _)| i)
+    }
+
+    fn verdict(&self) -> String {
+        if self.found.feasible {
+            let goal = page::goal(self.asked.study.goal);
+            return format!(
+                "{}, the {goal} that was found, keeps every requirement",
+                self.objective()
+            );
+        }
+        let broken = self.worst().map_or_else(String::new, |i| {
+            let off = self.kept().margin(i, -self.found.design.judged.margins[i]);
+            format!("`{}` is broken by {off}", self.kept().text(i))
+        });
+        format!("infeasible: where the search came closest {broken}")
+    }
+
+    fn values_json(&self) -> Map<String, Value> {
+        let parameters = self.asked.input.netlist.network.parameters();
+        let of = self.values().into_iter();
+        of.map(|(id, value)| {
+            let parameter = &parameters[id.index()];
+            let value = SiValue::new(value, &parameter.ty.dimension.si_unit());
+            (parameter.name.clone(), json!(value))
+        })
+        .collect()
+    }
+}
+
+impl Page for Sized {
+    fn text(&self) -> Text {
+        let Asked { input, study, .. } = &self.asked;
+        let goal = page::goal(study.goal);
+        let mut text = Text::titled(input.title());
+        let sought = plain(&study.objective.text);
+        text.sentence("", &format!("size {}: the {goal} {sought}", study.name));
+        page::when(&mut text, &input.netlist, (study, self.kept()));
+        text.section().table(self.parameters());
+        text.section().table(self.requirement_table());
+        text.section();
+        if let Some(unsure) = unverified(&input.netlist.network) {
+            text.sentence("note     ", &unsure);
+        }
+        if let Some(doubt) = self.kept().doubt(&self.found.design.judged) {
+            text.sentence("scatter  ", &doubt);
+        }
+        let outside = &self.found.design.judged.out_of_range;
+        for warning in ranges::warnings(&input.netlist, outside, false) {
+            text.sentence("note     ", &warning.message);
+        }
+        let proof = format!(
+            "{} {} of the full network; none of the {} places looked at is better",
+            self.found.solved,
+            page::solved(study.over),
+            self.found.looked_at.len()
+        );
+        text.sentence("proof    ", &proof);
+        text.section().sentence("", &self.verdict());
+        text
+    }
+
+    /// One row: the values in their units, what is sought and the margins in SI units.
+    fn rows(&self) -> Rows<'_> {
+        let mut table = Table::of(&[()]);
+        for (i, unit) in self.units.iter().enumerate() {
+            let value = unit.from_si(self.found.design.values[i]);
+            table.column(self.name(i), &unit.text, |()| value);
+        }
+        let objective = &self.asked.study.objective;
+        let value = self.found.design.objective;
+        table.column(&objective.text, objective.ty.dimension.si_unit(), |()| value);
+        table.column("feasible", "-", |()| if self.found.feasible { 1.0 } else { 0.0 });
+        for (i, &margin) in self.found.design.judged.margins.iter().enumerate() {
+            table.column(self.kept().text(i), self.kept().unit(i), |()| margin);
+        }
+        table.done().into()
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        let all: Vec<&Design> = self.found.looked_at.iter().chain([&self.found.design]).collect();
+        let answer = Some(&self.found.design).filter(|_| self.found.feasible);
+        vec![figure::designs(&self.asked, &all, answer)]
+    }
+
+    fn more(&self) -> Report {
+        about::about(&self.asked.input, Known::default())
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        let (judged, worst) = (&self.found.design.judged, self.worst());
+        let mut requirements = self.kept().members(judged);
+        for (i, member) in requirements.iter_mut().enumerate() {
+            member["binds"] = self.found.binding.contains(&i).into();
+        }
+        let objective = &self.asked.study.objective;
+        let value = SiValue::new(self.found.design.objective, &objective.ty.dimension.si_unit());
+        let binding = self.found.binding.first().map(|&i| &self.kept().requirement(i).text);
+        self.asked.input.head(json, &[])?;
+        json.member("values", &self.values_json())?;
+        json.member(
+            "margin",
+            &worst.map(|i| SiValue::new(judged.margins[i], &self.kept().unit(i))),
+        )?;
+        json.member("binding", &binding)?;
+        json.member("feasible", &self.found.feasible)?;
+        json.member("over", self.asked.study.over.word())?;
+        json.member("objective", &json!({ "text": objective.text, "value": value }))?;
+        json.member("requirements", &requirements)
+    }
+
+    fn no(&self) -> Option<String> {
+        (!self.found.feasible).then(|| self.verdict())
+    }
+}
