@@ -58,7 +58,13 @@ impl Listener for Listening<'_> {
     }
 }
 
-/// Without a line and without an ear for Ctrl-C, which ends the program.
+impl Drop for Listening<'_> {
+    fn drop(&mut self) {
+        self.line().clear();
+    }
+}
+
+/// Without a line of progress, and Ctrl-C ends the program.
 impl Listener for Console {
     fn warn(&self, files: &Files, doubts: &[Diagnostic]) {
         self.warn(files, doubts);
@@ -70,11 +76,5 @@ impl Listener for Console {
 
     fn progress(&self, _: Progress) -> Proceed {
         Proceed::Continue
-    }
-}
-
-impl Drop for Listening<'_> {
-    fn drop(&mut self) {
-        self.line().clear();
     }
 }
