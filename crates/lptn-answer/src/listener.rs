@@ -14,6 +14,9 @@ pub trait Listener: Sync {
     /// Something worth knowing that is not a doubt.
     fn note(&self, _text: &str) {}
 
+    /// Something begins that may be interrupted.
+    fn begin(&self) {}
+
     /// Whether to go on. [`Proceed::Interrupt`] ends what is computed; finished parts are kept.
     fn proceed(&self) -> Proceed {
         Proceed::Continue

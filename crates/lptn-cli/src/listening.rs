@@ -12,7 +12,7 @@ use crate::console::Console;
 use crate::interrupt::Interrupt;
 use crate::progress::{ProgressLine, ProgressOfAll};
 
-/// A console that listens for Ctrl-C from the first progress on: before that nothing asks it, and
+/// A console that listens for Ctrl-C once something begins that may be interrupted; before that
 /// Ctrl-C ends the program.
 #[derive(Debug)]
 pub(crate) struct Listening<'a> {
@@ -63,6 +63,10 @@ impl Listener for Listening<'_> {
         self.console.note(text);
     }
 
+    fn begin(&self) {
+        self.interrupt.get_or_init(Interrupt::listen);
+    }
+
     fn proceed(&self) -> Proceed {
         self.interrupt.get_or_init(Interrupt::listen).control()
     }
@@ -97,7 +101,13 @@ impl Listener for Listening<'_> {
     }
 }
 
-/// Without a line and without an ear for Ctrl-C, which ends the program.
+impl Drop for Listening<'_> {
+    fn drop(&mut self) {
+        self.line().clear();
+    }
+}
+
+/// Without a line of progress, and Ctrl-C ends the program.
 impl Listener for Console {
     fn warn(&self, files: &Files, doubts: &[Diagnostic]) {
         self.warn(files, doubts);

@@ -163,6 +163,7 @@ fn find(
         .keeping(record(system.network(), &task.selection))
         .over(vec![window])
         .balancing(task.balance);
+    listener.begin();
     let found = cycle.cycle(system, &mut |progress| listener.progress(progress));
     found.map_err(|error| match error {
         CycleError::Missing(error) => failed(&task.input, &error),

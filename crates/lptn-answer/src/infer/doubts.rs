@@ -12,7 +12,7 @@ const FAR: f64 = 5.0;
 /// Readings that scatter so many times as far as was expected.
 const WIDE: f64 = 1.3;
 
-/// Neighbours that correlate by less make bands no narrower than they should be by more than a tenth.
+/// Neighbours that correlate by less make bands narrower than they should be by a tenth at most.
 const ALIKE: f64 = 0.08;
 
 pub(super) fn of(answer: &InferAnswer) -> Vec<Diagnostic> {

@@ -1,5 +1,5 @@
-//! What `lptn infer` draws: each course with its band, and what was measured beside what the network
-//! comes to.
+//! An inference as a picture: each course with its band, and what was measured beside what the
+//! network comes to.
 
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Panel};

@@ -137,7 +137,7 @@ struct Shown {
 }
 
 impl Shown {
-    /// Warnings of readings that nobody would expect; where there is one row it stands in this line.
+    /// Warnings of readings that nobody would expect. If there is one row, it stands in this line.
     fn unexpected(&self, answers: &[Followed], line: usize) -> Vec<Diagnostic> {
         let told = |row: &Followed, own: &Unexpected| {
             // the first in a row tells of all that are taken in

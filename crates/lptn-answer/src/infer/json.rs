@@ -1,4 +1,4 @@
-//! The parts of the object that `lptn infer --format json` prints.
+//! The parts of the object of an inference.
 
 use lptn_fit::infer::{InferredColumn, InferredJump, InferredSensor, Known};
 use lptn_study::SiValue;

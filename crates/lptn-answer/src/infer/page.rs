@@ -1,4 +1,4 @@
-//! What `lptn infer` shows.
+//! An inference as a page.
 
 use std::io;
 

@@ -1,4 +1,4 @@
-//! What `lptn plan` shows.
+//! A plan as a page.
 
 use std::io;
 
@@ -7,10 +7,11 @@ use lptn_plot::Figure;
 use lptn_report::{Json, Page, Report, Rows, Text, TextTable, shortened, significant};
 use lptn_solve::Table;
 use lptn_study::SiValue;
+use lptn_units::statistics::NORMAL_95;
 use serde_json::{Map, Value, json};
 
 use super::PlanAnswer;
-use super::shown::{NORMAL_95, NOTHING, cost};
+use super::shown::{NOTHING, cost};
 use super::words::{notes, verdict};
 use crate::about::{self, Known};
 use crate::words::{count, symbol};

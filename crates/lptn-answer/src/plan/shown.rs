@@ -7,9 +7,6 @@ use super::PlanAnswer;
 use crate::unseparated::joined;
 use crate::words::{spaced, symbol};
 
-/// Half the width of a 95 % interval of a normal distribution, over its standard deviation.
-pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
-
 /// What stands where nothing is.
 pub(super) const NOTHING: &str = "-";
 

@@ -29,6 +29,7 @@ pub fn observed(
     (system, run): (&ThermalSystem, &RunAnalysis),
     listener: &dyn Listener,
 ) -> Result<(Trusted<Solution>, Option<Diagnostic>), Failure> {
+    listener.begin();
     let outcome = run.solve(system, &mut |progress| listener.progress(progress));
     let error = match outcome {
         Ok(answer) => return Ok((answer, None)),

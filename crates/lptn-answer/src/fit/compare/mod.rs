@@ -237,8 +237,8 @@ impl FitCompareAnswer {
     }
 
     /// Of one candidate: those of its fit, and those of what it says of unseen records. That one
-    /// which is worse misses the records, each in its own way, is what was asked, and that intervals
-    /// count slow drift is seen by their width.
+    /// which is worse misses the records, each in its own way, is the question itself. That
+    /// intervals count slow drift is seen by their width.
     fn doubts_of(&self, i: usize) -> Vec<Diagnostic> {
         let name = &self.candidates[i].name;
         let named = |doubt: Diagnostic| Diagnostic {

@@ -1,4 +1,4 @@
-//! What `lptn fit compare` shows.
+//! A comparison of fits as a page.
 
 use std::io;
 

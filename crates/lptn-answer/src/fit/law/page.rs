@@ -1,4 +1,4 @@
-//! What `lptn fit law` shows of points.
+//! Laws of points as a page.
 
 use std::io;
 

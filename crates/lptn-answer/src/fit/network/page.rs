@@ -1,4 +1,4 @@
-//! What `lptn fit network` shows.
+//! A fit of a network as a page.
 
 use std::io;
 

@@ -19,9 +19,9 @@ struct Sample<'a> {
 }
 
 impl FitNetworkAnswer {
-    /// A row for each value, by record and column: temperatures in the unit of the netlist; where not all
-    /// columns are temperatures, the unit of each value stands beside it. A residual is positive where
-    /// more was measured than the network computes.
+    /// A row for each value, by record and column. Temperatures are in the unit of the netlist; if
+    /// not all columns are temperatures, the unit of each value stands beside it. A residual is
+    /// positive if more was measured than the network computes.
     pub fn residuals(&self) -> Table {
         let temperature = &self.input.netlist.temperature_unit;
         let samples = self.fit.columns.iter().flat_map(|m| {

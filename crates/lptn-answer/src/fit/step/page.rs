@@ -1,4 +1,4 @@
-//! What `lptn fit step` shows.
+//! The exponentials of a record as a page.
 
 use std::io;
 

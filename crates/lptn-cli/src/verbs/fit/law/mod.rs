@@ -39,7 +39,7 @@ fn stated(args: &LawArgs, console: &Console) -> Result<Exit, Failure> {
 }
 
 fn points(path: &Path, args: &LawArgs, console: &Console) -> Result<Exit, Failure> {
-    let answer = question(args).ask(path, &console.listening())?;
+    let answer = question(args).ask(path, console)?;
     console.page(&answer, args.format)?;
     if let Some(file) = &args.posterior {
         write_posterior(&answer, file, console)?;
@@ -51,7 +51,7 @@ fn runs(path: &Path, args: &LawArgs, console: &Console) -> Result<Exit, Failure>
     let begun = Instant::now();
     let fit = question(args).begin(path)?;
     let place = (!args.no_files).then(|| Folder::prepare(target(path, args))).transpose()?;
-    let found = fit.compute(&console.listening())?;
+    let found = fit.compute(console)?;
     let wall_time = begun.elapsed().as_secs_f64();
     if let Some(place) = &place {
         output::write(&found, place, wall_time)?;

@@ -29,8 +29,8 @@ pub(crate) fn step(args: &StepArgs, console: &Console) -> Result<Exit, Failure> 
         temperature_unit: args.scale.temperature_unit.clone(),
         command: files::arguments(),
     };
-    let answer = question.ask(&args.record, &console.listening())?;
-    console.answer(&answer, args.printed.format)?;
+    let answer = question.ask(&args.record, console)?;
+    console.page(&answer, args.printed.format)?;
     console.report(answer.files(), &answer.problems);
     if let (Some(file), Some(posterior)) = (&args.posterior, answer.posterior()) {
         posterior::write(&posterior, file, console)?;
