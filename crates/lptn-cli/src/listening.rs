@@ -101,12 +101,6 @@ impl Listener for Listening<'_> {
     }
 }
 
-impl Drop for Listening<'_> {
-    fn drop(&mut self) {
-        self.line().clear();
-    }
-}
-
 /// Without a line of progress, and Ctrl-C ends the program.
 impl Listener for Console {
     fn warn(&self, files: &Files, doubts: &[Diagnostic]) {

@@ -42,6 +42,7 @@ mod interrupt;
 #[path = "common/interrupt.rs"]
 mod interrupt_helper;
 mod json;
+mod library;
 mod limits;
 mod lumping;
 mod metamorphic;

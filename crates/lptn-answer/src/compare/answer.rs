@@ -7,8 +7,10 @@ use lptn_units::Unit;
 
 use super::evaluate::NoResult;
 use super::load::Loaded;
+use crate::answer::Answer;
 use crate::exit::Exit;
 use crate::failure::Failure;
+use crate::gathered::Gathered;
 use crate::steady::others;
 use crate::words::unverified;
 use crate::{bound, trust};
@@ -24,14 +26,38 @@ pub struct CompareAnswer {
     pub ends: Vec<Exit>,
     /// Problems of the candidates without results.
     pub failures: Vec<Failure>,
-    /// Doubts in how sure the results are.
-    pub(super) unsure: Vec<Diagnostic>,
     /// Whether candidates are variants of files.
     pub(super) variants: bool,
     /// The words of the command that asked.
     pub(super) command: Vec<String>,
-    /// Of those that were read: what is probably not meant as it is written.
-    pub warnings: Vec<(Files, Vec<Diagnostic>)>,
+    /// Doubts in the candidates.
+    pub(super) gathered: Gathered,
+}
+
+impl Answer for CompareAnswer {
+    fn files(&self) -> &Files {
+        &self.gathered.files
+    }
+
+    fn doubts(&self) -> Vec<Diagnostic> {
+        self.gathered.doubts.clone()
+    }
+
+    /// How the comparison ends: an interruption goes before what could not be read, that before what
+    /// failed, and that before a broken limit.
+    fn exit(&self) -> Exit {
+        if self.ends.contains(&Exit::Interrupted) {
+            Exit::Interrupted
+        } else if self.ends.contains(&Exit::Input) {
+            Exit::Input
+        } else if self.ends.contains(&Exit::Failed) {
+            Exit::Failed
+        } else if self.rows.iter().any(|row| row.status() == "broken") {
+            Exit::No
+        } else {
+            Exit::Done
+        }
+    }
 }
 
 impl CompareAnswer {
@@ -39,10 +65,9 @@ impl CompareAnswer {
         outcomes: impl Iterator<Item = (Loaded, Result<Candidate, NoResult>)>,
         unit: Unit,
     ) -> Self {
-        let (rows, ends, failures, warnings) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        let (unsure, command, variants) = (Vec::new(), Vec::new(), false);
-        let mut comparison =
-            Self { rows, unit, ends, failures, unsure, variants, command, warnings };
+        let (rows, ends, failures) = (Vec::new(), Vec::new(), Vec::new());
+        let (gathered, command, variants) = (Gathered::default(), Vec::new(), false);
+        let mut comparison = Self { rows, unit, ends, failures, gathered, variants, command };
         outcomes.for_each(|(loaded, outcome)| comparison.add(loaded, outcome));
         comparison
     }
@@ -75,7 +100,7 @@ impl CompareAnswer {
                     Diagnostic::warning("network::unverified_constants", message)
                 });
                 let own = input.netlist.warnings.into_iter();
-                let warnings = own
+                let warnings: Vec<Diagnostic> = own
                     .chain(vary)
                     .chain(beyond)
                     .chain(unbounded.map(of_file))
@@ -83,7 +108,7 @@ impl CompareAnswer {
                     .chain(no_cycle)
                     .chain(unsure)
                     .collect();
-                self.warnings.push((input.netlist.files, warnings));
+                self.gathered.add(&input.netlist.files, &warnings);
             }
             Err(not_read) => failure = Some(not_read),
         }
@@ -98,30 +123,9 @@ impl CompareAnswer {
         self.rows.push(CompareRow { file, title, outcome });
     }
 
-    /// Doubts in how sure the results are.
-    pub fn unsure(&self) -> &[Diagnostic] {
-        &self.unsure
-    }
-
     /// Whether every candidate is a file as it is, and not a variant of one.
     pub fn is_of_files(&self) -> bool {
         !self.variants
-    }
-
-    /// How the comparison ends: an interruption goes before what could not be read, that before what
-    /// failed, and that before a broken limit.
-    pub fn exit(&self) -> Exit {
-        if self.ends.contains(&Exit::Interrupted) {
-            Exit::Interrupted
-        } else if self.ends.contains(&Exit::Input) {
-            Exit::Input
-        } else if self.ends.contains(&Exit::Failed) {
-            Exit::Failed
-        } else if self.rows.iter().any(|row| row.status() == "broken") {
-            Exit::No
-        } else {
-            Exit::Done
-        }
     }
 }
 

@@ -10,6 +10,7 @@ mod variants;
 
 use std::path::PathBuf;
 
+use lptn_netlist::Files;
 use lptn_solve::{available_threads, in_parallel};
 use lptn_study::{SortKey, order};
 
@@ -73,8 +74,9 @@ impl CompareQuestion {
         let places = order(&candidates, self.sort);
         let mut outcomes: Vec<_> = loaded.into_iter().zip(done).map(Some).collect();
         let sorted = places.into_iter().filter_map(|place| outcomes[place].take());
-        let answer = CompareAnswer::of(sorted, unit);
+        let mut answer = CompareAnswer::of(sorted, unit);
+        answer.gathered.add(&Files::new(), &unsure);
         let variants = jobs.iter().any(|(_, variant)| !variant.label().is_empty());
-        Ok(CompareAnswer { unsure, variants, command: self.command.clone(), ..answer })
+        Ok(CompareAnswer { variants, command: self.command.clone(), ..answer })
     }
 }

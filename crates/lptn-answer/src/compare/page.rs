@@ -14,6 +14,7 @@ use serde_json::Value;
 
 use super::{CompareAnswer, doubts};
 use crate::about;
+use crate::answer::Answer as _;
 use crate::exit::Exit;
 use crate::messages;
 use crate::scale;
@@ -63,16 +64,13 @@ impl Page for CompareAnswer {
     }
 
     fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        let warnings = self.warnings.iter().flat_map(|(files, list)| {
-            list.iter().map(|diagnostic| messages::json(files, diagnostic)).collect::<Vec<_>>()
-        });
         let errors = self.failures.iter().flat_map(|failure| {
             let list = failure.diagnostics.iter();
             list.map(|diagnostic| messages::json(&failure.files, diagnostic)).collect::<Vec<_>>()
         });
         json.member("format", &1)?;
         json.member("network", &())?;
-        json.member("warnings", &warnings.collect::<Vec<_>>())?;
+        json.member("warnings", &messages::list(self.files(), &self.doubts()))?;
         let errors: Value = errors.collect();
         match self.exit() {
             Exit::Done | Exit::No => json.member("errors", &errors)?,

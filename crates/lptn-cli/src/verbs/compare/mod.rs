@@ -4,11 +4,12 @@ mod args;
 
 use std::path::{Path, PathBuf};
 
+use lptn_answer::answer::Answer as _;
 use lptn_answer::compare::{CompareAnswer, CompareQuestion};
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::quoted;
-use lptn_netlist::{Diagnostic, Files};
+use lptn_netlist::Diagnostic;
 use lptn_report::Format;
 use lptn_study::CompareRow;
 
@@ -46,11 +47,10 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
 
 /// Doubts, and what is wrong with the candidates that have no results.
 fn report(answer: &CompareAnswer, console: &Console) {
-    answer.warnings.iter().for_each(|(files, warnings)| console.warn(files, warnings));
+    console.warn(answer.files(), &answer.doubts());
     // the last line names those that were interrupted
     let problems = answer.failures.iter().filter(|failure| failure.exit != Exit::Interrupted);
     problems.for_each(|failure| console.report(&failure.files, &failure.diagnostics));
-    console.warn(&Files::new(), answer.unsure());
 }
 
 /// Files that can be drawn over each other.
