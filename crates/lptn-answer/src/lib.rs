@@ -1,5 +1,11 @@
-//! Answers in words and as data: doubts in numbers, what became of limits, laws outside their
-//! ranges, nodes that are not lumps.
+//! Questions to a netlist, and their answers.
+//!
+//! A question is a plain value, such as [`run::RunQuestion`] or [`rank::RankQuestion`]. Its `ask`
+//! takes an [`input::Input`], a netlist with everything that was set in it, and a
+//! [`listener::Listener`], which hears progress and may interrupt. The answer owns everything and
+//! implements [`answer::Answer`]: doubts, exit class, and a [`Page`](lptn_report::Page) that is
+//! written as a text, CSV, JSON, a figure or a part of a report. If there is no answer,
+//! [`failure::Failure`] has the problems.
 //!
 //! A doubt is a [`Diagnostic`](lptn_netlist::Diagnostic) of severity warning with its code, its
 //! sentence, its place in the netlist and what to do. Clients print what this crate gives.
