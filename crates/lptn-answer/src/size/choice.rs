@@ -10,7 +10,7 @@ use lptn_report::{
 };
 use lptn_solve::Table;
 use lptn_study::{Choice, ChoiceTask, Choices, Design, Parts, SiValue};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 use super::kept::Kept;
 use super::{Asked, aim, figure, page};
@@ -240,16 +240,9 @@ impl Chosen {
         if all.is_empty() { String::new() } else { format!(" with {}", all.join(", ")) }
     }
 
-    /// The values of a choice by parameter.
-    fn values(&self, choice: &Choice) -> Map<String, Value> {
-        let parameters = self.asked.input.netlist.network.parameters();
-        let of = self.ids.iter().zip(&choice.values);
-        of.map(|(id, &value)| {
-            let parameter = &parameters[id.index()];
-            let value = SiValue::new(value, &parameter.ty.dimension.si_unit());
-            (parameter.name.clone(), json!(value))
-        })
-        .collect()
+    /// The values of a choice in SI units by parameter.
+    fn values(&self, choice: &Choice) -> Vec<(ParameterId, f64)> {
+        self.ids.iter().copied().zip(choice.values.iter().copied()).collect()
     }
 
     fn member(&self, choice: &Choice) -> Value {
@@ -261,7 +254,7 @@ impl Chosen {
             "parts": names.collect::<Vec<_>>(),
             "objective": Some(choice.objective).filter(|o| o.is_finite()).map(|o| SiValue::new(o, &unit)),
             "feasible": choice.keeps(),
-            "values": self.values(choice),
+            "values": self.asked.values(&self.values(choice)),
             "requirements": judged.ok().map(|judged| self.kept().members(judged)),
             "failed": judged.err().map(|error| error.code()),
         })
@@ -269,8 +262,7 @@ impl Chosen {
 
     /// The values of the answer in SI units by parameter.
     pub(super) fn best_values(&self) -> Option<Vec<(ParameterId, f64)>> {
-        let values = self.best()?.values.iter().copied();
-        Some(self.ids.iter().copied().zip(values).collect())
+        self.best().map(|best| self.values(best))
     }
 }
 
@@ -375,7 +367,7 @@ impl Page for Chosen {
             .zip(worst)
             .and_then(|(c, i)| Some(SiValue::new(*c.margins().get(i)?, &self.kept().unit(i))));
         self.asked.input.head(json, &[])?;
-        json.member("values", &shown.map(|choice| self.values(choice)))?;
+        json.member("values", &shown.map(|choice| self.asked.values(&self.values(choice))))?;
         json.member("margin", &margin)?;
         json.member("binding", &worst.map(|i| &self.kept().requirement(i).text))?;
         json.member("feasible", &best.is_some())?;

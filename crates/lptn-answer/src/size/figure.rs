@@ -11,30 +11,12 @@ use super::single::Sized;
 const WIDE: f64 = 10.0;
 
 impl Sized {
-    /// The margins over the parameter, a panel for each unit; the answer is marked.
+    /// The margins over the parameter; the answer is marked.
     pub(super) fn figure(&self) -> Figure {
-        let unit = &self.unit;
-        let mut panels: Vec<Panel> = Vec::new();
-        for i in self.asked.kept.all() {
-            let axis = Axis::linear("margin", self.asked.kept.unit(i));
-            let curve = self.curve(i);
-            match panels.iter_mut().find(|panel| panel.y == axis) {
-                Some(panel) => panel.curves.push(curve),
-                None => {
-                    let mut panel = Panel::new(self.across(), axis);
-                    panel.curves.push(curve);
-                    panels.push(panel);
-                }
-            }
-        }
-        let at = unit.from_si(self.sizing.trial.value);
         let answer = if self.sizing.feasible() { "the answer" } else { "comes closest" };
-        for panel in &mut panels {
-            panel.limits.push(Level { name: "margin 0: broken below it".into(), value: 0.0 });
-            panel.moments.push(Moment { name: answer.into(), at });
-        }
-        let title = format!("{}: size {}", self.asked.input.title(), self.asked.study.name);
-        Figure { title, note: String::new(), panels }
+        let at = self.unit.from_si(self.sizing.trial.value);
+        let marked = Some(Moment { name: answer.into(), at });
+        figure(&self.asked, (&|| self.across(), marked), |i| self.curve(i))
     }
 
     /// The axis of the parameter; by logarithms where the range was looked at so.
@@ -59,29 +41,38 @@ impl Sized {
     }
 }
 
-/// What designs leave of every requirement over what is sought, a panel for each unit; the answer is
-/// marked.
+/// What designs leave of every requirement over what is sought; the answer is marked.
 pub(super) fn designs(asked: &Asked, all: &[&Design], answer: Option<&Design>) -> Figure {
     let objective = &asked.study.objective;
     let across = || Axis::linear(&objective.text, objective.ty.dimension.si_unit());
+    let marked = answer.map(|design| Moment { name: "the answer".into(), at: design.objective });
+    figure(asked, (&across, marked), |i| {
+        let points = all.iter().map(|design| (design.objective, design.judged.margins[i]));
+        Curve::line(asked.kept.text(i), points.collect()).looks(Look::Dots)
+    })
+}
+
+/// The margin of every requirement as a curve, in a panel for each unit.
+fn figure(
+    asked: &Asked,
+    (across, marked): (&dyn Fn() -> Axis, Option<Moment>),
+    curve: impl Fn(usize) -> Curve,
+) -> Figure {
     let mut panels: Vec<Panel> = Vec::new();
     for i in asked.kept.all() {
         let axis = Axis::linear("margin", asked.kept.unit(i));
-        let points = all.iter().map(|design| (design.objective, design.judged.margins[i]));
-        let curve = Curve::line(asked.kept.text(i), points.collect()).looks(Look::Dots);
         match panels.iter_mut().find(|panel| panel.y == axis) {
-            Some(panel) => panel.curves.push(curve),
+            Some(panel) => panel.curves.push(curve(i)),
             None => {
                 let mut panel = Panel::new(across(), axis);
-                panel.curves.push(curve);
+                panel.curves.push(curve(i));
                 panels.push(panel);
             }
         }
     }
     for panel in &mut panels {
         panel.limits.push(Level { name: "margin 0: broken below it".into(), value: 0.0 });
-        let at = answer.map(|design| design.objective);
-        panel.moments.extend(at.map(|at| Moment { name: "the answer".into(), at }));
+        panel.moments.extend(marked.clone());
     }
     let title = format!("{}: size {}", asked.input.title(), asked.study.name);
     Figure { title, note: String::new(), panels }

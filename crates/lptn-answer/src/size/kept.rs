@@ -1,7 +1,7 @@
 //! What has to be kept: every requirement, in every load case.
 
 use lptn_netlist::{Netlist, Requirement, SizeStudy};
-use lptn_report::{plain, significant};
+use lptn_report::{Standing, TextTable, duration, plain, significant};
 use lptn_study::{Judged, LoadCase, SiValue};
 use serde_json::{Value, json};
 
@@ -91,6 +91,32 @@ impl Kept {
             said(i, deviation),
             said(k, left_out)
         ))
+    }
+
+    /// What came of each: its margin, when that is least where `times` are shown, and whether it
+    /// binds.
+    pub(super) fn table(
+        &self,
+        (judged, times): (&Judged, bool),
+        binds: impl Fn(usize) -> bool,
+    ) -> TextTable {
+        let word = |i: usize| match judged.margins[i] {
+            margin if margin < 0.0 => "broken",
+            _ if binds(i) => "binds",
+            _ => "kept",
+        };
+        let rows = self.all();
+        let mut table = TextTable::of(&rows)
+            .left("requirement", |&i| self.text(i))
+            .right("margin", |&i| self.margin(i, judged.margins[i]));
+        if times {
+            let at = |&i: &usize| judged.worst_at[i].map_or("-".into(), |at| duration(at, 4));
+            table = table.right("at", at);
+        }
+        table
+            .left("", |&i| word(i))
+            .judged(|&i| if judged.margins[i] < 0.0 { Standing::Fails } else { Standing::Holds })
+            .into()
     }
 
     /// "0.4 K".

@@ -23,9 +23,10 @@ use lptn_network::ParameterId;
 use lptn_plot::Figure;
 use lptn_report::{Json, Page, Report, Rows, Text};
 use lptn_solve::available_threads;
-use lptn_study::{Aim, Demand, SizeError};
+use lptn_study::{Aim, Demand, SiValue, SizeError};
 use lptn_units::Problem as _;
 use moments::demanded;
+use serde_json::{Map, Value, json};
 
 use crate::answer::Answer;
 use crate::exit::Exit;
@@ -104,6 +105,17 @@ impl Asked {
         let watcher = |progress| listener.progress(progress);
         let answer = demanded((&self.input.netlist, &self.study), &watcher, ask);
         answer.map_err(|error| failed(&self.input, &self.study, &error))
+    }
+
+    /// Values in SI units as members of an object.
+    fn values(&self, values: &[(ParameterId, f64)]) -> Map<String, Value> {
+        let parameters = self.input.netlist.network.parameters();
+        let member = |&(id, value): &(ParameterId, f64)| {
+            let parameter = &parameters[id.index()];
+            let value = SiValue::new(value, &parameter.ty.dimension.si_unit());
+            (parameter.name.clone(), json!(value))
+        };
+        values.iter().map(member).collect()
     }
 }
 

@@ -5,9 +5,7 @@ use std::io;
 use lptn_netlist::{Goal, Netlist, Over, Requirement, SizeStudy};
 use lptn_network::Item;
 use lptn_plot::Figure;
-use lptn_report::{
-    Json, Page, Report, Rows, Standing, Text, TextTable, duration, plain, significant,
-};
+use lptn_report::{Json, Page, Report, Rows, Text, TextTable, duration, plain, significant};
 use lptn_solve::Table;
 use lptn_study::{SiValue, Verdict};
 use lptn_units::Unit;
@@ -200,25 +198,10 @@ pub(super) fn rounded(value: f64, digits: usize, up: bool) -> f64 {
 }
 
 fn requirements(answer: &Sized) -> TextTable {
-    let (study, sizing) = (&answer.asked.study, &answer.sizing);
-    let kept = &answer.asked.kept;
-    let margin = |i: usize| kept.margin(i, sizing.trial.judged.margins[i]);
-    let word = |i: usize| match sizing.verdict {
-        _ if sizing.trial.judged.margins[i] < 0.0 => "broken",
-        Verdict::Bound if i == sizing.closest => "binds",
-        _ => "kept",
-    };
-    let rows = kept.all();
-    let mut table =
-        TextTable::of(&rows).left("requirement", |&i| kept.text(i)).right("margin", |&i| margin(i));
-    if study.over != Over::Steady {
-        let at = |i: usize| sizing.trial.judged.worst_at[i];
-        table = table.right("at", |&i| at(i).map_or("-".into(), |at| duration(at, 4)));
-    }
-    table
-        .left("", |&i| word(i))
-        .judged(|&i| if word(i) == "broken" { Standing::Fails } else { Standing::Holds })
-        .into()
+    let Asked { study, kept, .. } = &answer.asked;
+    let sizing = &answer.sizing;
+    let binds = |i: usize| matches!(sizing.verdict, Verdict::Bound) && i == sizing.closest;
+    kept.table((&sizing.trial.judged, study.over != Over::Steady), binds)
 }
 
 /// What the table cannot say, each with its label.

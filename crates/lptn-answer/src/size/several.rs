@@ -4,13 +4,11 @@ use std::io;
 
 use lptn_network::ParameterId;
 use lptn_plot::Figure;
-use lptn_report::{
-    Json, Page, Report, Rows, Standing, Text, TextTable, duration, plain, significant,
-};
+use lptn_report::{Json, Page, Report, Rows, Text, TextTable, plain, significant};
 use lptn_solve::Table;
 use lptn_study::{Design, Several, SeveralTask, SiValue, size_several};
 use lptn_units::Unit;
-use serde_json::{Map, Value, json};
+use serde_json::json;
 
 use super::kept::Kept;
 use super::{Asked, aim, figure, page};
@@ -88,26 +86,10 @@ impl Sized {
             .into()
     }
 
-    fn requirement_table(&self) -> TextTable {
+    fn requirements(&self) -> TextTable {
         let judged = &self.found.design.judged;
-        let all = self.kept().all();
-        let margin = |i: usize| self.kept().margin(i, judged.margins[i]);
-        let word = |i: usize| match judged.margins[i] {
-            margin if margin < 0.0 => "broken",
-            _ if self.found.binding.contains(&i) => "binds",
-            _ => "kept",
-        };
-        let mut table = TextTable::of(&all)
-            .left("requirement", |&i| self.kept().text(i))
-            .right("margin", |&i| margin(i));
-        if judged.worst_at.iter().any(Option::is_some) {
-            let at = |&i: &usize| judged.worst_at[i].map_or("-".into(), |at| duration(at, 4));
-            table = table.right("at", at);
-        }
-        table
-            .left("", |&i| word(i))
-            .judged(|&i| if word(i) == "broken" { Standing::Fails } else { Standing::Holds })
-            .into()
+        let times = judged.worst_at.iter().any(Option::is_some);
+        self.kept().table((judged, times), |i| self.found.binding.contains(&i))
     }
 
     fn objective(&self) -> String {
@@ -135,17 +117,6 @@ impl Sized {
         });
         format!("infeasible: where the search came closest {broken}")
     }
-
-    fn values_json(&self) -> Map<String, Value> {
-        let parameters = self.asked.input.netlist.network.parameters();
-        let of = self.values().into_iter();
-        of.map(|(id, value)| {
-            let parameter = &parameters[id.index()];
-            let value = SiValue::new(value, &parameter.ty.dimension.si_unit());
-            (parameter.name.clone(), json!(value))
-        })
-        .collect()
-    }
 }
 
 impl Page for Sized {
@@ -157,7 +128,7 @@ impl Page for Sized {
         text.sentence("", &format!("size {}: the {goal} {sought}", study.name));
         page::when(&mut text, &input.netlist, (study, self.kept()));
         text.section().table(self.parameters());
-        text.section().table(self.requirement_table());
+        text.section().table(self.requirements());
         text.section();
         if let Some(unsure) = unverified(&input.netlist.network) {
             text.sentence("note     ", &unsure);
@@ -217,7 +188,7 @@ impl Page for Sized {
         let value = SiValue::new(self.found.design.objective, &objective.ty.dimension.si_unit());
         let binding = self.found.binding.first().map(|&i| &self.kept().requirement(i).text);
         self.asked.input.head(json, &[])?;
-        json.member("values", &self.values_json())?;
+        json.member("values", &self.asked.values(&self.values()))?;
         json.member(
             "margin",
             &worst.map(|i| SiValue::new(judged.margins[i], &self.kept().unit(i))),
