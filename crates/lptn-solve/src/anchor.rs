@@ -76,3 +76,6 @@ impl Newton<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -157,3 +157,6 @@ impl Newton<'_> {
         Ok(Place { share, left, slope })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -83,3 +83,6 @@ fn lacks(error: &InputError) -> Option<f64> {
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -227,3 +227,6 @@ impl Guard {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
