@@ -14,9 +14,14 @@ use crate::scripted::workspace;
 /// A massless node with 2 W/K to air at 300 K and a source by a table from 20 to 120 degC of another
 /// temperature, given by an expression of `T`.
 fn system(of: &str) -> ThermalSystem {
+    system_of(of, "1 [W/K]")
+}
+
+/// The same with a path from the joint to the body, whose table holds from 300 to 900 K.
+fn system_of(of: &str, path: &str) -> ThermalSystem {
     let text = format!(
         "format = 1\n[node]\nbody = {{ C = \"1 J/K\", T0 = \"300 K\" }}\njoint = {{ massless = true }}\n[boundary]\nair = {{ T = \
-         \"300 K\" }}\n[table]\nheat = {{ x = [20, 120], x_unit = \"degC\", y = [\"5 W\", \"5 W\"] }}\n[resistor]\nskin = \
+         \"300 K\" }}\n[table]\nheat = {{ x = [20, 120], x_unit = \"degC\", y = [\"5 W\", \"5 W\"] }}\ng = {{ x = [300, 900], x_unit = \"K\", y = [\"1 W/K\", \"1 W/K\"] }}\n[resistor]\npath = {{ from = \"joint\", to = \"air\", G = \"{path}\" }}\nskin = \
          {{ from = \"joint\", to = \"air\", R = \"0.5 K/W\" }}\nother = {{ from = \"body\", to = \"air\", R = \"1 K/W\" \
          }}\n[source]\nheater = {{ into = \"joint\", P = \"heat({of})\" }}\n[run]\nstop = \"1 s\"\n"
     );
@@ -68,4 +73,15 @@ fn temperatures_are_brought_into_the_range_of_a_table() {
     assert!(!brought("absolute(0 [K]) + (absolute(600 [K]) - T) * 2", 150.0).0);
     // nor what depends on nothing that is free
     assert!(!brought("body.T - 100 [K]", 250.0).0);
+}
+
+/// A conductance by a table moves the node at its end: 5 K, and half as much again from move to move.
+#[test]
+fn a_path_moves_the_node_that_it_depends_on() {
+    let system = system_of("absolute(300 [K])", "g(T_mean - absolute(0 [K]))");
+    let mut newton = Newton::new(&system, vec![1]).unwrap_or_else(|_| panic!("no balances"));
+    let mut temperatures = [300.0, 200.0];
+    assert!(newton.bring_inside(&mut workspace(&system), &mut temperatures));
+    // the mean with air at 300 K lacks 50 + 30 K; that moves the mean by 40 K, to 290 K
+    assert!(temperatures[1] >= 300.0 - 1e-9 && temperatures[1] < 330.0, "{temperatures:?}");
 }
