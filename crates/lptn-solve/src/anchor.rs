@@ -81,3 +81,6 @@ impl Newton<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

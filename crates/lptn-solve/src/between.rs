@@ -160,3 +160,6 @@ impl Newton<'_> {
         Ok(Place { share, left, slope })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -10,7 +10,7 @@ use crate::cells::stretches;
 use crate::interval::{POINTS, time_of};
 use crate::readings::parts;
 use crate::times::{Segment, segments};
-use crate::watch::{is_same, top};
+use crate::watch::{is_same, put_in, top};
 
 /// Parts of a segment in which no input curves: what follows from straight lines may curve.
 const PARTS: u32 = 8;
@@ -83,8 +83,10 @@ fn highest<E>(part: (f64, f64), at: &mut dyn FnMut(f64) -> Result<f64, E>) -> Re
         let new = |time: f64| !points.iter().any(|point| is_same(point.0, time, part));
         let higher = tops.filter(|(height, time)| *height > known && new(*time));
         let Some((_, time)) = higher.max_by(|a, b| a.0.total_cmp(&b.0)) else { break };
-        let place = points.partition_point(|point| point.0 < time);
-        points.insert(place, (time, at(time)?));
+        put_in(&mut points, (time, at(time)?));
     }
     Ok(points.iter().map(|point| point.1).fold(f64::NEG_INFINITY, f64::max))
 }
+
+#[cfg(test)]
+mod tests;

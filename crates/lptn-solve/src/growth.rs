@@ -116,13 +116,25 @@ pub(crate) fn share(factor: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(
+        clippy::unwrap_used,
+        clippy::float_cmp,
+        reason = "a test that cannot go on has failed; numbers that are given"
+    )]
+
+    use lptn_assembly::ThermalSystem;
+    use lptn_network::{Conductance, Context, HeatCapacity, NetworkBuilder, Temperature};
+
     use super::Growth;
+
+    fn new() -> Growth {
+        let (before, weights, speed) = (vec![], vec![], None);
+        Growth { tolerance: 1e-5, before, elapsed: 0.0, weights, speed, now: 1.0, most: 1.0 }
+    }
 
     /// The growth of a run with one state over time, in steps of 1 s.
     fn growth(of: impl Fn(f64) -> f64) -> f64 {
-        let (before, weights, speed) = (vec![], vec![], None);
-        let mut growth =
-            Growth { tolerance: 1e-5, before, elapsed: 0.0, weights, speed, now: 1.0, most: 1.0 };
+        let mut growth = new();
         growth.begin(&[of(0.0)]);
         (1..=50).for_each(|k| growth.step(1.0, &[of(f64::from(k))]));
         growth.most()
@@ -142,5 +154,65 @@ mod tests {
         let noise = |t: f64| if t % 2.0 < 0.5 { 0.0 } else { 2e-5 };
         let grown = growth(|t| 100.0 * (-t).exp() + noise(t));
         assert!((grown - 1.0).abs() < 1e-12, "{grown}");
+    }
+
+    /// A state of slope 3 changes by three times as much in temperature; one below 1 counts as it
+    /// is.
+    #[test]
+    fn a_temperature_that_changes_more_than_its_state_counts_as_it_changes() {
+        let mut growth = new();
+        growth.begin(&[0.0]);
+        for (slope, state, grown) in
+            [(0.2, 1.0, 1.0), (3.0, 2.0, 3.0), (6.0, 3.0, 6.0), (2.0, 4.0, 6.0)]
+        {
+            growth.weigh(&[slope]);
+            growth.step(1.0, &[state]);
+            assert!((growth.most() - grown).abs() < 1e-12, "{slope}: {}", growth.most());
+        }
+        assert!((growth.now - 2.0).abs() < 1e-12);
+    }
+
+    /// Fifty tolerances in a step or several tell a speed; less tells that it is no larger.
+    #[test]
+    fn what_hardly_changes_tells_only_how_fast_it_is_at_most() {
+        let mut growth = new();
+        growth.begin(&[0.0]);
+        growth.step(1.0, &[1.0]);
+        growth.step(2.0, &[1.0 + 4e-4]);
+        assert!((growth.speed.unwrap() - 2.5e-4).abs() < 1e-15);
+        // together with the one before it is told
+        growth.step(2.0, &[1.0 + 8e-4]);
+        assert!((growth.speed.unwrap() - 2e-4).abs() < 1e-12 && growth.most() <= 1.0);
+        growth.step(2.0, &[1.0 + 8e-4 + 5.1e-4]);
+        assert!((growth.most() - 5.1 / 4.0).abs() < 1e-9, "{}", growth.most());
+        growth.step(0.0, &[9.0]);
+        assert!((growth.speed.unwrap() - 2.55e-4).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_tolerance_makes_up_for_what_grows_by_more_than_a_tenth() {
+        let shares = [0.5, 1.0, 1.09, 1.2, 10.0].map(super::share);
+        let expected = [1.0, 1.0, 1.0, 1.0 / 4.8, 1.0 / 40.0];
+        assert!(shares.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{shares:?}");
+    }
+
+    /// A network in which nothing acts on itself grows no errors, and one whose inputs go on by
+    /// themselves tells none by its speed.
+    #[test]
+    fn growth_is_followed_where_the_speed_tells_it() {
+        let is_followed = |power: &str| {
+            let mut b = NetworkBuilder::new();
+            let body = b.node("body", HeatCapacity(1.0), Temperature(300.0));
+            let air = b.boundary("air", Temperature(300.0));
+            b.resistor("skin", body, air, Conductance(1.0));
+            let power = b.expression_in(Context::Source, power, None).unwrap();
+            b.source("heat", body, power);
+            let system = ThermalSystem::assemble(&b.build().unwrap()).unwrap();
+            Growth::of(&system, 1e-5).is_some()
+        };
+        assert!(is_followed("1 [W/K^2] * (T - absolute(300 [K]))^2"));
+        assert!(!is_followed("1 [W]"));
+        assert!(!is_followed("1 [W] * sin(t / 1 [s])"));
+        assert!(!is_followed("1 [W/K^2] * (T - absolute(300 [K]))^2 * sin(t / 1 [s])"));
     }
 }

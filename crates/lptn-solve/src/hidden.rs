@@ -6,7 +6,8 @@
 use lptn_network::Bends;
 use lptn_units::Taylor;
 
-use crate::interval::{Interval, NODES, POINTS};
+use crate::interval::{Interval, POINTS};
+use crate::zeros::coefficients;
 
 /// The largest product of the distances to all points, on (-1, 1).
 const BETWEEN: f64 = 0.05;
@@ -70,45 +71,129 @@ fn way(values: &[f64; POINTS]) -> Taylor {
         *term = [coefficients[k] - rest, coefficients[k] + rest];
     }
     let goes_one_way = values.is_sorted() || values.iter().rev().is_sorted();
-    let (width, most) = (high - low, terms[0][1] - terms[0][0]);
-    terms[0] = match goes_one_way && width <= most {
-        true => [low + WITHIN * width, high - WITHIN * width],
-        false => terms[0],
-    };
+    if goes_one_way {
+        let inside = WITHIN * (high - low);
+        terms[0] = [low + inside, high - inside];
+    }
     Taylor::between(&terms)
-}
-
-/// The coefficients of the polynomial through the points of an interval, by a variable from -1 to 1:
-/// Newton's differences, multiplied out.
-fn coefficients(values: &[f64; POINTS]) -> [f64; POINTS] {
-    let mut differences = *values;
-    for order in 1..POINTS {
-        for k in (order..POINTS).rev() {
-            differences[k] = (differences[k] - differences[k - 1]) / (NODES[k] - NODES[k - order]);
-        }
-    }
-    let mut found = [0.0; POINTS];
-    for k in (0..POINTS).rev() {
-        for place in (1..POINTS).rev() {
-            found[place] = found[place - 1] - NODES[k] * found[place];
-        }
-        found[0] = differences[k] - NODES[k] * found[0];
-    }
-    found
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{NODES, coefficients, way};
+    #![allow(
+        clippy::unwrap_used,
+        clippy::float_cmp,
+        reason = "a test that cannot go on has failed; numbers that are given"
+    )]
 
+    use lptn_assembly::ThermalSystem;
+    use lptn_network::{Bends, Item};
+
+    use super::{Hidden, way};
+    use crate::interval::{Interval, NODES};
+    use crate::reading::Reading;
+
+    fn near(found: f64, expected: f64) {
+        assert!((found - expected).abs() <= 1e-12 * expected.abs().max(1.0), "{found} {expected}");
+    }
+
+    /// `x^m` has the terms `C(m, k) x^(m - k)` in `(x + h)^m`, which are largest at the ends.
     #[test]
-    fn a_polynomial_has_its_coefficients() {
-        let exact = [3.0, -1.0, 0.5, 2.0, -0.25, 1.5, -4.0];
-        let values = NODES.map(|x| exact.iter().rev().fold(0.0, |sum, a| sum * x + a));
-        for (found, exact) in coefficients(&values).iter().zip(exact) {
-            assert!((found - exact).abs() < 1e-12, "{found} {exact}");
+    fn a_way_is_bounded_by_the_terms_of_its_polynomial() {
+        let choose = |m: usize, k: usize| {
+            (0..k).fold(1.0, |product, i| product * (m - i) as f64 / (i + 1) as f64)
+        };
+        for sign in [1.0, -1.0] {
+            let exact = [3.0, -1.0, 0.5, 2.0, -0.25, 1.5, -4.0].map(|a: f64| sign * a);
+            let bounds = way(&NODES.map(|x| exact.iter().rev().fold(0.0, |sum, a| sum * x + a)));
+            for k in 0..7 {
+                let most = (k..7).map(|m| choose(m, k) * exact[m].abs()).sum();
+                near(bounds.largest(k), most);
+            }
+            assert!(bounds.largest(7) == 0.0);
+            let [low, high] = bounds.range().unwrap();
+            near(low, exact[0] - 9.25);
+            near(high, exact[0] + 9.25);
         }
-        let bounds = way(&values);
-        assert!((bounds.largest(6) - 4.0).abs() < 1e-12 && bounds.largest(7) == 0.0);
+    }
+
+    /// What goes one way stays between its ends, and ends a part in 1e9 within.
+    #[test]
+    fn a_way_in_one_direction_stays_between_its_ends() {
+        for sign in [1.0, -1.0] {
+            let bounds = way(&NODES.map(|x| 30.0 + sign * (100.0 * x + 10.0 * x * x)));
+            let [low, high] = bounds.range().unwrap();
+            let ends = if sign > 0.0 { [-60.0, 140.0] } else { [-80.0, 120.0] };
+            assert!((low - ends[0] - 2e-7).abs() < 1e-11 && (high - ends[1] + 2e-7).abs() < 1e-11);
+            near(bounds.largest(1), 120.0);
+        }
+    }
+
+    /// What bends in a report over the temperature of a node, with its slots.
+    fn bends_of(report: &str) -> (Bends, Vec<f64>) {
+        let text = format!(
+            "format = 1\n[node]\nbody = {{ C = \"1 J/K\", T0 = \"400 K\" }}\n[boundary]\nair = {{ T = \
+             \"300 K\" }}\n[resistor]\nskin = {{ from = \"body\", to = \"air\", R = \"1 K/W\" \
+             }}\n[run]\nstop = \"1 s\"\nreport = {{ over = \"{report}\" }}\n"
+        );
+        let netlist = lptn_netlist::parse("hidden.toml", &text).unwrap();
+        let network = &netlist.network;
+        let bends = network.bends(network.report_ids().map(Item::Report));
+        let system = ThermalSystem::assemble(network).unwrap();
+        let mut reading = Reading::new(&system);
+        reading.place(&mut system.workspace(), (0.0, 0.0)).unwrap();
+        let slots = bends.slots(&mut reading.scope);
+        (bends, slots)
+    }
+
+    /// An interval in which a temperature goes from one value to another, behind `count` curves.
+    fn interval(count: usize, middle: f64, half: f64) -> Interval {
+        let values = NODES.map(|x| {
+            let curves = (0..count).map(|k| 7e5 * x.powi(k as i32 + 2));
+            curves.chain([middle + half * x]).collect()
+        });
+        Interval { from: 0.0, to: 1.0, values }
+    }
+
+    /// The eighth power of `a + b x` has the term `8 (a + b x) b^7` of order 7 and the size
+    /// `(a + b)^8`; 0.05 of that term may be missed, and 1e-7 of the size is allowed.
+    #[test]
+    fn what_may_be_missed_is_measured_by_what_is_allowed() {
+        let (bends, slots) = bends_of("(kelvin(body.T) / 1 [K])^8");
+        assert_eq!((bends.moved(), bends.levels().len()), (1, 0));
+        let over = |b: f64, size: f64| {
+            0.05 * 8.0 * b.powi(7) * (400.0 + b) / (1e-7 * (400.0 + size).powi(8))
+        };
+        let at_one = 400.0 * (0.4e7_f64).powf(-1.0 / 7.0);
+        for count in [0, 1, 3] {
+            for half in [0.5 * at_one, 1.3 * at_one, -1.3 * at_one, 2.0 * at_one, 100.0] {
+                let found =
+                    Hidden::new((&bends, &slots), count).wanting(&interval(count, 400.0, half));
+                let expected = over(half.abs(), half.abs());
+                let expected = if expected > 1.0 { expected } else { 0.0 };
+                assert!((found - expected).abs() <= 1e-6 * expected, "{half}: {found} {expected}");
+            }
+        }
+        // of a part that which the whole step allows
+        let mut hidden = Hidden::new((&bends, &slots), 0);
+        hidden.wanting(&interval(0, 400.0, 200.0));
+        let found = hidden.wanting(&interval(0, 400.0, 100.0));
+        assert!((found / over(100.0, 200.0) - 1.0).abs() < 1e-6, "{found}");
+    }
+
+    /// A seventh power has a term of order 7, a sixth has none.
+    #[test]
+    fn nothing_hides_in_what_seven_points_tell() {
+        for (report, hides) in
+            [("(kelvin(body.T) / 1 [K])^6", false), ("(kelvin(body.T) / 1 [K])^9", true)]
+        {
+            let (bends, slots) = bends_of(report);
+            let found = Hidden::new((&bends, &slots), 0).wanting(&interval(0, 400.0, 300.0));
+            assert_eq!(found > 0.0, hides, "{report}: {found}");
+        }
+        let nothing = Bends::default();
+        assert!(Hidden::new((&nothing, &[]), 0).wanting(&interval(0, 400.0, 300.0)) == 0.0);
+        let (bends, _) = bends_of("(kelvin(body.T) / 1 [K])^9");
+        assert!(Hidden::new((&bends, &[]), 0).wanting(&interval(0, 400.0, 300.0)) == 0.0);
     }
 }

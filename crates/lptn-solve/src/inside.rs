@@ -87,3 +87,6 @@ fn lacks(error: &InputError) -> Option<f64> {
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests;

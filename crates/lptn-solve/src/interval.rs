@@ -176,3 +176,116 @@ pub(crate) fn interpolated((from, to): (f64, f64), values: &[f64; POINTS], time:
     }
     above / below
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(
+        clippy::unwrap_used,
+        clippy::float_cmp,
+        reason = "a test that cannot go on has failed; numbers that are given"
+    )]
+
+    use super::*;
+
+    /// Curves of a variable from -1 to 1, between two times.
+    fn interval<const N: usize>(ends: (f64, f64), curves: impl Fn(f64) -> [f64; N]) -> Interval {
+        Interval { from: ends.0, to: ends.1, values: NODES.map(|x| curves(x).to_vec()) }
+    }
+
+    /// Both rules are exact for a polynomial of degree 5, so that they differ by what is added in
+    /// one point alone: by so much of it.
+    const APART: f64 = GAUSS[0].1;
+
+    fn bump(x: f64) -> f64 {
+        if x.to_bits() == NODES[1].to_bits() { 1.0 } else { 0.0 }
+    }
+
+    #[test]
+    fn what_the_rules_agree_on_is_smooth() {
+        let is_smooth = |curve: &dyn Fn(f64) -> f64| {
+            interval((3.0, 7.0), |x| [f64::NAN, curve(x)]).is_smooth(1)
+        };
+        for sign in [1.0, -1.0] {
+            // a part in 1e10 of the integral of what does not pass zero
+            let size = 3.0 * 2e-10 / APART;
+            assert!(is_smooth(&|x| sign * (3.0 + 0.999 * size * bump(x))));
+            assert!(!is_smooth(&|x| sign * (3.0 + 1.001 * size * bump(x))));
+            assert!(!is_smooth(&|x| sign * (3.0 - 1.001 * size * bump(x))));
+            // a part in 1e7 of the range of what passes it
+            let range = 2e-7 * 5.0 / APART;
+            assert!(is_smooth(&|x| sign * (5.0 * x + 0.999 * range * bump(x))));
+            assert!(!is_smooth(&|x| sign * (5.0 * x + 1.001 * range * bump(x))));
+            assert!(is_smooth(&|x| sign * (x.powi(5) - 2.0 * x * x)));
+            assert!(!is_smooth(&|x| sign * (x - 0.3).abs()));
+        }
+    }
+
+    #[test]
+    fn integrals_of_a_polynomial_are_exact_and_what_the_rules_differ_by_is_told() {
+        let all = interval((3.0, 7.0), |x| [3.0 + x.powi(4), x, -2.0, bump(x) - 1.0]).integrals(4);
+        let expected = [
+            [12.0 + 0.8, 0.0, 12.8],
+            // of the absolute value that of the rule: 0.5 of each side, to its error at a kink
+            [0.0, 0.0, 4.0 * (GAUSS[0].1 * GAUSS[4].0 + GAUSS[1].1 * GAUSS[3].0)],
+            [-8.0, 0.0, 8.0],
+            [-4.0 + 2.0 * APART, 2.0 * APART, 4.0 - 2.0 * APART],
+        ];
+        for (found, expected) in all.iter().flatten().zip(expected.iter().flatten()) {
+            assert!((found - expected).abs() < 1e-13, "{all:?} {expected:?}");
+        }
+    }
+
+    /// The rule beside the Gauss rule: exact to degree 5, as `2 / (n + 1)` for even powers.
+    #[test]
+    fn the_other_rule_is_exact_for_polynomials_of_a_step() {
+        for power in 0..6 {
+            let sum: f64 = NODES.iter().zip(OTHER_RULE).map(|(x, w)| w * x.powi(power)).sum();
+            let exact = if power % 2 == 0 { 2.0 / f64::from(power + 1) } else { 0.0 };
+            assert!((sum - exact).abs() < 1e-14, "{power}: {sum}");
+        }
+        let [_, second, .., last, _] = OTHER_RULE;
+        assert_eq!([second, last], [0.0; 2]);
+        // far enough from the Gauss rule to tell what is not smooth
+        assert!((OTHER_RULE[3] - GAUSS[2].1).abs() > 0.1, "{OTHER_RULE:?}");
+    }
+
+    /// Rounding would leave the end of some of these.
+    #[test]
+    fn an_interval_begins_and_ends_at_its_very_ends() {
+        for k in 1..200 {
+            let (from, to) = (f64::from(k) * 0.1, f64::from(k) * 0.7 + 1.0 / 3.0);
+            let ends = [time_of((from, to), 0), time_of((from, to), POINTS - 1)];
+            assert_eq!(ends.map(f64::to_bits), [from, to].map(f64::to_bits));
+            for (point, node) in NODES.iter().enumerate().take(POINTS - 1).skip(1) {
+                let exact = from.midpoint(to) + 0.5 * (to - from) * node;
+                assert!((time_of((from, to), point) - exact).abs() < 1e-13);
+            }
+        }
+    }
+
+    #[test]
+    fn parts_between_cuts_follow_each_other_and_share_their_ends() {
+        let curve = |t: f64| vec![t * t];
+        let mut looks = 0;
+        let mut at = |time: f64| {
+            looks += 1;
+            Ok(curve(time))
+        };
+        let whole = Interval::new((0.0, 8.0), [curve(0.0), curve(8.0)], &mut at).unwrap();
+        let parts = whole.clone().cut(vec![(1.0, curve(1.0)), (5.0, curve(5.0))], &mut at).unwrap();
+        let [left, right] = whole.halves(&mut at).unwrap();
+        assert_eq!(looks, 5 + 15 + 10);
+        for (part, ends) in parts.iter().chain([&left, &right]).zip([
+            (0.0, 1.0),
+            (1.0, 5.0),
+            (5.0, 8.0),
+            (0.0, 4.0),
+            (4.0, 8.0),
+        ]) {
+            assert_eq!((part.from, part.to), ends);
+            for (time, values) in part.times().iter().zip(&part.values) {
+                assert_eq!(*values, curve(*time));
+            }
+        }
+    }
+}

@@ -58,6 +58,8 @@ mod replay;
 mod resolve;
 mod response;
 mod runaway;
+#[cfg(test)]
+mod scripted;
 mod selection;
 mod sense;
 mod sensed;

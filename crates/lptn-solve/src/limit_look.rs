@@ -9,7 +9,7 @@ use crate::limit_seen::{LimitSeen, Point};
 use crate::quadrature::{Halvings, ROUNDING};
 use crate::resolve::{Judged, Resolved, resolve};
 use crate::stop_reason::StopReason;
-use crate::watch::{is_same, top};
+use crate::watch::{is_same, put_in, top};
 
 /// How often the valley of a margin is approached by another parabola.
 const REFINEMENTS: usize = 12;
@@ -126,8 +126,7 @@ fn of_limit(
     let mut points = points(interval, limit).to_vec();
     for _ in 0..REFINEMENTS {
         let Some(time) = valley(&points, seen, ROUNDING * size) else { break };
-        let place = points.partition_point(|point| point.0 < time);
-        points.insert(place, (time, at(time)?[limit]));
+        put_in(&mut points, (time, at(time)?[limit]));
     }
     let breaks = points.windows(2).find(|pair| pair[0].1 >= 0.0 && pair[1].1 < 0.0);
     if let (Some(pair), None) = (breaks, seen.broken_at) {
@@ -154,3 +153,6 @@ fn valley(points: &[Point], seen: &LimitSeen, rounding: f64) -> Option<f64> {
     let first = seen.broken_at.is_none() && least >= 0.0 && height > 0.0;
     (deeper || first).then_some(time)
 }
+
+#[cfg(test)]
+mod tests;

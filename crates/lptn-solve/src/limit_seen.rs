@@ -42,3 +42,49 @@ impl LimitSeen {
         }
     }
 }
+
+#[cfg(test)]
+pub(crate) mod tests {
+    #![allow(
+        clippy::unwrap_used,
+        clippy::float_cmp,
+        reason = "a test that cannot go on has failed; numbers that are given"
+    )]
+
+    use super::*;
+
+    /// A limit of which nothing was seen.
+    pub(crate) fn unseen() -> LimitSeen {
+        let text = "format = 1\n[node]\nbody = { C = \"1 J/K\", T0 = \"0 degC\" }\n[limit]\nhot = { of = \
+                    \"body.T\", below = \"1 degC\" }\n[run]\nstop = \"1 s\"\n";
+        let netlist = lptn_netlist::parse("limit.toml", text).unwrap();
+        let limit = netlist.network.limit_ids().next().unwrap();
+        let (margin, worst_at) = (f64::INFINITY, f64::NAN);
+        LimitSeen { limit, margin, worst_at, broken_at: None, open: 0.0 }
+    }
+
+    #[test]
+    fn the_least_margin_is_when_it_was_first_there() {
+        let mut seen = unseen();
+        let mut after = |point: Point| {
+            seen.take_in(point);
+            (seen.margin, seen.worst_at, seen.broken_at)
+        };
+        assert_eq!(after((1.0, 3.0)), (3.0, 1.0, None));
+        assert_eq!(after((2.0, 4.0)), (3.0, 1.0, None));
+        assert_eq!(after((3.0, 3.0)), (3.0, 1.0, None));
+        assert_eq!(after((4.0, 0.0)), (0.0, 4.0, None));
+        assert_eq!(after((5.0, -1.0)), (-1.0, 5.0, Some(5.0)));
+        assert_eq!(after((6.0, -2.0)), (-2.0, 6.0, Some(5.0)));
+        assert_eq!(after((7.0, 1.0)), (-2.0, 6.0, Some(5.0)));
+    }
+
+    #[test]
+    fn a_mean_is_known_and_broken_at_the_end() {
+        for (margin, broken) in [(1.0, None), (0.0, None), (-1.0, Some(9.0))] {
+            let found = LimitSeen { open: 0.5, ..unseen() }.of_mean((9.0, margin));
+            assert_eq!((found.margin, found.worst_at, found.broken_at), (margin, 9.0, broken));
+            assert!((found.open - 0.5).abs() < 1e-15);
+        }
+    }
+}

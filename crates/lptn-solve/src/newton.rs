@@ -413,3 +413,6 @@ fn worst(values: &[f64]) -> (usize, f64) {
     let all = values.iter().map(|&v| size(v)).enumerate();
     all.fold((0, 0.0), |most, now| if now.1 > most.1 { now } else { most })
 }
+
+#[cfg(test)]
+mod tests;

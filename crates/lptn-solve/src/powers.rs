@@ -112,6 +112,8 @@ impl Square {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp, reason = "numbers that are given")]
+
     use super::Square;
 
     fn matrix(rows: &[&[f64]]) -> Square {
@@ -142,6 +144,29 @@ mod tests {
     }
 
     #[test]
+    fn a_matrix_is_squared_column_by_column() {
+        let square = matrix(&[&[1.0, 2.0, 0.0], &[3.0, -4.0, 5.0], &[0.5, 0.0, -2.0]]).squared();
+        let exact = matrix(&[&[7.0, -6.0, 10.0], &[-6.5, 22.0, -30.0], &[-0.5, 1.0, 4.0]]);
+        assert_eq!(square.values, exact.values);
+        assert!((square.trace() - 33.0).abs() < 1e-12);
+        assert!((matrix(&[&[3.0, 0.0], &[0.0, -4.0]]).norm() - 5.0).abs() < 1e-12);
+    }
+
+    /// By its trace above the number of unknowns, and by its norm where the trace is 0.
+    #[test]
+    fn what_grows_moves_the_place_that_moves_most() {
+        let turns = |a: f64, b: f64| matrix(&[&[0.1, 0.0, 0.0], &[0.0, 0.2, a], &[0.0, -b, 0.2]]);
+        assert_eq!((turns(8.0, 9.0).grows(), turns(9.0, 8.0).grows()), (Some(1), Some(2)));
+        assert_eq!(matrix(&[&[1.5, 0.0], &[0.0, -1.6]]).grows(), Some(1));
+        assert_eq!(matrix(&[&[0.0, 1e101], &[0.0, 0.0]]).grows(), Some(0));
+        assert_eq!(matrix(&[&[0.0, 0.0], &[-3e101, 0.0]]).grows(), Some(1));
+        assert_eq!(matrix(&[&[f64::NAN]]).grows(), None);
+        // what neither grows nor dies does not grow
+        assert_eq!(matrix(&[&[1.0, 0.0], &[0.0, 1.0]]).grows(), None);
+        assert_eq!(matrix(&[&[0.0, 1.0], &[1.0, 0.0]]).grows(), None);
+    }
+
+    #[test]
     fn determinants_have_their_sign() {
         for (rows, sign) in [
             ([[2.0, 1.0], [1.0, 2.0]], 1.0),
@@ -152,5 +177,17 @@ mod tests {
             let rows: Vec<&[f64]> = rows.iter().map(|row| &row[..]).collect();
             assert!((matrix(&rows).sign() - sign).abs() < 0.5, "{rows:?}");
         }
+        let sign = |rows: [[f64; 3]; 3]| matrix(&rows.each_ref().map(|row| &row[..])).sign();
+        let third: [[f64; 3]; 3] = [[0.0, 2.0, 1.0], [4.0, -1.0, 3.0], [-2.0, 5.0, 7.0]];
+        let [a, b, c] = third;
+        let exact = a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0])
+            + a[2] * (b[0] * c[1] - b[1] * c[0]);
+        assert!((sign(third) - exact.signum()).abs() < 0.5);
+        let turned = third.map(|row| row.map(|a| -a));
+        assert!((sign(turned) + exact.signum()).abs() < 0.5);
+        assert!((sign([a, c, b]) + exact.signum()).abs() < 0.5);
+        // two large ones before a small one of the other sign
+        assert!((sign([[3.0, 0.0, 0.0], [0.0, 5.0, 1.0], [0.0, 5.0, 0.9]]) + 1.0).abs() < 0.5);
+        assert!((sign([[3.0, 1.0, 0.0], [3.0, 1.1, 0.0], [0.0, 0.0, -4.0]]) + 1.0).abs() < 0.5);
     }
 }

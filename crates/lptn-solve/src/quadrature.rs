@@ -132,9 +132,12 @@ fn wanting(kinds: &[usize], integrals: &[[f64; 3]], sizes: &mut [f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp, reason = "numbers that are given")]
+
     use lptn_network::Bends;
 
-    use super::Quadrature;
+    use super::{Halvings, Quadrature};
+    use crate::interval::{GAUSS, NODES};
 
     /// The integral, and how often the curve was evaluated.
     fn integral(curve: impl Fn(f64) -> f64, from: f64, to: f64) -> (f64, usize) {
@@ -202,6 +205,68 @@ mod tests {
         sum.step((1000.0, 1001.0), ((&Bends::default(), &[]), &mut smooth), &mut |_, _| {})
             .unwrap();
         assert_eq!(sum.halvings.0, super::HALVINGS);
+    }
+
+    /// Where no halving is left the integral is off by as much as the rules differ, as a share of
+    /// the integral of the absolute value.
+    #[test]
+    fn how_far_off_an_integral_may_be_is_told_where_halvings_end() {
+        let mut sum = Quadrature::new(vec![0, 0, 1]);
+        sum.halvings = Halvings(0);
+        let jump = |t: f64| if t > 1.5 { -3.0 } else { 0.0 };
+        for begin in [0.0, 2.0, 4.0] {
+            let mut at = |t: f64| Ok(vec![1.0 + t, jump(t - begin), 0.0]);
+            let along = ((&Bends::default(), &[][..]), &mut at as &mut _);
+            sum.step((begin, begin + 2.0), along, &mut |_, told| assert!(!told)).unwrap();
+            sum.jump();
+        }
+        // two nodes of the Gauss rule are behind the jump, of the other one of these and the end
+        let square = NODES[4] * NODES[4];
+        let beside = 2.0 / 15.0 / (square * (1.0 - square));
+        let other = beside + 1.0 / 3.0 - beside * square;
+        let gauss = GAUSS[3].1 + GAUSS[4].1;
+        assert!((sum.integral[1] + 9.0 * gauss).abs() < 1e-12, "{:?}", sum.integral);
+        assert!((sum.open(1) - (1.0 - other / gauss).abs()).abs() < 1e-12, "{}", sum.open(1));
+        assert!(sum.open(0) < 1e-15 && sum.open(2) == 0.0);
+        assert!((sum.integral[0] - 24.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn halvings_are_halved_until_a_step_is_settled() {
+        let mut halvings = Halvings(81);
+        halvings.after(false);
+        assert_eq!(halvings.0, 40);
+        halvings.after(true);
+        assert_eq!(halvings.0, super::HALVINGS);
+    }
+
+    /// A curve wants as much as its rules differ over a part in 1e10 of its own size, or one in 1e12
+    /// of the largest of its kind, in this interval or before.
+    #[test]
+    fn the_worst_curve_tells_how_much_is_wanting() {
+        let wants = |integrals: &[[f64; 3]], known: &[f64]| {
+            let mut sizes = known.to_vec();
+            let found = super::wanting(&[0, 0, 1][..integrals.len()], integrals, &mut sizes);
+            let largest = integrals.iter().zip(known).map(|(one, known)| one[2].max(*known));
+            assert_eq!(sizes, largest.collect::<Vec<f64>>());
+            found
+        };
+        let near = |found: f64, expected: f64| {
+            assert!((found - expected).abs() < 1e-9 * expected, "{found} {expected}");
+        };
+        for sign in [1.0, -1.0] {
+            near(wants(&[[1.0, sign * 8e-10, 2.0]], &[0.0]), 4.0);
+            assert!(wants(&[[1.0, sign * 1.9e-10, 2.0]], &[0.0]) == 0.0);
+            // nothing beside another one of its kind, or beside itself before
+            let small = [1.0, sign * 8e-10, 2.0];
+            near(wants(&[small, [0.0, 0.0, 500.0]], &[0.0; 2]), 8.0 / 5.0);
+            assert!(wants(&[small, [0.0, 0.0, 900.0]], &[0.0; 2]) == 0.0);
+            near(wants(&[small], &[500.0]), 8.0 / 5.0);
+            near(wants(&[small, small, [0.0, 0.0, 9e9]], &[0.0; 3]), 4.0);
+            near(wants(&[small, [0.0, sign * 6e-9, 0.0], small], &[0.0; 3]), 3e3);
+        }
+        assert!(wants(&[[1.0, 1e-10, 1.0]], &[0.0]) == 0.0);
+        assert!(wants(&[[f64::NAN; 3]], &[0.0]) == 0.0);
     }
 
     #[test]

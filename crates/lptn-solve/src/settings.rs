@@ -244,3 +244,33 @@ fn scale(network: &Network, id: ParameterId) -> f64 {
     let usual = [size, parameter.deviation.map_or(0.0, |spread| spread.sigma)];
     usual.into_iter().find(|scale| scale.is_finite() && *scale > 0.0).unwrap_or(1.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scripted::bodies;
+
+    /// A hundredth where something switches, and a quarter of what errors grow by; no finer than
+    /// the integrator can be.
+    #[test]
+    fn the_integrator_gets_a_share_of_the_tolerance() {
+        let system = ThermalSystem::assemble(&bodies(&[(30.0, "1 [W]"), (12.0, "1 [W]")], None));
+        let system = system.unwrap_or_else(|_| panic!("no system"));
+        let share = |tolerance: f64, switches: bool, grows: f64| {
+            let settings = Transient::until(Time(1.0)).tolerance(tolerance);
+            let options = settings.options(&system, (switches, grows), None);
+            assert!((options.integrals.amount / (42.0 * tolerance) - 1.0).abs() < 1e-12);
+            assert!((options.integrals.share * USUAL_CHANGE / tolerance - 1.0).abs() < 1e-12);
+            options.tolerance / tolerance
+        };
+        let near =
+            |found: f64, expected: f64| assert!((found / expected - 1.0).abs() < 1e-12, "{found}");
+        near(share(1e-3, false, 1.0), 1.0);
+        near(share(1e-3, true, 1.0), 0.01);
+        near(share(1e-3, false, 5.0), 0.05);
+        near(share(1e-3, true, 5.0), 5e-4);
+        near(share(1e-3, true, 1e9), FINEST / 1e-3);
+        near(share(0.5 * FINEST, true, 5.0), 1.0);
+        near(Transient::until(Time(1.0)).tolerance(1e-3).finest(), FINEST * 1e3);
+    }
+}

@@ -87,3 +87,27 @@ impl Others {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::float_cmp, reason = "numbers that are given")]
+
+    use super::*;
+    use crate::scripted::{bodies, workspace};
+
+    /// Two bodies and air at 300 K, and a massless node among them.
+    #[test]
+    fn a_search_begins_at_the_start_and_in_the_middle_of_all_that_is_known() {
+        let own = "-1 [W/K] * (T - absolute(300 [K]))";
+        let network = bodies(&[(1.0, "1 [W]"), (0.0, own), (1.0, "1 [W]")], None);
+        let system = ThermalSystem::assemble(&network).unwrap_or_else(|_| panic!("no system"));
+        assert_eq!(start(&system, &workspace(&system)), [300.0; 3]);
+    }
+
+    #[test]
+    fn states_are_one_to_a_hundred_thousandth_of_a_kelvin() {
+        assert!(same(&[300.0, 310.0], &[300.0 + 9e-6, 310.0 - 9e-6]));
+        assert!(!same(&[300.0, 310.0], &[300.0, 310.0 + 1.1e-5]));
+        assert!(!same(&[300.0, 310.0], &[300.0 - 1.1e-5, 310.0]));
+    }
+}

@@ -46,6 +46,8 @@ pub fn own_side(
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp, reason = "numbers that are given")]
+
     use super::{on_both_sides, own_side};
 
     #[test]
@@ -59,5 +61,32 @@ mod tests {
         let (times, values) = ([0.0, 5.0 - 2e-8, 5.0, 10.0], [0.0, 7.0, 3.0, 7.0]);
         let side = |value: f64| own_side((&times, |row| values[row]), (5.0, value), (0.0, 10.0));
         assert_eq!((side(7.0), side(3.0), side(5.0)), (1, 2, 2));
+    }
+
+    /// Far from 0 the row in front is 32 doubles away, of the larger end.
+    #[test]
+    fn a_row_in_front_is_told_apart_far_from_zero() {
+        for sign in [1.0, -1.0] {
+            let (start, stop) = (sign * 1e6 - 0.5, sign * 1e6 + 0.5);
+            let found = on_both_sides([sign * 1e6].into_iter(), (start, stop));
+            let away = 32.0 * f64::EPSILON * (1e6 + 0.5);
+            assert!(found.len() == 2 && (found[1] - found[0] - away).abs() < 2e-10, "{found:?}");
+        }
+        let found = on_both_sides([40.0].into_iter(), (-20.0, 80.0));
+        assert!((found[1] - found[0] - 2e-7).abs() < 1e-13, "{found:?}");
+    }
+
+    /// Where no row is beside the moment it is the first one behind it, or the last.
+    #[test]
+    fn a_moment_without_rows_has_the_next() {
+        let times = [0.0, 4.0, 6.0, 10.0];
+        let row = |at: f64| own_side((&times, |_| 0.0), (at, 0.0), (0.0, 10.0));
+        assert_eq!([3.0, 4.0, 4.1, 9.0, 11.0].map(row), [1, 1, 2, 3, 3]);
+        // rows are beside it up to one and a half of the distance, to both sides
+        let beside = [5.0 - 2.9e-8, 5.0 + 2.9e-8, 7.0];
+        let at = |value: f64| own_side((&beside, |row| row as f64), (5.0, value), (0.0, 10.0));
+        assert_eq!([at(-1.0), at(0.2), at(0.9), at(9.0)], [0, 0, 1, 1]);
+        let far = [5.0 - 3.1e-8, 5.0 + 3.1e-8, 7.0];
+        assert_eq!(own_side((&far, |row| row as f64), (5.0, 0.0), (0.0, 10.0)), 1);
     }
 }

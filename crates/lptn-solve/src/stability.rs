@@ -221,3 +221,6 @@ impl Newton<'_> {
         most.filter(|_| grown > FOR_EVER).map(|(place, _)| place)
     }
 }
+
+#[cfg(test)]
+mod tests;

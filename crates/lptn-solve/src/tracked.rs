@@ -8,7 +8,7 @@ use crate::quadrature::Quadrature;
 use crate::quantity::{Quantity, Shown};
 use crate::selection::Selection;
 use crate::stop_reason::StopReason;
-use crate::watch::{LASTS, REFINEMENTS, first_there, is_same, top};
+use crate::watch::{LASTS, REFINEMENTS, first_there, is_same, put_in, top};
 use crate::window::{ColumnSeen, Window, WindowSeen};
 use crate::zeros::share_above;
 
@@ -228,8 +228,7 @@ impl Curve<'_> {
             }
             let value = self.interval.interpolated(self.column, time);
             better(sign, best, (value, time));
-            let place = points.partition_point(|p| p.0 < time);
-            points.insert(place, (time, sign * value));
+            put_in(&mut points, (time, sign * value));
         }
     }
 }

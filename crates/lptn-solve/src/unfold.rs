@@ -203,3 +203,6 @@ pub(crate) fn outside(system: &ThermalSystem, state: usize, curve: &Enthalpy) ->
     let problem = InputProblem::OutsideCapacity { range: curve.range() };
     InputError { item: Item::Node(id), field: Field::Capacity, name, problem }
 }
+
+#[cfg(test)]
+mod tests;

@@ -146,8 +146,7 @@ impl Watched {
             if value > best.0 {
                 best = (value, time);
             }
-            let place = points.partition_point(|p| p.0 < time);
-            points.insert(place, (time, value));
+            put_in(&mut points, (time, value));
             next = Self { peak: best, ..*self }.promising(&points);
         }
         (!best.1.is_nan()).then_some(best)
@@ -190,7 +189,7 @@ fn on_the_curve(points: &[(f64, f64)], k: usize, level: f64) -> f64 {
     let (mut before, mut after) = (points[k - 1].0, points[k].0);
     let begins_above = points[k - 1].1 > level;
     for _ in 0..HALVINGS {
-        let middle = before + 0.5 * (after - before);
+        let middle = before.midpoint(after);
         match above(middle) == begins_above {
             true => before = middle,
             false => after = middle,
@@ -213,6 +212,12 @@ fn polynomial(points: &[(f64, f64)], time: f64) -> f64 {
     values[0]
 }
 
+/// Puts a point (time, value) among others of ascending time.
+pub(crate) fn put_in(points: &mut Vec<(f64, f64)>, point: (f64, f64)) {
+    points.push(point);
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+}
+
 /// Whether two times between these ends are one: far from 0 those of a short step are all near each
 /// other.
 pub(crate) fn is_same(a: f64, b: f64, (from, to): (f64, f64)) -> bool {
@@ -231,30 +236,4 @@ pub fn top([(t0, y0), (t1, y1), (t2, y2)]: [(f64, f64); 3]) -> Option<(f64, f64)
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_top_of_a_parabola_is_found_exactly() {
-        let y = |t: f64| 5.0 - (t - 1.25) * (t - 1.25);
-        let found = top([(0.0, y(0.0)), (1.0, y(1.0)), (3.0, y(3.0))]).unwrap();
-        assert!((found.0 - 5.0).abs() < 1e-14 && (found.1 - 1.25).abs() < 1e-14, "{found:?}");
-    }
-
-    /// Between points that are an eighth of a time constant apart.
-    #[test]
-    fn a_level_is_reached_on_the_curve_and_not_on_the_chord() {
-        let points: Vec<(f64, f64)> =
-            (0..=8).map(|k| f64::from(k) / 8.0).map(|t| (t, -(-t).exp_m1())).collect();
-        for level in [0.05, 0.3, 0.6] {
-            let after = points.iter().position(|point| point.1 > level).unwrap();
-            let (found, exact) = (on_the_curve(&points, after, level), -(1.0_f64 - level).ln());
-            assert!((found - exact).abs() < 2e-5, "{level}: {found}");
-        }
-    }
-
-    #[test]
-    fn a_monotonic_curve_has_no_inner_top() {
-        assert_eq!(top([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)]), None);
-    }
-}
+mod tests;

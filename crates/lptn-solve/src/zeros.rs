@@ -15,13 +15,13 @@ pub(crate) fn share_above(values: &[f64; POINTS]) -> f64 {
     let mut edges = vec![-1.0];
     edges.extend(zeros(&polynomial));
     edges.push(1.0);
-    let above = |part: &&[f64]| value(&polynomial, 0.5 * (part[0] + part[1])) > 0.0;
+    let above = |part: &&[f64]| value(&polynomial, part[0].midpoint(part[1])) > 0.0;
     0.5 * edges.windows(2).filter(above).map(|part| part[1] - part[0]).sum::<f64>()
 }
 
 /// Of the polynomial through values at the points on (-1, 1), by Newton's divided differences; the
 /// constant one first.
-fn coefficients(values: &[f64; POINTS]) -> [f64; POINTS] {
+pub(crate) fn coefficients(values: &[f64; POINTS]) -> [f64; POINTS] {
     let mut differences = *values;
     for order in 1..POINTS {
         for i in (order..POINTS).rev() {
@@ -63,7 +63,7 @@ fn zero(polynomial: &[f64], part: &[f64]) -> f64 {
     let (mut from, mut to) = (part[0], part[1]);
     let above = value(polynomial, from) > 0.0;
     for _ in 0..HALVINGS {
-        let middle = from + 0.5 * (to - from);
+        let middle = from.midpoint(to);
         match (value(polynomial, middle) > 0.0) == above {
             true => from = middle,
             false => to = middle,
@@ -74,6 +74,8 @@ fn zero(polynomial: &[f64], part: &[f64]) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::float_cmp, reason = "numbers that are given")]
+
     use super::*;
 
     fn share(curve: impl Fn(f64) -> f64) -> f64 {
@@ -94,6 +96,15 @@ mod tests {
         let six = |x: f64| (x + 0.9) * (x + 0.5) * (x + 0.2) * (x - 0.1) * (x - 0.6) * (x - 0.8);
         assert!((share(six) - 0.5 * (0.1 + 0.3 + 0.5 + 0.2)).abs() < 1e-12, "{}", share(six));
         assert!((share(|x| -six(x)) - 1.0 + share(six)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_polynomial_has_its_coefficients() {
+        let exact = [3.0, -1.0, 0.5, 2.0, -0.25, 1.5, -4.0];
+        let values = NODES.map(|x| exact.iter().rev().fold(0.0, |sum, a| sum * x + a));
+        for (found, exact) in coefficients(&values).iter().zip(exact) {
+            assert!((found - exact).abs() < 1e-12, "{found} {exact}");
+        }
     }
 
     #[test]

@@ -155,7 +155,7 @@ impl Search {
         (mut before, mut after): (f64, f64),
     ) -> Result<(Vec<usize>, f64), Trouble> {
         for _ in 0..BISECTIONS {
-            let middle = before + 0.5 * (after - before);
+            let middle = before.midpoint(after);
             match self.at(integrator, middle)?.is_due() {
                 true => after = middle,
                 false => before = middle,
@@ -164,3 +164,6 @@ impl Search {
         Ok((self.at(integrator, after)?.due(), after))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -227,3 +227,6 @@ impl Heat<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -137,3 +137,6 @@ impl Errors {
         errors.into_iter().filter(|error| *error < MOST).fold(1.0, f64::max)
     }
 }
+
+#[cfg(test)]
+mod tests;

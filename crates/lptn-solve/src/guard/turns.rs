@@ -175,3 +175,6 @@ impl Family {
         next.copied().unwrap_or([self.range[usize::from(rises)]; 2])
     }
 }
+
+#[cfg(test)]
+mod tests;

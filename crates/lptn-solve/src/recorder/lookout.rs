@@ -142,3 +142,6 @@ fn range(values: &[f64; POINTS]) -> (f64, f64) {
     }
     (low, high + (high - low))
 }
+
+#[cfg(test)]
+mod tests;

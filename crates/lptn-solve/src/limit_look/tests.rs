@@ -1,0 +1,235 @@
+//! Limits over steps of margins that are closed forms of the time.
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    reason = "a test that cannot go on has failed; numbers that are given"
+)]
+
+use lptn_network::Bends;
+
+use super::*;
+use crate::interval::POINTS;
+use crate::limit_seen::tests::unseen;
+
+/// What is seen of margins in some steps, and how often they were evaluated beside
+/// the points of each step.
+fn look<const N: usize>(
+    (steps, of_mean): (&[(f64, f64)], [bool; N]),
+    margins: impl Fn(f64) -> [f64; N],
+    sizes: [f64; N],
+) -> (LimitLook, usize) {
+    let mut look = LimitLook::new(vec![unseen(); N], &of_mean, Bends::default());
+    look.sizes = sizes.to_vec();
+    let mut calls = 0;
+    let mut at = |time: f64| {
+        calls += 1;
+        Ok(margins(time).to_vec())
+    };
+    for &ends in steps {
+        let values = [at(ends.0).unwrap(), at(ends.1).unwrap()];
+        let step = Interval::new(ends, values, &mut at).unwrap();
+        look.step(step, &mut at).unwrap();
+    }
+    (look, calls - POINTS * steps.len())
+}
+
+const TWO: [(f64, f64); 2] = [(0.0, 10.0), (11.0, 21.0)];
+
+/// One limit over one step from 0 to 10 s: its least margin, when that is, when it is broken, and
+/// the looks.
+fn one(margin: impl Fn(f64) -> f64) -> (f64, f64, Option<f64>, usize) {
+    let (look, looks) = look((&TWO[..1], [false]), |time| [margin(time)], [10.0]);
+    let seen = look.seen[0];
+    assert!(seen.open == 0.0, "{seen:?}");
+    (seen.margin, seen.worst_at, seen.broken_at, looks)
+}
+
+fn near(found: f64, expected: f64) {
+    assert!((found - expected).abs() < 1e-12, "{found} for {expected}");
+}
+
+/// A valley between the points is found at the top of the first parabola.
+#[test]
+fn a_valley_is_found_in_one_look() {
+    for (at, depth) in [(3.6, 1.0), (7.7, 0.25), (0.3, 2.0)] {
+        let (margin, worst, broken, looks) = one(|t| depth + (t - at) * (t - at));
+        near(margin, depth);
+        near(worst, at);
+        assert_eq!((broken, looks), (None, 1));
+    }
+    assert_eq!(one(|t| 1.0 + t), (1.0, 0.0, None, 0));
+    assert_eq!(one(|t| 11.0 - t), (1.0, 10.0, None, 0));
+}
+
+#[test]
+fn a_limit_is_broken_when_its_margin_first_passes_zero() {
+    let (margin, worst, broken, looks) = one(|t| 7.0 - 2.0 * t);
+    assert_eq!((margin, worst), (-13.0, 10.0));
+    near(broken.unwrap(), 3.5);
+    assert!(looks <= 2, "{looks}");
+    // between the points, and above zero again
+    let (margin, worst, broken, looks) = one(|t| (t - 3.6) * (t - 3.6) - 1.0 / 16.0);
+    near(margin, -1.0 / 16.0);
+    near(worst, 3.6);
+    near(broken.unwrap(), 3.35);
+    assert_eq!(looks, 25);
+    // a margin of zero is kept
+    assert_eq!(one(|t| (t - 5.0) * (t - 5.0)).2, None);
+    assert_eq!(one(|t| t).2, None);
+    assert_eq!(one(|t| t - 1e-9).2, Some(0.0));
+}
+
+/// Two valleys: the first below zero breaks the limit, the deeper one is the worst.
+#[test]
+fn the_first_of_two_valleys_breaks_and_the_deeper_one_is_the_worst() {
+    let two = |t: f64| {
+        let x = (t - 5.0) / 5.0;
+        5.0 * ((x * x - 0.25) * (x * x - 0.25) + 0.02 * (x + 0.5) - 0.03)
+    };
+    // at the zeros of 4 x^3 - x + 0.02 = 0 by Newton's method
+    let least = |mut x: f64| {
+        (0..50).for_each(|_| x -= (4.0 * x * x * x - x + 0.02) / (12.0 * x * x - 1.0));
+        5.0 + 5.0 * x
+    };
+    let (margin, worst, broken, _) = one(two);
+    assert!((worst - least(-0.5)).abs() < 1e-4 && (margin - two(least(-0.5))).abs() < 1e-10);
+    assert!(two(broken.unwrap()).abs() < 1e-10 && broken.unwrap() < worst);
+    let turned = |t: f64| two(10.0 - t);
+    let (margin, worst, broken, _) = one(turned);
+    assert!((worst - 10.0 + least(-0.5)).abs() < 1e-4 && (margin - two(least(-0.5))).abs() < 1e-10);
+    let first = broken.unwrap();
+    assert!(turned(first).abs() < 1e-10 && first < 5.0 && turned(first - 1e-3) > 0.0, "{first}");
+}
+
+/// What was lower before, or is far from what was, is not looked at.
+#[test]
+fn what_cannot_count_costs_no_look() {
+    let valley = |t: f64| [if t <= 10.0 { 1.0 + t } else { 2.5 + (t - 13.6) * (t - 13.6) }];
+    let (found, looks) = look((&TWO, [false]), valley, [10.0]);
+    assert_eq!((found.seen[0].margin, looks), (1.0, 0));
+    // a valley that no point shows to be below what was
+    let valley = |t: f64| [if t <= 10.0 { 1.0 + t } else { 0.5 + (t - 13.6) * (t - 13.6) }];
+    let (found, looks) = look((&TWO, [false]), valley, [10.0]);
+    near(found.seen[0].margin, 0.5);
+    assert_eq!(looks, 1);
+    // below zero for the first time, though not lower than before is impossible: broken already
+    let broken = |t: f64| [if t <= 10.0 { -t } else { (t - 13.6) * (t - 13.6) - 1.0 }];
+    let (found, looks) = look((&TWO, [false]), broken, [10.0]);
+    assert_eq!((found.seen[0].margin, found.seen[0].worst_at), (-10.0, 10.0));
+    assert_eq!(looks, 1, "the passage at the start");
+}
+
+/// The mean is an integral; it is cut and halved where the margin jumps, as others are not.
+#[test]
+fn a_mean_is_integrated_and_asks_for_halvings_of_its_own() {
+    let jump = |t: f64| if t < 3.3 { 4.0 } else { 9.0 };
+    let margins = |t: f64| [2.0 + t * t, jump(t)];
+    let (found, looks) = look((&TWO[..1], [true, true]), margins, [10.0; 2]);
+    near(found.integral(0).unwrap(), 20.0 + 1000.0 / 3.0);
+    assert!((found.integral(1).unwrap() - 4.0 * 3.3 - 9.0 * 6.7).abs() < 1e-9);
+    assert!(looks > 300 && looks <= 440, "{looks}");
+    assert!(found.seen.iter().all(|seen| seen.open == 0.0 && seen.margin == f64::INFINITY));
+    let (found, looks) = look((&TWO, [false, true]), margins, [10.0; 2]);
+    assert!((found.integral(1).unwrap() - 4.0 * 3.3 - 9.0 * 16.7).abs() < 1e-9);
+    assert!(found.integral(0).is_none() && looks <= 440, "{looks}");
+    // above what was, a jump is none of a limit that holds
+    let margins = |t: f64| [if t <= 10.0 { 0.0 } else { 1.0 + jump(t - 10.0) }];
+    let (found, looks) = look((&TWO, [false]), margins, [10.0]);
+    assert_eq!((found.seen[0].margin, looks), (0.0, 0));
+}
+
+/// Noise of a part in 1e13 of what is compared is rounding, and not looked into.
+#[test]
+fn rounding_of_what_is_compared_is_not_looked_into() {
+    let noise = |t: f64| if (1e6 * t).sin() > 0.0 { 1.0 } else { -1.0 };
+    let looks = |share: f64, size: f64, base: f64| {
+        let margins = |t: f64| [base + share * size * noise(t)];
+        look((&TWO[..1], [true]), margins, [size]).1
+    };
+    for size in [1e-3, 1.0, 1e3] {
+        assert_eq!(looks(1e-13, size, 0.0), 0, "{size}");
+        assert!(looks(1e-10, size, 0.0) > 300, "{size}");
+        assert_eq!(looks(1e-12, size, size), 0, "{size}");
+    }
+}
+
+/// Noise that no halving settles leaves open by how much a margin may be off: the range of what was
+/// seen, where that may count.
+#[test]
+fn noise_leaves_a_margin_open_by_what_was_seen_of_it() {
+    let mut state = 1_u32;
+    let mut noise = || {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        f64::from(state) / f64::from(u32::MAX)
+    };
+    let mut look = LimitLook::new(vec![unseen(); 3], &[false; 3], Bends::default());
+    look.sizes = vec![10.0; 3];
+    look.seen[1].margin = -100.0;
+    look.seen[1].broken_at = Some(0.0);
+    let mut at = |_: f64| Ok(vec![2.0 + noise(), 2.0 + noise(), 2.0 + 1e-6 * noise()]);
+    let values = [at(0.0).unwrap(), at(1.0).unwrap()];
+    let step = Interval::new((0.0, 1.0), values, &mut at).unwrap();
+    look.step(step, &mut at).unwrap();
+    let [first, second, third] = [0, 1, 2].map(|i| look.seen[i].open);
+    assert!(first > 0.5 && first <= 1.0, "{first}");
+    assert_eq!((second, third), (0.0, 0.0));
+}
+
+#[test]
+fn what_is_left_open_is_the_range_of_the_margins_or_all_where_something_hides() {
+    let open = |margins: &[f64], (size, hides): (f64, bool), seen: LimitSeen| {
+        let mut seen = seen;
+        seen.leave_open(margins, (size, hides));
+        seen.open
+    };
+    let held = LimitSeen { margin: 1.0, ..unseen() };
+    near(open(&[2.0, 5.0, 3.0], (10.0, false), unseen()), 3.0);
+    near(open(&[2.0, 5.0, 3.0], (10.0, true), unseen()), 10.0);
+    near(open(&[2.0, 5.0, 3.0], (10.0, false), LimitSeen { open: 4.0, ..unseen() }), 4.0);
+    // 4 - (5 - 4) does not come below 1, 2.9 - 2.1 does
+    assert!(open(&[4.0, 5.0], (10.0, false), held) == 0.0);
+    near(open(&[2.9, 5.0], (10.0, false), held), 2.1);
+    near(open(&[4.0, 5.0], (10.0, true), held), 10.0);
+    // a change of a part in 1e6 of what is compared is rounding
+    assert!(open(&[2.0, 2.0 + 9e-6], (10.0, false), unseen()) == 0.0);
+    near(open(&[2.0, 2.0 + 1.1e-5], (10.0, false), unseen()), 1.1e-5);
+    assert!(open(&[2.0, 2.0 + 9e-4], (1e3, false), unseen()) == 0.0);
+}
+
+/// No curve that its points tell leaves their range by as much again.
+#[test]
+fn a_margin_counts_if_it_may_be_the_least_or_the_first_below_zero() {
+    let seen = |margin: f64, broken_at| LimitSeen { margin, broken_at, ..unseen() };
+    // reaches down to 3
+    let values = [6.0, 5.0, 7.0];
+    assert!(counts(&seen(3.1, None), &values) && !counts(&seen(3.0, None), &values));
+    // reaches down to -0.5 or to 0
+    let low = [2.0, 1.0, 2.5];
+    assert!(counts(&seen(-2.0, None), &low));
+    assert!(!counts(&seen(-2.0, Some(1.0)), &low));
+    assert!(!counts(&seen(-2.0, None), &[2.0, 1.0]));
+    assert!(counts(&seen(-0.4, Some(1.0)), &low));
+}
+
+#[test]
+fn a_valley_is_promising_if_it_is_deeper_than_all_or_the_first_below_zero() {
+    let points = |depth: f64, at: f64| {
+        [0.0, 1.0, 2.0, 3.0, 4.0].map(|t: f64| (t, depth + (t - at) * (t - at)))
+    };
+    let held = |margin: f64, broken_at| LimitSeen { margin, broken_at, ..unseen() };
+    near(valley(&points(1.0, 1.4), &unseen(), 0.0).unwrap(), 1.4);
+    assert_eq!(valley(&points(1.0, 1.4), &held(0.9, None), 0.0), None);
+    assert_eq!(valley(&points(1.0, 1.4), &held(1.1, None), 0.2), None);
+    near(valley(&points(1.0, 1.4), &held(1.1, None), 0.05).unwrap(), 1.4);
+    // a point is known already
+    assert_eq!(valley(&points(1.0, 2.0), &unseen(), 0.0), None);
+    // the first below zero, by less than rounding
+    near(valley(&points(-0.1, 1.4), &unseen(), 1.0).unwrap(), 1.4);
+    assert_eq!(valley(&points(-0.1, 1.4), &held(0.0, Some(0.0)), 1.0), None);
+    assert_eq!(valley(&points(-0.1, 1.4), &held(-0.05, None), 1.0), None);
+    assert_eq!(valley(&points(0.0, 1.4), &unseen(), 1.0), None);
+    // of two the deeper one
+    let two = |t: f64| (t - 1.4) * (t - 1.4) * (t - 4.5) * (t - 4.5) + 0.1 * t;
+    let points: Vec<Point> = (0..13).map(|k| f64::from(k) * 0.5).map(|t| (t, two(t))).collect();
+    assert!((valley(&points, &unseen(), 0.0).unwrap() - 1.4).abs() < 0.1);
+}

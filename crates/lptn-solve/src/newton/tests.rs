@@ -1,0 +1,92 @@
+//! A massless node that follows a body on one of two branches.
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    reason = "a test that cannot go on has failed; numbers that are given"
+)]
+
+use lptn_assembly::ThermalSystem;
+
+use super::*;
+use crate::scripted::{bodies, workspace};
+
+/// `10 W tanh((T - 340 K) / 2 K) = 2 W/K (T - 300 K) + 2 W/K (T - T_body)` has three solutions where
+/// the body is between 379.7 and 380.3 K, one elsewhere.
+const STEP: &str = "10 [W] * tanh((T - absolute(340 [K])) / 2 [K])";
+
+/// The body in K at which the massless node rests at a temperature in K.
+fn body(massless: f64) -> f64 {
+    massless - 0.5 * (10.0 * ((massless - 340.0) / 2.0).tanh() - 2.0 * (massless - 300.0))
+}
+
+/// Where the massless node comes to from a temperature in K, with the body at another.
+fn follows(guarded: bool, (body, from): (f64, f64)) -> Result<f64, NewtonError> {
+    let system =
+        ThermalSystem::assemble(&bodies(&[(100.0, "1 [W]"), (0.0, STEP)], Some("2 [W/K]")));
+    let system = system.unwrap();
+    let mut newton = Newton::new(&system, vec![1])?;
+    newton.guarded = guarded;
+    let mut temperatures = [body, from];
+    let found = newton.follow(&mut workspace(&system), &mut temperatures);
+    match found {
+        Ok(()) => Ok(temperatures[1]),
+        Err(error) => {
+            assert_eq!(temperatures, [body, from], "where it was");
+            Err(error)
+        }
+    }
+}
+
+#[test]
+fn a_massless_node_stays_on_its_branch_and_ends_with_it() {
+    for (massless, from) in
+        [(320.0, 319.0), (338.0, 337.5), (338.9, 338.8), (345.0, 344.0), (341.2, 341.4)]
+    {
+        for guarded in [true, false] {
+            let found = follows(guarded, (body(massless), from)).unwrap_or_else(|_| panic!("ends"));
+            assert!((found - massless).abs() < 1e-7, "{massless}: {found}");
+        }
+    }
+    // behind the end of the lower and of the upper branch
+    for (at, from) in [(381.0, 338.9), (379.0, 341.1)] {
+        let found = follows(true, (at, from));
+        assert!(matches!(found, Err(NewtonError::Fold { unknown: 1 })), "{at}");
+        let found = follows(false, (at, from)).unwrap_or_else(|_| panic!("there is one"));
+        assert!((body(found) - at).abs() < 1e-6, "{at}: {found}");
+    }
+}
+
+/// With the factors at hand it goes on in corrections alone, as long as they shrink.
+#[test]
+fn a_massless_node_follows_with_the_factors_at_hand() {
+    let system =
+        ThermalSystem::assemble(&bodies(&[(100.0, "1 [W]"), (0.0, STEP)], Some("2 [W/K]")));
+    let system = system.unwrap();
+    for guarded in [true, false] {
+        let mut newton = Newton::new(&system, vec![1]).unwrap_or_else(|_| panic!("none"));
+        let mut work = workspace(&system);
+        newton.guarded = guarded;
+        let mut temperatures = [body(320.0), 319.0];
+        let follow = |newton: &mut Newton<'_>, work: &mut Workspace, at: &mut [f64]| {
+            newton.follow(work, at).unwrap_or_else(|_| panic!("it ends"));
+        };
+        follow(&mut newton, &mut work, &mut temperatures);
+        assert!(newton.ready);
+        let known = newton.matrix().to_vec();
+        temperatures[0] = body(321.0);
+        follow(&mut newton, &mut work, &mut temperatures);
+        assert!((temperatures[1] - 321.0).abs() < 1e-7, "{temperatures:?}");
+        assert_eq!(newton.matrix(), known, "no new factors");
+    }
+}
+
+#[test]
+fn the_largest_move_of_a_free_unknown_counts() {
+    let heats = [(100.0, "1 [W]"), (0.0, STEP), (0.0, STEP)];
+    let system = ThermalSystem::assemble(&bodies(&heats, Some("2 [W/K]"))).unwrap();
+    let newton = Newton::new(&system, vec![1, 2]).unwrap_or_else(|_| panic!("none"));
+    let moved = |to: [f64; 3]| newton.moved(&[300.0, 310.0, 320.0], &to);
+    assert_eq!(moved([400.0, 313.0, 321.0]), 3.0);
+    assert_eq!(moved([400.0, 309.0, 316.0]), 4.0);
+    assert_eq!(moved([400.0, 310.0, 320.0]), 0.0);
+}

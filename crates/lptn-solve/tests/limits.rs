@@ -1,0 +1,258 @@
+//! Limits, peaks and levels of runs between their rows, against exponentials; and how much is
+//! looked at for that.
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    reason = "a test fails by panicking, in its helpers too; numbers that are given"
+)]
+
+use lptn_assembly::ThermalSystem;
+use lptn_network::Time;
+use lptn_solve::{LimitSeen, Solution, SteadyState, Transient, Watch};
+
+/// Time constant of the body in s.
+const TAU: f64 = 500.0;
+
+/// A body from 20 degC towards 100 degC with limits, and more sections.
+fn system(limits: &str, more: &str) -> ThermalSystem {
+    let text = format!(
+        "format = 1\n[node]\nbody = {{ C = \"1 kJ/K\", T0 = \"20 degC\" }}\nskin = {{ massless = true }}\n[boundary]\nair = \
+         {{ T = \"20 degC\" }}\n[resistor]\nfilm = {{ from = \"skin\", to = \"air\", R = \"0.25 K/W\" }}\nwall = {{ from = \
+         \"body\", to = \"skin\", R = \"0.25 K/W\" }}\n[source]\nheat = {{ into = \"body\", P = \"160 W\" \
+         }}\n[limit]\n{limits}\n[run]\nstop = \"1000 s\"\n{more}\n"
+    );
+    let netlist = lptn_netlist::parse("limits.toml", &text).unwrap_or_else(|r| panic!("{r}"));
+    ThermalSystem::assemble(&netlist.network).unwrap()
+}
+
+/// The rise of the body in K at a time in s.
+fn rise(time: f64) -> f64 {
+    -80.0 * (-time / TAU).exp_m1()
+}
+
+/// When it has risen by so many K, in s.
+fn reaches(kelvin: f64) -> f64 {
+    -TAU * (-kelvin / 80.0).ln_1p()
+}
+
+fn run(system: &ThermalSystem) -> Solution {
+    Transient::until(Time(1000.0)).at(&[]).tolerance(1e-6).solve(system).unwrap()
+}
+
+fn seen(limit: &str) -> (LimitSeen, Solution) {
+    let solution = run(&system(&format!("limit = {{ {limit} }}"), ""));
+    (solution.limits()[0], solution)
+}
+
+fn near(found: f64, expected: f64, error: f64) {
+    assert!((found - expected).abs() <= error, "{found} for {expected}");
+}
+
+#[test]
+fn a_limit_that_is_kept_has_its_worst_at_the_end() {
+    let (seen, _) = seen("of = \"body.T\", below = \"95 degC\"");
+    near(seen.margin, 75.0 - rise(1000.0), 1e-5);
+    assert_eq!((seen.worst_at, seen.broken_at, seen.open), (1000.0, None, 0.0));
+    let (seen, _) = self::seen("of = \"body.T\", above = \"15 degC\"");
+    near(seen.margin, 5.0, 0.0);
+    assert_eq!((seen.worst_at, seen.broken_at), (0.0, None));
+}
+
+#[test]
+fn a_limit_is_broken_when_its_quantity_passes_it() {
+    for kelvin in [1.0, 33.3, 60.0] {
+        let (seen, _) = seen(&format!("of = \"body.T\", below = \"{} degC\"", 20.0 + kelvin));
+        near(seen.broken_at.unwrap(), reaches(kelvin), 1e-4);
+        near(seen.margin, kelvin - rise(1000.0), 1e-5);
+        near(seen.worst_at, 1000.0, 0.0);
+        // the massless skin stands in the middle
+        let (seen, _) =
+            self::seen(&format!("of = \"skin.T\", below = \"{} degC\"", 20.0 + 0.5 * kelvin));
+        near(seen.broken_at.unwrap(), reaches(kelvin), 1e-4);
+        near(seen.margin, 0.5 * (kelvin - rise(1000.0)), 1e-5);
+    }
+    // at the start
+    let (seen, _) = seen("of = \"body.T\", above = \"25 degC\"");
+    near(seen.margin, -5.0, 1e-12);
+    assert_eq!((seen.worst_at, seen.broken_at), (0.0, Some(0.0)));
+}
+
+/// What a temperature passes by less than its error is reached and not passed.
+#[test]
+fn a_limit_that_is_passed_by_less_than_the_tolerance_is_kept() {
+    let end = 20.0 + rise(1000.0);
+    let kept = |by: f64| {
+        let (seen, _) = seen(&format!("of = \"body.T\", below = \"{:.12} degC\"", end - by));
+        (seen.margin, seen.broken_at.is_some())
+    };
+    assert_eq!(kept(5e-6), (0.0, false));
+    let (margin, broken) = kept(2e-5);
+    assert!(broken && (margin + 2e-5).abs() < 5e-6, "{margin}");
+    let (margin, broken) = kept(-2e-5);
+    assert!(!broken && (margin - 2e-5).abs() < 5e-6, "{margin}");
+    // the start is exact
+    let (seen, _) = seen("of = \"body.T\", above = \"20.000002 degC\"");
+    assert!(seen.margin < -1.9e-6 && seen.broken_at == Some(0.0), "{seen:?}");
+    let (seen, _) = self::seen("of = \"body.T\", above = \"20.0000000005 degC\"");
+    assert_eq!((seen.margin, seen.broken_at), (0.0, None));
+}
+
+/// A worst that the error cannot tell from that of the start is there.
+#[test]
+fn a_worst_that_the_error_cannot_tell_from_an_end_is_there() {
+    // the rise from 0 to its end and back: |rise - half| is as large at both ends
+    let half = 0.5 * rise(1000.0);
+    let of = |more: f64| {
+        let text =
+            format!("of = \"abs(body.T - {:.12} [degC])\", below = \"80 K\"", 20.0 + half + more);
+        seen(&text).0
+    };
+    assert_eq!([of(1e-6).worst_at, of(-1e-6).worst_at], [0.0, 0.0]);
+    assert_eq!([of(1e-3).worst_at, of(-1e-3).worst_at], [0.0, 1000.0]);
+    near(of(1e-3).margin, 80.0 - half - 1e-3, 1e-5);
+}
+
+/// The mean of the rise is that of its exponential, and is known at the end.
+#[test]
+fn a_limit_of_a_mean_is_judged_at_the_end() {
+    let mean = 80.0 - 80.0 * TAU / 1000.0 * -(-1000.0 / TAU).exp_m1();
+    for (below, broken) in [(60.0, true), (65.0, mean > 45.0), (90.0, false)] {
+        let (seen, _) = seen(&format!("of = \"mean(body.T)\", below = \"{below} degC\""));
+        near(seen.margin, below - 20.0 - mean, 1e-5);
+        assert_eq!((seen.worst_at, seen.broken_at.is_some()), (1000.0, broken), "{below}");
+    }
+    let (seen, _) = seen("of = \"mean(body.T)\", above = \"30 degC\"");
+    near(seen.margin, mean - 10.0, 1e-5);
+    assert!(seen.broken_at.is_none());
+}
+
+/// A bell over temperature, and a kink, inside one step of the integrator.
+#[test]
+fn a_valley_of_a_margin_inside_a_step_is_found() {
+    for (middle, width) in [(40.0, 2.0), (70.3, 0.1), (85.0, 0.01)] {
+        let bell = format!("exp(-((body.T - {middle} [degC]) / {width} [K])^2)");
+        let (seen, _) = seen(&format!("of = \"{bell}\", below = 0.5"));
+        near(seen.margin, -0.5, 1e-6);
+        near(seen.worst_at, reaches(middle - 20.0), 1e-2);
+        let half = width * 2.0_f64.ln().sqrt();
+        near(seen.broken_at.unwrap(), reaches(middle - 20.0 - half), 2e-3);
+        let kink = format!("of = \"abs(body.T - {middle} [degC])\", above = \"{width} K\"");
+        let (seen, _) = self::seen(&kink);
+        near(seen.margin, -width, 1e-5);
+        near(seen.worst_at, reaches(middle - 20.0), 1e-2);
+        near(seen.broken_at.unwrap(), reaches(middle - 20.0 - width), 1e-3);
+    }
+}
+
+/// Heat flows, and what cannot be judged.
+#[test]
+fn limits_of_heat_flows_are_seen_too() {
+    let (seen, _) = seen("of = \"film.Q\", below = \"100 W\"");
+    near(seen.margin, 100.0 - 2.0 * rise(1000.0), 1e-4);
+    near(seen.broken_at.unwrap(), reaches(50.0), 1e-4);
+}
+
+#[test]
+fn several_limits_are_told_as_events_in_the_order_of_time() {
+    let limits = "b = { of = \"body.T\", below = \"70 degC\" }\na = { of = \"body.T\", below = \"30 degC\" }\nc = \
+                  { of = \"body.T\", below = \"99 degC\" }";
+    let solution = run(&system(limits, ""));
+    let times: Vec<f64> = solution.events().iter().map(|event| event.time).collect();
+    assert_eq!(times.len(), 2);
+    near(times[0], reaches(10.0), 1e-4);
+    near(times[1], reaches(50.0), 1e-4);
+}
+
+/// In steady state the body stands at 100 degC.
+#[test]
+fn a_steady_state_has_margins() {
+    let limits = "a = { of = \"body.T\", below = \"90 degC\" }\nb = { of = \"body.T\", below = \"100 degC\" }\nc = \
+                  { of = \"body.T\", above = \"100 degC\" }\nd = { of = \"skin.T\", below = \"65 degC\" }";
+    let system = system(limits, "");
+    let state = SteadyState::solve(&system, 0.0).unwrap();
+    let margins = state.limit_margins(system.network(), 0.0).unwrap();
+    assert_eq!(margins.len(), 4);
+    for (found, expected) in margins.iter().zip([-10.0, 0.0, 0.0, 5.0]) {
+        near(*found, expected, 1e-9);
+        assert!(*found >= 0.0 || expected < 0.0, "rounding breaks nothing");
+    }
+}
+
+/// Looks are those of steps and of what happens in them: as measured, with a tenth to spare.
+#[test]
+fn looks_are_few() {
+    let measured = |limits: &str, placed: u64| {
+        let solution = run(&system(limits, ""));
+        let (looks, steps) = (solution.looks().placed, solution.statistics().steps);
+        assert!(steps <= 6, "{steps} steps, 5 measured");
+        assert!(
+            looks * 10 <= placed * 11 && looks * 10 >= placed * 9,
+            "{looks}, {placed} measured"
+        );
+    };
+    measured("", 3);
+    measured("a = { of = \"body.T\", below = \"99 degC\" }", 133);
+    measured("a = { of = \"body.T\", below = \"70 degC\" }", 139);
+    measured("a = { of = \"mean(body.T)\", below = \"70 degC\" }", 123);
+    measured("a = { of = \"abs(body.T - 60 [degC])\", below = \"70 K\" }", 86);
+    measured("a = { of = \"exp(-((body.T - 60 [degC]) / 0.1 [K])^2)\", below = 2 }", 935);
+}
+
+/// The body is heated for 300 s, then left alone: it is hottest there. The skin is at its half.
+#[test]
+fn peaks_and_levels_are_those_of_the_curve() {
+    let text = "format = 1\n[node]\nbody = { C = \"1 kJ/K\", T0 = \"20 degC\" }\nskin = { C = \"0.5 kJ/K\", T0 = \"20 degC\" }\n[boundary]\nair = { T \
+                = \"20 degC\" }\n[resistor]\nfilm = { from = \"skin\", to = \"air\", R = \"0.25 K/W\" }\nwall = { from = \
+                \"body\", to = \"skin\", R = \"0.25 K/W\" }\n[source]\nheat = { into = \"body\", P = \"160 W * exp(-t / 200 [s])\" \
+                }\n[run]\nstop = \"1000 s\"\n";
+    let text = text.replace("160 W * exp", "160 [W] * exp");
+    let netlist = lptn_netlist::parse("peaks.toml", &text).unwrap_or_else(|r| panic!("{r}"));
+    let system = ThermalSystem::assemble(&netlist.network).unwrap();
+    // by the classical method of Runge and Kutta, 0.02 s a step
+    let rates = |t: f64, [a, b]: [f64; 2]| {
+        let wall = 4.0 * (a - b);
+        [(160.0 * (-t / 200.0).exp() - wall) / 1e3, (wall - 4.0 * b) / 5e2]
+    };
+    let (h, mut state, mut peaks, mut crossed) = (0.02, [0.0; 2], [(0.0, 0.0); 2], [None; 2]);
+    for k in 0..50_000 {
+        let t = f64::from(k) * h;
+        let ahead =
+            |r: [f64; 2], part: f64| [state[0] + part * h * r[0], state[1] + part * h * r[1]];
+        let a = rates(t, state);
+        let b = rates(t + 0.5 * h, ahead(a, 0.5));
+        let c = rates(t + 0.5 * h, ahead(b, 0.5));
+        let d = rates(t + h, ahead(c, 1.0));
+        let next: [f64; 2] =
+            std::array::from_fn(|i| state[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]));
+        for i in 0..2 {
+            if next[i] > peaks[i].0 {
+                peaks[i] = (next[i], t + h);
+            }
+            if state[i] < 3.0 && next[i] >= 3.0 && crossed[i].is_none() {
+                crossed[i] = Some(t + h * (3.0 - state[i]) / (next[i] - state[i]));
+            }
+        }
+        state = next;
+    }
+    for hottest_only in [false, true] {
+        let level = (!hottest_only).then_some(296.15);
+        let watch = netlist.network.node_ids().map(|node| Watch { node, level }).collect();
+        let settings = Transient { watch, hottest_only, ..Transient::until(Time(1000.0)) };
+        let solution = settings.at(&[]).tolerance(1e-6).solve(&system).unwrap();
+        let watched = solution.watched();
+        for i in 0..(if hottest_only { 1 } else { 2 }) {
+            near(watched[i].peak.0, 293.15 + peaks[i].0, 1e-5);
+            near(watched[i].peak.1, peaks[i].1, 0.2);
+            near(watched[i].last(), 293.15 + state[i], 1e-5);
+            if !hottest_only {
+                near(watched[i].crossed.unwrap(), crossed[i].unwrap(), 1e-3);
+            }
+        }
+        let (looks, measured) = (solution.looks(), if hottest_only { 137 } else { 296 });
+        assert!(
+            looks.sought * 10 <= measured * 11 && looks.sought * 10 >= measured * 9,
+            "{looks:?}"
+        );
+        assert!(looks.placed <= 2250 && looks.placed >= 1850, "{looks:?}, 2050 measured");
+    }
+}
