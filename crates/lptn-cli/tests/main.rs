@@ -71,6 +71,7 @@ mod regression;
 mod regression_studies;
 mod report;
 mod run_times;
+mod schema;
 mod seams;
 mod size;
 mod size_designs;

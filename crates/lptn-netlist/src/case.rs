@@ -9,7 +9,7 @@ use lptn_network::{Network, ParameterId, Value};
 use lptn_units::{EvalError, Type};
 
 use crate::fields::Fields;
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{Role, SectionDeclaration, Takes, shaped};
 use crate::raw::{RawEntry, RawKind};
 use crate::study::{PathFrom, Study};
 use crate::toml_text::{TomlFields, key as toml_key, like};
@@ -19,7 +19,14 @@ pub(crate) const CASE: SectionDeclaration = SectionDeclaration {
     name: "case",
     sentence: "A load case: parameters that are set together, a hot day or a cold start.",
     role: Role::Study,
-    keys: &[key("set", "table of parameters", "their values in this case", "{ p = \"1 W/K\" }")],
+    keys: &[shaped(
+        "set",
+        "table of parameters",
+        Takes::Each(&Takes::Like),
+        "their values in this case",
+        "{ p = \"1 W/K\" }",
+    )
+    .needed()],
     example: "{ set = { p = \"1 W/K\" } }",
     elsewhere: &[
         ("param", "what a case sets is `set`"),

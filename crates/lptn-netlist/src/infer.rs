@@ -5,8 +5,10 @@ use lptn_network::{Context, Network, Value};
 use lptn_units::{EvalError, Scope as _, Type};
 
 use crate::fields::Fields;
-use crate::fit::{FitInitial, FitStudy, OUTLIERS, files_of};
-use crate::format::{Role, SectionDeclaration, key};
+use crate::fit::{
+    COLUMNS, FitInitial, FitStudy, OUTLIERS, OUTLIERS_OF, RECORDS, SIGNALS, TIME_OF, files_of,
+};
+use crate::format::{NAMES, Role, SectionDeclaration, Takes, akin, flag, key, shaped, words};
 use crate::names::ValueKind;
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
@@ -20,33 +22,27 @@ const INFER: SectionDeclaration = SectionDeclaration {
     sentence: "Signals whose course over time is sought, and the record that tells of them.",
     role: Role::Study,
     keys: &[
-        key("data", "file", "the record", "\"record.csv\""),
-        key("time", "name of a column", "the column of the times", "\"t\"")
-            .or("the first in a unit of time"),
-        key("column", "table of results", "what each column measures", "{ ring = \"steel.T\" }"),
-        key("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\"")
+        shaped("data", "file", RECORDS, "the record", "\"record.csv\"").needed(),
+        TIME_OF,
+        COLUMNS,
+        akin("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\"")
             .or("as the record is most likely"),
         key("drift", "K", "the standard deviation of a slow part of the noise", "\"0.05 K\"")
             .or("a part of `sigma`, as the record is most likely"),
         key("drift_time", "s", "the time after which that has forgotten itself", "\"5 min\""),
-        key("find", "names of signals, or a table", "whose course is sought", "[\"P\"]"),
-        key(
-            "outliers",
-            "`\"keep\"`, `\"drop\"`",
-            "values far outside of those before and behind them",
-            "\"drop\"",
+        shaped(
+            "find",
+            "names of signals, or a table",
+            Takes::Either(&[NAMES, Takes::Each(&Takes::Table(&FIND))]),
+            "whose course is sought",
+            "[\"P\"]",
         )
-        .or("`\"keep\"`"),
-        key(
-            "signal",
-            "table of columns",
-            "signals that follow a column of the record",
-            "{ speed = \"omega\" }",
-        )
-        .or("their own courses"),
-        key(
+        .needed(),
+        OUTLIERS_OF,
+        SIGNALS,
+        words(
             "initial",
-            "`\"network\"`, `\"record\"`, `\"free\"`",
+            &["network", "record", "free"],
             "what is known of the start: `T0`; nothing of measured nodes; nothing",
             "\"free\"",
         )
@@ -71,10 +67,10 @@ const INFER: SectionDeclaration = SectionDeclaration {
 const FIND: SectionDeclaration = SectionDeclaration {
     name: "find",
     keys: &[
-        key("change", "as the signal", "how much it usually changes (1 sigma)", "\"50 W\""),
+        akin("change", "as the signal", "how much it usually changes (1 sigma)", "\"50 W\""),
         key("within", "s", "in how long a time", "\"1 min\""),
-        key("positive", "bool", "it stays above 0: its logarithm walks", "true").or("`false`"),
-        key("jumps", "bool", "it may jump where the record says so", "false")
+        flag("positive", "it stays above 0: its logarithm walks", "true").or("`false`"),
+        flag("jumps", "it may jump where the record says so", "false")
             .or("`true`, but `false` beside `change`"),
     ],
     example: "{ change = \"50 W\", within = \"1 min\" }",

@@ -72,6 +72,7 @@ mod result_names;
 mod run;
 mod run_times;
 mod scales;
+mod schema;
 mod scope;
 mod section;
 mod sensor;
@@ -98,7 +99,7 @@ pub use believe::Taken;
 pub use case::CaseStudy;
 pub use expand::{Derived, WrittenError, prove};
 pub use fit::{FitInitial, FitPlan, FitRecord, FitSignal, FitStudy, Observed, VariedName};
-pub use format::{KeyDeclaration, NetlistFormat, Role, SectionDeclaration};
+pub use format::{KeyDeclaration, NetlistFormat, Role, SectionDeclaration, Takes};
 pub use gearbox::{Arrangement, Gearbox, GearboxPart, Member};
 pub use include::Loader;
 pub use infer::{InferStart, InferStudy, SoughtSignal};
@@ -118,6 +119,7 @@ pub use plan::{
 pub use posterior::{Believed, Posterior, PosteriorOf, PosteriorPrior, PosteriorQuantity};
 pub use raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 pub use run_times::RunTime;
+pub use schema::schema;
 pub use section::{Studies, format};
 pub use sensor::{Certainty, Sensor, SensorValue};
 pub use size::{

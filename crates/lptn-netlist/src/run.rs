@@ -8,8 +8,8 @@ use lptn_network::{
 use lptn_units::{Dimension, Type};
 
 use crate::fields::{Fields, Owner};
-use crate::format::{Role, SectionDeclaration, key};
-use crate::outputs::WindowPlan;
+use crate::format::{NAMES, Role, SectionDeclaration, Takes, key, shaped, text, words};
+use crate::outputs::{WINDOW, WindowPlan};
 use crate::raw::{RawKind, RawValue};
 use crate::section::SIGNAL;
 use crate::setting::{Setting, TIME};
@@ -20,38 +20,42 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
     sentence: "What to simulate.",
     role: Role::Study,
     keys: &[
-        key("stop", "s", "when the run ends", "\"25 min\""),
+        key("stop", "s", "when the run ends", "\"25 min\"").needed(),
         key("start", "s", "when it begins", "\"0 s\"").or("0 s"),
-        key(
+        text(
             "initial",
             "file",
             "the state of another run, which it starts from",
             "\"out/gearbox/state.json\"",
         ),
-        key(
+        shaped(
             "output",
             "table",
+            Takes::Table(&OUTPUT),
             "when a row is written: `every` so often, or `at` these times",
             "{ every = \"5 s\" }",
         )
         .or("300 rows"),
-        key("select", "list of patterns", "which columns are written", "[\"*.T\"]").or("all"),
-        key(
+        shaped("select", "list of patterns", NAMES, "which columns are written", "[\"*.T\"]")
+            .or("all"),
+        shaped(
             "report",
             "table of expressions of results",
+            Takes::Each(&Takes::Like),
             "further columns",
             "{ rise = \"steel.T - air.T\" }",
         ),
-        key(
+        shaped(
             "window",
             "table",
+            Takes::Each(&Takes::Table(&WINDOW)),
             "parts of the run with means and extremes: `from` and `to`",
             "{ climb = { from = \"10 min\", to = \"20 min\" } }",
         ),
         key("tolerance", "K", "how far temperatures may be off", "\"1e-5 K\"").or("1e-5 K"),
-        key(
+        words(
             "integrator",
-            "`\"auto\"`, `\"one_step\"`, `\"cvode\"`",
+            &["auto", "one_step", "cvode"],
             "how it is computed: the one-step method is for linear networks",
             "\"cvode\"",
         )
@@ -72,7 +76,13 @@ const OUTPUT: SectionDeclaration = SectionDeclaration {
     name: "output",
     keys: &[
         key("every", "s", "the time between two rows", "\"5 s\""),
-        key("at", "list of times", "the times of the rows, rising", "[\"0 s\", \"5 s\"]"),
+        shaped(
+            "at",
+            "list of times",
+            Takes::list(&Takes::Quantity("s")),
+            "the times of the rows, rising",
+            "[\"0 s\", \"5 s\"]",
+        ),
     ],
     example: "{ every = \"5 s\" }",
     ..SectionDeclaration::NEW

@@ -2,20 +2,17 @@
 
 use std::sync::Arc;
 
-use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, nearest, read_text};
+use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, read_text};
 use lptn_network::{Context, Value};
 use lptn_units::Scope as _;
 
 use crate::fields::{Fields, Owner, wrong_shape};
 use crate::fit::read::Column;
-use crate::fit::{FitRecord, FitSignal, VariedName};
+use crate::fit::{FitRecord, FitSignal, RECORD, VariedName};
 use crate::format::SectionDeclaration;
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::work::Elaboration;
-
-/// The keys of one of several records.
-const KEYS: [&str; 2] = ["csv", "set"];
 
 /// The values of a section such as `[fit]` that name files.
 pub(crate) fn files_of<'r>(
@@ -210,7 +207,7 @@ fn unknown_key(fields: &Fields<'_>, entry: &RawEntry, key: &str) -> Diagnostic {
     let message = format!("a record of {} has no field `{key}`", fields.owner.words());
     let problem = Diagnostic::error("netlist::unknown_key", message)
         .at(entry.key_span.clone(), "unknown key");
-    problem.help(nearest(key, KEYS, "the keys here are"))
+    problem.help(RECORD.help_for(key))
 }
 
 fn twice(record: &FitRecord, first: &FitRecord) -> Diagnostic {

@@ -4,6 +4,7 @@
 //! them.
 
 mod data;
+mod declaration;
 mod read;
 mod recorded;
 
@@ -13,105 +14,17 @@ use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, Span};
 use lptn_network::{End, Network, ParameterId, Parameters, Value, Varied};
 use lptn_units::{Correlations, EvalError, Type};
 
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::SectionDeclaration;
 use crate::raw::{RawNetlist, RawValue};
 use crate::study::{PathFrom, Study};
 use crate::toml_text::{TomlFields, key as toml_key, like, string, value};
 use crate::work::Elaboration;
 
 pub(crate) use data::files_of;
+pub(crate) use declaration::{COLUMNS, OUTLIERS_OF, RECORDS, SIGNALS, TIME_OF};
+use declaration::{FIT, FIT_COLUMN, FIT_SIGNAL, RECORD};
 pub(crate) use read::{Measured, OUTLIERS};
 pub use recorded::{FitInitial, FitSignal};
-
-const FIT: SectionDeclaration = SectionDeclaration {
-    name: "fit",
-    sentence: "Parameters to find from records.",
-    role: Role::Study,
-    keys: &[
-        key(
-            "data",
-            "file, or a list of files",
-            "the records; one may `set` parameters",
-            "\"record.csv\"",
-        ),
-        key("time", "name of a column", "the column of the times", "\"t\"")
-            .or("the first in a unit of time"),
-        key("column", "table of results", "what each column measures", "{ ring = \"steel.T\" }"),
-        key("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\""),
-        key(
-            "vary",
-            "table of ranges, or names",
-            "the parameters to find",
-            "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
-        ),
-        key(
-            "outliers",
-            "`\"keep\"`, `\"drop\"`",
-            "values far outside of those before and behind them",
-            "\"drop\"",
-        )
-        .or("`\"keep\"`"),
-        key(
-            "signal",
-            "table of columns",
-            "signals that follow a column of the record",
-            "{ speed = \"omega\" }",
-        )
-        .or("their own courses"),
-        key(
-            "initial",
-            "`\"record\"`, or s",
-            "where measured nodes begin: at the first row, or the mean of so long",
-            "\"record\"",
-        )
-        .or("`T0`"),
-    ],
-    example: "{ data = \"record.csv\", column = { ring = \"steel.T\" }, vary = [\"R\"] }",
-    elsewhere: &[
-        ("csv", "the records are `data`: `data = \"record.csv\"`"),
-        ("columns", "what a column measures is `column = { ring = \"steel.T\" }`"),
-        (
-            "set",
-            "what a record sets stands beside its file: `data = [{ csv = \"r1.csv\", set = { omega \
-             = \"1000 rpm\" } }]`",
-        ),
-        ("parameters", "the parameters to find are `vary`"),
-        ("prior", "what is known of a parameter stands in [param]: `R = \"0.3 ± 0.05 K/W\"`"),
-        ("start", "the search starts from the value in [param]"),
-    ],
-    ..SectionDeclaration::NEW
-};
-
-/// `ring = { of = "steel.T", sigma = "0.2 K" }` in `column` of a fit.
-const FIT_COLUMN: SectionDeclaration = SectionDeclaration {
-    name: "column",
-    keys: &[
-        key("of", "expression of results", "what the column measures", "\"steel.T\""),
-        key("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\""),
-        key("sensor", "name of a sensor", "the instrument that gave it", "\"tc1\""),
-    ],
-    example: "{ of = \"steel.T\", sigma = \"0.2 K\" }",
-    elsewhere: &[
-        ("offset", "what an instrument adds stands in [sensor]: `tc1 = { offset = \"0 ± 3 K\" }`"),
-        ("unit", "the unit stands in the header of the file: `ring [degC]`"),
-    ],
-    ..SectionDeclaration::NEW
-};
-
-/// `bed = { column = "mill_bed", sensor = "tc3" }` in `signal` of a fit.
-const FIT_SIGNAL: SectionDeclaration = SectionDeclaration {
-    name: "signal",
-    keys: &[
-        key("column", "name of a column", "what the signal follows", "\"mill_bed\""),
-        key("sensor", "name of a sensor", "the instrument that gave it", "\"tc3\""),
-    ],
-    example: "{ column = \"mill_bed\", sensor = \"tc3\" }",
-    elsewhere: &[(
-        "offset",
-        "what an instrument adds stands in [sensor]: `tc3 = { offset = \"0 ± 3 K\" }`",
-    )],
-    ..SectionDeclaration::NEW
-};
 
 /// One `[fit.NAME]`, as it is written; [`FitStudy::plan`] has its numbers.
 #[derive(Clone, Debug)]

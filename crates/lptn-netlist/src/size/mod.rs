@@ -8,7 +8,9 @@ use lptn_data::{Diagnostic, Span};
 use lptn_network::{Bound, Evaluation, Limit, LimitSeverity, Network, ParameterId, Value};
 use lptn_units::{EvalError, Type};
 
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{
+    FILES, NAMES, Role, SectionDeclaration, Takes, akin, key, number, shaped, text, words,
+};
 use crate::raw::{RawNetlist, RawValue};
 use crate::setting::Setting;
 use crate::study::{PathFrom, Study};
@@ -21,53 +23,58 @@ const SIZE: SectionDeclaration = SectionDeclaration {
     sentence: "Parameters to size, or parts to choose: the best ones that keep every requirement.",
     role: Role::Study,
     keys: &[
-        key(
+        text(
             "minimise",
             "parameter, or expression of parameters and results",
             "whose least value is sought",
             "\"name of a parameter\"",
         ),
-        key(
+        text(
             "maximise",
             "parameter, or expression of parameters and results",
             "whose largest value is sought",
             "\"name of a parameter\"",
         ),
-        key(
+        shaped(
             "vary",
             "table",
+            Takes::Each(&Takes::Table(&VARY)),
             "of each parameter its range, `from` and `to`",
             "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
         ),
-        key(
+        shaped(
             "require",
             "list of comparisons of results",
+            NAMES,
             "what has to be kept",
             "[\"steel.T <= 80 [degC]\"]",
-        ),
-        key(
+        )
+        .needed(),
+        words(
             "over",
-            "`\"steady\"`, `\"run\"`, `\"periodic\"`",
+            &["steady", "run", "periodic"],
             "when it has to be kept: in steady state, at every moment of [run], in the settled \
              cycle",
             "\"run\"",
         )
         .or("`\"steady\"`"),
         key("period", "s", "how long a cycle is", "\"10 min\"").or("that of the repeated signals"),
-        key(
+        shaped(
             "catalogue",
             "file, or a list of files",
+            FILES,
             "parts to choose from, one a row, in place of `vary` or beside it",
             "\"parts.csv\"",
         ),
-        key(
+        number(
             "probability",
-            "number",
             "how likely each requirement has to be kept, by the `±` of parameters",
             "\"95 %\"",
         ),
-        key("cases", "list of names", "the load cases that count", "[\"hot\"]").or("all of [case]"),
+        shaped("cases", "list of names", NAMES, "the load cases that count", "[\"hot\"]")
+            .or("all of [case]"),
     ],
+    either: &[&["minimise", "maximise"], &["vary", "catalogue"]],
     example: "{ minimise = \"p\", vary = { p = { from = \"..\", to = \"..\" } }, require = [\"a.T \
         <= 80 [degC]\"] }",
     elsewhere: &[
@@ -83,8 +90,8 @@ const SIZE: SectionDeclaration = SectionDeclaration {
 pub(crate) const VARY: SectionDeclaration = SectionDeclaration {
     name: "vary",
     keys: &[
-        key("from", "as the parameter", "the least value", "\"1 W/K\""),
-        key("to", "as the parameter", "the largest value", "\"10 W/K\""),
+        akin("from", "as the parameter", "the least value", "\"1 W/K\""),
+        akin("to", "as the parameter", "the largest value", "\"10 W/K\""),
     ],
     example: "{ from = \"1 W/K\", to = \"10 W/K\" }",
     elsewhere: &[

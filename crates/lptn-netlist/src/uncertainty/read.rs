@@ -5,16 +5,16 @@ use lptn_units::{Type, parse_quantity};
 
 use super::{PosteriorKey, UNCERTAINTY, UncertaintyPlan, WrittenCorrelation};
 use crate::fields::{Fields, Owner, wrong_shape};
-use crate::format::{SectionDeclaration, key};
+use crate::format::{NAMES, SectionDeclaration, shaped, text};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 use crate::work::Elaboration;
 
 /// `posterior = { .. }`.
-const POSTERIOR: SectionDeclaration = SectionDeclaration {
+pub(super) const POSTERIOR: SectionDeclaration = SectionDeclaration {
     name: "posterior",
     keys: &[
-        key("file", "file", "what a fit wrote", "\"results/posterior.json\""),
-        key("only", "list of names", "the parameters that are taken", "[\"alpha\"]"),
+        text("file", "file", "what a fit wrote", "\"results/posterior.json\"").needed(),
+        shaped("only", "list of names", NAMES, "the parameters that are taken", "[\"alpha\"]"),
     ],
     example: "{ file = \"results/posterior.json\", only = [\"alpha\"] }",
     ..SectionDeclaration::NEW
