@@ -3,6 +3,7 @@
 //! of all keys follow from it.
 
 use lptn_data::nearest;
+use lptn_units::{Type, Unit};
 
 /// What a section holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -154,6 +155,18 @@ pub(crate) const FILES: Takes = Takes::Either(&[Takes::Text, NAMES]);
 /// A value, or a list of them.
 pub(crate) const VALUES: Takes = Takes::Either(&[Takes::Like, Takes::list(&Takes::Like)]);
 
+/// The words of a choice, for its key.
+pub(crate) const fn words_of<T: Copy, const N: usize>(
+    choice: &[(&'static str, T); N],
+) -> [&'static str; N] {
+    let (mut words, mut i) = ([""; N], 0);
+    while i < N {
+        words[i] = choice[i].0;
+        i += 1;
+    }
+    words
+}
+
 /// A key that takes what no other function here declares, in these words.
 pub(crate) const fn shaped(
     name: &'static str,
@@ -189,6 +202,8 @@ keys! {
     akin(said: &'static str) => Takes::Like, said;
     /// A string.
     text(said: &'static str) => Takes::Text, said;
+    /// Names, or other strings.
+    names(said: &'static str) => NAMES, said;
     /// A number without a unit.
     number() => Takes::Number, "number";
     /// A whole number.
@@ -207,6 +222,15 @@ impl KeyDeclaration {
                 all.iter().map(|word| format!("`\"{word}\"`")).collect::<Vec<_>>().join(", ")
             }
             _ => self.said.to_owned(),
+        }
+    }
+
+    /// The type of its value, where that is a quantity or a number.
+    pub(crate) fn ty(&self) -> Type {
+        match self.takes {
+            Takes::Quantity(ABSOLUTE) => Type::ABSOLUTE_TEMPERATURE,
+            Takes::Quantity(unit) => Unit::parse(unit).map_or(Type::SCALAR, |unit| unit.ty),
+            _ => Type::SCALAR,
         }
     }
 

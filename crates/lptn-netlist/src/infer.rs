@@ -1,18 +1,20 @@
 //! `[infer.NAME]`: courses of signals to find over time, and the record that tells of them.
 
 use lptn_data::{Diagnostic, Span, nearest};
-use lptn_network::{Context, Network, Value};
-use lptn_units::{EvalError, Scope as _, Type};
+use lptn_network::{Network, Value};
+use lptn_units::{EvalError, Type};
 
 use crate::fields::Fields;
-use crate::fit::{
-    COLUMNS, FitInitial, FitStudy, OUTLIERS, OUTLIERS_OF, RECORDS, SIGNALS, TIME_OF, files_of,
+use crate::fit::{COLUMNS, FitInitial, FitStudy, OUTLIERS, OUTLIERS_OF, RECORDS, SIGNALS, TIME_OF};
+use crate::format::{
+    NAMES, Role, SectionDeclaration, Takes, akin, flag, key, shaped, words, words_of,
 };
-use crate::format::{NAMES, Role, SectionDeclaration, Takes, akin, flag, key, shaped, words};
+use crate::listed::{Listed, Names};
 use crate::names::ValueKind;
 use crate::place::Wanted;
-use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
-use crate::setting::{KELVIN, Setting, TIME};
+use crate::raw::RawEntry;
+use crate::reading::all;
+use crate::setting::{Setting, TIME};
 use crate::study::{PathFrom, Study};
 use crate::toml_text::{TomlFields, key as toml_key, value};
 use crate::work::Elaboration;
@@ -42,7 +44,7 @@ const INFER: SectionDeclaration = SectionDeclaration {
         SIGNALS,
         words(
             "initial",
-            &["network", "record", "free"],
+            &words_of(&STARTS),
             "what is known of the start: `T0`; nothing of measured nodes; nothing",
             "\"free\"",
         )
@@ -175,20 +177,13 @@ impl InferStudy {
 
 impl Study for InferStudy {
     const SECTION: &'static SectionDeclaration = &INFER;
+    const FILES: &'static str = "data";
 
-    fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
-        files_of(raw, &INFER)
-    }
+    const UNNAMED: Option<[&'static str; 4]> =
+        Some(["netlist::infer_without_name", "an inference", "", "power"]);
 
-    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
-        let entries = work.elements(INFER.name);
-        if let Some(first) = entries.iter().find(|entry| INFER.key(&entry.key).is_some()) {
-            let message = format!("`{}` belongs to an inference with a name", first.key);
-            let help = "give it one in its heading, for example `[infer.power]`";
-            work.refuse("netlist::infer_without_name", message, &first.key_span, help);
-            return Vec::new();
-        }
-        entries.iter().filter_map(|entry| work.infer_study(entry)).collect()
+    fn one<'a>(work: &mut Elaboration<'a>, entry: &'a RawEntry) -> Option<Self> {
+        work.infer_study(entry)
     }
 
     fn name(&self) -> &str {
@@ -238,15 +233,13 @@ impl Study for InferStudy {
             if sought.jumps != sought.change.is_none() {
                 own.put("jumps", sought.jumps.to_string());
             }
-            let own = if own.is_empty() { "{}".to_owned() } else { own.inline() };
-            format!("{} = {own}", toml_key(&sought.name))
+            format!("{} = {}", toml_key(&sought.name), own.inline())
         };
         if let Some((drift, time)) = &self.drift {
             fields.put("drift", drift.written());
             fields.put("drift_time", time.written());
         }
-        let all: Vec<String> = self.sought.iter().map(sought).collect();
-        fields.put("find", format!("{{ {} }}", all.join(", ")));
+        fields.table("find", self.sought.iter().map(sought));
         self.reads.put_recorded(&mut fields);
         if let Some((word, _)) = STARTS[1..].iter().find(|(_, start)| *start == self.start) {
             fields.word("initial", word);
@@ -263,10 +256,10 @@ fn change_of(ty: Type, positive: bool) -> Type {
 impl<'a> Elaboration<'a> {
     fn infer_study(&mut self, entry: &'a RawEntry) -> Option<InferStudy> {
         let fields = self.fields(&INFER, entry)?;
-        self.all_there(&fields, &["data", "column", "find"])?;
+        self.all_there(&fields, &[])?;
         let sought = self.sought_signals(&fields);
-        let drift = self.optional_setting(&fields, "drift", KELVIN);
-        let time = self.optional_setting(&fields, "drift_time", TIME);
+        let drift = self.optional_setting(&fields, "drift");
+        let time = self.optional_setting(&fields, "drift_time");
         let place = (&fields.owner, &entry.key_span, "netlist::infer_drift");
         let drift = match (drift, time) {
             (Some(drift), Some(time)) => self.drift(place, (drift, time)),
@@ -305,25 +298,9 @@ impl<'a> Elaboration<'a> {
 
     /// `find = ["P"]` or `find = { P = { change = "50 W", within = "1 min" } }`.
     fn sought_signals(&mut self, fields: &Fields<'a>) -> Option<Vec<SoughtSignal>> {
-        let raw = self.require(fields, "find")?;
-        let all: Vec<Option<SoughtSignal>> = match &raw.kind {
-            RawKind::Table(table) if !table.entries.is_empty() => {
-                table.entries.iter().map(|entry| self.sought_entry(fields, entry)).collect()
-            }
-            RawKind::Array(list) if !list.is_empty() => {
-                let named = |raw: &'a RawValue| {
-                    let name = fields.text("find", raw, &mut self.problems)?;
-                    self.sought_signal(fields, (name, &raw.span))
-                };
-                list.iter().map(named).collect()
-            }
-            _ => {
-                let wanted = "a list of signals, or a table of them";
-                self.report(fields.wrong_shape("find", raw, wanted));
-                return None;
-            }
-        };
-        let all = all.into_iter().collect::<Option<Vec<_>>>()?;
+        let wanted = Names::Either("a list of signals, or a table of them");
+        let names = self.listed(fields, "find", wanted)?;
+        let all = all(names.into_iter().map(|one| self.sought_entry(fields, one)))?;
         for (i, own) in all.iter().enumerate() {
             if all[..i].iter().any(|other| other.name == own.name) {
                 let message = format!("{} names `{}` twice", fields.owner.field("find"), own.name);
@@ -334,8 +311,9 @@ impl<'a> Elaboration<'a> {
         Some(all)
     }
 
-    fn sought_entry(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<SoughtSignal> {
-        let sought = self.sought_signal(fields, (&entry.key, &entry.key_span))?;
+    fn sought_entry(&mut self, fields: &Fields<'a>, one: Listed<'a>) -> Option<SoughtSignal> {
+        let sought = self.sought_signal(fields, (one.name, one.span))?;
+        let Some(entry) = one.entry else { return Some(sought) };
         let owner = fields.owner.inside("find").inside(&entry.key);
         let inner = self.inner(&FIND, owner.clone(), entry)?;
         let positive = self.yes_or_no(&inner, "positive")?.unwrap_or(false);
@@ -360,18 +338,6 @@ impl<'a> Elaboration<'a> {
         };
         let jumps = jumps.unwrap_or(change.is_none());
         Some(SoughtSignal { positive, jumps, change, ..sought })
-    }
-
-    /// The value of a key that is `true` or `false`, where there is one.
-    fn yes_or_no(&mut self, fields: &Fields<'a>, key: &str) -> Option<Option<bool>> {
-        match fields.get(key).map(|raw| (raw, &raw.kind)) {
-            None => Some(None),
-            Some((_, RawKind::Boolean(answer))) => Some(Some(*answer)),
-            Some((raw, _)) => {
-                self.report(fields.wrong_shape(key, raw, "`true` or `false`"));
-                None
-            }
-        }
     }
 
     fn sought_signal(
@@ -399,7 +365,7 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::infer_find", message, span, help);
             return None;
         }
-        let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
+        let ty = self.type_here(name)?;
         let (name, span) = (name.to_owned(), span.clone());
         Some(SoughtSignal { name, ty, positive: false, jumps: true, span, change: None })
     }

@@ -55,6 +55,7 @@ mod infer;
 mod initial;
 mod json;
 pub mod library;
+mod listed;
 mod misplaced;
 mod names;
 mod near_file;

@@ -157,6 +157,26 @@ impl RawValue {
         }
     }
 
+    /// The items of a list; what is no list is one.
+    pub(crate) fn items(&self) -> &[Self] {
+        match &self.kind {
+            RawKind::Array(list) => list,
+            _ => std::slice::from_ref(self),
+        }
+    }
+
+    /// The file that it names, as a string or as `csv` of a table, with its place.
+    pub(crate) fn file(&self) -> Option<(&str, &Self)> {
+        match &self.kind {
+            RawKind::String { text, .. } => Some((text, self)),
+            RawKind::Table(table) => {
+                let named = &table.get("csv")?.value;
+                matches!(named.kind, RawKind::String { .. }).then(|| named.file())?
+            }
+            _ => None,
+        }
+    }
+
     /// Text that is generated: its place is that of what it follows from.
     pub(crate) fn text(text: String, at: &Span) -> Self {
         Self { span: at.clone(), kind: RawKind::String { text, start: None } }

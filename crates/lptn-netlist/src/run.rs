@@ -5,12 +5,12 @@ use lptn_network::{
     AfterEnd, Evaluation, IntegratorChoice, Network, OutputTimes, RunSettings, Value,
     WindowSettings,
 };
-use lptn_units::{Dimension, Type};
 
 use crate::fields::{Fields, Owner};
-use crate::format::{NAMES, Role, SectionDeclaration, Takes, key, shaped, text, words};
+use crate::format::{Role, SectionDeclaration, Takes, key, names, shaped, text, words, words_of};
 use crate::outputs::{WINDOW, WindowPlan};
 use crate::raw::{RawKind, RawValue};
+use crate::reading::all;
 use crate::section::SIGNAL;
 use crate::setting::{Setting, TIME};
 use crate::work::Elaboration;
@@ -36,8 +36,7 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
             "{ every = \"5 s\" }",
         )
         .or("300 rows"),
-        shaped("select", "list of patterns", NAMES, "which columns are written", "[\"*.T\"]")
-            .or("all"),
+        names("select", "list of patterns", "which columns are written", "[\"*.T\"]").or("all"),
         shaped(
             "report",
             "table of expressions of results",
@@ -55,7 +54,7 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
         key("tolerance", "K", "how far temperatures may be off", "\"1e-5 K\"").or("1e-5 K"),
         words(
             "integrator",
-            &["auto", "one_step", "cvode"],
+            &words_of(&IntegratorChoice::WORDS),
             "how it is computed: the one-step method is for linear networks",
             "\"cvode\"",
         )
@@ -88,8 +87,6 @@ const OUTPUT: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
-
 /// `[run]` before its expressions are evaluated: `--set` may change what they use.
 #[derive(Clone, Debug)]
 pub(crate) struct RunPlan {
@@ -119,9 +116,9 @@ impl<'a> Elaboration<'a> {
         let integrator = self.choice(&fields, "integrator", &IntegratorChoice::WORDS);
         self.word(&fields, "initial");
         self.require(&fields, "stop");
-        let stop = self.optional(&fields, "stop", TIME);
-        let start = self.optional(&fields, "start", TIME);
-        let tolerance = self.optional(&fields, "tolerance", DIFFERENCE);
+        let stop = self.optional(&fields, "stop");
+        let start = self.optional(&fields, "start");
+        let tolerance = self.optional(&fields, "tolerance");
         let output = self.output(&fields);
         let select = self.select(&fields);
         self.reports(&fields);
@@ -148,8 +145,8 @@ impl<'a> Elaboration<'a> {
         used.map(|entry| (entry.key.clone(), entry.key_span.clone())).collect()
     }
 
-    fn optional(&mut self, fields: &Fields<'a>, key: &str, ty: Type) -> Option<Setting> {
-        self.setting(&fields.owner, (key, fields.get(key)?), ty)
+    fn optional(&mut self, fields: &Fields<'a>, key: &str) -> Option<Setting> {
+        self.optional_setting(fields, key)?
     }
 
     fn output(&mut self, fields: &Fields<'a>) -> Option<OutputPlan> {
@@ -157,12 +154,11 @@ impl<'a> Elaboration<'a> {
         let entry = fields.entry("output")?;
         let output = self.inner(&OUTPUT, fields.owner.inside("output"), entry)?;
         match (output.get("every"), output.get("at")) {
-            (Some(_), None) => self.optional(&output, "every", TIME).map(OutputPlan::Every),
+            (Some(_), None) => self.optional(&output, "every").map(OutputPlan::Every),
             (None, Some(_)) => {
                 let list = self.list(&output, ("at", "a list of times"))?;
-                let times: Vec<_> =
-                    list.iter().map(|raw| self.setting(&output.owner, ("at", raw), TIME)).collect();
-                times.into_iter().collect::<Option<Vec<_>>>().map(OutputPlan::At)
+                let times = list.iter().map(|raw| self.setting(&output.owner, ("at", raw), TIME));
+                all(times).map(OutputPlan::At)
             }
             (every, _) => {
                 if output.complete {

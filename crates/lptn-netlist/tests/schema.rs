@@ -3,7 +3,8 @@
 
 use std::path::{Path, PathBuf};
 
-use lptn_netlist::{Files, parse_raw, schema};
+use lptn_netlist::{Files, Takes, format, parse_raw, schema};
+use lptn_units::Unit;
 use serde_json::Value;
 
 use crate::schema_check::{is_sound, refused};
@@ -60,6 +61,18 @@ fn a_key_says_what_it_takes() {
     assert_eq!(key("/properties/run/properties/tolerance/default"), "1e-5 K");
     let on = key("/$defs/gearbox.bearing/required");
     assert_eq!(on, &serde_json::json!(["on", "model"]));
+}
+
+/// Readers take the type of a value from its declaration.
+#[test]
+fn the_unit_of_every_key_is_one() {
+    for key in format().sections.iter().flat_map(|section| section.keys) {
+        if let Takes::Quantity(unit) | Takes::Property(unit) = key.takes {
+            let known =
+                unit.is_empty() || unit == "absolute temperature" || Unit::parse(unit).is_ok();
+            assert!(known, "{}: {unit}", key.name);
+        }
+    }
 }
 
 /// The blocks of a page that are netlists; a fragment lacks the first line.

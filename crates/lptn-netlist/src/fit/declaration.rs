@@ -1,7 +1,8 @@
 //! The keys of `[fit.NAME]`.
 
+use crate::fit::read::OUTLIERS;
 use crate::format::{
-    KeyDeclaration, NAMES, Role, SectionDeclaration, Takes, akin, shaped, text, words,
+    KeyDeclaration, NAMES, Role, SectionDeclaration, Takes, akin, shaped, text, words, words_of,
 };
 use crate::size::VARY;
 
@@ -23,7 +24,7 @@ pub(crate) const COLUMNS: KeyDeclaration = shaped(
 /// Whether outliers count.
 pub(crate) const OUTLIERS_OF: KeyDeclaration = words(
     "outliers",
-    &["keep", "drop"],
+    &words_of(&OUTLIERS),
     "values far outside of those before and behind them",
     "\"drop\"",
 )

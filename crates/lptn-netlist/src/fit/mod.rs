@@ -15,12 +15,11 @@ use lptn_network::{End, Network, ParameterId, Parameters, Value, Varied};
 use lptn_units::{Correlations, EvalError, Type};
 
 use crate::format::SectionDeclaration;
-use crate::raw::{RawNetlist, RawValue};
-use crate::study::{PathFrom, Study};
+use crate::raw::RawEntry;
+use crate::study::{PathFrom, Study, type_of};
 use crate::toml_text::{TomlFields, key as toml_key, like, string, value};
 use crate::work::Elaboration;
 
-pub(crate) use data::files_of;
 pub(crate) use declaration::{COLUMNS, OUTLIERS_OF, RECORDS, SIGNALS, TIME_OF};
 use declaration::{FIT, FIT_COLUMN, FIT_SIGNAL, RECORD};
 pub(crate) use read::{Measured, OUTLIERS};
@@ -214,13 +213,13 @@ impl FitStudy {
 
 impl Study for FitStudy {
     const SECTION: &'static SectionDeclaration = &FIT;
+    const FILES: &'static str = "data";
 
-    fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
-        files_of(raw, &FIT)
-    }
+    const UNNAMED: Option<[&'static str; 4]> =
+        Some(["netlist::fit_without_name", "a fit", "below [fit]", "heat_up"]);
 
-    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
-        work.fits()
+    fn one<'a>(work: &mut Elaboration<'a>, entry: &'a RawEntry) -> Option<Self> {
+        work.fit_study(entry)
     }
 
     fn name(&self) -> &str {
@@ -260,28 +259,15 @@ impl Study for FitStudy {
         let mut fields = TomlFields::default();
         self.put_read(&mut fields, network, path);
         let varied = |varied: &VariedName| {
-            let ends = [("from", &varied.from), ("to", &varied.to)].into_iter();
-            let ty = type_of(network, &varied.name);
-            let ends: Vec<String> = ends
-                .filter_map(|(name, end)| Some(format!("{name} = {}", like(end.as_ref()?, ty))))
-                .collect();
-            let range = if ends.is_empty() {
-                "{}".to_owned()
-            } else {
-                format!("{{ {} }}", ends.join(", "))
-            };
-            format!("{} = {range}", toml_key(&varied.name))
+            let (mut range, ty) = (TomlFields::default(), type_of(network, &varied.name));
+            range.maybe("from", varied.from.as_ref().map(|end| like(end, ty)));
+            range.maybe("to", varied.to.as_ref().map(|end| like(end, ty)));
+            format!("{} = {}", toml_key(&varied.name), range.inline())
         };
-        let varied: Vec<String> = self.varied.iter().map(varied).collect();
-        fields.put("vary", format!("{{ {} }}", varied.join(", ")));
+        fields.table("vary", self.varied.iter().map(varied));
         self.put_recorded(&mut fields);
         fields
     }
-}
-
-fn type_of(network: &Network, parameter: &str) -> Type {
-    let id = network.parameter(parameter).ok();
-    id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty)
 }
 
 impl FitStudy {
@@ -289,39 +275,32 @@ impl FitStudy {
     pub(crate) fn put_read(&self, fields: &mut TomlFields, network: &Network, path: &PathFrom<'_>) {
         let record = |record: &FitRecord| {
             let csv = string(&path(record.span.file, &record.csv));
-            let set: Vec<String> = record
-                .set
-                .iter()
-                .map(|(name, own)| {
+            let mut fields = TomlFields::default();
+            fields.put("csv", &csv);
+            let own = record.set.iter();
+            fields.table(
+                "set",
+                own.map(|(name, own)| {
                     format!("{} = {}", toml_key(name), like(own, type_of(network, name)))
-                })
-                .collect();
-            if set.is_empty() {
-                csv
-            } else {
-                format!("{{ csv = {csv}, set = {{ {} }} }}", set.join(", "))
-            }
+                }),
+            );
+            if record.set.is_empty() { csv } else { fields.inline() }
         };
         let records: Vec<String> = self.records.iter().map(record).collect();
         fields.put("data", format!("[{}]", records.join(", ")));
-        if let Some(time) = &self.time {
-            fields.word("time", time);
-        }
+        fields.maybe("time", self.time.as_deref().map(string));
         let column = |observed: &Observed| {
             let (name, of) = (toml_key(&observed.column), string(&observed.text));
-            let mut more = String::new();
-            if let Some(sigma) = &observed.sigma {
-                more += &format!(", sigma = {}", value(sigma, Type::of(observed.ty.dimension)));
-            }
-            if let Some(sensor) = &observed.sensor {
-                more += &format!(", sensor = {}", string(sensor));
-            }
-            match more.is_empty() {
-                true => format!("{name} = {of}"),
-                false => format!("{name} = {{ of = {of}{more} }}"),
+            let mut more = TomlFields::default();
+            more.put("of", &of);
+            let sigma = observed.sigma.as_ref();
+            more.maybe("sigma", sigma.map(|sigma| value(sigma, Type::of(observed.ty.dimension))));
+            more.maybe("sensor", observed.sensor.as_deref().map(string));
+            match (&observed.sigma, &observed.sensor) {
+                (None, None) => format!("{name} = {of}"),
+                _ => format!("{name} = {}", more.inline()),
             }
         };
-        let columns: Vec<String> = self.observed.iter().map(column).collect();
-        fields.put("column", format!("{{ {} }}", columns.join(", ")));
+        fields.table("column", self.observed.iter().map(column));
     }
 }

@@ -1,6 +1,6 @@
 //! The keys of `[plan.NAME]`.
 
-use crate::format::{NAMES, Role, SectionDeclaration, Takes, VALUES, key, number, shaped, text};
+use crate::format::{Role, SectionDeclaration, Takes, VALUES, key, names, number, shaped, text};
 
 pub(super) const PLAN: SectionDeclaration = SectionDeclaration {
     name: "plan",
@@ -15,7 +15,7 @@ pub(super) const PLAN: SectionDeclaration = SectionDeclaration {
             "{ R_int = \"5 %\" }",
         )
         .needed(),
-        shaped("vary", "list of parameters", NAMES, "what else is not known", "[\"C_steel\"]")
+        names("vary", "list of parameters", "what else is not known", "[\"C_steel\"]")
             .or("nothing"),
         shaped(
             "place",
@@ -49,16 +49,10 @@ pub(super) const PLAN: SectionDeclaration = SectionDeclaration {
             "{ fast = { set = { omega = \"7000 rpm\" } } }",
         )
         .or("one, as the network stands"),
-        shaped("done", "list of names", NAMES, "runs that are measured in any case", "[\"fast\"]")
+        names("done", "list of names", "runs that are measured in any case", "[\"fast\"]")
             .or("none"),
-        shaped(
-            "given",
-            "list of names",
-            NAMES,
-            "fits whose records are there already",
-            "[\"heating\"]",
-        )
-        .or("none"),
+        names("given", "list of names", "fits whose records are there already", "[\"heating\"]")
+            .or("none"),
         shaped(
             "cost",
             "table of numbers",

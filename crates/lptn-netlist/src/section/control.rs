@@ -5,7 +5,7 @@ use lptn_network::{Acts, ControlId, Field, Input, Item, Network, Thermostat};
 use lptn_units::{Dimension, Quantity, Type, format_number};
 
 use crate::fields::Fields;
-use crate::format::{ABSOLUTE, Role, SectionDeclaration, key, text, words};
+use crate::format::{ABSOLUTE, Role, SectionDeclaration, key, text, words, words_of};
 use crate::names::ValueKind;
 use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind};
@@ -36,7 +36,7 @@ pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
         key("off_above", ABSOLUTE, "of heating: above it, it goes off", "\"20 degC\""),
         words(
             "start",
-            &["on", "off"],
+            &words_of(&STARTS),
             "how it stands at the start, between the thresholds",
             "\"on\"",
         )
@@ -63,6 +63,9 @@ pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
     ],
     ..SectionDeclaration::NEW
 };
+
+/// How a control stands at the start.
+const STARTS: [(&str, bool); 2] = [("off", false), ("on", true)];
 
 /// A dead band of fewer tolerances than this is no wider than the error of a run.
 const NARROW: f64 = 10.0;
@@ -149,7 +152,7 @@ impl<'a> Elaboration<'a> {
                 self.report(fields.wrong_shape("start", raw, "\"off\" or \"on\""));
                 None
             }
-            _ => self.choice(fields, "start", &[("off", false), ("on", true)]),
+            _ => self.choice(fields, "start", &STARTS),
         }
     }
 

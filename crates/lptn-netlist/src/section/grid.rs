@@ -9,6 +9,7 @@ use crate::format::{Role, SectionDeclaration, Takes, shaped};
 use crate::grid_part::{GridPart, KnownGrid};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::reading::all;
 use crate::section::default::Initial;
 use crate::section::keys::{CP, DENSITY, MATERIAL_OF};
 use crate::section::node::START;
@@ -203,9 +204,7 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::grid_cells", message, &raw.span, help);
             return None;
         }
-        let counts: Vec<Option<usize>> =
-            list.iter().map(|raw| self.cell_count(fields, raw)).collect();
-        counts.into_iter().collect()
+        all(list.iter().map(|raw| self.cell_count(fields, raw)))
     }
 
     fn cell_count(&mut self, fields: &Fields<'a>, raw: &RawValue) -> Option<usize> {

@@ -105,16 +105,7 @@ impl<'a> Elaboration<'a> {
 
     /// Whether it is declared massless; `None` if that cannot be read.
     fn massless(&mut self, fields: &Fields<'_>) -> Option<bool> {
-        match fields.get("massless") {
-            None => Some(false),
-            Some(raw) => {
-                if let RawKind::Boolean(massless) = raw.kind {
-                    return Some(massless);
-                }
-                self.report(fields.wrong_shape("massless", raw, "`true` or `false`"));
-                None
-            }
-        }
+        Some(self.yes_or_no(fields, "massless")?.unwrap_or(false))
     }
 
     pub(crate) fn initial(&mut self, fields: &Fields<'_>) -> Option<Input> {

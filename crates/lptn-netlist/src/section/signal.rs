@@ -7,7 +7,7 @@ use lptn_units::{
 };
 
 use crate::fields::Fields;
-use crate::format::{Role, SectionDeclaration, Takes, key, shaped, text, words};
+use crate::format::{Role, SectionDeclaration, Takes, key, shaped, text, words, words_of};
 use crate::names::ValueKind;
 use crate::parameters::Pending;
 use crate::place::{Place, Wanted};
@@ -40,9 +40,9 @@ pub(crate) const SIGNAL: SectionDeclaration = SectionDeclaration {
         CSV,
         text("time", "name of a column", "with `csv`: the times", "\"t\""),
         COLUMN,
-        words("interp", &["linear", "pchip", "previous"], "what joins the points", "\"linear\"")
+        words("interp", &words_of(&JOINS), "what joins the points", "\"linear\"")
             .or("`\"linear\"`"),
-        words("after_end", &["error", "hold", "repeat"], "what follows the last point", "\"hold\"")
+        words("after_end", &words_of(&AFTER), "what follows the last point", "\"hold\"")
             .or("`\"error\"`"),
         key("period", "s", "with `\"repeat\"`: from one beginning to the next", "\"60 s\"")
             .or("as long as the points"),

@@ -10,7 +10,9 @@ use lptn_units::{
 };
 
 use crate::fields::Fields;
-use crate::format::{FILES, KeyDeclaration, Role, SectionDeclaration, Takes, shaped, text, words};
+use crate::format::{
+    FILES, KeyDeclaration, Role, SectionDeclaration, Takes, shaped, text, words, words_of,
+};
 use crate::names::ValueKind;
 use crate::points::Axis;
 use crate::raw::{RawEntry, RawKind, RawValue};
@@ -54,11 +56,11 @@ pub(crate) const TABLE: SectionDeclaration = SectionDeclaration {
             "\"cycle.csv\"",
         ),
         COLUMN,
-        words("interp", &["linear", "pchip"], "what joins the points", "\"linear\"")
+        words("interp", &words_of(&INTERPOLATIONS), "what joins the points", "\"linear\"")
             .or("`\"linear\"`"),
         words(
             "outside",
-            &["error", "hold"],
+            &words_of(&OUTSIDE),
             "outside its points: an error, or the value at the nearer end",
             "\"hold\"",
         )

@@ -9,12 +9,12 @@ use lptn_network::{Bound, Evaluation, Limit, LimitSeverity, Network, ParameterId
 use lptn_units::{EvalError, Type};
 
 use crate::format::{
-    FILES, NAMES, Role, SectionDeclaration, Takes, akin, key, number, shaped, text, words,
+    FILES, Role, SectionDeclaration, Takes, akin, key, names, number, shaped, text, words, words_of,
 };
-use crate::raw::{RawNetlist, RawValue};
+use crate::raw::RawEntry;
 use crate::setting::Setting;
-use crate::study::{PathFrom, Study};
-use crate::toml_text::{TomlFields, key as toml_key, like, strings};
+use crate::study::{PathFrom, Study, type_of};
+use crate::toml_text::{TomlFields, key as toml_key, like};
 use crate::work::Elaboration;
 pub use catalogue::{Catalogue, CatalogueColumn};
 
@@ -42,17 +42,16 @@ const SIZE: SectionDeclaration = SectionDeclaration {
             "of each parameter its range, `from` and `to`",
             "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
         ),
-        shaped(
+        names(
             "require",
             "list of comparisons of results",
-            NAMES,
             "what has to be kept",
             "[\"steel.T <= 80 [degC]\"]",
         )
         .needed(),
         words(
             "over",
-            &["steady", "run", "periodic"],
+            &words_of(&Over::WORDS),
             "when it has to be kept: in steady state, at every moment of [run], in the settled \
              cycle",
             "\"run\"",
@@ -71,7 +70,7 @@ const SIZE: SectionDeclaration = SectionDeclaration {
             "how likely each requirement has to be kept, by the `±` of parameters",
             "\"95 %\"",
         ),
-        shaped("cases", "list of names", NAMES, "the load cases that count", "[\"hot\"]")
+        names("cases", "list of names", "the load cases that count", "[\"hot\"]")
             .or("all of [case]"),
     ],
     either: &[&["minimise", "maximise"], &["vary", "catalogue"]],
@@ -285,13 +284,10 @@ impl SizeStudy {
 
 impl Study for SizeStudy {
     const SECTION: &'static SectionDeclaration = &SIZE;
+    const FILES: &'static str = "catalogue";
 
-    fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
-        catalogue::files(raw)
-    }
-
-    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
-        work.elements(SIZE.name).iter().filter_map(|entry| work.size_study(entry)).collect()
+    fn one<'a>(work: &mut Elaboration<'a>, entry: &'a RawEntry) -> Option<Self> {
+        work.size_study(entry)
     }
 
     fn name(&self) -> &str {
@@ -309,33 +305,21 @@ impl Study for SizeStudy {
         let goal = if self.goal == Goal::Minimise { "minimise" } else { "maximise" };
         fields.word(goal, &self.objective.text);
         let range = |range: &SizeRange| {
-            let id = network.parameter(&range.name).ok();
-            let ty = id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty);
+            let ty = type_of(network, &range.name);
             let [from, to] = [&range.from, &range.to].map(|end| like(end, ty));
             format!("{} = {{ from = {from}, to = {to} }}", toml_key(&range.name))
         };
-        let ranges: Vec<String> = self.varied.iter().map(range).collect();
-        if !ranges.is_empty() {
-            fields.put("vary", format!("{{ {} }}", ranges.join(", ")));
-        }
+        fields.table("vary", self.varied.iter().map(range));
         let catalogues: Vec<String> =
             self.catalogues.iter().map(|one| path(one.span.file, &one.csv)).collect();
-        if !catalogues.is_empty() {
-            fields.put("catalogue", strings(catalogues.iter().map(String::as_str)));
-        }
-        fields.put("require", strings(self.requirements.iter().map(|r| r.text.as_str())));
+        fields.strings("catalogue", catalogues.iter().map(String::as_str));
+        fields.strings("require", self.requirements.iter().map(|r| r.text.as_str()));
         if self.over != Over::Steady {
             fields.word("over", self.over.word());
         }
-        if let Some(cases) = &self.cases {
-            fields.put("cases", strings(cases.iter().map(String::as_str)));
-        }
-        if let Some(probability) = &self.probability {
-            fields.put("probability", probability.written());
-        }
-        if let Some(period) = &self.period {
-            fields.put("period", period.written());
-        }
+        fields.strings("cases", self.cases.iter().flatten().map(String::as_str));
+        fields.maybe("probability", self.probability.as_ref().map(Setting::written));
+        fields.maybe("period", self.period.as_ref().map(Setting::written));
         fields
     }
 }

@@ -1,20 +1,24 @@
 //! The keys of `[sweep.NAME]`.
 
 use crate::format::{
-    NAMES, Role, SectionDeclaration, Takes, akin, key, shaped, text, whole, words,
+    NAMES, Role, SectionDeclaration, Takes, akin, key, shaped, text, whole, words, words_of,
 };
+use crate::sweep::{SweepMethod, SweepOver};
+
+/// How far values are apart: whether by the same ratio.
+pub(super) const SCALES: [(&str, bool); 2] = [("linear", false), ("log", true)];
 
 pub(crate) const SWEEP: SectionDeclaration = SectionDeclaration {
     name: "sweep",
     sentence: "Many candidates: values of parameters, and what is reported of each.",
     role: Role::Study,
     keys: &[
-        words("method", &["grid", "list", "csv", "latin_hypercube", "sobol"], "how the candidates are chosen", "\"grid\"").needed(),
+        words("method", &words_of(&SweepMethod::WORDS), "how the candidates are chosen", "\"grid\"").needed(),
         shaped("axes", "table of parameters; of `csv` a list of names", Takes::Either(&[NAMES, Takes::Each(&Takes::Either(&[Takes::Table(&AXIS), Takes::list(&Takes::Like)]))]), "the values, or the range, of each parameter", "{ G = { from = \"1 W/K\", to = \"10 W/K\", points = 10 } }"),
         text("file", "file", "the candidates of `csv`, one a row: a column for each parameter", "\"candidates.csv\""),
         whole("samples", "how many candidates `latin_hypercube` or `sobol` takes", "1024"),
         whole("seed", "the seed of `latin_hypercube` or `sobol`", "7").or("1"),
-        words("over", &["steady", "run", "periodic"], "the results that are reported: of the steady state, of `[run]` or of the settled cycle", "\"run\"")
+        words("over", &words_of(&SweepOver::WORDS), "the results that are reported: of the steady state, of `[run]` or of the settled cycle", "\"run\"")
         .or("`\"steady\"`"),
         key("period", "s", "the length of the cycle of `over = \"periodic\"`", "\"10 min\"")
             .or("that of the repeated signals"),
@@ -47,7 +51,7 @@ pub(super) const AXIS: SectionDeclaration = SectionDeclaration {
         whole("steps", "how many steps lie between the ends: one value more", "9"),
         words(
             "scale",
-            &["linear", "log"],
+            &words_of(&SCALES),
             "whether the values are apart by the same difference or by the same ratio",
             "\"log\"",
         )

@@ -22,7 +22,7 @@ use std::sync::Arc;
 use lptn_data::{Diagnostic, Files, Severity};
 
 use crate::format::{
-    NAMES, NetlistFormat, Role, SectionDeclaration, Takes, VALUES, shaped, text, whole,
+    NAMES, NetlistFormat, Role, SectionDeclaration, Takes, VALUES, names, shaped, text, whole,
 };
 use crate::include::any_error;
 use crate::raw::RawNetlist;
@@ -47,10 +47,9 @@ pub(crate) const TEMPLATE: SectionDeclaration = SectionDeclaration {
             "parameters, with a value or with `{ unit = .. }`",
             "{ m = \"0.2 kg\" }",
         ),
-        shaped(
+        names(
             "port",
             "list of names",
-            NAMES,
             "what it knows of the rest of the network",
             "[\"in\", \"out\"]",
         ),

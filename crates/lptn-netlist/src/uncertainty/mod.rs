@@ -94,22 +94,19 @@ impl UncertaintyPlan {
             };
             fields.put("posterior", written);
         }
-        if !self.correlations.is_empty() {
-            let mut all: Vec<(&str, Vec<String>)> = Vec::new();
-            for written in &self.correlations {
-                let [of, with] = &written.between;
-                let one = format!("{} = {}", toml_key(with), written.value);
-                match all.iter_mut().find(|(name, _)| name == of) {
-                    Some((_, pairs)) => pairs.push(one),
-                    None => all.push((of, vec![one])),
-                }
+        let mut all: Vec<(&str, Vec<String>)> = Vec::new();
+        for written in &self.correlations {
+            let [of, with] = &written.between;
+            let one = format!("{} = {}", toml_key(with), written.value);
+            match all.iter_mut().find(|(name, _)| name == of) {
+                Some((_, pairs)) => pairs.push(one),
+                None => all.push((of, vec![one])),
             }
-            let one = |(of, pairs): &(&str, Vec<String>)| {
-                format!("{} = {{ {} }}", toml_key(of), pairs.join(", "))
-            };
-            let all: Vec<String> = all.iter().map(one).collect();
-            fields.put("correlation", format!("{{ {} }}", all.join(", ")));
         }
+        let one = |(of, pairs): &(&str, Vec<String>)| {
+            format!("{} = {{ {} }}", toml_key(of), pairs.join(", "))
+        };
+        fields.table("correlation", all.iter().map(one));
         fields
     }
 }
