@@ -20,7 +20,7 @@ fn every_section_and_key_says_what_it_is() {
         );
         assert!(!section.example.is_empty(), "[{}]", section.name);
         for key in section.keys {
-            let said = !key.takes.is_empty() && key.meaning.len() > 4 && !key.example.is_empty();
+            let said = !key.takes().is_empty() && key.meaning.len() > 4 && !key.example.is_empty();
             assert!(said, "`{}` of [{}]", key.name, section.name);
             assert!(
                 section.elsewhere.iter().all(|(other, _)| *other != key.name),
@@ -72,7 +72,10 @@ fn page() -> String {
                     if key.default.is_empty() { "" } else { &format!(" {}", key.default) };
                 text += &format!(
                     "| `{}` | {} | {} |{default} | `{}` |\n",
-                    key.name, key.takes, key.meaning, key.example
+                    key.name,
+                    key.takes(),
+                    key.meaning,
+                    key.example
                 );
             }
         }

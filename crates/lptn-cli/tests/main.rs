@@ -72,6 +72,7 @@ mod regression;
 mod regression_studies;
 mod report;
 mod run_times;
+mod schema;
 mod schemas;
 mod seams;
 mod size;

@@ -6,12 +6,13 @@
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Network, ParameterId, Value};
-use lptn_units::{EvalError, Type};
+use lptn_units::EvalError;
 
 use crate::fields::Fields;
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{Role, SectionDeclaration, Takes, shaped};
+use crate::listed::Listed;
 use crate::raw::{RawEntry, RawKind};
-use crate::study::{PathFrom, Study};
+use crate::study::{PathFrom, Study, type_of};
 use crate::toml_text::{TomlFields, key as toml_key, like};
 use crate::work::Elaboration;
 
@@ -19,7 +20,14 @@ pub(crate) const CASE: SectionDeclaration = SectionDeclaration {
     name: "case",
     sentence: "A load case: parameters that are set together, a hot day or a cold start.",
     role: Role::Study,
-    keys: &[key("set", "table of parameters", "their values in this case", "{ p = \"1 W/K\" }")],
+    keys: &[shaped(
+        "set",
+        "table of parameters",
+        Takes::Each(&Takes::Like),
+        "their values in this case",
+        "{ p = \"1 W/K\" }",
+    )
+    .needed()],
     example: "{ set = { p = \"1 W/K\" } }",
     elsewhere: &[
         ("param", "what a case sets is `set`"),
@@ -70,8 +78,8 @@ impl CaseStudy {
 impl Study for CaseStudy {
     const SECTION: &'static SectionDeclaration = &CASE;
 
-    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
-        work.elements(CASE.name).iter().filter_map(|entry| work.case(entry)).collect()
+    fn one<'a>(work: &mut Elaboration<'a>, entry: &'a RawEntry) -> Option<Self> {
+        work.case(entry)
     }
 
     fn name(&self) -> &str {
@@ -101,16 +109,11 @@ impl Study for CaseStudy {
     }
 
     fn fields(&self, network: &Network, _: &PathFrom<'_>) -> TomlFields {
-        let ty = |name: &str| {
-            let id = network.parameter(name).ok();
-            id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty)
-        };
         let one = |(name, value): &(String, Value)| {
-            format!("{} = {}", toml_key(name), like(value, ty(name)))
+            format!("{} = {}", toml_key(name), like(value, type_of(network, name)))
         };
-        let set: Vec<String> = self.set.iter().map(one).collect();
         let mut fields = TomlFields::default();
-        fields.put("set", format!("{{ {} }}", set.join(", ")));
+        fields.table("set", self.set.iter().map(one));
         fields
     }
 }
@@ -135,20 +138,20 @@ impl<'a> Elaboration<'a> {
 
     /// The cases in which a size has to keep everything: all, unless it names some.
     pub(crate) fn cases_of(&mut self, fields: &Fields<'a>) -> Option<Option<Vec<String>>> {
-        let Some(raw) = fields.get("cases") else { return Some(None) };
-        let list = self.list(fields, ("cases", "a list of names"))?;
+        let Some(listed) = self.listed_if_any(fields, ("cases", "a list of names"))? else {
+            return Some(None);
+        };
         let known: Vec<&str> =
             self.elements(CASE.name).iter().map(|entry| entry.key.as_str()).collect();
         let mut names = Vec::new();
-        for item in list {
-            let name = fields.text("cases", item, &mut self.problems)?;
+        for Listed { name, span, .. } in listed {
             if !known.contains(&name) {
                 let message = format!(
                     "{} names `{name}`, but there is no [case.{name}]",
                     fields.owner.field("cases")
                 );
                 let problem = Diagnostic::error("netlist::unknown_case", message);
-                let problem = problem.at(item.span.clone(), "no such case");
+                let problem = problem.at(span.clone(), "no such case");
                 let help = || match known.is_empty() {
                     true => format!("add for example:\n\n[case.{name}]\nset = {{ p = \"..\" }}"),
                     false => format!("the cases are {}", lptn_data::list(&known)),
@@ -158,10 +161,6 @@ impl<'a> Elaboration<'a> {
                 return None;
             }
             names.push(name.to_owned());
-        }
-        if names.is_empty() {
-            self.report(fields.wrong_shape("cases", raw, "a list of names"));
-            return None;
         }
         Some(Some(names))
     }

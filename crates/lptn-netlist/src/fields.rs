@@ -2,8 +2,9 @@
 
 use lptn_data::{Diagnostic, Span, list};
 use lptn_network::Input;
+use lptn_units::Type;
 
-use crate::format::SectionDeclaration;
+use crate::format::{KeyDeclaration, SectionDeclaration};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 
 /// What a field belongs to, in words.
@@ -53,6 +54,12 @@ impl Owner {
     /// One of its keys as it could be written.
     pub(crate) fn sample(&self, key: &str) -> String {
         self.section.sample(key)
+    }
+
+    /// The type of one of its keys, as it is declared.
+    pub(crate) fn ty(&self, key: &str) -> Type {
+        debug_assert!(self.section.key(key).is_some(), "{key} is no key of {}", self.words);
+        self.section.key(key).map_or(Type::SCALAR, KeyDeclaration::ty)
     }
 
     /// The example of one of its keys below another name.
@@ -148,6 +155,11 @@ impl<'a> Fields<'a> {
             problems.push(self.missing(key, message));
         }
         value
+    }
+
+    /// Its keys, as they are declared.
+    pub(crate) fn declared(&self) -> &'static [KeyDeclaration] {
+        self.owner.section.keys
     }
 
     /// That a key is missing, with how it could be written.

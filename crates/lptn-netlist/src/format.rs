@@ -3,6 +3,7 @@
 //! of all keys follow from it.
 
 use lptn_data::nearest;
+use lptn_units::{Type, Unit};
 
 /// What a section holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,6 +39,8 @@ pub struct SectionDeclaration {
     pub role: Role,
     /// Its keys, or those of its elements.
     pub keys: &'static [KeyDeclaration],
+    /// Keys of which one at least has to be there, in groups.
+    pub either: &'static [&'static [&'static str]],
     /// Keys that are decided but not supported yet.
     pub later: &'static [&'static str],
     /// The right side of an element, for help.
@@ -53,6 +56,7 @@ impl SectionDeclaration {
         sentence: "",
         role: Role::Inner,
         keys: &[],
+        either: &[],
         later: &[],
         example: "",
         elsewhere: &[],
@@ -87,8 +91,10 @@ impl SectionDeclaration {
 pub struct KeyDeclaration {
     /// Its name.
     pub name: &'static str,
-    /// What it takes: a unit, or what stands in place of a quantity.
-    pub takes: &'static str,
+    /// What it takes.
+    pub takes: Takes,
+    /// What it takes in words, where the type does not say it.
+    pub(crate) said: &'static str,
     /// What it means, in a few words.
     pub meaning: &'static str,
     /// What holds where it is left out; empty where it has to be there, or where nothing is meant
@@ -96,22 +102,146 @@ pub struct KeyDeclaration {
     pub default: &'static str,
     /// Its right side, as an example.
     pub example: &'static str,
+    /// Whether it has to be there.
+    pub needed: bool,
 }
 
-/// A key; see the fields of [`KeyDeclaration`].
-pub(crate) const fn key(
+/// What a key takes: its words for people and the schema of a netlist follow.
+#[derive(Clone, Copy, Debug)]
+pub enum Takes {
+    /// A quantity in this unit, or an expression.
+    Quantity(&'static str),
+    /// The same, or a table over the temperature.
+    Property(&'static str),
+    /// A number without a unit, or an expression.
+    Number,
+    /// A quantity or a number: its type follows from something else.
+    Like,
+    /// A whole number.
+    Whole,
+    /// `true` or `false`.
+    Flag,
+    /// One of these words.
+    Words(&'static [&'static str]),
+    /// A string: a name, a file, an expression.
+    Text,
+    /// A list of so many at least and at most.
+    List(&'static Takes, usize, usize),
+    /// A table with these keys.
+    Table(&'static SectionDeclaration),
+    /// A table with some of these keys, which all take the same.
+    Members(&'static [&'static str], &'static Takes),
+    /// A table of names, each of which takes the same.
+    Each(&'static Takes),
+    /// A table of elements of this section, which are parts of a gearbox.
+    Part(&'static str),
+    /// One of several.
+    Either(&'static [Takes]),
+}
+
+impl Takes {
+    /// A list of any length.
+    pub(crate) const fn list(of: &'static Self) -> Self {
+        Self::List(of, 0, usize::MAX)
+    }
+}
+
+/// Names: of parameters, cases, ports.
+pub(crate) const NAMES: Takes = Takes::list(&Takes::Text);
+
+/// The name of a file, or a list of them.
+pub(crate) const FILES: Takes = Takes::Either(&[Takes::Text, NAMES]);
+
+/// A value, or a list of them.
+pub(crate) const VALUES: Takes = Takes::Either(&[Takes::Like, Takes::list(&Takes::Like)]);
+
+/// The words of a choice, for its key.
+pub(crate) const fn words_of<T: Copy, const N: usize>(
+    choice: &[(&'static str, T); N],
+) -> [&'static str; N] {
+    let (mut words, mut i) = ([""; N], 0);
+    while i < N {
+        words[i] = choice[i].0;
+        i += 1;
+    }
+    words
+}
+
+/// A key that takes what no other function here declares, in these words.
+pub(crate) const fn shaped(
     name: &'static str,
-    takes: &'static str,
+    said: &'static str,
+    takes: Takes,
     meaning: &'static str,
     example: &'static str,
 ) -> KeyDeclaration {
-    KeyDeclaration { name, takes, meaning, default: "", example }
+    KeyDeclaration { name, takes, said, meaning, default: "", example, needed: false }
+}
+
+/// Functions that declare a key of one type, by what they are given beside meaning and example.
+macro_rules! keys {
+    ($($(#[$words:meta])* $name:ident($($given:ident: $ty:ty)?) => $takes:expr, $said:expr;)*) => {$(
+        $(#[$words])*
+        pub(crate) const fn $name(
+            name: &'static str,
+            $($given: $ty,)?
+            meaning: &'static str,
+            example: &'static str,
+        ) -> KeyDeclaration {
+            shaped(name, $said, $takes, meaning, example)
+        }
+    )*};
+}
+
+keys! {
+    /// A quantity in a unit.
+    key(unit: &'static str) => Takes::Quantity(unit), unit;
+    /// A quantity in a unit, or a table over the temperature.
+    property(unit: &'static str) => Takes::Property(unit), unit;
+    /// A quantity or a number whose type follows from something else.
+    akin(said: &'static str) => Takes::Like, said;
+    /// A string.
+    text(said: &'static str) => Takes::Text, said;
+    /// Names, or other strings.
+    names(said: &'static str) => NAMES, said;
+    /// A number without a unit.
+    number() => Takes::Number, "number";
+    /// A whole number.
+    whole() => Takes::Whole, "whole number";
+    /// `true` or `false`.
+    flag() => Takes::Flag, "`true`, `false`";
+    /// One of several words.
+    words(all: &'static [&'static str]) => Takes::Words(all), "";
 }
 
 impl KeyDeclaration {
+    /// What it takes, in words.
+    pub fn takes(&self) -> String {
+        match self.takes {
+            Takes::Words(all) => {
+                all.iter().map(|word| format!("`\"{word}\"`")).collect::<Vec<_>>().join(", ")
+            }
+            _ => self.said.to_owned(),
+        }
+    }
+
+    /// The type of its value, where that is a quantity or a number.
+    pub(crate) fn ty(&self) -> Type {
+        match self.takes {
+            Takes::Quantity(ABSOLUTE) => Type::ABSOLUTE_TEMPERATURE,
+            Takes::Quantity(unit) => Unit::parse(unit).map_or(Type::SCALAR, |unit| unit.ty),
+            _ => Type::SCALAR,
+        }
+    }
+
     /// With what holds where it is left out.
     pub(crate) const fn or(self, default: &'static str) -> Self {
         Self { default, ..self }
+    }
+
+    /// That has to be there.
+    pub(crate) const fn needed(self) -> Self {
+        Self { needed: true, ..self }
     }
 }
 

@@ -1,16 +1,20 @@
 //! `[infer.NAME]`: courses of signals to find over time, and the record that tells of them.
 
 use lptn_data::{Diagnostic, Span, nearest};
-use lptn_network::{Context, Network, Value};
-use lptn_units::{EvalError, Scope as _, Type};
+use lptn_network::{Network, Value};
+use lptn_units::{EvalError, Type};
 
 use crate::fields::Fields;
-use crate::fit::{FitInitial, FitStudy, OUTLIERS, files_of};
-use crate::format::{Role, SectionDeclaration, key};
+use crate::fit::{COLUMNS, FitInitial, FitStudy, OUTLIERS, OUTLIERS_OF, RECORDS, SIGNALS, TIME_OF};
+use crate::format::{
+    NAMES, Role, SectionDeclaration, Takes, akin, flag, key, shaped, words, words_of,
+};
+use crate::listed::{Listed, Names};
 use crate::names::ValueKind;
 use crate::place::Wanted;
-use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
-use crate::setting::{KELVIN, Setting, TIME};
+use crate::raw::RawEntry;
+use crate::reading::all;
+use crate::setting::{Setting, TIME};
 use crate::study::{PathFrom, Study};
 use crate::toml_text::{TomlFields, key as toml_key, value};
 use crate::work::Elaboration;
@@ -20,33 +24,27 @@ const INFER: SectionDeclaration = SectionDeclaration {
     sentence: "Signals whose course over time is sought, and the record that tells of them.",
     role: Role::Study,
     keys: &[
-        key("data", "file", "the record", "\"record.csv\""),
-        key("time", "name of a column", "the column of the times", "\"t\"")
-            .or("the first in a unit of time"),
-        key("column", "table of results", "what each column measures", "{ ring = \"steel.T\" }"),
-        key("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\"")
+        shaped("data", "file", RECORDS, "the record", "\"record.csv\"").needed(),
+        TIME_OF,
+        COLUMNS,
+        akin("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\"")
             .or("as the record is most likely"),
         key("drift", "K", "the standard deviation of a slow part of the noise", "\"0.05 K\"")
             .or("a part of `sigma`, as the record is most likely"),
         key("drift_time", "s", "the time after which that has forgotten itself", "\"5 min\""),
-        key("find", "names of signals, or a table", "whose course is sought", "[\"P\"]"),
-        key(
-            "outliers",
-            "`\"keep\"`, `\"drop\"`",
-            "values far outside of those before and behind them",
-            "\"drop\"",
+        shaped(
+            "find",
+            "names of signals, or a table",
+            Takes::Either(&[NAMES, Takes::Each(&Takes::Table(&FIND))]),
+            "whose course is sought",
+            "[\"P\"]",
         )
-        .or("`\"keep\"`"),
-        key(
-            "signal",
-            "table of columns",
-            "signals that follow a column of the record",
-            "{ speed = \"omega\" }",
-        )
-        .or("their own courses"),
-        key(
+        .needed(),
+        OUTLIERS_OF,
+        SIGNALS,
+        words(
             "initial",
-            "`\"network\"`, `\"record\"`, `\"free\"`",
+            &words_of(&STARTS),
             "what is known of the start: `T0`; nothing of measured nodes; nothing",
             "\"free\"",
         )
@@ -71,10 +69,10 @@ const INFER: SectionDeclaration = SectionDeclaration {
 const FIND: SectionDeclaration = SectionDeclaration {
     name: "find",
     keys: &[
-        key("change", "as the signal", "how much it usually changes (1 sigma)", "\"50 W\""),
+        akin("change", "as the signal", "how much it usually changes (1 sigma)", "\"50 W\""),
         key("within", "s", "in how long a time", "\"1 min\""),
-        key("positive", "bool", "it stays above 0: its logarithm walks", "true").or("`false`"),
-        key("jumps", "bool", "it may jump where the record says so", "false")
+        flag("positive", "it stays above 0: its logarithm walks", "true").or("`false`"),
+        flag("jumps", "it may jump where the record says so", "false")
             .or("`true`, but `false` beside `change`"),
     ],
     example: "{ change = \"50 W\", within = \"1 min\" }",
@@ -179,20 +177,13 @@ impl InferStudy {
 
 impl Study for InferStudy {
     const SECTION: &'static SectionDeclaration = &INFER;
+    const FILES: &'static str = "data";
 
-    fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
-        files_of(raw, &INFER)
-    }
+    const UNNAMED: Option<[&'static str; 4]> =
+        Some(["netlist::infer_without_name", "an inference", "", "power"]);
 
-    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
-        let entries = work.elements(INFER.name);
-        if let Some(first) = entries.iter().find(|entry| INFER.key(&entry.key).is_some()) {
-            let message = format!("`{}` belongs to an inference with a name", first.key);
-            let help = "give it one in its heading, for example `[infer.power]`";
-            work.refuse("netlist::infer_without_name", message, &first.key_span, help);
-            return Vec::new();
-        }
-        entries.iter().filter_map(|entry| work.infer_study(entry)).collect()
+    fn one<'a>(work: &mut Elaboration<'a>, entry: &'a RawEntry) -> Option<Self> {
+        work.infer_study(entry)
     }
 
     fn name(&self) -> &str {
@@ -242,15 +233,13 @@ impl Study for InferStudy {
             if sought.jumps != sought.change.is_none() {
                 own.put("jumps", sought.jumps.to_string());
             }
-            let own = if own.is_empty() { "{}".to_owned() } else { own.inline() };
-            format!("{} = {own}", toml_key(&sought.name))
+            format!("{} = {}", toml_key(&sought.name), own.inline())
         };
         if let Some((drift, time)) = &self.drift {
             fields.put("drift", drift.written());
             fields.put("drift_time", time.written());
         }
-        let all: Vec<String> = self.sought.iter().map(sought).collect();
-        fields.put("find", format!("{{ {} }}", all.join(", ")));
+        fields.table("find", self.sought.iter().map(sought));
         self.reads.put_recorded(&mut fields);
         if let Some((word, _)) = STARTS[1..].iter().find(|(_, start)| *start == self.start) {
             fields.word("initial", word);
@@ -267,10 +256,10 @@ fn change_of(ty: Type, positive: bool) -> Type {
 impl<'a> Elaboration<'a> {
     fn infer_study(&mut self, entry: &'a RawEntry) -> Option<InferStudy> {
         let fields = self.fields(&INFER, entry)?;
-        self.all_there(&fields, &["data", "column", "find"])?;
+        self.all_there(&fields, &[])?;
         let sought = self.sought_signals(&fields);
-        let drift = self.optional_setting(&fields, "drift", KELVIN);
-        let time = self.optional_setting(&fields, "drift_time", TIME);
+        let drift = self.optional_setting(&fields, "drift");
+        let time = self.optional_setting(&fields, "drift_time");
         let place = (&fields.owner, &entry.key_span, "netlist::infer_drift");
         let drift = match (drift, time) {
             (Some(drift), Some(time)) => self.drift(place, (drift, time)),
@@ -309,25 +298,9 @@ impl<'a> Elaboration<'a> {
 
     /// `find = ["P"]` or `find = { P = { change = "50 W", within = "1 min" } }`.
     fn sought_signals(&mut self, fields: &Fields<'a>) -> Option<Vec<SoughtSignal>> {
-        let raw = self.require(fields, "find")?;
-        let all: Vec<Option<SoughtSignal>> = match &raw.kind {
-            RawKind::Table(table) if !table.entries.is_empty() => {
-                table.entries.iter().map(|entry| self.sought_entry(fields, entry)).collect()
-            }
-            RawKind::Array(list) if !list.is_empty() => {
-                let named = |raw: &'a RawValue| {
-                    let name = fields.text("find", raw, &mut self.problems)?;
-                    self.sought_signal(fields, (name, &raw.span))
-                };
-                list.iter().map(named).collect()
-            }
-            _ => {
-                let wanted = "a list of signals, or a table of them";
-                self.report(fields.wrong_shape("find", raw, wanted));
-                return None;
-            }
-        };
-        let all = all.into_iter().collect::<Option<Vec<_>>>()?;
+        let wanted = Names::Either("a list of signals, or a table of them");
+        let names = self.listed(fields, "find", wanted)?;
+        let all = all(names.into_iter().map(|one| self.sought_entry(fields, one)))?;
         for (i, own) in all.iter().enumerate() {
             if all[..i].iter().any(|other| other.name == own.name) {
                 let message = format!("{} names `{}` twice", fields.owner.field("find"), own.name);
@@ -338,8 +311,9 @@ impl<'a> Elaboration<'a> {
         Some(all)
     }
 
-    fn sought_entry(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<SoughtSignal> {
-        let sought = self.sought_signal(fields, (&entry.key, &entry.key_span))?;
+    fn sought_entry(&mut self, fields: &Fields<'a>, one: Listed<'a>) -> Option<SoughtSignal> {
+        let sought = self.sought_signal(fields, (one.name, one.span))?;
+        let Some(entry) = one.entry else { return Some(sought) };
         let owner = fields.owner.inside("find").inside(&entry.key);
         let inner = self.inner(&FIND, owner.clone(), entry)?;
         let positive = self.yes_or_no(&inner, "positive")?.unwrap_or(false);
@@ -364,18 +338,6 @@ impl<'a> Elaboration<'a> {
         };
         let jumps = jumps.unwrap_or(change.is_none());
         Some(SoughtSignal { positive, jumps, change, ..sought })
-    }
-
-    /// The value of a key that is `true` or `false`, where there is one.
-    fn yes_or_no(&mut self, fields: &Fields<'a>, key: &str) -> Option<Option<bool>> {
-        match fields.get(key).map(|raw| (raw, &raw.kind)) {
-            None => Some(None),
-            Some((_, RawKind::Boolean(answer))) => Some(Some(*answer)),
-            Some((raw, _)) => {
-                self.report(fields.wrong_shape(key, raw, "`true` or `false`"));
-                None
-            }
-        }
     }
 
     fn sought_signal(
@@ -403,7 +365,7 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::infer_find", message, span, help);
             return None;
         }
-        let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
+        let ty = self.type_here(name)?;
         let (name, span) = (name.to_owned(), span.clone());
         Some(SoughtSignal { name, ty, positive: false, jumps: true, span, change: None })
     }

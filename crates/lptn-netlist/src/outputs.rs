@@ -11,11 +11,11 @@ use crate::setting::{Setting, TIME};
 use crate::work::Elaboration;
 
 /// `climb = { from = .., to = .. }` in `window` of `[run]`.
-const WINDOW: SectionDeclaration = SectionDeclaration {
+pub(crate) const WINDOW: SectionDeclaration = SectionDeclaration {
     name: "window",
     keys: &[
-        key("from", "s", "when it begins", "\"10 min\""),
-        key("to", "s", "when it ends", "\"20 min\""),
+        key("from", "s", "when it begins", "\"10 min\"").needed(),
+        key("to", "s", "when it ends", "\"20 min\"").needed(),
     ],
     example: "{ from = \"10 min\", to = \"20 min\" }",
     ..SectionDeclaration::NEW

@@ -1,6 +1,7 @@
 //! A netlist as it is written: every key and value with its place, nothing resolved.
 
 use lptn_data::{Span, on_borders};
+use serde_json::Value;
 
 /// The sections and keys of one file, in file order. Strings are untouched, numbers are the text
 /// that stands in the file.
@@ -136,7 +137,46 @@ impl RawKind {
     }
 }
 
+impl RawTable {
+    /// It as JSON, in which a date is `null`.
+    pub fn json(&self) -> Value {
+        self.entries.iter().map(|entry| (entry.key.clone(), entry.value.json())).collect()
+    }
+}
+
 impl RawValue {
+    /// It as JSON, in which a date is `null`.
+    pub fn json(&self) -> Value {
+        match &self.kind {
+            RawKind::String { text, .. } => text.as_str().into(),
+            RawKind::Integer(text) | RawKind::Float(text) => number(&text.replace('_', "")),
+            RawKind::Boolean(truth) => (*truth).into(),
+            RawKind::Datetime => Value::Null,
+            RawKind::Array(list) => list.iter().map(Self::json).collect(),
+            RawKind::Table(table) => table.json(),
+        }
+    }
+
+    /// The items of a list; what is no list is one.
+    pub(crate) fn items(&self) -> &[Self] {
+        match &self.kind {
+            RawKind::Array(list) => list,
+            _ => std::slice::from_ref(self),
+        }
+    }
+
+    /// The file that it names, as a string or as `csv` of a table, with its place.
+    pub(crate) fn file(&self) -> Option<(&str, &Self)> {
+        match &self.kind {
+            RawKind::String { text, .. } => Some((text, self)),
+            RawKind::Table(table) => {
+                let named = &table.get("csv")?.value;
+                matches!(named.kind, RawKind::String { .. }).then(|| named.file())?
+            }
+            _ => None,
+        }
+    }
+
     /// Text that is generated: its place is that of what it follows from.
     pub(crate) fn text(text: String, at: &Span) -> Self {
         Self { span: at.clone(), kind: RawKind::String { text, start: None } }
@@ -155,4 +195,11 @@ impl RawValue {
         let part = on_borders(text, range.start..range.end.max(range.start + 1));
         self.span.with(start + part.start..start + part.end)
     }
+}
+
+/// A number as JSON, which has none that is infinite.
+fn number(text: &str) -> Value {
+    let whole = text.parse::<i64>().map(Value::from);
+    let finite = |text: &str| text.parse().map_or(0.0, |x: f64| x.clamp(f64::MIN, f64::MAX));
+    whole.unwrap_or_else(|_| finite(text).into())
 }

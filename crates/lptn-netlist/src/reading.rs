@@ -12,6 +12,11 @@ use crate::place::{Given, Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 use crate::work::{Elaboration, stand_in};
 
+/// All values, if none is wrong. Each is read, so that everything that is wrong is reported.
+pub(crate) fn all<T>(read: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
+    read.collect::<Vec<_>>().into_iter().collect()
+}
+
 impl<'a> Elaboration<'a> {
     /// The fields of an element; `None` if it is not a table.
     pub(crate) fn fields(
@@ -116,6 +121,18 @@ impl<'a> Elaboration<'a> {
             RawValue { kind: RawKind::Table(table), .. } => Some(table),
             raw => {
                 self.report(fields.wrong_shape(key, raw, what));
+                None
+            }
+        }
+    }
+
+    /// The value of a key that is `true` or `false`, where there is one.
+    pub(crate) fn yes_or_no(&mut self, fields: &Fields<'_>, key: &str) -> Option<Option<bool>> {
+        match fields.get(key).map(|raw| (raw, &raw.kind)) {
+            None => Some(None),
+            Some((_, RawKind::Boolean(answer))) => Some(Some(*answer)),
+            Some((raw, _)) => {
+                self.report(fields.wrong_shape(key, raw, "`true` or `false`"));
                 None
             }
         }

@@ -5,12 +5,12 @@ use lptn_network::{
     AfterEnd, Evaluation, IntegratorChoice, Network, OutputTimes, RunSettings, Value,
     WindowSettings,
 };
-use lptn_units::{Dimension, Type};
 
 use crate::fields::{Fields, Owner};
-use crate::format::{Role, SectionDeclaration, key};
-use crate::outputs::WindowPlan;
+use crate::format::{Role, SectionDeclaration, Takes, key, names, shaped, text, words, words_of};
+use crate::outputs::{WINDOW, WindowPlan};
 use crate::raw::{RawKind, RawValue};
+use crate::reading::all;
 use crate::section::SIGNAL;
 use crate::setting::{Setting, TIME};
 use crate::work::Elaboration;
@@ -20,38 +20,41 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
     sentence: "What to simulate.",
     role: Role::Study,
     keys: &[
-        key("stop", "s", "when the run ends", "\"25 min\""),
+        key("stop", "s", "when the run ends", "\"25 min\"").needed(),
         key("start", "s", "when it begins", "\"0 s\"").or("0 s"),
-        key(
+        text(
             "initial",
             "file",
             "the state of another run, which it starts from",
             "\"out/gearbox/state.json\"",
         ),
-        key(
+        shaped(
             "output",
             "table",
+            Takes::Table(&OUTPUT),
             "when a row is written: `every` so often, or `at` these times",
             "{ every = \"5 s\" }",
         )
         .or("300 rows"),
-        key("select", "list of patterns", "which columns are written", "[\"*.T\"]").or("all"),
-        key(
+        names("select", "list of patterns", "which columns are written", "[\"*.T\"]").or("all"),
+        shaped(
             "report",
             "table of expressions of results",
+            Takes::Each(&Takes::Like),
             "further columns",
             "{ rise = \"steel.T - air.T\" }",
         ),
-        key(
+        shaped(
             "window",
             "table",
+            Takes::Each(&Takes::Table(&WINDOW)),
             "parts of the run with means and extremes: `from` and `to`",
             "{ climb = { from = \"10 min\", to = \"20 min\" } }",
         ),
         key("tolerance", "K", "how far temperatures may be off", "\"1e-5 K\"").or("1e-5 K"),
-        key(
+        words(
             "integrator",
-            "`\"auto\"`, `\"one_step\"`, `\"cvode\"`",
+            &words_of(&IntegratorChoice::WORDS),
             "how it is computed: the one-step method is for linear networks",
             "\"cvode\"",
         )
@@ -72,13 +75,17 @@ const OUTPUT: SectionDeclaration = SectionDeclaration {
     name: "output",
     keys: &[
         key("every", "s", "the time between two rows", "\"5 s\""),
-        key("at", "list of times", "the times of the rows, rising", "[\"0 s\", \"5 s\"]"),
+        shaped(
+            "at",
+            "list of times",
+            Takes::list(&Takes::Quantity("s")),
+            "the times of the rows, rising",
+            "[\"0 s\", \"5 s\"]",
+        ),
     ],
     example: "{ every = \"5 s\" }",
     ..SectionDeclaration::NEW
 };
-
-const DIFFERENCE: Type = Type::of(Dimension::TEMPERATURE);
 
 /// `[run]` before its expressions are evaluated: `--set` may change what they use.
 #[derive(Clone, Debug)]
@@ -109,9 +116,9 @@ impl<'a> Elaboration<'a> {
         let integrator = self.choice(&fields, "integrator", &IntegratorChoice::WORDS);
         self.word(&fields, "initial");
         self.require(&fields, "stop");
-        let stop = self.optional(&fields, "stop", TIME);
-        let start = self.optional(&fields, "start", TIME);
-        let tolerance = self.optional(&fields, "tolerance", DIFFERENCE);
+        let stop = self.optional(&fields, "stop");
+        let start = self.optional(&fields, "start");
+        let tolerance = self.optional(&fields, "tolerance");
         let output = self.output(&fields);
         let select = self.select(&fields);
         self.reports(&fields);
@@ -138,8 +145,8 @@ impl<'a> Elaboration<'a> {
         used.map(|entry| (entry.key.clone(), entry.key_span.clone())).collect()
     }
 
-    fn optional(&mut self, fields: &Fields<'a>, key: &str, ty: Type) -> Option<Setting> {
-        self.setting(&fields.owner, (key, fields.get(key)?), ty)
+    fn optional(&mut self, fields: &Fields<'a>, key: &str) -> Option<Setting> {
+        self.optional_setting(fields, key)?
     }
 
     fn output(&mut self, fields: &Fields<'a>) -> Option<OutputPlan> {
@@ -147,12 +154,11 @@ impl<'a> Elaboration<'a> {
         let entry = fields.entry("output")?;
         let output = self.inner(&OUTPUT, fields.owner.inside("output"), entry)?;
         match (output.get("every"), output.get("at")) {
-            (Some(_), None) => self.optional(&output, "every", TIME).map(OutputPlan::Every),
+            (Some(_), None) => self.optional(&output, "every").map(OutputPlan::Every),
             (None, Some(_)) => {
                 let list = self.list(&output, ("at", "a list of times"))?;
-                let times: Vec<_> =
-                    list.iter().map(|raw| self.setting(&output.owner, ("at", raw), TIME)).collect();
-                times.into_iter().collect::<Option<Vec<_>>>().map(OutputPlan::At)
+                let times = list.iter().map(|raw| self.setting(&output.owner, ("at", raw), TIME));
+                all(times).map(OutputPlan::At)
             }
             (every, _) => {
                 if output.complete {

@@ -11,7 +11,7 @@ use lptn_network::Network;
 use lptn_units::{Dimension, Distribution, Quantity, Spread, Type, parse_quantity};
 
 use crate::fields::Fields;
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{Role, SectionDeclaration, Takes, akin, shaped, words, words_of};
 use crate::place::Place;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
 use crate::study::{PathFrom, Study};
@@ -23,24 +23,30 @@ const SENSOR: SectionDeclaration = SectionDeclaration {
     sentence: "An instrument of records: what it adds to what it measures, and how well that is known.",
     role: Role::Study,
     keys: &[
-        key(
+        akin(
             "offset",
             "as the column, with `±`, or `\"free\"`",
             "what it reads too much",
             "\"0 ± 3 K\"",
         )
         .or("none"),
-        key(
+        akin(
             "gain",
             "number, with `±`, or `\"free\"`",
             "by which a reading is multiplied, in degC for a temperature",
             "\"1 ± 0.5 %\"",
         )
         .or("1"),
-        key("lag", "s, with `±`", "the time constant with which it follows", "\"20 s\"").or("none"),
-        key("resolution", "as the column", "the step of its numbers", "\"0.1 K\"").or("none"),
-        key("per", "`\"sensor\"`, `\"record\"`", "whose the offset is", "\"record\"")
-            .or("`\"sensor\"`"),
+        shaped(
+            "lag",
+            "s, with `±`",
+            Takes::Quantity("s"),
+            "the time constant with which it follows",
+            "\"20 s\"",
+        )
+        .or("none"),
+        akin("resolution", "as the column", "the step of its numbers", "\"0.1 K\"").or("none"),
+        words("per", &words_of(&PER), "whose the offset is", "\"record\"").or("`\"sensor\"`"),
     ],
     example: "{ offset = \"0 ± 3 K\" }",
     elsewhere: &[
@@ -120,10 +126,14 @@ pub struct Sensor {
 impl Study for Sensor {
     const SECTION: &'static SectionDeclaration = &SENSOR;
 
+    fn one<'a>(work: &mut Elaboration<'a>, entry: &'a RawEntry) -> Option<Self> {
+        work.sensor(entry)
+    }
+
     fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
         let used = in_use(work.raw);
         let entries = work.elements(SENSOR.name);
-        let found = entries.iter().filter_map(|entry| work.sensor(entry)).collect();
+        let found = entries.iter().filter_map(|entry| Self::one(work, entry)).collect();
         for entry in entries.iter().filter(|entry| !used.contains(&entry.key.as_str())) {
             let message =
                 format!("no column of a fit or an inference names sensor `{}`", entry.key);

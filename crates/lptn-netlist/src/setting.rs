@@ -11,7 +11,6 @@ use crate::toml_text::string;
 use crate::work::Elaboration;
 
 pub(crate) const TIME: Type = Type::of(Dimension::TIME);
-pub(crate) const KELVIN: Type = Type::of(Dimension::TEMPERATURE);
 
 /// A value with its place.
 #[derive(Clone, Debug)]
@@ -85,15 +84,14 @@ impl Elaboration<'_> {
         Some(Setting { value, span: raw.span.clone(), words, unit: ty.usual_unit(), help })
     }
 
-    /// A value in its field; nothing inside where it is left out, nothing at all where it is wrong.
+    /// A value in its field, of the declared type; nothing inside where it is left out, nothing at all where it is wrong.
     pub(crate) fn optional_setting(
         &mut self,
         fields: &Fields<'_>,
-        key: &'static str,
-        ty: Type,
+        key: &str,
     ) -> Option<Option<Setting>> {
         let Some(raw) = fields.get(key) else { return Some(None) };
-        Some(Some(self.setting(&fields.owner, (key, raw), ty)?))
+        Some(Some(self.setting(&fields.owner, (key, raw), fields.owner.ty(key))?))
     }
 
     /// A drift has a standard deviation and a time, or there is none.

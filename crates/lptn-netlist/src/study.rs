@@ -3,27 +3,69 @@
 
 use lptn_data::{Diagnostic, FileId};
 use lptn_network::Network;
+use lptn_units::Type;
 
 use crate::format::SectionDeclaration;
-use crate::raw::{RawNetlist, RawValue};
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
 use crate::toml_text::{TomlFields, key};
 use crate::work::Elaboration;
 
 /// How a text names a file that another file names by a path.
 pub(crate) type PathFrom<'p> = dyn Fn(FileId, &str) -> String + 'p;
 
+/// The type of a parameter.
+pub(crate) fn type_of(network: &Network, parameter: &str) -> Type {
+    let id = network.parameter(parameter).ok();
+    id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty)
+}
+
+/// The files that a key of a section names, as strings or as `csv` of a table, with their places.
+fn files<'r>(raw: &'r RawNetlist, (section, key): (&str, &str)) -> Vec<(&'r str, &'r RawValue)> {
+    let tables = raw.elements(section).iter().filter_map(|entry| match &entry.value.kind {
+        RawKind::Table(table) => table.get(key),
+        _ => None,
+    });
+    tables.flat_map(|entry| entry.value.items()).filter_map(RawValue::file).collect()
+}
+
+/// A key right below the heading of a section of studies.
+fn unnamed(section: &str, words: [&'static str; 4], first: &RawEntry) -> Diagnostic {
+    let [code, what, label, name] = words;
+    let message = format!("`{}` belongs to {what} with a name", first.key);
+    let help = format!("give it one in its heading, for example `[{section}.{name}]`");
+    Diagnostic::error(code, message).at(first.key_span.clone(), label).help(help)
+}
+
 /// A study, `[SECTION.NAME]`; those that there are stand in `section/list.rs`.
 pub(crate) trait Study: Sized {
     /// Its section.
     const SECTION: &'static SectionDeclaration;
 
-    /// The CSV files that such studies name, with their places: none, unless this is given.
-    fn files(_: &RawNetlist) -> Vec<(&str, &RawValue)> {
-        Vec::new()
+    /// The key that names CSV files, if one does.
+    const FILES: &'static str = "";
+
+    /// The CSV files that such studies name, with their places.
+    fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
+        files(raw, (Self::SECTION.name, Self::FILES))
     }
 
-    /// All of them, in file order, as far as they can be read; what is wrong is reported.
-    fn read(work: &mut Elaboration<'_>) -> Vec<Self>;
+    /// How one without a name is told: code, what it is, the label of its first key, and a name for
+    /// example. Where nothing is given it is told as any other element.
+    const UNNAMED: Option<[&'static str; 4]> = None;
+
+    /// One of them, as far as it can be read; what is wrong is reported.
+    fn one<'a>(work: &mut Elaboration<'a>, entry: &'a RawEntry) -> Option<Self>;
+
+    /// All of them, in file order.
+    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
+        let entries = work.elements(Self::SECTION.name);
+        let key = entries.iter().find(|entry| Self::SECTION.key(&entry.key).is_some());
+        if let (Some(first), Some(words)) = (key, Self::UNNAMED) {
+            work.report(unnamed(Self::SECTION.name, words, first));
+            return Vec::new();
+        }
+        entries.iter().filter_map(|entry| Self::one(work, entry)).collect()
+    }
 
     /// Its name.
     fn name(&self) -> &str;

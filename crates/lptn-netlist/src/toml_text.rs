@@ -131,6 +131,27 @@ impl TomlFields {
         self.put(name, string(word));
     }
 
+    /// A field that is left out where there is nothing.
+    pub(crate) fn maybe(&mut self, name: &str, written: Option<impl AsRef<str>>) {
+        if let Some(written) = written {
+            self.put(name, written);
+        }
+    }
+
+    /// A table of such fields, if there are any.
+    pub(crate) fn table(&mut self, name: &str, fields: impl Iterator<Item = String>) {
+        let fields = Self(fields.collect());
+        self.maybe(name, (!fields.is_empty()).then(|| fields.inline()));
+    }
+
+    /// A list of strings, if there are any.
+    pub(crate) fn strings<'t>(&mut self, name: &str, texts: impl Iterator<Item = &'t str>) {
+        let mut texts = texts.peekable();
+        if texts.peek().is_some() {
+            self.put(name, strings(texts));
+        }
+    }
+
     /// A list with its unit.
     pub(crate) fn list(&mut self, name: &str, (list, unit): (String, Option<String>)) {
         self.put(name, list);

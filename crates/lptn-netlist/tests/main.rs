@@ -24,6 +24,9 @@ mod limits;
 mod materials;
 mod posterior;
 mod property;
+mod schema;
+#[path = "support/schema_check.rs"]
+mod schema_check;
 mod set;
 mod support;
 mod template;

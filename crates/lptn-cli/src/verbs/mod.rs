@@ -19,6 +19,7 @@ pub(crate) mod rank;
 pub(crate) mod reduce;
 pub(crate) mod report;
 pub(crate) mod run;
+pub(crate) mod schema;
 pub(crate) mod size;
 pub(crate) mod steady;
 pub(crate) mod sweep;
@@ -131,6 +132,7 @@ verbs! {
     New(new::NewArgs) => new::new, page |_| false, drawn "" |_| false;
     Units(units::UnitsArgs) => units::units, page |_| true, drawn "" |_| false;
     Materials(materials::MaterialsArgs) => materials::materials, page |_| true, drawn "" |_| false;
+    Schema(schema::SchemaArgs) => schema::schema, page |_| false, drawn "" |_| false;
     Completions(completions::CompletionsArgs) => completions::completions, page |_| false, drawn "" |_| false;
     Man(man::ManArgs) => man::man, page |_| false, drawn "" |_| false;
 }

@@ -2,53 +2,16 @@
 
 use std::sync::Arc;
 
-use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, nearest, read_text};
+use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, read_text};
 use lptn_network::{Context, Value};
 use lptn_units::Scope as _;
 
 use crate::fields::{Fields, Owner, wrong_shape};
 use crate::fit::read::Column;
-use crate::fit::{FitRecord, FitSignal, VariedName};
-use crate::format::SectionDeclaration;
+use crate::fit::{FitRecord, FitSignal, RECORD, VariedName};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::work::Elaboration;
-
-/// The keys of one of several records.
-const KEYS: [&str; 2] = ["csv", "set"];
-
-/// The values of a section such as `[fit]` that name files.
-pub(crate) fn files_of<'r>(
-    raw: &'r crate::raw::RawNetlist,
-    section: &SectionDeclaration,
-) -> Vec<(&'r str, &'r RawValue)> {
-    let fits = raw.elements(section.name).iter();
-    let data = fits.filter_map(|fit| match &fit.value.kind {
-        RawKind::Table(table) => table.get("data"),
-        _ => None,
-    });
-    let mut found = Vec::new();
-    for entry in data {
-        let items = match &entry.value.kind {
-            RawKind::Array(list) => list.as_slice(),
-            _ => std::slice::from_ref(&entry.value),
-        };
-        found.extend(items.iter().filter_map(csv_of));
-    }
-    found
-}
-
-/// The file that a string, or `csv` of a table, names.
-fn csv_of(item: &RawValue) -> Option<(&str, &RawValue)> {
-    match &item.kind {
-        RawKind::String { text, .. } => Some((text, item)),
-        RawKind::Table(table) => match &table.get("csv")?.value {
-            value @ RawValue { kind: RawKind::String { text, .. }, .. } => Some((text, value)),
-            _ => None,
-        },
-        _ => None,
-    }
-}
 
 impl<'a> Elaboration<'a> {
     /// The records; `None` if something is wrong with one, which is then reported.
@@ -123,7 +86,7 @@ impl<'a> Elaboration<'a> {
                 };
             }
         }
-        let Some((text, raw)) = csv_of(item) else {
+        let Some((text, raw)) = item.file() else {
             if sound {
                 self.report(fields.wrong_shape("data", item, "a CSV file or a table with `csv`"));
             }
@@ -210,7 +173,7 @@ fn unknown_key(fields: &Fields<'_>, entry: &RawEntry, key: &str) -> Diagnostic {
     let message = format!("a record of {} has no field `{key}`", fields.owner.words());
     let problem = Diagnostic::error("netlist::unknown_key", message)
         .at(entry.key_span.clone(), "unknown key");
-    problem.help(nearest(key, KEYS, "the keys here are"))
+    problem.help(RECORD.help_for(key))
 }
 
 fn twice(record: &FitRecord, first: &FitRecord) -> Diagnostic {

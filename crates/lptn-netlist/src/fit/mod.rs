@@ -4,6 +4,7 @@
 //! them.
 
 mod data;
+mod declaration;
 mod read;
 mod recorded;
 
@@ -13,105 +14,16 @@ use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, Span};
 use lptn_network::{End, Network, ParameterId, Parameters, Value, Varied};
 use lptn_units::{Correlations, EvalError, Type};
 
-use crate::format::{Role, SectionDeclaration, key};
-use crate::raw::{RawNetlist, RawValue};
-use crate::study::{PathFrom, Study};
+use crate::format::SectionDeclaration;
+use crate::raw::RawEntry;
+use crate::study::{PathFrom, Study, type_of};
 use crate::toml_text::{TomlFields, key as toml_key, like, string, value};
 use crate::work::Elaboration;
 
-pub(crate) use data::files_of;
+pub(crate) use declaration::{COLUMNS, OUTLIERS_OF, RECORDS, SIGNALS, TIME_OF};
+use declaration::{FIT, FIT_COLUMN, FIT_SIGNAL, RECORD};
 pub(crate) use read::{Measured, OUTLIERS};
 pub use recorded::{FitInitial, FitSignal};
-
-const FIT: SectionDeclaration = SectionDeclaration {
-    name: "fit",
-    sentence: "Parameters to find from records.",
-    role: Role::Study,
-    keys: &[
-        key(
-            "data",
-            "file, or a list of files",
-            "the records; one may `set` parameters",
-            "\"record.csv\"",
-        ),
-        key("time", "name of a column", "the column of the times", "\"t\"")
-            .or("the first in a unit of time"),
-        key("column", "table of results", "what each column measures", "{ ring = \"steel.T\" }"),
-        key("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\""),
-        key(
-            "vary",
-            "table of ranges, or names",
-            "the parameters to find",
-            "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
-        ),
-        key(
-            "outliers",
-            "`\"keep\"`, `\"drop\"`",
-            "values far outside of those before and behind them",
-            "\"drop\"",
-        )
-        .or("`\"keep\"`"),
-        key(
-            "signal",
-            "table of columns",
-            "signals that follow a column of the record",
-            "{ speed = \"omega\" }",
-        )
-        .or("their own courses"),
-        key(
-            "initial",
-            "`\"record\"`, or s",
-            "where measured nodes begin: at the first row, or the mean of so long",
-            "\"record\"",
-        )
-        .or("`T0`"),
-    ],
-    example: "{ data = \"record.csv\", column = { ring = \"steel.T\" }, vary = [\"R\"] }",
-    elsewhere: &[
-        ("csv", "the records are `data`: `data = \"record.csv\"`"),
-        ("columns", "what a column measures is `column = { ring = \"steel.T\" }`"),
-        (
-            "set",
-            "what a record sets stands beside its file: `data = [{ csv = \"r1.csv\", set = { omega \
-             = \"1000 rpm\" } }]`",
-        ),
-        ("parameters", "the parameters to find are `vary`"),
-        ("prior", "what is known of a parameter stands in [param]: `R = \"0.3 ± 0.05 K/W\"`"),
-        ("start", "the search starts from the value in [param]"),
-    ],
-    ..SectionDeclaration::NEW
-};
-
-/// `ring = { of = "steel.T", sigma = "0.2 K" }` in `column` of a fit.
-const FIT_COLUMN: SectionDeclaration = SectionDeclaration {
-    name: "column",
-    keys: &[
-        key("of", "expression of results", "what the column measures", "\"steel.T\""),
-        key("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\""),
-        key("sensor", "name of a sensor", "the instrument that gave it", "\"tc1\""),
-    ],
-    example: "{ of = \"steel.T\", sigma = \"0.2 K\" }",
-    elsewhere: &[
-        ("offset", "what an instrument adds stands in [sensor]: `tc1 = { offset = \"0 ± 3 K\" }`"),
-        ("unit", "the unit stands in the header of the file: `ring [degC]`"),
-    ],
-    ..SectionDeclaration::NEW
-};
-
-/// `bed = { column = "mill_bed", sensor = "tc3" }` in `signal` of a fit.
-const FIT_SIGNAL: SectionDeclaration = SectionDeclaration {
-    name: "signal",
-    keys: &[
-        key("column", "name of a column", "what the signal follows", "\"mill_bed\""),
-        key("sensor", "name of a sensor", "the instrument that gave it", "\"tc3\""),
-    ],
-    example: "{ column = \"mill_bed\", sensor = \"tc3\" }",
-    elsewhere: &[(
-        "offset",
-        "what an instrument adds stands in [sensor]: `tc3 = { offset = \"0 ± 3 K\" }`",
-    )],
-    ..SectionDeclaration::NEW
-};
 
 /// One `[fit.NAME]`, as it is written; [`FitStudy::plan`] has its numbers.
 #[derive(Clone, Debug)]
@@ -301,13 +213,13 @@ impl FitStudy {
 
 impl Study for FitStudy {
     const SECTION: &'static SectionDeclaration = &FIT;
+    const FILES: &'static str = "data";
 
-    fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
-        files_of(raw, &FIT)
-    }
+    const UNNAMED: Option<[&'static str; 4]> =
+        Some(["netlist::fit_without_name", "a fit", "below [fit]", "heat_up"]);
 
-    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
-        work.fits()
+    fn one<'a>(work: &mut Elaboration<'a>, entry: &'a RawEntry) -> Option<Self> {
+        work.fit_study(entry)
     }
 
     fn name(&self) -> &str {
@@ -347,28 +259,15 @@ impl Study for FitStudy {
         let mut fields = TomlFields::default();
         self.put_read(&mut fields, network, path);
         let varied = |varied: &VariedName| {
-            let ends = [("from", &varied.from), ("to", &varied.to)].into_iter();
-            let ty = type_of(network, &varied.name);
-            let ends: Vec<String> = ends
-                .filter_map(|(name, end)| Some(format!("{name} = {}", like(end.as_ref()?, ty))))
-                .collect();
-            let range = if ends.is_empty() {
-                "{}".to_owned()
-            } else {
-                format!("{{ {} }}", ends.join(", "))
-            };
-            format!("{} = {range}", toml_key(&varied.name))
+            let (mut range, ty) = (TomlFields::default(), type_of(network, &varied.name));
+            range.maybe("from", varied.from.as_ref().map(|end| like(end, ty)));
+            range.maybe("to", varied.to.as_ref().map(|end| like(end, ty)));
+            format!("{} = {}", toml_key(&varied.name), range.inline())
         };
-        let varied: Vec<String> = self.varied.iter().map(varied).collect();
-        fields.put("vary", format!("{{ {} }}", varied.join(", ")));
+        fields.table("vary", self.varied.iter().map(varied));
         self.put_recorded(&mut fields);
         fields
     }
-}
-
-fn type_of(network: &Network, parameter: &str) -> Type {
-    let id = network.parameter(parameter).ok();
-    id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty)
 }
 
 impl FitStudy {
@@ -376,39 +275,32 @@ impl FitStudy {
     pub(crate) fn put_read(&self, fields: &mut TomlFields, network: &Network, path: &PathFrom<'_>) {
         let record = |record: &FitRecord| {
             let csv = string(&path(record.span.file, &record.csv));
-            let set: Vec<String> = record
-                .set
-                .iter()
-                .map(|(name, own)| {
+            let mut fields = TomlFields::default();
+            fields.put("csv", &csv);
+            let own = record.set.iter();
+            fields.table(
+                "set",
+                own.map(|(name, own)| {
                     format!("{} = {}", toml_key(name), like(own, type_of(network, name)))
-                })
-                .collect();
-            if set.is_empty() {
-                csv
-            } else {
-                format!("{{ csv = {csv}, set = {{ {} }} }}", set.join(", "))
-            }
+                }),
+            );
+            if record.set.is_empty() { csv } else { fields.inline() }
         };
         let records: Vec<String> = self.records.iter().map(record).collect();
         fields.put("data", format!("[{}]", records.join(", ")));
-        if let Some(time) = &self.time {
-            fields.word("time", time);
-        }
+        fields.maybe("time", self.time.as_deref().map(string));
         let column = |observed: &Observed| {
             let (name, of) = (toml_key(&observed.column), string(&observed.text));
-            let mut more = String::new();
-            if let Some(sigma) = &observed.sigma {
-                more += &format!(", sigma = {}", value(sigma, Type::of(observed.ty.dimension)));
-            }
-            if let Some(sensor) = &observed.sensor {
-                more += &format!(", sensor = {}", string(sensor));
-            }
-            match more.is_empty() {
-                true => format!("{name} = {of}"),
-                false => format!("{name} = {{ of = {of}{more} }}"),
+            let mut more = TomlFields::default();
+            more.put("of", &of);
+            let sigma = observed.sigma.as_ref();
+            more.maybe("sigma", sigma.map(|sigma| value(sigma, Type::of(observed.ty.dimension))));
+            more.maybe("sensor", observed.sensor.as_deref().map(string));
+            match (&observed.sigma, &observed.sensor) {
+                (None, None) => format!("{name} = {of}"),
+                _ => format!("{name} = {}", more.inline()),
             }
         };
-        let columns: Vec<String> = self.observed.iter().map(column).collect();
-        fields.put("column", format!("{{ {} }}", columns.join(", ")));
+        fields.table("column", self.observed.iter().map(column));
     }
 }

@@ -1,13 +1,16 @@
 //! Reads `[fit.NAME]`: what is varied and what is observed.
 
 use lptn_data::{Diagnostic, Span, list};
-use lptn_network::{Context, End, Value};
-use lptn_units::{Scope as _, Type};
+use lptn_network::{End, Value};
+use lptn_units::Type;
 
 use crate::fields::{Fields, Owner, wrong_shape};
 use crate::fit::{FIT, FIT_COLUMN, FitInitial, FitStudy, Observed, VariedName};
+use crate::format::KeyDeclaration;
+use crate::listed::{Listed, Names};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::reading::all;
 use crate::size::VARY;
 use crate::work::Elaboration;
 
@@ -29,21 +32,9 @@ pub(crate) struct Measured {
 }
 
 impl<'a> Elaboration<'a> {
-    pub(crate) fn fits(&mut self) -> Vec<FitStudy> {
-        let entries = self.elements(FIT.name);
-        if let Some(first) = entries.iter().find(|entry| FIT.key(&entry.key).is_some()) {
-            let message = format!("`{}` belongs to a fit with a name", first.key);
-            let problem = Diagnostic::error("netlist::fit_without_name", message);
-            let problem = problem.at(first.key_span.clone(), "below [fit]");
-            self.report(problem.help("give it one in its heading, for example `[fit.heat_up]`"));
-            return Vec::new();
-        }
-        entries.iter().filter_map(|entry| self.fit_study(entry)).collect()
-    }
-
-    fn fit_study(&mut self, entry: &'a RawEntry) -> Option<FitStudy> {
+    pub(super) fn fit_study(&mut self, entry: &'a RawEntry) -> Option<FitStudy> {
         let fields = self.fields(&FIT, entry)?;
-        self.all_there(&fields, &["data", "column", "vary"])?;
+        self.all_there(&fields, &[])?;
         let initial = self.fit_initial(&fields);
         let drop_outliers = self.choice(&fields, "outliers", &OUTLIERS);
         let reads = self.recorded_columns(&fields, drop_outliers == Some(true));
@@ -91,16 +82,18 @@ impl<'a> Elaboration<'a> {
         })
     }
 
-    /// Whether it says what to read and what to find; all that is missing is one problem, for it
-    /// has one place.
-    pub(crate) fn all_there(&mut self, fields: &Fields<'a>, keys: &[&'static str]) -> Option<()> {
-        let missing: Vec<&str> =
-            keys.iter().copied().filter(|key| fields.get(key).is_none()).collect();
+    /// Whether it has the keys that have to be there; all that are missing are one problem, for it
+    /// has one place. The help shows them, and `also`.
+    pub(crate) fn all_there(&mut self, fields: &Fields<'a>, also: &[&str]) -> Option<()> {
+        let is_missing = |key: &&KeyDeclaration| key.needed && fields.get(key.name).is_none();
+        let keys = fields.declared().iter();
+        let missing: Vec<&str> = keys.clone().filter(is_missing).map(|key| key.name).collect();
         if missing.len() < 2 || !fields.complete {
             return Some(());
         }
         let message = format!("{} has no {}", fields.owner.words(), list(&missing));
-        let lines: Vec<String> = missing.iter().map(|key| fields.sample(key)).collect();
+        let shown = keys.filter(|key| is_missing(key) || also.contains(&key.name));
+        let lines: Vec<String> = shown.map(|key| fields.sample(key.name)).collect();
         let help = format!("add for example:\n\n{}", lines.join("\n"));
         self.refuse("netlist::missing_field", message, fields.place, help);
         None
@@ -108,22 +101,9 @@ impl<'a> Elaboration<'a> {
 
     /// `vary = { R_int = { from = .., to = .. } }`, or a list of names.
     fn varied(&mut self, fields: &Fields<'a>) -> Option<Vec<VariedName>> {
-        let raw = self.require(fields, "vary")?;
-        let all: Vec<Option<VariedName>> = match &raw.kind {
-            RawKind::Table(table) if !table.entries.is_empty() => {
-                table.entries.iter().map(|entry| self.varied_entry(fields, entry)).collect()
-            }
-            RawKind::Array(list) if !list.is_empty() => {
-                list.iter().map(|raw| self.varied_name(fields, raw)).collect()
-            }
-            _ => {
-                let wanted = "a table of parameters or a list of their names";
-                self.report(fields.wrong_shape("vary", raw, wanted));
-                return None;
-            }
-        };
-        let all: Option<Vec<VariedName>> = all.into_iter().collect();
-        let all = all?;
+        let wanted = "a table of parameters or a list of their names";
+        let names = self.listed(fields, "vary", Names::Either(wanted))?;
+        let all = all(names.into_iter().map(|one| self.varied_name(fields, one)))?;
         for (i, entry) in all.iter().enumerate() {
             if let Some(first) = all[..i].iter().find(|other| other.name == entry.name) {
                 let message =
@@ -138,25 +118,18 @@ impl<'a> Elaboration<'a> {
         Some(all)
     }
 
-    fn varied_name(&mut self, fields: &Fields<'a>, raw: &'a RawValue) -> Option<VariedName> {
-        let name = fields.text("vary", raw, &mut self.problems)?;
-        self.can_vary(&fields.owner.field("vary"), name, &raw.span)?;
-        Some(VariedName { name: name.to_owned(), span: raw.span.clone(), from: None, to: None })
-    }
-
-    fn varied_entry(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<VariedName> {
-        let name = &entry.key;
-        let known = self.can_vary(&fields.owner.field("vary"), name, &entry.key_span);
-        let range = self.inner(&VARY, fields.owner.inside("vary").inside(name), entry)?;
+    fn varied_name(&mut self, fields: &Fields<'a>, one: Listed<'a>) -> Option<VariedName> {
+        let Listed { name, span, entry } = one;
+        let known = self.can_vary(&fields.owner.field("vary"), name, span);
+        let owner = fields.owner.inside("vary").inside(name);
+        let range = match entry {
+            Some(entry) => Some(self.inner(&VARY, owner, entry)?),
+            None => None,
+        };
         known?;
-        let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
-        let [from, to] = ["from", "to"].map(|key| self.range_end(&range, key, ty));
-        // one that is there and wrong has been reported
-        let (from, to) = (
-            from.map_or(Some(None), |end| end.map(Some)),
-            to.map_or(Some(None), |end| end.map(Some)),
-        );
-        Some(VariedName { name: name.clone(), span: entry.key_span.clone(), from: from?, to: to? })
+        let ty = self.type_here(name)?;
+        let [from, to] = range.map_or(Some([None, None]), |range| self.ends(&range, ty))?;
+        Some(VariedName { name: name.to_owned(), span: span.clone(), from, to })
     }
 
     /// Whether a name is that of a parameter that something depends on.
@@ -175,20 +148,11 @@ impl<'a> Elaboration<'a> {
 
     /// `column = { ring_gear = "steel.T", housing = { of = "aluminium.T", sigma = "0.2 K" } }`.
     fn observed(&mut self, fields: &Fields<'a>) -> Vec<Column<'a>> {
-        let Some(raw) = self.require(fields, "column") else { return Vec::new() };
-        let entries = match &raw.kind {
-            RawKind::Table(table) if !table.entries.is_empty() => &table.entries,
-            _ => {
-                self.report(fields.wrong_shape(
-                    "column",
-                    raw,
-                    "a table of columns and what they measure",
-                ));
-                return Vec::new();
-            }
-        };
+        let wanted = "a table of columns and what they measure";
+        let names = self.listed(fields, "column", Names::Table(wanted, wanted));
+        let entries = names.into_iter().flatten().filter_map(|one| one.entry);
         let column = |entry| Column { entry, observed: self.observed_column(fields, entry) };
-        let columns: Vec<Column<'a>> = entries.iter().map(column).collect();
+        let columns: Vec<Column<'a>> = entries.map(column).collect();
         self.one_kind_a_sensor(&columns);
         columns
     }

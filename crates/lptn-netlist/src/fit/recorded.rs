@@ -2,14 +2,14 @@
 //! the start.
 
 use lptn_data::{Diagnostic, Span, nearest};
-use lptn_network::Context;
-use lptn_units::{Dimension, Scope as _, Type, parse_quantity};
+use lptn_units::{Dimension, Type, parse_quantity};
 
 use crate::fields::{Fields, wrong_shape};
 use crate::fit::{FIT_SIGNAL, FitStudy};
 use crate::names::ValueKind;
 use crate::place::Place;
 use crate::raw::{RawEntry, RawKind};
+use crate::reading::all;
 use crate::toml_text::{TomlFields, key as toml_key, quantity, string};
 use crate::work::Elaboration;
 
@@ -51,10 +51,7 @@ impl FitStudy {
                 None => format!("{name} = {column}"),
             }
         };
-        let signals: Vec<String> = self.signals.iter().map(signal).collect();
-        if !signals.is_empty() {
-            fields.put("signal", format!("{{ {} }}", signals.join(", ")));
-        }
+        fields.table("signal", self.signals.iter().map(signal));
         if self.drop_outliers {
             fields.word("outliers", "drop");
         }
@@ -74,9 +71,7 @@ impl<'a> Elaboration<'a> {
             self.report(fields.wrong_shape("signal", raw, "a table of signals and columns"));
             return None;
         };
-        let all: Vec<_> =
-            table.entries.iter().map(|entry| self.fit_signal(fields, entry)).collect();
-        all.into_iter().collect()
+        all(table.entries.iter().map(|entry| self.fit_signal(fields, entry)))
     }
 
     fn fit_signal(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<FitSignal> {
@@ -113,7 +108,7 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::fit_signal", message, &entry.key_span, help);
             return None;
         }
-        let ty = self.builder.scope(Context::Time).symbol(&entry.key)?.ty;
+        let ty = self.type_here(&entry.key)?;
         let sensor = match &inner {
             Some(inner) => self.sensor_of(inner, Some(ty))?.map(|(name, _)| name.to_owned()),
             None => None,

@@ -10,7 +10,7 @@ use lptn_units::Dimension;
 
 pub(crate) use check::check;
 
-use crate::format::{ABSOLUTE, Role, SectionDeclaration, key};
+use crate::format::{ABSOLUTE, Role, SectionDeclaration, Takes, key, shaped, text};
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::section::NODE;
 use crate::template::Structure;
@@ -22,9 +22,24 @@ pub(crate) const FOSTER: SectionDeclaration = SectionDeclaration {
     sentence: "A node with the thermal impedance of an R-tau table to a boundary.",
     role: Role::Element,
     keys: &[
-        key("to", "name of a boundary", "what the impedance was measured against", "\"case\""),
-        key("R", "list of K/W", "the resistances of the table", "[\"20 mK/W\", \"0.1 K/W\"]"),
-        key("tau", "list of s", "their time constants", "[\"1 ms\", \"80 ms\"]"),
+        text("to", "name of a boundary", "what the impedance was measured against", "\"case\"")
+            .needed(),
+        shaped(
+            "R",
+            "list of K/W",
+            Takes::list(&Takes::Quantity("K/W")),
+            "the resistances of the table",
+            "[\"20 mK/W\", \"0.1 K/W\"]",
+        )
+        .needed(),
+        shaped(
+            "tau",
+            "list of s",
+            Takes::list(&Takes::Quantity("s")),
+            "their time constants",
+            "[\"1 ms\", \"80 ms\"]",
+        )
+        .needed(),
         key("T0", ABSOLUTE, "temperature at the start", "\"25 degC\"").or("`T0` of `[default]`"),
     ],
     example: "{ to = \"case\", R = [\"20 mK/W\", \"0.1 K/W\"], tau = [\"1 ms\", \"80 ms\"] }",

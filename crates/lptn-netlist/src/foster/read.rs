@@ -8,6 +8,7 @@ use super::FOSTER;
 use crate::fields::{Fields, Owner};
 use crate::place::Place;
 use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::reading::all;
 
 /// A chain as it is written.
 pub(super) struct Read<'r> {
@@ -62,9 +63,7 @@ impl<'r> Table<'_, 'r> {
             self.problems.push(self.fields.wrong_shape(key, raw, "a list of quantities"));
             return None;
         };
-        let values: Vec<Option<f64>> =
-            list.iter().map(|raw| self.value((key, dimension), raw)).collect();
-        values.into_iter().collect()
+        all(list.iter().map(|raw| self.value((key, dimension), raw)))
     }
 
     fn value(&mut self, (key, dimension): (&str, Dimension), raw: &RawValue) -> Option<f64> {

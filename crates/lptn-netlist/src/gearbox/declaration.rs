@@ -1,6 +1,11 @@
 //! What `[gearbox.NAME]` takes.
 
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{Role, SectionDeclaration, Takes, key, number, shaped, text, whole, words};
+
+/// The members that have teeth.
+const WHEELS: [&str; 5] = ["sun", "planet", "ring", "pinion", "wheel"];
+/// All members.
+pub(crate) const MEMBERS: [&str; 6] = ["sun", "carrier", "ring", "planet", "pinion", "wheel"];
 
 /// `[gearbox]`, as netlists declare it.
 pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
@@ -9,28 +14,25 @@ pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
         and seals lose.",
     role: Role::Element,
     keys: &[
-        key(
+        shaped(
             "teeth",
             "table of whole numbers",
+            Takes::Members(&WHEELS, &Takes::Number),
             "of `sun`, `planet` and `ring`, or of `pinion` and `wheel`",
             "{ sun = 18, planet = 42, ring = 102 }",
-        ),
-        key("planets", "whole number", "how many planets there are", "3"),
-        key(
+        )
+        .needed(),
+        whole("planets", "how many planets there are", "3"),
+        words(
             "spacing",
-            "`\"even\"`, `\"uneven\"`",
+            &["even", "uneven"],
             "whether the planets stand at equal angles",
             "\"uneven\"",
         )
         .or("`\"even\"`"),
-        key(
-            "held",
-            "`\"ring\"`, `\"sun\"`, `\"carrier\"`",
-            "the member that stands still",
-            "\"ring\"",
-        )
-        .or("`\"ring\"`"),
-        key("input", "name of a member", "the member that `speed` and `torque` are of", "\"sun\"")
+        words("held", &["ring", "sun", "carrier"], "the member that stands still", "\"ring\"")
+            .or("`\"ring\"`"),
+        text("input", "name of a member", "the member that `speed` and `torque` are of", "\"sun\"")
             .or("the first of sun, carrier and ring that turns; the pinion"),
         key("speed", "rad/s", "speed of the input, of either direction", "\"7000 rpm\""),
         key(
@@ -39,63 +41,68 @@ pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
             "torque on the input, positive where it drives; without it meshes lose nothing",
             "\"2 N m\"",
         ),
-        key(
+        text(
             "driven_by",
             "name of a gearbox",
             "in place of `speed` and `torque`: the stage whose output is the input",
             "\"first\"",
         ),
-        key("ratio", "number", "speed of the input over that of the output, to be checked", "6.67"),
+        number("ratio", "speed of the input over that of the output, to be checked", "6.67"),
         key("module", "m", "with `torque`: normal module", "\"1 mm\""),
         key("width", "m", "with `torque`: common width of the teeth", "\"10 mm\""),
         key("Ra", "m", "with `torque`: roughness, mean of the two flanks", "\"0.5 um\""),
-        key("X_L", "number", "lubricant of the meshes: mineral 1, PAO and ester 0.8", "0.8")
-            .or("1"),
+        number("X_L", "lubricant of the meshes: mineral 1, PAO and ester 0.8", "0.8").or("1"),
         key("pressure_angle", "rad", "normal pressure angle", "\"20 deg\"").or("20 deg"),
         key("helix_angle", "rad", "helix angle", "\"15 deg\"").or("0"),
-        key(
+        text(
             "lubricant",
             "name of a lubricant",
             "of meshes, and of parts that take one and have none of their own",
             "\"iso_vg_220\"",
         ),
-        key(
+        text(
             "scuffing",
             "absolute temperature, or a word",
             "with `torque`: as in [mesh]; each mesh tells its `margin` then",
             "\"mineral_ep\"",
         ),
-        key(
+        text(
             "at",
             "name of a node or boundary",
             "whose temperature the lubricant has; the first node that a part heats unless said",
             "\"name of a node\"",
         ),
-        key(
+        shaped(
             "into",
             "name of a node, or table of one for each member",
+            Takes::Either(&[Takes::Text, Takes::Members(&MEMBERS, &Takes::Text)]),
             "what is heated; a mesh heats its two members in halves",
             "\"name of a node\"",
-        ),
-        key(
+        )
+        .needed(),
+        shaped(
             "bearing",
             "table of bearings",
+            Takes::Part("bearing"),
             "each as below [bearing], with `on`, the member it carries, in place of `speed`",
             "{ front = { on = \"sun\", model = \"no_load\", d_m = \"30 mm\", f0 = 2 } }",
         ),
-        key(
+        shaped(
             "seal",
             "table of seals",
+            Takes::Part("seal"),
             "each as below [seal], with `on` in place of `speed`",
             "{ lip = { on = \"sun\", model = \"shaft\", d = \"20 mm\" } }",
         ),
-        key(
+        shaped(
             "churning",
             "table of gears in oil",
+            Takes::Part("churning"),
             "each as below [churning], with `on` in place of `speed`",
             "{ web = { on = \"carrier\", part = \"sides\", D = \"90 mm\", dip = 0.3 } }",
         ),
     ],
+    either: &[&["speed", "driven_by"]],
     example: "{ teeth = { sun = 18, planet = 42, ring = 102 }, planets = 3, held = \"ring\", speed = \
         \"7000 rpm\", into = \"name of a node\" }",
     elsewhere: &[
@@ -111,8 +118,8 @@ pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
 };
 
 /// The sections of parts that a gearbox may have.
-pub(super) const PARTS: [&str; 3] = ["bearing", "seal", "churning"];
+pub(crate) const PARTS: [&str; 3] = ["bearing", "seal", "churning"];
 
 /// What a part of a gearbox says in place of its speed.
-pub(super) const ON: &str = "on";
-pub(super) const AGAINST: &str = "against";
+pub(crate) const ON: &str = "on";
+pub(crate) const AGAINST: &str = "against";

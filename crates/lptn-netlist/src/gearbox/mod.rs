@@ -21,7 +21,7 @@ use lptn_data::{Diagnostic, nearest};
 use lptn_network::is_name;
 
 pub(crate) use check::check;
-pub(crate) use declaration::GEARBOX;
+pub(crate) use declaration::{AGAINST, GEARBOX, MEMBERS, ON, PARTS};
 pub use member::{Arrangement, Member};
 pub(crate) use model::Gears;
 pub use model::{Gearbox, GearboxPart};

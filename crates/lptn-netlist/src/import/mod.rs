@@ -12,7 +12,7 @@ use lptn_network::{ConductorKind, Field, Path};
 use lptn_units::{Dimension, Type};
 
 use crate::fields::{Fields, Owner};
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{Role, SectionDeclaration, text};
 use crate::imported::{Kind, Places};
 use crate::raw::{RawKind, RawNetlist, RawValue};
 use crate::section::Initial;
@@ -25,15 +25,15 @@ pub(crate) const IMPORT: SectionDeclaration = SectionDeclaration {
     sentence: "Elements from CSV files, one in each row.",
     role: Role::Import,
     keys: &[
-        key("nodes", "file", "columns `name`, `C`, and `T0` if there is one", "\"nodes.csv\""),
-        key("boundaries", "file", "columns `name`, `T`", "\"boundaries.csv\""),
-        key(
+        text("nodes", "file", "columns `name`, `C`, and `T0` if there is one", "\"nodes.csv\""),
+        text("boundaries", "file", "columns `name`, `T`", "\"boundaries.csv\""),
+        text(
             "conductors",
             "file",
             "columns `from`, `to`, `G` or `R`, and `name`",
             "\"conductors.csv\"",
         ),
-        key("sources", "file", "columns `into`, `P`, and `name`", "\"sources.csv\""),
+        text("sources", "file", "columns `into`, `P`, and `name`", "\"sources.csv\""),
     ],
     example: "{ nodes = \"nodes.csv\", conductors = \"conductors.csv\" }",
     elsewhere: &[

@@ -11,6 +11,7 @@ use lptn_units::EvalError;
 
 use crate::fit::Observed;
 use crate::format::SectionDeclaration;
+use crate::raw::RawEntry;
 use crate::setting::Setting;
 use crate::study::{PathFrom, Study};
 use crate::toml_text::TomlFields;
@@ -270,8 +271,11 @@ impl PlanRun {
 impl Study for PlanStudy {
     const SECTION: &'static SectionDeclaration = &PLAN;
 
-    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
-        work.plans()
+    const UNNAMED: Option<[&'static str; 4]> =
+        Some(["netlist::plan_without_name", "a plan", "below [plan]", "next"]);
+
+    fn one<'a>(work: &mut Elaboration<'a>, entry: &'a RawEntry) -> Option<Self> {
+        work.plan(entry)
     }
 
     fn name(&self) -> &str {

@@ -1,46 +1,36 @@
 //! Reads `[plan.NAME]`.
 
-use lptn_data::{Diagnostic, nearest};
-use lptn_network::{Context, Value};
-use lptn_units::{Quantity, Scope as _, Type, parse_quantity};
+use lptn_data::{Diagnostic, Span, nearest};
+use lptn_network::Value;
+use lptn_units::{Quantity, Type, parse_quantity};
 
 use super::declaration::{COST, PLACE, PLAN, PLAN_RUN};
 use super::{PlanPlace, PlanRun, PlanStudy, Target};
 use crate::fields::{Fields, Owner, wrong_shape};
 use crate::fit::{Measured, Observed};
+use crate::listed::{Listed, Names};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::setting::{KELVIN, Setting, TIME};
+use crate::reading::all;
+use crate::setting::Setting;
 use crate::work::Elaboration;
 
 /// A parameter with its values in a run: each with its text, as it is written.
 type Values = (String, Vec<(Value, String)>);
 
 impl<'a> Elaboration<'a> {
-    pub(crate) fn plans(&mut self) -> Vec<PlanStudy> {
-        let entries = self.elements(PLAN.name);
-        if let Some(first) = entries.iter().find(|entry| PLAN.key(&entry.key).is_some()) {
-            let message = format!("`{}` belongs to a plan with a name", first.key);
-            let problem = Diagnostic::error("netlist::plan_without_name", message);
-            let problem = problem.at(first.key_span.clone(), "below [plan]");
-            self.report(problem.help("give it one in its heading, for example `[plan.next]`"));
-            return Vec::new();
-        }
-        entries.iter().filter_map(|entry| self.plan(entry)).collect()
-    }
-
-    fn plan(&mut self, entry: &'a RawEntry) -> Option<PlanStudy> {
+    pub(super) fn plan(&mut self, entry: &'a RawEntry) -> Option<PlanStudy> {
         let fields = self.fields(&PLAN, entry)?;
-        self.all_there(&fields, &["know", "place", "every"])?;
+        self.all_there(&fields, &[])?;
         let known = self.plan_targets(&fields);
         let varied = self.plan_varied(&fields);
         let places = self.plan_places(&fields);
         let every = self.require(&fields, "every").map(|_| ());
-        let every = every.and_then(|()| self.optional_setting(&fields, "every", TIME)?);
-        let duration = self.optional_setting(&fields, "duration", TIME);
+        let every = every.and_then(|()| self.optional_setting(&fields, "every")?);
+        let duration = self.optional_setting(&fields, "duration");
         let runs = self.plan_runs(&fields);
         let cost = self.plan_cost(&fields);
-        let budget = self.optional_setting(&fields, "budget", Type::SCALAR);
+        let budget = self.optional_setting(&fields, "budget");
         let names: Vec<&str> = self.elements("fit").iter().map(|fit| fit.key.as_str()).collect();
         let given = self.plan_names(&fields, "given", ("netlist::plan_given", "fit", &names));
         let runs = runs?;
@@ -74,21 +64,15 @@ impl<'a> Elaboration<'a> {
 
     /// `know = { R_int = "5 %", P = "2 W" }`.
     fn plan_targets(&mut self, fields: &Fields<'a>) -> Option<Vec<Target>> {
-        let raw = self.require(fields, "know")?;
-        let table = self.table_of(fields, ("know", "a table of parameters and errors"))?;
-        if table.entries.is_empty() {
-            self.report(fields.wrong_shape("know", raw, "a table with a parameter"));
-            return None;
-        }
-        let all: Vec<Option<Target>> =
-            table.entries.iter().map(|entry| self.plan_target(fields, entry)).collect();
-        all.into_iter().collect()
+        let wanted = Names::Table("a table of parameters and errors", "a table with a parameter");
+        let known = self.listed(fields, "know", wanted)?.into_iter().filter_map(|one| one.entry);
+        all(known.map(|entry| self.plan_target(fields, entry)))
     }
 
     fn plan_target(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<Target> {
         let (words, name) = (fields.owner.field("know"), &entry.key);
         self.can_vary(&words, name, &entry.key_span)?;
-        let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
+        let ty = self.type_here(name)?;
         let target = Target {
             name: name.clone(),
             span: entry.key_span.clone(),
@@ -113,37 +97,26 @@ impl<'a> Elaboration<'a> {
         Some(Target { absolute: Some(value), ..target })
     }
 
-    fn plan_varied(&mut self, fields: &Fields<'a>) -> Option<Vec<(String, lptn_data::Span)>> {
+    fn plan_varied(&mut self, fields: &Fields<'a>) -> Option<Vec<(String, Span)>> {
         if fields.get("vary").is_none() {
             return Some(Vec::new());
         }
         let words = fields.owner.field("vary");
-        let mut names = Vec::new();
-        for raw in self.list(fields, ("vary", "a list of parameters"))? {
-            let name = fields.text("vary", raw, &mut self.problems)?;
-            self.can_vary(&words, name, &raw.span)?;
-            names.push((name.to_owned(), raw.span.clone()));
-        }
-        Some(names)
+        let names = self.listed(fields, "vary", Names::List("a list of parameters"))?;
+        let all = names.into_iter().map(|Listed { name, span, .. }| {
+            self.can_vary(&words, name, span).map(|()| (name.to_owned(), span.clone()))
+        });
+        all.collect()
     }
 
     fn plan_places(&mut self, fields: &Fields<'a>) -> Option<Vec<PlanPlace>> {
-        let raw = self.require(fields, "place")?;
-        let table = self.table_of(fields, ("place", "a table of places"))?;
-        if table.entries.is_empty() {
-            self.report(fields.wrong_shape("place", raw, "a table with a place"));
-            return None;
-        }
+        let wanted = Names::Table("a table of places", "a table with a place");
+        let places = self.listed(fields, "place", wanted)?.into_iter().filter_map(|one| one.entry);
         let shared = ["noise", "drift", "drift_time"];
-        let shared = shared.map(|key| {
-            let ty = if key == "drift_time" { TIME } else { KELVIN };
-            self.optional_setting(fields, key, ty)
-        });
+        let shared = shared.map(|key| self.optional_setting(fields, key));
         let [noise, drift, time] = shared;
         let shared = [noise?, drift?, time?];
-        let all: Vec<Option<PlanPlace>> =
-            table.entries.iter().map(|entry| self.plan_place(fields, entry, &shared)).collect();
-        all.into_iter().collect()
+        all(places.map(|entry| self.plan_place(fields, entry, &shared)))
     }
 
     fn plan_place(
@@ -166,14 +139,14 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::plan_place", message, &raw.span, help);
             None
         });
-        let mut own = |key: &'static str, ty, shared: &Option<Setting>| {
-            let own = self.optional_setting(&inner, key, ty)?;
+        let mut own = |key: &str, shared: &Option<Setting>| {
+            let own = self.optional_setting(&inner, key)?;
             Some(own.or_else(|| shared.clone()))
         };
-        let noise = own("noise", KELVIN, &shared[0]);
-        let drift = own("drift", KELVIN, &shared[1]);
-        let time = own("drift_time", TIME, &shared[2]);
-        let cost = own("cost", Type::SCALAR, &None);
+        let noise = own("noise", &shared[0]);
+        let drift = own("drift", &shared[1]);
+        let time = own("drift_time", &shared[2]);
+        let cost = own("cost", &None);
         let sensor =
             self.sensor_of(&inner, of.as_ref().map(|of| of.ty))?.map(|(name, _)| name.to_owned());
         let place = (&owner, &entry.key_span, "netlist::plan_drift");
@@ -196,16 +169,14 @@ impl<'a> Elaboration<'a> {
             return Some(Vec::new());
         }
         let table = self.table_of(fields, ("run", "a table of runs"))?;
-        let all: Vec<Option<PlanRun>> =
-            table.entries.iter().map(|entry| self.plan_run(fields, entry)).collect();
-        all.into_iter().collect()
+        all(table.entries.iter().map(|entry| self.plan_run(fields, entry)))
     }
 
     fn plan_run(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<PlanRun> {
         let owner = fields.owner.inside("run").inside(&entry.key);
         let inner = self.inner(&PLAN_RUN, owner.clone(), entry)?;
-        let duration = self.optional_setting(&inner, "duration", TIME);
-        let cost = self.optional_setting(&inner, "cost", Type::SCALAR);
+        let duration = self.optional_setting(&inner, "duration");
+        let cost = self.optional_setting(&inner, "cost");
         let set = match inner.get("set") {
             None => Some(Vec::new()),
             Some(_) => self.plan_set(&inner),
@@ -227,9 +198,7 @@ impl<'a> Elaboration<'a> {
     fn plan_set(&mut self, fields: &Fields<'a>) -> Option<Vec<Values>> {
         let table = self.table_of(fields, ("set", "a table of parameters"))?;
         let owner = fields.owner.inside("set");
-        let all: Vec<Option<Values>> =
-            table.entries.iter().map(|entry| self.plan_values(&owner, entry)).collect();
-        all.into_iter().collect()
+        all(table.entries.iter().map(|entry| self.plan_values(&owner, entry)))
     }
 
     fn plan_values(&mut self, owner: &Owner, entry: &'a RawEntry) -> Option<Values> {
@@ -237,34 +206,30 @@ impl<'a> Elaboration<'a> {
         if !self.is_parameter_here(owner.words(), name, &entry.key_span) {
             return None;
         }
-        let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
-        let items = match &entry.value.kind {
-            RawKind::Array(items) if items.is_empty() => {
-                let sample = format!("{name} = [\"..\", \"..\"]");
-                self.report(wrong_shape(
-                    &owner.field(name),
-                    &entry.value,
-                    "a value or a list with one",
-                    &sample,
-                ));
-                return None;
-            }
-            RawKind::Array(items) => items.as_slice(),
-            _ => std::slice::from_ref(&entry.value),
-        };
+        let ty = self.type_here(name)?;
+        let items = entry.value.items();
+        if items.is_empty() {
+            let sample = format!("{name} = [\"..\", \"..\"]");
+            self.report(wrong_shape(
+                &owner.field(name),
+                &entry.value,
+                "a value or a list with one",
+                &sample,
+            ));
+            return None;
+        }
         let one = |item: &'a RawValue| {
             let value = self.exactly_inside(owner, (name, item), Wanted::like(ty))?;
             Some((value, text_of(item)))
         };
-        let values: Vec<Option<(Value, String)>> = items.iter().map(one).collect();
-        Some((name.clone(), values.into_iter().collect::<Option<_>>()?))
+        Some((name.clone(), all(items.iter().map(one))?))
     }
 
     fn plan_cost(&mut self, fields: &Fields<'a>) -> Option<(Option<Setting>, Option<Setting>)> {
         let Some(entry) = fields.entry("cost") else { return Some((None, None)) };
         let inner = self.inner(&COST, fields.owner.inside("cost"), entry)?;
-        let run = self.optional_setting(&inner, "run", Type::SCALAR);
-        let hour = self.optional_setting(&inner, "hour", Type::SCALAR);
+        let run = self.optional_setting(&inner, "run");
+        let hour = self.optional_setting(&inner, "hour");
         Some((run?, hour?))
     }
 
@@ -280,8 +245,7 @@ impl<'a> Elaboration<'a> {
         }
         let what = format!("a list of names of {kind}s");
         let mut names = Vec::new();
-        for raw in self.list(fields, (key, &what))? {
-            let name = fields.text(key, raw, &mut self.problems)?;
+        for Listed { name, span, .. } in self.listed(fields, key, Names::List(&what))? {
             if !known.contains(&name) {
                 let message = format!(
                     "{} names `{name}`, but there is no such {kind}",
@@ -291,7 +255,7 @@ impl<'a> Elaboration<'a> {
                     true => format!("there is no {kind} at all: leave `{key}` out"),
                     false => nearest(name, known.iter().copied(), &format!("the {kind}s are")),
                 };
-                self.refuse(code, message, &raw.span, help);
+                self.refuse(code, message, span, help);
                 return None;
             }
             names.push(name.to_owned());
@@ -304,7 +268,7 @@ impl<'a> Elaboration<'a> {
         &mut self,
         runs: &[PlanRun],
         known: &[Target],
-        varied: &[(String, lptn_data::Span)],
+        varied: &[(String, Span)],
     ) -> Option<()> {
         let sought = known.iter().map(|target| (&target.name, &target.span));
         let sought: Vec<_> = sought.chain(varied.iter().map(|(name, span)| (name, span))).collect();

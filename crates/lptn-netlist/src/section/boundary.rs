@@ -12,7 +12,9 @@ pub(crate) const BOUNDARY: SectionDeclaration = SectionDeclaration {
     name: "boundary",
     sentence: "A place whose temperature is given, whatever flows in.",
     role: Role::Element,
-    keys: &[key("T", ABSOLUTE, "temperature, constant or a function of `t`", "\"25 degC\"")],
+    keys: &[
+        key("T", ABSOLUTE, "temperature, constant or a function of `t`", "\"25 degC\"").needed()
+    ],
     example: "{ T = \"25 degC\" }",
     elsewhere: &[
         ("T0", "the temperature of a boundary is `T`"),

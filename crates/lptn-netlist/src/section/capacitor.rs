@@ -3,7 +3,7 @@
 use lptn_network::Item;
 use lptn_units::{Dimension, Type};
 
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{Role, SectionDeclaration, text};
 use crate::raw::RawEntry;
 use crate::section::keys::{CAPACITY, MASS, MATERIAL_OF, VOLUME};
 use crate::work::{Elaboration, stand_in};
@@ -13,12 +13,14 @@ pub(crate) const CAPACITOR: SectionDeclaration = SectionDeclaration {
     sentence: "A part of a node's capacity; the parts of a node add.",
     role: Role::Element,
     keys: &[
-        key("node", "name of a node", "the node that it is a part of", "\"name of a node\""),
+        text("node", "name of a node", "the node that it is a part of", "\"name of a node\"")
+            .needed(),
         CAPACITY,
         MATERIAL_OF,
         MASS,
         VOLUME,
     ],
+    either: &[&["C", "material"]],
     example: "{ node = \"a\", C = \"500 J/K\" }",
     elsewhere: &[("T0", "the temperature at the start belongs to the node")],
     ..SectionDeclaration::NEW

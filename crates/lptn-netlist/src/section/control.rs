@@ -5,7 +5,7 @@ use lptn_network::{Acts, ControlId, Field, Input, Item, Network, Thermostat};
 use lptn_units::{Dimension, Quantity, Type, format_number};
 
 use crate::fields::Fields;
-use crate::format::{ABSOLUTE, Role, SectionDeclaration, key};
+use crate::format::{ABSOLUTE, Role, SectionDeclaration, key, text, words, words_of};
 use crate::names::ValueKind;
 use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawKind};
@@ -23,14 +23,20 @@ pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
     sentence: "A thermostat; its name is 1 while it is on, else 0.",
     role: Role::Value,
     keys: &[
-        key("sense", "name", "the node or boundary that is felt", "\"name of a node or boundary\""),
+        text(
+            "sense",
+            "name",
+            "the node or boundary that is felt",
+            "\"name of a node or boundary\"",
+        )
+        .needed(),
         key("on_above", ABSOLUTE, "of cooling: above it, it goes on", "\"60 degC\""),
         key("off_below", ABSOLUTE, "of cooling: below it, it goes off", "\"55 degC\""),
         key("on_below", ABSOLUTE, "of heating: below it, it goes on", "\"18 degC\""),
         key("off_above", ABSOLUTE, "of heating: above it, it goes off", "\"20 degC\""),
-        key(
+        words(
             "start",
-            "`\"on\"`, `\"off\"`",
+            &words_of(&STARTS),
             "how it stands at the start, between the thresholds",
             "\"on\"",
         )
@@ -57,6 +63,9 @@ pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
     ],
     ..SectionDeclaration::NEW
 };
+
+/// How a control stands at the start.
+const STARTS: [(&str, bool); 2] = [("off", false), ("on", true)];
 
 /// A dead band of fewer tolerances than this is no wider than the error of a run.
 const NARROW: f64 = 10.0;
@@ -143,7 +152,7 @@ impl<'a> Elaboration<'a> {
                 self.report(fields.wrong_shape("start", raw, "\"off\" or \"on\""));
                 None
             }
-            _ => self.choice(fields, "start", &[("off", false), ("on", true)]),
+            _ => self.choice(fields, "start", &STARTS),
         }
     }
 

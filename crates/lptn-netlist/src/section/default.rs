@@ -5,7 +5,7 @@ use lptn_network::Input;
 use lptn_units::{Dimension, Type, Unit, UnitError};
 
 use crate::fields::Owner;
-use crate::format::{ABSOLUTE, Role, SectionDeclaration, key};
+use crate::format::{ABSOLUTE, Role, SectionDeclaration, key, text};
 use crate::place::Wanted;
 use crate::raw::RawValue;
 use crate::work::{Elaboration, stand_in};
@@ -16,7 +16,7 @@ pub(crate) const DEFAULT: SectionDeclaration = SectionDeclaration {
     role: Role::Default,
     keys: &[
         key("T0", ABSOLUTE, "temperature of the nodes at the start", "\"25 degC\""),
-        key("temperature_unit", "unit", "unit of temperatures in results", "\"degC\"")
+        text("temperature_unit", "unit", "unit of temperatures in results", "\"degC\"")
             .or("`\"degC\"`"),
     ],
     example: "{ T0 = \"25 degC\" }",

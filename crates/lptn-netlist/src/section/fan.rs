@@ -10,7 +10,7 @@ use lptn_units::{
 };
 
 use crate::fields::Fields;
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{Role, SectionDeclaration, Takes, key, number, shaped};
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::work::Elaboration;
 
@@ -19,28 +19,32 @@ pub(crate) const FAN: SectionDeclaration = SectionDeclaration {
     sentence: "A fan or pump at a system: `NAME.flow(n)`, `NAME.pressure(n)`, `NAME.power(n)`.",
     role: Role::Substance,
     keys: &[
-        key(
+        shaped(
             "curve",
             "list",
+            Takes::list(&Takes::List(&Takes::Text, 2, 2)),
             "points of flow, rising, and pressure, falling, at the rated speed",
             "[[\"0 m^3/h\", \"120 Pa\"], [\"300 m^3/h\", \"0 Pa\"]]",
         ),
-        key(
+        shaped(
             "system",
             "pair",
+            Takes::List(&Takes::Text, 2, 2),
             "with `curve`: a flow and the pressure that the system takes for it",
             "[\"200 m^3/h\", \"60 Pa\"]",
         ),
-        key(
+        shaped(
             "duty",
             "pair",
+            Takes::List(&Takes::Text, 2, 2),
             "in place of `curve` and `system`: flow and pressure at the rated speed",
             "[\"180 m^3/h\", \"48 Pa\"]",
         ),
-        key("rated_speed", "rad/s", "the speed to which they belong", "\"2800 rpm\""),
+        key("rated_speed", "rad/s", "the speed to which they belong", "\"2800 rpm\"").needed(),
         key("power", "W", "the power at the rated speed in this system", "\"9 W\""),
-        key("efficiency", "number", "in place of `power`: flow times pressure over power", "0.3"),
+        number("efficiency", "in place of `power`: flow times pressure over power", "0.3"),
     ],
+    either: &[&["duty", "curve"]],
     example: "{ curve = [[\"0 m^3/h\", \"120 Pa\"], [\"300 m^3/h\", \"0 Pa\"]], system = [\"200 m^3/h\", \
         \"60 Pa\"], rated_speed = \"2800 rpm\", efficiency = 0.3 }",
     elsewhere: &[

@@ -8,7 +8,7 @@ use lptn_network::{Field, FluidId, Input, Item, LawField};
 use lptn_units::{Dimension, LookupTable, Quantity, TableSymbol, Type, Unit, suggest};
 
 use crate::fields::Fields;
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{Role, SectionDeclaration, property};
 use crate::library::{self, LibrarySubstance};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawValue};
@@ -21,16 +21,21 @@ pub(crate) const FLUID: SectionDeclaration = SectionDeclaration {
     sentence: "What streams are made of.",
     role: Role::Substance,
     keys: &[
-        key("density", "kg/m^3", "density, for volume flows; may depend on `T`", "\"870 kg/m^3\""),
+        property(
+            "density",
+            "kg/m^3",
+            "density, for volume flows; may depend on `T`",
+            "\"870 kg/m^3\"",
+        ),
         CP_OF_FLUID,
-        key(
+        property(
             "k",
             "W/(m K)",
             "thermal conductivity, for films; may depend on `T`",
             "\"0.14 W/(m K)\"",
         ),
-        key("viscosity", "Pa s", "dynamic, for films; may depend on `T`", "\"0.07 Pa s\""),
-        key(
+        property("viscosity", "Pa s", "dynamic, for films; may depend on `T`", "\"0.07 Pa s\""),
+        property(
             "expansion",
             "1/K",
             "volumetric, for films of natural convection; may depend on `T`, 1/T for an ideal gas",
@@ -38,13 +43,13 @@ pub(crate) const FLUID: SectionDeclaration = SectionDeclaration {
         ),
         SOURCE_OF,
     ],
-    later: &[],
     example: "{ density = \"870 kg/m^3\", cp = \"2000 J/(kg K)\" }",
     elsewhere: &[
         ("c", "the specific heat capacity is `cp`"),
         ("rho", "the density is `density`"),
         ("flow", "the flow belongs to the [advection] that carries the fluid"),
     ],
+    ..SectionDeclaration::NEW
 };
 
 /// What films take of a fluid beside density and specific heat.

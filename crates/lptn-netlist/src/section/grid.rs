@@ -5,10 +5,11 @@ use lptn_network::{Field, GridBlock, GridId, Input, Item, Substance};
 use lptn_units::{Dimension, Type};
 
 use crate::fields::Fields;
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{Role, SectionDeclaration, Takes, shaped};
 use crate::grid_part::{GridPart, KnownGrid};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::reading::all;
 use crate::section::default::Initial;
 use crate::section::keys::{CP, DENSITY, MATERIAL_OF};
 use crate::section::node::START;
@@ -21,22 +22,30 @@ pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
     sentence: "A block that is cut into cells.",
     role: Role::Element,
     keys: &[
-        key(
+        shaped(
             "size",
             "list of three lengths",
+            Takes::List(&Takes::Quantity("m"), 3, 3),
             "along x, y and z",
             "[\"0.5 m\", \"0.5 m\", \"20 mm\"]",
-        ),
-        key(
+        )
+        .needed(),
+        shaped(
             "cells",
             "list of one to three whole numbers",
+            Takes::List(&Takes::Whole, 1, 3),
             "how many cells along x, y and z",
             "[20, 20, 4]",
-        ),
+        )
+        .needed(),
         MATERIAL_OF,
-        key(
+        shaped(
             "k",
             "W/(m K), or three",
+            Takes::Either(&[
+                Takes::Property("W/(m K)"),
+                Takes::List(&Takes::Quantity("W/(m K)"), 3, 3),
+            ]),
             "conductivity, or those along x, y and z",
             "\"46.6 W/(m K)\"",
         ),
@@ -44,6 +53,7 @@ pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
         CP,
         START,
     ],
+    either: &[&["material", "k"]],
     example: "{ size = [\"0.5 m\", \"0.5 m\", \"20 mm\"], cells = [20, 20, 4], material = \
         \"steel_8620\" }",
     elsewhere: &[
@@ -194,9 +204,7 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::grid_cells", message, &raw.span, help);
             return None;
         }
-        let counts: Vec<Option<usize>> =
-            list.iter().map(|raw| self.cell_count(fields, raw)).collect();
-        counts.into_iter().collect()
+        all(list.iter().map(|raw| self.cell_count(fields, raw)))
     }
 
     fn cell_count(&mut self, fields: &Fields<'a>, raw: &RawValue) -> Option<usize> {

@@ -1,6 +1,6 @@
 //! Keys that several sections have.
 
-use crate::format::{KeyDeclaration, key};
+use crate::format::{KeyDeclaration, key, property, text};
 
 pub(super) const DENSITY: KeyDeclaration = key(
     "density",
@@ -8,7 +8,7 @@ pub(super) const DENSITY: KeyDeclaration = key(
     "density; constant: the mass of a volume does not change",
     "\"7850 kg/m^3\"",
 );
-pub(super) const CP: KeyDeclaration = key(
+pub(super) const CP: KeyDeclaration = property(
     "cp",
     "J/(kg K)",
     "specific heat capacity; constant, an expression in `T`, or a table over it",
@@ -16,33 +16,33 @@ pub(super) const CP: KeyDeclaration = key(
 );
 /// That of a liquid: the example is water.
 pub(super) const CP_OF_FLUID: KeyDeclaration =
-    KeyDeclaration { example: "\"4180 J/(kg K)\"", ..CP };
+    KeyDeclaration { example: "\"4180 J/(kg K)\"", ..CP }.needed();
 pub(super) const SOURCE_OF: KeyDeclaration =
-    key("source", "text", "where the numbers come from", "\"where the numbers come from\"");
+    text("source", "text", "where the numbers come from", "\"where the numbers come from\"");
 
 /// What a lump is made of.
 pub(super) const CAPACITY: KeyDeclaration =
     key("C", "J/K", "heat capacity; may depend on the node's own temperature `T`", "\"500 J/K\"");
-pub(super) const MATERIAL_OF: KeyDeclaration = key(
+pub(super) const MATERIAL_OF: KeyDeclaration = text(
     "material",
     "name of a material",
     "one of the file or of the library (`lptn materials`), in place of the values that it gives",
     "\"steel_8620\"",
 );
 /// What a loss is lubricated with.
-pub(super) const LUBRICANT_OF: KeyDeclaration = key(
+pub(crate) const LUBRICANT_OF: KeyDeclaration = text(
     "lubricant",
     "name of a lubricant",
     "one of the file or of the library, in place of the values that it gives",
     "\"iso_vg_220\"",
 );
-pub(super) const AT: KeyDeclaration = key(
+pub(super) const AT: KeyDeclaration = text(
     "at",
     "name of a node or boundary",
     "with `lubricant`: whose temperature it has; the first that is heated unless said",
     "\"name of a node\"",
 );
-pub(super) const FLUID_OF: KeyDeclaration = key(
+pub(super) const FLUID_OF: KeyDeclaration = text(
     "fluid",
     "name of a fluid",
     "one of the file or of the library (`lptn materials`), in place of the properties that it gives",

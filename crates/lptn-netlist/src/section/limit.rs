@@ -5,7 +5,7 @@ use lptn_network::{Bound, Field, Input, Item, LimitSeverity};
 use lptn_units::Type;
 
 use crate::fields::Fields;
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{Role, SectionDeclaration, akin, text, words};
 use crate::place::{Given, Place, Text, Wanted};
 use crate::raw::{RawEntry, RawKind};
 use crate::value::mean_over_time;
@@ -16,12 +16,12 @@ pub(crate) const LIMIT: SectionDeclaration = SectionDeclaration {
     sentence: "What the results have to keep: an upper or a lower bound of a result.",
     role: Role::Element,
     keys: &[
-        key("of", "expression of results", "what is limited", "\"steel.T\""),
-        key("below", "as `of`", "the highest value that is allowed", "\"110 degC\""),
-        key("above", "as `of`", "the lowest value that is allowed", "\"-20 degC\""),
-        key("severity", "`\"error\"`, `\"warning\"`", "how bad it is", "\"warning\"")
-            .or("`\"error\"`"),
+        text("of", "expression of results", "what is limited", "\"steel.T\"").needed(),
+        akin("below", "as `of`", "the highest value that is allowed", "\"110 degC\""),
+        akin("above", "as `of`", "the lowest value that is allowed", "\"-20 degC\""),
+        words("severity", &["error", "warning"], "how bad it is", "\"warning\"").or("`\"error\"`"),
     ],
+    either: &[&["below", "above"]],
     example: "{ of = \"a.T\", below = \"110 degC\" }",
     elsewhere: &[
         ("node", "what is limited is `of`, for example `of = \"a.T\"`"),

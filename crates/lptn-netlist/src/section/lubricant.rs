@@ -10,7 +10,7 @@ use lptn_units::{
 };
 
 use crate::fields::{Fields, Oil};
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{Role, SectionDeclaration, Takes, key, number, shaped};
 use crate::library;
 use crate::place::{Given, Place, Text, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
@@ -23,9 +23,10 @@ pub(crate) const LUBRICANT: SectionDeclaration = SectionDeclaration {
         expressions may call.",
     role: Role::Substance,
     keys: &[
-        key(
+        shaped(
             "viscosity",
             "list",
+            Takes::List(&Takes::List(&Takes::Text, 2, 2), 2, 2),
             "kinematic viscosity at two temperatures that rise, after ASTM D341",
             "[[\"40 degC\", \"220 mm^2/s\"], [\"100 degC\", \"19 mm^2/s\"]]",
         ),
@@ -35,14 +36,14 @@ pub(crate) const LUBRICANT: SectionDeclaration = SectionDeclaration {
             "in place of `viscosity`: that at 40 degC, with `VI`",
             "\"220 mm^2/s\"",
         ),
-        key("VI", "number", "with `nu_40`: the viscosity index, after ASTM D2270", "95"),
-        key("c", "number", "what is added to the viscosity in mm^2/s: 0.8 is DIN 51563", "0.8")
-            .or("0.7"),
+        number("VI", "with `nu_40`: the viscosity index, after ASTM D2270", "95"),
+        number("c", "what is added to the viscosity in mm^2/s: 0.8 is DIN 51563", "0.8").or("0.7"),
         key("density", "kg/m^3", "density at 15 degC", "\"890 kg/m^3\""),
         key("expansion", "1/K", "with `density`: how it falls per kelvin", "\"0.00065 1/K\"")
             .or("0"),
         SOURCE_OF,
     ],
+    either: &[&["viscosity", "nu_40"]],
     example: "{ viscosity = [[\"40 degC\", \"220 mm^2/s\"], [\"100 degC\", \"19 mm^2/s\"]] }",
     elsewhere: &[
         ("nu", "the viscosity is `viscosity`, at two temperatures, or `nu_40` with `VI`"),

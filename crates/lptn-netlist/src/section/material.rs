@@ -5,7 +5,7 @@ use lptn_network::{Field, Input, Item, MaterialId, Properties, Size};
 use lptn_units::{Dimension, Quantity, Type, suggest};
 
 use crate::fields::Fields;
-use crate::format::{ABSOLUTE, Role, SectionDeclaration, key};
+use crate::format::{ABSOLUTE, Role, SectionDeclaration, key, property};
 use crate::library::{self, LibrarySubstance};
 use crate::place::{Place, Wanted};
 use crate::raw::{RawEntry, RawValue};
@@ -22,7 +22,7 @@ pub(crate) const MATERIAL: SectionDeclaration = SectionDeclaration {
     keys: &[
         DENSITY,
         CP,
-        key("k", "W/(m K)", "thermal conductivity, in the same way", "\"46.6 W/(m K)\""),
+        property("k", "W/(m K)", "thermal conductivity, in the same way", "\"46.6 W/(m K)\""),
         key("solidus", ABSOLUTE, "where it begins to melt; all three or none", "\"55 degC\""),
         key("liquidus", ABSOLUTE, "where it is molten; `solidus` and above", "\"57 degC\""),
         key("latent_heat", "J/kg", "taken up evenly from `solidus` to `liquidus`", "\"200 kJ/kg\""),

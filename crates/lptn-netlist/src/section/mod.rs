@@ -28,6 +28,9 @@ mod top;
 
 pub(crate) use control::{CONTROL, narrow};
 pub(crate) use default::{Default, Initial};
+pub(crate) use keys::LUBRICANT_OF;
 pub use list::{Studies, format};
 pub(crate) use node::NODE;
+pub(crate) use path_section::{PATHS, PathSection};
 pub(crate) use signal::SIGNAL;
+pub(crate) use table::TABLE;

@@ -5,7 +5,7 @@ use lptn_network::{Field, Input, Item, NodeId};
 use lptn_units::{Dimension, Type};
 
 use crate::fields::Fields;
-use crate::format::{ABSOLUTE, KeyDeclaration, Role, SectionDeclaration, key};
+use crate::format::{ABSOLUTE, KeyDeclaration, Role, SectionDeclaration, flag, key};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind};
 use crate::section::default::Initial;
@@ -27,8 +27,7 @@ pub(crate) const NODE: SectionDeclaration = SectionDeclaration {
         MASS,
         VOLUME,
         key("L_char", "m", "volume over surface, to check whether the node is a lump", "\"12 mm\""),
-        key("massless", "`true`, `false`", "whether it is a junction that stores nothing", "true")
-            .or("`false`"),
+        flag("massless", "whether it is a junction that stores nothing", "true").or("`false`"),
     ],
     example: "{ T0 = \"25 degC\", C = \"500 J/K\" }",
     elsewhere: &[
@@ -106,16 +105,7 @@ impl<'a> Elaboration<'a> {
 
     /// Whether it is declared massless; `None` if that cannot be read.
     fn massless(&mut self, fields: &Fields<'_>) -> Option<bool> {
-        match fields.get("massless") {
-            None => Some(false),
-            Some(raw) => {
-                if let RawKind::Boolean(massless) = raw.kind {
-                    return Some(massless);
-                }
-                self.report(fields.wrong_shape("massless", raw, "`true` or `false`"));
-                None
-            }
-        }
+        Some(self.yes_or_no(fields, "massless")?.unwrap_or(false))
     }
 
     pub(crate) fn initial(&mut self, fields: &Fields<'_>) -> Option<Input> {

@@ -4,9 +4,9 @@ use std::sync::LazyLock;
 
 use lptn_laws::{FieldDeclaration, Formula, Kind, Substance};
 use lptn_network::Context;
-use lptn_units::Type;
+use lptn_units::{Type, format_number};
 
-use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
+use crate::format::{KeyDeclaration, Role, SectionDeclaration, Takes, shaped, text, words};
 use crate::section::keys::{AT, FLUID_OF, LUBRICANT_OF, MATERIAL_OF};
 use crate::section::path_law::{count, counts, types};
 
@@ -20,6 +20,11 @@ pub(crate) struct PathSection {
 }
 
 impl PathSection {
+    /// The keys that each form of it needs.
+    pub(crate) fn forms(&self) -> impl Iterator<Item = &[&'static str]> {
+        self.groups.iter().map(|group| group.keys.as_slice())
+    }
+
     /// The keys of its values.
     pub(super) fn values(&self) -> impl Iterator<Item = &'static str> {
         self.values.iter().map(|value| value.field.key)
@@ -57,6 +62,7 @@ fn path_section(kind: Kind) -> PathSection {
         sentence: declared.sentence,
         role: Role::Element,
         keys: keys(kind).leak(),
+        either: &[],
         later: declared.later,
         example: declared.example,
         elsewhere: declared.elsewhere,
@@ -77,10 +83,15 @@ fn path_section(kind: Kind) -> PathSection {
 fn keys(kind: Kind) -> Vec<KeyDeclaration> {
     let mut keys = if kind.is_source() { vec![INTO] } else { ENDS.into() };
     let first = kind.laws_named(true).next().map_or("", |law| law.declaration().name);
-    let mut selector = kind
-        .declaration()
-        .selector
-        .map(|name| key(name, "word", "the law", format!("\"{first}\"").leak()));
+    let mut selector = kind.declaration().selector.map(|name| {
+        let mut laws: Vec<&str> = Vec::new();
+        for law in kind.laws().map(|law| law.declaration().name) {
+            if !laws.contains(&law) {
+                laws.push(law);
+            }
+        }
+        words(name, laws.leak(), "the law", format!("\"{first}\"").leak())
+    });
     for field in kind.fields() {
         let laws = || kind.laws().filter(|law| law.field(field.key).is_some());
         let chosen = |law: Formula| law.declaration().named;
@@ -98,34 +109,61 @@ fn keys(kind: Kind) -> Vec<KeyDeclaration> {
                 keys.push(*new);
             }
         }
-        let unit = if field.ty.is_scalar() { "number".to_owned() } else { field.unit().0 };
-        keys.push(key(field.key, unit.leak(), field.meaning, field.example));
+        keys.push(value_of(kind, field));
     }
     keys.extend(selector);
     keys
 }
 
+/// A value of a law; several in a list where a law of the kind takes as many.
+fn value_of(kind: Kind, field: &FieldDeclaration) -> KeyDeclaration {
+    let (unit, scale) = field.unit();
+    let (one, said) = match types(kind, field.key).iter().any(|(ty, _)| ty.is_scalar()) {
+        true => (Takes::Number, "number"),
+        false => (Takes::Quantity(""), &*unit.leak()),
+    };
+    let [least, most] = counts(kind, field.key);
+    let takes = match (least, most) {
+        (_, 0 | 1) => one,
+        (2.., _) => Takes::List(leak(one), most, most),
+        _ => Takes::Either(vec![one, Takes::List(leak(one), most, most)].leak()),
+    };
+    let default = field.default.map_or(String::new(), |value| match one {
+        Takes::Number => format_number(value),
+        _ => format!("{} {said}", format_number(value / scale)),
+    });
+    shaped(field.key, said, takes, field.meaning, field.example).or(default.leak())
+}
+
+/// What a section says lasts as long as the program.
+fn leak(takes: Takes) -> &'static Takes {
+    Box::leak(Box::new(takes))
+}
+
 /// What flows in a stream.
-const STREAMS: KeyDeclaration = key("fluid", "name of a fluid", "what streams", "\"water\"");
+const STREAMS: KeyDeclaration = text("fluid", "name of a fluid", "what streams", "\"water\"");
 
 const END: &str = "name of a node or boundary";
 
 const ENDS: [KeyDeclaration; 2] = [
-    key(
+    text(
         "from",
         END,
         "where heat comes from while it is positive",
         "\"name of a node or boundary\"",
-    ),
-    key("to", END, "where it goes", "\"name of another node or boundary\""),
+    )
+    .needed(),
+    text("to", END, "where it goes", "\"name of another node or boundary\"").needed(),
 ];
 
-const INTO: KeyDeclaration = key(
+const INTO: KeyDeclaration = shaped(
     "into",
     "name, or table of shares",
+    Takes::Either(&[Takes::Text, Takes::Each(&Takes::Number)]),
     "the node, grid or face that is heated",
     "\"name of a node\"",
-);
+)
+.needed();
 
 /// Laws that begin with the same field, and the keys that all of them need.
 pub(super) struct Group {

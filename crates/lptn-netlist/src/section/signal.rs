@@ -7,7 +7,7 @@ use lptn_units::{
 };
 
 use crate::fields::Fields;
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{Role, SectionDeclaration, Takes, key, shaped, text, words, words_of};
 use crate::names::ValueKind;
 use crate::parameters::Pending;
 use crate::place::{Place, Wanted};
@@ -21,30 +21,33 @@ pub(crate) const SIGNAL: SectionDeclaration = SectionDeclaration {
     sentence: "A value that changes with the time of the run: points, or an expression in `t`.",
     role: Role::Value,
     keys: &[
-        key("t", "list of times or numbers", "times, rising", "[\"0 s\", \"60 s\"]"),
-        key("v", "list of quantities or numbers", "values", "[\"0 rpm\", \"5000 rpm\"]"),
-        key("t_unit", "unit", "the unit of plain numbers in `t`", "\"s\""),
-        key("v_unit", "unit", "the unit of plain numbers in `v`", "\"rpm\""),
+        shaped(
+            "t",
+            "list of times or numbers",
+            Takes::list(&Takes::Like),
+            "times, rising",
+            "[\"0 s\", \"60 s\"]",
+        ),
+        shaped(
+            "v",
+            "list of quantities or numbers",
+            Takes::list(&Takes::Like),
+            "values",
+            "[\"0 rpm\", \"5000 rpm\"]",
+        ),
+        text("t_unit", "unit", "the unit of plain numbers in `t`", "\"s\""),
+        text("v_unit", "unit", "the unit of plain numbers in `v`", "\"rpm\""),
         CSV,
-        key("time", "name of a column", "with `csv`: the times", "\"t\""),
+        text("time", "name of a column", "with `csv`: the times", "\"t\""),
         COLUMN,
-        key(
-            "interp",
-            "`\"linear\"`, `\"pchip\"`, `\"previous\"`",
-            "what joins the points",
-            "\"linear\"",
-        )
-        .or("`\"linear\"`"),
-        key(
-            "after_end",
-            "`\"error\"`, `\"hold\"`, `\"repeat\"`",
-            "what follows the last point",
-            "\"hold\"",
-        )
-        .or("`\"error\"`"),
+        words("interp", &words_of(&JOINS), "what joins the points", "\"linear\"")
+            .or("`\"linear\"`"),
+        words("after_end", &words_of(&AFTER), "what follows the last point", "\"hold\"")
+            .or("`\"error\"`"),
         key("period", "s", "with `\"repeat\"`: from one beginning to the next", "\"60 s\"")
             .or("as long as the points"),
     ],
+    either: &[&["t", "csv"], &["v", "csv"]],
     example: "{ t = [\"0 s\", \"60 s\"], v = [\"0 rpm\", \"5000 rpm\"] }",
     elsewhere: &[
         ("outside", "after its last point a signal has `after_end = \"hold\"` or `\"repeat\"`"),

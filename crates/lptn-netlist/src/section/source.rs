@@ -8,6 +8,7 @@ use crate::fields::Fields;
 use crate::grid_part::GridPart;
 use crate::place::Place;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
+use crate::reading::all;
 use crate::section::path_section::{PATHS, PathSection};
 use crate::work::{Elaboration, stand_in};
 
@@ -61,8 +62,8 @@ impl<'a> Elaboration<'a> {
 
     /// `into = { a = 0.5, b = 0.5 }`.
     fn shares(&mut self, fields: &Fields<'a>, table: &'a RawTable) -> Option<Vec<(End, f64)>> {
-        let shares: Vec<_> = table.entries.iter().map(|entry| self.share(fields, entry)).collect();
-        shares.into_iter().collect::<Option<Vec<_>>>().map(|shares| shares.concat())
+        all(table.entries.iter().map(|entry| self.share(fields, entry)))
+            .map(|shares| shares.concat())
     }
 
     /// A grid is heated by volume, a face by area.

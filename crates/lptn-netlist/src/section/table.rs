@@ -10,21 +10,25 @@ use lptn_units::{
 };
 
 use crate::fields::Fields;
-use crate::format::{KeyDeclaration, Role, SectionDeclaration, key};
+use crate::format::{
+    FILES, KeyDeclaration, Role, SectionDeclaration, Takes, shaped, text, words, words_of,
+};
 use crate::names::ValueKind;
 use crate::points::Axis;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::work::Elaboration;
 
 /// The keys that a table and a signal share.
-pub(super) const CSV: KeyDeclaration = key(
+pub(super) const CSV: KeyDeclaration = text(
     "csv",
     "file",
     "in place of the lists: a CSV file, and the names of its columns",
     "\"cycle.csv\"",
 );
+/// The points of a table: a list, or the name of a column.
+const POINTS: Takes = Takes::Either(&[Takes::list(&Takes::Like), Takes::Text]);
 pub(super) const COLUMN: KeyDeclaration =
-    key("value", "name of a column", "with `csv`: the values", "\"speed\"");
+    text("value", "name of a column", "with `csv`: the values", "\"speed\"");
 
 /// A table of `[table]`, and a property over temperature.
 pub(crate) const TABLE: SectionDeclaration = SectionDeclaration {
@@ -32,28 +36,37 @@ pub(crate) const TABLE: SectionDeclaration = SectionDeclaration {
     sentence: "A function of one or two numbers, which expressions call by its name.",
     role: Role::Value,
     keys: &[
-        key("x", "list", "arguments, rising; a column of `csv`", "[\"0 rpm\", \"5000 rpm\"]"),
-        key("y", "list", "values; of `csv`: a second argument", "[\"0 W\", \"80 W\"]"),
-        key("x_unit", "unit", "the unit of plain numbers in `x`", "\"rpm\""),
-        key("y_unit", "unit", "the unit of plain numbers in `y`", "\"W\""),
-        key(
+        shaped(
+            "x",
+            "list",
+            POINTS,
+            "arguments, rising; a column of `csv`",
+            "[\"0 rpm\", \"5000 rpm\"]",
+        )
+        .needed(),
+        shaped("y", "list", POINTS, "values; of `csv`: a second argument", "[\"0 W\", \"80 W\"]"),
+        text("x_unit", "unit", "the unit of plain numbers in `x`", "\"rpm\""),
+        text("y_unit", "unit", "the unit of plain numbers in `y`", "\"W\""),
+        shaped(
             "csv",
             "file, or a list of files",
+            FILES,
             "in place of the lists: a CSV file, and the names of its columns; of several files one \
              curve each, and its number, from 1, is the first argument",
             "\"cycle.csv\"",
         ),
         COLUMN,
-        key("interp", "`\"linear\"`, `\"pchip\"`", "what joins the points", "\"linear\"")
+        words("interp", &words_of(&INTERPOLATIONS), "what joins the points", "\"linear\"")
             .or("`\"linear\"`"),
-        key(
+        words(
             "outside",
-            "`\"error\"`, `\"hold\"`",
+            &words_of(&OUTSIDE),
             "outside its points: an error, or the value at the nearer end",
             "\"hold\"",
         )
         .or("`\"error\"`"),
     ],
+    either: &[&["y", "value"]],
     example: "{ x = [\"0 rpm\", \"5000 rpm\"], y = [\"0 W\", \"80 W\"] }",
     elsewhere: &[
         ("after_end", "outside its points a table has `outside = \"hold\"`"),

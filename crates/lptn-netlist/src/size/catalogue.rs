@@ -9,8 +9,7 @@ use lptn_units::{Scope as _, Type, Unit, suggest};
 use crate::fields::Fields;
 use crate::names::ValueKind;
 use crate::netlist::Netlist;
-use crate::raw::{RawKind, RawNetlist, RawValue};
-use crate::size::SIZE;
+use crate::raw::{RawKind, RawValue};
 use crate::work::Elaboration;
 
 /// The column of the names of the parts, which has to be there.
@@ -46,28 +45,6 @@ pub struct CatalogueColumn {
     pub values: Vec<f64>,
     /// Where the header of the column stands.
     pub span: Span,
-}
-
-/// The files of the catalogues of all studies.
-pub(super) fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
-    let mut found = Vec::new();
-    for size in raw.elements(SIZE.name) {
-        let RawKind::Table(table) = &size.value.kind else { continue };
-        found.extend(table.get("catalogue").into_iter().flat_map(|entry| named(&entry.value)));
-    }
-    found
-}
-
-/// The files that a value of `catalogue` names.
-fn named(value: &RawValue) -> impl Iterator<Item = (&str, &RawValue)> {
-    let items = match &value.kind {
-        RawKind::Array(list) => list.as_slice(),
-        _ => std::slice::from_ref(value),
-    };
-    items.iter().filter_map(|item| match &item.kind {
-        RawKind::String { text, .. } => Some((text.as_str(), item)),
-        _ => None,
-    })
 }
 
 /// What a parameter is that a column is named after; the problem where there is none, unless it was
@@ -182,12 +159,9 @@ impl<'a> Elaboration<'a> {
     /// The catalogues of a study; `None` if something is wrong with one, which is then reported.
     pub(super) fn catalogues(&mut self, fields: &Fields<'a>) -> Option<Vec<Catalogue>> {
         let Some(raw) = fields.get("catalogue") else { return Some(Vec::new()) };
-        let count = match &raw.kind {
-            RawKind::Array(list) => list.len(),
-            _ => 1,
-        };
-        let files: Vec<_> = named(raw).collect();
-        if files.is_empty() || files.len() < count {
+        let is_text = |item: &RawValue| matches!(item.kind, RawKind::String { .. });
+        let files: Vec<_> = raw.items().iter().filter_map(RawValue::file).collect();
+        if files.is_empty() || !raw.items().iter().all(is_text) {
             self.report(fields.wrong_shape("catalogue", raw, "a CSV file or a list of them"));
             return None;
         }

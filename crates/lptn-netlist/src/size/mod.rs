@@ -8,11 +8,13 @@ use lptn_data::{Diagnostic, Span};
 use lptn_network::{Bound, Evaluation, Limit, LimitSeverity, Network, ParameterId, Value};
 use lptn_units::{EvalError, Type};
 
-use crate::format::{Role, SectionDeclaration, key};
-use crate::raw::{RawNetlist, RawValue};
+use crate::format::{
+    FILES, Role, SectionDeclaration, Takes, akin, key, names, number, shaped, text, words, words_of,
+};
+use crate::raw::RawEntry;
 use crate::setting::Setting;
-use crate::study::{PathFrom, Study};
-use crate::toml_text::{TomlFields, key as toml_key, like, strings};
+use crate::study::{PathFrom, Study, type_of};
+use crate::toml_text::{TomlFields, key as toml_key, like};
 use crate::work::Elaboration;
 pub use catalogue::{Catalogue, CatalogueColumn};
 
@@ -21,53 +23,57 @@ const SIZE: SectionDeclaration = SectionDeclaration {
     sentence: "Parameters to size, or parts to choose: the best ones that keep every requirement.",
     role: Role::Study,
     keys: &[
-        key(
+        text(
             "minimise",
             "parameter, or expression of parameters and results",
             "whose least value is sought",
             "\"name of a parameter\"",
         ),
-        key(
+        text(
             "maximise",
             "parameter, or expression of parameters and results",
             "whose largest value is sought",
             "\"name of a parameter\"",
         ),
-        key(
+        shaped(
             "vary",
             "table",
+            Takes::Each(&Takes::Table(&VARY)),
             "of each parameter its range, `from` and `to`",
             "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
         ),
-        key(
+        names(
             "require",
             "list of comparisons of results",
             "what has to be kept",
             "[\"steel.T <= 80 [degC]\"]",
-        ),
-        key(
+        )
+        .needed(),
+        words(
             "over",
-            "`\"steady\"`, `\"run\"`, `\"periodic\"`",
+            &words_of(&Over::WORDS),
             "when it has to be kept: in steady state, at every moment of [run], in the settled \
              cycle",
             "\"run\"",
         )
         .or("`\"steady\"`"),
         key("period", "s", "how long a cycle is", "\"10 min\"").or("that of the repeated signals"),
-        key(
+        shaped(
             "catalogue",
             "file, or a list of files",
+            FILES,
             "parts to choose from, one a row, in place of `vary` or beside it",
             "\"parts.csv\"",
         ),
-        key(
+        number(
             "probability",
-            "number",
             "how likely each requirement has to be kept, by the `±` of parameters",
             "\"95 %\"",
         ),
-        key("cases", "list of names", "the load cases that count", "[\"hot\"]").or("all of [case]"),
+        names("cases", "list of names", "the load cases that count", "[\"hot\"]")
+            .or("all of [case]"),
     ],
+    either: &[&["minimise", "maximise"], &["vary", "catalogue"]],
     example: "{ minimise = \"p\", vary = { p = { from = \"..\", to = \"..\" } }, require = [\"a.T \
         <= 80 [degC]\"] }",
     elsewhere: &[
@@ -83,8 +89,8 @@ const SIZE: SectionDeclaration = SectionDeclaration {
 pub(crate) const VARY: SectionDeclaration = SectionDeclaration {
     name: "vary",
     keys: &[
-        key("from", "as the parameter", "the least value", "\"1 W/K\""),
-        key("to", "as the parameter", "the largest value", "\"10 W/K\""),
+        akin("from", "as the parameter", "the least value", "\"1 W/K\""),
+        akin("to", "as the parameter", "the largest value", "\"10 W/K\""),
     ],
     example: "{ from = \"1 W/K\", to = \"10 W/K\" }",
     elsewhere: &[
@@ -278,13 +284,10 @@ impl SizeStudy {
 
 impl Study for SizeStudy {
     const SECTION: &'static SectionDeclaration = &SIZE;
+    const FILES: &'static str = "catalogue";
 
-    fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
-        catalogue::files(raw)
-    }
-
-    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
-        work.elements(SIZE.name).iter().filter_map(|entry| work.size_study(entry)).collect()
+    fn one<'a>(work: &mut Elaboration<'a>, entry: &'a RawEntry) -> Option<Self> {
+        work.size_study(entry)
     }
 
     fn name(&self) -> &str {
@@ -302,33 +305,21 @@ impl Study for SizeStudy {
         let goal = if self.goal == Goal::Minimise { "minimise" } else { "maximise" };
         fields.word(goal, &self.objective.text);
         let range = |range: &SizeRange| {
-            let id = network.parameter(&range.name).ok();
-            let ty = id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty);
+            let ty = type_of(network, &range.name);
             let [from, to] = [&range.from, &range.to].map(|end| like(end, ty));
             format!("{} = {{ from = {from}, to = {to} }}", toml_key(&range.name))
         };
-        let ranges: Vec<String> = self.varied.iter().map(range).collect();
-        if !ranges.is_empty() {
-            fields.put("vary", format!("{{ {} }}", ranges.join(", ")));
-        }
+        fields.table("vary", self.varied.iter().map(range));
         let catalogues: Vec<String> =
             self.catalogues.iter().map(|one| path(one.span.file, &one.csv)).collect();
-        if !catalogues.is_empty() {
-            fields.put("catalogue", strings(catalogues.iter().map(String::as_str)));
-        }
-        fields.put("require", strings(self.requirements.iter().map(|r| r.text.as_str())));
+        fields.strings("catalogue", catalogues.iter().map(String::as_str));
+        fields.strings("require", self.requirements.iter().map(|r| r.text.as_str()));
         if self.over != Over::Steady {
             fields.word("over", self.over.word());
         }
-        if let Some(cases) = &self.cases {
-            fields.put("cases", strings(cases.iter().map(String::as_str)));
-        }
-        if let Some(probability) = &self.probability {
-            fields.put("probability", probability.written());
-        }
-        if let Some(period) = &self.period {
-            fields.put("period", period.written());
-        }
+        fields.strings("cases", self.cases.iter().flatten().map(String::as_str));
+        fields.maybe("probability", self.probability.as_ref().map(Setting::written));
+        fields.maybe("period", self.period.as_ref().map(Setting::written));
         fields
     }
 }

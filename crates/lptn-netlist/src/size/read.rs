@@ -1,14 +1,15 @@
 //! Reads `[size.NAME]`.
 
 use lptn_data::Diagnostic;
-use lptn_network::{Context, Value};
-use lptn_units::{Comparison, Expression, Scope as _, Type};
+use lptn_units::{Comparison, Expression};
 
 use crate::fields::{Fields, Owner};
+use crate::listed::{Listed, Names};
 use crate::place::{Given, Place, Text, Wanted};
 use crate::raw::{RawEntry, RawValue};
+use crate::reading::all;
 use crate::run::RUN;
-use crate::setting::{Setting, TIME};
+use crate::setting::Setting;
 use crate::size::{
     Catalogue, Goal, Objective, Over, Requirement, SIZE, SizeRange, SizeStudy, VARY,
 };
@@ -16,17 +17,6 @@ use crate::value::mean_over_time;
 use crate::work::Elaboration;
 
 impl<'a> Elaboration<'a> {
-    /// An end of the range of a parameter of this type: `None` if it is not there, `Some(None)` if
-    /// it is wrong.
-    pub(crate) fn range_end(
-        &mut self,
-        range: &Fields<'a>,
-        key: &str,
-        ty: Type,
-    ) -> Option<Option<Value>> {
-        Some(self.exactly_inside(&range.owner, (key, range.get(key)?), Wanted::like(ty)))
-    }
-
     pub(super) fn size_study(&mut self, entry: &'a RawEntry) -> Option<SizeStudy> {
         let fields = self.fields(&SIZE, entry)?;
         let over = self.over(&fields);
@@ -35,13 +25,10 @@ impl<'a> Elaboration<'a> {
         let varied = self.varied_or_chosen(&fields);
         let requirements = self.requirements(&fields);
         let cases = self.cases_of(&fields);
-        let probability = fields
-            .get("probability")
-            .map(|raw| self.setting(&fields.owner, ("probability", raw), Type::SCALAR));
+        let probability = self.optional_setting(&fields, "probability");
         let ((goal, objective), (varied, catalogues)) = (sought?, varied?);
         let (over, period) = over?;
         let cases = cases?;
-        let probability = probability.map_or(Some(None), |given| given.map(Some))?;
         let columns = catalogues.iter().flat_map(|one| &one.columns).map(|one| &one.name);
         let changed: Vec<&String> = varied.iter().map(|one| &one.name).chain(columns).collect();
         self.set_by_cases((&fields, cases.as_deref()), &changed)?;
@@ -52,7 +39,7 @@ impl<'a> Elaboration<'a> {
             requirements: requirements?,
             over,
             period,
-            probability,
+            probability: probability?,
             span: entry.key_span.clone(),
             varied,
             cases,
@@ -103,8 +90,7 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::size_over", message, &period.span, help);
             return None;
         }
-        let period = self.setting(&fields.owner, ("period", period), TIME)?;
-        Some((over, Some(period)))
+        Some((over, self.optional_setting(fields, "period")?))
     }
 
     /// What is sought, and in which direction; results have one value in steady state only.
@@ -163,35 +149,21 @@ impl<'a> Elaboration<'a> {
 
     /// The ranges of the parameters.
     fn size_ranges(&mut self, fields: &Fields<'a>) -> Option<Vec<SizeRange>> {
-        let raw = self.require(fields, "vary")?;
-        let table = self.table_of(fields, ("vary", "a table"))?;
-        if table.entries.is_empty() {
-            self.report(fields.wrong_shape("vary", raw, "a table of ranges"));
-            return None;
-        }
-        let all: Vec<_> =
-            table.entries.iter().map(|entry| self.size_range(fields, entry)).collect();
-        all.into_iter().collect()
+        let names = self.listed(fields, "vary", Names::Table("a table", "a table of ranges"))?;
+        all(names.into_iter().map(|one| self.size_range(fields, one)))
     }
 
-    fn size_range(&mut self, fields: &Fields<'a>, entry: &'a RawEntry) -> Option<SizeRange> {
-        let name = &entry.key;
-        let known = self.is_parameter_here(&fields.owner.field("vary"), name, &entry.key_span);
-        let range = self.inner(&VARY, fields.owner.inside("vary").inside(name), entry)?;
+    fn size_range(&mut self, fields: &Fields<'a>, one: Listed<'a>) -> Option<SizeRange> {
+        let Listed { name, span, entry } = one;
+        let known = self.is_parameter_here(&fields.owner.field("vary"), name, span);
+        let range = self.inner(&VARY, fields.owner.inside("vary").inside(name), entry?)?;
         if !known || self.names.has_failed(name) {
             return None;
         }
-        let ty = self.builder.scope(Context::Time).symbol(name)?.ty;
-        let [from, to] = ["from", "to"].map(|key| {
-            let end = self.range_end(&range, key, ty);
-            if end.is_none() && range.complete {
-                let message = format!("{} has no `{key}`", range.owner.words());
-                let help = format!("write it like this: `{}`", fields.sample("vary"));
-                self.report(range.missing(key, message).help(help));
-            }
-            end
-        });
-        Some(SizeRange { name: name.clone(), from: from??, to: to??, span: entry.key_span.clone() })
+        let ty = self.type_here(name)?;
+        let help = format!("write it like this: `{}`", fields.sample("vary"));
+        let [from, to] = self.both_ends(&range, ty, Some(&help))?;
+        Some(SizeRange { name: name.to_owned(), from, to, span: span.clone() })
     }
 
     /// The requirements of a study: comparisons of results.
@@ -202,8 +174,7 @@ impl<'a> Elaboration<'a> {
             self.report(fields.wrong_shape("require", raw, "a list of requirements"));
             return None;
         }
-        let all: Vec<_> = list.iter().map(|raw| self.requirement(&fields.owner, raw)).collect();
-        all.into_iter().collect()
+        all(list.iter().map(|raw| self.requirement(&fields.owner, raw)))
     }
 
     fn requirement(&mut self, owner: &Owner, raw: &'a RawValue) -> Option<Requirement> {

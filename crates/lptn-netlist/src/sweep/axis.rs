@@ -1,13 +1,15 @@
 //! The axes of a sweep: a range, a list of values or a column of a file for each parameter.
 
 use lptn_data::{Diagnostic, PlacedNumbers, Span};
-use lptn_network::{Context, Value};
-use lptn_units::{Scope as _, Type};
+use lptn_network::Value;
+use lptn_units::Type;
 
 use crate::fields::{Fields, Owner, wrong_shape};
+use crate::listed::Names;
 use crate::place::{Given, Wanted};
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::sweep::declaration::AXIS;
+use crate::reading::all;
+use crate::sweep::declaration::{AXIS, SCALES};
 use crate::sweep::{SweepAxis, SweepMethod};
 use crate::work::Elaboration;
 
@@ -29,8 +31,6 @@ pub(crate) enum AxisValues {
     Column(PlacedNumbers),
 }
 
-const SCALES: [(&str, bool); 2] = [("linear", false), ("log", true)];
-
 impl<'a> Elaboration<'a> {
     /// `axes = { p = { from = .., to = .., points = 10 }, q = ["1 W", "2 W"] }`.
     pub(super) fn sweep_axes(
@@ -38,17 +38,10 @@ impl<'a> Elaboration<'a> {
         fields: &Fields<'a>,
         method: SweepMethod,
     ) -> Option<Vec<SweepAxis>> {
-        let raw = self.require(fields, "axes")?;
-        let table = match &raw.kind {
-            RawKind::Table(table) if !table.entries.is_empty() => table,
-            _ => {
-                self.report(fields.wrong_shape("axes", raw, "a table of parameters"));
-                return None;
-            }
-        };
-        let axes: Vec<_> =
-            table.entries.iter().map(|entry| self.sweep_axis(fields, entry, method)).collect();
-        axes.into_iter().collect()
+        let wanted = "a table of parameters";
+        let names = self.listed(fields, "axes", Names::Table(wanted, wanted))?;
+        let axes = names.into_iter().filter_map(|one| one.entry);
+        all(axes.map(|entry| self.sweep_axis(fields, entry, method)))
     }
 
     fn sweep_axis(
@@ -98,7 +91,7 @@ impl<'a> Elaboration<'a> {
         {
             return None;
         }
-        self.builder.scope(Context::Time).symbol(name).map(|symbol| symbol.ty)
+        self.type_here(name)
     }
 
     fn axis_list(
@@ -113,10 +106,9 @@ impl<'a> Elaboration<'a> {
             return None;
         }
         let wanted = Wanted::like(ty);
-        let given: Vec<Option<Given>> =
-            items.iter().map(|item| self.given_inside(owner, ("value", item), wanted)).collect();
-        let values: Option<Vec<Value>> =
-            given.into_iter().map(|given| given.map(Given::value)).collect();
+        let values = all(items
+            .iter()
+            .map(|item| self.given_inside(owner, ("value", item), wanted).map(Given::value)));
         Some(AxisValues::List(values?, raw.span.clone()))
     }
 
@@ -130,16 +122,7 @@ impl<'a> Elaboration<'a> {
         let points = self.axis_points(&range, method);
         let log = self.choice(&range, "scale", &SCALES);
         let ty = ty?;
-        let ends = ["from", "to"].map(|key| {
-            let end = self.range_end(&range, key, ty);
-            if end.is_none() && range.complete {
-                let message = format!("{} has no `{key}`", range.owner.words());
-                self.report(range.missing(key, message));
-            }
-            end.flatten()
-        });
-        let [from, to] = ends;
-        let ends = [from?, to?];
+        let ends = self.both_ends(&range, ty, None)?;
         Some(AxisValues::Range { ends, points: points?, log: log?, span: entry.value.span.clone() })
     }
 

@@ -1,59 +1,30 @@
 //! The keys of `[sweep.NAME]`.
 
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{
+    NAMES, Role, SectionDeclaration, Takes, akin, key, shaped, text, whole, words, words_of,
+};
+use crate::sweep::{SweepMethod, SweepOver};
+
+/// How far values are apart: whether by the same ratio.
+pub(super) const SCALES: [(&str, bool); 2] = [("linear", false), ("log", true)];
 
 pub(crate) const SWEEP: SectionDeclaration = SectionDeclaration {
     name: "sweep",
     sentence: "Many candidates: values of parameters, and what is reported of each.",
     role: Role::Study,
     keys: &[
-        key(
-            "method",
-            "`\"grid\"`, `\"list\"`, `\"csv\"`, `\"latin_hypercube\"`, `\"sobol\"`",
-            "how the candidates are chosen",
-            "\"grid\"",
-        ),
-        key(
-            "axes",
-            "table of parameters; of `csv` a list of names",
-            "the values, or the range, of each parameter",
-            "{ G = { from = \"1 W/K\", to = \"10 W/K\", points = 10 } }",
-        ),
-        key(
-            "file",
-            "file",
-            "the candidates of `csv`, one a row: a column for each parameter",
-            "\"candidates.csv\"",
-        ),
-        key(
-            "samples",
-            "whole number",
-            "how many candidates `latin_hypercube` or `sobol` takes",
-            "1024",
-        ),
-        key("seed", "whole number", "the seed of `latin_hypercube` or `sobol`", "7").or("1"),
-        key(
-            "over",
-            "`\"steady\"`, `\"run\"`, `\"periodic\"`",
-            "the results that are reported: of the steady state, of `[run]` or of the settled cycle",
-            "\"run\"",
-        )
+        words("method", &words_of(&SweepMethod::WORDS), "how the candidates are chosen", "\"grid\"").needed(),
+        shaped("axes", "table of parameters; of `csv` a list of names", Takes::Either(&[NAMES, Takes::Each(&Takes::Either(&[Takes::Table(&AXIS), Takes::list(&Takes::Like)]))]), "the values, or the range, of each parameter", "{ G = { from = \"1 W/K\", to = \"10 W/K\", points = 10 } }"),
+        text("file", "file", "the candidates of `csv`, one a row: a column for each parameter", "\"candidates.csv\""),
+        whole("samples", "how many candidates `latin_hypercube` or `sobol` takes", "1024"),
+        whole("seed", "the seed of `latin_hypercube` or `sobol`", "7").or("1"),
+        words("over", &words_of(&SweepOver::WORDS), "the results that are reported: of the steady state, of `[run]` or of the settled cycle", "\"run\"")
         .or("`\"steady\"`"),
         key("period", "s", "the length of the cycle of `over = \"periodic\"`", "\"10 min\"")
             .or("that of the repeated signals"),
-        key(
-            "report",
-            "table of expressions of results, below a functional unless `over = \"steady\"`",
-            "what is reported of each candidate",
-            "{ T_max = \"max(steel.T)\" }",
-        ),
-        key(
-            "front",
-            "list of two reports",
-            "of which two the best candidates are told: those that none betters in both, less being \
-             better",
-            "[\"mass\", \"T_max\"]",
-        ),
+        shaped("report", "table of expressions of results, below a functional unless `over = \"steady\"`", Takes::Each(&Takes::Like), "what is reported of each candidate", "{ T_max = \"max(steel.T)\" }").needed(),
+        shaped("front", "list of two reports", Takes::List(&Takes::Text, 2, 2), "of which two the best candidates are told: those that none betters in both, less being \
+             better", "[\"mass\", \"T_max\"]"),
     ],
     example: "{ method = \"grid\", axes = { p = { from = \"..\", to = \"..\", points = 10 } }, \
               report = { T = \"a.T\" } }",
@@ -74,13 +45,13 @@ pub(crate) const SWEEP: SectionDeclaration = SectionDeclaration {
 pub(super) const AXIS: SectionDeclaration = SectionDeclaration {
     name: "axis",
     keys: &[
-        key("from", "as the parameter", "the first value", "\"1 W/K\""),
-        key("to", "as the parameter", "the last value", "\"10 W/K\""),
-        key("points", "whole number", "how many values, both ends included", "10"),
-        key("steps", "whole number", "how many steps lie between the ends: one value more", "9"),
-        key(
+        akin("from", "as the parameter", "the first value", "\"1 W/K\"").needed(),
+        akin("to", "as the parameter", "the last value", "\"10 W/K\"").needed(),
+        whole("points", "how many values, both ends included", "10"),
+        whole("steps", "how many steps lie between the ends: one value more", "9"),
+        words(
             "scale",
-            "`\"linear\"`, `\"log\"`",
+            &words_of(&SCALES),
             "whether the values are apart by the same difference or by the same ratio",
             "\"log\"",
         )

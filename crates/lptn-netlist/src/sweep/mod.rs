@@ -9,16 +9,16 @@ mod write;
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Network, Value};
-use lptn_units::Type;
 
 use crate::format::SectionDeclaration;
-use crate::raw::{RawKind, RawNetlist, RawValue};
+use crate::raw::RawEntry;
 use crate::study::{PathFrom, Study};
 use crate::toml_text::TomlFields;
 use crate::work::Elaboration;
 use axis::AxisValues;
 use declaration::SWEEP;
 
+pub use crate::size::Over as SweepOver;
 pub use measure::{Functional, Measure};
 pub use plan::{AxisNumbers, MOST_CASES, SweepPlan};
 
@@ -55,28 +55,6 @@ impl SweepMethod {
     /// Whether the candidates are sampled from ranges.
     pub fn is_sampled(self) -> bool {
         matches!(self, Self::LatinHypercube | Self::Sobol)
-    }
-}
-
-/// Which results of a candidate are reported.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SweepOver {
-    /// Those of its steady state.
-    Steady,
-    /// Those of its run, as `[run]` says.
-    Run,
-    /// Those of the cycle that it settles into.
-    Periodic,
-}
-
-impl SweepOver {
-    /// The words for them, the usual one first.
-    pub const WORDS: [(&str, Self); 3] =
-        [("steady", Self::Steady), ("run", Self::Run), ("periodic", Self::Periodic)];
-
-    /// The word for it.
-    pub fn word(self) -> &'static str {
-        Self::WORDS.into_iter().find(|(_, over)| *over == self).map_or("", |(word, _)| word)
     }
 }
 
@@ -117,32 +95,15 @@ pub struct SweepStudy {
     file: Option<(String, Span)>,
 }
 
-impl SweepStudy {
-    /// The type of the parameter of an axis.
-    fn type_of(network: &Network, axis: &SweepAxis) -> Type {
-        let id = network.parameter(&axis.name).ok();
-        id.map_or(Type::SCALAR, |id| network.parameters()[id.index()].ty)
-    }
-}
-
 impl Study for SweepStudy {
     const SECTION: &'static SectionDeclaration = &SWEEP;
+    const FILES: &'static str = "file";
 
-    fn files(raw: &RawNetlist) -> Vec<(&str, &RawValue)> {
-        let sweeps = raw.elements(SWEEP.name).iter();
-        let file = sweeps.filter_map(|sweep| match &sweep.value.kind {
-            RawKind::Table(table) => table.get("file").map(|entry| &entry.value),
-            _ => None,
-        });
-        file.filter_map(|value| match &value.kind {
-            RawKind::String { text, .. } => Some((text.as_str(), value)),
-            _ => None,
-        })
-        .collect()
-    }
+    const UNNAMED: Option<[&'static str; 4]> =
+        Some(["netlist::sweep_without_name", "a sweep", "below [sweep]", "fans"]);
 
-    fn read(work: &mut Elaboration<'_>) -> Vec<Self> {
-        work.sweeps()
+    fn one<'a>(work: &mut Elaboration<'a>, entry: &'a RawEntry) -> Option<Self> {
+        work.sweep_study(entry)
     }
 
     fn name(&self) -> &str {

@@ -6,6 +6,7 @@ use lptn_data::{Diagnostic, Span};
 use lptn_network::{Evaluation, Network, ParameterId, Value};
 use lptn_units::{EvalError, Type};
 
+use crate::study::type_of;
 use crate::sweep::axis::AxisValues;
 use crate::sweep::{SweepAxis, SweepMethod, SweepStudy};
 
@@ -91,7 +92,7 @@ impl SweepStudy {
     pub fn plan(&self, network: &Network) -> Result<SweepPlan, Vec<Diagnostic>> {
         let mut check = Check { study: self, scope: network.evaluation(), problems: Vec::new() };
         let axes: Vec<AxisNumbers> =
-            self.axes.iter().map(|axis| check.axis(axis, Self::type_of(network, axis))).collect();
+            self.axes.iter().map(|axis| check.axis(axis, type_of(network, &axis.name))).collect();
         if self.method == SweepMethod::Sobol && axes.len() > MOST_AXES {
             let message = format!(
                 "sweep `{}` has {} axes, and the sequence {MOST_AXES}",

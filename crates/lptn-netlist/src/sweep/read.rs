@@ -7,29 +7,19 @@ use lptn_network::Value;
 use lptn_units::{Dimension, Type};
 
 use crate::fields::Fields;
+use crate::listed::Names;
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::reading::all;
 use crate::sweep::axis::AxisValues;
 use crate::sweep::declaration::SWEEP;
 use crate::sweep::{Measure, SweepAxis, SweepMethod, SweepOver, SweepStudy};
 use crate::work::Elaboration;
 
 impl<'a> Elaboration<'a> {
-    pub(super) fn sweeps(&mut self) -> Vec<SweepStudy> {
-        let entries = self.elements(SWEEP.name);
-        if let Some(first) = entries.iter().find(|entry| SWEEP.key(&entry.key).is_some()) {
-            let message = format!("`{}` belongs to a sweep with a name", first.key);
-            let problem = Diagnostic::error("netlist::sweep_without_name", message);
-            let problem = problem.at(first.key_span.clone(), "below [sweep]");
-            self.report(problem.help("give it one in its heading, for example `[sweep.fans]`"));
-            return Vec::new();
-        }
-        entries.iter().filter_map(|entry| self.sweep_study(entry)).collect()
-    }
-
-    fn sweep_study(&mut self, entry: &'a RawEntry) -> Option<SweepStudy> {
+    pub(super) fn sweep_study(&mut self, entry: &'a RawEntry) -> Option<SweepStudy> {
         let fields = self.fields(&SWEEP, entry)?;
-        self.sweep_says_all(&fields)?;
+        self.all_there(&fields, &["axes"])?;
         let over = self.choice(&fields, "over", &SweepOver::WORDS);
         let reports = self.measures(&fields, over.unwrap_or(SweepOver::Run));
         self.require(&fields, "method")?;
@@ -63,21 +53,6 @@ impl<'a> Elaboration<'a> {
             front,
             file,
         })
-    }
-
-    /// Whether it says how candidates are chosen and what is reported; all that is missing is one
-    /// problem, for it has one place.
-    fn sweep_says_all(&mut self, fields: &Fields<'a>) -> Option<()> {
-        let missing: Vec<&str> =
-            ["method", "report"].into_iter().filter(|key| fields.get(key).is_none()).collect();
-        if missing.len() < 2 || !fields.complete {
-            return Some(());
-        }
-        let message = format!("{} has no {}", fields.owner.words(), list(&missing));
-        let lines: Vec<String> = ["method", "axes", "report"].map(|key| fields.sample(key)).into();
-        let help = format!("add for example:\n\n{}", lines.join("\n"));
-        self.refuse("netlist::missing_field", message, fields.place, help);
-        None
     }
 
     /// How many samples, and their seed.
@@ -143,8 +118,7 @@ impl<'a> Elaboration<'a> {
             self.refuse("netlist::sweep_empty", message, &raw.span, help);
             return None;
         }
-        let all: Vec<_> = table.entries.iter().map(|entry| self.measure(entry, over)).collect();
-        all.into_iter().collect()
+        all(table.entries.iter().map(|entry| self.measure(entry, over)))
     }
 
     /// The two reports of a front: `Some(None)` if none is asked for.
@@ -188,27 +162,22 @@ impl<'a> Elaboration<'a> {
         let file = self.candidates(fields)?;
         let wanted: Vec<(String, Span)> = match fields.get("axes") {
             None => self.all_columns(fields, &file)?,
-            Some(_) => self.axis_names(fields)?,
+            Some(_) => {
+                let wanted = "a list of parameters: the columns to read";
+                let names = self.listed(fields, "axes", Names::List(wanted))?;
+                names.into_iter().map(|one| (one.name.to_owned(), one.span.clone())).collect()
+            }
         };
-        let known: Vec<_> = wanted
-            .into_iter()
-            .map(|(name, span)| {
-                let ty = self.axis_type(fields, &name, &span)?;
-                let words = format!("`{name}` of {}", fields.owner.words());
-                Some((name, ty, Asked { words, span: Some(span) }))
-            })
-            .collect();
-        let known: Option<Vec<_>> = known.into_iter().collect();
-        let known = known?;
+        let known = all(wanted.into_iter().map(|(name, span)| {
+            let ty = self.axis_type(fields, &name, &span)?;
+            let words = format!("`{name}` of {}", fields.owner.words());
+            Some((name, ty, Asked { words, span: Some(span) }))
+        }))?;
         let asked: Vec<_> =
             known.iter().map(|(name, ty, asked)| (name.as_str(), Some(*ty), asked)).collect();
         let columns = file.columns(&asked);
-        let axes: Vec<_> = known
-            .into_iter()
-            .zip(columns)
-            .map(|(axis, column)| self.csv_axis(fields, axis, column))
-            .collect();
-        axes.into_iter().collect()
+        let axes = known.into_iter().zip(columns);
+        all(axes.map(|(axis, column)| self.csv_axis(fields, axis, column)))
     }
 
     /// Every column of the file; each has to be a parameter.
@@ -241,16 +210,6 @@ impl<'a> Elaboration<'a> {
         let csv: &'a crate::csv_files::CsvFiles = self.csv;
         let text = self.kept(csv.text(raw)?.map_err(Diagnostic::clone))?;
         self.kept(CsvFile::open(text, &raw.span)).map(Arc::new)
-    }
-
-    fn axis_names(&mut self, fields: &Fields<'a>) -> Option<Vec<(String, Span)>> {
-        let items = self.list(fields, ("axes", "a list of parameters: the columns to read"))?;
-        let mut names = Vec::new();
-        for item in items {
-            let name = fields.text("axes", item, &mut self.problems)?;
-            names.push((name.to_owned(), item.span.clone()));
-        }
-        Some(names)
     }
 
     fn csv_axis(

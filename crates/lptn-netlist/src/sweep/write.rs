@@ -3,7 +3,7 @@
 use lptn_network::{Network, Value};
 use lptn_units::{Dimension, Type};
 
-use crate::study::PathFrom;
+use crate::study::{PathFrom, type_of};
 use crate::sweep::axis::AxisValues;
 use crate::sweep::{SweepMethod, SweepOver, SweepStudy};
 use crate::toml_text::{TomlFields, key, like, string, strings, value};
@@ -23,9 +23,8 @@ impl SweepStudy {
         if self.over != SweepOver::Steady {
             fields.word("over", self.over.word());
         }
-        if let Some(period) = &self.period {
-            fields.put("period", value(period, Type::of(Dimension::TIME)));
-        }
+        let period = self.period.as_ref();
+        fields.maybe("period", period.map(|period| value(period, Type::of(Dimension::TIME))));
         let mut reports = TomlFields::default();
         for report in &self.reports {
             match report.text.as_str() {
@@ -34,12 +33,8 @@ impl SweepStudy {
             }
         }
         fields.put("report", reports.inline());
-        if let Some(front) = self.front {
-            fields.put(
-                "front",
-                strings(front.iter().map(|&place| self.reports[place].name.as_str())),
-            );
-        }
+        let front = self.front.iter().flatten();
+        fields.strings("front", front.map(|&place| self.reports[place].name.as_str()));
         fields
     }
 
@@ -48,7 +43,7 @@ impl SweepStudy {
             return strings(self.axes.iter().map(|axis| axis.name.as_str()));
         }
         let axis = |axis: &super::SweepAxis| {
-            let ty = Self::type_of(network, axis);
+            let ty = type_of(network, &axis.name);
             format!("{} = {}", key(&axis.name), written(&axis.values, ty))
         };
         let axes: Vec<String> = self.axes.iter().map(axis).collect();

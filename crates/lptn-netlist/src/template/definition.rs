@@ -6,7 +6,7 @@ use lptn_units::{RESERVED, Type, Unit, parse_quantity};
 
 use super::{TEMPLATE, USE};
 use crate::fields::{Fields, Owner, wrong_shape};
-use crate::format::{NetlistFormat, SectionDeclaration, key};
+use crate::format::{NetlistFormat, SectionDeclaration, text};
 use crate::names::ValueKind;
 use crate::place::Place;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
@@ -14,9 +14,9 @@ use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 const PORT: &str = "port";
 
 /// A parameter of a template without a value of its own: `R = { unit = "K/W" }`.
-const OPEN_PARAMETER: SectionDeclaration = SectionDeclaration {
+pub(super) const OPEN_PARAMETER: SectionDeclaration = SectionDeclaration {
     name: "param",
-    keys: &[key("unit", "unit", "the unit of the values that it is set to", "\"K/W\"")],
+    keys: &[text("unit", "unit", "the unit of the values that it is set to", "\"K/W\"").needed()],
     example: "{ unit = \"K/W\" }",
     elsewhere: &[
         ("value", "a value of its own stands alone: `m = \"0.2 kg\"`"),

@@ -21,10 +21,12 @@ use std::sync::Arc;
 
 use lptn_data::{Diagnostic, Files, Severity};
 
-use crate::format::{NetlistFormat, Role, SectionDeclaration, key};
+use crate::format::{
+    NAMES, NetlistFormat, Role, SectionDeclaration, Takes, VALUES, names, shaped, text, whole,
+};
 use crate::include::any_error;
 use crate::raw::RawNetlist;
-use definition::Template;
+use definition::{OPEN_PARAMETER, Template};
 use instance::Maker;
 
 pub(crate) use inside::{by_port, in_own_words, outside};
@@ -38,13 +40,14 @@ pub(crate) const TEMPLATE: SectionDeclaration = SectionDeclaration {
         on.",
     role: Role::Template,
     keys: &[
-        key(
+        shaped(
             "param",
             "table",
+            Takes::Each(&Takes::Either(&[Takes::Like, Takes::Table(&OPEN_PARAMETER)])),
             "parameters, with a value or with `{ unit = .. }`",
             "{ m = \"0.2 kg\" }",
         ),
-        key(
+        names(
             "port",
             "list of names",
             "what it knows of the rest of the network",
@@ -60,22 +63,19 @@ pub(crate) const USE: SectionDeclaration = SectionDeclaration {
     sentence: "A template in use: once, or several times.",
     role: Role::Use,
     keys: &[
-        key("template", "name of a template", "what is used", "\"planet\""),
-        key(
-            "count",
-            "whole number",
-            "how many there are; without it there is one, without an index",
-            "3",
-        ),
-        key(
+        text("template", "name of a template", "what is used", "\"planet\"").needed(),
+        whole("count", "how many there are; without it there is one, without an index", "3"),
+        shaped(
             "connect",
             "table of names of nodes or boundaries",
+            Takes::Each(&Takes::Either(&[Takes::Text, NAMES])),
             "what each port leads to",
             "{ carrier = \"carrier\" }",
         ),
-        key(
+        shaped(
             "set",
             "table",
+            Takes::Each(&VALUES),
             "parameters of the template; a list gives each instance its own",
             "{ ratio = 0.5 }",
         ),

@@ -6,11 +6,12 @@ mod read;
 
 pub(crate) use check::{check, joint, known};
 pub(crate) use file::{Found, load, only_known};
+use read::POSTERIOR;
 
 use lptn_data::Span;
 use lptn_network::{Network, Parameters};
 
-use crate::format::{Role, SectionDeclaration, key};
+use crate::format::{Role, SectionDeclaration, Takes, shaped};
 use crate::toml_text::{TomlFields, key as toml_key, string, strings};
 
 pub(crate) const UNCERTAINTY: SectionDeclaration = SectionDeclaration {
@@ -18,15 +19,17 @@ pub(crate) const UNCERTAINTY: SectionDeclaration = SectionDeclaration {
     sentence: "What is known of parameters together, beside the `±` of each.",
     role: Role::Study,
     keys: &[
-        key(
+        shaped(
             "posterior",
             "file, or table with `file` and `only`",
+            Takes::Either(&[Takes::Text, Takes::Table(&POSTERIOR)]),
             "values and covariance that a fit found; `only` names the parameters that are taken",
             "\"results/posterior.json\"",
         ),
-        key(
+        shaped(
             "correlation",
             "table of parameters, each with a table of others",
+            Takes::Each(&Takes::Each(&Takes::Number)),
             "how far two parameters are off together, more than -1 and less than 1",
             "{ R_skin = { alpha = -0.87 } }",
         ),
@@ -91,22 +94,19 @@ impl UncertaintyPlan {
             };
             fields.put("posterior", written);
         }
-        if !self.correlations.is_empty() {
-            let mut all: Vec<(&str, Vec<String>)> = Vec::new();
-            for written in &self.correlations {
-                let [of, with] = &written.between;
-                let one = format!("{} = {}", toml_key(with), written.value);
-                match all.iter_mut().find(|(name, _)| name == of) {
-                    Some((_, pairs)) => pairs.push(one),
-                    None => all.push((of, vec![one])),
-                }
+        let mut all: Vec<(&str, Vec<String>)> = Vec::new();
+        for written in &self.correlations {
+            let [of, with] = &written.between;
+            let one = format!("{} = {}", toml_key(with), written.value);
+            match all.iter_mut().find(|(name, _)| name == of) {
+                Some((_, pairs)) => pairs.push(one),
+                None => all.push((of, vec![one])),
             }
-            let one = |(of, pairs): &(&str, Vec<String>)| {
-                format!("{} = {{ {} }}", toml_key(of), pairs.join(", "))
-            };
-            let all: Vec<String> = all.iter().map(one).collect();
-            fields.put("correlation", format!("{{ {} }}", all.join(", ")));
         }
+        let one = |(of, pairs): &(&str, Vec<String>)| {
+            format!("{} = {{ {} }}", toml_key(of), pairs.join(", "))
+        };
+        fields.table("correlation", all.iter().map(one));
         fields
     }
 }

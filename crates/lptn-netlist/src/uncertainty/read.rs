@@ -5,16 +5,17 @@ use lptn_units::{Type, parse_quantity};
 
 use super::{PosteriorKey, UNCERTAINTY, UncertaintyPlan, WrittenCorrelation};
 use crate::fields::{Fields, Owner, wrong_shape};
-use crate::format::{SectionDeclaration, key};
+use crate::format::{SectionDeclaration, names, text};
+use crate::listed::Listed;
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 use crate::work::Elaboration;
 
 /// `posterior = { .. }`.
-const POSTERIOR: SectionDeclaration = SectionDeclaration {
+pub(super) const POSTERIOR: SectionDeclaration = SectionDeclaration {
     name: "posterior",
     keys: &[
-        key("file", "file", "what a fit wrote", "\"results/posterior.json\""),
-        key("only", "list of names", "the parameters that are taken", "[\"alpha\"]"),
+        text("file", "file", "what a fit wrote", "\"results/posterior.json\"").needed(),
+        names("only", "list of names", "the parameters that are taken", "[\"alpha\"]"),
     ],
     example: "{ file = \"results/posterior.json\", only = [\"alpha\"] }",
     ..SectionDeclaration::NEW
@@ -73,19 +74,15 @@ impl<'a> Elaboration<'a> {
     /// is wrong.
     #[expect(clippy::option_option, reason = "left out is not wrong")]
     fn only(&mut self, fields: &Fields<'a>) -> Option<Option<Vec<(String, lptn_data::Span)>>> {
-        let Some(raw) = fields.get("only") else { return Some(None) };
-        let list = self.list(fields, ("only", "a list of names"))?;
-        if list.is_empty() {
-            self.report(fields.wrong_shape("only", raw, "a list of names"));
-            return None;
-        }
+        let Some(listed) = self.listed_if_any(fields, ("only", "a list of names"))? else {
+            return Some(None);
+        };
         let mut names = Vec::new();
-        for item in list {
-            let name = fields.text("only", item, &mut self.problems)?;
-            if !self.is_parameter_here(&fields.owner.field("only"), name, &item.span) {
+        for Listed { name, span, .. } in listed {
+            if !self.is_parameter_here(&fields.owner.field("only"), name, span) {
                 return None;
             }
-            names.push((name.to_owned(), item.span.clone()));
+            names.push((name.to_owned(), span.clone()));
         }
         Some(Some(names))
     }

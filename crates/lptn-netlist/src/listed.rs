@@ -1,0 +1,123 @@
+//! Parameters and other names that a key of a study lists: `vary`, `axes`, `find`, `know`, `only`.
+//!
+//! They have one form: a list of names, or a table of names with what is said of each. What is said
+//! is a value, a list of values, or a range with its ends `from` and `to`.
+
+use lptn_data::Span;
+use lptn_network::{Context, Value};
+use lptn_units::{Scope as _, Type};
+
+use crate::fields::Fields;
+use crate::place::Wanted;
+use crate::raw::{RawEntry, RawKind};
+use crate::work::Elaboration;
+
+/// A name that a key lists.
+#[derive(Clone, Copy)]
+pub(crate) struct Listed<'a> {
+    pub(crate) name: &'a str,
+    pub(crate) span: &'a Span,
+    /// What is said of it, in a table.
+    pub(crate) entry: Option<&'a RawEntry>,
+}
+
+/// In which form names are listed, and what is wanted, in words.
+pub(crate) enum Names<'w> {
+    /// A list.
+    List(&'w str),
+    /// A table; of an empty one the second words are said.
+    Table(&'w str, &'w str),
+    /// One of them, with a name at least.
+    Either(&'w str),
+}
+
+impl<'a> Elaboration<'a> {
+    /// The names that a key lists, which has to be there; what is wrong is reported.
+    pub(crate) fn listed(
+        &mut self,
+        fields: &Fields<'a>,
+        key: &str,
+        names: Names<'_>,
+    ) -> Option<Vec<Listed<'a>>> {
+        let raw = self.require(fields, key)?;
+        let (Names::List(wanted) | Names::Table(wanted, _) | Names::Either(wanted)) = names;
+        let wanted = match (&raw.kind, &names) {
+            (RawKind::Table(table), Names::Table(..) | Names::Either(_))
+                if !table.entries.is_empty() =>
+            {
+                let listed = |entry: &'a RawEntry| Listed {
+                    name: &entry.key,
+                    span: &entry.key_span,
+                    entry: Some(entry),
+                };
+                return Some(table.entries.iter().map(listed).collect());
+            }
+            (RawKind::Array(list), Names::List(_)) if list.is_empty() => return Some(Vec::new()),
+            (RawKind::Array(list), Names::List(_) | Names::Either(_)) if !list.is_empty() => {
+                let name = |raw| {
+                    let name = fields.text(key, raw, &mut self.problems)?;
+                    Some(Listed { name, span: &raw.span, entry: None })
+                };
+                let all: Vec<Option<Listed<'a>>> = list.iter().map(name).collect();
+                return all.into_iter().collect();
+            }
+            (RawKind::Table(_), Names::Table(_, empty)) => empty,
+            _ => wanted,
+        };
+        self.report(fields.wrong_shape(key, raw, wanted));
+        None
+    }
+
+    /// The same of a key that may be left out, or has at least one name.
+    pub(crate) fn listed_if_any(
+        &mut self,
+        fields: &Fields<'a>,
+        (key, wanted): (&str, &str),
+    ) -> Option<Option<Vec<Listed<'a>>>> {
+        let Some(raw) = fields.get(key) else { return Some(None) };
+        let names = self.listed(fields, key, Names::List(wanted))?;
+        if names.is_empty() {
+            self.report(fields.wrong_shape(key, raw, wanted));
+            return None;
+        }
+        Some(Some(names))
+    }
+
+    /// The type of a parameter or signal that is known.
+    pub(crate) fn type_here(&self, name: &str) -> Option<Type> {
+        self.builder.scope(Context::Time).symbol(name).map(|symbol| symbol.ty)
+    }
+
+    /// The ends of the range of a parameter of this type, as far as they are there; `None` where
+    /// one is wrong.
+    pub(crate) fn ends(&mut self, range: &Fields<'a>, ty: Type) -> Option<[Option<Value>; 2]> {
+        let ends = ["from", "to"].map(|key| match range.get(key) {
+            None => Some(None),
+            Some(raw) => self.exactly_inside(&range.owner, (key, raw), Wanted::like(ty)).map(Some),
+        });
+        let [from, to] = ends;
+        Some([from?, to?])
+    }
+
+    /// The same where both have to be there; the help says how, unless it is the usual one.
+    pub(crate) fn both_ends(
+        &mut self,
+        range: &Fields<'a>,
+        ty: Type,
+        help: Option<&str>,
+    ) -> Option<[Value; 2]> {
+        let ends = self.ends(range, ty);
+        for key in ["from", "to"].into_iter().filter(|key| range.get(key).is_none()) {
+            if range.complete {
+                let message = format!("{} has no `{key}`", range.owner.words());
+                let problem = range.missing(key, message);
+                self.report(match help {
+                    Some(help) => problem.help(help),
+                    None => problem,
+                });
+            }
+        }
+        let [from, to] = ends?;
+        Some([from?, to?])
+    }
+}
