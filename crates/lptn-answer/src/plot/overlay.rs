@@ -159,7 +159,13 @@ mod tests {
         let mut panel = Panel::new(Axis::time(), Axis::linear("temperature", "degC"));
         panel.curves.push(curve);
         let figure = Figure { title: name.into(), note: String::new(), panels: vec![panel] };
-        Source { name: name.into(), path: name.into(), measured, figure }
+        Source {
+            name: name.into(),
+            path: name.into(),
+            measured,
+            figure,
+            doubts: Default::default(),
+        }
     }
 
     #[test]
