@@ -1,8 +1,8 @@
 //! Analyses: one question to a network, and its answer with how far it can be trusted.
 //!
 //! An [`Analysis`] is one of a steady state, a run ([`RunAnalysis`]) or the cycle that a network
-//! settles to. [`Analysis::ask`] gives an [`Answer`], whose [`Trust`] comes with the numbers. No
-//! other crate above the solver starts a run, solves a steady state or searches a cycle.
+//! settles to. [`Analysis::ask`] gives a result with the [`Trust`] in it. No other crate above the
+//! solver starts a run, solves a steady state or searches a cycle.
 //!
 //! A [`Simulation`] is stepped from outside, with inputs that its client sets between the steps.
 //!
