@@ -57,16 +57,6 @@ pub(crate) static PATHS: LazyLock<Vec<PathSection>> =
 
 fn path_section(kind: Kind) -> PathSection {
     let declared = kind.declaration();
-    let section = SectionDeclaration {
-        name: declared.section,
-        sentence: declared.sentence,
-        role: Role::Element,
-        keys: keys(kind).leak(),
-        either: &[],
-        later: declared.later,
-        example: declared.example,
-        elsewhere: declared.elsewhere,
-    };
     let value = |field: &'static FieldDeclaration| PathValue {
         field,
         counts: counts(kind, field.key),
@@ -74,13 +64,23 @@ fn path_section(kind: Kind) -> PathSection {
         context: if kind.is_source() { Context::Source } else { Context::Link },
         plain: kind.laws_named(false).any(|law| law.field(field.key).is_some()),
     };
-    let values = kind.fields().into_iter().map(value).collect();
+    let values: Vec<PathValue> = kind.fields().into_iter().map(value).collect();
+    let section = SectionDeclaration {
+        name: declared.section,
+        sentence: declared.sentence,
+        role: Role::Element,
+        keys: keys(kind, &values).leak(),
+        either: &[],
+        later: declared.later,
+        example: declared.example,
+        elsewhere: declared.elsewhere,
+    };
     PathSection { section, kind, groups: groups(kind), values }
 }
 
 /// The ends or the nodes that are heated, then its fields, with what they are a property of before
 /// them, `fluid` before a flow, and the key that chooses a law behind what all laws take.
-fn keys(kind: Kind) -> Vec<KeyDeclaration> {
+fn keys(kind: Kind, values: &[PathValue]) -> Vec<KeyDeclaration> {
     let mut keys = if kind.is_source() { vec![INTO] } else { ENDS.into() };
     let first = kind.laws_named(true).next().map_or("", |law| law.declaration().name);
     let mut selector = kind.declaration().selector.map(|name| {
@@ -92,7 +92,8 @@ fn keys(kind: Kind) -> Vec<KeyDeclaration> {
         }
         words(name, laws.leak(), "the law", format!("\"{first}\"").leak())
     });
-    for field in kind.fields() {
+    for value in values {
+        let field = value.field;
         let laws = || kind.laws().filter(|law| law.field(field.key).is_some());
         let chosen = |law: Formula| law.declaration().named;
         keys.extend(selector.take_if(|_| laws().all(chosen) && !laws().eq(kind.laws())));
@@ -109,20 +110,21 @@ fn keys(kind: Kind) -> Vec<KeyDeclaration> {
                 keys.push(*new);
             }
         }
-        keys.push(value_of(kind, field));
+        keys.push(key_of(value));
     }
     keys.extend(selector);
     keys
 }
 
 /// A value of a law; several in a list where a law of the kind takes as many.
-fn value_of(kind: Kind, field: &FieldDeclaration) -> KeyDeclaration {
+fn key_of(value: &PathValue) -> KeyDeclaration {
+    let field = value.field;
     let (unit, scale) = field.unit();
-    let (one, said) = match types(kind, field.key).iter().any(|(ty, _)| ty.is_scalar()) {
+    let (one, said) = match value.types.iter().any(|(ty, _)| ty.is_scalar()) {
         true => (Takes::Number, "number"),
         false => (Takes::Quantity(""), &*unit.leak()),
     };
-    let [least, most] = counts(kind, field.key);
+    let [least, most] = value.counts;
     let takes = match (least, most) {
         (_, 0 | 1) => one,
         (2.., _) => Takes::List(leak(one), most, most),
