@@ -31,7 +31,7 @@ pub struct Known<'a> {
     pub states: Vec<(String, Snapshot)>,
     /// The scale of temperatures, where that is not the one of the netlist.
     pub unit: Option<&'a Unit>,
-    /// How the answer changes with parameters.
+    /// The change of the answer by each parameter.
     pub sensitivities: Option<Sensitivities>,
 }
 

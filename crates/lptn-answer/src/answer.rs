@@ -40,7 +40,7 @@ pub trait Answer: Page {
         String::from_utf8(bytes).unwrap_or_default()
     }
 
-    /// How it ends: [`Exit::No`] if the answer is no.
+    /// The exit class: [`Exit::No`] if the answer is no.
     fn exit(&self) -> Exit {
         if self.no().is_some() { Exit::No } else { Exit::Done }
     }

@@ -8,7 +8,8 @@ use lptn_solve::{Proceed, Progress};
 
 /// Hears of progress, and says whether to go on.
 pub trait Listener: Sync {
-    /// Doubts that are in no answer, since what they concern failed; their places are in `files`.
+    /// Doubts as soon as they are known: before a long computation, or if it then fails. The answer,
+    /// if there is one, has them too. Their places are in `files`.
     fn warn(&self, _files: &Files, _doubts: &[Diagnostic]) {}
 
     /// Something worth knowing that is not a doubt.

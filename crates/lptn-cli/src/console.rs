@@ -14,7 +14,6 @@ use crate::diagnostics::render;
 use crate::drawing::{self, Drawing};
 use crate::options::{Color, Global};
 use crate::phases::Phases;
-
 use crate::refusal::Refusal;
 use crate::reporting::{self, Reporting};
 use lptn_answer::exit::Exit;

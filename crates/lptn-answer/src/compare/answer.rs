@@ -22,11 +22,11 @@ pub struct CompareAnswer {
     pub rows: Vec<CompareRow>,
     /// The unit of temperatures.
     pub unit: Unit,
-    /// How each row ended; limits are not looked at.
+    /// The end of each row; limits do not count.
     pub ends: Vec<Exit>,
     /// Problems of the candidates without results.
     pub failures: Vec<Failure>,
-    /// Whether candidates are variants of files.
+    /// True if candidates are variants of files.
     pub(super) variants: bool,
     /// The words of the command that asked.
     pub(super) command: Vec<String>,
@@ -123,7 +123,7 @@ impl CompareAnswer {
         self.rows.push(CompareRow { file, title, outcome });
     }
 
-    /// Whether every candidate is a file as it is, and not a variant of one.
+    /// True if every candidate is a file as it is, not a variant of one.
     pub fn is_of_files(&self) -> bool {
         !self.variants
     }

@@ -44,7 +44,7 @@ pub struct RankQuestion {
 #[derive(Debug)]
 pub struct RankAnswer {
     input: Arc<Input>,
-    /// How the temperature answers each value.
+    /// The change of the temperature by each value.
     pub ranking: Ranking,
     /// The unit of temperatures.
     pub unit: Unit,
