@@ -8,6 +8,7 @@
 )]
 
 mod appearance;
+mod balance;
 mod branches;
 mod browser;
 mod carried_on;

@@ -7,7 +7,9 @@ use lptn_network::{
 };
 
 use crate::fields::{Fields, Owner};
-use crate::format::{Role, SectionDeclaration, Takes, key, names, shaped, text, words, words_of};
+use crate::format::{
+    Role, SectionDeclaration, Takes, key, names, number, shaped, text, words, words_of,
+};
 use crate::outputs::{WINDOW, WindowPlan};
 use crate::raw::{RawKind, RawValue};
 use crate::reading::all;
@@ -52,6 +54,12 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
             "{ climb = { from = \"10 min\", to = \"20 min\" } }",
         ),
         key("tolerance", "K", "how far temperatures may be off", "\"1e-5 K\"").or("1e-5 K"),
+        number(
+            "balance_error",
+            "largest error of the energy balance, as a share of the heat turned over",
+            "1e-10",
+        )
+        .or("1e-8, and 10 tolerances times all capacities"),
         words(
             "integrator",
             &words_of(&IntegratorChoice::WORDS),
@@ -94,6 +102,7 @@ pub(crate) struct RunPlan {
     pub(crate) stop: Setting,
     pub(crate) output: Option<OutputPlan>,
     pub(crate) tolerance: Option<Setting>,
+    pub(crate) balance_error: Option<Setting>,
     pub(crate) select: Vec<String>,
     /// The signals that are used, with their places: they have to last as long as the run.
     signals: Vec<(String, Span)>,
@@ -119,6 +128,7 @@ impl<'a> Elaboration<'a> {
         let stop = self.optional(&fields, "stop");
         let start = self.optional(&fields, "start");
         let tolerance = self.optional(&fields, "tolerance");
+        let balance_error = self.optional(&fields, "balance_error");
         let output = self.output(&fields);
         let select = self.select(&fields);
         self.reports(&fields);
@@ -129,6 +139,7 @@ impl<'a> Elaboration<'a> {
             stop: stop?,
             output,
             tolerance,
+            balance_error,
             select,
             windows,
             signals,
@@ -213,13 +224,24 @@ impl RunPlan {
         }
         let tolerance =
             self.tolerance.as_ref().map_or(RunSettings::USUAL_TOLERANCE, |t| check.positive(t));
+        let balance_error = self.balance_error.as_ref().map(|share| check.positive(share));
         let output = check.output(self.output.as_ref(), (start, stop));
         let windows =
             self.windows.iter().filter_map(|plan| check.window(plan, (start, stop))).collect();
         if check.problems.is_empty() {
             let (select, held) = (self.select.clone(), self.held.clone());
             let integrator = self.integrator;
-            Ok(RunSettings { start, stop, output, select, windows, tolerance, integrator, held })
+            Ok(RunSettings {
+                start,
+                stop,
+                output,
+                select,
+                windows,
+                tolerance,
+                balance_error,
+                integrator,
+                held,
+            })
         } else {
             Err(check.problems)
         }
@@ -235,7 +257,8 @@ impl RunPlan {
             Some(OutputPlan::At(times)) => times,
         };
         let windows = self.windows.iter().flat_map(WindowPlan::ends);
-        let own = self.start.iter().chain([&self.stop]).chain(&self.tolerance);
+        let own =
+            self.start.iter().chain([&self.stop]).chain(&self.tolerance).chain(&self.balance_error);
         own.chain(output).chain(windows).map(|setting| &setting.value)
     }
 

@@ -26,6 +26,7 @@ impl Setting {
     /// As a field of a netlist, in SI units.
     pub(crate) fn written(&self) -> String {
         match &self.value {
+            Value::Constant(number) if self.unit == "1" => format_number(*number),
             Value::Constant(number) => format!("\"{} {}\"", format_number(*number), self.unit),
             other => other
                 .programs()

@@ -20,6 +20,9 @@ pub struct RunSettings {
     pub windows: Vec<WindowSettings>,
     /// Tolerance in K.
     pub tolerance: f64,
+    /// The share of the heat turned over by which the energy balance may be off, at most; `None` for
+    /// the usual one.
+    pub balance_error: Option<f64>,
     /// How it is computed.
     pub integrator: IntegratorChoice,
     /// For each control by id how long it has been as it stands at the start, in s, from 0: `None`
@@ -42,6 +45,7 @@ impl RunSettings {
             select: Vec::new(),
             windows: Vec::new(),
             tolerance: run.map_or(Self::USUAL_TOLERANCE, |run| run.tolerance),
+            balance_error: run.and_then(|run| run.balance_error),
             integrator: run.map_or_else(Default::default, |run| run.integrator),
             held: run.map_or_else(Vec::new, |run| run.held.clone()),
         }

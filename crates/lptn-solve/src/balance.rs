@@ -38,7 +38,7 @@ impl Balance {
         received: &[Received],
         source_heat: &[f64],
     ) -> Self {
-        let terms = Books::new(network, Some(of)).kinds.into_iter().map(|kind| {
+        let terms = Books::new(network, Some(of), None).kinds.into_iter().map(|kind| {
             let power = match kind {
                 Kind::Conductor(id, side) => received[id.index()][side],
                 Kind::FacePath(id, side) => {
@@ -105,11 +105,13 @@ enum Kind {
 pub(crate) struct Books {
     of: Option<End>,
     kinds: Vec<Kind>,
+    /// The share of the heat turned over by which the ledger may be off, if the run says one.
+    error: Option<f64>,
 }
 
 impl Books {
-    pub(crate) fn new(network: &Network, of: Option<End>) -> Self {
-        let Some(end) = of else { return Self::default() };
+    pub(crate) fn new(network: &Network, of: Option<End>, error: Option<f64>) -> Self {
+        let Some(end) = of else { return Self { error, ..Self::default() } };
         let conductors = network.conductors().iter().zip(network.conductor_ids());
         let alone = network.whole(end.into()).is_none();
         let mut kinds: Vec<Kind> = conductors
@@ -131,7 +133,7 @@ impl Books {
             let shares = source.into.iter().filter(|(node, _)| End::Node(*node) == end);
             kinds.extend(shares.map(|(_, share)| Kind::Source(id, *share)));
         }
-        Self { of, kinds }
+        Self { of, kinds, error }
     }
 
     /// Number of running integrals that a run needs: those of the ledger, then the terms.
@@ -168,7 +170,7 @@ impl Books {
         (stored, tolerance): (Vec<f64>, f64),
     ) -> (Ledger, Option<Balance>) {
         let (of_ledger, heats) = integrals.split_at(ledger::integrals(system));
-        let ledger = Ledger::new(system, of_ledger, stored, tolerance);
+        let ledger = Ledger::new(system, of_ledger, stored, tolerance).allowing(self.error);
         let balance = self.of.map(|of| {
             let stored = match of {
                 End::Node(id) => ledger.stored[id.index()],

@@ -19,8 +19,8 @@ pub struct Ledger {
     /// Integral of the absolute heat of every source, boundary and stream, plus the absolute heat
     /// stored by each node.
     pub turned_over: f64,
-    /// What may remain of the heat turned over: `1e-8 + 10 tolerance C_max / turned_over` summed
-    /// over the nodes.
+    /// Largest share of the heat turned over that may remain: the one that the run was given, else
+    /// `1e-8 + 10 tolerance C / turned_over` with the sum C of all capacities in J/K.
     pub bound: f64,
 }
 
@@ -40,6 +40,11 @@ impl Ledger {
         let bound = 1e-8 + 10.0 * tolerance * capacity / turned_over;
         let [sources, boundaries, streams] = [sources, boundaries, streams].map(<[f64]>::to_vec);
         Self { sources, boundaries, streams, stored, turned_over, bound }
+    }
+
+    /// The same account, held to this share of the heat turned over if there is one.
+    pub(crate) fn allowing(self, share: Option<f64>) -> Self {
+        Self { bound: share.unwrap_or(self.bound), ..self }
     }
 
     /// Sources plus boundaries plus streams less stored heat, in J: zero but for rounding and what
@@ -82,7 +87,8 @@ pub enum LedgerError {
             "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than \
              the {bound:.1e} allowed"
         ),
-        help "this is a bug in lptn or a network of extreme numbers: do not use the result",
+        help "do not use the result: `balance_error` of [run] asks for more than rounding allows, the \
+              numbers of the network are extreme, or lptn has a bug",
         class lptn_units::Class::Numbers;
 }
 }

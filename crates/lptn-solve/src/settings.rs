@@ -27,6 +27,9 @@ pub struct Transient {
     /// Tolerance in K. For networks whose nodes all lead to a boundary the error stays below ten
     /// times this, from 1e-3 to 1e-5 K (measured in the tests).
     pub tolerance: f64,
+    /// The share of the heat turned over by which the energy balance may be off, at most; `None` for
+    /// that of [`crate::Ledger::bound`].
+    pub balance_error: Option<f64>,
     /// What is kept.
     pub record: RecordedNodes,
     /// Nodes to look at between the rows too.
@@ -79,6 +82,7 @@ impl Transient {
             stop: stop.0,
             output: OutputTimes::Every(stop.0 / OutputTimes::USUAL_INTERVALS),
             tolerance: 1e-5,
+            balance_error: None,
             record: RecordedNodes::All,
             watch: Vec::new(),
             hottest_only: false,
@@ -102,6 +106,7 @@ impl Transient {
             start: settings.start,
             output: settings.output.clone(),
             tolerance: settings.tolerance,
+            balance_error: settings.balance_error,
             integrator: settings.integrator,
             controls: stands.map(|(on, held)| ControlState { on, since: since(held) }).collect(),
             ..Self::until(Time(settings.stop))

@@ -110,11 +110,16 @@ impl Transient {
             .map_err(TransientError::Input)?;
         let recorder = Recorder::new(system, (rows, readings), self)?;
         if system.states().is_empty() {
-            return stateless::solve(recorder, &segments, &Books::new(network, self.balance))
-                .map(Some);
+            return stateless::solve(recorder, &segments, &self.books(network)).map(Some);
         }
         Run::new(recorder, (segments[0], curved), (self, effort), from)?
             .through(&segments, observer)
+    }
+}
+
+impl Transient {
+    fn books(&self, network: &lptn_network::Network) -> Books {
+        Books::new(network, self.balance, self.balance_error)
     }
 }
 
@@ -189,7 +194,7 @@ impl<'a> Run<'a> {
     ) -> Result<Self, TransientError> {
         let system = recorder.system();
         let initial = from.carried().to_vec();
-        let books = Books::new(system.network(), settings.balance);
+        let books = settings.books(system.network());
         let unsolved = |e| TransientError::Start(Unsolved::new(system, e));
         let mut heat = Heat::new(system, first.inside(), books.clone()).map_err(unsolved)?;
         if !from.stood().is_empty() {

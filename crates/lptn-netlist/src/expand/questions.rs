@@ -48,6 +48,9 @@ impl Writer<'_> {
         if let Some(tolerance) = &plan.tolerance {
             fields.put("tolerance", tolerance.written());
         }
+        if let Some(share) = &plan.balance_error {
+            fields.put("balance_error", share.written());
+        }
         if plan.integrator != IntegratorChoice::Auto {
             fields.word("integrator", plan.integrator.word());
         }
@@ -71,6 +74,9 @@ impl Writer<'_> {
         };
         fields.put("output", output);
         fields.put("tolerance", quantity(run.tolerance, Type::of(Dimension::TEMPERATURE)));
+        if let Some(share) = run.balance_error {
+            fields.put("balance_error", quantity(share, Type::of(Dimension::NONE)));
+        }
         if run.integrator != IntegratorChoice::Auto {
             fields.word("integrator", run.integrator.word());
         }

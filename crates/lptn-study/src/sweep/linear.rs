@@ -35,7 +35,9 @@ impl<'a> LinearSweep<'a> {
             SweepOver::Run => {
                 let run = netlist.run.as_ref()?;
                 let fixed = !netlist.run_values().any(|v| network.depends_on(v, &changed));
-                let chosen = run.integrator != IntegratorChoice::Auto;
+                // a closed form has no energy balance to hold to a share of its own
+                let chosen =
+                    run.integrator != IntegratorChoice::Auto || run.balance_error.is_some();
                 if !fixed || chosen || !linear.runs() || !network.ranged().is_empty() {
                     return None;
                 }
