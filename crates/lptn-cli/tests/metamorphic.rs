@@ -15,7 +15,7 @@ use std::sync::OnceLock;
 use lptn_solve::{available_threads, in_parallel};
 use random::compare::{Case, LeftOut, coverage, same};
 use random::generate::network;
-use random::model::Net;
+use random::model::{Field, Net};
 use random::program;
 use random::random::Random;
 use random::relations::{RELATIONS, Relation, Variant, included, reordered, superposed, templated};
@@ -210,6 +210,23 @@ fn reports_windows_and_limits_change_no_temperature() {
 #[test]
 fn grids_are_the_nodes_they_stand_for() {
     holds("with its grid written out", 5);
+}
+
+/// A run by ESDIRK, whatever its inputs are; `None` where something melts, which it refuses.
+fn by_esdirk(case: &Case) -> Verdict {
+    let mut variant = Variant::of(&case.net);
+    let run = variant.net.entries.iter_mut().find(|entry| entry.section == "run")?;
+    *run = run.clone().with("integrator", Field::Word("esdirk".into()));
+    let texts = variant.net.texts();
+    match results(&texts).and_then(|found| same(case, &variant, &found)) {
+        Err(words) if words.contains("ESDIRK does not compute runs") => None,
+        outcome => Some(outcome.map_err(|difference| (difference, texts))),
+    }
+}
+
+#[test]
+fn another_integrator_gives_the_same() {
+    hold("by ESDIRK", 2, &by_esdirk).at_least(50);
 }
 
 /// The expansion is read as the same network, to the last digit.

@@ -15,8 +15,11 @@
 //! faer is called in this crate only. It is generic, so every crate that calls one of its
 //! factorisations compiles it again.
 
+mod calls;
 pub mod checks;
+mod clock;
 pub mod dense;
+mod diagonal;
 mod error;
 mod integrator;
 pub mod kernels;
@@ -28,6 +31,7 @@ mod pattern;
 mod statistics;
 mod system;
 
+pub use diagonal::Esdirk;
 pub use error::{Callback, FactorError, IntegrateError};
 pub use integrator::{Integrator, Step};
 pub use linear::{LinearSolver, LinearSolverKind};

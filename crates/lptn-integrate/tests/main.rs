@@ -8,6 +8,7 @@
 )]
 
 mod common;
+mod esdirk;
 mod iterative;
 mod linear;
 mod one_step;

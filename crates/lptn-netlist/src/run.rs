@@ -63,7 +63,7 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
         words(
             "integrator",
             &words_of(&IntegratorChoice::WORDS),
-            "how it is computed: the one-step method is for linear networks",
+            "how it is computed: `one_step` is for linear networks, `esdirk` for inputs of many points",
             "\"cvode\"",
         )
         .or("`\"auto\"`"),

@@ -79,6 +79,11 @@ impl Network {
         (time, inside): (f64, f64),
     ) -> Option<f64> {
         scope.set_time(time, inside);
+        self.curve_here(curve, scope)
+    }
+
+    /// The value of a curve at the time of `scope`; `None` where it has none.
+    pub fn curve_here(&self, curve: &Curve, scope: &mut Evaluation) -> Option<f64> {
         if let Some(held) = &curve.held {
             self.place_held(held, scope);
         }

@@ -55,19 +55,26 @@ impl RunSettings {
 /// Which integrator computes a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum IntegratorChoice {
-    /// The one-step method where it serves, else CVODE.
+    /// The one-step method where it serves, else ESDIRK for inputs of many points, else CVODE.
     #[default]
     Auto,
     /// The one-step method for linear networks; refused for others.
     OneStep,
+    /// An implicit Runge-Kutta method, which needs no new start where inputs bend; refused where
+    /// something melts or sensitivities are followed.
+    Esdirk,
     /// CVODE, which integrates every network.
     Cvode,
 }
 
 impl IntegratorChoice {
     /// The words for them, the usual one first.
-    pub const WORDS: [(&str, Self); 3] =
-        [("auto", Self::Auto), ("one_step", Self::OneStep), ("cvode", Self::Cvode)];
+    pub const WORDS: [(&str, Self); 4] = [
+        ("auto", Self::Auto),
+        ("one_step", Self::OneStep),
+        ("esdirk", Self::Esdirk),
+        ("cvode", Self::Cvode),
+    ];
 
     /// The word for it.
     pub fn word(self) -> &'static str {

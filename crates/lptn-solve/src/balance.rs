@@ -38,7 +38,7 @@ impl Balance {
         received: &[Received],
         source_heat: &[f64],
     ) -> Self {
-        let terms = Books::new(network, Some(of), None).kinds.into_iter().map(|kind| {
+        let terms = Books::new(network, Some(of)).kinds.into_iter().map(|kind| {
             let power = match kind {
                 Kind::Conductor(id, side) => received[id.index()][side],
                 Kind::FacePath(id, side) => {
@@ -110,8 +110,8 @@ pub(crate) struct Books {
 }
 
 impl Books {
-    pub(crate) fn new(network: &Network, of: Option<End>, error: Option<f64>) -> Self {
-        let Some(end) = of else { return Self { error, ..Self::default() } };
+    pub(crate) fn new(network: &Network, of: Option<End>) -> Self {
+        let Some(end) = of else { return Self::default() };
         let conductors = network.conductors().iter().zip(network.conductor_ids());
         let alone = network.whole(end.into()).is_none();
         let mut kinds: Vec<Kind> = conductors
@@ -133,7 +133,12 @@ impl Books {
             let shares = source.into.iter().filter(|(node, _)| End::Node(*node) == end);
             kinds.extend(shares.map(|(_, share)| Kind::Source(id, *share)));
         }
-        Self { of, kinds, error }
+        Self { of, kinds, error: None }
+    }
+
+    /// The same, with a ledger that may be off by this share of the heat turned over.
+    pub(crate) fn allowing(self, error: Option<f64>) -> Self {
+        Self { error, ..self }
     }
 
     /// Number of running integrals that a run needs: those of the ledger, then the terms.

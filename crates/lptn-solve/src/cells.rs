@@ -55,11 +55,9 @@ pub(crate) fn stretches(
     // not finer than what is looked for: rows may be many
     let first = coarse.min(gap).max(coarse / f64::from(1_u32 << HALVINGS));
     let mut scope = network.evaluation();
-    let mut open: Vec<Look<'_>> =
-        curves.iter().map(|curve| Look { network, curve, rounding: 0.0 }).collect();
-    for look in &mut open {
-        look.rounding = ROUNDING * look.largest(segments, first, &mut scope);
-    }
+    let largest = largest((network, curves), segments, first, &mut scope);
+    let look = |(curve, largest)| Look { network, curve, rounding: ROUNDING * largest };
+    let open: Vec<Look<'_>> = curves.iter().zip(largest).map(look).collect();
     let mut stretches = Vec::new();
     for &segment in segments {
         let length = segment.to - segment.from;
@@ -69,9 +67,11 @@ pub(crate) fn stretches(
         // a segment that is as short as what is looked for is left to the steps with which the
         // integrator begins
         let looks = if length > coarse / PARTS as f64 { &open[..] } else { &[] };
-        for look in looks {
-            let ranges = cells.whole(count);
-            ranges.for_each(|range| look.refine(cells, range, (HALVINGS, &mut finer), &mut scope));
+        for range in cells.whole(count) {
+            let samples = sampled(looks, cells, range, &mut scope);
+            for (look, samples) in looks.iter().zip(&samples) {
+                look.judge((cells, range), samples, (HALVINGS, &mut finer), &mut scope);
+            }
         }
         let step = if count > LEAST { cells.step } else { first };
         let whole = Stretch { from: segment.from, to: segment.to, step };
@@ -109,6 +109,11 @@ impl Cells {
         (self.segment.from + parts / PARTS as f64 * self.step).min(self.segment.to)
     }
 
+    /// The steps that are judged with those of a range.
+    fn around(&self, (from, to): Range) -> Range {
+        (from.saturating_sub(AROUND), (to + AROUND).min(self.count()))
+    }
+
     fn halved(self) -> Self {
         Self { step: 0.5 * self.step, ..self }
     }
@@ -131,37 +136,16 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    fn at(&self, time: f64, segment: Segment, scope: &mut Evaluation) -> f64 {
-        // what cannot be evaluated is left to the run
-        self.network.curve_at(self.curve, scope, (time, segment.inside())).unwrap_or(f64::NAN)
-    }
-
-    /// The largest value at the ends and in the middle of the steps.
-    fn largest(&self, segments: &[Segment], step: f64, scope: &mut Evaluation) -> f64 {
-        let mut largest = 0.0_f64;
-        for &segment in segments {
-            let count = (2.0 * (segment.to - segment.from) / step).ceil().max(1.0);
-            for k in 0..=whole_number(count) {
-                let share = (k as f64 / count).min(1.0);
-                let time = segment.from + share * (segment.to - segment.from);
-                largest = largest.max(self.at(time, segment, scope).abs());
-            }
-        }
-        largest
-    }
-
     /// Adds the stretches in which the steps of a range have to be halved, and looks there again.
-    fn refine(
+    fn judge(
         &self,
-        cells: Cells,
-        (from, to): Range,
+        (cells, (from, to)): (Cells, Range),
+        samples: &[f64],
         (halvings, finer): (usize, &mut Vec<Stretch>),
         scope: &mut Evaluation,
     ) {
-        let (first, last) = (from.saturating_sub(AROUND), (to + AROUND).min(cells.count()));
-        let samples = (first * PARTS..=last * PARTS)
-            .map(|k| self.at(cells.place(k as f64), cells.segment, scope));
-        let bends = bends(&samples.collect::<Vec<f64>>());
+        let (first, last) = cells.around((from, to));
+        let bends = bends(samples);
         let unseen = |cell: &usize| {
             let around = cell.saturating_sub(AROUND).max(first)..(cell + AROUND + 1).min(last);
             let sum = bends[around.start - first..around.end - first].iter();
@@ -174,10 +158,58 @@ impl Look<'_> {
             let half = cells.halved();
             finer.push(Stretch { from: cells.start_of(a), to: cells.start_of(b), step: half.step });
             if halvings > 1 {
-                self.refine(half, (2 * a, 2 * b), (halvings - 1, &mut *finer), scope);
+                let range = (2 * a, 2 * b);
+                let samples = &sampled(std::slice::from_ref(self), half, range, scope)[0];
+                self.judge((half, range), samples, (halvings - 1, &mut *finer), scope);
             }
         }
     }
+}
+
+/// The samples of each curve over a range and the steps around it. What has no value is left to the
+/// run.
+fn sampled(
+    looks: &[Look<'_>],
+    cells: Cells,
+    range: Range,
+    scope: &mut Evaluation,
+) -> Vec<Vec<f64>> {
+    let (first, last) = cells.around(range);
+    let count = (last - first) * PARTS + 1;
+    let mut samples = vec![Vec::with_capacity(count); looks.len()];
+    if looks.is_empty() {
+        return samples;
+    }
+    for k in first * PARTS..=last * PARTS {
+        scope.set_time(cells.place(k as f64), cells.segment.inside());
+        for (look, samples) in looks.iter().zip(&mut samples) {
+            samples.push(look.network.curve_here(look.curve, scope).unwrap_or(f64::NAN));
+        }
+    }
+    samples
+}
+
+/// The largest value of each curve at the ends and in the middle of the steps.
+fn largest(
+    (network, curves): (&Network, &[Curve]),
+    segments: &[Segment],
+    step: f64,
+    scope: &mut Evaluation,
+) -> Vec<f64> {
+    let mut largest = vec![0.0_f64; curves.len()];
+    for &segment in segments {
+        let count = (2.0 * (segment.to - segment.from) / step).ceil().max(1.0);
+        for k in 0..=whole_number(count) {
+            let share = (k as f64 / count).min(1.0);
+            let time = segment.from + share * (segment.to - segment.from);
+            scope.set_time(time, segment.inside());
+            for (curve, largest) in curves.iter().zip(&mut largest) {
+                let value = network.curve_here(curve, scope).unwrap_or(f64::NAN);
+                *largest = largest.max(value.abs());
+            }
+        }
+    }
+    largest
 }
 
 /// For each step of [`PARTS`] samples how far they are from the cubic through the ends of steps,

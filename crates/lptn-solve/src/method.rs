@@ -7,6 +7,8 @@ use lptn_network::IntegratorChoice;
 pub enum Method {
     /// The one-step method for linear networks.
     OneStep,
+    /// An implicit Runge-Kutta method, for inputs of many points.
+    Esdirk,
     /// CVODES' backward differences.
     Cvode,
 }
@@ -16,6 +18,7 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Self::OneStep => IntegratorChoice::OneStep.word(),
+            Self::Esdirk => IntegratorChoice::Esdirk.word(),
             Self::Cvode => IntegratorChoice::Cvode.word(),
         }
     }

@@ -58,6 +58,11 @@ pub enum SettingsError {
             format!("the one-step method is for linear networks: {why}")
         },
         help "leave `integrator` out, or write `integrator = \"cvode\"`";
+    /// ESDIRK is asked for, which cannot compute this run.
+    Esdirk = "run::settings",
+        "ESDIRK does not compute runs whose capacities change with temperature, or with \
+         sensitivities to follow",
+        help "leave `integrator` out, or write `integrator = \"cvode\"`";
     /// The library was built without the integrator that this run needs.
     NoIntegrator = "run::settings",
         "this build has no integrator for runs of networks that are not linear",

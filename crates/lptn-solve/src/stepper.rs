@@ -6,7 +6,7 @@
 //! integrator needs one function. The feature `cvodes` is on by default. Without it linear networks
 //! still run; others are refused with `SettingsError::NoIntegrator`.
 
-use lptn_integrate::{Integrator, OdeSystem, OneStep, Options};
+use lptn_integrate::{Esdirk, Integrator, OdeSystem, OneStep, Options};
 use lptn_network::IntegratorChoice;
 
 use crate::error::TransientError;
@@ -17,15 +17,28 @@ use crate::settings_error::SettingsError;
 /// What steps a run.
 pub(crate) type Stepper<'a> = Box<dyn Integrator<Heat<'a>> + 'a>;
 
-/// Takes the system at a time in s in a state, one value per component; `curved`: inputs are not
-/// straight lines in time between their breakpoints.
+/// Parts of a run between breakpoints of inputs from which on BDF, which begins anew in each of
+/// them, takes more steps than a Runge-Kutta method.
+const MANY_PARTS: usize = 20;
+
+/// The inputs of a run.
+#[derive(Clone, Copy)]
+pub(crate) struct Inputs {
+    /// They are not straight lines in time between their breakpoints.
+    pub(crate) curved: bool,
+    /// Parts of the run between breakpoints.
+    pub(crate) parts: usize,
+}
+
+/// Takes the system at a time in s in a state, one value per component.
 pub(crate) fn stepper<'a>(
     mut heat: Heat<'a>,
     (start, state): (f64, &[f64]),
     options: &Options,
-    (choice, curved): (IntegratorChoice, bool),
+    (choice, inputs): (IntegratorChoice, Inputs),
 ) -> Result<(Stepper<'a>, Method), TransientError> {
-    let serves = choice != IntegratorChoice::Cvode
+    let Inputs { curved, parts } = inputs;
+    let serves = matches!(choice, IntegratorChoice::Auto | IntegratorChoice::OneStep)
         && !curved
         && OneStep::suits(&mut heat, (start, state), options.tolerance);
     match choice {
@@ -37,8 +50,22 @@ pub(crate) fn stepper<'a>(
         IntegratorChoice::OneStep => {
             Err(TransientError::Settings(SettingsError::OneStep { curved }))
         }
+        IntegratorChoice::Auto if parts >= MANY_PARTS && Esdirk::suits(&heat) => {
+            esdirk(heat, (start, state), options)
+        }
+        IntegratorChoice::Esdirk if Esdirk::suits(&heat) => esdirk(heat, (start, state), options),
+        IntegratorChoice::Esdirk => Err(TransientError::Settings(SettingsError::Esdirk)),
         _ => Ok((cvodes(heat, (start, state), options)?, Method::Cvode)),
     }
+}
+
+fn esdirk<'a>(
+    heat: Heat<'a>,
+    (start, state): (f64, &[f64]),
+    options: &Options,
+) -> Result<(Stepper<'a>, Method), TransientError> {
+    let integrator = Esdirk::new(heat, start, state, options);
+    Ok((Box::new(integrator.map_err(TransientError::Integrator)?), Method::Esdirk))
 }
 
 #[cfg(feature = "cvodes")]

@@ -24,7 +24,7 @@ use crate::settings_error::SettingsError;
 use crate::solution::{RunStatus, Solution};
 use crate::state::{self, State};
 use crate::stateless;
-use crate::stepper::{Stepper, stepper};
+use crate::stepper::{Inputs, Stepper, stepper};
 use crate::stop_reason::StopReason;
 use crate::tangent::Tangent;
 use crate::times::{Segment, check_resolution, segments, snap};
@@ -112,14 +112,13 @@ impl Transient {
         if system.states().is_empty() {
             return stateless::solve(recorder, &segments, &self.books(network)).map(Some);
         }
-        Run::new(recorder, (segments[0], curved), (self, effort), from)?
-            .through(&segments, observer)
+        Run::new(recorder, (&segments, curved), (self, effort), from)?.through(&segments, observer)
     }
 }
 
 impl Transient {
     fn books(&self, network: &lptn_network::Network) -> Books {
-        Books::new(network, self.balance, self.balance_error)
+        Books::new(network, self.balance).allowing(self.balance_error)
     }
 }
 
@@ -188,7 +187,7 @@ pub(crate) struct Run<'a> {
 impl<'a> Run<'a> {
     fn new(
         mut recorder: Recorder<'a>,
-        (first, curved): (Segment, Option<Curved>),
+        (segments, curved): (&[Segment], Option<Curved>),
         (settings, effort): (&Transient, Effort),
         from: &State,
     ) -> Result<Self, TransientError> {
@@ -196,7 +195,7 @@ impl<'a> Run<'a> {
         let initial = from.carried().to_vec();
         let books = settings.books(system.network());
         let unsolved = |e| TransientError::Start(Unsolved::new(system, e));
-        let mut heat = Heat::new(system, first.inside(), books.clone()).map_err(unsolved)?;
+        let mut heat = Heat::new(system, segments[0].inside(), books.clone()).map_err(unsolved)?;
         if !from.stood().is_empty() {
             heat.stand_at(from.stood());
         }
@@ -220,7 +219,8 @@ impl<'a> Run<'a> {
         let guard = Guard::of(system, options.tolerance);
         let growth = Growth::of(system, options.tolerance);
         let straight = curved.is_none() && system.network().inputs_are_straight();
-        let choice = (settings.integrator, !straight);
+        let inputs = Inputs { curved: !straight, parts: segments.len() };
+        let choice = (settings.integrator, inputs);
         let (mut integrator, method) = stepper(heat, (settings.start, &initial), &options, choice)?;
         if !carried.is_empty() {
             integrator.set_sensitivities(&carried).map_err(TransientError::Integrator)?;

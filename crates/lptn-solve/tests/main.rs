@@ -10,6 +10,7 @@
 mod accuracy;
 mod balance;
 mod common;
+mod cycles;
 mod elements;
 #[path = "common/elements.rs"]
 mod elements_helper;

@@ -115,7 +115,7 @@ fn random_network(random: &mut Random) -> (Network, Vec<f64>) {
 /// is that of its closed form. With CVODE it was a tenth too small where tiny capacities followed a
 /// ramp at once: nothing held the steps of the running integrals.
 #[test]
-fn both_integrators_find_the_same_on_random_networks() {
+fn all_integrators_find_the_same_on_random_networks() {
     let (mut random, mut compared) = (Random(16), 0);
     for _ in 0..60 {
         let (network, heats) = random_network(&mut random);
@@ -126,8 +126,13 @@ fn both_integrators_find_the_same_on_random_networks() {
                 })
             };
             let (own, cvode) = (of(IntegratorChoice::Auto), of(IntegratorChoice::Cvode));
-            assert!(apart(&own, &cvode) < 10.0 * tolerance, "{}", apart(&own, &cvode));
-            for (found, exact) in cvode.ledger().sources.iter().zip(&heats) {
+            let esdirk = of(IntegratorChoice::Esdirk);
+            assert_eq!(esdirk.method(), Some(Method::Esdirk));
+            for other in [&cvode, &esdirk] {
+                assert!(apart(&own, other) < 10.0 * tolerance, "{}", apart(&own, other));
+            }
+            let sources = cvode.ledger().sources.iter().zip(&heats);
+            for (found, exact) in sources.chain(esdirk.ledger().sources.iter().zip(&heats)) {
                 let allowed = 10.0 * tolerance * (exact.abs() / 10.0 + capacity(&network));
                 assert!((found - exact).abs() < allowed, "{found} {exact} {tolerance}");
             }

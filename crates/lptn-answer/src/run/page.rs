@@ -296,6 +296,7 @@ pub(crate) fn heat_over(text: &mut Text, solution: &Solution, (length, clock): (
 fn solver(of: &RunAnswer) -> Vec<String> {
     let method = match of.solution.method() {
         Some(Method::OneStep) => "one-step method",
+        Some(Method::Esdirk) => "ESDIRK",
         Some(Method::Cvode) => "CVODE",
         None => return Vec::new(),
     };

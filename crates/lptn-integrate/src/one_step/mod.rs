@@ -18,19 +18,19 @@
 //! smooth as those of CVODE.
 
 mod attempt;
-mod clock;
 mod first;
 mod levels;
 mod series;
 mod spread;
 mod stepping;
 
+use crate::calls::{flow_at, linear_trouble, refused};
+use crate::clock::Clock;
 use crate::linear;
 use crate::{
-    Callback, FactorError, IntegrateError, OdeSystem, Options, Retry, Statistics, checks, kernels,
+    Callback, FactorError, IntegrateError, OdeSystem, Options, Statistics, checks, kernels,
 };
 use attempt::{Body, Drive, Outcome, Series};
-use clock::Clock;
 use first::Jump;
 use levels::{Levels, level_within, step_of};
 use series::POLE;
@@ -331,32 +331,5 @@ impl<S: OdeSystem> OneStep<S> {
         self.counts.restarts += 1;
         self.clock.begin();
         self.is_new = true;
-    }
-}
-
-fn flow_at(
-    system: &mut impl OdeSystem,
-    counts: &mut Statistics,
-    (time, y): (f64, &[f64]),
-    flow: &mut [f64],
-) -> Result<(), IntegrateError> {
-    counts.flow_evaluations += 1;
-    system.flow(time, y, flow).map_err(|retry| refused(Callback::Flow, time, retry))?;
-    kernels::first_not_finite(flow).map_or(Ok(()), |index| {
-        Err(IntegrateError::NotFinite { callback: Callback::Flow, time, index })
-    })
-}
-
-fn refused(callback: Callback, time: f64, retry: Retry) -> IntegrateError {
-    match retry {
-        Retry::SmallerStep => IntegrateError::Refused { callback, time },
-        Retry::Stop => IntegrateError::Stopped { callback, time },
-    }
-}
-
-fn linear_trouble(time: f64, cause: FactorError) -> IntegrateError {
-    match cause {
-        FactorError::OutOfMemory => IntegrateError::OutOfMemory { function: "linear solver" },
-        cause => IntegrateError::Linear { time, cause },
     }
 }

@@ -1,7 +1,7 @@
 //! The one-step method as an integrator.
 
 use super::OneStep;
-use super::clock::Clock;
+use crate::clock::Clock;
 use crate::linear::LinearSolverKind;
 use crate::{IntegrateError, Integrator, OdeSystem, Statistics, Step, checks};
 
@@ -37,10 +37,10 @@ impl<S: OdeSystem> Integrator<S> for OneStep<S> {
         if let Some(error) = self.trouble.take() {
             return Err(error);
         }
-        let Clock { now, stop, shown, shown_stop, .. } = self.clock;
-        if stop <= now || stop.is_nan() {
-            return step_at_stop(shown, shown_stop);
+        if let Some(step) = self.clock.step_at_stop()? {
+            return Ok(step);
         }
+        let Clock { now, stop, shown, .. } = self.clock;
         if self.counts.steps >= self.max_steps {
             return Err(IntegrateError::TooManySteps { time: shown, steps: self.counts.steps });
         }
@@ -136,14 +136,4 @@ impl<S: OdeSystem> Integrator<S> for OneStep<S> {
     fn linear_solver(&self) -> LinearSolverKind {
         self.levels.kind()
     }
-}
-
-fn step_at_stop(time: f64, stop: f64) -> Result<Step, IntegrateError> {
-    if stop < time {
-        return Err(IntegrateError::StopBehind { time, stop });
-    }
-    if stop.is_nan() {
-        return Err(IntegrateError::InvalidOption { option: "stop", value: stop });
-    }
-    Ok(Step { from: time, to: stop, at_stop: true, roots: false })
 }

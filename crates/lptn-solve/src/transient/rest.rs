@@ -117,7 +117,7 @@ impl<'a> Run<'a> {
                 .ok()?;
         recorder.idle = true;
         let mut run =
-            Self::new(recorder, (segment, None), (&settings, EFFORT), &State::initial(system))
+            Self::new(recorder, (&[segment], None), (&settings, EFFORT), &State::initial(system))
                 .ok()?;
         run.integrator.system_mut().held = Some((time, just_after(time)));
         Some((segment, run))
