@@ -27,6 +27,7 @@ mod options;
 mod pattern;
 mod statistics;
 mod system;
+pub mod vectors;
 
 pub use error::{Callback, FactorError, IntegrateError};
 pub use integrator::{Integrator, Step};

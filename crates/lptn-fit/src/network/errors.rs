@@ -1,5 +1,7 @@
 //! How well the parameters are determined, from what is left over.
 
+use lptn_integrate::vectors::dot;
+
 use crate::Covariance;
 use crate::network::between::{BetweenRecords, Told};
 use crate::network::fitted::ColumnMisfit;
@@ -335,8 +337,6 @@ impl<'a> Errors<'a> {
     fn prior(&self) -> Vec<f64> {
         let n = self.free.len();
         let prior = |i: usize| &self.derivatives(self.free[i])[self.data..];
-        let dot =
-            |at: usize| prior(at / n).iter().zip(prior(at % n)).map(|(a, b)| a * b).sum::<f64>();
-        (0..n * n).map(dot).collect()
+        (0..n * n).map(|at| dot(prior(at / n), prior(at % n))).collect()
     }
 }

@@ -8,6 +8,8 @@
 
 use std::borrow::Cow;
 
+use lptn_integrate::vectors::dot;
+
 use super::quantile::chi_square_999;
 use super::stretches;
 
@@ -103,8 +105,7 @@ impl<'a> Blocks<'a> {
     fn independent(&self) -> f64 {
         let beyond = self.beyond();
         let n = beyond.len();
-        let product =
-            |lag: usize| -> f64 { beyond.iter().zip(&beyond[lag..]).map(|(a, b)| a * b).sum() };
+        let product = |lag: usize| -> f64 { dot(&beyond, &beyond[lag..]) };
         let own = product(0);
         if own <= 0.0 || !own.is_finite() {
             return 0.0;
