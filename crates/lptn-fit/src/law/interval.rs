@@ -5,10 +5,9 @@
 //! make bars of ten times the scatter.
 
 use lptn_integrate::vectors::dot;
+use lptn_units::statistics::{student_95, two_sided};
 
-use super::significance::two_sided;
 use crate::Covariance;
-use crate::noise::student_95;
 
 /// A number with its errors.
 #[derive(Clone, Copy, Debug, PartialEq)]

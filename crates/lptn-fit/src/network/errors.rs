@@ -1,6 +1,7 @@
 //! How well the parameters are determined, from what is left over.
 
 use lptn_integrate::vectors::dot;
+use lptn_units::statistics::{degrees_of, student_95};
 
 use crate::Covariance;
 use crate::network::between::{BetweenRecords, Told};
@@ -10,7 +11,7 @@ use crate::network::identify::Identifiability;
 use crate::network::model::{Block, Evaluated, Model};
 use crate::network::shared::{Shared, SharedNoise};
 use crate::network::task::NetworkFitTask;
-use crate::noise::{Middle, Noise, Whitened, degrees_of, student_95};
+use crate::noise::{Middle, Noise, Whitened};
 
 /// With fewer values than this left over, residuals alone do not tell the noise.
 const FEW: usize = 10;

@@ -9,8 +9,8 @@
 use std::borrow::Cow;
 
 use lptn_integrate::vectors::dot;
+use lptn_units::statistics::chi_square_999;
 
-use super::quantile::chi_square_999;
 use super::stretches;
 
 /// Blocks of the record whose strengths are compared, at most, and the least.

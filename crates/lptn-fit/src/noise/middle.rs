@@ -1,9 +1,10 @@
 //! What the sandwich holds.
 
+use lptn_units::statistics::{NORMAL_95, degrees_of, mixed_95, student_95};
+
 use super::likelihood::{Possible, Shape};
-use super::{Noise, quantile, stretches, student_95};
+use super::{Noise, stretches};
 use crate::Covariance;
-use lptn_units::statistics::NORMAL_95;
 
 /// `J^T Omega J` of the samples of one record, and what is known of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,8 +72,8 @@ impl Middle {
             let one = |(weight, m): &(f64, Vec<f64>)| (*weight, form(m).max(0.0).sqrt());
             let errors: Vec<(f64, f64)> = self.possible.iter().map(one).collect();
             let known = student_95(self.free);
-            let half = known / NORMAL_95 * quantile::mixed_95(&errors);
-            return (variance, quantile::degrees_of(half / variance.sqrt()).min(self.free));
+            let half = known / NORMAL_95 * mixed_95(&errors);
+            return (variance, degrees_of(half / variance.sqrt()).min(self.free));
         }
         let relative = [form(&self.slopes[0]) / variance, form(&self.slopes[1]) / variance];
         let term = |i: usize, j: usize| relative[i] * self.spread[i][j] * relative[j];
