@@ -38,6 +38,7 @@ mod whitened;
 pub(crate) use likelihood::orthonormal;
 use likelihood::{Likelihood, Possible, Shape};
 pub use middle::Middle;
+pub(crate) use middle::Tied;
 pub use resolution::resolution;
 pub(crate) use whitened::Whitened;
 
