@@ -341,7 +341,7 @@ impl Page for FitRunsAnswer {
     }
 
     fn rows(&self) -> Rows<'_> {
-        tables::power(self).into()
+        self.powers().into()
     }
 
     fn figures(&self) -> Vec<Figure> {
