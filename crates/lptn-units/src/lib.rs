@@ -23,6 +23,7 @@
 mod bracket;
 mod correlations;
 mod declare_errors;
+mod declare_words;
 mod deviation;
 mod dimension;
 mod distribution;
