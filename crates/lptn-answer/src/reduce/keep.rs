@@ -125,9 +125,7 @@ impl KeepQuestion {
 
     /// Refuses fewer nodes than are to be kept.
     fn check(&self, named: usize) -> Result<(), Failure> {
-        let wrong = |message: String, help: &str| {
-            Failure::new(Exit::Input, Diagnostic::error("reduce::nodes", message).help(help))
-        };
+        let wrong = |message: String, help: &str| Failure::refused("reduce::nodes", message, help);
         match self.nodes {
             _ if named == 0 => {
                 let help = "write for example --keep steel,housing";

@@ -8,7 +8,6 @@ use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::Input;
 use lptn_answer::reduce::KeepQuestion;
-use lptn_netlist::Diagnostic;
 use lptn_report::write_rows;
 
 use super::args::ReduceArgs;
@@ -65,9 +64,9 @@ fn listed(text: &str) -> Vec<String> {
 
 /// That a recovery was asked for without nodes to recover from.
 pub(super) fn recovers_nothing() -> Failure {
-    let problem = Diagnostic::error("reduce::nodes", "--recover follows from nodes that are kept");
-    Failure::new(
-        Exit::Input,
-        problem.help("write for example --keep steel,housing --recover all.csv"),
+    Failure::refused(
+        "reduce::nodes",
+        "--recover follows from nodes that are kept",
+        "write for example --keep steel,housing --recover all.csv",
     )
 }
