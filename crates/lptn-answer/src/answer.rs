@@ -48,25 +48,40 @@ pub trait Answer: Page {
 
 #[cfg(test)]
 mod tests {
+    use crate::compare::CompareAnswer;
+    use crate::cycle::CycleAnswer;
+    use crate::fit::compare::FitCompareAnswer;
+    use crate::fit::law::{FitLawAnswer, FitRunsAnswer, StatedLawsAnswer};
+    use crate::fit::network::FitNetworkAnswer;
+    use crate::fit::step::FitStepAnswer;
     use crate::gear::GearAnswer;
     use crate::graph::GraphAnswer;
     use crate::impedance::ImpedanceAnswer;
+    use crate::infer::{Following, InferAnswer};
     use crate::modes::ModesAnswer;
+    use crate::plan::PlanAnswer;
     use crate::rank::RankAnswer;
     use crate::reduce::{KeptAnswer, ReduceAnswer};
+    use crate::run::RunAnswer;
     use crate::size::{CoolingAnswer, SizeAnswer};
+    use crate::steady::SteadyAnswer;
+    use crate::sweep::SweepAnswer;
     use crate::verify::VerifyAnswer;
 
     #[test]
     fn answers_go_from_thread_to_thread() {
         fn sent<T: Send + 'static>() {}
+        sent::<(CompareAnswer, CycleAnswer)>();
+        sent::<(FitCompareAnswer, FitLawAnswer, FitRunsAnswer, StatedLawsAnswer)>();
+        sent::<(FitNetworkAnswer, FitStepAnswer)>();
         sent::<GearAnswer>();
         sent::<GraphAnswer>();
         sent::<ImpedanceAnswer>();
-        sent::<ModesAnswer>();
+        sent::<(Following, InferAnswer)>();
+        sent::<(ModesAnswer, PlanAnswer)>();
         sent::<RankAnswer>();
         sent::<(KeptAnswer, ReduceAnswer)>();
         sent::<(CoolingAnswer, SizeAnswer)>();
-        sent::<VerifyAnswer>();
+        sent::<(RunAnswer, SteadyAnswer, SweepAnswer, VerifyAnswer)>();
     }
 }

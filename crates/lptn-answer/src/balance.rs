@@ -18,9 +18,11 @@ pub fn end(netlist: &Netlist, name: Option<&str>, format: Format) -> Result<Opti
     let Some(name) = name else { return Ok(None) };
     if format == Format::Csv {
         let message = "--balance is shown in the table and in JSON: CSV holds columns only";
-        let problem = Diagnostic::error("balance::csv", message)
-            .help("leave out `--format csv`, or write json");
-        return Err(Failure::new(Exit::Input, problem));
+        return Err(Failure::refused(
+            "balance::csv",
+            message,
+            "leave out `--format csv`, or write json",
+        ));
     }
     let network = &netlist.network;
     match network.item(name.strip_suffix(".T").unwrap_or(name)) {

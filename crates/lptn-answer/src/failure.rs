@@ -24,6 +24,11 @@ impl Failure {
         Self::at(exit, Files::new(), diagnostic)
     }
 
+    /// A question that cannot be asked in this way, about no file.
+    pub fn refused(code: &'static str, message: impl Into<String>, help: impl Help) -> Self {
+        Self::new(Exit::Input, Diagnostic::error(code, message).help(help))
+    }
+
     /// What is wrong, in its own words, about no file.
     pub fn of(problem: &dyn Problem) -> Self {
         Self::new(problem.class().into(), told(problem))
@@ -31,8 +36,7 @@ impl Failure {
 
     /// A file or folder that cannot be read.
     pub fn cannot_read(name: impl fmt::Display, error: &io::Error, help: impl Help) -> Self {
-        let message = format!("cannot read {name}: {}", reason(error));
-        Self::new(Exit::Input, Diagnostic::error("input::cannot_read", message).help(help))
+        Self::refused("input::cannot_read", format!("cannot read {name}: {}", reason(error)), help)
     }
 
     /// The same with another help, where one is about something else.

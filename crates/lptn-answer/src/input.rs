@@ -369,8 +369,7 @@ pub fn scale_of(option: &str, text: &str) -> Result<Unit, Failure> {
 fn checked(name: &str, unit: &Unit) -> Result<Unit, Failure> {
     scale(unit).ok_or_else(|| {
         let message = format!("{name} must be a temperature scale, got `{}`", unit.text);
-        let problem = Diagnostic::error("units::dimension", message);
-        Failure::new(Exit::Input, problem.help("choose degC, K, degF or degR"))
+        Failure::refused("units::dimension", message, "choose degC, K, degF or degR")
     })
 }
 
@@ -401,7 +400,7 @@ pub fn positive(
     }
     let message = format!("{option} must be more than zero, got `{text}`");
     let help = format!("write for example {option} {example}");
-    Err(Failure::new(Exit::Input, Diagnostic::error(code, message).help(help)))
+    Err(Failure::refused(code, message, help))
 }
 
 /// A mistake in a quantity of the command line, shown in its text.

@@ -7,7 +7,6 @@ use lptn_report::duration;
 use lptn_solve::{SteadyError, TransientError};
 use lptn_units::{Dimension, Problem as _, Type};
 
-use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{self, Input};
 
@@ -46,12 +45,11 @@ fn other_threshold(input: &Input, error: &TransientError) -> Option<Span> {
 
 /// That a netlist has no `[run]`.
 pub fn no_run(input: &Input) -> Failure {
-    let problem = Diagnostic::error(
+    Failure::refused(
         "run::no_run",
         format!("{} has no [run]: how long is it to run?", input.text.name),
+        "add these lines, or look at `lptn steady`:\n\n[run]\nstop = \"25 min\"",
     )
-    .help("add these lines, or look at `lptn steady`:\n\n[run]\nstop = \"25 min\"");
-    Failure::new(Exit::Input, problem)
 }
 
 /// A time of the run that `--at` names, in s.
@@ -63,7 +61,7 @@ pub fn time_of_run(text: &str, settings: &RunSettings) -> Result<f64, Failure> {
     let [start, stop] = [settings.start, settings.stop].map(|time| duration(time, 6));
     let message = format!("--at {text} is outside of the run, which goes from {start} to {stop}");
     let help = format!("name a time from {start} to {stop}, or give [run] another `stop`");
-    Err(Failure::new(Exit::Input, Diagnostic::error("run::time", message).help(help)))
+    Err(Failure::refused("run::time", message, help))
 }
 
 /// A network without a steady state.

@@ -3,12 +3,10 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use lptn_netlist::Diagnostic;
 use lptn_plot::Figure;
 use lptn_report::{Picture, WIDTH};
 
 use crate::files;
-use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 
 /// Where a picture goes.
@@ -60,19 +58,21 @@ impl Drawing {
 /// A chart would stand between numbers that a program reads.
 pub(crate) fn not_here() -> Failure {
     let message = "`--plot -` draws below a table, and another format was asked for";
-    let problem = Diagnostic::error("plot::not_here", message);
-    Failure::new(Exit::Input, problem.help("leave --format out, or name a file: --plot heat.svg"))
+    Failure::refused(
+        "plot::not_here",
+        message,
+        "leave --format out, or name a file: --plot heat.svg",
+    )
 }
 
 /// `drawn` are the verbs whose answer has a picture.
 pub(crate) fn nothing(drawn: &[&str]) -> Failure {
-    let problem = Diagnostic::error("plot::nothing", "there is no picture of this answer");
     let drawn: Vec<&str> = drawn.iter().copied().filter(|verb| !verb.is_empty()).collect();
     let help = match drawn.is_empty() {
         true => "`lptn graph` draws the network".to_owned(),
         false => format!("{} have one", drawn.join(", ")),
     };
-    Failure::new(Exit::Input, problem.help(help))
+    Failure::refused("plot::nothing", "there is no picture of this answer", help)
 }
 
 /// Columns of the terminal that results go to; of anything else those of [`WIDTH`].

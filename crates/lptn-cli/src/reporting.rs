@@ -120,6 +120,9 @@ fn write(file: &Path, report: &Report) -> Result<(), Failure> {
 
 /// A verb that answers with something else than a result.
 pub(crate) fn nothing() -> Failure {
-    let problem = Diagnostic::error("report::nothing", "there is no report of this answer");
-    Failure::new(Exit::Input, problem.help("every verb that prints a result has one"))
+    Failure::refused(
+        "report::nothing",
+        "there is no report of this answer",
+        "every verb that prints a result has one",
+    )
 }

@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_fit::Covariance;
-use lptn_fit::noise::{Noise, resolution, student_95};
+use lptn_fit::noise::{Noise, resolution};
+use lptn_units::statistics::student_95;
 
 /// 60 samples, 2 s apart with a gap of 22 s before the 36th: noise around a straight line.
 const SAMPLES: [f64; 60] = [

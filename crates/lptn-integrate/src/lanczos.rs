@@ -12,6 +12,7 @@ use faer::Mat;
 
 use crate::FactorError;
 use crate::dense;
+use crate::vectors::{add, dot, norm, take_off};
 
 /// An eigenvalue with its vector of length 1.
 #[derive(Clone, Debug, PartialEq)]
@@ -158,16 +159,12 @@ impl<'a> Search<'a> {
         next
     }
 
-    /// Takes off the next vector what is along others, twice ("twice is enough": B. N. Parlett, The
-    /// Symmetric Eigenvalue Problem (1998), section 6.9), and gives the length that is left.
+    /// Takes off the next vector what is along others, and gives the length that is left.
     fn orthogonalise(&mut self) -> f64 {
         for _ in 0..2 {
-            for vector in self.locked.iter().chain(&self.basis) {
-                let along = dot(vector, &self.next);
-                self.next.iter_mut().zip(vector).for_each(|(x, v)| *x -= along * v);
-            }
+            take_off(&mut self.next, self.locked.iter().chain(&self.basis));
         }
-        dot(&self.next, &self.next).sqrt()
+        norm(&self.next)
     }
 
     /// Eigenvalues, ascending, and vectors of the operator in the basis.
@@ -179,10 +176,7 @@ impl<'a> Search<'a> {
 
     fn pair(&self, value: f64, vectors: &Mat<f64>, k: usize) -> Eigenpair {
         let mut vector = vec![0.0; self.next.len()];
-        for (i, base) in self.basis.iter().enumerate() {
-            let share = vectors[(i, k)];
-            vector.iter_mut().zip(base).for_each(|(x, b)| *x += share * b);
-        }
+        self.basis.iter().enumerate().for_each(|(i, v)| add(&mut vector, vectors[(i, k)], v));
         Eigenpair { value, vector }
     }
 
@@ -197,10 +191,6 @@ impl<'a> Search<'a> {
         };
         self.rows = kept.enumerate().map(diagonal).collect();
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

@@ -30,6 +30,7 @@ mod options;
 mod pattern;
 mod statistics;
 mod system;
+pub mod vectors;
 
 pub use diagonal::Esdirk;
 pub use error::{Callback, FactorError, IntegrateError};

@@ -219,26 +219,19 @@ pub struct FieldDeclaration {
     pub along: bool,
 }
 
+lptn_units::words! {
 /// What has properties, by the key that names it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Substance {
     /// `material`: what a body is made of.
-    Material,
+    Material = "material",
     /// `fluid`: what a surface is wetted by.
-    Fluid,
+    Fluid = "fluid",
     /// `lubricant`: what a loss is lubricated with.
-    Lubricant,
+    Lubricant = "lubricant",
 }
-
-impl Substance {
-    /// The key that names it.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Material => "material",
-            Self::Fluid => "fluid",
-            Self::Lubricant => "lubricant",
-        }
-    }
+/// The key that names it.
+pub fn key;
 }
 
 impl FieldDeclaration {

@@ -48,6 +48,20 @@ pub(crate) const EXPANSION: FieldDeclaration = property(
     "\"0.00336 1/K\"",
 );
 
+/// The fields of a correlation: the properties that [`Fluid::of`] reads, then its own.
+macro_rules! of_fluid {
+    ($($own:expr),* $(,)?) => {
+        &[
+            $crate::fluid::CONDUCTIVITY,
+            $crate::fluid::DENSITY,
+            $crate::fluid::SPECIFIC_HEAT,
+            $crate::fluid::VISCOSITY,
+            $($own),*
+        ]
+    };
+}
+pub(crate) use of_fluid;
+
 /// The properties of a fluid at one temperature, all above 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fluid<S = f64> {

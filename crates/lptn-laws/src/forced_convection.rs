@@ -8,9 +8,7 @@ use lptn_units::{Dimension, Scalar, Type};
 use crate::Kind;
 use crate::convection::{AREA, Film};
 use crate::declare::{Extent, FieldDeclaration, Form, Group, Law, LawDeclaration, Range};
-use crate::fluid::{
-    CONDUCTIVITY, DENSITY, Fluid, SPECIFIC_HEAT, VISCOSITY, length, prandtl, reynolds,
-};
+use crate::fluid::{Fluid, length, of_fluid, prandtl, reynolds};
 
 /// Mean Nusselt number of a long cylinder in cross flow, over its diameter.
 ///
@@ -125,15 +123,7 @@ pub(crate) const SPEED: FieldDeclaration = FieldDeclaration {
 /// The fields of a correlation whose length has this key.
 macro_rules! fields {
     ($key:literal, $meaning:literal, $example:literal) => {
-        &[
-            CONDUCTIVITY,
-            DENSITY,
-            SPECIFIC_HEAT,
-            VISCOSITY,
-            SPEED,
-            length($key, $meaning, $example),
-            AREA,
-        ]
+        of_fluid![SPEED, length($key, $meaning, $example), AREA,]
     };
 }
 

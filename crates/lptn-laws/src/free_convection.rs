@@ -12,9 +12,7 @@ use lptn_units::Scalar;
 use crate::Kind;
 use crate::convection::{AREA, Film};
 use crate::declare::{Extent, Form, Group, Law, LawDeclaration};
-use crate::fluid::{
-    CONDUCTIVITY, DENSITY, EXPANSION, Fluid, SPECIFIC_HEAT, VISCOSITY, length, prandtl,
-};
+use crate::fluid::{EXPANSION, Fluid, length, of_fluid, prandtl};
 
 /// Standard acceleration of gravity in m/s^2, exact by definition (CGPM 1901).
 pub(crate) const GRAVITY: f64 = 9.806_65;
@@ -145,15 +143,7 @@ impl Law for VerticalPlate {
         sentence: "A vertical surface in a fluid at rest.",
         equation: "Q = Nu k / height A (T_from - T_to), Nu = (0.825 + 0.387 Ra^(1/6) / (1 + \
             (0.492/Pr)^(9/16))^(8/27))^2",
-        fields: &[
-            CONDUCTIVITY,
-            DENSITY,
-            SPECIFIC_HEAT,
-            VISCOSITY,
-            EXPANSION,
-            length("height", "height of the surface", "\"25 cm\""),
-            AREA,
-        ],
+        fields: of_fluid![EXPANSION, length("height", "height of the surface", "\"25 cm\""), AREA,],
         validity: "One temperature over the height; a cylinder counts as a plate where its \
             diameter is at least 35 height / Gr^(1/4).",
         groups: &[rayleigh_within("Rayleigh number", 0.0, 1e12)],
@@ -182,11 +172,7 @@ impl Law for HorizontalCylinder {
         sentence: "The skin of a long horizontal cylinder in a fluid at rest.",
         equation: "Q = Nu k / diameter A (T_from - T_to), Nu = (0.60 + 0.387 Ra^(1/6) / (1 + \
             (0.559/Pr)^(9/16))^(8/27))^2",
-        fields: &[
-            CONDUCTIVITY,
-            DENSITY,
-            SPECIFIC_HEAT,
-            VISCOSITY,
+        fields: of_fluid![
             EXPANSION,
             length("diameter", "outer diameter of the cylinder", "\"80 mm\""),
             AREA,
@@ -254,11 +240,7 @@ impl Law for UpperSide {
             itself which of the two is warmer.",
         equation: "Q = Nu k / length A (T_from - T_to), Nu = max(0.54 Ra^(1/4), 0.15 Ra^(1/3)) \
             while `from` is the warmer, else 0.27 Ra^(1/4)",
-        fields: &[
-            CONDUCTIVITY,
-            DENSITY,
-            SPECIFIC_HEAT,
-            VISCOSITY,
+        fields: of_fluid![
             EXPANSION,
             length("length", "area of the plate over its perimeter", "\"30 mm\""),
             AREA,

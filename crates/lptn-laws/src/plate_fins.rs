@@ -6,9 +6,7 @@ use lptn_units::Scalar;
 
 use crate::declare::{Confidence, FieldDeclaration, Group, Law, LawDeclaration};
 use crate::fins::{K_FIN, StraightFins, finned};
-use crate::fluid::{
-    CONDUCTIVITY, DENSITY, EXPANSION, Fluid, SPECIFIC_HEAT, VISCOSITY, length, prandtl,
-};
+use crate::fluid::{EXPANSION, Fluid, length, of_fluid, prandtl};
 use crate::forced_convection::SPEED;
 use crate::free_convection::rayleigh;
 
@@ -109,11 +107,7 @@ impl Law for PlateFins {
         equation: "Q = h (A + eta A_fins) (T_from - T_to), h = Nu k / S, Nu = (576/El^2 + \
             2.873/El^(1/2))^(-1/2), El = Ra_S S / L, A = (n - 1) S L, A_fins = 2 n l L, eta as of \
             straight_fins",
-        fields: &[
-            CONDUCTIVITY,
-            DENSITY,
-            SPECIFIC_HEAT,
-            VISCOSITY,
+        fields: of_fluid![
             EXPANSION,
             GAP,
             length("height", "height of the fins, L", "\"150 mm\""),
@@ -164,11 +158,7 @@ impl Law for PlateFinsBlown {
         equation: "Q = h (A + eta A_fins) (T_from - T_to), h = Nu k / S, Nu = ((Re* Pr/2)^-3 + \
             (0.664 Re*^(1/2) Pr^(1/3) (1 + 3.65/Re*^(1/2))^(1/2))^-3)^(-1/3), Re* = Re_S S / L, A \
             and A_fins as of plate_fins",
-        fields: &[
-            CONDUCTIVITY,
-            DENSITY,
-            SPECIFIC_HEAT,
-            VISCOSITY,
+        fields: of_fluid![
             FieldDeclaration { meaning: "velocity between the fins, of either sign", ..SPEED },
             GAP,
             length("length", "length of the fins along the flow, L", "\"100 mm\""),

@@ -7,9 +7,7 @@ use lptn_units::{Dimension, Scalar, Type};
 
 use crate::convection::AREA;
 use crate::declare::{Confidence, FieldDeclaration, Group, Law, LawDeclaration, Range};
-use crate::fluid::{
-    CONDUCTIVITY, DENSITY, EXPANSION, Fluid, SPECIFIC_HEAT, VISCOSITY, length, prandtl,
-};
+use crate::fluid::{EXPANSION, Fluid, length, of_fluid, prandtl};
 use crate::forced_convection::SPEED;
 use crate::free_convection::{VerticalPlate, rayleigh};
 
@@ -83,11 +81,7 @@ impl Law for Shaft {
         sentence: "The skin of a rotating horizontal shaft, at rest or in a flow across it.",
         equation: "Q = Nu k / diameter A (T_from - T_to), Nu = 0.11 ((0.5 Re_w^2 + Re^2 + Gr) \
             Pr)^0.35",
-        fields: &[
-            CONDUCTIVITY,
-            DENSITY,
-            SPECIFIC_HEAT,
-            VISCOSITY,
+        fields: of_fluid![
             EXPANSION,
             ROTATION,
             length("diameter", "diameter of the shaft", "\"40 mm\""),
@@ -139,11 +133,7 @@ impl Law for Annulus {
         sentence: "The gap between a rotor and its housing, without a flow along it.",
         equation: "Q = Nu k / (2 gap) A (T_from - T_to), Nu = 2 below Ta = 1700, 0.128 Ta^0.367 to \
             1e4, 0.409 Ta^0.241 above",
-        fields: &[
-            CONDUCTIVITY,
-            DENSITY,
-            SPECIFIC_HEAT,
-            VISCOSITY,
+        fields: of_fluid![
             ROTATION,
             length("radius", "mean radius of the gap", "\"40 mm\""),
             length("gap", "width of the gap", "\"1 mm\""),

@@ -4,9 +4,7 @@ use lptn_units::Scalar;
 
 use crate::convection::AREA;
 use crate::declare::{Confidence, FieldDeclaration, Group, Law, LawDeclaration};
-use crate::fluid::{
-    CONDUCTIVITY, DENSITY, EXPANSION, Fluid, SPECIFIC_HEAT, VISCOSITY, length, prandtl, reynolds,
-};
+use crate::fluid::{DENSITY, EXPANSION, Fluid, VISCOSITY, length, of_fluid, prandtl, reynolds};
 use crate::forced_convection::{SPEED, nusselt_flat_plate};
 use crate::free_convection::{
     GRAVITY, VerticalPlate, magnitude, nusselt_vertical_plate, rayleigh, rayleigh_within,
@@ -99,11 +97,7 @@ impl Law for WallInWind {
         sentence: "A vertical surface with a flow that crosses it horizontally, down to no flow.",
         equation: "Q = (h_F^3 + h_N^3)^(1/3) A (T_from - T_to), h_F of a flat plate, h_N of a \
             vertical plate",
-        fields: &[
-            CONDUCTIVITY,
-            DENSITY,
-            SPECIFIC_HEAT,
-            VISCOSITY,
+        fields: of_fluid![
             EXPANSION,
             SPEED,
             length("length", "length of the surface along the flow", "\"0.3 m\""),
@@ -156,11 +150,7 @@ impl Law for WallInVerticalFlow {
         sentence: "A vertical surface with a flow that runs up or down along it, down to no flow.",
         equation: "Q = |h_F^3 +- h_N^3|^(1/3) A (T_from - T_to), h_F of a flat plate, h_N of a \
             vertical plate, + up a warm or down a cold wall",
-        fields: &[
-            CONDUCTIVITY,
-            DENSITY,
-            SPECIFIC_HEAT,
-            VISCOSITY,
+        fields: of_fluid![
             EXPANSION,
             FieldDeclaration { meaning: "velocity of the flow, positive upwards", ..SPEED },
             length("height", "height of the surface", "\"25 cm\""),

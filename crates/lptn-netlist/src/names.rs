@@ -11,33 +11,24 @@ use crate::grid_part::KnownGrid;
 use crate::raw::{RawEntry, RawKind, RawNetlist};
 use crate::template::Structure;
 
+lptn_units::words! {
 /// What a name in an expression can stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ValueKind {
-    Parameter,
-    Signal,
-    Control,
-    Table,
+    Parameter = "parameter",
+    Signal = "signal",
+    Control = "control",
+    Table = "table",
+}
+/// What it is called in messages.
+pub(crate) fn word;
 }
 
 impl ValueKind {
-    /// All of them.
-    const ALL: [Self; 4] = [Self::Parameter, Self::Signal, Self::Control, Self::Table];
-
     /// The section of such values.
     pub(crate) const fn section(self) -> &'static str {
         match self {
             Self::Parameter => "param",
-            Self::Signal => "signal",
-            Self::Control => "control",
-            Self::Table => "table",
-        }
-    }
-
-    /// What it is called in messages.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Parameter => "parameter",
             Self::Signal => "signal",
             Self::Control => "control",
             Self::Table => "table",

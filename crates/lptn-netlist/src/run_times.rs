@@ -7,23 +7,17 @@ use crate::netlist::Netlist;
 use crate::run::OutputPlan;
 use crate::setting::Setting;
 
+lptn_units::words! {
 /// A time of a run that may be given anew.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunTime {
     /// When it ends.
-    Stop,
+    Stop = "--stop",
     /// The time between two rows; rows at times of their own are given up for it.
-    Every,
+    Every = "--every",
 }
-
-impl RunTime {
-    /// The option of the command line.
-    pub fn option(self) -> &'static str {
-        match self {
-            Self::Stop => "--stop",
-            Self::Every => "--every",
-        }
-    }
+/// The option of the command line.
+pub fn option;
 }
 
 impl Netlist {

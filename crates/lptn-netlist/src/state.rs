@@ -10,30 +10,25 @@ use std::io::{self, Write};
 /// The version of the file's format.
 pub(crate) const FORMAT: &str = "1";
 
+lptn_units::words! {
 /// How the run ended that wrote a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StateEnd {
     /// At its stop.
-    Reached,
+    Reached = "reached",
     /// Before its stop, by Ctrl-C.
-    Interrupted,
+    Interrupted = "interrupted",
     /// Before its stop, because the numbers failed.
-    Failed,
+    Failed = "failed",
+}
+/// Its word in the file.
+pub(crate) fn word;
 }
 
 impl StateEnd {
-    /// Its word in the file.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Reached => "reached",
-            Self::Interrupted => "interrupted",
-            Self::Failed => "failed",
-        }
-    }
-
     /// The end of this word.
     pub(crate) fn of(word: &str) -> Option<Self> {
-        [Self::Reached, Self::Interrupted, Self::Failed].into_iter().find(|end| end.word() == word)
+        Self::ALL.into_iter().find(|end| end.word() == word)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lptn_units::{
-    Correlations, Expression, Quantity, Scope, Spread, Symbol, Type, UnitError, kelvin_alone,
+    Correlations, Expression, NoNames, Quantity, Spread, Type, UnitError, kelvin_alone,
     parse_quantity,
 };
 
@@ -151,22 +151,9 @@ fn read(text: &str, ty: Type) -> Result<Quantity, UnitError> {
     }
 }
 
-/// No names but those of functions.
-struct Nothing;
-
-impl Scope for Nothing {
-    fn symbol(&self, _: &str) -> Option<Symbol> {
-        None
-    }
-
-    fn names(&self) -> Vec<String> {
-        Vec::new()
-    }
-}
-
 /// The value of an expression that names nothing.
 fn constant(text: &str, ty: Type) -> Option<Quantity> {
-    let program = Expression::parse(text).ok()?.compile(&Nothing, Some(ty)).ok()?;
+    let program = Expression::parse(text).ok()?.compile(&NoNames, Some(ty)).ok()?;
     let value = program.eval::<f64>(&[], &mut Vec::new()).ok()?;
     Some(Quantity { value, deviation: None, ty })
 }

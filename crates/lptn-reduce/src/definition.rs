@@ -2,35 +2,23 @@
 
 use crate::deviation::Deviation;
 
+lptn_units::words! {
 /// What the capacity of the one-node equivalent is to be equal in. `R_eq` is the same for all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Definition {
     /// The heat stored when all nodes are equally warm: the sum of the capacities that heat from
     /// the port reaches.
-    Sum,
+    Sum = "sum",
     /// The first moment of the impulse response, `m1 / R_eq^2` with `m1 = sum of C_k R_pk^2`: the
     /// area between the step response and its final value.
-    FirstMoment,
+    FirstMoment = "first_moment",
     /// The slowest time constant that the port sees, `tau_1 / R_eq`.
-    DominantPole,
+    DominantPole = "dominant_pole",
     /// The step response over a window, by least squares.
-    LeastSquares,
+    LeastSquares = "least_squares",
 }
-
-impl Definition {
-    /// All of them, the simplest first.
-    pub const ALL: [Self; 4] =
-        [Self::Sum, Self::FirstMoment, Self::DominantPole, Self::LeastSquares];
-
-    /// The name in results and on the command line.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Sum => "sum",
-            Self::FirstMoment => "first_moment",
-            Self::DominantPole => "dominant_pole",
-            Self::LeastSquares => "least_squares",
-        }
-    }
+/// The name in results and on the command line.
+pub fn key;
 }
 
 /// A capacity that goes with `R_eq`, and what the two are worth.
@@ -48,27 +36,18 @@ pub struct Pair {
     pub run: Option<Deviation>,
 }
 
+lptn_units::words! {
 /// What a pair is judged by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Judge {
     /// A step of heat at the port and all times after it: the same whatever the run is.
     #[default]
-    Step,
+    Step = "step",
     /// The network's own run.
-    Run,
+    Run = "run",
 }
-
-impl Judge {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Step, Self::Run];
-
-    /// The word for it in results and on the command line.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Step => "step",
-            Self::Run => "run",
-        }
-    }
+/// The word for it in results and on the command line.
+pub fn key;
 }
 
 /// The pair to use.

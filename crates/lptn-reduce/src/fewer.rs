@@ -5,6 +5,7 @@
 
 use faer::Mat;
 use lptn_integrate::dense;
+use lptn_integrate::vectors::{dot, norm, take_off};
 
 use crate::exponentials::Exponentials;
 use crate::step::{ResponseTerm, StepResponse};
@@ -115,12 +116,9 @@ impl<'a> Search<'a> {
         for s in [0.0].into_iter().chain(shifts.iter().map(|decade| 10_f64.powf(*decade))) {
             let answer = |(b, term): (&f64, &ResponseTerm)| b / (1.0 + s * term.tau);
             let mut vector: Vec<f64> = b.iter().zip(self.network).map(answer).collect();
-            let before = dot(&vector, &vector).sqrt();
-            for known in basis.iter().chain(&basis) {
-                let along = dot(known, &vector);
-                vector.iter_mut().zip(known).for_each(|(x, v)| *x -= along * v);
-            }
-            let length = dot(&vector, &vector).sqrt();
+            let before = norm(&vector);
+            take_off(&mut vector, basis.iter().chain(&basis));
+            let length = norm(&vector);
             if length <= SAME * before {
                 return None;
             }
@@ -137,10 +135,6 @@ impl<'a> Search<'a> {
         let terms: Vec<(f64, f64)> = (0..n).rev().map(|k| (weight(k), tau[k])).collect();
         terms.iter().all(|term| term.0 > 0.0 && term.1 > 0.0).then_some(terms)
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[expect(clippy::cast_precision_loss, reason = "a number of terms")]

@@ -2,6 +2,7 @@
 
 use faer::Mat;
 use lptn_integrate::dense;
+use lptn_integrate::vectors::{dot, norm, take_off};
 
 use crate::error::ReduceError;
 
@@ -58,15 +59,11 @@ pub(crate) fn modes(
 }
 
 /// Takes the parts along `basis` off a vector and gives the length that is left. A second time
-/// where much was taken off, so that rounding of the first does not stay ("twice is enough": B. N.
-/// Parlett, The Symmetric Eigenvalue Problem (1998), section 6.9).
+/// where much was taken off, so that rounding of the first does not stay.
 fn orthogonalise(next: &mut [f64], basis: &[Vec<f64>]) -> f64 {
     let before = norm(next);
     for _ in 0..2 {
-        for vector in basis {
-            let along = dot(vector, next);
-            next.iter_mut().zip(vector).for_each(|(x, v)| *x -= along * v);
-        }
+        take_off(next, basis);
         if norm(next) > 0.7 * before {
             break;
         }
@@ -98,14 +95,6 @@ fn ritz(
     let mut found: Vec<Mode> = (0..n).map(mode).collect();
     found.sort_by(|a, b| b.value.total_cmp(&a.value));
     Ok(found)
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-fn norm(a: &[f64]) -> f64 {
-    dot(a, a).sqrt()
 }
 
 fn scaled(a: &[f64], factor: f64) -> Vec<f64> {

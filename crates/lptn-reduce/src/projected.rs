@@ -5,6 +5,7 @@
 use faer::Mat;
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::dense;
+use lptn_integrate::vectors::{add, dot, take_off};
 use lptn_network::NodeId;
 
 use crate::error::ReduceError;
@@ -148,10 +149,7 @@ impl Many {
                 let answer = |(k, tau): (usize, &f64)| ports[(p, k)] / (1.0 + s * tau);
                 let mut vector: Vec<f64> = tau.iter().enumerate().map(answer).collect();
                 let before = dot(&vector, &vector);
-                for known in basis.iter().chain(&basis) {
-                    let along = dot(known, &vector);
-                    vector.iter_mut().zip(known).for_each(|(x, v)| *x -= along * v);
-                }
+                take_off(&mut vector, basis.iter().chain(&basis));
                 let square = dot(&vector, &vector);
                 if square > NEW * NEW * before && basis.len() < count {
                     basis.push(vector.into_iter().map(|x| x / square.sqrt()).collect());
@@ -198,8 +196,8 @@ fn answers(
         let before = dot(&heat, &answer);
         for (known_heat, known) in basis.iter().chain(&basis) {
             let along = dot(known_heat, &answer);
-            heat.iter_mut().zip(known_heat).for_each(|(q, k)| *q -= along * k);
-            answer.iter_mut().zip(known).for_each(|(t, k)| *t -= along * k);
+            add(&mut heat, -along, known_heat);
+            add(&mut answer, -along, known);
         }
         let square = dot(&heat, &answer);
         if square > NEW * NEW * before && before > 0.0 {
@@ -208,8 +206,4 @@ fn answers(
         }
     }
     Ok(basis.into_iter().map(|(_, answer)| answer).collect())
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -1,6 +1,7 @@
 //! The port's temperature after a unit step of heat into it, as a sum of exponentials.
 
 use lptn_assembly::ThermalSystem;
+use lptn_integrate::vectors::dot;
 
 use crate::error::ReduceError;
 use crate::lanczos::{self, Mode};
@@ -81,7 +82,7 @@ impl StepResponse {
         rises: &mut Rises<'_>,
     ) -> Result<Self, ReduceError> {
         let rise = rises.of_nodes(heat, Way::Forth)?;
-        let resistance = heat.iter().zip(&rise).map(|(h, r)| h * r).sum();
+        let resistance = dot(heat, &rise);
         let known = Known { rise: &rise, resistance, direct: at_once(system, heat) };
         let none = Self { resistance, direct: known.direct, terms: Vec::new(), residual: 0.0 };
         Ok(Self::known(system, &known, rises)?.unwrap_or(none))
@@ -175,7 +176,7 @@ fn at_once(system: &ThermalSystem, heat: &[f64]) -> f64 {
     let mut work = system.workspace();
     system.apply(&mut work, heat, &vec![0.0; system.network().boundaries().len()]);
     system.recover(&mut work, &vec![0.0; system.states().len()]);
-    heat.iter().zip(system.node_temperatures(&work)).map(|(h, t)| h * t).sum()
+    dot(heat, system.node_temperatures(&work))
 }
 
 #[cfg(test)]

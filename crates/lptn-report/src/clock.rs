@@ -2,33 +2,24 @@
 
 use crate::number::{duration, significant};
 
+lptn_units::words! {
 /// A unit of time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TimeUnit {
     /// Seconds.
-    Second,
+    Second = "s",
     /// Minutes.
-    Minute,
+    Minute = "min",
     /// Hours.
-    Hour,
+    Hour = "h",
     /// Days.
-    Day,
+    Day = "d",
+}
+/// Its symbol.
+pub fn symbol;
 }
 
 impl TimeUnit {
-    /// Every unit.
-    pub const ALL: [Self; 4] = [Self::Second, Self::Minute, Self::Hour, Self::Day];
-
-    /// Its symbol.
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Self::Second => "s",
-            Self::Minute => "min",
-            Self::Hour => "h",
-            Self::Day => "d",
-        }
-    }
-
     /// Its length in s.
     pub fn seconds(self) -> f64 {
         match self {

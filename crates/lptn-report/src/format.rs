@@ -7,29 +7,19 @@ use crate::json::JsonWriter;
 use crate::page::Page;
 use crate::{csv, text};
 
+lptn_units::words! {
 /// How a result is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Text for a terminal of 80 columns.
-    Table,
+    Table = "table",
     /// Comma-separated values.
-    Csv,
+    Csv = "csv",
     /// One JSON object.
-    Json,
+    Json = "json",
 }
-
-impl Format {
-    /// Every format.
-    pub const ALL: [Self; 3] = [Self::Table, Self::Csv, Self::Json];
-
-    /// Its name on the command line.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Table => "table",
-            Self::Csv => "csv",
-            Self::Json => "json",
-        }
-    }
+/// Its name on the command line.
+pub fn key;
 }
 
 /// Writes a page in a format.

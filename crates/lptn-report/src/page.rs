@@ -49,6 +49,38 @@ pub trait Page {
     }
 }
 
+/// An answer whose page is that of one of its parts.
+pub trait PageOf {
+    /// The page of the part.
+    fn page(&self) -> &dyn Page;
+}
+
+impl<T: PageOf> Page for T {
+    fn text(&self) -> Text {
+        self.page().text()
+    }
+
+    fn rows(&self) -> Rows<'_> {
+        self.page().rows()
+    }
+
+    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
+        self.page().json(json)
+    }
+
+    fn figures(&self) -> Vec<Figure> {
+        self.page().figures()
+    }
+
+    fn more(&self) -> Report {
+        self.page().more()
+    }
+
+    fn no(&self) -> Option<String> {
+        self.page().no()
+    }
+}
+
 /// What has nothing for programs.
 impl Page for Text {
     fn text(&self) -> Text {

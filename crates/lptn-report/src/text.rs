@@ -92,6 +92,21 @@ impl Text {
         self
     }
 
+    /// Ends a page: a section of notes, each after its label in a column of this width, and one of
+    /// the verdict.
+    pub fn conclude<'a>(
+        &mut self,
+        width: usize,
+        notes: impl IntoIterator<Item = (&'a str, String)>,
+        verdict: &str,
+    ) {
+        self.section();
+        for (label, note) in notes {
+            self.sentence(&format!("{label:width$}"), &note);
+        }
+        self.section().sentence("", verdict);
+    }
+
     /// Adds a sentence in pieces that are not broken.
     pub fn labelled(&mut self, label: &str, pieces: Vec<String>) -> &mut Self {
         self.add(Block::Labelled(label.to_owned(), pieces))

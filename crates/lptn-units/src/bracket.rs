@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::expr::{Expression, Scope, Symbol};
+use crate::expr::{Expression, NoNames};
 use crate::number;
 use crate::repair;
 use crate::unit_parser::is_name_start;
@@ -45,23 +45,10 @@ pub(crate) fn bracketed(
     let expression = Expression::parse(&result).ok()?;
     // without names it can be told whether it is right
     let constant = expression.names().is_empty() && expression.calls().is_empty();
-    if constant && expression.compile(&Nothing, None).is_err() {
+    if constant && expression.compile(&NoNames, None).is_err() {
         return None;
     }
     first.map(|span| (result.trim().to_owned(), span))
-}
-
-/// No names.
-struct Nothing;
-
-impl Scope for Nothing {
-    fn symbol(&self, _: &str) -> Option<Symbol> {
-        None
-    }
-
-    fn names(&self) -> Vec<String> {
-        Vec::new()
-    }
 }
 
 /// Whether the number at this byte is added to a name that is one of a temperature by its looks:

@@ -3,33 +3,25 @@
 //! A `Spread` contains the standard deviation and not the number after `±`. Code that reads
 //! deviations is therefore right for rectangular distributions too; only samples need the shape.
 
+crate::words! {
 /// How a value that is not certain is distributed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Distribution {
     /// Normal; the number behind `±` is one standard deviation.
     #[default]
-    Normal,
+    Normal = "normal",
     /// As likely everywhere between two limits, and nowhere else: the number behind `±` is half the
     /// width a, one standard deviation `a / sqrt(3)` (ISO/IEC Guide 98-3, 4.3.7).
-    Rectangle,
+    Rectangle = "rectangle",
     /// A factor on the value, which is its median: the logarithm is normal, and its standard
     /// deviation is the number behind `±` over the value.
-    Lognormal,
+    Lognormal = "lognormal",
+}
+/// Its word, as it stands in brackets behind a value.
+pub fn word;
 }
 
 impl Distribution {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Normal, Self::Rectangle, Self::Lognormal];
-
-    /// Its word, as it stands in brackets behind a value.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Normal => "normal",
-            Self::Rectangle => "rectangle",
-            Self::Lognormal => "lognormal",
-        }
-    }
-
     /// The one of this word.
     pub fn of(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|distribution| distribution.word() == word)

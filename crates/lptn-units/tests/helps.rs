@@ -2,26 +2,12 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-use lptn_units::{
-    Dimension, Expression, Scope, Symbol, Type, Written, parse_quantity, parse_value,
-};
+use lptn_units::{Dimension, Expression, NoNames, Type, Written, parse_quantity, parse_value};
 use proptest::prelude::*;
 
 const LENGTH: Type = Type::of(Dimension::LENGTH);
 const POWER: Type = Type::of(Dimension::POWER);
 const RESISTANCE: Type = Type::of(Dimension::RESISTANCE);
-
-struct NoNames;
-
-impl Scope for NoNames {
-    fn symbol(&self, _: &str) -> Option<Symbol> {
-        None
-    }
-
-    fn names(&self) -> Vec<String> {
-        Vec::new()
-    }
-}
 
 /// The value of a string where this type is due, as a netlist reads it, and its deviation; or the
 /// helps.

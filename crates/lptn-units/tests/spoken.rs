@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
-use lptn_units::{Dimension, Expression, Scope, Symbol, Type, parse_quantity, parse_value};
+use lptn_units::{Dimension, Expression, NoNames, Type, parse_quantity, parse_value};
 use wrong::{check_wrong, is_parameter};
 
 use crate::wrong;
@@ -181,16 +181,4 @@ fn messages_name_what_was_found() {
     let long = format!("1,5 {} W", " ".repeat(250));
     let help = parse_quantity(&long, None).unwrap_err().help().unwrap();
     assert_eq!(help, "write a decimal point, and no separators between the digits");
-}
-
-struct NoNames;
-
-impl Scope for NoNames {
-    fn symbol(&self, _: &str) -> Option<Symbol> {
-        None
-    }
-
-    fn names(&self) -> Vec<String> {
-        Vec::new()
-    }
 }

@@ -28,8 +28,7 @@ pub(super) fn jobs(args: &CompareQuestion) -> Result<Vec<(PathBuf, Variant)>, Fa
 /// More variants than a comparison takes.
 pub fn too_many(option: &str) -> Failure {
     let message = format!("`{option}` makes more than {} variants", variants::MOST);
-    let problem = Diagnostic::error("compare::too_many", message);
-    Failure::new(Exit::Input, problem.help("give fewer values, or compare in several steps"))
+    Failure::refused("compare::too_many", message, "give fewer values, or compare in several steps")
 }
 
 /// A candidate's file, and its netlist or what is wrong with it.
@@ -102,7 +101,7 @@ pub(super) fn believed(args: &CompareQuestion, loaded: &[Loaded]) -> Result<(), 
     }
     let message = format!("no candidate has a parameter of {}", file.display());
     let help = "use the `posterior.json` of a fit that varies parameters of these netlists";
-    Err(Failure::new(Exit::Input, Diagnostic::error("posterior::nothing", message).help(help)))
+    Err(Failure::refused("posterior::nothing", message, help))
 }
 
 /// The unit for temperatures: that of the command line, or of the first candidate that was read.

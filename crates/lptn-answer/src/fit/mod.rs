@@ -66,18 +66,4 @@ mod tests {
         let Ok(FitNetworkEnd::Interrupted(kept)) = fit.compute(&Impatient) else { panic!() };
         assert!(kept.message().starts_with("interrupted in "));
     }
-
-    /// All answers are owned and may go to another thread.
-    #[test]
-    fn answers_are_owned() {
-        fn is<T: Send + 'static>() {}
-        is::<super::compare::FitCompareAnswer>();
-        is::<super::law::FitLawAnswer>();
-        is::<super::law::FitRunsAnswer>();
-        is::<super::law::StatedLawsAnswer>();
-        is::<super::step::FitStepAnswer>();
-        is::<crate::infer::InferAnswer>();
-        is::<crate::infer::Following>();
-        is::<crate::plan::PlanAnswer>();
-    }
 }

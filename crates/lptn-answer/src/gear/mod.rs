@@ -93,10 +93,10 @@ impl GearQuestion {
         let held = if held.is_empty() { vec![None] } else { held.into_iter().map(Some).collect() };
         if speeds.len() * torques.len() * held.len() > MOST_POINTS {
             let message = format!("these are more than {MOST_POINTS} points");
-            let problem = Diagnostic::error("gear::too_many_points", message);
-            return Err(Failure::new(
-                Exit::Input,
-                problem.help("name fewer speeds, torques or temperatures"),
+            return Err(Failure::refused(
+                "gear::too_many_points",
+                message,
+                "name fewer speeds, torques or temperatures",
             ));
         }
         let loads = torques.iter().flat_map(|load| held.iter().map(move |held| (*load, *held)));

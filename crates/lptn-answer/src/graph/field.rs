@@ -91,7 +91,7 @@ fn which_slice(name: &str, shape: &GridField) -> Failure {
     let layers = shape.cells[2];
     let help =
         format!("add --slice z=1, at most z={layers}, or write the whole grid: --format vtk");
-    Failure::new(Exit::Input, Diagnostic::error("graph::slice", message).help(help))
+    Failure::refused("graph::slice", message, help)
 }
 
 fn no_slice(text: &str, error: &NoSlice) -> Failure {

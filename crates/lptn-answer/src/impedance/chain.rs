@@ -1,12 +1,10 @@
 //! An impedance as an R-tau table or a ladder.
 
 use lptn_assembly::ThermalSystem;
-use lptn_netlist::Diagnostic;
 use lptn_network::{Cauer, Foster};
 use lptn_reduce::{Nodes, NortonEquivalent, ResponseTerm, StepResponse};
 use lptn_solve::StepAnswer;
 
-use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
 
@@ -120,12 +118,8 @@ impl Spectrum {
     }
 }
 
-fn refused(code: &'static str, message: impl Into<String>, help: &str) -> Failure {
-    Failure::new(Exit::Input, Diagnostic::error(code, message).help(help))
-}
-
 fn swings() -> Failure {
-    refused(
+    Failure::refused(
         "impedance::swings",
         "the answer swings as it settles, which no chain of resistances and capacities does",
         "streams that return do that: ask for the curve, without --foster and --cauer",
@@ -133,7 +127,7 @@ fn swings() -> Failure {
 }
 
 fn at_once() -> Failure {
-    refused(
+    Failure::refused(
         "impedance::at_once",
         "nothing here stores heat that the port sees: it answers at once, and has no time constant",
         "`lptn reduce` gives its resistance",
@@ -141,7 +135,7 @@ fn at_once() -> Failure {
 }
 
 fn between(what: &str) -> Failure {
-    refused(
+    Failure::refused(
         "impedance::between",
         format!("{what} is known only where the heat goes in: leave --to out"),
         "between two places `--foster` without a number lists all terms, of either sign",
@@ -149,7 +143,7 @@ fn between(what: &str) -> Failure {
 }
 
 fn too_close(count: usize) -> Failure {
-    refused(
+    Failure::refused(
         "impedance::too_close",
         format!("{count} terms lie too close together to be told apart"),
         "ask for fewer: --foster 4",

@@ -2,11 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use lptn_netlist::Diagnostic;
 use lptn_units::{Dimension, Type, parse_quantity};
 
 use super::Form;
-use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input;
 
@@ -45,8 +43,7 @@ pub(super) fn shares(text: &str) -> Result<Vec<f64>, Failure> {
             false => {
                 let message = format!("--duty takes shares between 0 and 1, got `{word}`");
                 let help = "write for example --duty 0.5,0.2,0.1";
-                let problem = Diagnostic::error("impedance::duty", message).help(help);
-                Err(Failure::new(Exit::Input, problem))
+                Err(Failure::refused("impedance::duty", message, help))
             }
         }
     };
@@ -64,8 +61,7 @@ fn ascending(
         let message = format!("the values of {option} must be 0 or more, got `{text}`");
         let help = format!("write for example {option} \"1 s, 10 s\"");
         let help = if option == "--time" { help } else { help.replace(" s", " Hz") };
-        let problem = Diagnostic::error("impedance::list", message).help(help);
-        return Err(Failure::new(Exit::Input, problem));
+        return Err(Failure::refused("impedance::list", message, help));
     }
     values.sort_by(f64::total_cmp);
     values.dedup();

@@ -21,7 +21,6 @@ use lptn_solve::{Complex, Drive, Linearised, ResponseError, Snapshot, StepAnswer
 use posed::Posed;
 
 use crate::answer::Answer;
-use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{Input, quoted};
 use crate::listener::Listener;
@@ -162,7 +161,7 @@ impl ImpedanceQuestion {
         found.ok_or_else(|| {
             let message = format!("which node answers `{name}`?");
             let help = "name it: --to NODE";
-            Failure::new(Exit::Input, Diagnostic::error("impedance::no_node", message).help(help))
+            Failure::refused("impedance::no_node", message, help)
         })
     }
 }
@@ -262,19 +261,19 @@ fn no_port(input: &Input) -> Failure {
         "name a node, source or boundary: `lptn impedance {file} --port {}`",
         quoted(likely)
     );
-    Failure::new(Exit::Input, Diagnostic::error("impedance::no_port", message).help(help))
+    Failure::refused("impedance::no_port", message, help)
 }
 
 fn pulses_elsewhere() -> Failure {
     let message = "pulses are known where the heat goes in: elsewhere the highest rise comes later";
     let help = "leave --to or --duty out, or let `lptn steady --periodic` find the settled pulses";
-    Failure::new(Exit::Input, Diagnostic::error("impedance::pulses_elsewhere", message).help(help))
+    Failure::refused("impedance::pulses_elsewhere", message, help)
 }
 
 fn nothing_to_write() -> Failure {
     let message = "--write writes an R-tau table or a ladder, and neither is asked for";
     let help = "add --foster or --cauer";
-    Failure::new(Exit::Input, Diagnostic::error("impedance::nothing_to_write", message).help(help))
+    Failure::refused("impedance::nothing_to_write", message, help)
 }
 
 fn unknown(input: &Input, error: &ReduceError) -> Failure {

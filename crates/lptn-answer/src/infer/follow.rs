@@ -9,7 +9,6 @@ use lptn_solve::Table;
 use lptn_units::Unit;
 
 use super::{failed, task, unit_of};
-use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
 use crate::listener::Listener;
@@ -109,10 +108,9 @@ impl Following {
         let (files, warnings) = lines.end()?;
         listener.warn(&files, &warnings);
         if rows == 0 {
-            let problem = Diagnostic::error("record::no_rows", "stdin has no rows of a record");
             let help = "send a header with units and rows, for example `tail -n +1 -f bench.csv | \
                         lptn infer FILE NAME --follow`";
-            return Err(Failure::new(Exit::Input, problem.help(help)));
+            return Err(Failure::refused("record::no_rows", "stdin has no rows of a record", help));
         }
         follower.end().map_err(|error| failed(&shown.input, &study, &error))
     }

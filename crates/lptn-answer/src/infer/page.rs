@@ -51,11 +51,7 @@ impl Page for InferAnswer {
             text.section().table(self.parameters());
         }
         text.section().table(self.columns());
-        text.section();
-        for (label, note) in self.notes() {
-            text.sentence(&format!("{label:11}"), &note);
-        }
-        text.section().sentence("", &self.verdict());
+        text.conclude(11, self.notes(), &self.verdict());
         text
     }
 

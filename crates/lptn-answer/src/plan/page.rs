@@ -41,11 +41,7 @@ impl Page for PlanAnswer {
         if self.design.plan.is_some() {
             text.section().table(unknowns(self));
         }
-        text.section();
-        for (label, note) in notes(self) {
-            text.sentence(&format!("{label:13}"), &note);
-        }
-        text.section().sentence("", &verdict(self));
+        text.conclude(13, notes(self), &verdict(self));
         text
     }
 

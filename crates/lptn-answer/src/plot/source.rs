@@ -9,7 +9,6 @@ use lptn_report::panels;
 use lptn_solve::{Table, name_matches};
 use lptn_units::Unit;
 
-use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, RESULT, quoted};
 use crate::run::{RunAnswer, figure};
@@ -96,14 +95,13 @@ pub fn is_netlist(path: &Path) -> bool {
 
 fn no_result(path: &Path) -> Failure {
     let message = format!("there is no {RESULT} in the folder {}", path.display());
-    let problem = Diagnostic::error("plot::no_result", message);
     let help = match path.extension().is_some_and(|ending| ending == "toml") {
         true => {
             format!("this is a netlist: lptn run {} --report", quoted(&path.display().to_string()))
         }
         false => "`lptn run FILE` writes one into out/NAME".to_owned(),
     };
-    Failure::new(Exit::Input, problem.help(help))
+    Failure::refused("plot::no_result", message, help)
 }
 
 /// That results are not those of their manifest: one that was cut off reads as another.
@@ -172,8 +170,11 @@ fn shown(value: f64, unit: &Unit) -> f64 {
 
 fn no_column(name: &str, record: &Record) -> Failure {
     let names: Vec<&str> = record.columns.iter().map(|column| column.name.as_str()).collect();
-    let problem = Diagnostic::error("select::no_match", format!("no column of {name} is selected"));
-    Failure::new(Exit::Input, problem.help(format!("it has {}", names.join(", "))))
+    Failure::refused(
+        "select::no_match",
+        format!("no column of {name} is selected"),
+        format!("it has {}", names.join(", ")),
+    )
 }
 
 /// What a run has written of its events; nothing where that cannot be read, since a picture does

@@ -1,6 +1,5 @@
 //! Several nodes with paths between them, in place of a network.
 
-use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -126,9 +125,7 @@ impl KeepQuestion {
 
     /// Refuses fewer nodes than are to be kept.
     fn check(&self, named: usize) -> Result<(), Failure> {
-        let wrong = |message: String, help: &str| {
-            Failure::new(Exit::Input, Diagnostic::error("reduce::nodes", message).help(help))
-        };
+        let wrong = |message: String, help: &str| Failure::refused("reduce::nodes", message, help);
         match self.nodes {
             _ if named == 0 => {
                 let help = "write for example --keep steel,housing";
@@ -279,29 +276,25 @@ impl KeptAnswer {
     ///
     /// # Errors
     /// Weights that cannot be computed.
-    pub fn recovery(&self) -> Result<String, Failure> {
+    pub fn recovery(&self) -> Result<Vec<Vec<String>>, Failure> {
         let network = self.system.network();
         let recovery = self.kept.recovery(&self.system);
         let recovery = recovery.map_err(|error| failed(&self.input, &self.names[0], &error))?;
-        let mut text = "node".to_owned();
-        let mut head = |name: &str, unit: &str| _ = write!(text, ",{} [{unit}]", cell(name));
+        let mut rows = vec![vec!["node".to_owned()]];
+        let mut head = |name: &str, unit: &str| rows[0].push(format!("{name} [{unit}]"));
         for node in &self.kept.nodes {
             head(&network.nodes()[node.index()].name, "-");
         }
         network.boundaries().iter().for_each(|boundary| head(&boundary.name, "-"));
         network.sources().iter().for_each(|source| head(&source.name(), "K/W"));
-        text.push('\n');
         for (n, node) in network.nodes().iter().enumerate() {
-            text += &cell(&node.name);
             let all = [&self.kept.weights, &recovery.boundaries, &recovery.sources];
-            for column in all.into_iter().flatten() {
-                // what rounding leaves is no share
-                let value = if column[n].abs() < 1e-15 { 0.0 } else { column[n] };
-                _ = write!(text, ",{value}");
-            }
-            text.push('\n');
+            // what rounding leaves is no share
+            let share = |value: f64| if value.abs() < 1e-15 { 0.0 } else { value };
+            let shares = all.into_iter().flatten().map(|column| share(column[n]).to_string());
+            rows.push([node.name.clone()].into_iter().chain(shares).collect());
         }
-        Ok(text)
+        Ok(rows)
     }
 
     /// That the error is larger than what is allowed: "too large: 2 nodes do not keep `a` and `b`:
@@ -314,14 +307,5 @@ impl KeptAnswer {
     /// The notes as lines by themselves, for CSV, which has no place for them.
     pub fn beside_rows(&self) -> Vec<String> {
         self.notes().iter().map(|note| format!("note: {note}")).collect()
-    }
-}
-
-/// A name as a cell of a CSV file.
-fn cell(name: &str) -> String {
-    if name.contains([',', '"']) {
-        format!("\"{}\"", name.replace('"', "\"\""))
-    } else {
-        name.to_owned()
     }
 }

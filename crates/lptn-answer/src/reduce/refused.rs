@@ -1,11 +1,9 @@
 //! Why a network is not reduced.
 
-use lptn_netlist::Diagnostic;
 use lptn_reduce::ReduceError;
 use lptn_solve::ResponseError;
 use lptn_units::Problem as _;
 
-use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{Input, quoted};
 use crate::operating_point::place;
@@ -16,9 +14,11 @@ const MOST_NAMES: usize = 8;
 /// That an option is about the run, and the netlist has none.
 pub(super) fn no_run(input: &Input, option: &str) -> Failure {
     let message = format!("{} has no [run], which {option} is about", input.text.name);
-    let problem = Diagnostic::error("run::no_run", message)
-        .help("add these lines, or leave the option out:\n\n[run]\nstop = \"25 min\"");
-    Failure::new(Exit::Input, problem)
+    Failure::refused(
+        "run::no_run",
+        message,
+        "add these lines, or leave the option out:\n\n[run]\nstop = \"25 min\"",
+    )
 }
 
 /// That nobody said from which node the network is seen: the first that a source heats is the
@@ -37,7 +37,7 @@ pub(super) fn no_port(input: &Input) -> Failure {
         quoted(likely),
         names.join(", ")
     );
-    Failure::new(Exit::Input, Diagnostic::error("reduce::no_port", message).help(help))
+    Failure::refused("reduce::no_port", message, help)
 }
 
 /// The failure of an option that is about whole runs, for a question about one state.
@@ -46,7 +46,7 @@ pub fn not_near_a_state(option: &str) -> Failure {
         format!("{option} is about whole runs, and --at about small disturbances of a state");
     let help = "leave one of them out; R_eq, C_eq, T_ref and Q_N of the table make a netlist by \
         hand, if it is to stay near that state";
-    Failure::new(Exit::Input, Diagnostic::error("reduce::near", message).help(help))
+    Failure::refused("reduce::near", message, help)
 }
 
 /// What is wrong, with its place in the file or on the command line.

@@ -14,14 +14,12 @@ mod write;
 pub use cooling::{CoolingAnswer, CoolingQuestion};
 pub use write::Written;
 
-use std::io;
 use std::sync::Arc;
 
 use kept::Kept;
 use lptn_netlist::{Diagnostic, Files, SizeStudy};
 use lptn_network::ParameterId;
-use lptn_plot::Figure;
-use lptn_report::{Json, Page, Report, Rows, Text};
+use lptn_report::{Page, PageOf};
 use lptn_solve::available_threads;
 use lptn_study::{Aim, Demand, SiValue, SizeError};
 use lptn_units::Problem as _;
@@ -177,14 +175,6 @@ impl SizeAnswer {
         }
     }
 
-    fn page(&self) -> &dyn Page {
-        match &self.0 {
-            Found::Single(found) => found,
-            Found::Several(found) => found,
-            Found::Choice(found) => found,
-        }
-    }
-
     /// The name of the study, where the netlist has several.
     pub fn one_of_several(&self) -> Option<&str> {
         let Asked { input, study, .. } = self.asked();
@@ -211,6 +201,16 @@ impl SizeAnswer {
     }
 }
 
+impl PageOf for SizeAnswer {
+    fn page(&self) -> &dyn Page {
+        match &self.0 {
+            Found::Single(found) => found,
+            Found::Several(found) => found,
+            Found::Choice(found) => found,
+        }
+    }
+}
+
 impl Answer for SizeAnswer {
     fn files(&self) -> &Files {
         &self.asked().input.netlist.files
@@ -218,31 +218,5 @@ impl Answer for SizeAnswer {
 
     fn doubts(&self) -> Vec<Diagnostic> {
         self.asked().input.netlist.warnings.clone()
-    }
-}
-
-impl Page for SizeAnswer {
-    fn text(&self) -> Text {
-        self.page().text()
-    }
-
-    fn rows(&self) -> Rows<'_> {
-        self.page().rows()
-    }
-
-    fn figures(&self) -> Vec<Figure> {
-        self.page().figures()
-    }
-
-    fn more(&self) -> Report {
-        self.page().more()
-    }
-
-    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        self.page().json(json)
-    }
-
-    fn no(&self) -> Option<String> {
-        self.page().no()
     }
 }

@@ -43,11 +43,7 @@ impl Page for Sized {
         text.sentence("", &sought);
         when(&mut text, &input.netlist, (study, kept));
         text.section().table(requirements(self));
-        text.section();
-        for (label, note) in notes(self) {
-            text.sentence(&format!("{label:13}"), &note);
-        }
-        text.section().sentence("", &verdict(self));
+        text.conclude(13, notes(self), &verdict(self));
         text
     }
 

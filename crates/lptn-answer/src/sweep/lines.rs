@@ -4,11 +4,9 @@ use std::fs::File;
 use std::io::{BufRead as _, BufReader, Read as _};
 use std::path::{Path, PathBuf};
 
-use lptn_netlist::Diagnostic;
 use serde_json::{Value, json};
 
 use super::row::Row;
-use crate::exit::Exit;
 use crate::failure::Failure;
 
 /// No row is longer, in bytes.
@@ -47,8 +45,7 @@ impl Lines {
 /// A line that is not a row.
 pub fn damaged(path: &Path, line: u64) -> Failure {
     let message = format!("line {line} of {} is not a row of this sweep", path.display());
-    let problem = Diagnostic::error("sweep::damaged", message);
-    Failure::new(Exit::Input, problem.help("remove the file and begin anew"))
+    Failure::refused("sweep::damaged", message, "remove the file and begin anew")
 }
 
 /// The row in a line of this many columns; `ranged` if one counts laws outside their ranges.

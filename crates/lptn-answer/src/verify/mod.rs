@@ -3,11 +3,10 @@
 mod near;
 mod run;
 
-use std::io;
 use std::sync::Arc;
 
 use lptn_netlist::{Diagnostic, Files};
-use lptn_report::{Json, Page, Report, Rows, Text};
+use lptn_report::{Page, PageOf};
 
 use crate::answer::Answer;
 use crate::failure::Failure;
@@ -62,13 +61,6 @@ impl VerifyQuestion {
 }
 
 impl VerifyAnswer {
-    fn page(&self) -> &dyn Page {
-        match &self.0 {
-            Compared::Run(run) => run,
-            Compared::Near(near) => near,
-        }
-    }
-
     fn input(&self) -> &Input {
         match &self.0 {
             Compared::Run(run) => &run.input,
@@ -85,6 +77,15 @@ impl VerifyAnswer {
     }
 }
 
+impl PageOf for VerifyAnswer {
+    fn page(&self) -> &dyn Page {
+        match &self.0 {
+            Compared::Run(run) => run,
+            Compared::Near(near) => near,
+        }
+    }
+}
+
 impl Answer for VerifyAnswer {
     fn files(&self) -> &Files {
         &self.input().netlist.files
@@ -96,28 +97,6 @@ impl Answer for VerifyAnswer {
             Compared::Near(near) => near.doubts_of_state(),
         };
         [self.input().netlist.warnings.as_slice(), of_state].concat()
-    }
-}
-
-impl Page for VerifyAnswer {
-    fn text(&self) -> Text {
-        self.page().text()
-    }
-
-    fn rows(&self) -> Rows<'_> {
-        self.page().rows()
-    }
-
-    fn more(&self) -> Report {
-        self.page().more()
-    }
-
-    fn json(&self, json: &mut Json<'_>) -> io::Result<()> {
-        self.page().json(json)
-    }
-
-    fn no(&self) -> Option<String> {
-        self.page().no()
     }
 }
 

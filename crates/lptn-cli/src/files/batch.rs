@@ -5,11 +5,12 @@ use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use lptn_netlist::Diagnostic;
+use lptn_report::{Format, Look, Page};
 use lptn_study::{FileHash, Hashing};
 
-use super::Folder;
 use super::commit::Commit;
-use super::names::{COMMIT, temporary};
+use super::names::{COMMIT, MANIFEST, temporary};
+use super::{Folder, manifest};
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::{Failure, reason};
 
@@ -46,6 +47,22 @@ impl<'a> Batch<'a> {
         let sha256 = outcome.map_err(|error| self.cannot_write(name, &error))?;
         self.written.push(FileHash { name: name.to_owned(), sha256 });
         Ok(())
+    }
+
+    /// Writes a page, without colours.
+    pub(crate) fn page(
+        &mut self,
+        name: &str,
+        page: &dyn Page,
+        format: Format,
+    ) -> Result<(), Failure> {
+        self.write(name, |mut out| lptn_report::write(page, format, Look::PLAIN, &mut out))
+    }
+
+    /// Writes the manifest of the files that are written so far.
+    pub(crate) fn manifest(&mut self, inputs: &[FileHash], wall_time: f64) -> Result<(), Failure> {
+        let text = manifest(inputs, &self.written, wall_time);
+        self.write(MANIFEST, |out| out.write_all(format!("{text:#}\n").as_bytes()))
     }
 
     /// What is written so far.

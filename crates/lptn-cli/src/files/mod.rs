@@ -90,7 +90,7 @@ fn in_use(path: &Path, process: Option<u32>) -> Failure {
 
 fn refused(code: &'static str, message: String) -> Failure {
     let help = "choose another folder with -o DIR, or write none with --no-files";
-    Failure::new(Exit::Input, Diagnostic::error(code, message).help(help))
+    Failure::refused(code, message, help)
 }
 
 /// When and where results were written, for their manifest; they took this long, in s.

@@ -2,6 +2,8 @@
 
 use std::f64::consts::TAU;
 
+use lptn_integrate::vectors::dot;
+
 use crate::choice::Judged;
 use crate::network::{ColumnMisfit, NetworkFit, NetworkFitTask, Priors};
 use crate::noise::{Noise, stretches};
@@ -161,7 +163,7 @@ fn ljung_box(values: &[f64]) -> f64 {
     let n = values.len() as f64;
     let mean = values.iter().sum::<f64>() / n;
     let off: Vec<f64> = values.iter().map(|value| value - mean).collect();
-    let product = |lag: usize| off.iter().zip(&off[lag..]).map(|(a, b)| a * b).sum::<f64>();
+    let product = |lag: usize| dot(&off, &off[lag..]);
     let variance = product(0);
     if variance <= 0.0 {
         return 0.0;

@@ -1,7 +1,8 @@
 //! Networks beside each other on what they have not seen.
 
+use lptn_units::statistics::student_95;
+
 use crate::choice::{Judged, UnseenRecord};
-use crate::noise::student_95;
 
 /// More records than these are no help to anybody.
 const MOST: u32 = 1000;

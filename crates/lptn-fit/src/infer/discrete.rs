@@ -7,7 +7,9 @@
 
 use std::rc::Rc;
 
-use crate::kalman::Transition;
+use lptn_integrate::vectors::{add, dot};
+
+use crate::kalman::{Transition, multiplied};
 
 /// What becomes of `dx/dt = F x` over a time, where some states are random walks.
 #[derive(Clone, Debug, PartialEq)]
@@ -49,7 +51,7 @@ impl Discrete {
         let mut noises: Vec<_> = powers.iter().map(|v| noise(v, short)).collect();
         for _ in 0..doublings {
             for ramp in &mut ramps {
-                let later = times_vector(&change, ramp);
+                let later = multiplied(&change, ramp);
                 ramp.iter_mut().zip(later).for_each(|(r, x)| *r = *r + *r + x);
             }
             noises.iter_mut().for_each(|noise| *noise = doubled(&change, noise, size));
@@ -65,7 +67,7 @@ impl Discrete {
         let side = self.transition.side();
         let mut noise = vec![0.0; side * side];
         for (own, q) in self.noises.iter().zip(intensities).filter(|(_, q)| **q > 0.0) {
-            noise.iter_mut().zip(own).for_each(|(n, x)| *n += q * x);
+            add(&mut noise, *q, own);
         }
         Rc::new(noise)
     }
@@ -74,7 +76,7 @@ impl Discrete {
     pub(crate) fn input(&self, rises: &[f64]) -> Vec<f64> {
         let mut input = vec![0.0; self.transition.side()];
         for (ramp, rise) in self.ramps.iter().zip(rises) {
-            input.iter_mut().zip(ramp).for_each(|(u, r)| *u += rise * r);
+            add(&mut input, *rise, ramp);
         }
         input
     }
@@ -95,7 +97,7 @@ fn series(rates: &[f64], size: usize, time: f64) -> Vec<f64> {
 /// `F^k e` for the unit vector of a walk.
 fn powers(rates: &[f64], size: usize, walk: usize) -> Vec<Vec<f64>> {
     let unit: Vec<f64> = (0..size).map(|i| if i == walk { 1.0 } else { 0.0 }).collect();
-    std::iter::successors(Some(unit), |last| Some(times_vector(rates, last))).take(TERMS).collect()
+    std::iter::successors(Some(unit), |last| Some(multiplied(rates, last))).take(TERMS).collect()
 }
 
 /// The integral of `exp(F t) e`.
@@ -104,7 +106,7 @@ fn ramp(powers: &[Vec<f64>], time: f64) -> Vec<f64> {
     let mut factor = 1.0;
     for (k, power) in powers.iter().enumerate() {
         factor *= time / (k + 1) as f64;
-        sum.iter_mut().zip(power).for_each(|(s, v)| *s += factor * v);
+        add(&mut sum, factor, power);
     }
     sum
 }
@@ -145,18 +147,10 @@ fn times(a: &[f64], b: &[f64], size: usize) -> Vec<f64> {
     let mut out = vec![0.0; size * size];
     for (row, a) in out.chunks_exact_mut(size.max(1)).zip(a.chunks_exact(size.max(1))) {
         for (factor, b) in a.iter().zip(b.chunks_exact(size)) {
-            row.iter_mut().zip(b).for_each(|(sum, b)| *sum += factor * b);
+            add(row, *factor, b);
         }
     }
     out
-}
-
-fn times_vector(a: &[f64], x: &[f64]) -> Vec<f64> {
-    a.chunks_exact(x.len().max(1)).map(|row| dot(row, x)).collect()
-}
-
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
 }
 
 #[cfg(test)]

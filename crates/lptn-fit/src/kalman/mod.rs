@@ -11,6 +11,8 @@ mod transition;
 
 use std::rc::Rc;
 
+use lptn_integrate::vectors::{add, dot};
+
 pub use filter::{Filter, Innovation};
 pub use smoother::{Later, Smoother, Told};
 pub use transition::{Fade, Transition};
@@ -69,20 +71,11 @@ impl Gaussian {
     }
 }
 
-fn dot(x: &[f64], y: &[f64]) -> f64 {
-    x.iter().zip(y).map(|(x, y)| x * y).sum()
-}
-
 fn weighed(weights: &Weights, x: &[f64]) -> f64 {
     weights.iter().map(|(place, weight)| weight * x[*place]).sum()
 }
 
-/// `sum += factor x`
-fn add(sum: &mut [f64], factor: f64, x: &[f64]) {
-    sum.iter_mut().zip(x).for_each(|(sum, x)| *sum += factor * x);
-}
-
 /// A matrix times a vector.
-fn multiplied(matrix: &[f64], x: &[f64]) -> Vec<f64> {
-    matrix.chunks_exact(x.len()).map(|row| dot(row, x)).collect()
+pub(crate) fn multiplied(matrix: &[f64], x: &[f64]) -> Vec<f64> {
+    matrix.chunks_exact(x.len().max(1)).map(|row| dot(row, x)).collect()
 }

@@ -2,9 +2,10 @@
 
 use std::rc::Rc;
 
+use lptn_integrate::vectors::{add, dot};
+
 use super::{
-    Fade, Filter, Gaussian, Innovation, Reading, Step, Transition, Weights, add, dot, multiplied,
-    weighed,
+    Fade, Filter, Gaussian, Innovation, Reading, Step, Transition, Weights, multiplied, weighed,
 };
 
 /// Takes readings in and remembers what it takes to go back.

@@ -1,6 +1,6 @@
 //! How states go on: the first by a matrix, those behind them each by itself.
 
-use super::add;
+use lptn_integrate::vectors::add;
 
 /// A square matrix without its zeros.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,9 +1,9 @@
 //! Whether laws of temperature rise, time constant and power can be true together.
 
 use lptn_units::statistics;
+use lptn_units::statistics::two_sided;
 
 use super::error::LawError;
-use super::significance::two_sided;
 use super::stated::{Exponent, LawOf, StatedLaw};
 use crate::step::Capacity;
 

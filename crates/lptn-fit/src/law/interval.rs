@@ -4,9 +4,10 @@
 //! Only the bands of fitted laws are 95 % intervals. Student's t with one degree of freedom would
 //! make bars of ten times the scatter.
 
-use super::significance::two_sided;
+use lptn_integrate::vectors::dot;
+use lptn_units::statistics::{student_95, two_sided};
+
 use crate::Covariance;
-use crate::noise::student_95;
 
 /// A number with its errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -143,10 +144,6 @@ impl Scatter {
         let matrix: Vec<f64> = (0..count * count).map(|at| of(at / count, at % count)).collect();
         (0..count * count).map(|at| matrix[at] * matrix[at % count * count + at / count]).sum()
     }
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 fn squares(values: &[f64]) -> f64 {

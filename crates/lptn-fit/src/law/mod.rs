@@ -33,7 +33,6 @@ mod points;
 mod posterior;
 mod powers;
 mod runs;
-mod significance;
 mod slopes;
 mod solve;
 mod stated;

@@ -1,10 +1,10 @@
 //! What a law leaves behind for studies.
 
 use lptn_netlist::{Posterior, PosteriorOf, PosteriorQuantity};
+use lptn_units::statistics::student_95;
 use lptn_units::{Correlations, Distribution, Spread};
 
 use super::candidate::{Coefficient, LawFit};
-use crate::noise::student_95;
 
 impl LawFit {
     /// The coefficients with their covariance, straight in the coefficients, as parameters of the

@@ -7,27 +7,22 @@ use lptn_units::{
 
 use super::error::LawError;
 
+lptn_units::words! {
 /// What a law is a law of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LawOf {
     /// The rise of a temperature, in K.
-    Rise,
+    Rise = "dT",
     /// The time constant, in s.
-    TimeConstant,
+    TimeConstant = "t_RC",
     /// The dissipated power, in W.
-    Power,
+    Power = "P",
+}
+/// The paper's symbol: `dT`, `t_RC`, `P`.
+pub fn symbol;
 }
 
 impl LawOf {
-    /// The paper's symbol: `dT`, `t_RC`, `P`.
-    pub fn symbol(self) -> &'static str {
-        match self {
-            Self::Rise => "dT",
-            Self::TimeConstant => "t_RC",
-            Self::Power => "P",
-        }
-    }
-
     /// The dimension of what it gives: temperature, time or power.
     pub fn dimension(self) -> Dimension {
         match self {

@@ -11,7 +11,7 @@
 //! from the shares of the records in a parameter, not from their estimated noise, which contains a
 //! record's misfit.
 
-use crate::noise::chi_square_999;
+use lptn_units::statistics::chi_square_999;
 
 /// How far apart the records are in what they say of a parameter: mounting, oil or a slow drift
 /// change from run to run.

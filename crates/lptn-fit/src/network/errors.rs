@@ -1,5 +1,8 @@
 //! How well the parameters are determined, from what is left over.
 
+use lptn_integrate::vectors::dot;
+use lptn_units::statistics::{degrees_of, student_95};
+
 use crate::Covariance;
 use crate::network::between::{BetweenRecords, Told};
 use crate::network::fitted::ColumnMisfit;
@@ -8,7 +11,7 @@ use crate::network::identify::Identifiability;
 use crate::network::model::{Block, Evaluated, Model};
 use crate::network::shared::{Shared, SharedNoise};
 use crate::network::task::NetworkFitTask;
-use crate::noise::{Middle, Noise, Whitened, degrees_of, student_95};
+use crate::noise::{Middle, Noise, Whitened};
 
 /// With fewer values than this left over, residuals alone do not tell the noise.
 const FEW: usize = 10;
@@ -335,8 +338,6 @@ impl<'a> Errors<'a> {
     fn prior(&self) -> Vec<f64> {
         let n = self.free.len();
         let prior = |i: usize| &self.derivatives(self.free[i])[self.data..];
-        let dot =
-            |at: usize| prior(at / n).iter().zip(prior(at % n)).map(|(a, b)| a * b).sum::<f64>();
-        (0..n * n).map(dot).collect()
+        (0..n * n).map(|at| dot(prior(at / n), prior(at % n))).collect()
     }
 }

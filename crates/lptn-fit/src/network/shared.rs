@@ -10,6 +10,8 @@
 //! Common noise may be slow next to white noise of each column, so means of four are tried too.
 //! Principal columns would mix noises of different kinds.
 
+use lptn_integrate::vectors::{dot, norm};
+
 use crate::noise::Whitened;
 
 /// Noise that columns of a record share.
@@ -164,7 +166,7 @@ impl Compared {
             columns.iter().map(|column| column.times.iter().map(place).collect()).collect();
         let one = |(column, places): (&&Whitened, &Vec<usize>)| {
             let values = summed(&column.residuals, places, times);
-            let norm = dot(&values, &values).sqrt();
+            let norm = norm(&values);
             let unit = if norm > 0.0 && norm.is_finite() { norm.recip() } else { 0.0 };
             values.iter().map(|value| value * unit).collect()
         };
@@ -211,8 +213,4 @@ fn summed(values: &[f64], places: &[usize], times: usize) -> Vec<f64> {
         sums[place].1 += 1.0;
     }
     sums.iter().map(|(sum, count)| sum / count.sqrt().max(1.0)).collect()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

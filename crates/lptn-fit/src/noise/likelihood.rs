@@ -6,6 +6,7 @@
 
 use faer::Mat;
 use lptn_integrate::dense;
+use lptn_integrate::vectors::{dot, norm, take_off};
 
 use crate::simplex;
 
@@ -103,9 +104,7 @@ impl Likelihood {
         let (whitened, determinant) = self.filtered(shape);
         let width = self.rank + 1;
         let column = |j: usize| &whitened[j * self.times.len()..][..self.times.len()];
-        let product = |i: usize, j: usize| -> f64 {
-            column(i).iter().zip(column(j)).map(|(a, b)| a * b).sum()
-        };
+        let product = |i: usize, j: usize| -> f64 { dot(column(i), column(j)) };
         let mut gram = Mat::zeros(width, width);
         for i in 0..width {
             for j in 0..=i {
@@ -303,10 +302,7 @@ pub(crate) fn orthonormal(columns: &[f64], rows: usize) -> Vec<Vec<f64>> {
         let length = norm(column);
         let mut left = column.to_vec();
         for _ in 0..2 {
-            for q in &basis {
-                let along: f64 = q.iter().zip(&left).map(|(a, b)| a * b).sum();
-                left.iter_mut().zip(q).for_each(|(a, b)| *a -= along * b);
-            }
+            take_off(&mut left, &basis);
         }
         let rest = norm(&left);
         if rest > 1e-9 * length && rest.is_normal() {
@@ -314,8 +310,4 @@ pub(crate) fn orthonormal(columns: &[f64], rows: usize) -> Vec<Vec<f64>> {
         }
     }
     basis
-}
-
-fn norm(values: &[f64]) -> f64 {
-    values.iter().map(|x| x * x).sum::<f64>().sqrt()
 }

@@ -8,7 +8,9 @@
 
 use std::borrow::Cow;
 
-use super::quantile::chi_square_999;
+use lptn_integrate::vectors::dot;
+use lptn_units::statistics::chi_square_999;
+
 use super::stretches;
 
 /// Blocks of the record whose strengths are compared, at most, and the least.
@@ -103,8 +105,7 @@ impl<'a> Blocks<'a> {
     fn independent(&self) -> f64 {
         let beyond = self.beyond();
         let n = beyond.len();
-        let product =
-            |lag: usize| -> f64 { beyond.iter().zip(&beyond[lag..]).map(|(a, b)| a * b).sum() };
+        let product = |lag: usize| -> f64 { dot(&beyond, &beyond[lag..]) };
         let own = product(0);
         if own <= 0.0 || !own.is_finite() {
             return 0.0;

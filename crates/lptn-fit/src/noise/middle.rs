@@ -1,9 +1,10 @@
 //! What the sandwich holds.
 
+use lptn_units::statistics::{NORMAL_95, degrees_of, mixed_95, student_95};
+
 use super::likelihood::{Possible, Shape};
-use super::{Noise, quantile, stretches, student_95};
+use super::{Noise, stretches};
 use crate::Covariance;
-use lptn_units::statistics::NORMAL_95;
 
 /// `J^T Omega J` of the samples of one record, and what is known of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,8 +72,8 @@ impl Middle {
             let one = |(weight, m): &(f64, Vec<f64>)| (*weight, form(m).max(0.0).sqrt());
             let errors: Vec<(f64, f64)> = self.possible.iter().map(one).collect();
             let known = student_95(self.free);
-            let half = known / NORMAL_95 * quantile::mixed_95(&errors);
-            return (variance, quantile::degrees_of(half / variance.sqrt()).min(self.free));
+            let half = known / NORMAL_95 * mixed_95(&errors);
+            return (variance, degrees_of(half / variance.sqrt()).min(self.free));
         }
         let relative = [form(&self.slopes[0]) / variance, form(&self.slopes[1]) / variance];
         let term = |i: usize, j: usize| relative[i] * self.spread[i][j] * relative[j];
@@ -81,14 +82,12 @@ impl Middle {
     }
 }
 
-/// `J^T V J` with V of unit variance, row by row: exponential correlations add up from sample to
-/// sample.
+/// `J^T V J` with V of unit variance, row by row.
 pub(super) fn product(times: &[f64], jacobian: &[f64], shape: Shape) -> Vec<f64> {
     let rows = times.len();
     let n = jacobian.len() / rows.max(1);
-    let row = |i: usize| (0..n).map(move |j| jacobian[j * rows + i]);
-    let mut values = vec![0.0; n * n];
-    let mut before = vec![0.0; n];
+    let (mut values, mut x) = (vec![0.0; n * n], vec![0.0; n]);
+    let mut tied = Tied::new(n, shape.correlated);
     let (mut apart, mut decay) = (f64::NAN, 0.0);
     for i in 0..rows {
         if i > 0 && shape.time > 0.0 {
@@ -96,13 +95,43 @@ pub(super) fn product(times: &[f64], jacobian: &[f64], shape: Shape) -> Vec<f64>
             if (next - apart).abs() > 1e-9 * next || apart.is_nan() {
                 (apart, decay) = (next, (-next / shape.time).exp());
             }
-            row(i - 1).zip(&mut before).for_each(|(x, b)| *b = decay * (*b + x));
+            tied.pass(&x, decay);
         }
-        for (a, x) in row(i).enumerate() {
-            for (b, y) in row(i).enumerate() {
-                values[a * n + b] += x * y + shape.correlated * (x * before[b] + before[a] * y);
+        x.iter_mut().enumerate().for_each(|(j, x)| *x = jacobian[j * rows + i]);
+        tied.add(&x, 1.0, &mut values);
+    }
+    values
+}
+
+/// Rows of derivatives whose errors have something in common with those before: exponential
+/// correlations add up from row to row.
+#[derive(Clone, Debug)]
+pub(crate) struct Tied {
+    /// The correlated part of the variance.
+    correlated: f64,
+    /// What the rows before still say of the next.
+    before: Vec<f64>,
+}
+
+impl Tied {
+    /// No row so far.
+    pub(crate) fn new(count: usize, correlated: f64) -> Self {
+        Self { correlated, before: vec![0.0; count] }
+    }
+
+    /// Adds to a matrix, row by row, what a row brings to `variance J^T V J`.
+    pub(crate) fn add(&self, x: &[f64], variance: f64, sum: &mut [f64]) {
+        let before = &self.before;
+        for (i, a) in x.iter().enumerate() {
+            for (j, b) in x.iter().enumerate() {
+                let tied = self.correlated * (a * before[j] + before[i] * b);
+                sum[i * x.len() + j] += variance * (a * b + tied);
             }
         }
     }
-    values
+
+    /// Goes on to the row after this one, at which `decay` is left of what they have in common.
+    pub(crate) fn pass(&mut self, x: &[f64], decay: f64) {
+        self.before.iter_mut().zip(x).for_each(|(b, x)| *b = decay * (*b + x));
+    }
 }

@@ -30,7 +30,6 @@
 mod likelihood;
 mod local;
 mod middle;
-mod quantile;
 mod resolution;
 mod slow;
 pub(crate) mod stretches;
@@ -39,8 +38,7 @@ mod whitened;
 pub(crate) use likelihood::orthonormal;
 use likelihood::{Likelihood, Possible, Shape};
 pub use middle::Middle;
-pub use quantile::student_95;
-pub(crate) use quantile::{chi_square_999, degrees_of};
+pub(crate) use middle::Tied;
 pub use resolution::resolution;
 pub(crate) use whitened::Whitened;
 

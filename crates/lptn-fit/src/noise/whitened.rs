@@ -1,5 +1,7 @@
 //! A record as independent values of unit variance.
 
+use lptn_integrate::vectors::take_off;
+
 use super::likelihood::{Gains, Shape, orthonormal};
 use super::{Noise, local, stretches};
 
@@ -36,7 +38,8 @@ impl Noise {
         let count = times.len().max(1);
         let white: Vec<f64> =
             slopes.chunks(count).flat_map(|slope| filtered(&gains, slope)).collect();
-        let residuals = without(filtered(&gains, &residuals), &orthonormal(&white, count));
+        let mut residuals = filtered(&gains, &residuals);
+        take_off(&mut residuals, &orthonormal(&white, count));
         let scale = self.means.deviation * self.stretch as f64;
         let load = |slope: &[f64]| turned(&gains, slope).into_iter().map(|x| x * scale).collect();
         Whitened { residuals, loads: felt.chunks(count).map(load).collect(), times }
@@ -64,15 +67,6 @@ fn turned(gains: &Gains, column: &[f64]) -> Vec<f64> {
     }
     all.reverse();
     all
-}
-
-/// A column less its parts along an orthonormal basis.
-fn without(mut column: Vec<f64>, basis: &[Vec<f64>]) -> Vec<f64> {
-    for q in basis {
-        let along: f64 = q.iter().zip(&column).map(|(a, b)| a * b).sum();
-        column.iter_mut().zip(q).for_each(|(a, b)| *a -= along * b);
-    }
-    column
 }
 
 #[cfg(test)]

@@ -17,9 +17,10 @@ mod saturation;
 mod second;
 
 use lptn_reduce::fit_exponential;
+use lptn_units::statistics::student_95;
 
 use crate::Covariance;
-use crate::noise::{Middle, Noise, resolution, student_95};
+use crate::noise::{Middle, Noise, resolution};
 
 pub use bias::{FittedValue, ModelBias};
 pub use error::{Lack, StepError};

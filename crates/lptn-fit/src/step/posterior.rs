@@ -1,10 +1,10 @@
 //! What a step leaves behind for studies.
 
 use lptn_netlist::{Posterior, PosteriorOf, PosteriorQuantity};
+use lptn_units::statistics::student_95;
 use lptn_units::{Correlations, Dimension, Distribution, Spread};
 
 use super::{Capacity, Power, StepFit};
-use crate::noise::student_95;
 
 /// A quantity, and how it changes with what errors come from.
 struct Derived {

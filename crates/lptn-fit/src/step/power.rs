@@ -1,10 +1,11 @@
 //! From a time constant to a heat.
 
 use lptn_units::statistics;
+use lptn_units::statistics::student_95;
 
 use super::error::StepError;
 use super::{Random, StepFit};
-use crate::noise::{Noise, student_95};
+use crate::noise::Noise;
 
 /// The capacity that is believed, with one standard deviation, in J/K. The paper gives none for its
 /// 2659 J/K, although `P` is proportional to it.

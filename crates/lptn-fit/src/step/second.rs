@@ -1,5 +1,6 @@
 //! Whether a record asks for a second exponential, and that.
 
+use lptn_integrate::vectors::{dot, take_off};
 use lptn_reduce::ExponentialFit;
 use lptn_units::statistics;
 
@@ -135,7 +136,6 @@ impl Two<'_> {
     fn start(&self, tau: f64, residuals: &[f64], jacobian: &[f64]) -> Option<Vec<f64>> {
         const GRID: usize = 24;
         let basis = orthonormal(jacobian, self.times.len());
-        let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(x, y)| x * y).sum() };
         let (from, to) = (self.spacing().ln(), (5.0 * self.length()).ln());
         let mut best: Option<(f64, f64)> = None;
         for k in 0..GRID {
@@ -144,10 +144,7 @@ impl Two<'_> {
                 continue;
             }
             let mut decay = self.decay(log);
-            for q in &basis {
-                let along = dot(q, &decay);
-                decay.iter_mut().zip(q).for_each(|(d, q)| *d -= along * q);
-            }
+            take_off(&mut decay, &basis);
             let taken = dot(&decay, residuals).powi(2) / dot(&decay, &decay);
             if taken.is_finite() && best.is_none_or(|(most, _)| taken > most) {
                 best = Some((taken, log));

@@ -5,35 +5,25 @@
 //! nothing. A pair of gears is z_1 w_1 + z_2 w_2 = 0 with torques as z_1 : z_2; its housing takes
 //! their sum. So one row of weights says both of both.
 
+lptn_units::words! {
 /// A part of a stage that turns, or is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Member {
     /// The wheel in the middle of a planetary stage.
-    Sun,
+    Sun = "sun",
     /// What the planets turn on.
-    Carrier,
+    Carrier = "carrier",
     /// The wheel with internal teeth.
-    Ring,
+    Ring = "ring",
     /// The wheels between sun and ring; their speed is that against the carrier.
-    Planet,
+    Planet = "planet",
     /// The first wheel of a pair.
-    Pinion,
+    Pinion = "pinion",
     /// The second wheel of a pair.
-    Wheel,
+    Wheel = "wheel",
 }
-
-impl Member {
-    /// What it is called, in netlists too.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Sun => "sun",
-            Self::Carrier => "carrier",
-            Self::Ring => "ring",
-            Self::Planet => "planet",
-            Self::Pinion => "pinion",
-            Self::Wheel => "wheel",
-        }
-    }
+/// What it is called, in netlists too.
+pub fn word;
 }
 
 /// Which members a stage has.

@@ -11,26 +11,20 @@ use lptn_units::{Correlations, Distribution, Spread};
 /// The version of the file's form.
 pub(crate) const FORMAT: &str = "1";
 
+lptn_units::words! {
 /// What a quantity of a posterior belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PosteriorOf {
     /// It is a parameter of the network.
-    Parameter,
+    Parameter = "parameter",
     /// It is a value of a sensor, which no run depends on.
-    Sensor,
+    Sensor = "sensor",
+}
+/// Its word in the file.
+pub(crate) fn word;
 }
 
 impl PosteriorOf {
-    const ALL: [Self; 2] = [Self::Parameter, Self::Sensor];
-
-    /// Its word in the file.
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Self::Parameter => "parameter",
-            Self::Sensor => "sensor",
-        }
-    }
-
     fn of(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|of| of.word() == word)
     }

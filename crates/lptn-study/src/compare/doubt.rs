@@ -2,8 +2,8 @@
 
 use lptn_analysis::RunAnalysis;
 use lptn_network::{LimitId, Network, Parameters, RunSettings};
+use lptn_units::statistics::share_below;
 
-use crate::uncertainty::normal::share_below;
 use crate::uncertainty::{Answer, AnswerOf, Inputs, UncertaintyError, UncertaintyTask, uncertain};
 
 /// What the `±` of parameters do to what is compared of a candidate, by straight lines.

@@ -6,40 +6,26 @@ use lptn_network::LimitSeverity;
 
 use crate::compare::candidate::Candidate;
 
+lptn_units::words! {
 /// What candidates are sorted by, the best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SortKey {
     /// Those that keep every limit first; then by the least margin of their temperature limits, the
     /// largest first, and those without such a limit last; then by peak.
-    Margin,
+    Margin = "margin",
     /// The lowest peak first.
-    Peak,
+    Peak = "peak",
     /// The lowest steady temperature of the hottest node first.
-    Steady,
+    Steady = "steady",
     /// The slowest first: the longest time to 95 % of the rise.
-    Time,
+    Time = "time",
     /// The least heat capacity first.
-    Capacity,
+    Capacity = "capacity",
     /// As they were given.
-    Given,
+    Given = "given",
 }
-
-impl SortKey {
-    /// All of them, the usual one first.
-    pub const ALL: [Self; 6] =
-        [Self::Margin, Self::Peak, Self::Steady, Self::Time, Self::Capacity, Self::Given];
-
-    /// The name on the command line.
-    pub fn key(self) -> &'static str {
-        match self {
-            Self::Margin => "margin",
-            Self::Peak => "peak",
-            Self::Steady => "steady",
-            Self::Time => "time",
-            Self::Capacity => "capacity",
-            Self::Given => "given",
-        }
-    }
+/// The name on the command line.
+pub fn key;
 }
 
 /// The positions of candidates in their order; `None` stands for one without results, which comes

@@ -9,10 +9,10 @@ use lptn_netlist::{Netlist, Requirement};
 use lptn_network::{Network, ParameterId, RunSettings, Value};
 use lptn_solve::{OutOfRange, Proceed, Progress, Solution, SteadyState};
 use lptn_units::EvalError;
+use lptn_units::statistics::quantile;
 
 use crate::size::aim::Aim;
 use crate::size::error::{SizeError, TrialError};
-use crate::uncertainty::normal::quantile;
 use crate::uncertainty::{Inputs, Uncertain};
 
 /// The finest tolerance in K of runs that are judged, if the run itself asks for no finer one. Of a

@@ -1,9 +1,9 @@
 //! Where straight lines do not tell what happens.
 
 use lptn_network::NodeId;
+use lptn_units::statistics::NORMAL_95;
 
 use crate::uncertainty::answer::AnswerOf;
-use crate::uncertainty::normal::BAND;
 use crate::uncertainty::result::{Bands, Uncertainty, UncertaintyMethod};
 
 /// Bands that differ by more than this part of half the sampled band's width are not the same.
@@ -45,7 +45,7 @@ pub fn discrepancies(linear: &Uncertainty, sampled: &Uncertainty, least: f64) ->
         Discrepancy { of: l.of, time: None, linear, sampled, part: part(linear, sampled) }
     });
     let wide = |d: &Discrepancy| (d.sampled.1 - d.sampled.0).max(d.linear.1 - d.linear.0) > least;
-    rows.chain(others).filter(|d| d.part > TENTH.max(noise / BAND) && wide(d)).collect()
+    rows.chain(others).filter(|d| d.part > TENTH.max(noise / NORMAL_95) && wide(d)).collect()
 }
 
 fn worst(linear: &Bands, sampled: &Bands, times: &[f64]) -> Option<Discrepancy> {

@@ -3,10 +3,10 @@
 use std::ops::Deref;
 
 use lptn_network::{Network, ParameterId, Parameters};
+use lptn_units::statistics::share_below;
 use lptn_units::{Correlations, Distribution, Spread};
 
 use crate::uncertainty::error::UncertaintyError;
-use crate::uncertainty::normal::share_below;
 
 /// A parameter whose value is not certain.
 #[derive(Clone, Copy, Debug, PartialEq)]

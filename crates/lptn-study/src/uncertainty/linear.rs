@@ -5,13 +5,13 @@ mod margins;
 
 use lptn_assembly::ThermalSystem;
 use lptn_solve::Proceed;
+use lptn_units::statistics::{NORMAL_95, share_below};
 
 use crate::uncertainty::answer::{Answer, AnswerOf, Contribution};
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::estimate::Estimate;
 use crate::uncertainty::input::{Inputs, uncertain};
 use crate::uncertainty::linear::line::Line;
-use crate::uncertainty::normal::{BAND, share_below};
 use crate::uncertainty::result::{Uncertainty, UncertaintyMethod};
 use crate::uncertainty::sample::Sample;
 use crate::uncertainty::task::UncertaintyTask;
@@ -77,9 +77,9 @@ fn answer(of: AnswerOf, value: f64, (effects, inputs): (&[f64], &Inputs)) -> Ans
         of,
         value,
         deviation: Estimate::exact(deviation),
-        low: Estimate::exact(value - BAND * deviation),
+        low: Estimate::exact(value - NORMAL_95 * deviation),
         median: None,
-        high: Estimate::exact(value + BAND * deviation),
+        high: Estimate::exact(value + NORMAL_95 * deviation),
         below_zero: Estimate::exact(below_zero),
         ranking: effects.iter().enumerate().map(part).collect(),
     }

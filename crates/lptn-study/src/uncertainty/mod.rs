@@ -13,7 +13,6 @@ mod estimate;
 mod input;
 mod linear;
 mod lost;
-pub(crate) mod normal;
 pub(crate) mod points;
 mod result;
 mod sample;

@@ -1,6 +1,6 @@
 //! Points of a standard normal distribution in many dimensions.
 
-use crate::uncertainty::normal::quantile;
+use lptn_units::statistics::quantile;
 
 /// Dimensions that the directions of the sequence are known for.
 pub(crate) const MOST_DIMENSIONS: usize = sobol_burley::NUM_DIMENSIONS as usize;
@@ -39,7 +39,7 @@ mod tests {
                     (0..16).map(|index| normal(index, dimension, seed)).collect();
                 numbers.sort_by(f64::total_cmp);
                 for (i, z) in numbers.iter().enumerate() {
-                    let share = crate::uncertainty::normal::share_below(*z) * 16.0;
+                    let share = lptn_units::statistics::share_below(*z) * 16.0;
                     assert!(
                         (i as f64..=i as f64 + 1.0).contains(&share),
                         "{seed} {dimension} {i}: {share}"

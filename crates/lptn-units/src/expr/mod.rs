@@ -34,7 +34,7 @@ pub use degree::Degree;
 pub use eval_error::EvalError;
 pub use function::is_function;
 pub use program::{Program, TableCall};
-pub use scope::{RESERVED, Scope, Symbol};
+pub use scope::{NoNames, RESERVED, Scope, Symbol};
 pub use split::{SlotKind, Split};
 pub use tree::Comparison;
 pub use trend::Trend;

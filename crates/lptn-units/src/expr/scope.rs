@@ -22,6 +22,20 @@ pub struct Symbol {
     pub in_comparison: Option<u32>,
 }
 
+/// No names but those of functions: the scope of an expression that is a constant.
+#[derive(Clone, Copy, Debug)]
+pub struct NoNames;
+
+impl Scope for NoNames {
+    fn symbol(&self, _: &str) -> Option<Symbol> {
+        None
+    }
+
+    fn names(&self) -> Vec<String> {
+        Vec::new()
+    }
+}
+
 /// The names an expression may use. `pi` and the functions need not be among them.
 pub trait Scope {
     /// The meaning of a name: `omega`, `steel.T`, `ring[1,2,3].T`.

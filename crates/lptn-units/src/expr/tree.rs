@@ -43,21 +43,25 @@ pub(crate) enum Operator {
     Power,
 }
 
+crate::words! {
 /// A comparison of two values of one kind.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Comparison {
     /// `<`
-    Less,
+    Less = "<",
     /// `<=`
-    LessEqual,
+    LessEqual = "<=",
     /// `>`
-    Greater,
+    Greater = ">",
     /// `>=`
-    GreaterEqual,
+    GreaterEqual = ">=",
     /// `==`
-    Equal,
+    Equal = "==",
     /// `!=`
-    NotEqual,
+    NotEqual = "!=",
+}
+/// How it is written.
+pub(crate) fn symbol;
 }
 
 impl Comparison {
@@ -71,17 +75,6 @@ impl Comparison {
             Self::GreaterEqual => left >= right,
             Self::Equal => left == right,
             Self::NotEqual => left != right,
-        }
-    }
-
-    pub(crate) const fn symbol(self) -> &'static str {
-        match self {
-            Self::Less => "<",
-            Self::LessEqual => "<=",
-            Self::Greater => ">",
-            Self::GreaterEqual => ">=",
-            Self::Equal => "==",
-            Self::NotEqual => "!=",
         }
     }
 }

@@ -39,11 +39,7 @@ impl Page for FitCompareAnswer {
         if let Some(table) = whiteness(self, &order) {
             text.section().table(table);
         }
-        text.section();
-        for (label, note) in notes(self) {
-            text.sentence(&format!("{label:10}"), &note);
-        }
-        text.section().sentence("", &verdict(self));
+        text.conclude(10, notes(self), &verdict(self));
         text
     }
 

@@ -166,7 +166,7 @@ impl FitLawQuestion {
 }
 
 fn no_posterior(message: &str, help: &str) -> Failure {
-    Failure::new(Exit::Input, Diagnostic::error("fit::law_posterior", message).help(help))
+    Failure::refused("fit::law_posterior", message, help)
 }
 
 impl FitLawAnswer {
@@ -193,11 +193,10 @@ impl FitLawAnswer {
 /// `a = 20 mW/rpm`.
 fn start(text: &str) -> Result<Start, Failure> {
     let Some((name, value)) = text.split_once('=') else {
-        let problem =
-            Diagnostic::error("fit::law_start", format!("`{text}` gives no name a value"));
-        return Err(Failure::new(
-            Exit::Input,
-            problem.help("write for example --start \"a = 20 mW/rpm\""),
+        return Err(Failure::refused(
+            "fit::law_start",
+            format!("`{text}` gives no name a value"),
+            "write for example --start \"a = 20 mW/rpm\"",
         ));
     };
     let quantity = parse_quantity(value.trim(), None);

@@ -40,11 +40,7 @@ impl Page for FitNetworkAnswer {
         if let Some(table) = correlations(self) {
             text.section().table(table);
         }
-        text.section();
-        for (label, note) in notes(self) {
-            text.sentence(&format!("{label:13}"), &note);
-        }
-        text.section().sentence("", &verdict(self));
+        text.conclude(13, notes(self), &verdict(self));
         text
     }
 

@@ -100,11 +100,11 @@ impl FitStepQuestion {
     pub fn ask(&self, record: &Path, listener: &dyn Listener) -> Result<FitStepAnswer, Failure> {
         let request = Request::read(self, record)?;
         if self.posterior && request.columns.len() != 1 {
-            let problem = Diagnostic::error(
+            return Err(Failure::refused(
                 "fit::step_posterior",
                 "--posterior writes what one column says of P_disp and R_eq",
-            );
-            return Err(Failure::new(Exit::Input, problem.help("name it: --column ring_gear")));
+                "name it: --column ring_gear",
+            ));
         }
         let (record, files) = (&request.record, &request.files);
         let (mut columns, mut without, mut failures) = (Vec::new(), Vec::new(), Vec::new());

@@ -11,7 +11,6 @@ use lptn_units::Problem as _;
 use super::FitStepQuestion;
 use super::request::Request;
 use crate::belief::Belief;
-use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::Input;
 
@@ -58,7 +57,7 @@ fn unknown_begin() -> Failure {
     let message =
         "the run of the model begins with the record, but what is before --from cannot be read";
     let help = "without --from the first row that cannot be read is named";
-    Failure::new(Exit::Input, Diagnostic::error("fit::no_begin", message).help(help))
+    Failure::refused("fit::no_begin", message, help)
 }
 
 fn failed(input: &Input, port: &str, error: &StepError) -> Failure {

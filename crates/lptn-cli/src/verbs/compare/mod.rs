@@ -9,7 +9,6 @@ use lptn_answer::compare::{CompareAnswer, CompareQuestion};
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::quoted;
-use lptn_netlist::Diagnostic;
 use lptn_report::Format;
 use lptn_study::CompareRow;
 
@@ -77,8 +76,7 @@ fn folder(path: &Path) -> Result<Vec<PathBuf>, Failure> {
     let found = files::of_folder(path, "toml", "name the netlists one by one")?;
     if found.is_empty() {
         let message = format!("there is no netlist in the folder {}", path.display());
-        let problem = Diagnostic::error("input::cannot_read", message);
-        return Err(Failure::new(Exit::Input, problem.help("netlists end with .toml")));
+        return Err(Failure::refused("input::cannot_read", message, "netlists end with .toml"));
     }
     Ok(found)
 }

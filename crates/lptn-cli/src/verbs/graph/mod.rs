@@ -12,15 +12,17 @@ use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::graph::{Drawn, GraphQuestion, Kind};
 use lptn_answer::input::Input;
-use lptn_netlist::Diagnostic;
 
 use crate::console::Console;
 use crate::input::Load as _;
 
 pub(crate) fn graph(args: &GraphArgs, console: &Console) -> Result<Exit, Failure> {
     if console.plot.is_some() {
-        let problem = Diagnostic::error("graph::format", "--plot draws curves, not the network");
-        return Err(Failure::new(Exit::Input, problem.help("write -o FILE in its place")));
+        return Err(Failure::refused(
+            "graph::format",
+            "--plot draws curves, not the network",
+            "write -o FILE in its place",
+        ));
     }
     let only = args.only_a_picture();
     let (kind, place) = place::wanted(args.format, args.output.as_deref(), only)?;

@@ -3,12 +3,9 @@
 use std::fs;
 use std::path::PathBuf;
 
-use lptn_netlist::Diagnostic;
-
 use super::place::Place;
 use crate::console::Console;
 use crate::files;
-use lptn_answer::exit::Exit;
 use lptn_answer::failure::{Failure, reason};
 use lptn_answer::input::Input;
 
@@ -26,8 +23,7 @@ pub(super) fn put(
             let folder = PathBuf::from("out").join(&input.text.stem);
             fs::create_dir_all(&folder).map_err(|error| {
                 let message = format!("cannot write into {}: {}", folder.display(), reason(&error));
-                let problem = Diagnostic::error("output::cannot_create", message);
-                Failure::new(Exit::Input, problem.help(HELP))
+                Failure::refused("output::cannot_create", message, HELP)
             })?;
             folder.join(name)
         }

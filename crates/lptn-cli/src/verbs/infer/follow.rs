@@ -5,7 +5,6 @@ use std::io::{BufRead as _, Write as _, stdin};
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::infer::Following;
-use lptn_netlist::Diagnostic;
 use lptn_report::Format;
 
 use super::InferArgs;
@@ -20,9 +19,8 @@ pub(super) fn possible(args: &InferArgs, console: &Console) -> Result<(), Failur
         _ => return Ok(()),
     };
     let message = format!("{asked} shows a whole record, and --follow answers rows as they come");
-    let problem = Diagnostic::error("infer::follow_output", message);
     let help = "leave one of the two out: --follow prints csv, a line for each row";
-    Err(Failure::new(Exit::Input, problem.help(help)))
+    Err(Failure::refused("infer::follow_output", message, help))
 }
 
 /// Follows the record to its end.

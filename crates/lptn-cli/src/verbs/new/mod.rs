@@ -6,7 +6,7 @@ pub(crate) use args::NewArgs;
 
 use std::path::PathBuf;
 
-use lptn_netlist::{Diagnostic, parse_bytes};
+use lptn_netlist::parse_bytes;
 
 use crate::console::Console;
 use crate::files;
@@ -25,10 +25,7 @@ pub(crate) fn new(args: &NewArgs, console: &Console) -> Result<Exit, Failure> {
     if name.trim().is_empty() || name.starts_with('.') || !name.chars().all(usual) {
         let message = format!("`{}` is not a name for a netlist", args.name);
         let help = "use letters, digits, `_` and `-`: lptn new motor";
-        return Err(Failure::new(
-            Exit::Input,
-            Diagnostic::error("new::bad_name", message).help(help),
-        ));
+        return Err(Failure::refused("new::bad_name", message, help));
     }
     let typed = quoted(&path.display().to_string());
     let text = TEMPLATE.replace("FILE", &typed).replace("NAME", &name);

@@ -11,7 +11,7 @@ use lptn_answer::failure::Failure;
 use lptn_answer::input::Input;
 use lptn_answer::input::quoted;
 use lptn_answer::plot::{Columns, Source, is_netlist, is_record, overlay};
-use lptn_netlist::{Diagnostic, RunTime};
+use lptn_netlist::RunTime;
 use lptn_report::Format;
 use std::path::Path;
 
@@ -54,8 +54,7 @@ fn nothing_to_run(args: &PlotArgs) -> Result<(), Failure> {
     ];
     let Some((option, _)) = given.into_iter().find(|(_, given)| *given) else { return Ok(()) };
     let message = format!("{option} changes a run, and no netlist is among the files");
-    let problem = Diagnostic::error("plot::no_netlist", message);
-    Err(Failure::new(Exit::Input, problem.help("name the netlist instead of its results")))
+    Err(Failure::refused("plot::no_netlist", message, "name the netlist instead of its results"))
 }
 
 /// Reads a record or results, or runs a netlist, which has an exit code.

@@ -8,7 +8,7 @@ use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::Input;
 use lptn_answer::reduce::KeepQuestion;
-use lptn_netlist::Diagnostic;
+use lptn_report::write_rows;
 
 use super::args::ReduceArgs;
 use super::wrote;
@@ -31,7 +31,10 @@ pub(super) fn keep(args: &ReduceArgs, console: &Console, names: &str) -> Result<
     let netlist = |place: Option<&Path>| answer.netlist(place);
     args.write(&netlist)?;
     if let Some(path) = &args.recover {
-        files::write_new(path, &answer.recovery()?, "reduce::exists")?;
+        let mut text = Vec::new();
+        // a vector takes everything
+        drop(write_rows(&answer.recovery()?, &mut text));
+        files::write_new(path, &String::from_utf8_lossy(&text), "reduce::exists")?;
     }
     args.print(console, &answer, (&netlist, &|| answer.beside_rows()))?;
     if let Some(path) = &args.recover {
@@ -61,9 +64,9 @@ fn listed(text: &str) -> Vec<String> {
 
 /// That a recovery was asked for without nodes to recover from.
 pub(super) fn recovers_nothing() -> Failure {
-    let problem = Diagnostic::error("reduce::nodes", "--recover follows from nodes that are kept");
-    Failure::new(
-        Exit::Input,
-        problem.help("write for example --keep steel,housing --recover all.csv"),
+    Failure::refused(
+        "reduce::nodes",
+        "--recover follows from nodes that are kept",
+        "write for example --keep steel,housing --recover all.csv",
     )
 }

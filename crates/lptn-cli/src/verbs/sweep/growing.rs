@@ -40,7 +40,7 @@ impl Found {
                 let message = format!("{} holds a sweep that was stopped", folder.path().display());
                 let help = "add --resume to go on with it, remove sweep.csv.part to begin anew, or \
                             choose another folder with -o DIR";
-                return Err(refused("sweep::unfinished", message, help));
+                return Err(Failure::refused("sweep::unfinished", message, help));
             }
             same(asked, &folder.path().join(BEGUN), |begun| begun)?;
             return Ok(Self::Rows);
@@ -68,11 +68,7 @@ fn same(asked: &SweepAsked, file: &Path, of: fn(&Value) -> &Value) -> Result<(),
          set, the version of lptn or the part differ"
     );
     let help = "choose another folder with -o DIR, or remove that one";
-    Err(refused("sweep::other_inputs", message, help))
-}
-
-fn refused(code: &'static str, message: String, help: &str) -> Failure {
-    Failure::new(Exit::Input, Diagnostic::error(code, message).help(help))
+    Err(Failure::refused("sweep::other_inputs", message, help))
 }
 
 fn cannot_write(path: &Path, error: &io::Error) -> Failure {

@@ -49,10 +49,6 @@ pub(crate) fn merge(args: &MergeArgs, console: &Console) -> Result<Exit, Failure
     Ok(Exit::Done)
 }
 
-fn refused(code: &'static str, message: String, help: &str) -> Failure {
-    Failure::new(Exit::Input, Diagnostic::error(code, message).help(help))
-}
-
 /// The parts in a folder, in the order of their cases.
 fn parts(folder: &Path) -> Result<Vec<Part>, Failure> {
     let entries = fs::read_dir(folder)
@@ -65,7 +61,7 @@ fn parts(folder: &Path) -> Result<Vec<Part>, Failure> {
     if found.is_empty() {
         let message = format!("there is no part of a sweep in {}", folder.display());
         let help = "name the folder that holds part-1-of-N and the others";
-        return Err(refused("sweep::no_parts", message, help));
+        return Err(Failure::refused("sweep::no_parts", message, help));
     }
     let mut parts: Vec<Part> =
         found.into_iter().map(|(_, path)| Part::read(path)).collect::<Result<_, _>>()?;
@@ -79,7 +75,7 @@ impl Part {
         if folder.join(UNFINISHED).exists() {
             let message = format!("{name} is not finished");
             let help = "start this part again with --resume";
-            return Err(refused("sweep::part_unfinished", message, help));
+            return Err(Failure::refused("sweep::part_unfinished", message, help));
         }
         let manifest = fs::read_to_string(folder.join(MANIFEST));
         let manifest = manifest.map_err(|error| {
@@ -90,7 +86,11 @@ impl Part {
         let hash = manifest["results"][0]["sha256"].as_str().map(str::to_owned);
         let (Some(sha256), true) = (hash, manifest["sweep"].is_object()) else {
             let message = format!("{name} is not a part of a sweep: its manifest is another one");
-            return Err(refused("sweep::no_parts", message, "remove the folder, or name another"));
+            return Err(Failure::refused(
+                "sweep::no_parts",
+                message,
+                "remove the folder, or name another",
+            ));
         };
         let (sweep, inputs) = (manifest["sweep"].clone(), manifest["inputs"].clone());
         Ok(Self { sweep, sha256, inputs, folder })
@@ -116,7 +116,7 @@ fn one_sweep(parts: &[Part]) -> Result<(), Failure> {
         known.folder.display(),
         other.folder.display()
     );
-    Err(refused("sweep::mixed_parts", message, "compute all parts from the same inputs"))
+    Err(Failure::refused("sweep::mixed_parts", message, "compute all parts from the same inputs"))
 }
 
 /// Whether the parts are all cases, each once; how many.
@@ -138,7 +138,7 @@ fn without_gaps(parts: &[Part]) -> Result<u64, Failure> {
                 format!("{} begins with case {first} again", part.folder.display()),
             ),
         };
-        return Err(refused(
+        return Err(Failure::refused(
             code,
             what,
             "keep one folder for each part, all of one number of parts",
@@ -146,7 +146,7 @@ fn without_gaps(parts: &[Part]) -> Result<u64, Failure> {
     }
     match next == cases + 1 {
         true => Ok(cases),
-        false => Err(refused(
+        false => Err(Failure::refused(
             "sweep::gap",
             format!("the cases {next} to {cases} are missing"),
             "compute the parts that are missing first",
@@ -171,7 +171,7 @@ fn unchanged(part: &Part) -> Result<(), Failure> {
         return Ok(());
     }
     let message = format!("{} is not as it was written", path.display());
-    Err(refused("sweep::part_changed", message, "remove the part and compute it again"))
+    Err(Failure::refused("sweep::part_changed", message, "remove the part and compute it again"))
 }
 
 /// Writes the rows of all parts below one heading; the hash of the file.

@@ -1,5 +1,11 @@
 //! What rows of a planned record tell of the unknowns.
 
+use faer::{Mat, MatRef};
+use lptn_integrate::dense;
+
+use crate::Covariance;
+use crate::noise::Tied;
+
 /// A pivot or an eigenvalue below this part of the largest counts as 0: derivatives are as accurate
 /// as its root.
 const NOTHING: f64 = 1e-12;
@@ -36,12 +42,8 @@ impl Information {
 
     /// So many equal rows, in units of the error that their mean has.
     pub(crate) fn add_row(&mut self, x: &[f64], times: f64) {
-        for (i, a) in x.iter().enumerate() {
-            for (j, b) in x.iter().enumerate() {
-                self.bread[i * self.count + j] += times * a * b;
-                self.middle[i * self.count + j] += times * a * b;
-            }
-        }
+        add_product(&mut self.bread, x, times);
+        add_product(&mut self.middle, x, times);
     }
 
     /// Without the last unknowns, which are sought too but concern nothing else: least squares of
@@ -72,11 +74,9 @@ impl Information {
     }
 
     /// The covariance of what a fit finds.
-    pub(crate) fn covariance(&self) -> Covariance {
-        let n = self.count;
-        let (inverse, unknown) = inverse(&self.bread, n);
-        let half = product(&inverse, &self.middle, n);
-        Covariance { count: n, values: product(&half, &inverse, n), inverse, unknown }
+    pub(crate) fn covariance(&self) -> Found {
+        let (inverse, unknown) = inverse(&self.bread, self.count);
+        Found { covariance: inverse.sandwich(&self.middle), inverse, unknown }
     }
 
     /// The standard errors of a fit; infinite where one is not determined.
@@ -88,28 +88,26 @@ impl Information {
 
 /// The covariance of what a fit finds, and what it does not find.
 #[derive(Clone, Debug)]
-pub(crate) struct Covariance {
-    count: usize,
-    values: Vec<f64>,
+pub(crate) struct Found {
+    covariance: Covariance,
     /// Of the information, where it has one.
-    pub(super) inverse: Vec<f64>,
+    inverse: Covariance,
     /// Unknowns that are not determined.
     unknown: Vec<bool>,
 }
 
-impl Covariance {
+impl Found {
     pub(super) fn error(&self, i: usize) -> f64 {
         if self.unknown[i] {
             return f64::INFINITY;
         }
-        self.values[i * self.count + i].max(0.0).sqrt()
+        at(&self.covariance, i, i).max(0.0).sqrt()
     }
 
     /// By how much an unknown moves where so much is pulled at all of them, the sum of `x r` over
     /// rows that change by r; `None` where it is not determined.
     pub(crate) fn moved(&self, i: usize, pull: &[f64]) -> Option<f64> {
-        let n = self.count;
-        let by = (0..n).map(|k| self.inverse[i * n + k] * pull[k]).sum();
+        let by = (0..pull.len()).map(|k| at(&self.inverse, i, k) * pull[k]).sum();
         (!self.unknown[i]).then_some(by)
     }
 
@@ -119,129 +117,94 @@ impl Covariance {
     /// one is `A^-1`: of correlated ones a share is this product (J. W. Pratt, Proc. 2nd Int. Tampere
     /// Conf. Statistics (1987) 245), of one alone `(A^-1 / deviation)^2`.
     pub(super) fn share(&self, i: usize, (of, known): (usize, &Information)) -> f64 {
-        let n = self.count;
-        let weight: f64 = (0..n).map(|k| self.inverse[i * n + k] * known.bread[k * n + of]).sum();
-        weight * self.inverse[i * n + of] / self.values[i * n + i]
+        let n = known.count;
+        let weight: f64 = (0..n).map(|k| at(&self.inverse, i, k) * known.bread[k * n + of]).sum();
+        weight * at(&self.inverse, i, of) / at(&self.covariance, i, i)
     }
+}
+
+fn at(covariance: &Covariance, i: usize, j: usize) -> f64 {
+    covariance.values[i * covariance.parameters.len() + j]
 }
 
 /// The inverse of a symmetric matrix that is not negative, and which of its unknowns are not
 /// determined: of them it says nothing.
-fn inverse(a: &[f64], n: usize) -> (Vec<f64>, Vec<bool>) {
+fn inverse(a: &[f64], n: usize) -> (Covariance, Vec<bool>) {
     let scale: Vec<f64> = (0..n).map(|i| a[i * n + i].max(0.0).sqrt()).collect();
     let felt: Vec<usize> = (0..n).filter(|&i| scale[i] > 0.0).collect();
-    let m = felt.len();
-    let of = |at: usize| {
-        let (i, j) = (felt[at / m], felt[at % m]);
-        a[i * n + j] / (scale[i] * scale[j])
+    let of = |i: usize, j: usize| a[i * n + j] / (scale[i] * scale[j]);
+    let scaled = Mat::from_fn(felt.len(), felt.len(), |k, l| of(felt[k], felt[l]));
+    let (found, missing) = match by_cholesky(scaled.as_ref()) {
+        Some(found) => (found, vec![false; felt.len()]),
+        None => by_eigenvalues(scaled.as_ref()),
     };
-    let scaled: Vec<f64> = (0..m * m).map(of).collect();
-    let (found, missing) = match by_cholesky(&scaled, m) {
-        Some(found) => (found, vec![false; m]),
-        None => by_eigenvalues(&scaled, m),
-    };
-    let (mut whole, mut unknown) = (vec![0.0; n * n], vec![true; n]);
+    let (mut values, mut unknown) = (vec![0.0; n * n], vec![true; n]);
     for (k, &i) in felt.iter().enumerate() {
         unknown[i] = missing[k];
         for (l, &j) in felt.iter().enumerate() {
-            whole[i * n + j] = found[k * m + l] / (scale[i] * scale[j]);
+            values[i * n + j] = found[(k, l)] / (scale[i] * scale[j]);
         }
     }
-    (whole, unknown)
+    (Covariance { parameters: (0..n).collect(), values }, unknown)
 }
 
 /// The inverse of a matrix with ones in its diagonal; `None` where it is close to singular.
-fn by_cholesky(a: &[f64], n: usize) -> Option<Vec<f64>> {
-    /// Below this pivot eigenvalues have to tell.
+fn by_cholesky(a: MatRef<'_, f64>) -> Option<Mat<f64>> {
+    /// Below the root of this pivot eigenvalues have to tell.
     const SMALL: f64 = 1e-9;
-    let mut lower = vec![0.0; n * n];
-    for j in 0..n {
-        for i in j..n {
-            let dot: f64 = (0..j).map(|k| lower[i * n + k] * lower[j * n + k]).sum();
-            let rest = a[i * n + j] - dot;
-            lower[i * n + j] = match i == j {
-                true if rest > SMALL => rest.sqrt(),
-                true => return None,
-                false => rest / lower[j * n + j],
-            };
-        }
-    }
-    // the inverse of the factor, column by column
-    let mut back = vec![0.0; n * n];
-    for j in 0..n {
-        for i in j..n {
-            let one = f64::from(u8::from(i == j));
-            let dot: f64 = (j..i).map(|k| lower[i * n + k] * back[k * n + j]).sum();
-            back[i * n + j] = (one - dot) / lower[i * n + i];
-        }
-    }
-    let entry = |at: usize| {
-        let (i, j) = (at / n, at % n);
-        (i.max(j)..n).map(|k| back[k * n + i] * back[k * n + j]).sum()
-    };
-    Some((0..n * n).map(entry).collect())
+    let roots = dense::cholesky_diagonal(a)?;
+    let one = Mat::identity(a.nrows(), a.nrows());
+    let regular = roots.iter().all(|root| root * root > SMALL);
+    regular.then(|| dense::cholesky_solve(a, one.as_ref()))?
 }
 
 /// The inverse on what is determined, and which unknowns take part in what is not.
-fn by_eigenvalues(a: &[f64], n: usize) -> (Vec<f64>, Vec<bool>) {
+fn by_eigenvalues(a: MatRef<'_, f64>) -> (Mat<f64>, Vec<bool>) {
     /// An unknown takes part in an undetermined direction if its share of it is larger than this.
     const SHARE: f64 = 1e-4;
-    let matrix = faer::MatRef::from_row_major_slice(a, n, n);
-    let Some((values, vectors)) = lptn_integrate::dense::symmetric_eigen(matrix) else {
-        return (vec![0.0; n * n], vec![true; n]);
+    let n = a.nrows();
+    let Some((values, vectors)) = dense::symmetric_eigen(a) else {
+        return (Mat::zeros(n, n), vec![true; n]);
     };
     let most = values.last().copied().unwrap_or(0.0);
     let known: Vec<bool> = values.iter().map(|value| *value > NOTHING * most).collect();
-    let entry = |at: usize| {
+    let entry = |i: usize, j: usize| {
         let parts = (0..n).filter(|&k| known[k]);
-        parts.map(|k| vectors[(at / n, k)] * vectors[(at % n, k)] / values[k]).sum()
+        parts.map(|k| vectors[(i, k)] * vectors[(j, k)] / values[k]).sum()
     };
     let lost = |i: usize| (0..n).any(|k| !known[k] && vectors[(i, k)].abs() > SHARE);
-    ((0..n * n).map(entry).collect(), (0..n).map(lost).collect())
-}
-
-fn product(a: &[f64], b: &[f64], n: usize) -> Vec<f64> {
-    let entry = |at: usize| (0..n).map(|k| a[at / n * n + k] * b[k * n + at % n]).sum();
-    (0..n * n).map(entry).collect()
-}
-
-/// Noise with a white part and one that is kept from row to row.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Noise {
-    /// The correlated part of the variance, and what is left of it after one row.
-    pub(super) correlated: f64,
-    pub(super) decay: f64,
-    /// Its variance over that by which values are weighed.
-    pub(super) variance: f64,
+    (Mat::from_fn(n, n, entry), (0..n).map(lost).collect())
 }
 
 /// Adds up row after row of one sensor.
 #[derive(Clone, Debug)]
 pub(super) struct RowSum {
     pub(super) sum: Information,
-    noise: Noise,
-    /// What the rows before still say of the next.
-    before: Vec<f64>,
+    tied: Tied,
+    /// What is left of the correlated part of the variance after one row.
+    decay: f64,
+    /// The variance of the noise over that by which values are weighed.
+    variance: f64,
 }
 
 impl RowSum {
-    pub(super) fn new(count: usize, noise: Noise) -> Self {
-        Self { sum: Information::none(count), noise, before: vec![0.0; count] }
+    /// No row so far, of noise whose variance has so large a `correlated` part.
+    pub(super) fn new(count: usize, (correlated, decay): (f64, f64), variance: f64) -> Self {
+        let (sum, tied) = (Information::none(count), Tied::new(count, correlated));
+        Self { sum, tied, decay, variance }
     }
 
     pub(super) fn add(&mut self, x: &[f64]) {
-        let (n, noise) = (self.sum.count, self.noise);
-        for (i, a) in x.iter().enumerate() {
-            for (j, b) in x.iter().enumerate() {
-                let at = i * n + j;
-                let tied = noise.correlated * (a * self.before[j] + self.before[i] * b);
-                self.sum.bread[at] += a * b;
-                self.sum.middle[at] += noise.variance * (a * b + tied);
-            }
-        }
-        if noise.correlated > 0.0 {
-            self.before.iter_mut().zip(x).for_each(|(b, x)| *b = noise.decay * (*b + x));
-        }
+        add_product(&mut self.sum.bread, x, 1.0);
+        self.tied.add(x, self.variance, &mut self.sum.middle);
+        self.tied.pass(x, self.decay);
+    }
+}
+
+/// Adds `times x x^T` to a matrix, row by row.
+fn add_product(sum: &mut [f64], x: &[f64], times: f64) {
+    for (row, a) in sum.chunks_exact_mut(x.len().max(1)).zip(x) {
+        row.iter_mut().zip(x).for_each(|(sum, b)| *sum += times * a * b);
     }
 }
 
@@ -249,10 +212,10 @@ impl RowSum {
 mod tests {
     use super::*;
 
-    const WHITE: Noise = Noise { correlated: 0.0, decay: 0.0, variance: 1.0 };
+    const WHITE: (f64, f64) = (0.0, 0.0);
 
     fn line(rows: usize) -> Information {
-        let mut sum = RowSum::new(2, WHITE);
+        let mut sum = RowSum::new(2, WHITE, 1.0);
         (0..rows).for_each(|k| sum.add(&[1.0, k as f64]));
         sum.sum
     }
@@ -264,7 +227,7 @@ mod tests {
         assert!((errors[1].powi(2) - 12.0 / 990.0).abs() < 1e-15);
         assert!((errors[0].powi(2) - 2.0 * 19.0 / 110.0).abs() < 1e-14);
         // an unknown that is left out is one that was fitted
-        let mut turned = RowSum::new(2, WHITE);
+        let mut turned = RowSum::new(2, WHITE, 1.0);
         (0..10).for_each(|k| turned.add(&[f64::from(k), 1.0]));
         let alone = turned.sum.without_last(1).errors();
         assert!((alone[0] - errors[1]).abs() < 1e-15);
@@ -273,7 +236,7 @@ mod tests {
     /// The mean of two values with the correlation 0.36 has the variance (1 + 0.36) / 2.
     #[test]
     fn analytic_mean_of_correlated_values() {
-        let mut rows = RowSum::new(1, Noise { correlated: 0.6, decay: 0.6, variance: 1.0 });
+        let mut rows = RowSum::new(1, (0.6, 0.6), 1.0);
         rows.add(&[1.0]);
         rows.add(&[1.0]);
         assert!((rows.sum.errors()[0].powi(2) - 0.68).abs() < 1e-15);
@@ -281,7 +244,7 @@ mod tests {
 
     #[test]
     fn what_is_not_determined_has_no_error_and_hides_no_other() {
-        let mut rows = RowSum::new(4, WHITE);
+        let mut rows = RowSum::new(4, WHITE, 1.0);
         // the first two as their sum only, nothing of the last
         (0..5).for_each(|k| rows.add(&[1.0, 1.0, f64::from(k), 0.0]));
         let errors = rows.sum.errors();
@@ -294,7 +257,7 @@ mod tests {
     #[test]
     fn the_share_of_what_is_known_beforehand() {
         // 4 values of an unknown plus an offset of 0 ± 1: variance 1/4 + 1
-        let mut rows = RowSum::new(2, WHITE);
+        let mut rows = RowSum::new(2, WHITE, 1.0);
         (0..4).for_each(|_| rows.add(&[1.0, 1.0]));
         rows.sum.add_prior(1, 1.0);
         let covariance = rows.sum.covariance();

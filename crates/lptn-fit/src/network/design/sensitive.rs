@@ -48,7 +48,8 @@ impl PlannedRecord {
 
     /// No row of a place so far.
     pub(super) fn begin(&self, place: &DesignPlace) -> RowSum {
-        RowSum::new(self.unknowns.len(), place.noise())
+        let noise = (place.correlated, place.decay);
+        RowSum::new(self.unknowns.len(), noise, (place.deviation / place.weight()).powi(2))
     }
 
     fn is_exact(&self) -> bool {

@@ -9,7 +9,6 @@ use lptn_network::{ParameterId, Varied};
 
 use crate::network::design::error::DesignError;
 use crate::network::design::given::{Given, GivenFit, given};
-use crate::network::design::information::Noise;
 use crate::network::plan::{settings, weights};
 use crate::network::task::{
     FitObserver, Instrument, Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask,
@@ -264,11 +263,6 @@ impl DesignPlace {
     pub fn weight(&self) -> f64 {
         let kept = (1.0 + self.decay) / (1.0 - self.decay);
         self.deviation * (1.0 + self.correlated * (kept - 1.0)).sqrt()
-    }
-
-    pub(super) fn noise(&self) -> Noise {
-        let variance = (self.deviation / self.weight()).powi(2);
-        Noise { correlated: self.correlated, decay: self.decay, variance }
     }
 }
 

@@ -3,10 +3,10 @@
 use lptn_analysis::Trusted;
 use lptn_network::{NodeId, ParameterId};
 use lptn_solve::{Gradient, Proceed, SensitiveRun, Solution, on_both_sides};
+use lptn_units::statistics::NORMAL_95;
 
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::input::{Inputs, Uncertain};
-use crate::uncertainty::normal::BAND;
 use crate::uncertainty::result::Bands;
 use crate::uncertainty::task::UncertaintyTask;
 
@@ -87,8 +87,9 @@ impl<'a> Line<'a> {
             self.inputs.variance(&effects).max(0.0).sqrt()
         };
         let deviation: Vec<f64> = self.rows.iter().map(deviation).collect();
-        let side =
-            |sign: f64| value.iter().zip(&deviation).map(|(v, d)| v + sign * BAND * d).collect();
+        let side = |sign: f64| {
+            value.iter().zip(&deviation).map(|(v, d)| v + sign * NORMAL_95 * d).collect()
+        };
         Bands { node, low: side(-1.0), median: None, high: side(1.0), value, deviation }
     }
 

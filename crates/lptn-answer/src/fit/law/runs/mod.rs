@@ -121,9 +121,11 @@ fn study(
 }
 
 fn no_capacity() -> Failure {
-    let problem =
-        Diagnostic::error("fit::law_capacity", "a power needs the heat capacity, P = C dT / t_RC");
-    Failure::new(Exit::Input, problem.help("write for example --capacity \"2659 J/K ± 5 %\""))
+    Failure::refused(
+        "fit::law_capacity",
+        "a power needs the heat capacity, P = C dT / t_RC",
+        "write for example --capacity \"2659 J/K ± 5 %\"",
+    )
 }
 
 fn settings(
@@ -341,7 +343,7 @@ impl Page for FitRunsAnswer {
     }
 
     fn rows(&self) -> Rows<'_> {
-        tables::power(self).into()
+        self.powers().into()
     }
 
     fn figures(&self) -> Vec<Figure> {

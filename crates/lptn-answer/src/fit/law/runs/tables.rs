@@ -11,19 +11,50 @@ use serde_json::{Map, Value, json};
 use super::{FitRunsAnswer, lines};
 
 impl FitRunsAnswer {
-    /// The rise of each run in K over its speed, with its errors.
+    /// The rise of each run in K over its speed, with its errors: Figure 7.
     pub fn rises(&self) -> Table {
-        rise(self)
+        each(
+            self,
+            &[
+                ("dT", "K", &|f| f.power.rise.value),
+                ("dT_sd", "K", &|f| f.power.rise.random),
+                ("dT_systematic", "K", &|f| f.power.rise.systematic),
+            ],
+        )
     }
 
-    /// The time constant of each run in min over its speed, with its errors.
+    /// The time constant of each run in min over its speed, with its errors: Figure 8.
     pub fn time_constants(&self) -> Table {
-        time_constant(self)
+        each(
+            self,
+            &[
+                ("t_RC", "min", &|f| f.fit.tau.value / 60.0),
+                ("t_RC_sd", "min", &|f| f.fit.tau.standard_error / 60.0),
+                ("t_RC_95", "min", &|f| f.fit.tau.half_width / 60.0),
+            ],
+        )
     }
 
-    /// The power of each run in W over its speed, with the value of each law.
+    /// The power of each run in W over its speed, with the value of each law: Figure 9.
     pub fn powers(&self) -> Table {
-        power(self)
+        let first = self.columns().first().map_or(&[][..], |column| &column.fits);
+        let rows = rows(self);
+        let mut table = table(self, &rows);
+        let mut column = |name: &str, unit: &str, value: &dyn Fn(&RunFit) -> f64| {
+            table.column(name, unit, |&row| first.get(row).map_or(f64::NAN, value));
+        };
+        column("dT", "K", &|f| f.power.rise.value);
+        column("t_RC", "min", &|f| f.fit.tau.value / 60.0);
+        column("P", "W", &|f| f.power.power.value);
+        column("P_sd", "W", &|f| f.power.power.random);
+        column("P_systematic", "W", &|f| f.power.power.systematic);
+        for candidate in &self.answer.study.candidates {
+            if let Some(fit) = candidate.fitted() {
+                let value = |&row: &usize| fit.values.get(row).copied().unwrap_or(f64::NAN);
+                table.column(candidate.law.to_string(), "W", value);
+            }
+        }
+        table.done()
     }
 
     /// Lines through rises and time constants of all runs, and how columns differ in them.
@@ -56,52 +87,6 @@ fn each(found: &FitRunsAnswer, parts: &[Part<'_>]) -> Table {
     {
         let value = |&row: &usize| of.fits.get(row).map_or(f64::NAN, part.2);
         table.column(format!("{}.{}", of.column, part.0), part.1, value);
-    }
-    table.done()
-}
-
-/// Figure 7: rise over speed.
-fn rise(found: &FitRunsAnswer) -> Table {
-    each(
-        found,
-        &[
-            ("dT", "K", &|f| f.power.rise.value),
-            ("dT_sd", "K", &|f| f.power.rise.random),
-            ("dT_systematic", "K", &|f| f.power.rise.systematic),
-        ],
-    )
-}
-
-/// Figure 8: time constant over speed.
-fn time_constant(found: &FitRunsAnswer) -> Table {
-    each(
-        found,
-        &[
-            ("t_RC", "min", &|f| f.fit.tau.value / 60.0),
-            ("t_RC_sd", "min", &|f| f.fit.tau.standard_error / 60.0),
-            ("t_RC_95", "min", &|f| f.fit.tau.half_width / 60.0),
-        ],
-    )
-}
-
-/// Figure 9: power over speed, with what each law says.
-pub(super) fn power(found: &FitRunsAnswer) -> Table {
-    let first = found.columns().first().map_or(&[][..], |column| &column.fits);
-    let rows = rows(found);
-    let mut table = table(found, &rows);
-    let mut column = |name: &str, unit: &str, value: &dyn Fn(&RunFit) -> f64| {
-        table.column(name, unit, |&row| first.get(row).map_or(f64::NAN, value));
-    };
-    column("dT", "K", &|f| f.power.rise.value);
-    column("t_RC", "min", &|f| f.fit.tau.value / 60.0);
-    column("P", "W", &|f| f.power.power.value);
-    column("P_sd", "W", &|f| f.power.power.random);
-    column("P_systematic", "W", &|f| f.power.power.systematic);
-    for candidate in &found.answer.study.candidates {
-        if let Some(fit) = candidate.fitted() {
-            let value = |&row: &usize| fit.values.get(row).copied().unwrap_or(f64::NAN);
-            table.column(candidate.law.to_string(), "W", value);
-        }
     }
     table.done()
 }

@@ -3,10 +3,10 @@
 
 use lptn_answer::failure::Failure;
 use lptn_answer::fit::compare::FitCompareAnswer;
-use lptn_report::{Format, Look, write_csv};
+use lptn_report::{Format, write_csv};
 
+use crate::files::Folder;
 use crate::files::names::{CANDIDATES, CHOICE, MANIFEST, UNSEEN};
-use crate::files::{self, Folder};
 
 /// What is written.
 pub(super) const NAMES: [&str; 4] = [CANDIDATES, UNSEEN, CHOICE, MANIFEST];
@@ -19,9 +19,7 @@ pub(super) fn write(
     let mut files = folder.batch();
     files.write(CANDIDATES, |out| write_csv(&answer.table(), out))?;
     files.write(UNSEEN, |out| write_csv(&answer.unseen(), out))?;
-    files
-        .write(CHOICE, |mut out| lptn_report::write(answer, Format::Json, Look::PLAIN, &mut out))?;
-    let text = files::manifest(&answer.hashes(), files.written(), wall_time);
-    files.write(MANIFEST, |out| out.write_all(format!("{text:#}\n").as_bytes()))?;
+    files.page(CHOICE, answer, Format::Json)?;
+    files.manifest(&answer.hashes(), wall_time)?;
     files.commit(&[])
 }

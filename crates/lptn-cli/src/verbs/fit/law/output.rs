@@ -3,10 +3,10 @@
 
 use lptn_answer::failure::Failure;
 use lptn_answer::fit::law::FitRunsAnswer;
-use lptn_report::{Format, Look, write_csv};
+use lptn_report::{Format, write_csv};
 
+use crate::files::Folder;
 use crate::files::names::{LAWS, MANIFEST, POWER, RISE, SLOPES, TIME_CONSTANT};
-use crate::files::{Folder, manifest};
 
 /// What is written.
 pub(super) const NAMES: [&str; 6] = [RISE, TIME_CONSTANT, POWER, SLOPES, LAWS, MANIFEST];
@@ -22,10 +22,7 @@ pub(super) fn write(found: &FitRunsAnswer, folder: &Folder, wall_time: f64) -> R
     for (name, table) in tables {
         files.write(name, |out| write_csv(&table, out))?;
     }
-    files.write(LAWS, |mut out| {
-        lptn_report::write(&found.answer, Format::Csv, Look::PLAIN, &mut out)
-    })?;
-    let text = manifest(&found.inputs, files.written(), wall_time);
-    files.write(MANIFEST, |out| out.write_all(format!("{text:#}\n").as_bytes()))?;
+    files.page(LAWS, &found.answer, Format::Csv)?;
+    files.manifest(&found.inputs, wall_time)?;
     files.commit(&[])
 }

@@ -4,10 +4,10 @@
 use lptn_answer::about;
 use lptn_answer::failure::Failure;
 use lptn_answer::fit::network::FitNetworkAnswer;
-use lptn_report::{Format, Look, write_csv};
+use lptn_report::{Format, write_csv};
 
+use crate::files::Folder;
 use crate::files::names::{FIT, MANIFEST, POSTERIOR, RESIDUALS};
-use crate::files::{self, Folder};
 
 /// What may be written.
 const NAMES: [&str; 4] = [RESIDUALS, FIT, POSTERIOR, MANIFEST];
@@ -20,13 +20,11 @@ pub(super) fn write(
 ) -> Result<Vec<String>, Failure> {
     let mut files = folder.batch();
     files.write(RESIDUALS, |out| write_csv(&answer.residuals(), out))?;
-    files.write(FIT, |mut out| lptn_report::write(answer, Format::Json, Look::PLAIN, &mut out))?;
+    files.page(FIT, answer, Format::Json)?;
     if let Some(posterior) = answer.posterior() {
         files.write(POSTERIOR, |mut out| posterior.write(&mut out))?;
     }
-    let inputs = about::hashes(&answer.input().netlist);
-    let text = files::manifest(&inputs, files.written(), wall_time);
-    files.write(MANIFEST, |out| out.write_all(format!("{text:#}\n").as_bytes()))?;
+    files.manifest(&about::hashes(&answer.input().netlist), wall_time)?;
     let names = files.written().iter().map(|file| file.name.clone()).collect();
     files.commit(&NAMES)?;
     Ok(names)

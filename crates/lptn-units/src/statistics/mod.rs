@@ -1,4 +1,13 @@
-//! Numbers that many numbers are told by.
+//! Numbers that many numbers are told by: means, quantiles and probabilities of the normal
+//! distribution, of Student's t and of chi-square.
+
+mod normal;
+mod quantile;
+mod significance;
+
+pub use normal::{quantile, share_below};
+pub use quantile::{chi_square_999, degrees_of, mixed_95, student_95};
+pub use significance::two_sided;
 
 /// 95 % of a normal distribution lie within so many standard deviations of its mean.
 pub const NORMAL_95: f64 = 1.959_963_984_540_054;

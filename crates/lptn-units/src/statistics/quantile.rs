@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
-use lptn_units::statistics::NORMAL_95;
+use super::NORMAL_95;
 
 /// The t that a variable of Student's distribution with so many degrees of freedom (at least 1)
 /// exceeds in size with probability 5 %: 1.96 for many, 12.7 for one. To 1e-4 of itself from 2 on;
@@ -42,7 +42,7 @@ pub fn student_95(degrees: f64) -> f64 {
 
 /// What chi-square of so many degrees of freedom exceeds with a probability of 0.1 %; to 3 % of
 /// itself (E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684).
-pub(crate) fn chi_square_999(degrees: f64) -> f64 {
+pub fn chi_square_999(degrees: f64) -> f64 {
     const NORMAL_999: f64 = 3.090_232_306_167_813;
     let part = 2.0 / (9.0 * degrees);
     degrees * (1.0 - part + NORMAL_999 * part.sqrt()).powi(3)
@@ -50,7 +50,7 @@ pub(crate) fn chi_square_999(degrees: f64) -> f64 {
 
 /// What a variable exceeds in size with probability 5 % that is normal with one of these standard
 /// deviations, each behind its probability.
-pub(super) fn mixed_95(parts: &[(f64, f64)]) -> f64 {
+pub fn mixed_95(parts: &[(f64, f64)]) -> f64 {
     let beyond = |size: f64| -> f64 {
         let tail = |(weight, deviation): &(f64, f64)| {
             weight * libm::erfc(size / deviation.max(f64::MIN_POSITIVE) * FRAC_1_SQRT_2)
@@ -63,7 +63,7 @@ pub(super) fn mixed_95(parts: &[(f64, f64)]) -> f64 {
 
 /// The degrees of freedom for which Student's t is exceeded beyond `t` with probability 5 %: 1 for
 /// 12.7 and more, infinite for 1.96 and less.
-pub(crate) fn degrees_of(t: f64) -> f64 {
+pub fn degrees_of(t: f64) -> f64 {
     if t <= NORMAL_95 {
         return f64::INFINITY;
     }

@@ -4,7 +4,7 @@
 /// standard normal variable) is further from 0 than `z`.
 ///
 /// M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, 26.7.1 and 26.5.2.
-pub(crate) fn two_sided(z: f64, degrees_of_freedom: f64) -> f64 {
+pub fn two_sided(z: f64, degrees_of_freedom: f64) -> f64 {
     if degrees_of_freedom.is_infinite() {
         return libm::erfc(z.abs() * std::f64::consts::FRAC_1_SQRT_2);
     }

@@ -1,9 +1,7 @@
 //! The standard normal distribution.
 
-pub(crate) use lptn_units::statistics::NORMAL_95 as BAND;
-
 /// The share of a normal distribution below `x` standard deviations over its mean.
-pub(crate) fn share_below(x: f64) -> f64 {
+pub fn share_below(x: f64) -> f64 {
     0.5 * libm::erfc(-x / std::f64::consts::SQRT_2)
 }
 
@@ -11,7 +9,7 @@ pub(crate) fn share_below(x: f64) -> f64 {
 ///
 /// M. J. Wichura, Algorithm AS 241, Applied Statistics 37 (1988) 477, routine PPND16 without its
 /// far tails (beyond 6.3 standard deviations): relative error about 1e-16.
-pub(crate) fn quantile(p: f64) -> f64 {
+pub fn quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
         let r = 0.180_625 - q * q;
@@ -77,7 +75,8 @@ const TAIL: Ratio = [
 
 #[cfg(test)]
 mod tests {
-    use super::{BAND, quantile, share_below};
+    use super::super::NORMAL_95;
+    use super::{quantile, share_below};
 
     /// `scipy.special.ndtri`, SciPy 1.17.1.
     const NDTRI: [(f64, f64); 7] = [
@@ -98,6 +97,6 @@ mod tests {
             assert!((share_below(z) - p).abs() <= 1e-14 * p, "{p}: {}", share_below(z));
         }
         assert!(quantile(0.5).abs() < 1e-300);
-        assert!((quantile(0.975) - BAND).abs() < 1e-15);
+        assert!((quantile(0.975) - NORMAL_95).abs() < 1e-15);
     }
 }
