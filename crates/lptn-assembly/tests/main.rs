@@ -12,6 +12,7 @@ mod forms;
 mod jacobian;
 #[path = "common/networks.rs"]
 mod networks;
+mod part;
 #[path = "common/rational.rs"]
 mod rational;
 mod system;
