@@ -183,6 +183,9 @@ impl<'a> Newton<'a> {
             Err(NewtonError::Factorization(error)) => Err(NewtonError::Factorization(error)),
             Err(first) => {
                 temperatures.copy_from_slice(&start);
+                if self.warmed(work, temperatures) {
+                    return Ok(());
+                }
                 // what stopped Newton's method at the start says more than how the pseudo-time
                 // ended
                 self.pseudo_time(work, temperatures).map_err(|later| match (first, later) {
@@ -385,3 +388,4 @@ fn worst(values: &[f64]) -> (usize, f64) {
 mod balances;
 #[cfg(test)]
 mod tests;
+mod warmed;
