@@ -7,6 +7,7 @@
 //!
 //! Units: SI, temperatures in K. Heat is positive into a node.
 
+mod bodies;
 mod change;
 mod element;
 mod eliminate;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use lptn_network::{ConductorFlow, ConductorId, InputError, Network, NodeId};
 
+use crate::bodies::Bodies;
 use crate::element::{Element, JacobianForm};
 use crate::eliminate::{Elimination, Link, TooMany};
 use crate::error::AssemblyError;
@@ -39,6 +40,8 @@ pub struct ThermalSystem {
     pub(crate) radiation: Arc<Vec<Radiation>>,
     /// Everything else.
     pub(crate) elements: Arc<Vec<Element>>,
+    /// Bodies whose paths are evaluated together, and the positions of the other elements.
+    pub(crate) bodies: Arc<Bodies>,
     pub(crate) outer: Arc<Outer>,
     pub(crate) streams: Arc<Vec<ConductorId>>,
     /// Whether every element has a symmetric form.
@@ -90,6 +93,7 @@ impl ThermalSystem {
             bridges: Arc::new(bridges),
             outer: Arc::new(Outer::of(network.nodes().len(), &radiation, &elements)),
             radiation: Arc::new(radiation),
+            bodies: Arc::new(Bodies::of(network, &elements)),
             elements: Arc::new(elements),
             streams: Arc::new(streams),
             symmetric,
@@ -257,7 +261,9 @@ impl ThermalSystem {
         self.put(work, y);
         work.element_heat.fill(0.0);
         self.radiation.iter().for_each(|r| r.add_heat(&work.temperature, &mut work.element_heat));
-        self.elements.iter().try_for_each(|element| element.add_heat(&self.network, work))
+        self.bodies.add_heat(self, work)?;
+        let mut others = self.bodies.others().map(|i| &self.elements[i]);
+        others.try_for_each(|element| element.add_heat(&self.network, work))
     }
 
     /// Takes the temperatures of the unknowns.
@@ -284,8 +290,9 @@ impl ThermalSystem {
         if !self.is_linear() {
             self.put(work, y);
             self.radiation.iter().for_each(|r| r.add_slopes(&work.temperature, form, values));
-            for element in self.elements.iter() {
-                element.add_slopes(&self.network, work, form, values)?;
+            self.bodies.add_slopes(self, work, form, values)?;
+            for i in self.bodies.others() {
+                self.elements[i].add_slopes(&self.network, work, form, values)?;
             }
         }
         Ok(())
