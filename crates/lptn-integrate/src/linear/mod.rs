@@ -134,6 +134,17 @@ pub trait Factorization {
         self.solve_in_place(x)
     }
 
+    /// Replaces `b` by a solution of `A x = b` for a Newton iteration that errs itself. Solvers that
+    /// iterate stop where every component of what is left of `b`, over the diagonal, is at most
+    /// this share of the largest of them; the others solve exactly.
+    ///
+    /// # Errors
+    /// Those of [`Factorization::solve_in_place`].
+    fn solve_share(&mut self, b: &mut [f64], share: f64) -> Result<(), FactorError> {
+        let _ = share;
+        self.solve_in_place(b)
+    }
+
     /// Whether the factors are usable: sparse elimination may pass a singular matrix with a pivot
     /// of rounding errors only. Solves once, with the diagonal as right side, so that the solution
     /// is of the order of 1 for a matrix that is dominated by its diagonal.
