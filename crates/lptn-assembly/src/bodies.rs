@@ -46,8 +46,8 @@ struct Path {
 
 impl Path {
     /// The heat from its first end to its second in W.
-    fn heat(&self, potentials: &[[f64; 2]]) -> f64 {
-        let [from, to] = self.ends.map(|end| potentials[end as usize][0]);
+    fn heat(&self, potentials: &[f64]) -> f64 {
+        let [from, to] = self.ends.map(|end| potentials[end as usize]);
         self.shape * (from - to)
     }
 }
@@ -88,7 +88,7 @@ impl Bodies {
     ) -> Result<(), InputError> {
         for body in &self.bodies {
             let Workspace { temperature, potentials, element_heat, .. } = &mut *work;
-            if !body.conductivity.potentials(temperature, &body.vertices, potentials) {
+            if !body.conductivity.integrals(temperature, &body.vertices, potentials) {
                 let mut elements = body.paths.iter().map(|path| path.element(system));
                 elements.try_for_each(|element| element.add_heat(&system.network, work))?;
                 continue;
@@ -113,14 +113,14 @@ impl Bodies {
     ) -> Result<(), InputError> {
         for body in &self.bodies {
             let Workspace { temperature, potentials, slopes, .. } = &mut *work;
-            if !body.conductivity.potentials(temperature, &body.vertices, potentials) {
+            if !body.conductivity.values(temperature, &body.vertices, potentials) {
                 for path in &body.paths {
                     path.element(system).add_slopes(&system.network, work, form, values)?;
                 }
                 continue;
             }
             for path in &body.paths {
-                let [from, to] = path.ends.map(|end| path.shape * potentials[end as usize][1]);
+                let [from, to] = path.ends.map(|end| path.shape * potentials[end as usize]);
                 slopes.ends.clear();
                 slopes.ends.extend([[-from, from], [to, -to]]);
                 path.element(system).add_evaluated(slopes, form, values);

@@ -14,8 +14,9 @@ use crate::radiation::Radiation;
 use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
 
-/// Positions of what gives heat to boundaries, and of sources, in the lists of the system: no more
-/// is asked for the heat of boundaries, which is integrated over every step.
+/// Radiation and elements that give heat to boundaries, and sources that depend on temperatures, by
+/// their positions in the lists of the system. The heat of boundaries is integrated over every step
+/// and asks no others.
 #[derive(Clone, Debug)]
 pub(crate) struct Outer {
     radiation: Vec<u32>,
@@ -62,14 +63,14 @@ impl ThermalSystem {
         Ok(())
     }
 
-    /// Whether [`ThermalSystem::boundary_heat`] asks every path and source for its heat.
+    /// True if [`ThermalSystem::boundary_heat`] asks every path and source for its heat.
     pub fn boundaries_feel_all(&self) -> bool {
         self.outer.elements.len() == self.elements.len()
             && self.outer.radiation.len() == self.radiation.len()
     }
 
-    /// The heat of sources that depend on temperatures, and what elements bring to boundaries; that
-    /// of nodes is not whole.
+    /// Evaluates sources that depend on temperatures, and the heat of elements into boundaries; that
+    /// into nodes is not whole.
     fn evaluate_outer(&self, work: &mut Workspace, y: &[f64]) -> Result<(), InputError> {
         self.put(work, y);
         work.element_heat.fill(0.0);

@@ -15,7 +15,7 @@ use crate::element::JacobianForm;
 use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
 
-/// Some unknowns of a system, with all that brings heat to them or depends on them.
+/// Some unknowns of a system, with the paths and sources that reach them or read them.
 #[derive(Clone, Debug)]
 pub struct Part {
     /// Unknowns whose temperature is read, each with its vertex; those of the part among them.

@@ -22,8 +22,8 @@ pub struct Workspace {
     /// Temperature of every vertex in K: nodes, then boundaries.
     pub(crate) temperature: Vec<f64>,
     pub(crate) slopes: Slopes,
-    /// Potential and conductivity of the vertices of a body.
-    pub(crate) potentials: Vec<[f64; 2]>,
+    /// Potential or conductivity of the vertices of a body.
+    pub(crate) potentials: Vec<f64>,
     /// Which controls are on and which comparisons hold.
     positions: Positions,
     /// Whether the inputs have to be evaluated again when the time changes.

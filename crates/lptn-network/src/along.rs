@@ -102,7 +102,7 @@ impl Along {
         Self { value: value.clone(), course: Course::Moving }
     }
 
-    /// Whether it depends on nothing that changes during a run but its own temperature.
+    /// True if nothing but its own temperature changes it during a run.
     pub(crate) fn is_fixed(&self) -> bool {
         matches!(self.course, Course::Fixed(_))
     }

@@ -22,6 +22,9 @@ const MOST_ROUNDING: f64 = 1e-5;
 /// Corrections to follow a solution that moves, below this in K.
 const FOLLOWED: f64 = 1e-10;
 
+/// A correction that is foretold is taken for so many times as large.
+const SURELY: f64 = 4.0;
+
 /// A solution that moves further than this in K at once may be another one.
 const FAR: f64 = 1.0;
 
@@ -42,12 +45,16 @@ const PSEUDO_STEPS: usize = 3000;
 const REUSED: usize = 6;
 const CONTRACTION: f64 = 0.25;
 
+/// The share of what is left over that a correction may leave where factors are not exact: the next
+/// one takes it away.
+const SHARE: f64 = 1e-4;
+
 /// Newton's method on a range of unknowns.
 pub(crate) struct Newton<'a> {
     pub(crate) system: &'a ThermalSystem,
     /// The unknowns that are solved for, ascending.
     pub(crate) free: Vec<usize>,
-    /// What tells their balances, where that is not the whole system.
+    /// The part of the system with their balances; `None` if that is the whole system.
     part: Option<Part>,
     pub(crate) pattern: Pattern,
     /// The slot in the whole Jacobian of each slot of the pattern.
@@ -156,7 +163,9 @@ impl<'a> Newton<'a> {
                 return Some(false);
             }
             self.apply(&correction, 1.0, temperatures);
-            if size <= FOLLOWED {
+            // the next one is smaller by as much as this one was
+            let next = if last.is_finite() { SURELY * size * (size / last) } else { size };
+            if size.min(next) <= FOLLOWED {
                 return Some(true);
             }
             last = size;
@@ -365,7 +374,7 @@ impl<'a> Newton<'a> {
         temperatures: &[f64],
     ) -> Result<Vec<f64>, NewtonError> {
         let mut correction = self.residual(work, temperatures)?;
-        self.factors.solve_in_place(&mut correction).map_err(NewtonError::Factorization)?;
+        self.factors.solve_share(&mut correction, SHARE).map_err(NewtonError::Factorization)?;
         Ok(correction)
     }
 

@@ -68,7 +68,7 @@ impl<'a> Reading<'a> {
         Ok(())
     }
 
-    /// Whether every path and source has its heat where this was placed last.
+    /// Asks every path and source for its heat where this was placed last.
     pub(crate) fn check_heat(&mut self, work: &mut Workspace) -> Result<(), InputError> {
         match self.system.boundaries_feel_all() {
             true => Ok(()), // each was asked already

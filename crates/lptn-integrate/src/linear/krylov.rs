@@ -20,7 +20,7 @@ use crate::{FactorError, Pattern, kernels};
 /// tolerance, so the books of a run do not feel it.
 const LEFT_OVER: f64 = 1e-9;
 
-/// When a solution is one.
+/// The end of iterations.
 #[derive(Clone, Copy, Debug)]
 enum Goal {
     /// From 0 on: this share of the right side is left over.

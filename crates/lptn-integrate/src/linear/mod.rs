@@ -46,6 +46,9 @@ pub const DENSE_LIMIT: usize = 30;
 /// singular.
 const SINGULAR: f64 = 1e15;
 
+/// The share of the probe that may be left over: no more than its size is asked for.
+const PROBED: f64 = 1e-3;
+
 /// Which solver to use.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LinearSolver {
@@ -153,7 +156,7 @@ pub trait Factorization {
     /// [`FactorError::Singular`] with the component that is largest: for a network one of an island
     /// that leads nowhere.
     fn check(&mut self, pattern: &Pattern, values: &[f64]) -> Result<(), FactorError> {
-        probe(pattern, values, |b| self.solve_in_place(b))
+        probe(pattern, values, |b| self.solve_share(b, PROBED))
     }
 }
 

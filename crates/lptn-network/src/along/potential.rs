@@ -10,14 +10,6 @@ use super::{Along, Block, Blocks, Course, ENDS, HOTTEST, sides};
 use crate::enthalpy::Panel;
 use crate::value::Value;
 
-/// The potential and the property itself at one temperature.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Potential {
-    /// The integral from a temperature on that all have in common.
-    pub(crate) integral: f64,
-    pub(crate) value: f64,
-}
-
 /// The blocks between two temperatures, each with the integral below it.
 struct Stretch<'a> {
     first: usize,
@@ -40,16 +32,43 @@ impl Along {
         inside.then(|| (panel.mean(ends[0], ends[1]), values()))
     }
 
-    /// Asks for the potential at temperatures in K, in their order; whether all are known and
-    /// nothing between them is unknown.
-    pub(crate) fn potentials(
+    /// Writes its integral at temperatures in K, from a temperature on that all have in common. True
+    /// if all are known and nothing between them is unknown.
+    pub(crate) fn integrals(
         &self,
         temperatures: impl Iterator<Item = f64> + Clone,
-        mut take: impl FnMut(Potential),
+        out: &mut Vec<f64>,
     ) -> bool {
+        self.at_each(temperatures, out, |below, panel, temperature| {
+            below + (panel.heat + panel.taken_up(temperature))
+        })
+    }
+
+    /// The same for itself.
+    pub(crate) fn values(
+        &self,
+        temperatures: impl Iterator<Item = f64> + Clone,
+        out: &mut Vec<f64>,
+    ) -> bool {
+        self.at_each(temperatures, out, |_, panel, temperature| panel.capacity_at(temperature))
+    }
+
+    /// Writes a number for each temperature, from the integral below its block and from its panel.
+    #[inline]
+    fn at_each(
+        &self,
+        temperatures: impl Iterator<Item = f64> + Clone,
+        out: &mut Vec<f64>,
+        of: impl Fn(f64, &Panel, f64) -> f64,
+    ) -> bool {
+        out.clear();
         let Course::Fixed(blocks) = &self.course else { return false };
         let Some(stretch) = blocks.stretch(&self.value, temperatures.clone()) else { return false };
-        temperatures.map(|t| stretch.at(t)).all(|found| found.map(&mut take).is_some())
+        for temperature in temperatures {
+            let Some((below, panel)) = stretch.place(temperature) else { return false };
+            out.push(of(below, panel, temperature));
+        }
+        true
     }
 }
 
@@ -75,18 +94,16 @@ impl Blocks {
 }
 
 impl Stretch<'_> {
+    /// The integral below the block of a temperature, and its panel.
     #[inline]
-    fn at(&self, temperature: f64) -> Option<Potential> {
+    fn place(&self, temperature: f64) -> Option<(f64, &Panel)> {
         let last = self.blocks.len() - 1;
         let mut place = 0;
         while place < last && ENDS[self.first + place + 1] <= temperature {
             place += 1;
         }
         let (block, below) = self.blocks[place];
-        let panel: &Panel = block.panels.iter().find(|panel| temperature <= panel.to)?;
-        (panel.from <= temperature).then(|| Potential {
-            integral: below + (panel.heat + panel.taken_up(temperature)),
-            value: panel.capacity_at(temperature),
-        })
+        let panel = block.panels.iter().find(|panel| temperature <= panel.to)?;
+        (panel.from <= temperature).then_some((below, panel))
     }
 }

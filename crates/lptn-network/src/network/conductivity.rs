@@ -45,13 +45,15 @@ impl Conductivity {
         Arc::as_ptr(&self.along).addr()
     }
 
-    /// Writes its integral over temperature in W/m and itself in W/(m K), at some of these
-    /// temperatures in K, in their order. The integral is counted from where all of them have it in
-    /// common. `false` where one of these is not known, or something between two of them: what was
-    /// written then means nothing.
-    pub fn potentials(&self, temperatures: &[f64], of: &[u32], out: &mut Vec<[f64; 2]>) -> bool {
-        out.clear();
-        let all = of.iter().map(|&i| temperatures[i as usize]);
-        self.along.potentials(all, |potential| out.push([potential.integral, potential.value]))
+    /// Writes its integral over temperature in W/m at some of these temperatures in K, in their
+    /// order, counted from where all of them have it in common. `false` where one of these is not
+    /// known, or something between two of them: what was written then means nothing.
+    pub fn integrals(&self, temperatures: &[f64], of: &[u32], out: &mut Vec<f64>) -> bool {
+        self.along.integrals(of.iter().map(|&i| temperatures[i as usize]), out)
+    }
+
+    /// The same for itself in W/(m K).
+    pub fn values(&self, temperatures: &[f64], of: &[u32], out: &mut Vec<f64>) -> bool {
+        self.along.values(of.iter().map(|&i| temperatures[i as usize]), out)
     }
 }

@@ -47,9 +47,9 @@ pub(super) struct Errors {
 }
 
 impl Errors {
-    /// Whether an error may grow at the rate of its own state, or be magnified by a massless node,
-    /// as far as the form of the network tells: not where every heat falls with the temperature
-    /// that gives it and every state is the temperature of a node.
+    /// False if the form of the network excludes that an error grows at the rate of its own state
+    /// or is magnified by a massless node: every heat falls with the temperature of the node that
+    /// receives it, and every state is the temperature of a node.
     pub(super) fn may_grow(system: &ThermalSystem) -> bool {
         let heats = || system.states().iter().any(|&id| system.network().enthalpy(id).is_some());
         !system.is_monotone() || !system.algebraic().is_empty() || heats()

@@ -52,7 +52,7 @@ pub(crate) struct Guard {
     corners: Corners,
     turns: Turns,
     errors: Option<Errors>,
-    /// Whether the error of a state may grow by itself.
+    /// True if the error of a state may grow by itself.
     grow: bool,
     /// Temperatures of all vertices at the start of the next step in K, and how they change in K/s.
     now: Vec<f64>,

@@ -13,8 +13,8 @@ use super::Newton;
 const WARMER: [f64; 2] = [30.0, 300.0];
 
 impl Newton<'_> {
-    /// Solves the balances from warmer temperatures, if they have one solution at most; whether
-    /// that succeeded. Else `temperatures` (all unknowns, in K) are what they were.
+    /// Solves the balances from warmer temperatures, if they have one solution at most. True if that
+    /// succeeded; else `temperatures` (all unknowns, in K) are as before.
     pub(super) fn warmed(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> bool {
         if !self.system.is_monotone() {
             return false;
