@@ -4,6 +4,7 @@
 use lptn_network::{ConductorFlow, ConductorId, End, InputError, Network, Received, SourceId};
 
 use crate::pattern::JacobianPattern;
+use crate::slopes::Slopes;
 use crate::workspace::Workspace;
 
 /// How an element's heat is computed.
@@ -177,7 +178,17 @@ impl Element {
         values: &mut [f64],
     ) -> Result<(), InputError> {
         self.evaluate_slopes(network, work)?;
-        let slopes = &mut work.slopes;
+        self.add_evaluated(&mut work.slopes, form, values);
+        Ok(())
+    }
+
+    /// Adds derivatives that are known to the values of the Jacobian.
+    pub(crate) fn add_evaluated(
+        &self,
+        slopes: &mut Slopes,
+        form: JacobianForm,
+        values: &mut [f64],
+    ) {
         if form == JacobianForm::Symmetric && self.shares.is_empty() {
             let g = self.symmetric_conductance(&slopes.ends);
             slopes.ends[0] = [-g, g];
@@ -193,7 +204,6 @@ impl Element {
                 };
             }
         }
-        Ok(())
     }
 
     /// The conductance in W/K that stands for both derivatives of a conductor: their mean, or the

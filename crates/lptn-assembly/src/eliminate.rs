@@ -22,6 +22,16 @@ pub(crate) struct Link {
     pub(crate) g: f64,
 }
 
+impl Link {
+    /// Adds the heat between two unknowns at their temperatures in K to that of each, in W.
+    pub(crate) fn add_heat(&self, temperatures: &[f64], heat: &mut [f64]) {
+        let (a, b) = (self.a as usize, self.b as usize);
+        let q = self.g * (temperatures[a] - temperatures[b]);
+        heat[a] -= q;
+        heat[b] += q;
+    }
+}
+
 /// One eliminated vertex with the weights `g_i / sum g` of the neighbours it had at its turn.
 #[derive(Clone, Debug)]
 struct Star {

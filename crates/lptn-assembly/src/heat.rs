@@ -8,8 +8,32 @@
 
 use lptn_network::{ConductorId, InputError, Item, Received, Surface};
 
+use crate::element::{Element, Kind};
+use crate::part::chosen;
+use crate::radiation::Radiation;
 use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
+
+/// Radiation and elements that give heat to boundaries, and sources that depend on temperatures, by
+/// their positions in the lists of the system. The heat of boundaries is integrated over every step
+/// and asks no others.
+#[derive(Clone, Debug)]
+pub(crate) struct Outer {
+    radiation: Vec<u32>,
+    elements: Vec<u32>,
+}
+
+impl Outer {
+    /// Those of a network of so many nodes.
+    pub(crate) fn of(nodes: usize, radiation: &[Radiation], elements: &[Element]) -> Self {
+        let outside = |vertices: &[u32]| vertices.iter().any(|&v| v as usize >= nodes);
+        let is_outer = |e: &Element| matches!(e.kind, Kind::Source(_)) || outside(&e.receivers);
+        Self {
+            radiation: chosen(radiation, |r| outside(&r.ends)),
+            elements: chosen(elements, is_outer),
+        }
+    }
+}
 
 impl ThermalSystem {
     /// Writes the heat that each boundary gives to the network in W, from the inputs last read and
@@ -31,12 +55,30 @@ impl ThermalSystem {
         self.linear_boundary_heat(work, y, heat);
         if !self.is_linear() {
             let nodes = self.network.nodes().len();
-            self.evaluate_elements(work, y)?;
+            self.evaluate_outer(work, y)?;
             heat.iter_mut()
                 .zip(&work.element_heat[nodes..])
                 .for_each(|(q, received)| *q -= received);
         }
         Ok(())
+    }
+
+    /// True if [`ThermalSystem::boundary_heat`] asks every path and source for its heat.
+    pub fn boundaries_feel_all(&self) -> bool {
+        self.outer.elements.len() == self.elements.len()
+            && self.outer.radiation.len() == self.radiation.len()
+    }
+
+    /// Evaluates sources that depend on temperatures, and the heat of elements into boundaries; that
+    /// into nodes is not whole.
+    fn evaluate_outer(&self, work: &mut Workspace, y: &[f64]) -> Result<(), InputError> {
+        self.put(work, y);
+        work.element_heat.fill(0.0);
+        for &i in &self.outer.radiation {
+            self.radiation[i as usize].add_heat(&work.temperature, &mut work.element_heat);
+        }
+        let mut elements = self.outer.elements.iter().map(|&i| &self.elements[i as usize]);
+        elements.try_for_each(|element| element.add_heat(&self.network, work))
     }
 
     /// The part of [`ThermalSystem::boundary_heat`] that constant conductances carry: all of it for

@@ -7,12 +7,14 @@
 //!
 //! Units: SI, temperatures in K. Heat is positive into a node.
 
+mod bodies;
 mod change;
 mod element;
 mod eliminate;
 mod error;
 mod heat;
 mod monotone;
+mod part;
 mod pattern;
 mod radiation;
 mod slopes;
@@ -25,6 +27,7 @@ mod workspace;
 pub use change::ChangeError;
 pub use element::JacobianForm;
 pub use error::AssemblyError;
+pub use part::Part;
 pub use pattern::JacobianPattern;
 pub use system::ThermalSystem;
 pub use workspace::Workspace;

@@ -13,7 +13,7 @@ use crate::pattern::JacobianPattern;
 #[derive(Clone, Debug)]
 pub(crate) struct Radiation {
     pub(crate) conductor: ConductorId,
-    ends: [u32; 2],
+    pub(crate) ends: [u32; 2],
     /// Exchange area in m^2.
     area: f64,
     /// Slots of its derivatives by row, then column; [`NOWHERE`] if one of the two is given.

@@ -31,6 +31,11 @@ impl ThermalSystem {
             Formula::ExchangeArea,
             Formula::Given,
             Formula::CapacityRate,
+            // bodies in which heat spreads are proportional to their conductivity
+            Formula::Slab,
+            Formula::Cylinder,
+            Formula::Sphere,
+            Formula::Rod,
         ];
         let bends = |program: &Arc<Program>| {
             !(program.kinks().is_empty() && program.table_calls().is_empty())

@@ -4,9 +4,11 @@ use std::sync::Arc;
 
 use lptn_network::{ConductorFlow, ConductorId, InputError, Network, NodeId};
 
+use crate::bodies::Bodies;
 use crate::element::{Element, JacobianForm};
 use crate::eliminate::{Elimination, Link, TooMany};
 use crate::error::AssemblyError;
+use crate::heat::Outer;
 use crate::pattern::JacobianPattern;
 use crate::radiation::Radiation;
 use crate::workspace::Workspace;
@@ -38,6 +40,9 @@ pub struct ThermalSystem {
     pub(crate) radiation: Arc<Vec<Radiation>>,
     /// Everything else.
     pub(crate) elements: Arc<Vec<Element>>,
+    /// Bodies whose paths are evaluated together, and the positions of the other elements.
+    pub(crate) bodies: Arc<Bodies>,
+    pub(crate) outer: Arc<Outer>,
     pub(crate) streams: Arc<Vec<ConductorId>>,
     /// Whether every element has a symmetric form.
     pub(crate) symmetric: bool,
@@ -86,7 +91,9 @@ impl ThermalSystem {
             link_slots: Arc::new(link_slots),
             ties: Arc::new(ties),
             bridges: Arc::new(bridges),
+            outer: Arc::new(Outer::of(network.nodes().len(), &radiation, &elements)),
             radiation: Arc::new(radiation),
+            bodies: Arc::new(Bodies::of(network, &elements)),
             elements: Arc::new(elements),
             streams: Arc::new(streams),
             symmetric,
@@ -240,12 +247,7 @@ impl ThermalSystem {
         for (q, id) in flow.iter_mut().zip(self.unknowns.iter()) {
             *q = work.heat[id.index()];
         }
-        for link in self.links.iter() {
-            let (a, b) = (link.a as usize, link.b as usize);
-            let q = link.g * (y[a] - y[b]);
-            flow[a] -= q;
-            flow[b] += q;
-        }
+        self.links.iter().for_each(|link| link.add_heat(y, flow));
         for tie in self.ties.iter() {
             flow[tie.a as usize] += tie.g * (work.temperature[tie.b as usize] - y[tie.a as usize]);
         }
@@ -259,11 +261,13 @@ impl ThermalSystem {
         self.put(work, y);
         work.element_heat.fill(0.0);
         self.radiation.iter().for_each(|r| r.add_heat(&work.temperature, &mut work.element_heat));
-        self.elements.iter().try_for_each(|element| element.add_heat(&self.network, work))
+        self.bodies.add_heat(self, work)?;
+        let mut others = self.bodies.others().map(|i| &self.elements[i]);
+        others.try_for_each(|element| element.add_heat(&self.network, work))
     }
 
     /// Takes the temperatures of the unknowns.
-    fn put(&self, work: &mut Workspace, y: &[f64]) {
+    pub(crate) fn put(&self, work: &mut Workspace, y: &[f64]) {
         y.iter().zip(self.unknowns.iter()).for_each(|(t, id)| work.temperature[id.index()] = *t);
     }
 
@@ -286,8 +290,9 @@ impl ThermalSystem {
         if !self.is_linear() {
             self.put(work, y);
             self.radiation.iter().for_each(|r| r.add_slopes(&work.temperature, form, values));
-            for element in self.elements.iter() {
-                element.add_slopes(&self.network, work, form, values)?;
+            self.bodies.add_slopes(self, work, form, values)?;
+            for i in self.bodies.others() {
+                self.elements[i].add_slopes(&self.network, work, form, values)?;
             }
         }
         Ok(())
@@ -297,14 +302,18 @@ impl ThermalSystem {
     /// system.
     pub fn jacobian(&self, values: &mut [f64]) {
         values.fill(0.0);
-        for (link, slots) in self.links.iter().zip(self.link_slots.iter()) {
-            slots.iter().for_each(|&slot| values[slot as usize] += link.g);
-            values[self.pattern.diagonal_slot(link.a as usize)] -= link.g;
-            values[self.pattern.diagonal_slot(link.b as usize)] -= link.g;
-        }
+        (0..self.links.len()).for_each(|i| self.add_link_slopes(i, values));
         for tie in self.ties.iter() {
             values[self.pattern.diagonal_slot(tie.a as usize)] -= tie.g;
         }
+    }
+
+    /// Adds the derivatives of one link in W/K.
+    pub(crate) fn add_link_slopes(&self, position: usize, values: &mut [f64]) {
+        let (link, slots) = (self.links[position], self.link_slots[position]);
+        slots.iter().for_each(|&slot| values[slot as usize] += link.g);
+        values[self.pattern.diagonal_slot(link.a as usize)] -= link.g;
+        values[self.pattern.diagonal_slot(link.b as usize)] -= link.g;
     }
 
     /// Fills the temperatures of all nodes from those of the unknowns, eliminated nodes recovered

@@ -22,6 +22,8 @@ pub struct Workspace {
     /// Temperature of every vertex in K: nodes, then boundaries.
     pub(crate) temperature: Vec<f64>,
     pub(crate) slopes: Slopes,
+    /// Potential or conductivity of the vertices of a body.
+    pub(crate) potentials: Vec<f64>,
     /// Which controls are on and which comparisons hold.
     positions: Positions,
     /// Whether the inputs have to be evaluated again when the time changes.
@@ -73,6 +75,7 @@ impl Workspace {
             element_heat: vec![0.0; vertices],
             temperature: vec![f64::NAN; vertices],
             slopes: Slopes::default(),
+            potentials: Vec::new(),
             positions: network.initial_positions(),
             varies: network.has_time_dependent_inputs(),
             read_at: None,

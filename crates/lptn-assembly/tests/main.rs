@@ -7,11 +7,13 @@
     reason = "modules of tests, and tables that some of them share; a test fails by panicking"
 )]
 
+mod bodies;
 mod elimination;
 mod forms;
 mod jacobian;
 #[path = "common/networks.rs"]
 mod networks;
+mod part;
 #[path = "common/rational.rs"]
 mod rational;
 mod system;

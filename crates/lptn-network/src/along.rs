@@ -13,6 +13,8 @@
 //! ends. Panels are made in blocks of 64 K on first use. Candidates share the panels that read no
 //! parameter. The law declares the field to which this applies (`along`).
 
+mod potential;
+
 use std::sync::OnceLock;
 
 use lptn_units::{EvalError, Scalar, Taylor};
@@ -98,6 +100,11 @@ impl Along {
     /// Of a value that changes during a run by more than its own temperature.
     pub(crate) fn moving(value: &Value) -> Self {
         Self { value: value.clone(), course: Course::Moving }
+    }
+
+    /// True if nothing but its own temperature changes it during a run.
+    pub(crate) fn is_fixed(&self) -> bool {
+        matches!(self.course, Course::Fixed(_))
     }
 
     /// Its mean between two temperatures in K where the slots stand.
@@ -210,18 +217,26 @@ fn sides(temperature: f64) -> [usize; 2] {
         true => HALVED - 1 + (temperature / BLOCK) as usize,
         false => (power + HALVED).saturating_sub(BLOCK_POWER),
     };
-    let meets = above > 0 && range(above)[0] >= temperature;
+    let meets = above > 0 && ENDS[above] >= temperature;
     [above.min(BLOCKS - 1), above - usize::from(meets)]
+}
+
+/// Where blocks end, in K.
+static ENDS: [f64; BLOCKS + 1] = ends();
+
+const fn ends() -> [f64; BLOCKS + 1] {
+    let mut ends = [0.0; BLOCKS + 1];
+    let mut i = BLOCKS;
+    while i > 0 {
+        ends[i] = if i < HALVED { 0.5 * ends[i + 1] } else { BLOCK * (i + 1 - HALVED) as f64 };
+        i -= 1;
+    }
+    ends
 }
 
 /// The temperatures of a block.
 fn range(index: usize) -> [f64; 2] {
-    let end = |index: usize| match index {
-        0 => 0.0,
-        i if i < HALVED => BLOCK * 0.5_f64.powi((HALVED - i) as i32),
-        i => BLOCK * (i + 1 - HALVED) as f64,
-    };
-    [end(index), end(index + 1)]
+    [ENDS[index], ENDS[index + 1]]
 }
 
 /// The mean from the integral, and the values at the lower and the upper end.

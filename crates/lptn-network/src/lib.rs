@@ -75,6 +75,7 @@ pub use lptn_laws::{Carries, Extent, Formula, Kind as ConductorKind};
 pub use names::{UnknownName, is_name, is_path, list_of, list_of_names};
 pub use network::Network;
 pub use network::body::Surface;
+pub use network::conductivity::Conductivity;
 pub use network::fields::ValueChange;
 pub use parameters::{ParameterError, Parameters};
 pub use parts::control::{Acts, Control, Thermostat};

@@ -7,7 +7,7 @@
 //! over shrinks (switched evolution relaxation; C. T. Kelley and D. E. Keyes, SIAM J. Numer. Anal.
 //! 35 (1998) 508), which ends where a network that stores heat in every node would.
 
-use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
+use lptn_assembly::{Part, ThermalSystem, Workspace};
 use lptn_integrate::linear::{self, Factorization};
 use lptn_integrate::{FactorError, Pattern};
 
@@ -21,6 +21,9 @@ const MOST_ROUNDING: f64 = 1e-5;
 
 /// Corrections to follow a solution that moves, below this in K.
 const FOLLOWED: f64 = 1e-10;
+
+/// A correction that is foretold is taken for so many times as large.
+const SURELY: f64 = 4.0;
 
 /// A solution that moves further than this in K at once may be another one.
 const FAR: f64 = 1.0;
@@ -42,11 +45,17 @@ const PSEUDO_STEPS: usize = 3000;
 const REUSED: usize = 6;
 const CONTRACTION: f64 = 0.25;
 
+/// The share of what is left over that a correction may leave where factors are not exact: the next
+/// one takes it away.
+const SHARE: f64 = 1e-4;
+
 /// Newton's method on a range of unknowns.
 pub(crate) struct Newton<'a> {
     pub(crate) system: &'a ThermalSystem,
     /// The unknowns that are solved for, ascending.
     pub(crate) free: Vec<usize>,
+    /// The part of the system with their balances; `None` if that is the whole system.
+    part: Option<Part>,
     pub(crate) pattern: Pattern,
     /// The slot in the whole Jacobian of each slot of the pattern.
     slots: Vec<usize>,
@@ -81,9 +90,11 @@ impl<'a> Newton<'a> {
         let factors = linear::for_exact(&pattern).map_err(NewtonError::Factorization)?;
         let (values, whole) = (vec![0.0; pattern.len()], vec![0.0; whole.len()]);
         let flow = vec![0.0; system.unknowns().len()];
+        let part = (free.len() < flow.len()).then(|| system.part(&free));
         Ok(Self {
             system,
             free,
+            part,
             pattern,
             slots,
             factors,
@@ -152,7 +163,9 @@ impl<'a> Newton<'a> {
                 return Some(false);
             }
             self.apply(&correction, 1.0, temperatures);
-            if size <= FOLLOWED {
+            // the next one is smaller by as much as this one was
+            let next = if last.is_finite() { SURELY * size * (size / last) } else { size };
+            if size.min(next) <= FOLLOWED {
                 return Some(true);
             }
             last = size;
@@ -179,6 +192,9 @@ impl<'a> Newton<'a> {
             Err(NewtonError::Factorization(error)) => Err(NewtonError::Factorization(error)),
             Err(first) => {
                 temperatures.copy_from_slice(&start);
+                if self.warmed(work, temperatures) {
+                    return Ok(());
+                }
                 // what stopped Newton's method at the start says more than how the pseudo-time
                 // ended
                 self.pseudo_time(work, temperatures).map_err(|later| match (first, later) {
@@ -300,7 +316,7 @@ impl<'a> Newton<'a> {
             let before = temperatures.to_vec();
             let share = self.careful_share(temperatures, &correction);
             self.apply(&correction, share, temperatures);
-            let now = self.system.flow(work, temperatures, &mut self.flow);
+            let now = self.evaluate(work, temperatures);
             let after = self.left_over();
             if now.is_err() || after > 4.0 * heat.max(f64::MIN_POSITIVE) {
                 temperatures.copy_from_slice(&before);
@@ -322,27 +338,6 @@ impl<'a> Newton<'a> {
             }
         }
         Err(NewtonError::Stalled { unknown: self.free[change.0], change: change.1 })
-    }
-
-    /// Takes `-J` into the values.
-    pub(crate) fn linearize(
-        &mut self,
-        work: &mut Workspace,
-        temperatures: &[f64],
-    ) -> Result<(), NewtonError> {
-        (self.ready, self.leans) = (false, false);
-        let jacobian =
-            self.system.jacobian_at(work, temperatures, JacobianForm::Exact, &mut self.whole);
-        jacobian.map_err(NewtonError::Input)?;
-        self.take_slopes();
-        Ok(())
-    }
-
-    /// Takes `-J` as it was evaluated last into the values.
-    pub(crate) fn take_slopes(&mut self) {
-        for (value, &slot) in self.values.iter_mut().zip(&self.slots) {
-            *value = -self.whole[slot];
-        }
     }
 
     /// Factorises `-J`, with `inertia` times the size of its diagonal added.
@@ -379,23 +374,8 @@ impl<'a> Newton<'a> {
         temperatures: &[f64],
     ) -> Result<Vec<f64>, NewtonError> {
         let mut correction = self.residual(work, temperatures)?;
-        self.factors.solve_in_place(&mut correction).map_err(NewtonError::Factorization)?;
+        self.factors.solve_share(&mut correction, SHARE).map_err(NewtonError::Factorization)?;
         Ok(correction)
-    }
-
-    /// The heat that is left over at the free unknowns, in W.
-    pub(crate) fn residual(
-        &mut self,
-        work: &mut Workspace,
-        temperatures: &[f64],
-    ) -> Result<Vec<f64>, NewtonError> {
-        self.system.flow(work, temperatures, &mut self.flow).map_err(NewtonError::Input)?;
-        Ok(self.free.iter().map(|&i| self.flow[i]).collect())
-    }
-
-    /// The largest heat that was left over when the flow was last evaluated, in W.
-    fn left_over(&self) -> f64 {
-        self.free.iter().map(|&i| self.flow[i].abs()).fold(0.0, f64::max)
     }
 
     pub(crate) fn apply(&self, correction: &[f64], share: f64, temperatures: &mut [f64]) {
@@ -414,5 +394,7 @@ fn worst(values: &[f64]) -> (usize, f64) {
     all.fold((0, 0.0), |most, now| if now.1 > most.1 { now } else { most })
 }
 
+mod balances;
 #[cfg(test)]
 mod tests;
+mod warmed;

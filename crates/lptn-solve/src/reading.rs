@@ -16,6 +16,7 @@ pub(crate) struct Reading<'a> {
     /// Whether anything reads temperatures there: results, or what laws tell of themselves.
     reads: bool,
     unknowns: Vec<f64>,
+    flow: Vec<f64>,
     boundary_heat: Vec<f64>,
     /// The heat flows that expressions of results name.
     named: Vec<f64>,
@@ -28,6 +29,7 @@ impl<'a> Reading<'a> {
             scope: system.network().evaluation(),
             reads: reads_temperatures(system.network()),
             unknowns: vec![f64::NAN; system.unknowns().len()],
+            flow: vec![f64::NAN; system.unknowns().len()],
             boundary_heat: vec![f64::NAN; system.network().boundaries().len()],
             named: Vec::new(),
         }
@@ -41,7 +43,7 @@ impl<'a> Reading<'a> {
     /// Goes where the workspace is; `at` is the time and a time inside the segment, in s. Where a
     /// temperature is not known (NaN), what follows from it is NaN.
     pub(crate) fn place(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
-        let Self { system, scope, reads, unknowns, boundary_heat, named } = self;
+        let Self { system, scope, reads, unknowns, boundary_heat, named, .. } = self;
         let network = system.network();
         let nodes = system.node_temperatures(work);
         let known = !nodes.iter().any(|t| t.is_nan());
@@ -64,6 +66,14 @@ impl<'a> Reading<'a> {
         }
         scope.set_heats(named);
         Ok(())
+    }
+
+    /// Asks every path and source for its heat where this was placed last.
+    pub(crate) fn check_heat(&mut self, work: &mut Workspace) -> Result<(), InputError> {
+        match self.system.boundaries_feel_all() {
+            true => Ok(()), // each was asked already
+            false => self.system.flow(work, &self.unknowns, &mut self.flow),
+        }
     }
 
     /// One quantity in SI units.

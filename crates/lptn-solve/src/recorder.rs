@@ -209,9 +209,9 @@ impl<'a> Recorder<'a> {
         if self.system.is_linear() {
             return Ok(());
         }
-        self.reading
-            .place(&mut self.work, (self.rows[self.next], self.inside))
-            .map_err(StopReason::Input)
+        let at = (self.rows[self.next], self.inside);
+        self.reading.place(&mut self.work, at).map_err(StopReason::Input)?;
+        self.reading.check_heat(&mut self.work).map_err(StopReason::Input)
     }
 
     /// Writes the rows inside the step from `from` to `to`; one at the end of the segment is left

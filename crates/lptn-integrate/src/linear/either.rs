@@ -61,6 +61,29 @@ impl Either {
         definite
     }
 
+    /// Solves with the factors that there are.
+    fn solve_by(
+        &mut self,
+        b: &mut [f64],
+        solve: impl Fn(&mut dyn Factorization, &mut [f64]) -> Result<(), FactorError>,
+    ) -> Result<(), FactorError> {
+        if !self.symmetric {
+            let lu = self.lu.as_mut().ok_or(FactorError::NotFactorized)?;
+            return solve(lu.as_mut(), b);
+        }
+        let right = if self.values.is_empty() { Vec::new() } else { b.to_vec() };
+        let cholesky = self.cholesky.as_mut().ok_or(FactorError::NotFactorized)?;
+        match solve(cholesky.as_mut(), b) {
+            Err(FactorError::NotPositiveDefinite { .. }) if !right.is_empty() => {
+                let values = std::mem::take(&mut self.values);
+                self.factorize_any(&values)?;
+                b.copy_from_slice(&right);
+                self.solve_by(b, solve)
+            }
+            done => done,
+        }
+    }
+
     fn factorize_any(&mut self, values: &[f64]) -> Result<(), FactorError> {
         self.symmetric = false;
         if self.lu.is_none() {
@@ -108,20 +131,10 @@ impl Factorization for Either {
     }
 
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError> {
-        if !self.symmetric {
-            let lu = self.lu.as_mut().ok_or(FactorError::NotFactorized)?;
-            return lu.solve_in_place(b);
-        }
-        let right = if self.values.is_empty() { Vec::new() } else { b.to_vec() };
-        let cholesky = self.cholesky.as_mut().ok_or(FactorError::NotFactorized)?;
-        match cholesky.solve_in_place(b) {
-            Err(FactorError::NotPositiveDefinite { .. }) if !right.is_empty() => {
-                let values = std::mem::take(&mut self.values);
-                self.factorize_any(&values)?;
-                b.copy_from_slice(&right);
-                self.solve_in_place(b)
-            }
-            done => done,
-        }
+        self.solve_by(b, |factors, b| factors.solve_in_place(b))
+    }
+
+    fn solve_share(&mut self, b: &mut [f64], share: f64) -> Result<(), FactorError> {
+        self.solve_by(b, |factors, b| factors.solve_share(b, share))
     }
 }

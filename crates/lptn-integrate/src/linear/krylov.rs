@@ -20,6 +20,15 @@ use crate::{FactorError, Pattern, kernels};
 /// tolerance, so the books of a run do not feel it.
 const LEFT_OVER: f64 = 1e-9;
 
+/// The end of iterations.
+#[derive(Clone, Copy, Debug)]
+enum Goal {
+    /// From 0 on: this share of the right side is left over.
+    Share(f64),
+    /// From a guess on: so much is left over.
+    Rest(f64),
+}
+
 /// Conjugate gradients or, for matrices that are not symmetric, BiCGStab. Where they do not
 /// converge, exact factors take over until there are other values.
 pub struct Krylov {
@@ -94,11 +103,14 @@ impl Krylov {
         Self { family, matrix, exact: None, ready: false, iterations: 0, left: 0 }
     }
 
-    /// Replaces `x` by the solution: within what is allowed from its guess on, or to the usual part
-    /// from 0 on. False if that is not reached.
-    fn iterate(&mut self, b: &[f64], x: &mut [f64], allowed: Option<f64>, work: &mut Work) -> bool {
-        let size = self.matrix.begin(b, allowed.map(|_| &*x), work);
-        let allowed = allowed.unwrap_or(LEFT_OVER * size);
+    /// Replaces `x`, which may be a guess, by the solution. False if the goal is not reached.
+    fn iterate(&mut self, b: &[f64], x: &mut [f64], goal: Goal, work: &mut Work) -> bool {
+        let guess = matches!(goal, Goal::Rest(_)).then_some(&*x);
+        let size = self.matrix.begin(b, guess, work);
+        let allowed = match goal {
+            Goal::Share(share) => share * size,
+            Goal::Rest(allowed) => allowed,
+        };
         self.left = self.left.saturating_add(self.family.patience.solve);
         if size > allowed {
             let most = self.left;
@@ -115,13 +127,13 @@ impl Krylov {
     }
 
     /// The solution by iterations or, where they fail, by exact factors.
-    fn solve(&mut self, b: &[f64], x: &mut [f64], allowed: Option<f64>) -> Result<(), FactorError> {
+    fn solve(&mut self, b: &[f64], x: &mut [f64], goal: Goal) -> Result<(), FactorError> {
         if let Some(index) = kernels::first_not_finite(b) {
             return Err(FactorError::Singular { index });
         }
         if self.exact.is_none() {
             let mut work = taken(&self.family.spare).unwrap_or_default();
-            let done = self.iterate(b, x, allowed, &mut work);
+            let done = self.iterate(b, x, goal, &mut work);
             put(&self.family.spare, work);
             if done {
                 return Ok(());
@@ -174,14 +186,18 @@ impl Factorization for Krylov {
     }
 
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError> {
+        self.solve_share(b, LEFT_OVER)
+    }
+
+    fn solve_share(&mut self, b: &mut [f64], share: f64) -> Result<(), FactorError> {
         checked((self.size(), self.ready), b, |_| ())?;
         let right = b.to_vec();
-        self.solve(&right, b, None)
+        self.solve(&right, b, Goal::Share(share))
     }
 
     fn solve_from(&mut self, b: &[f64], x: &mut [f64], allowed: f64) -> Result<(), FactorError> {
         expect_length(self.size(), b.len())?;
         checked((self.size(), self.ready), x, |_| ())?;
-        self.solve(b, x, Some(allowed))
+        self.solve(b, x, Goal::Rest(allowed))
     }
 }

@@ -83,12 +83,13 @@ impl Panel {
     }
 
     fn primitive(&self, x: f64) -> f64 {
-        let terms = self.capacity.iter().zip(RECIPROCALS).take(self.terms).rev();
-        x * terms.fold(0.0, |sum, (c, over)| sum * x + c * over)
+        // slices are read backwards at once, an array by value from its first number on
+        let terms = self.capacity[..self.terms].iter().zip(&RECIPROCALS[..self.terms]);
+        x * terms.rev().fold(0.0, |sum, (c, over)| sum * x + c * over)
     }
 
     /// Heat taken up from `from` to `temperature`.
-    pub(super) fn taken_up(&self, temperature: f64) -> f64 {
+    pub(crate) fn taken_up(&self, temperature: f64) -> f64 {
         if self.to <= self.from {
             return 0.0;
         }

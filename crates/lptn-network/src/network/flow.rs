@@ -75,6 +75,9 @@ impl Network {
         let (conductor, along) = (&self.conductors()[id.index()], self.along(id));
         let dependence = self.parts.dependence(id);
         let at = |k: usize| temperatures[dependence.vertices[k] as usize];
+        if let Some([heat, ..]) = self.conducted(id, [at(0), at(1)]) {
+            return Ok([-heat, heat]);
+        }
         let result = {
             let (slots, stack) = scope.plain();
             place(slots, dependence, &at);
@@ -95,6 +98,13 @@ impl Network {
         temperatures: &[f64],
         slopes: &mut Vec<Received>,
     ) -> Result<Received, InputError> {
+        let dependence = self.parts.dependence(id);
+        let at = |k: usize| temperatures[dependence.vertices[k] as usize];
+        if let Some([heat, from, to]) = self.conducted(id, [at(0), at(1)]) {
+            slopes.clear();
+            slopes.extend([[-from, from], [to, -to]]);
+            return Ok([-heat, heat]);
+        }
         self.slopes_by((id, self.parts.dependence(id)), scope, temperatures, slopes)
     }
 

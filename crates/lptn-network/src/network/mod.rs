@@ -1,6 +1,7 @@
 //! A thermal network whose invariants hold.
 
 pub(crate) mod body;
+pub(crate) mod conductivity;
 pub(crate) mod control;
 pub(crate) mod fields;
 pub(crate) mod flow;

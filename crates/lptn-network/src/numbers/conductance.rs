@@ -86,6 +86,37 @@ impl Work<'_> {
         alongs
     }
 
+    /// The conductances of bodies for a mean conductivity of 1, where nothing else changes.
+    pub(crate) fn shapes(&mut self, alongs: &[Option<Arc<Along>>]) -> Vec<f64> {
+        let parts = self.parts;
+        let mut shapes: Vec<f64> = Vec::with_capacity(alongs.len());
+        for (i, (along, conductor)) in alongs.iter().zip(&parts.conductors).enumerate() {
+            let shape = match along {
+                Some(_) if i > 0 && parts.is_like_the_last_conductor(i) => shapes[i - 1],
+                Some(along) if along.is_fixed() => self.shape(&conductor.law),
+                _ => f64::NAN,
+            };
+            shapes.push(shape);
+        }
+        shapes
+    }
+
+    /// The laws that take a mean are proportional to it.
+    fn shape(&mut self, law: &Law) -> f64 {
+        let fields = law.formula().declaration().fields;
+        let mut values = Vec::with_capacity(fields.len());
+        for (value, field) in law.values().iter().zip(fields) {
+            values.push(match field.along {
+                true => 1.0,
+                false if self.parts.reads(value).is_constant() => {
+                    value.at(&mut self.scope).unwrap_or(f64::NAN)
+                }
+                false => f64::NAN,
+            });
+        }
+        law.formula().value(&values, [f64::NAN; 2])
+    }
+
     /// Lengths of sources that have an order.
     pub(crate) fn check_sources(&mut self) {
         let parts = self.parts;

@@ -39,6 +39,9 @@ pub(crate) struct Numbers {
     pub(crate) fluids: Vec<Option<Arc<Enthalpy>>>,
     /// The property of which each conductor takes the mean along its path, up to the last of them.
     pub(crate) along: Vec<Option<Arc<Along>>>,
+    /// For each of these its conductance in W/K for a mean of 1, in SI units, where the mean is all
+    /// that changes; else NaN.
+    pub(crate) shapes: Vec<f64>,
     /// How long each control stays as it is after a switch, in s.
     pub(crate) min_dwell: Vec<f64>,
 }
@@ -84,6 +87,7 @@ impl Numbers {
             let is_given = |i: usize| overrides.get(i).is_some_and(Option::is_some);
             let given = (0..parameters.len()).map(is_given).collect();
             let along = work.alongs();
+            let shapes = work.shapes(&along);
             Ok(Self {
                 parameters,
                 given,
@@ -93,6 +97,7 @@ impl Numbers {
                 enthalpy,
                 fluids,
                 along,
+                shapes,
                 min_dwell,
             })
         } else {

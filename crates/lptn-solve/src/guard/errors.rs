@@ -7,8 +7,9 @@
 //!
 //! This takes a Jacobian, 40 % of a step of 400 nodes. It is therefore evaluated only if a kink was
 //! passed or a temperature becomes faster, and in every 16th step, or every 4th if something turns.
+//! Where the form of the network tells that no error grows it is not evaluated at all.
 
-use lptn_assembly::JacobianForm;
+use lptn_assembly::{JacobianForm, ThermalSystem};
 use lptn_integrate::{OdeSystem, Pattern};
 
 use crate::heat::Heat;
@@ -46,6 +47,14 @@ pub(super) struct Errors {
 }
 
 impl Errors {
+    /// False if the form of the network excludes that an error grows at the rate of its own state
+    /// or is magnified by a massless node: every heat falls with the temperature of the node that
+    /// receives it, and every state is the temperature of a node.
+    pub(super) fn may_grow(system: &ThermalSystem) -> bool {
+        let heats = || system.states().iter().any(|&id| system.network().enthalpy(id).is_some());
+        !system.is_monotone() || !system.algebraic().is_empty() || heats()
+    }
+
     pub(super) fn of(heat: &Heat<'_>) -> Self {
         let (pattern, capacity) = (heat.pattern().clone(), heat.capacities().to_vec());
         let states = capacity.len();

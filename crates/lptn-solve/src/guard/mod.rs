@@ -52,6 +52,8 @@ pub(crate) struct Guard {
     corners: Corners,
     turns: Turns,
     errors: Option<Errors>,
+    /// True if the error of a state may grow by itself.
+    grow: bool,
     /// Temperatures of all vertices at the start of the next step in K, and how they change in K/s.
     now: Vec<f64>,
     rates: Vec<f64>,
@@ -89,6 +91,7 @@ impl Guard {
             corners,
             turns,
             errors: None,
+            grow: Errors::may_grow(system),
             now: vec![f64::NAN; vertices],
             rates: vec![0.0; vertices],
             kink: f64::INFINITY,
@@ -117,7 +120,7 @@ impl Guard {
             self.now.copy_from_slice(temperatures);
             self.corners.begin(heat);
             // of a single state the speed tells all
-            if heat.pattern().size() > 1 {
+            if self.grow && heat.pattern().size() > 1 {
                 self.errors.get_or_insert_with(|| Errors::of(heat)).step(heat);
             }
         }

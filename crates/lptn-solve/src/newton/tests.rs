@@ -6,6 +6,7 @@
 )]
 
 use lptn_assembly::ThermalSystem;
+use lptn_network::{Context, HeatCapacity, HeatFlow, NetworkBuilder, Path, Temperature};
 
 use super::*;
 use crate::scripted::{bodies, workspace};
@@ -89,4 +90,38 @@ fn the_largest_move_of_a_free_unknown_counts() {
     assert_eq!(moved([400.0, 313.0, 321.0]), 3.0);
     assert_eq!(moved([400.0, 309.0, 316.0]), 4.0);
     assert_eq!(moved([400.0, 310.0, 320.0]), 0.0);
+}
+
+/// `5 W = 0.4 W/K (|dT| / 1 K)^(1/4) dT` at `dT = 12.5^(4/5) K`. At the temperature of the air the film
+/// has no slope; from there Newton's method cannot begin.
+#[test]
+fn a_film_without_a_slope_is_left_from_warmer_temperatures() {
+    let mut b = NetworkBuilder::new();
+    let node = b.node("body", HeatCapacity(1.0), Temperature(300.0));
+    let air = b.boundary("air", Temperature(300.0));
+    let film = "0.4 [W/K] * (abs(dT) / 1 [K])^(1/4)";
+    let film = b.expression_in(Context::Link, film, None).unwrap();
+    b.resistor("film", node, air, Path::conductance(film));
+    b.source("heat", node, HeatFlow(5.0));
+    let system = ThermalSystem::assemble(&b.build().unwrap()).unwrap();
+    let mut newton = Newton::new(&system, vec![0]).unwrap_or_else(|_| panic!("none"));
+    let mut work = workspace(&system);
+    let mut temperatures = [300.0];
+    assert!(newton.damped(&mut work, &mut temperatures).is_err());
+    temperatures = [300.0];
+    assert!(newton.warmed(&mut work, &mut temperatures));
+    let rise = 12.5_f64.powf(0.8);
+    assert!((temperatures[0] - 300.0 - rise).abs() < 1e-8, "{temperatures:?} {rise}");
+}
+
+/// Of several solutions a warmer start may find another one.
+#[test]
+fn several_solutions_are_not_sought_from_warmer_temperatures() {
+    let system =
+        ThermalSystem::assemble(&bodies(&[(100.0, "1 [W]"), (0.0, STEP)], Some("2 [W/K]")));
+    let system = system.unwrap();
+    let mut newton = Newton::new(&system, vec![1]).unwrap_or_else(|_| panic!("none"));
+    let mut temperatures = [380.0, 300.0];
+    assert!(!newton.warmed(&mut workspace(&system), &mut temperatures));
+    assert_eq!(temperatures, [380.0, 300.0]);
 }

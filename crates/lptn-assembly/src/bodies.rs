@@ -1,0 +1,150 @@
+//! Bodies of one conductivity over temperature, cut into many cells.
+//!
+//! Their paths are elements like others. Heat and derivatives of all of them come from one
+//! potential a cell (Kirchhoff's transformation), a tenth of the time that as many means along
+//! paths take. Where the conductivity is not known at a cell, each path is asked for its own heat
+//! and says what is wrong.
+
+use std::collections::BTreeMap;
+
+use lptn_network::{Conductivity, InputError, Network};
+
+use crate::element::{Element, JacobianForm};
+use crate::part::number;
+use crate::system::ThermalSystem;
+use crate::workspace::Workspace;
+
+/// Bodies of fewer paths are not worth the bookkeeping.
+const LEAST: usize = 32;
+
+/// All bodies of a network.
+#[derive(Clone, Debug)]
+pub(crate) struct Bodies {
+    bodies: Vec<Body>,
+    /// Positions of the elements that belong to none.
+    others: Vec<u32>,
+}
+
+/// The paths of one conductivity.
+#[derive(Clone, Debug)]
+struct Body {
+    conductivity: Conductivity,
+    /// The ends of its paths, ascending.
+    vertices: Vec<u32>,
+    paths: Vec<Path>,
+}
+
+/// A path between two of the vertices.
+#[derive(Clone, Copy, Debug)]
+struct Path {
+    element: u32,
+    /// Positions of its ends among the vertices of the body.
+    ends: [u32; 2],
+    /// Conductance in W/K for a conductivity of 1 W/(m K).
+    shape: f64,
+}
+
+impl Path {
+    /// The heat from its first end to its second in W.
+    fn heat(&self, potentials: &[f64]) -> f64 {
+        let [from, to] = self.ends.map(|end| potentials[end as usize]);
+        self.shape * (from - to)
+    }
+}
+
+impl Bodies {
+    /// Those of the elements of a network.
+    pub(crate) fn of(network: &Network, elements: &[Element]) -> Self {
+        let (mut bodies, mut places) = (Vec::<Body>::new(), BTreeMap::new());
+        for (i, element) in elements.iter().enumerate() {
+            let known = element.conductor.and_then(|id| network.conductivity(id));
+            let Some((conductivity, shape)) = known else { continue };
+            let body = *places.entry(conductivity.key()).or_insert(bodies.len());
+            if body == bodies.len() {
+                bodies.push(Body { conductivity, vertices: Vec::new(), paths: Vec::new() });
+            }
+            let ends = [element.receivers[0], element.receivers[1]];
+            bodies[body].paths.push(Path { element: number(i), ends, shape });
+        }
+        bodies.retain(|body| body.paths.len() >= LEAST);
+        bodies.iter_mut().for_each(Body::number_vertices);
+        let mut others = vec![true; elements.len()];
+        let paths = bodies.iter().flat_map(|body| &body.paths);
+        paths.for_each(|path| others[path.element as usize] = false);
+        let others = (0..).zip(others).filter(|(_, other)| *other).map(|(i, _)| i).collect();
+        Self { bodies, others }
+    }
+
+    /// Positions of the elements that belong to no body.
+    pub(crate) fn others(&self) -> impl Iterator<Item = usize> + '_ {
+        self.others.iter().map(|&i| i as usize)
+    }
+
+    /// Adds the heat of all paths to that of their ends in W.
+    pub(crate) fn add_heat(
+        &self,
+        system: &ThermalSystem,
+        work: &mut Workspace,
+    ) -> Result<(), InputError> {
+        for body in &self.bodies {
+            let Workspace { temperature, potentials, element_heat, .. } = &mut *work;
+            if !body.conductivity.integrals(temperature, &body.vertices, potentials) {
+                let mut elements = body.paths.iter().map(|path| path.element(system));
+                elements.try_for_each(|element| element.add_heat(&system.network, work))?;
+                continue;
+            }
+            for path in &body.paths {
+                let heat = path.heat(potentials);
+                let [from, to] = path.ends.map(|end| body.vertices[end as usize] as usize);
+                element_heat[from] -= heat;
+                element_heat[to] += heat;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds their derivatives to the values of the Jacobian.
+    pub(crate) fn add_slopes(
+        &self,
+        system: &ThermalSystem,
+        work: &mut Workspace,
+        form: JacobianForm,
+        values: &mut [f64],
+    ) -> Result<(), InputError> {
+        for body in &self.bodies {
+            let Workspace { temperature, potentials, slopes, .. } = &mut *work;
+            if !body.conductivity.values(temperature, &body.vertices, potentials) {
+                for path in &body.paths {
+                    path.element(system).add_slopes(&system.network, work, form, values)?;
+                }
+                continue;
+            }
+            for path in &body.paths {
+                let [from, to] = path.ends.map(|end| path.shape * potentials[end as usize]);
+                slopes.ends.clear();
+                slopes.ends.extend([[-from, from], [to, -to]]);
+                path.element(system).add_evaluated(slopes, form, values);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Path {
+    fn element<'a>(&self, system: &'a ThermalSystem) -> &'a Element {
+        &system.elements[self.element as usize]
+    }
+}
+
+impl Body {
+    /// Counts the ends of paths among the vertices of the body, which were those of the network.
+    fn number_vertices(&mut self) {
+        self.vertices = self.paths.iter().flat_map(|path| path.ends).collect();
+        self.vertices.sort_unstable();
+        self.vertices.dedup();
+        for path in &mut self.paths {
+            let place = |vertex: u32| self.vertices.partition_point(|other| *other < vertex);
+            path.ends = path.ends.map(|vertex| number(place(vertex)));
+        }
+    }
+}
