@@ -10,8 +10,7 @@ use std::collections::BTreeMap;
 use lptn_network::{Conductivity, InputError, Network};
 
 use crate::element::{Element, JacobianForm};
-use crate::part::number;
-use crate::system::ThermalSystem;
+use crate::positions::number;
 use crate::workspace::Workspace;
 
 /// Bodies of fewer paths are not worth the bookkeeping.
@@ -83,14 +82,14 @@ impl Bodies {
     /// Adds the heat of all paths to that of their ends in W.
     pub(crate) fn add_heat(
         &self,
-        system: &ThermalSystem,
+        (network, elements): (&Network, &[Element]),
         work: &mut Workspace,
     ) -> Result<(), InputError> {
         for body in &self.bodies {
             let Workspace { temperature, potentials, element_heat, .. } = &mut *work;
             if !body.conductivity.integrals(temperature, &body.vertices, potentials) {
-                let mut elements = body.paths.iter().map(|path| path.element(system));
-                elements.try_for_each(|element| element.add_heat(&system.network, work))?;
+                let mut elements = body.paths.iter().map(|path| path.element(elements));
+                elements.try_for_each(|element| element.add_heat(network, work))?;
                 continue;
             }
             for path in &body.paths {
@@ -106,16 +105,15 @@ impl Bodies {
     /// Adds their derivatives to the values of the Jacobian.
     pub(crate) fn add_slopes(
         &self,
-        system: &ThermalSystem,
+        (network, elements): (&Network, &[Element]),
         work: &mut Workspace,
-        form: JacobianForm,
-        values: &mut [f64],
+        (form, values): (JacobianForm, &mut [f64]),
     ) -> Result<(), InputError> {
         for body in &self.bodies {
             let Workspace { temperature, potentials, slopes, .. } = &mut *work;
             if !body.conductivity.values(temperature, &body.vertices, potentials) {
                 for path in &body.paths {
-                    path.element(system).add_slopes(&system.network, work, form, values)?;
+                    path.element(elements).add_slopes(network, work, form, values)?;
                 }
                 continue;
             }
@@ -123,7 +121,7 @@ impl Bodies {
                 let [from, to] = path.ends.map(|end| path.shape * potentials[end as usize]);
                 slopes.ends.clear();
                 slopes.ends.extend([[-from, from], [to, -to]]);
-                path.element(system).add_evaluated(slopes, form, values);
+                path.element(elements).add_evaluated(slopes, form, values);
             }
         }
         Ok(())
@@ -131,8 +129,8 @@ impl Bodies {
 }
 
 impl Path {
-    fn element<'a>(&self, system: &'a ThermalSystem) -> &'a Element {
-        &system.elements[self.element as usize]
+    fn element<'a>(&self, elements: &'a [Element]) -> &'a Element {
+        &elements[self.element as usize]
     }
 }
 

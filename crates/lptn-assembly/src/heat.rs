@@ -8,32 +8,8 @@
 
 use lptn_network::{ConductorId, InputError, Item, Received, Surface};
 
-use crate::element::{Element, Kind};
-use crate::part::chosen;
-use crate::radiation::Radiation;
 use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
-
-/// Radiation and elements that give heat to boundaries, and sources that depend on temperatures, by
-/// their positions in the lists of the system. The heat of boundaries is integrated over every step
-/// and asks no others.
-#[derive(Clone, Debug)]
-pub(crate) struct Outer {
-    radiation: Vec<u32>,
-    elements: Vec<u32>,
-}
-
-impl Outer {
-    /// Those of a network of so many nodes.
-    pub(crate) fn of(nodes: usize, radiation: &[Radiation], elements: &[Element]) -> Self {
-        let outside = |vertices: &[u32]| vertices.iter().any(|&v| v as usize >= nodes);
-        let is_outer = |e: &Element| matches!(e.kind, Kind::Source(_)) || outside(&e.receivers);
-        Self {
-            radiation: chosen(radiation, |r| outside(&r.ends)),
-            elements: chosen(elements, is_outer),
-        }
-    }
-}
 
 impl ThermalSystem {
     /// Writes the heat that each boundary gives to the network in W, from the inputs last read and

@@ -12,6 +12,7 @@ use std::collections::BTreeSet;
 use lptn_network::InputError;
 
 use crate::element::JacobianForm;
+use crate::positions::{chosen, number};
 use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
 
@@ -125,13 +126,4 @@ impl ThermalSystem {
             work.temperature[vertex as usize] = y[unknown as usize];
         }
     }
-}
-
-/// The positions of those that are wanted.
-pub(crate) fn chosen<T>(all: &[T], is_wanted: impl Fn(&T) -> bool) -> Vec<u32> {
-    (0..).zip(all).filter(|(_, item)| is_wanted(item)).map(|(i, _)| i).collect()
-}
-
-pub(crate) fn number(index: usize) -> u32 {
-    u32::try_from(index).expect("ids are 32 bits wide")
 }

@@ -8,7 +8,7 @@ use crate::bodies::Bodies;
 use crate::element::{Element, JacobianForm};
 use crate::eliminate::{Elimination, Link, TooMany};
 use crate::error::AssemblyError;
-use crate::heat::Outer;
+use crate::outer::Outer;
 use crate::pattern::JacobianPattern;
 use crate::radiation::Radiation;
 use crate::workspace::Workspace;
@@ -261,7 +261,7 @@ impl ThermalSystem {
         self.put(work, y);
         work.element_heat.fill(0.0);
         self.radiation.iter().for_each(|r| r.add_heat(&work.temperature, &mut work.element_heat));
-        self.bodies.add_heat(self, work)?;
+        self.bodies.add_heat((&self.network, &self.elements), work)?;
         let mut others = self.bodies.others().map(|i| &self.elements[i]);
         others.try_for_each(|element| element.add_heat(&self.network, work))
     }
@@ -290,7 +290,7 @@ impl ThermalSystem {
         if !self.is_linear() {
             self.put(work, y);
             self.radiation.iter().for_each(|r| r.add_slopes(&work.temperature, form, values));
-            self.bodies.add_slopes(self, work, form, values)?;
+            self.bodies.add_slopes((&self.network, &self.elements), work, (form, values))?;
             for i in self.bodies.others() {
                 self.elements[i].add_slopes(&self.network, work, form, values)?;
             }
