@@ -99,11 +99,11 @@ mod tests {
 
     #[test]
     fn stages_have_order_two() {
-        for stage in 0..STAGES {
-            same(sum(&row(stage), |_| 1.0), C[stage]);
-            same(sum(&row(stage), |j| C[j]), C[stage].powi(2) / 2.0);
+        for (stage, c) in C.into_iter().enumerate() {
+            same(sum(&row(stage), |_| 1.0), c);
+            same(sum(&row(stage), |j| C[j]), c.powi(2) / 2.0);
         }
-        assert_eq!(row(5), B);
+        row(5).into_iter().zip(B).for_each(|(last, step)| same(last, step));
     }
 
     /// With stages of order two the conditions of order 4 are five.
