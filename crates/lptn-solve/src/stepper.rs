@@ -50,7 +50,10 @@ pub(crate) fn stepper<'a>(
         IntegratorChoice::OneStep => {
             Err(TransientError::Settings(SettingsError::OneStep { curved }))
         }
-        IntegratorChoice::Auto if parts >= MANY_PARTS && Esdirk::suits(&heat) => {
+        // stages go back in time, which may lose the branch of a massless node
+        IntegratorChoice::Auto
+            if parts >= MANY_PARTS && !heat.is_guarded() && Esdirk::suits(&heat) =>
+        {
             esdirk(heat, (start, state), options)
         }
         IntegratorChoice::Esdirk if Esdirk::suits(&heat) => esdirk(heat, (start, state), options),

@@ -48,18 +48,20 @@ impl<S: OdeSystem> Esdirk<S> {
         for stage in 1..STAGES {
             self.solve_stage(stage, h)?;
         }
-        let at_end = self.size_of_sum(&ERROR, h) / (SHARE * self.tolerance);
-        let inside = self.size_of_sum(&inside(), h) / self.tolerance;
+        let at_end = self.sum(&ERROR, h);
+        self.worst = largest(&at_end);
+        let at_end = size_of(&at_end) / (SHARE * self.tolerance);
+        let inside = size_of(&self.sum(&inside(), h)) / self.tolerance;
         Ok(at_end.max(inside).max(self.error_of_integrals(h)))
     }
 
-    /// The largest component of the stages' rates with these weights, in units of y.
-    fn size_of_sum(&self, weights: &[f64; STAGES], h: f64) -> f64 {
+    /// The sum of the stages' rates with these weights, in units of y.
+    fn sum(&self, weights: &[f64; STAGES], h: f64) -> Vec<f64> {
         let mut sum = vec![0.0; self.state.len()];
         for (weight, rate) in weights.iter().zip(&self.stages.rate) {
             kernels::scale_and_add(1.0, &mut sum, h * weight, rate);
         }
-        size_of(&sum)
+        sum
     }
 
     fn error_of_integrals(&self, h: f64) -> f64 {
@@ -139,7 +141,10 @@ impl<S: OdeSystem> Esdirk<S> {
             match self.newton.judge((iteration, size, before), allowed) {
                 Progress::Found => break,
                 Progress::On => before = Some(size),
-                Progress::Lost => return Err(Failed::Shorter),
+                Progress::Lost => {
+                    self.worst = largest(&change);
+                    return Err(Failed::Shorter);
+                }
             }
         }
         Ok(())
@@ -173,6 +178,12 @@ impl<S: OdeSystem> Esdirk<S> {
             cause => Failed::Ended(linear_trouble(self.clock.shown, cause)),
         }
     }
+}
+
+/// The component that is largest.
+fn largest(values: &[f64]) -> usize {
+    let sizes = values.iter().map(|value| value.abs()).enumerate();
+    sizes.max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(index, _)| index)
 }
 
 /// The rate of a stage as a sum of earlier ones: on the straight line through two of them.

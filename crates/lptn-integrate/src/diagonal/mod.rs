@@ -52,6 +52,8 @@ pub struct Esdirk<S> {
     /// Tries in a row that did not come about.
     short: u32,
     stages: Stages,
+    /// The component that held the last try back.
+    worst: usize,
     /// Length of the last step; none between a start and the first step.
     length: Option<f64>,
     integrals: Vec<f64>,
@@ -122,6 +124,7 @@ impl<S: OdeSystem> Esdirk<S> {
             hoped: options.initial_step,
             stages,
             short: 0,
+            worst: 0,
             length: None,
             integrals,
             directions: vec![0; system.root_count()],
@@ -148,7 +151,7 @@ impl<S: OdeSystem> Esdirk<S> {
         let mut refused = false;
         loop {
             if self.clock.now + h <= self.clock.now {
-                let (time, index) = (self.clock.shown, 0);
+                let (time, index) = (self.clock.shown, self.worst);
                 return Err(IntegrateError::Stalled { time, step: h, index });
             }
             let error = match self.attempt(h) {
