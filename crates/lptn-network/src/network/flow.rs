@@ -99,13 +99,16 @@ impl Network {
         slopes: &mut Vec<Received>,
     ) -> Result<Received, InputError> {
         let dependence = self.parts.dependence(id);
-        let at = |k: usize| temperatures[dependence.vertices[k] as usize];
-        if let Some([heat, from, to]) = self.conducted(id, [at(0), at(1)]) {
-            slopes.clear();
-            slopes.extend([[-from, from], [to, -to]]);
-            return Ok([-heat, heat]);
+        // a conductor that is not variable depends on none
+        if let [from, to, ..] = dependence.vertices[..] {
+            let ends = [from, to].map(|vertex| temperatures[vertex as usize]);
+            if let Some([heat, from, to]) = self.conducted(id, ends) {
+                slopes.clear();
+                slopes.extend([[-from, from], [to, -to]]);
+                return Ok([-heat, heat]);
+            }
         }
-        self.slopes_by((id, self.parts.dependence(id)), scope, temperatures, slopes)
+        self.slopes_by((id, dependence), scope, temperatures, slopes)
     }
 
     /// The same of a conductor whose dependence is given, which may be of any kind.
