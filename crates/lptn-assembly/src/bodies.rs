@@ -2,8 +2,8 @@
 //!
 //! Their paths are elements like others. Heat and derivatives of all of them come from one
 //! potential a cell (Kirchhoff's transformation), a tenth of the time that as many means along
-//! paths take. Where the conductivity is not known at a cell, each path is asked for its own heat
-//! and says what is wrong.
+//! paths take. If the conductivity is not known at a cell, each path is asked for its own heat and
+//! reports its error.
 
 use std::collections::BTreeMap;
 

@@ -14,7 +14,7 @@ pub(crate) struct Outer {
 }
 
 impl Outer {
-    /// Those of a network of so many nodes.
+    /// Those of a network with this number of nodes.
     pub(crate) fn of(nodes: usize, radiation: &[Radiation], elements: &[Element]) -> Self {
         let outside = |vertices: &[u32]| vertices.iter().any(|&v| v as usize >= nodes);
         let is_outer = |e: &Element| matches!(e.kind, Kind::Source(_)) || outside(&e.receivers);

@@ -289,7 +289,7 @@ impl KeptAnswer {
         network.sources().iter().for_each(|source| head(&source.name(), "K/W"));
         for (n, node) in network.nodes().iter().enumerate() {
             let all = [&self.kept.weights, &recovery.boundaries, &recovery.sources];
-            // what rounding leaves is no share
+            // rounding alone is not a share
             let share = |value: f64| if value.abs() < 1e-15 { 0.0 } else { value };
             let shares = all.into_iter().flatten().map(|column| share(column[n]).to_string());
             rows.push([node.name.clone()].into_iter().chain(shares).collect());

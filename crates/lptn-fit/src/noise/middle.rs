@@ -109,7 +109,7 @@ pub(super) fn product(times: &[f64], jacobian: &[f64], shape: Shape) -> Vec<f64>
 pub(crate) struct Tied {
     /// The correlated part of the variance.
     correlated: f64,
-    /// What the rows before still say of the next.
+    /// Decayed sum of the derivatives of earlier rows, one value a column.
     before: Vec<f64>,
 }
 

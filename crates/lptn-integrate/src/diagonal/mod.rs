@@ -62,7 +62,6 @@ pub struct Esdirk<S> {
 }
 
 /// The stages of the last step.
-#[derive(Default)]
 struct Stages {
     /// The state where it began.
     begin: Vec<f64>,

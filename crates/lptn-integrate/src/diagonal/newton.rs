@@ -105,7 +105,7 @@ impl Newton {
     ) -> Progress {
         if let Some(before) = before.filter(|before| *before > 0.0) {
             let rate = change / before;
-            // rounding is no reason to read the Jacobian again
+            // rounding is not a reason to read the Jacobian again
             if change > allowed && rate >= 1.0 {
                 return Progress::Lost;
             }

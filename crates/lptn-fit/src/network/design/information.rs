@@ -181,7 +181,7 @@ fn by_eigenvalues(a: MatRef<'_, f64>) -> (Mat<f64>, Vec<bool>) {
 pub(super) struct RowSum {
     pub(super) sum: Information,
     tied: Tied,
-    /// What is left of the correlated part of the variance after one row.
+    /// The share of the correlated part of the variance that is left after one row.
     decay: f64,
     /// The variance of the noise over that by which values are weighed.
     variance: f64,
