@@ -256,3 +256,25 @@ fn peaks_and_levels_are_those_of_the_curve() {
         assert!(looks.placed <= 2250 && looks.placed >= 1850, "{looks:?}, 2050 measured");
     }
 }
+
+/// A run that begins later has the mean of its own time.
+#[test]
+fn the_mean_of_a_run_that_begins_later_is_that_of_its_time() {
+    let system = system("m = { of = \"mean(body.T)\", below = \"90 degC\" }", "");
+    let settings = Transient { start: 3000.0, ..Transient::until(Time(4000.0)) };
+    let solution = settings.at(&[3000.0, 4000.0]).tolerance(1e-6).solve(&system).unwrap();
+    let mean = 80.0 - 80.0 * TAU / 1000.0 * -(-1000.0 / TAU).exp_m1();
+    near(solution.limits()[0].margin, 70.0 - mean, 1e-5);
+    near(solution.limits()[0].worst_at, 4000.0, 0.0);
+}
+
+/// A bell far narrower than any look may stand wherever the body goes: the margin may be off by all
+/// that is compared.
+#[test]
+fn what_may_hide_however_closely_it_is_looked_at_leaves_a_margin_open() {
+    let bell = "exp(-((body.T - 60 [degC]) / 1e-9 [K])^2)";
+    let (seen, _) = seen(&format!("of = \"{bell}\", below = 2"));
+    assert_eq!(seen.open, 2.0);
+    let (seen, _) = self::seen("of = \"exp(-((body.T - 60 [degC]) / 5 [K])^2)\", below = 2");
+    assert_eq!(seen.open, 0.0);
+}
