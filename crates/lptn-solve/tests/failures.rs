@@ -304,8 +304,10 @@ fn ten_thousand_radiating_nodes_run_and_their_books_close() {
 fn books(share: Option<f64>, interrupt: bool) -> Result<Solution, TransientError> {
     let error = share.map_or(String::new(), |share| format!("balance_error = {share:?}\n"));
     let text = format!(
-        "format = 1\n[node]\nball = {{ C = \"500 J/K\", T0 = \"absolute(900 [K])\" }}\n[boundary]\nspace = {{ T = \"absolute(4 \
-         [K])\" }}\n[radiation]\nglow = {{ from = \"ball\", to = \"space\", emissivity = \"1\", area = \"0.05 m^2\" \
+        "format = 1\n[node]\nball = {{ C = \"500 J/K\", T0 = \"absolute(900 [K])\" \
+         }}\n[boundary]\nspace = {{ T = \"absolute(4 \
+         [K])\" }}\n[radiation]\nglow = {{ from = \"ball\", to = \"space\", emissivity = \"1\", \
+         area = \"0.05 m^2\" \
          }}\n[run]\nstop = \"100 s\"\n{error}"
     );
     let netlist = lptn_netlist::parse("books.toml", &text).unwrap_or_else(|r| panic!("{r}"));

@@ -1,8 +1,9 @@
 //! A massless node of several solutions leaps where the one that it follows ends, against the
 //! quadrature of its balance.
 //!
-//! `10 W tanh((x - 340 K) / 2 K) = 2 W/K (x - 300 K) + 2 W/K (x - T)` gives the temperature T of a body
-//! at which a joint rests at x. It turns where the slope of the heat is 4 W/K: there the joint leaps.
+//! `10 W tanh((x - 340 K) / 2 K) = 2 W/K (x - 300 K) + 2 W/K (x - T)` gives the temperature T of a
+//! body at which a joint rests at x. It turns where the slope of the heat is 4 W/K: there the joint
+//! leaps.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking, in its helpers too")]
 
 use lptn_assembly::ThermalSystem;
@@ -73,11 +74,16 @@ fn exact() -> ([f64; 2], [f64; 2]) {
 
 fn run(tolerance: f64) -> Solution {
     let text = format!(
-        "format = 1\n[node]\nbody = {{ C = \"100 J/K\", T0 = \"absolute(300 [K])\" }}\njoint = {{ massless = true \
-         }}\n[boundary]\nair = {{ T = \"absolute(300 [K])\" }}\n[resistor]\nskin = {{ from = \"body\", to = \"air\", G = \"2 \
-         W/K\" }}\nfilm = {{ from = \"joint\", to = \"air\", G = \"2 W/K\" }}\nwall = {{ from = \"body\", to = \"joint\", G = \"2 \
-         W/K\" }}\n[source]\nheat = {{ into = \"body\", P = \"if(t < {OFF} [s], {P} [W], 0 [W])\" }}\nown = {{ into = \
-         \"joint\", P = \"10 [W] * tanh((T - absolute(340 [K])) / 2 [K])\" }}\n[limit]\nleaps = {{ of = \"joint.T\", \
+        "format = 1\n[node]\nbody = {{ C = \"100 J/K\", T0 = \"absolute(300 [K])\" }}\njoint = \
+         {{ massless = true \
+         }}\n[boundary]\nair = {{ T = \"absolute(300 [K])\" }}\n[resistor]\nskin = {{ from = \
+         \"body\", to = \"air\", G = \"2 \
+         W/K\" }}\nfilm = {{ from = \"joint\", to = \"air\", G = \"2 W/K\" }}\nwall = {{ from = \
+         \"body\", to = \"joint\", G = \"2 \
+         W/K\" }}\n[source]\nheat = {{ into = \"body\", P = \"if(t < {OFF} [s], {P} [W], 0 \
+         [W])\" }}\nown = {{ into = \
+         \"joint\", P = \"10 [W] * tanh((T - absolute(340 [K])) / 2 [K])\" }}\n[limit]\nleaps = \
+         {{ of = \"joint.T\", \
          below = \"absolute(340 [K])\" }}\n[run]\nstop = \"120 s\"\n"
     );
     let netlist = lptn_netlist::parse("folds.toml", &text).unwrap_or_else(|r| panic!("{r}"));

@@ -159,8 +159,10 @@ fn jumping(jumps: u32, more: &str) -> ThermalSystem {
     };
     let jumps: String = (1..=jumps).map(jump).collect();
     let text = format!(
-        "format = 1\n[node]\nball = {{ C = \"500 J/K\", T0 = \"300 K\" }}\n[boundary]\nspace = {{ T = \"absolute(4 [K])\" \
-         }}\n[radiation]\nglow = {{ from = \"ball\", to = \"space\", emissivity = \"1\", area = \"0.05 m^2\" }}\n[source]\nheat = \
+        "format = 1\n[node]\nball = {{ C = \"500 J/K\", T0 = \"300 K\" }}\n[boundary]\nspace = \
+         {{ T = \"absolute(4 [K])\" \
+         }}\n[radiation]\nglow = {{ from = \"ball\", to = \"space\", emissivity = \"1\", area = \
+         \"0.05 m^2\" }}\n[source]\nheat = \
          {{ into = \"ball\", P = \"10 [W]{jumps}\" }}\n{more}[run]\nstop = \"100 s\"\n"
     );
     let text = text.replace("\"300 K\"", "\"absolute(300 [K])\"");
@@ -181,12 +183,15 @@ fn many_parts_are_taken_by_a_runge_kutta_method() {
         [18, 19, 40].map(|jumps| auto(&jumping(jumps, ""))),
         [Method::Cvode, Method::Esdirk, Method::Esdirk]
     );
-    let joint = "[node.joint]\nmassless = true\n[resistor]\nlead = { from = \"joint\", to = \"ball\", G = \"2 W/K\" }\n[source.own]\ninto = \
+    let joint = "[node.joint]\nmassless = true\n[resistor]\nlead = { from = \"joint\", to = \
+        \"ball\", G = \"2 W/K\" }\n[source.own]\ninto = \
                  \"joint\"\nP = \"10 [W] * tanh((T - absolute(340 [K])) / 2 [K])\"\n";
     let several = jumping(30, joint);
     assert_eq!(auto(&several), Method::Cvode);
-    let melts = "[node.wax]\nT0 = \"absolute(300 [K])\"\nC = \"100 [J/K] * factor(T - absolute(0 [K]))\"\n[table]\nfactor = { x = [200, 400], x_unit = \
-                 \"K\", y = [1, 2], outside = \"hold\" }\n[resistor]\nlead = { from = \"wax\", to = \"ball\", G = \"2 W/K\" }\n";
+    let melts = "[node.wax]\nT0 = \"absolute(300 [K])\"\nC = \"100 [J/K] * factor(T - absolute(0 \
+        [K]))\"\n[table]\nfactor = { x = [200, 400], x_unit = \
+                 \"K\", y = [1, 2], outside = \"hold\" }\n[resistor]\nlead = { from = \"wax\", \
+                 to = \"ball\", G = \"2 W/K\" }\n";
     let melts = jumping(30, melts);
     assert_eq!(auto(&melts), Method::Cvode);
     let refused = method(&melts, IntegratorChoice::Esdirk).unwrap_err();

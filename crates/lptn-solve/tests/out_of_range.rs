@@ -9,9 +9,12 @@ use lptn_solve::{Solution, Transient, Watch};
 /// Re = 2750 s/m u is known from 0.4 to 4e5.
 fn run(speed: &str, watches: bool) -> Solution {
     let text = format!(
-        "format = 1\n[boundary]\nroom = {{ T = \"20 degC\" }}\n[node]\nrod = {{ T0 = \"80 degC\", C = \"100 J/K\" \
-         }}\n[convection.skin]\nfrom = \"rod\"\nto = \"room\"\ncorrelation = \"cylinder_in_cross_flow_hilpert\"\nk = \
-         \"0.0277 W/(m K)\"\ndensity = \"1.1 kg/m^3\"\ncp = \"1007 J/(kg K)\"\nviscosity = \"20 uPa s\"\nspeed = \
+        "format = 1\n[boundary]\nroom = {{ T = \"20 degC\" }}\n[node]\nrod = {{ T0 = \"80 \
+         degC\", C = \"100 J/K\" \
+         }}\n[convection.skin]\nfrom = \"rod\"\nto = \"room\"\ncorrelation = \
+         \"cylinder_in_cross_flow_hilpert\"\nk = \
+         \"0.0277 W/(m K)\"\ndensity = \"1.1 kg/m^3\"\ncp = \"1007 J/(kg K)\"\nviscosity = \"20 \
+         uPa s\"\nspeed = \
          \"{speed}\"\ndiameter = \"50 mm\"\narea = \"0.02 m^2\"\n[run]\nstop = \"200 s\"\n"
     );
     let netlist = lptn_netlist::parse("rod.toml", &text).unwrap_or_else(|r| panic!("{r}"));

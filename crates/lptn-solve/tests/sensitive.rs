@@ -220,9 +220,12 @@ fn a_parameter_can_move_if_the_network_takes_a_value_beside_it() {
 /// thousandth of the parameter.
 #[test]
 fn a_result_of_a_parameter_is_a_difference_far_finer_than_runs_are() {
-    let text = "format = 1\n[param]\nP = \"160 W\"\n[node]\nbody = { C = \"1 kJ/K\", T0 = \"20 degC\" }\n[boundary]\nair = { T = \
-                \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", G = \"2 W/K\" }\n[source]\nheat = { into = \
-                \"body\", P = \"P\" }\n[run]\nstop = \"10 s\"\nreport = { steep = \"exp((P - 160 [W]) / 0.1 [W])\" }\n";
+    let text = "format = 1\n[param]\nP = \"160 W\"\n[node]\nbody = { C = \"1 kJ/K\", T0 = \"20 \
+        degC\" }\n[boundary]\nair = { T = \
+                \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", G = \"2 W/K\" \
+                }\n[source]\nheat = { into = \
+                \"body\", P = \"P\" }\n[run]\nstop = \"10 s\"\nreport = { steep = \"exp((P - 160 \
+                [W]) / 0.1 [W])\" }\n";
     let netlist = lptn_netlist::parse("steep.toml", text).unwrap_or_else(|r| panic!("{r}"));
     let network = &netlist.network;
     let settings = Transient::until(Time(10.0)).at(&[10.0]);
@@ -237,9 +240,13 @@ fn a_result_of_a_parameter_is_a_difference_far_finer_than_runs_are() {
 /// A margin of 0 or 1 kW that a parameter moves by rounding alone is straight.
 #[test]
 fn a_margin_that_rounding_moves_is_straight() {
-    let text = "format = 1\n[param]\nP = \"160 W\"\n[node]\nbody = { C = \"1 kJ/K\", T0 = \"20 degC\" }\n[boundary]\nair = { T = \
-                \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", G = \"2 W/K\" }\n[source]\nheat = { into = \
-                \"body\", P = \"P\" }\n[limit]\nnone = { of = \"1000 * P / 0.3 * 0.3 - 1000 * P\", above = \"0 W\" }\nsome = { of = \"1000 [W] + (1000 * P / 0.3 * 0.3 - 1000 * P)\", above = \"0 W\" }\n[run]\nstop = \"10 s\"\n";
+    let text = "format = 1\n[param]\nP = \"160 W\"\n[node]\nbody = { C = \"1 kJ/K\", T0 = \"20 \
+        degC\" }\n[boundary]\nair = { T = \
+                \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", G = \"2 W/K\" \
+                }\n[source]\nheat = { into = \
+                \"body\", P = \"P\" }\n[limit]\nnone = { of = \"1000 * P / 0.3 * 0.3 - 1000 * \
+                P\", above = \"0 W\" }\nsome = { of = \"1000 [W] + (1000 * P / 0.3 * 0.3 - 1000 \
+                * P)\", above = \"0 W\" }\n[run]\nstop = \"10 s\"\n";
     let netlist = lptn_netlist::parse("rounds.toml", text).unwrap_or_else(|r| panic!("{r}"));
     let network = &netlist.network;
     let p = id(network, "P");

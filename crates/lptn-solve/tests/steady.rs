@@ -439,9 +439,12 @@ fn ten_thousand_radiating_nodes_give_all_heat_to_space() {
 fn an_island_that_rests_where_no_capacity_is_known_is_refused() {
     let solved = |hot: f64| {
         let text = format!(
-            "format = 1\n[table]\nc = {{ x = [250, 350], x_unit = \"K\", y = [\"10 J/K\", \"10 J/K\"] }}\n[node]\na = {{ C = \
-             \"c(T - absolute(0 [K]))\", T0 = \"absolute(300 [K])\" }}\nb = {{ C = \"10 J/K\", T0 = \"absolute({hot} [K])\" \
-             }}\n[resistor]\nlead = {{ from = \"a\", to = \"b\", G = \"1 W/K\" }}\n[run]\nstop = \"1 s\"\n"
+            "format = 1\n[table]\nc = {{ x = [250, 350], x_unit = \"K\", y = [\"10 J/K\", \"10 \
+             J/K\"] }}\n[node]\na = {{ C = \
+             \"c(T - absolute(0 [K]))\", T0 = \"absolute(300 [K])\" }}\nb = {{ C = \"10 J/K\", \
+             T0 = \"absolute({hot} [K])\" \
+             }}\n[resistor]\nlead = {{ from = \"a\", to = \"b\", G = \"1 W/K\" }}\n[run]\nstop = \
+             \"1 s\"\n"
         );
         let netlist = lptn_netlist::parse("island.toml", &text).unwrap_or_else(|r| panic!("{r}"));
         SteadyState::solve(&ThermalSystem::assemble(&netlist.network).unwrap(), 0.0)
@@ -463,9 +466,12 @@ fn a_joint_does_not_rest_where_nothing_stays() {
     let stable = root(0.0, 10.0, |x| 2.0 * (x / 10.0).exp() - x);
     for start in [0.0, 20.0, 23.0, 24.0] {
         let text = format!(
-            "format = 1\n[node]\ncell = {{ massless = true, T0 = \"absolute({} [K])\" }}\n[boundary]\nroom = {{ T = \
-             \"absolute(300 [K])\" }}\n[resistor]\nskin = {{ from = \"cell\", to = \"room\", G = \"1 W/K\" }}\n[source]\nheat = \
-             {{ into = \"cell\", P = \"2 [W] * exp((T - absolute(300 [K])) / 10 [K])\" }}\n[run]\nstop = \"1 s\"\n",
+            "format = 1\n[node]\ncell = {{ massless = true, T0 = \"absolute({} [K])\" \
+             }}\n[boundary]\nroom = {{ T = \
+             \"absolute(300 [K])\" }}\n[resistor]\nskin = {{ from = \"cell\", to = \"room\", G = \
+             \"1 W/K\" }}\n[source]\nheat = \
+             {{ into = \"cell\", P = \"2 [W] * exp((T - absolute(300 [K])) / 10 [K])\" \
+             }}\n[run]\nstop = \"1 s\"\n",
             300.0 + start
         );
         let netlist = lptn_netlist::parse("cell.toml", &text).unwrap_or_else(|r| panic!("{r}"));

@@ -109,8 +109,8 @@ fn each_row_is_written_once() {
     }
 }
 
-/// Joints that are solved for are looked at at all points of each part of their inputs before anything
-/// reads them, so that each look begins next to what it finds: as measured.
+/// Joints that are solved for are looked at at all points of each part of their inputs before
+/// anything reads them, so that each look begins next to what it finds: as measured.
 #[test]
 fn looks_at_a_joint_are_few() {
     let bent = "2 [W/K] * (1 + (T_mean - absolute(300 [K])) / 100 [K])";

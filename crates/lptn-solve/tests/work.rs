@@ -159,7 +159,8 @@ fn errors_that_grow_are_made_up_for_by_smaller_steps() {
 fn the_integrator_begins_anew_behind_a_kink() {
     let restarts = |at: f64| {
         let text = format!(
-            "50 [W] + 20 [W/K] * max(T - {at} [degC], 0 [K]) - 21 [W/K] * max(T - {at} [degC], 0 [K])"
+            "50 [W] + 20 [W/K] * max(T - {at} [degC], 0 [K]) - 21 [W/K] * max(T - {at} [degC], 0 \
+             [K])"
         );
         run(&heated(&text)).statistics().restarts
     };

@@ -131,8 +131,8 @@ fn a_place_has_the_heat_left_over_and_its_slope() {
     assert!((place.slope[0] + 60.0).abs() < 1e-9, "{:?}", place.slope);
 }
 
-/// The corner lies a third of a kelvin behind a place, so that it is at a third or two thirds of every
-/// stretch around it: twenty halvings of 1 K come to less than 1e-6 K.
+/// The corner lies a third of a kelvin behind a place, so that it is at a third or two thirds of
+/// every stretch around it: twenty halvings of 1 K come to less than 1e-6 K.
 #[test]
 fn a_corner_is_closed_in_to_what_is_rounding() {
     let heat = "1 [W/K] * max(T - absolute(305 [K]) - 1 [K] / 3, 0 [K])";
@@ -154,7 +154,8 @@ fn a_corner_is_closed_in_to_what_is_rounding() {
     assert_eq!(left(&mut newton, [310.0, 326.0], MORE), MORE);
 }
 
-/// A place is refused if nothing rests within 1e-6 K to either side, and a narrower stretch is rounding.
+/// A place is refused if nothing rests within 1e-6 K to either side, and a narrower stretch is
+/// rounding.
 #[test]
 fn a_place_is_refused_unless_something_rests_on_both_sides_of_it() {
     let above = "9 [W/K] * max(T - absolute(340 [K]), 0 [K])";

@@ -13,9 +13,12 @@ use crate::reading::Reading;
 fn wanting(halves: [f64; 2]) -> f64 {
     let power = |node: &str| format!("(kelvin({node}.T) / 1 [K])^8");
     let text = format!(
-        "format = 1\n[node]\na = {{ C = \"1 J/K\", T0 = \"absolute(400 [K])\" }}\nb = {{ C = \"1 J/K\", T0 = \
-         \"absolute(400 [K])\" }}\n[boundary]\nair = {{ T = \"absolute(300 [K])\" }}\n[resistor]\nskin = {{ from = \
-         \"a\", to = \"air\", R = \"1 K/W\" }}\nlead = {{ from = \"a\", to = \"b\", R = \"1 K/W\" }}\n[run]\nstop = \"1 \
+        "format = 1\n[node]\na = {{ C = \"1 J/K\", T0 = \"absolute(400 [K])\" }}\nb = {{ C = \"1 \
+         J/K\", T0 = \
+         \"absolute(400 [K])\" }}\n[boundary]\nair = {{ T = \"absolute(300 [K])\" \
+         }}\n[resistor]\nskin = {{ from = \
+         \"a\", to = \"air\", R = \"1 K/W\" }}\nlead = {{ from = \"a\", to = \"b\", R = \"1 \
+         K/W\" }}\n[run]\nstop = \"1 \
          s\"\nreport = {{ first = \"{}\", second = \"{}\" }}\n",
         power("a"),
         power("b")

@@ -241,8 +241,8 @@ fn bumped(ends: (f64, f64), by: f64) -> Interval {
     Interval { from: ends.0, to: ends.1, values }
 }
 
-/// The Gauss rule gives the first inner point its weight, the other rule none; a part in 1e10 of the
-/// integral of the absolute value is allowed, or one in 1e12 of the size of what is compared.
+/// The Gauss rule gives the first inner point its weight, the other rule none; a part in 1e10 of
+/// the integral of the absolute value is allowed, or one in 1e12 of the size of what is compared.
 #[test]
 fn what_is_wanting_is_the_difference_of_both_rules_over_what_is_allowed() {
     let weight = crate::interval::GAUSS[0].1;

@@ -126,8 +126,8 @@ fn several_solutions_are_not_sought_from_warmer_temperatures() {
     assert_eq!(temperatures, [380.0, 300.0]);
 }
 
-/// With factors that are too large by a fiftieth each correction leaves a part in 51 of what was left. The
-/// one that foretells less than 1e-10 K, four times over, is the last.
+/// With factors that are too large by a fiftieth each correction leaves a part in 51 of what was
+/// left. The one that foretells less than 1e-10 K, four times over, is the last.
 #[test]
 fn corrections_end_when_the_next_one_is_foretold_to_be_small() {
     let own = "-1 [W/K] * (T - absolute(300 [K]))";
@@ -158,8 +158,8 @@ fn corrections_end_when_the_next_one_is_foretold_to_be_small() {
     }
 }
 
-/// A move of more than a kelvin may have led to another solution, a smaller one has not: the factors
-/// stay.
+/// A move of more than a kelvin may have led to another solution, a smaller one has not: the
+/// factors stay.
 #[test]
 fn factors_are_made_anew_where_a_massless_node_of_several_solutions_moves_far() {
     let system =

@@ -6,7 +6,8 @@ use super::reads_temperatures;
 /// Of a body that a heat enters, with further sections.
 fn reads(sections: &str) -> bool {
     let text = format!(
-        "format = 1\n[node]\nbody = {{ C = \"1 J/K\", T0 = \"400 K\" }}\n[boundary]\nair = {{ T = \"300 K\" \
+        "format = 1\n[node]\nbody = {{ C = \"1 J/K\", T0 = \"400 K\" }}\n[boundary]\nair = {{ T \
+         = \"300 K\" \
          }}\n[resistor]\nskin = {{ from = \"body\", to = \"air\", R = \"1 K/W\" }}\n{sections}\n"
     );
     let netlist = lptn_netlist::parse("reads.toml", &text).unwrap_or_else(|r| panic!("{r}"));

@@ -173,14 +173,17 @@ fn may_grow(text: &str) -> bool {
 /// A body with a capacity and a conductance to air, and further sections.
 fn body(capacity: &str, conductance: &str, sections: &str) -> String {
     format!(
-        "format = 1\n[table]\nfactor = {{ x = [200, 300, 400], x_unit = \"K\", y = [1, 1, 0.5], outside = \"hold\" }}\n[node]\nbody \
-         = {{ C = \"{capacity}\", T0 = \"absolute(300 [K])\" }}\n{sections}[boundary]\nair = {{ T = \"absolute(300 [K])\" \
-         }}\n[resistor]\nskin = {{ from = \"body\", to = \"air\", G = \"{conductance}\" }}\n[run]\nstop = \"1 s\"\n"
+        "format = 1\n[table]\nfactor = {{ x = [200, 300, 400], x_unit = \"K\", y = [1, 1, 0.5], \
+         outside = \"hold\" }}\n[node]\nbody \
+         = {{ C = \"{capacity}\", T0 = \"absolute(300 [K])\" }}\n{sections}[boundary]\nair = {{ \
+         T = \"absolute(300 [K])\" \
+         }}\n[resistor]\nskin = {{ from = \"body\", to = \"air\", G = \"{conductance}\" \
+         }}\n[run]\nstop = \"1 s\"\n"
     )
 }
 
-/// Each by itself excludes that nothing grows: a heat that rises with its own temperature, a massless
-/// node that is solved for, a state that is a heat content.
+/// Each by itself excludes that nothing grows: a heat that rises with its own temperature, a
+/// massless node that is solved for, a state that is a heat content.
 #[test]
 fn errors_may_grow_where_the_form_of_the_network_does_not_exclude_it() {
     assert!(!may_grow(&body("1 J/K", "2 W/K", "")));

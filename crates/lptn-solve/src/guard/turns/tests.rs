@@ -191,8 +191,8 @@ fn a_turn_of_several_temperatures_is_looked_for_ahead() {
 const NARROW_BOTH: &str =
     "1 [W] * exp(-((T + (n1.T - absolute(300 [K])) - absolute(340 [K])) / 0.01 [K])^2)";
 
-/// What is narrow among several temperatures is found to a thousandth of a kelvin, not to a share of
-/// the way.
+/// What is narrow among several temperatures is found to a thousandth of a kelvin, not to a share
+/// of the way.
 #[test]
 fn a_narrow_turn_of_several_temperatures_is_found_where_it_is() {
     with([NARROW_BOTH, "1 [W]"], |turns, scope| {

@@ -29,9 +29,12 @@ fn rates_are_heats_over_capacities() {
 /// half of it at 350 K.
 #[test]
 fn the_rate_of_a_body_whose_capacity_falls_is_that_of_its_temperature() {
-    let text = "format = 1\n[table]\nfactor = { x = [200, 300, 400], x_unit = \"K\", y = [1, 1, 0.0001], outside = \
-                \"hold\" }\n[node]\nbody = { C = \"100 [J/K] * factor(T - absolute(0 [K]))\", T0 = \"absolute(300 [K])\" }\n[boundary]\nair \
-                = { T = \"absolute(300 [K])\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", R = \"0.5 K/W\" \
+    let text = "format = 1\n[table]\nfactor = { x = [200, 300, 400], x_unit = \"K\", y = [1, 1, \
+        0.0001], outside = \
+                \"hold\" }\n[node]\nbody = { C = \"100 [J/K] * factor(T - absolute(0 [K]))\", T0 \
+                = \"absolute(300 [K])\" }\n[boundary]\nair \
+                = { T = \"absolute(300 [K])\" }\n[resistor]\nskin = { from = \"body\", to = \
+                \"air\", R = \"0.5 K/W\" \
                 }\n[run]\nstop = \"1 s\"\n";
     let netlist = lptn_netlist::parse("falls.toml", text).unwrap_or_else(|r| panic!("{r}"));
     let system = ThermalSystem::assemble(&netlist.network).unwrap();

@@ -13,8 +13,9 @@ fn rests(heats: &[(f64, &str)]) -> Option<Vec<f64>> {
     }
 }
 
-/// A body with 2 W/K to air that 20 W heat, less by 0.1 W/K^2: `20 - 2 x - 0.1 x^2 = 0` at `x = sqrt(300) - 10`.
-/// It is left as soon as a correction by Newton's method is less than a thousandth of a kelvin.
+/// A body with 2 W/K to air that 20 W heat, less by 0.1 W/K^2: `20 - 2 x - 0.1 x^2 = 0` at `x =
+/// sqrt(300) - 10`. It is left as soon as a correction by Newton's method is less than a thousandth
+/// of a kelvin.
 #[test]
 fn a_network_is_followed_until_it_is_a_thousandth_of_a_kelvin_from_rest() {
     let heat = "20 [W] - 0.1 [W/K^2] * (T - absolute(300 [K]))^2";
@@ -37,4 +38,15 @@ fn what_moves_away_slowly_does_not_rest_where_it_is() {
 fn what_runs_away_does_not_rest() {
     let heat = "1 [W] + 3 [W/K] * (T - absolute(300 [K]))";
     assert!(rests(&[(100.0, heat)]).is_none());
+}
+
+/// Beside 305 K two steady states have met and gone: 1e-8 W are left over there, by which the body
+/// creeps through in some months. It rests at 320 K.
+#[test]
+fn what_creeps_past_the_end_of_two_states_does_not_rest_there() {
+    let rise = "(T - absolute(300 [K])) / 1 [K]";
+    let heat =
+        format!("2 [W] * {rise} + (0.1 [W] * ({rise} - 5)^2 + 1e-8 [W]) * (1 - {rise} / 20)");
+    let found = rests(&[(100.0, &heat)]).unwrap()[0];
+    assert!((found - 320.0).abs() < 1e-2, "{found}");
 }
