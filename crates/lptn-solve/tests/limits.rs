@@ -291,9 +291,9 @@ fn tops_of_many_nodes_are_taken_from_the_points() {
     for (k, &node) in nodes.iter().enumerate() {
         b.resistor(&format!("r{k}"), node, air, Conductance(1.0));
     }
-    for k in 0..2 {
+    for (k, &node) in nodes.iter().take(2).enumerate() {
         let heat = b.expression("50 [W] * sin(2 * pi * t / 300 [s])", None).unwrap();
-        b.source(&format!("q{k}"), nodes[k], heat);
+        b.source(&format!("q{k}"), node, heat);
     }
     let system = ThermalSystem::assemble(&b.build().unwrap()).unwrap();
     let run = |watched: usize| {

@@ -154,7 +154,7 @@ fn all_integrators_find_the_same_on_random_networks() {
 fn jumping(jumps: u32, more: &str) -> ThermalSystem {
     let parts = f64::from(jumps + 1);
     let jump = |k: u32| {
-        let sign = if k % 2 == 0 { '-' } else { '+' };
+        let sign = if k.is_multiple_of(2) { '-' } else { '+' };
         format!(" {sign} if(t < {:?} [s], 5 [W], 0 [W])", 100.0 * f64::from(k) / parts)
     };
     let jumps: String = (1..=jumps).map(jump).collect();
