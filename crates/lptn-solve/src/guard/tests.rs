@@ -218,3 +218,15 @@ fn a_later_step_past_a_turn_is_taken_back_as_far() {
         near(guard.longest, 10.0, 0.5);
     });
 }
+
+/// A step without a length tells nothing of how fast temperatures change.
+#[test]
+fn a_step_without_a_length_keeps_the_rates() {
+    guarded(BELL, (1e-3, |t| 300.0 + t + 0.01 * t * t), |guard, integrator| {
+        for to in [4.0, 4.0] {
+            let step = integrator.goes_to(to);
+            assert_eq!(guard.judge(integrator, &step), Verdict::Stands);
+            near(guard.rates[0], 1.04, 1e-9);
+        }
+    });
+}
