@@ -121,3 +121,21 @@ fn looks_at_a_joint_are_few() {
     }
     assert_eq!([line.sought, wave.sought], [8, 153]);
 }
+
+/// A joint that radiates has one solution: each of eight parts is gone to its end before it is
+/// looked at, which costs a look each.
+#[test]
+fn a_joint_of_one_solution_is_gone_through_part_by_part() {
+    let text = "format = 1\n[node]\njoint = { massless = true }\n[boundary]\nair = { T = \
+                \"absolute(300 [K])\" }\n[radiation]\nskin = { from = \"joint\", to = \"air\", \
+                emissivity = \"1\", area = \"1 m^2\" }\n[source]\nheat = { into = \"joint\", P = \
+                \"3 [W/s] * t\" }\n[run]\nstop = \"100 s\"\n";
+    let netlist = parse("glows.toml", text).unwrap_or_else(|rejected| panic!("{rejected}"));
+    let system = ThermalSystem::assemble(&netlist.network).unwrap();
+    let solution = Transient::until(Time(100.0)).at(&[0.0, 100.0]).solve(&system).unwrap();
+    let node = netlist.network.node("joint").unwrap();
+    let exact = (300.0_f64.powi(4) + 300.0 / 5.670_374_419e-8).powf(0.25);
+    near(*solution.temperature(node).unwrap().last().unwrap(), exact, 1e-6);
+    // six points for the books of each part beside its end, and four at the ends of the run
+    assert_eq!(solution.looks().placed, 8 * 7 + 4);
+}

@@ -1,7 +1,10 @@
 //! Whether anything reads temperatures where results are read.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use super::reads_temperatures;
+use lptn_assembly::ThermalSystem;
+
+use super::{Reading, reads_temperatures};
+use crate::scripted::bodies;
 
 /// Of a body that a heat enters, with further sections.
 fn reads(sections: &str) -> bool {
@@ -23,4 +26,11 @@ fn results_read_temperatures_and_laws_that_tell_nothing_do_not() {
     let limit = "[limit]\nhot = { of = \"body.T\", below = \"500 degC\" }\n";
     assert!(reads(&format!("{limit}{RUN}")));
     assert!(reads(&format!("{limit}{RUN}report = {{ loss = \"skin.Q\" }}\n")));
+}
+
+/// Expressions that the network does not hold may read them too.
+#[test]
+fn a_reading_of_any_expression_takes_temperatures() {
+    let system = ThermalSystem::assemble(&bodies(&[(1.0, "1 [W]")], None)).unwrap();
+    assert!(!Reading::new(&system).reads && Reading::of_any(&system).reads);
 }
