@@ -132,3 +132,6 @@ fn heat_of(
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -81,3 +81,6 @@ impl Gates {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;
