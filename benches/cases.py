@@ -23,7 +23,8 @@ class Case:
         self.name, self.n, self.paths = about["name"], about["n"], about["paths"]
         self.steady, self.linear = about["steady"], about["linear"]
         self.t_end, self.probes = about["t_end"], about["probes"]
-        self.columns, self.program = about["columns"], about.get("program")
+        self.columns = about.get("columns") or [f"n{i}.T" for i in self.probes]
+        self.program = about.get("program")
         self.shape = (1 if self.steady else about["rows"], len(self.probes))
         self.right, self.known = None, ""
 

@@ -32,7 +32,6 @@ def write(net, name, folder):
         t_end=net.t_end,
         rows=len(net.rows),
         probes=net.probes.tolist(),
-        columns=[f"n{i}.T" for i in net.probes.tolist()],
     )
     (folder / "case.json").write_text(json.dumps(about))
 

@@ -40,7 +40,7 @@ def make(name):
 
 
 def conductivity(rng, N):
-    """The block of ../grids.md: steel of 0.1 m, k = 20 (1 + 0.001 (T - 20 degC))."""
+    """A block of steel of 0.1 m, k = 20 (1 + 0.001 (T - 20 degC)) W/(m K)."""
     size, k0, b, density, cp, power, h, emissivity, air = (
         0.1,
         20,

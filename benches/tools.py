@@ -115,8 +115,8 @@ class Law(Tool):
         return self.steady == case.steady and case.program is not None
 
     def stamp(self):
-        """The time of the build that `program` names."""
-        return str((self.program / "laws.built").stat().st_mtime_ns)
+        """What tells these builds of the programs from others."""
+        return (self.program / "laws.built").read_text()[:12]
 
     def missing(self):
         return None if (self.program / "laws.built").exists() else "not built"

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use pages::{blocks, lines, pages};
 
 /// Words and phrases that are private to their author, with what to write.
-const PRIVATE: [(&str, &str); 26] = [
+const PRIVATE: [(&str, &str); 25] = [
     ("anew", "again"),
     ("beforehand", "before"),
     ("meanwhile", "while"),
@@ -25,7 +25,6 @@ const PRIVATE: [(&str, &str); 26] = [
     ("reckon", "compute"),
     ("ledger", "energy balance"),
     ("manieth", "every N-th"),
-    ("so manieth", "every N-th"),
     ("of its own", "its own, separate"),
     ("of their own", "their own, separate"),
     ("of his own", "separate"),

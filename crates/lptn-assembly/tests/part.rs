@@ -6,7 +6,7 @@ use lptn_assembly::ThermalSystem;
 use lptn_network::{Conductance, HeatCapacity, NetworkBuilder, Path, Temperature};
 use networks::{SIGMA, link, power, radiation, system};
 
-/// A surface among a body and air, and two bodies that are joined by a path without heat below 200 K.
+/// A surface among a body and air, and two bodies joined by a path without heat below 200 K.
 fn surface() -> ThermalSystem {
     let mut b = NetworkBuilder::new();
     let [body, far, further] =

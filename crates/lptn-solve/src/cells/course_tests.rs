@@ -38,9 +38,9 @@ fn steps_are_halved_until_six_are_in_a_period() {
 }
 
 /// A bell in the middle of a step is seen with the three steps to both sides; in steps of half a
-/// second it stands at the end of two, and with those beside them foretells four falsely.
+/// second it is at the end of two, and with their neighbours predicts four falsely.
 #[test]
-fn steps_around_what_is_not_foretold_are_halved() {
+fn steps_around_values_that_are_not_predicted_are_halved() {
     let found = of("1 [W] * exp(-((t - 150.5 [s]) / 0.08 [s])^2)", &RUN, f64::INFINITY);
     let finer = |step: f64| {
         let fine: Vec<&Stretch> = found.iter().filter(|stretch| stretch.step < step).collect();

@@ -189,7 +189,7 @@ fn errors_of_a_single_state_are_left_to_its_speed() {
     });
 }
 
-/// Where nothing turns and no kink was passed an error is looked at in every sixteenth step: its
+/// If nothing turns and no kink was passed, an error is evaluated in every sixteenth step: its
 /// rate, -0.02 1/s at 300 K and 0.04 1/s at 303 K, is taken from there.
 #[test]
 fn errors_are_not_looked_at_in_every_step() {

@@ -1,4 +1,4 @@
-//! What hides in results of several temperatures.
+//! Features between the points, in results of several temperatures.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_assembly::ThermalSystem;

@@ -127,9 +127,9 @@ fn several_solutions_are_not_sought_from_warmer_temperatures() {
 }
 
 /// With factors that are too large by a fiftieth each correction leaves a part in 51 of what was
-/// left. The one that foretells less than 1e-10 K, four times over, is the last.
+/// left. The one that predicts less than 1e-10 K, four times over, is the last.
 #[test]
-fn corrections_end_when_the_next_one_is_foretold_to_be_small() {
+fn corrections_end_if_the_next_one_is_predicted_to_be_small() {
     let own = "-1 [W/K] * (T - absolute(300 [K]))";
     let network = bodies(&[(100.0, "1 [W]"), (0.0, own)], Some("2 [W/K]"));
     let system = ThermalSystem::assemble(&network).unwrap();
@@ -161,7 +161,7 @@ fn corrections_end_when_the_next_one_is_foretold_to_be_small() {
 /// A move of more than a kelvin may have led to another solution, a smaller one has not: the
 /// factors stay.
 #[test]
-fn factors_are_made_anew_where_a_massless_node_of_several_solutions_moves_far() {
+fn factors_are_renewed_if_a_massless_node_of_several_solutions_moves_far() {
     let system =
         ThermalSystem::assemble(&bodies(&[(100.0, "1 [W]"), (0.0, STEP)], Some("2 [W/K]")));
     let system = system.unwrap();

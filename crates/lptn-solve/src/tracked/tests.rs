@@ -1,4 +1,4 @@
-//! What is taken of an interval whose points tell a column, and of one whose points do not.
+//! Extremes of an interval whose points determine a column, and of one whose points do not.
 use super::*;
 use crate::interval::NODES;
 

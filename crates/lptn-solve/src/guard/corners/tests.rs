@@ -188,7 +188,7 @@ fn capacities_are_those_of_the_bodies() {
     assert!(Corners::of(&system, 1e-3).are_none());
 }
 
-/// The course of `bend`, begun at another time: what is seen of a kink does not depend on it.
+/// The time history of `bend`, begun at another time: a kink is judged in the same way.
 fn bend_from(start: f64, at: f64, (tolerance, fresh): (f64, bool)) -> Option<Bend> {
     let network = bodies(&[(C, KINK), (C, "1 [W]")], None);
     let system = ThermalSystem::assemble(&network).unwrap();
@@ -233,9 +233,9 @@ fn a_kink_is_judged_alike_whenever_the_step_begins() {
     assert_eq!(bend_from(64.0, 0.3, (1e-6, false)), halved);
 }
 
-/// What disturbs by more than a quarter of the tolerance is weighed by what is given off.
+/// A disturbance of more than a quarter of the tolerance is weighed by the heat given off.
 #[test]
-fn a_disturbance_beyond_a_quarter_of_the_tolerance_is_weighed_by_what_is_given_off() {
+fn a_disturbance_beyond_a_quarter_of_the_tolerance_is_weighed_by_the_heat_given_off() {
     let weighed = disturbance(16.0);
     let bare = weighed.map(|d| d * (C + 140.0) / C);
     let most = bare.iter().fold(0.0, |most: f64, d| most.max(*d));
@@ -251,7 +251,7 @@ fn a_disturbance_beyond_a_quarter_of_the_tolerance_is_weighed_by_what_is_given_o
 
 /// Eight doubles are halved three times: there is no time between two that are neighbours.
 #[test]
-fn a_kink_is_sought_down_to_neighbouring_times() {
+fn a_kink_is_found_down_to_neighbouring_times() {
     let network = bodies(&[(C, KINK)], None);
     let system = ThermalSystem::assemble(&network).unwrap();
     let (start, double) = (1024.0, 1024.0 * f64::EPSILON);
