@@ -29,6 +29,8 @@ pub struct Workspace {
     pub(crate) slopes: Slopes,
     /// Potential or conductivity of the vertices of a body.
     pub(crate) potentials: Vec<f64>,
+    /// Heat of the elements that were evaluated together in W, by their positions; NaN for others.
+    pub(crate) together: Vec<f64>,
     /// Which controls are on and which comparisons hold.
     positions: Positions,
     /// Whether the inputs have to be evaluated again when the time changes.
@@ -83,6 +85,7 @@ impl Workspace {
             temperature: vec![f64::NAN; vertices],
             slopes: Slopes::default(),
             potentials: Vec::new(),
+            together: Vec::new(),
             positions: network.initial_positions(),
             varies: network.has_time_dependent_inputs(),
             read_at: None,

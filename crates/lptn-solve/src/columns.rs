@@ -65,7 +65,8 @@ impl Columns {
 
     /// Whether any reads more than temperatures.
     pub(crate) fn ask_for_heat(&self) -> bool {
-        let heat = |quantity: &Quantity| matches!(quantity, Quantity::Heat(_) | Quantity::Report(_));
+        let heat =
+            |quantity: &Quantity| matches!(quantity, Quantity::Heat(_) | Quantity::Report(_));
         self.quantities.iter().any(heat)
     }
 

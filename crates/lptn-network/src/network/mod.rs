@@ -1,5 +1,6 @@
 //! A thermal network whose invariants hold.
 
+pub(crate) mod alike;
 pub(crate) mod body;
 pub(crate) mod conductivity;
 pub(crate) mod control;
