@@ -16,6 +16,7 @@ mod lexer;
 mod operands;
 mod parser;
 mod parts;
+mod pieces;
 mod program;
 mod scope;
 mod split;
