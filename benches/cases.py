@@ -9,6 +9,7 @@ import numpy as np
 
 import families
 import forms
+import laws
 import reference
 import tools
 
@@ -22,6 +23,7 @@ class Case:
         self.name, self.n, self.paths = about["name"], about["n"], about["paths"]
         self.steady, self.linear = about["steady"], about["linear"]
         self.t_end, self.probes = about["t_end"], about["probes"]
+        self.columns, self.program = about["columns"], about.get("program")
         self.shape = (1 if self.steady else about["rows"], len(self.probes))
         self.right, self.known = None, ""
 
@@ -39,7 +41,7 @@ class Case:
 
     def selected(self):
         """The probes, as options of lptn."""
-        return [word for i in self.probes for word in ("--select", f"n{i}.T")]
+        return [word for column in self.columns for word in ("--select", column)]
 
     def row_times(self):
         return np.linspace(0, self.t_end, self.shape[0] + 1)[1:]
@@ -65,5 +67,8 @@ def make(name, place):
     place.parent.mkdir(parents=True, exist_ok=True)
     new = Path(tempfile.mkdtemp(prefix=f".{name}", dir=place.parent))
     new.chmod(0o755)
-    forms.write(families.make(name), name, new)
+    if laws.known(name):
+        laws.make(name).write(name, new)
+    else:
+        forms.write(families.make(name), name, new)
     os.rename(new, place)

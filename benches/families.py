@@ -8,10 +8,9 @@ scale2d-N  scale3d-N      10 minutes and 10 rows of a large grid under constant 
 
 import numpy as np
 
-from network import Network, Source, at_random_times, constant, drive, six_digits
+from network import STEFAN_BOLTZMANN, Network, Source, at_random_times, constant, drive, six_digits
 
 SEED = 20240517
-STEFAN_BOLTZMANN = 5.670374419e-8
 
 
 def make(name):

@@ -5,8 +5,9 @@ import struct
 
 import numpy as np
 
+from network import STEFAN_BOLTZMANN
+
 ABSOLUTE_ZERO = 273.15
-STEFAN_BOLTZMANN = 5.670374419e-8
 PLAIN = 100
 """Networks of fewer nodes are written as a plain netlist, larger ones with [import]."""
 SPICE = 10_000
@@ -31,6 +32,7 @@ def write(net, name, folder):
         t_end=net.t_end,
         rows=len(net.rows),
         probes=net.probes.tolist(),
+        columns=[f"n{i}.T" for i in net.probes.tolist()],
     )
     (folder / "case.json").write_text(json.dumps(about))
 

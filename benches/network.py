@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+STEFAN_BOLTZMANN = 5.670374419e-8
+"""W/(m^2 K^4), CODATA 2018."""
 EVENTS = 8
 """Times at which sources change, the start among them."""
 

@@ -10,11 +10,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import laws
 import tools
 
 PAGE = Path(__file__).parent.parent / "docs/speed.md"
 BEGIN, END = "<!-- written by make bench: begin -->", "<!-- written by make bench: end -->"
 ORDER = ["two_node", "ladder", "stiff", "grid2d", "grid3d", "radiation", "scale2d", "scale3d"]
+ORDER += list(laws.FAMILIES)
 
 
 def main():
@@ -38,6 +40,8 @@ def place(result):
 
 def chapters(results):
     """A heading and a table for every kind of measurement that was made."""
+    special = [result for result in results if laws.known(result["case"])]
+    results = [result for result in results if result not in special]
     runs = [result for result in results if not result["steady"] and "scale" not in result["case"]]
     for target in sorted({result["target"] for result in runs}, reverse=True):
         at = [result for result in runs if result["target"] == target]
@@ -51,6 +55,9 @@ def chapters(results):
         [result for result in results if "scale" in result["case"]],
     )
     yield from table("Steady states", [result for result in results if result["steady"]])
+    for target in sorted({result["target"] for result in special}, reverse=True):
+        at = [result for result in special if result["target"] == target]
+        yield from table(f"Laws over temperature or time, at an error of {power(target)}", at)
 
 
 def table(heading, results):
@@ -155,7 +162,7 @@ def conditions(program, results):
 
 
 def origin(program):
-    """The commit of a program that was built here, else what tells it from others."""
+    """The commit of a program that was built here, else its SHA-256."""
     root, file = PAGE.parent.parent, Path(program).resolve()
     if file.is_relative_to(root):
         return "commit " + said(["git", "describe", "--always", "--dirty"])
@@ -207,9 +214,7 @@ def packages():
 def modules():
     python = tools.folder() / "venv/bin/python"
     return (
-        said([str(python), "-m", "pip", "freeze"])
-        if python.exists()
-        else "no environment of its own"
+        said([str(python), "-m", "pip", "freeze"]) if python.exists() else "no virtual environment"
     )
 
 

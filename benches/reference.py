@@ -25,6 +25,8 @@ def load(case):
 
 def compute(case):
     """The better of two that are computed in different ways, or at different tolerances."""
+    if case.program:
+        return law(case)
     if case.steady:
         tight, other = steady(case, "1e-13"), steady(case, "1e-11")
         return (
@@ -40,6 +42,13 @@ def compute(case):
         tight,
         f"CVODE at {fine}; at {coarse} differs by {difference(tight, cvode(case, coarse)):.0e}",
     )
+
+
+def law(case):
+    """The C program of the family at a tight tolerance, and at ten times that."""
+    mode = "steady" if case.steady else "run"
+    tight, other = (peer(case, case.program, tolerance, mode) for tolerance in ("1e-11", "1e-10"))
+    return tight, f"its C program at 1e-11; at 1e-10 differs by {difference(tight, other):.0e}"
 
 
 def tolerances(case):

@@ -1,5 +1,6 @@
 """What is run: lptn and its peers, how each is called, and how its temperatures are read."""
 
+import csv
 import hashlib
 import os
 import shutil
@@ -34,7 +35,7 @@ class Tool:
 
     def fits(self, case):
         """Whether it can or should solve a case."""
-        return self.steady == case.steady
+        return self.steady == case.steady and not case.program
 
     def stamp(self):
         """What tells this build of the program from another."""
@@ -58,6 +59,9 @@ class Lptn(Tool):
         if steady:
             self.ladder = [""]
 
+    def fits(self, case):
+        return self.steady == case.steady
+
     def command(self, case, tolerance, work):
         file = case.netlist(self.integrator)
         if self.steady:
@@ -75,9 +79,9 @@ class Lptn(Tool):
 
     def rows(self, case, work):
         with open(work / "stdout") as text:
-            columns = text.readline().strip().split(",")
+            columns = next(csv.reader([text.readline()]))
             rows = np.loadtxt(text, delimiter=",", ndmin=2)
-        wanted = [columns.index(f"n{i}.T [degC]") for i in case.probes]
+        wanted = [columns.index(f"{name} [degC]") for name in case.columns]
         rows = rows[:, wanted] if self.steady else rows[1:, wanted]
         return rows if rows.shape == case.shape else None
 
@@ -96,6 +100,36 @@ class Cvode(Tool):
 
     def command(self, case, tolerance, work):
         return [self.program, case.file("net.bin"), work / "rows.bin", tolerance, self.method]
+
+
+class Law(Tool):
+    """The C program for one family of laws.py."""
+
+    def __init__(self, name, steady):
+        super().__init__(name, folder() / "build")
+        self.steady = steady
+        if steady:
+            self.ladder = ["1e-9"]
+
+    def fits(self, case):
+        return self.steady == case.steady and case.program is not None
+
+    def stamp(self):
+        """The time of the build that `program` names."""
+        return str((self.program / "laws.built").stat().st_mtime_ns)
+
+    def missing(self):
+        return None if (self.program / "laws.built").exists() else "not built"
+
+    def command(self, case, tolerance, work):
+        mode = "steady" if self.steady else "run"
+        return [
+            self.program / case.program,
+            case.file("net.bin"),
+            work / "rows.bin",
+            tolerance,
+            mode,
+        ]
 
 
 class Steady(Tool):
@@ -224,6 +258,8 @@ def peers():
     return [
         Cvode("CVODE+KLU", cvode, "klu"),
         Cvode("CVODE+SPGMR+IC(0)", cvode, "spgmr"),
+        Law("C for the family", False),
+        Law("C for the family", True),
         Spice("ngspice", shutil.which("ngspice")),
         Python("SciPy BDF", "ode.py", "bdf", "numpy, scipy"),
         Python("scikit-sundae", "ode.py", "sundae", "sksundae, scipy"),

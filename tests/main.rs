@@ -51,3 +51,4 @@ mod tolerance;
 mod validation;
 #[path = "support/validation/mod.rs"]
 mod validation_helper;
+mod wording;

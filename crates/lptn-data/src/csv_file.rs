@@ -259,4 +259,14 @@ mod tests {
         let expected = [(5, "10"), (7, "20"), (8, "\"2\",30"), (9, "40")];
         assert_eq!(rows, expected);
     }
+
+    #[test]
+    fn a_comment_goes_on_to_the_line_feed() {
+        let mut files = Files::new();
+        let text = "# made by\rsome, logger\nt [s],speed [rpm]\n0,10";
+        let text = CsvText::of(&mut files, "a.csv".to_owned(), text.as_bytes()).unwrap();
+        let file = CsvFile::open(&text, &Span::new(text.file, 0..0)).unwrap();
+        assert_eq!(files.at(&file.head.columns[1].place), "speed [rpm]");
+        assert_eq!(file.place(0, 1).map(|place| files.at(&place).to_owned()), Some("10".into()));
+    }
 }

@@ -98,7 +98,9 @@ pub(crate) fn line(text: &str, from: usize) -> std::ops::Range<usize> {
     let ends = ['\r', '\n'];
     let mut rest = text.get(start..).unwrap_or_default();
     while rest.starts_with(ends) || rest.starts_with('#') {
-        start += rest.find(ends).map_or(rest.len(), |end| end + 1);
+        // a comment goes on to the line feed, an empty line to either
+        let end = if rest.starts_with('#') { rest.find('\n') } else { Some(0) };
+        start += end.map_or(rest.len(), |end| end + 1);
         rest = text.get(start..).unwrap_or_default();
     }
     start..start + rest.find(ends).unwrap_or(rest.len())

@@ -289,3 +289,6 @@ mod tests {
         assert!(share(7, |x| 1e6 * (x - 3.0).powi(3)) < 1e-9);
     }
 }
+
+#[cfg(test)]
+mod course_tests;

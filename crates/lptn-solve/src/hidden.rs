@@ -197,3 +197,6 @@ mod tests {
         assert!(Hidden::new((&bends, &[]), 0).wanting(&interval(0, 400.0, 300.0)) == 0.0);
     }
 }
+
+#[cfg(test)]
+mod several_tests;

@@ -144,3 +144,6 @@ fn heat_of(
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -240,3 +240,6 @@ fn better(sign: f64, best: &mut (f64, f64), (value, time): (f64, f64)) {
         *best = (value, time);
     }
 }
+
+#[cfg(test)]
+mod tests;

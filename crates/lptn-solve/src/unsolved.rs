@@ -139,3 +139,6 @@ impl Unsolved {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

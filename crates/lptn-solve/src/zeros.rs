@@ -113,3 +113,6 @@ mod tests {
         assert!(share(|_| 0.0).abs() < 1e-15 && share(|x| -x * x - 1e-3).abs() < 1e-15);
     }
 }
+
+#[cfg(test)]
+mod edge_tests;

@@ -299,3 +299,41 @@ fn ten_thousand_radiating_nodes_run_and_their_books_close() {
     let found = Transient::until(Time(100.0)).tolerance(1e-3).solve(&system).unwrap();
     assert!(found.ledger().closes());
 }
+
+/// A body that radiates, with an energy balance that has to close to so much of its heat.
+fn books(share: Option<f64>, interrupt: bool) -> Result<Solution, TransientError> {
+    let error = share.map_or(String::new(), |share| format!("balance_error = {share:?}\n"));
+    let text = format!(
+        "format = 1\n[node]\nball = {{ C = \"500 J/K\", T0 = \"absolute(900 [K])\" \
+         }}\n[boundary]\nspace = {{ T = \"absolute(4 \
+         [K])\" }}\n[radiation]\nglow = {{ from = \"ball\", to = \"space\", emissivity = \"1\", \
+         area = \"0.05 m^2\" \
+         }}\n[run]\nstop = \"100 s\"\n{error}"
+    );
+    let netlist = lptn_netlist::parse("books.toml", &text).unwrap_or_else(|r| panic!("{r}"));
+    let system = ThermalSystem::assemble(&netlist.network).unwrap();
+    let settings = Transient::of(&netlist.network, netlist.run.as_ref().unwrap());
+    settings.solve_observed(&system, &mut |progress| match interrupt && progress.time > 50.0 {
+        true => lptn_solve::Proceed::Interrupt,
+        false => lptn_solve::Proceed::Continue,
+    })
+}
+
+/// The share that is allowed is the one that is asked for, and nobody claims it of half a run.
+#[test]
+fn books_have_to_close_as_far_as_is_asked_for_at_the_end() {
+    for interrupt in [false, true] {
+        let solution = books(None, interrupt).unwrap();
+        assert!(solution.ledger().closes());
+        let solution = books(Some(0.5), interrupt).unwrap();
+        assert!(solution.ledger().closes());
+    }
+    match books(Some(1e-18), false) {
+        Err(TransientError::Open { solution, .. }) => {
+            assert_eq!(solution.end(), RunStatus::Reached)
+        }
+        other => panic!("{:?}", other.map(|solution| solution.end())),
+    }
+    let half = books(Some(1e-18), true).unwrap();
+    assert!(!half.ledger().closes() && matches!(half.end(), RunStatus::Interrupted(_)));
+}

@@ -85,3 +85,23 @@ fn what_never_passes_zero() {
     near(&seen("2 + sin(2 * pi * t / 8 [s])", 1e-5), STOP, 1e-9);
     near(&seen("-2 - sin(2 * pi * t / 8 [s])", 1e-5), 0.0, 1e-9);
 }
+
+#[test]
+fn a_mean_is_open_if_it_may_be_off_by_more_than_a_millionth() {
+    let mut column = seen("body.T - 20 [degC]", 1e-5);
+    assert!(column.open < 1e-9 && !column.is_open());
+    for (open, is_open) in [(9e-7, false), (1e-6, false), (1.1e-6, true), (1.0, true)] {
+        column.open = open;
+        assert_eq!(column.is_open(), is_open, "{open}");
+    }
+}
+
+/// A bell far narrower than the steps: the largest value of a column is its top.
+#[test]
+fn a_bell_between_two_steps_is_the_largest_value() {
+    for width in [1.0, 0.01, 1e-4] {
+        let column = seen(&format!("exp(-((body.T - 60 [degC]) / {width:?} [K])^2)"), 1e-4);
+        assert!((column.max.0 - 1.0).abs() < 1e-6, "{width}: {:?}", column.max);
+        assert!((column.max.1 - reaches(60.0)).abs() < 1e-2, "{width}: {:?}", column.max);
+    }
+}

@@ -7,7 +7,7 @@
 )]
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::Time;
+use lptn_network::{Conductance, HeatCapacity, NetworkBuilder, Temperature, Time};
 use lptn_solve::{LimitSeen, Solution, SteadyState, Transient, Watch};
 
 /// Time constant of the body in s.
@@ -255,4 +255,55 @@ fn peaks_and_levels_are_those_of_the_curve() {
         );
         assert!(looks.placed <= 2250 && looks.placed >= 1850, "{looks:?}, 2050 measured");
     }
+}
+
+/// A run that begins later has the mean of its own time.
+#[test]
+fn the_mean_of_a_run_that_begins_later_is_that_of_its_time() {
+    let system = system("m = { of = \"mean(body.T)\", below = \"90 degC\" }", "");
+    let settings = Transient { start: 3000.0, ..Transient::until(Time(4000.0)) };
+    let solution = settings.at(&[3000.0, 4000.0]).tolerance(1e-6).solve(&system).unwrap();
+    let mean = 80.0 - 80.0 * TAU / 1000.0 * -(-1000.0 / TAU).exp_m1();
+    near(solution.limits()[0].margin, 70.0 - mean, 1e-5);
+    near(solution.limits()[0].worst_at, 4000.0, 0.0);
+}
+
+/// A bell far narrower than any look may stand wherever the body goes: the margin may be off by all
+/// that is compared.
+#[test]
+fn what_may_hide_however_closely_it_is_looked_at_leaves_a_margin_open() {
+    let bell = "exp(-((body.T - 60 [degC]) / 1e-9 [K])^2)";
+    let (seen, _) = seen(&format!("of = \"{bell}\", below = 2"));
+    assert_eq!(seen.open, 2.0);
+    let (seen, _) = self::seen("of = \"exp(-((body.T - 60 [degC]) / 5 [K])^2)\", below = 2");
+    assert_eq!(seen.open, 0.0);
+}
+
+/// The tops of watched nodes are placed one by one where there are few nodes; of two nodes among
+/// 3000 what the points of the step tell is taken for it.
+#[test]
+fn tops_of_many_nodes_are_taken_from_the_points() {
+    let mut b = NetworkBuilder::new();
+    let air = b.boundary("air", Temperature(300.0));
+    let nodes: Vec<_> = (0..3000)
+        .map(|k| b.node(&format!("n{k}"), HeatCapacity(100.0), Temperature(300.0)))
+        .collect();
+    for (k, &node) in nodes.iter().enumerate() {
+        b.resistor(&format!("r{k}"), node, air, Conductance(1.0));
+    }
+    for (k, &node) in nodes.iter().take(2).enumerate() {
+        let heat = b.expression("50 [W] * sin(2 * pi * t / 300 [s])", None).unwrap();
+        b.source(&format!("q{k}"), node, heat);
+    }
+    let system = ThermalSystem::assemble(&b.build().unwrap()).unwrap();
+    let run = |watched: usize| {
+        let watch = nodes[..watched].iter().map(|&node| Watch { node, level: None }).collect();
+        let settings = Transient { watch, ..Transient::until(Time(300.0)) };
+        settings.at(&[]).tolerance(1e-4).solve(&system).unwrap()
+    };
+    let (one, two) = (run(1), run(2));
+    assert!(one.looks().placed > two.looks().placed, "{:?} {:?}", one.looks(), two.looks());
+    let (a, b) = (one.watched()[0].peak, two.watched()[1].peak);
+    near(a.0, b.0, 1e-3);
+    near(a.1, b.1, 0.5);
 }

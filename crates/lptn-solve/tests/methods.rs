@@ -149,3 +149,52 @@ fn all_integrators_find_the_same_on_random_networks() {
     }
     assert!(compared > 80, "{compared}");
 }
+
+/// A ball of 500 J/K that radiates to space, with a heat that jumps so often in 100 s, and a joint.
+fn jumping(jumps: u32, more: &str) -> ThermalSystem {
+    let parts = f64::from(jumps + 1);
+    let jump = |k: u32| {
+        let sign = if k.is_multiple_of(2) { '-' } else { '+' };
+        format!(" {sign} if(t < {:?} [s], 5 [W], 0 [W])", 100.0 * f64::from(k) / parts)
+    };
+    let jumps: String = (1..=jumps).map(jump).collect();
+    let text = format!(
+        "format = 1\n[node]\nball = {{ C = \"500 J/K\", T0 = \"300 K\" }}\n[boundary]\nspace = \
+         {{ T = \"absolute(4 [K])\" \
+         }}\n[radiation]\nglow = {{ from = \"ball\", to = \"space\", emissivity = \"1\", area = \
+         \"0.05 m^2\" }}\n[source]\nheat = \
+         {{ into = \"ball\", P = \"10 [W]{jumps}\" }}\n{more}[run]\nstop = \"100 s\"\n"
+    );
+    let text = text.replace("\"300 K\"", "\"absolute(300 [K])\"");
+    let netlist = lptn_netlist::parse("jumps.toml", &text).unwrap_or_else(|r| panic!("{r}"));
+    ThermalSystem::assemble(&netlist.network).unwrap()
+}
+
+/// From twenty parts between jumps on; not where massless nodes have several solutions, nor where
+/// a state is a heat content.
+#[test]
+fn many_parts_are_taken_by_a_runge_kutta_method() {
+    let method = |system: &ThermalSystem, integrator| {
+        let settings = Transient { integrator, ..Transient::until(Time(100.0)) };
+        settings.at(&[]).solve(system).map(|solution| solution.method().unwrap())
+    };
+    let auto = |system: &ThermalSystem| method(system, IntegratorChoice::Auto).unwrap();
+    assert_eq!(
+        [18, 19, 40].map(|jumps| auto(&jumping(jumps, ""))),
+        [Method::Cvode, Method::Esdirk, Method::Esdirk]
+    );
+    let joint = "[node.joint]\nmassless = true\n[resistor]\nlead = { from = \"joint\", to = \
+        \"ball\", G = \"2 W/K\" }\n[source.own]\ninto = \
+                 \"joint\"\nP = \"10 [W] * tanh((T - absolute(340 [K])) / 2 [K])\"\n";
+    let several = jumping(30, joint);
+    assert_eq!(auto(&several), Method::Cvode);
+    let melts = "[node.wax]\nT0 = \"absolute(300 [K])\"\nC = \"100 [J/K] * factor(T - absolute(0 \
+        [K]))\"\n[table]\nfactor = { x = [200, 400], x_unit = \
+                 \"K\", y = [1, 2], outside = \"hold\" }\n[resistor]\nlead = { from = \"wax\", \
+                 to = \"ball\", G = \"2 W/K\" }\n";
+    let melts = jumping(30, melts);
+    assert_eq!(auto(&melts), Method::Cvode);
+    let refused = method(&melts, IntegratorChoice::Esdirk).unwrap_err();
+    assert!(matches!(refused, TransientError::Settings(SettingsError::Esdirk)), "{refused}");
+    assert_eq!(method(&jumping(3, ""), IntegratorChoice::Esdirk).unwrap(), Method::Esdirk);
+}

@@ -8,8 +8,8 @@ use std::f64::consts::TAU;
 use elements::{link, of, own, power, quantity, radiation, stream, system};
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
-    AfterEnd, Conductance, Course, HeatCapacity, Melting, NetworkBuilder, NodeId, Path, Properties,
-    Size, Temperature, Time,
+    AfterEnd, Conductance, Course, HeatCapacity, Melting, NetworkBuilder, NodeId, NotPeriodic,
+    Path, Properties, Size, Temperature, Time,
 };
 use lptn_solve::{
     CycleMethod, Periodic, PeriodicError, Proceed, Selection, State, Transient, Window,
@@ -407,4 +407,29 @@ fn a_small_residual_of_a_slow_network_is_not_believed() {
     let exact = (-1.0 + (1.0 + 4e-3 * 0.01_f64).sqrt()) / 2e-3;
     let off = temperature(&system, &found.state, node) - AMBIENT - exact;
     assert!(off.abs() <= found.error + 1e-4, "{off:e} {:e}", found.error);
+}
+
+/// With six digits where these tell the values apart, with all where they do not.
+#[test]
+fn values_that_do_not_repeat_are_told_apart() {
+    let mut b = NetworkBuilder::new();
+    let item = lptn_network::Item::Node(b.node("node", HeatCapacity(1.0), Temperature(300.0)));
+    let said = |now: f64, then: f64| {
+        let (field, name) = (lptn_network::Field::Temperature, "node".to_owned());
+        let values = [Some(now), Some(then)];
+        let found = NotPeriodic {
+            item,
+            field,
+            name,
+            time: 2.0,
+            period: 10.0,
+            values,
+            unit: Some("W".into()),
+        };
+        PeriodicError::NotPeriodic(found).to_string()
+    };
+    let apart = said(1.0 / 3.0, 2.0);
+    assert!(apart.contains("0.333333 W") && apart.contains("2 W one period of 10 s"), "{apart}");
+    let alike = said(1.0, 1.000_000_25);
+    assert!(alike.contains("is 1 W") && alike.contains("1.00000025 W"), "{alike}");
 }

@@ -191,3 +191,76 @@ fn a_run_or_one_beside_it_can_be_interrupted() {
         assert!(steps.get() <= after + 2, "the run to the other side has one step at most");
     }
 }
+
+/// A parameter that a table knows from one value to another only.
+fn in_a_table(value: f64, x: [f64; 2]) -> Network {
+    let table =
+        format!("x = {value:?}\n[table]\ng = {{ x = {x:?}, y = [\"1 W/K\", \"2 W/K\"] }}\n");
+    network(&table, ("2 W/K", " * 0 + g(x)"))
+}
+
+/// By a thousandth of itself, to one side at least.
+#[test]
+fn a_parameter_can_move_if_the_network_takes_a_value_beside_it() {
+    let moves = |value: f64, x: [f64; 2]| {
+        let network = in_a_table(value, x);
+        can_move(&network, id(&network, "x"))
+    };
+    for (value, x) in [(2.0, [1.0, 3.0]), (2.0, [2.0, 3.0]), (2.0, [1.0, 2.0])] {
+        assert!(moves(value, x).is_ok(), "{value} {x:?}");
+        assert!(moves(-value, [-x[1], -x[0]]).is_ok(), "{value} {x:?}");
+    }
+    assert!(moves(2.0, [1.9979, 2.0019]).is_ok() && moves(2.0, [1.9981, 2.0021]).is_ok());
+    // refused for the larger value
+    let refused = moves(2.0, [1.9981, 2.0019]).unwrap_err().to_string();
+    assert!(refused.contains("2.002"), "{refused}");
+}
+
+/// `exp((P - 160 W) / 0.1 W)` changes by 10 of itself per W; the difference is one of a hundred
+/// thousandth of the parameter.
+#[test]
+fn a_result_of_a_parameter_is_a_difference_far_finer_than_runs_are() {
+    let text = "format = 1\n[param]\nP = \"160 W\"\n[node]\nbody = { C = \"1 kJ/K\", T0 = \"20 \
+        degC\" }\n[boundary]\nair = { T = \
+                \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", G = \"2 W/K\" \
+                }\n[source]\nheat = { into = \
+                \"body\", P = \"P\" }\n[run]\nstop = \"10 s\"\nreport = { steep = \"exp((P - 160 \
+                [W]) / 0.1 [W])\" }\n";
+    let netlist = lptn_netlist::parse("steep.toml", text).unwrap_or_else(|r| panic!("{r}"));
+    let network = &netlist.network;
+    let settings = Transient::until(Time(10.0)).at(&[10.0]);
+    let p = id(network, "P");
+    let run = sensitive_run(network, &settings, &[p]).unwrap();
+    assert_eq!(run.gradient, Gradient::Exact);
+    for slope in run.result_slope(p, &network.reports()[0].value).unwrap() {
+        near(slope, 10.0, 1e-4);
+    }
+}
+
+/// A margin of 0 or 1 kW that a parameter moves by rounding alone is straight.
+#[test]
+fn a_margin_that_rounding_moves_is_straight() {
+    let text = "format = 1\n[param]\nP = \"160 W\"\n[node]\nbody = { C = \"1 kJ/K\", T0 = \"20 \
+        degC\" }\n[boundary]\nair = { T = \
+                \"20 degC\" }\n[resistor]\nskin = { from = \"body\", to = \"air\", G = \"2 W/K\" \
+                }\n[source]\nheat = { into = \
+                \"body\", P = \"P\" }\n[limit]\nnone = { of = \"1000 * P / 0.3 * 0.3 - 1000 * \
+                P\", above = \"0 W\" }\nsome = { of = \"1000 [W] + (1000 * P / 0.3 * 0.3 - 1000 \
+                * P)\", above = \"0 W\" }\n[run]\nstop = \"10 s\"\n";
+    let netlist = lptn_netlist::parse("rounds.toml", text).unwrap_or_else(|r| panic!("{r}"));
+    let network = &netlist.network;
+    let p = id(network, "P");
+    let run = sensitive_run(network, &Transient::until(Time(10.0)).at(&[10.0]), &[p]).unwrap();
+    for (limit, margin) in network.limit_ids().zip([0.0, 1e3]) {
+        let mut moved = false;
+        for by in [0.1, 0.7] {
+            let own = run.margin_in_row(limit, 0).unwrap();
+            near(own, margin, 1e-10);
+            let rounds = |p: f64| 1000.0 * p / 0.3 * 0.3 - 1000.0 * p;
+            moved |= (rounds(160.0 + by) + rounds(160.0 - by) - 2.0 * rounds(160.0)).abs() > 1e-12;
+            let slope = run.margin_slope_in_row((p, by), (limit, 0)).unwrap();
+            assert!(slope.unwrap().abs() < 1e-9, "{slope:?}");
+        }
+        assert!(moved, "there is rounding");
+    }
+}

@@ -433,3 +433,50 @@ fn ten_thousand_radiating_nodes_give_all_heat_to_space() {
     let found = steady(&system);
     assert!((found.boundary_heat[0] + 2000.0).abs() < 1e-6);
 }
+
+/// A body whose capacity is known up to 350 K would rest at 400 K with another one of its size.
+#[test]
+fn an_island_that_rests_where_no_capacity_is_known_is_refused() {
+    let solved = |hot: f64| {
+        let text = format!(
+            "format = 1\n[table]\nc = {{ x = [250, 350], x_unit = \"K\", y = [\"10 J/K\", \"10 \
+             J/K\"] }}\n[node]\na = {{ C = \
+             \"c(T - absolute(0 [K]))\", T0 = \"absolute(300 [K])\" }}\nb = {{ C = \"10 J/K\", \
+             T0 = \"absolute({hot} [K])\" \
+             }}\n[resistor]\nlead = {{ from = \"a\", to = \"b\", G = \"1 W/K\" }}\n[run]\nstop = \
+             \"1 s\"\n"
+        );
+        let netlist = lptn_netlist::parse("island.toml", &text).unwrap_or_else(|r| panic!("{r}"));
+        SteadyState::solve(&ThermalSystem::assemble(&netlist.network).unwrap(), 0.0)
+    };
+    let found = solved(380.0).unwrap();
+    assert!(
+        found.temperatures.iter().all(|t| (t - 340.0).abs() < 1e-6),
+        "{:?}",
+        found.temperatures
+    );
+    let refused = solved(500.0).unwrap_err();
+    assert!(refused.to_string().contains("`a`"), "{refused}");
+}
+
+/// Without capacities there is no way to follow: `2 W exp(x / 10 K) = 1 W/K x` at 2.59 K, where it
+/// stays, and at 25.43 K, where it does not.
+#[test]
+fn a_joint_does_not_rest_where_nothing_stays() {
+    let stable = root(0.0, 10.0, |x| 2.0 * (x / 10.0).exp() - x);
+    for start in [0.0, 20.0, 23.0, 24.0] {
+        let text = format!(
+            "format = 1\n[node]\ncell = {{ massless = true, T0 = \"absolute({} [K])\" \
+             }}\n[boundary]\nroom = {{ T = \
+             \"absolute(300 [K])\" }}\n[resistor]\nskin = {{ from = \"cell\", to = \"room\", G = \
+             \"1 W/K\" }}\n[source]\nheat = \
+             {{ into = \"cell\", P = \"2 [W] * exp((T - absolute(300 [K])) / 10 [K])\" \
+             }}\n[run]\nstop = \"1 s\"\n",
+            300.0 + start
+        );
+        let netlist = lptn_netlist::parse("cell.toml", &text).unwrap_or_else(|r| panic!("{r}"));
+        let found = SteadyState::solve(&ThermalSystem::assemble(&netlist.network).unwrap(), 0.0);
+        let found = found.unwrap_or_else(|error| panic!("{start}: {error}")).temperatures[0];
+        assert!((found - 300.0 - stable).abs() < 1e-8, "{found} from {start}");
+    }
+}

@@ -95,3 +95,47 @@ fn a_jump_of_the_heat_is_one_of_the_joint() {
     assert_eq!(solution.watched()[0].crossed, Some(40.0));
     near(solution.watched()[0].peak.0, 335.0, 1e-9);
 }
+
+/// Each row once, in the order of time, one at the ends of the run and at a jump too.
+#[test]
+fn each_row_is_written_once() {
+    let jump = ("2 W/K", "if(t < 40 [s], 20 [W], 70 [W])");
+    let wave = ("2 W/K", "80 [W] * sin(2 * pi * t / 200 [s])");
+    for heat in [jump, wave] {
+        let times = |rows: &[f64]| run(heat, rows).0.times().to_vec();
+        assert_eq!(times(&[0.0, 39.0, 40.0, 100.0]), [0.0, 39.0, 40.0, 100.0]);
+        assert_eq!(times(&[0.0, 37.0]), [0.0, 37.0, 100.0]);
+        assert_eq!(times(&[3.0, 41.0, 99.0]), [0.0, 3.0, 41.0, 99.0, 100.0]);
+    }
+}
+
+/// Joints that are solved for are looked at at all points of each part of their inputs before
+/// anything reads them, so that each look begins next to what it finds: as measured.
+#[test]
+fn looks_at_a_joint_are_few() {
+    let bent = "2 [W/K] * (1 + (T_mean - absolute(300 [K])) / 100 [K])";
+    let looks = |heat: &str| run((bent, heat), &[0.0, 100.0]).0.looks();
+    let (line, wave) = (looks("3 [W/s] * t"), looks("80 [W] * sin(2 * pi * t / 200 [s])"));
+    for (found, measured) in [(line.placed, 338), (wave.placed, 7213)] {
+        assert!(found.abs_diff(measured) <= measured / 100, "{found} for {measured}");
+    }
+    assert_eq!([line.sought, wave.sought], [8, 153]);
+}
+
+/// A joint that radiates has one solution: each of eight parts is gone to its end before it is
+/// looked at, which costs a look each.
+#[test]
+fn a_joint_of_one_solution_is_gone_through_part_by_part() {
+    let text = "format = 1\n[node]\njoint = { massless = true }\n[boundary]\nair = { T = \
+                \"absolute(300 [K])\" }\n[radiation]\nskin = { from = \"joint\", to = \"air\", \
+                emissivity = \"1\", area = \"1 m^2\" }\n[source]\nheat = { into = \"joint\", P = \
+                \"3 [W/s] * t\" }\n[run]\nstop = \"100 s\"\n";
+    let netlist = parse("glows.toml", text).unwrap_or_else(|rejected| panic!("{rejected}"));
+    let system = ThermalSystem::assemble(&netlist.network).unwrap();
+    let solution = Transient::until(Time(100.0)).at(&[0.0, 100.0]).solve(&system).unwrap();
+    let node = netlist.network.node("joint").unwrap();
+    let exact = (300.0_f64.powi(4) + 300.0 / 5.670_374_419e-8).powf(0.25);
+    near(*solution.temperature(node).unwrap().last().unwrap(), exact, 1e-6);
+    // six points for the books of each part beside its end, and four at the ends of the run
+    assert_eq!(solution.looks().placed, 8 * 7 + 4);
+}

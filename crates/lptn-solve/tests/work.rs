@@ -153,3 +153,16 @@ fn errors_that_grow_are_made_up_for_by_smaller_steps() {
     let solution = takes(&heated(text), alone(|t| 5.0 + 6.0 * (t - 20.0)), [95, 204, 0, 102]);
     assert!(!solution.error_is_bounded() || solution.growth() > 300.0);
 }
+
+/// A kink that is met makes the integrator begin anew, one that nothing passes does not.
+#[test]
+fn the_integrator_begins_anew_behind_a_kink() {
+    let restarts = |at: f64| {
+        let text = format!(
+            "50 [W] + 20 [W/K] * max(T - {at} [degC], 0 [K]) - 21 [W/K] * max(T - {at} [degC], 0 \
+             [K])"
+        );
+        run(&heated(&text)).statistics().restarts
+    };
+    assert_eq!([restarts(45.0) > 0, restarts(90.0) > 0], [true, false]);
+}

@@ -84,8 +84,7 @@ impl<'a> Elaboration<'a> {
         let fields = self.fields(&LUBRICANT, entry)?;
         let c = self.input_number(&fields, "c", 0.7);
         let density = self.density(&fields);
-        let source = self.word(&fields, "source");
-        debug_assert!(source.is_none_or(|(text, _)| !text.is_empty()) || fields.complete);
+        self.word(&fields, "source");
         let (points, raw) = self.viscosities(&fields)?;
         let line = DoubleLog::through(points, (c?, 1e-6), (COVERED[1], HOTTEST));
         let line = match line {

@@ -130,3 +130,42 @@ fn a_place_has_the_heat_left_over_and_its_slope() {
     assert!((place.left[0] - (40.0 - 3.0 * 14.0)).abs() < 1e-9, "{:?}", place.left);
     assert!((place.slope[0] + 60.0).abs() < 1e-9, "{:?}", place.slope);
 }
+
+/// The corner lies a third of a kelvin behind a place, so that it is at a third or two thirds of
+/// every stretch around it: twenty halvings of 1 K come to less than 1e-6 K.
+#[test]
+fn a_corner_is_closed_in_to_what_is_rounding() {
+    let heat = "1 [W/K] * max(T - absolute(305 [K]) - 1 [K] / 3, 0 [K])";
+    let network = bodies(&[(100.0, "1 [W]"), (0.0, heat)], Some("2 [W/K]"));
+    let system = ThermalSystem::assemble(&network).unwrap();
+    let mut newton = Newton::new(&system, vec![1]).unwrap_or_else(|_| panic!("no balances"));
+    let left = |newton: &mut Newton<'_>, [from, to]: [f64; 2], left: usize| {
+        let (start, end) = ([300.0, from], [300.0, to]);
+        let mut way = Way { start: &start, end: &end, length: (to - from).abs(), left };
+        let found = newton.rests_along(&mut workspace(&system), &mut way);
+        assert!(found.is_ok());
+        way.left
+    };
+    assert_eq!(left(&mut newton, [300.0, 316.0], MORE), MORE - 20);
+    assert_eq!(left(&mut newton, [316.0, 300.0], MORE), MORE - 20);
+    assert_eq!(left(&mut newton, [296.0, 328.0], MORE), MORE - 21);
+    // as far as places are left, and none where nothing bends
+    assert_eq!(left(&mut newton, [300.0, 316.0], 7), 0);
+    assert_eq!(left(&mut newton, [310.0, 326.0], MORE), MORE);
+}
+
+/// A place is refused if nothing rests within 1e-6 K to either side, and a narrower stretch is
+/// rounding.
+#[test]
+fn a_place_is_refused_unless_something_rests_on_both_sides_of_it() {
+    let above = "9 [W/K] * max(T - absolute(340 [K]), 0 [K])";
+    let below = "9 [W/K] * min(T - absolute(340 [K]), 0 [K])";
+    for (heat, sign) in [(above, 1.0), (below, -1.0)] {
+        for beside in [5e-7, 2e-6] {
+            assert!(folds(heat, (340.0 + sign * beside, 340.0 + sign * beside)), "{heat}");
+            assert!(!folds(heat, (340.0 - sign * beside, 340.0 - sign * beside)), "{heat}");
+        }
+    }
+    assert!(!folds(&step(1e-6, 1e-7), (340.0, 340.0)));
+    assert!(folds(&step(1e-4, 1e-5), (340.0, 340.0)));
+}

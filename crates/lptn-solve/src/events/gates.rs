@@ -124,3 +124,6 @@ impl Gates {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -175,3 +175,58 @@ fn errors_of_single_states_are_followed() {
     }
     guarded(KINK, (1e-3, |t| 300.0 + t), |guard, _| near(guard.grown(), 1.0, 0.0));
 }
+
+/// Of a single state the speed tells how its error grows, so that the guard does not.
+#[test]
+fn errors_of_a_single_state_are_left_to_its_speed() {
+    let heat = "3 [W/K] * (T - absolute(300 [K])) + 1e-3 [W/K] * max(T - absolute(390 [K]), 0 [K])";
+    guarded(heat, (1e-3, |t| 300.0 + t), |guard, integrator| {
+        for k in 1..4 {
+            let step = integrator.goes_to(10.0 * f64::from(k));
+            guard.judge(integrator, &step);
+            near(guard.grown(), 1.0, 0.0);
+        }
+    });
+}
+
+/// Where nothing turns and no kink was passed an error is looked at in every sixteenth step: its
+/// rate, -0.02 1/s at 300 K and 0.04 1/s at 303 K, is taken from there.
+#[test]
+fn errors_are_not_looked_at_in_every_step() {
+    let heats = [(100.0, "1 [W/K^2] * (T - absolute(300 [K]))^2"), (100.0, KINK)];
+    let system = ThermalSystem::assemble(&bodies(&heats, None)).unwrap();
+    let mut guard = Guard::of(&system, 1e-3).unwrap();
+    let mut integrator = Scripted::new(&system, 0.0, |t| vec![300.0 + 3.0 * t.min(1.0), 300.0]);
+    guard.begin(&mut integrator);
+    for k in 1..=16 {
+        near(guard.grown(), 1.0, 0.0);
+        let step = integrator.goes_to(f64::from(k));
+        assert_eq!(guard.judge(&mut integrator, &step), Verdict::Stands);
+    }
+    near(guard.grown(), (0.5 * 16.0 * (-0.02 + 0.04_f64)).exp(), 1e-9);
+}
+
+/// The share of a step that went past a turn is one of its length, whenever it began.
+#[test]
+fn a_later_step_past_a_turn_is_taken_back_as_far() {
+    guarded(BELL, (1e-3, |t| 300.0 + t), |guard, integrator| {
+        guard.end_of_step(integrator);
+        let step = integrator.goes_to(30.0);
+        assert_eq!(guard.judge(integrator, &step), Verdict::Stands);
+        let step = integrator.goes_to(50.0);
+        assert_eq!(guard.judge(integrator, &step), Verdict::Back);
+        near(guard.longest, 10.0, 0.5);
+    });
+}
+
+/// A step without a length tells nothing of how fast temperatures change.
+#[test]
+fn a_step_without_a_length_keeps_the_rates() {
+    guarded(BELL, (1e-3, |t| 300.0 + t + 0.01 * t * t), |guard, integrator| {
+        for to in [4.0, 4.0] {
+            let step = integrator.goes_to(to);
+            assert_eq!(guard.judge(integrator, &step), Verdict::Stands);
+            near(guard.rates[0], 1.04, 1e-9);
+        }
+    });
+}

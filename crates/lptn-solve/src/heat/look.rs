@@ -69,3 +69,6 @@ impl Heat<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

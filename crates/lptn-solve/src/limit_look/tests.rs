@@ -233,3 +233,56 @@ fn a_valley_is_promising_if_it_is_deeper_than_all_or_the_first_below_zero() {
     let points: Vec<Point> = (0..13).map(|k| f64::from(k) * 0.5).map(|t| (t, two(t))).collect();
     assert!((valley(&points, &unseen(), 0.0).unwrap() - 1.4).abs() < 0.1);
 }
+
+/// An interval over which one curve is 2 but for its first inner point, where it is more.
+fn bumped(ends: (f64, f64), by: f64) -> Interval {
+    let mut values: [Vec<f64>; POINTS] = std::array::from_fn(|_| vec![2.0]);
+    values[1][0] += by;
+    Interval { from: ends.0, to: ends.1, values }
+}
+
+/// The Gauss rule gives the first inner point its weight, the other rule none; a part in 1e10 of
+/// the integral of the absolute value is allowed, or one in 1e12 of the size of what is compared.
+#[test]
+fn what_is_wanting_is_the_difference_of_both_rules_over_what_is_allowed() {
+    let weight = crate::interval::GAUSS[0].1;
+    let wanting = |ends: (f64, f64), by: f64, size: f64| {
+        let mut look = LimitLook::new(vec![unseen()], &[false], Bends::default());
+        look.sizes = vec![size];
+        look.wanting(&bumped(ends, by))
+    };
+    for ends in [(0.0, 10.0), (1000.0, 1010.0), (-7.0, 3.0)] {
+        for by in [0.1, 1e-6, -1e-6] {
+            let absolute = 20.0 + 5.0 * weight * by;
+            let exact = 5.0 * weight * by.abs() / (1e-10 * absolute);
+            let found = wanting(ends, by, 2.0);
+            assert!((found / exact - 1.0).abs() < 1e-6, "{ends:?} {by}: {found} {exact}");
+            let exact = 5.0 * weight * by.abs() / (1e-12 * 1e4 * 10.0);
+            let found = wanting(ends, by, 1e4);
+            assert!((found / exact - 1.0).abs() < 1e-6, "{ends:?} {by}: {found} {exact}");
+        }
+        assert!(wanting(ends, 1e-10, 2.0) == 0.0 && wanting(ends, 1e-6, 1e8) == 0.0);
+    }
+}
+
+/// A limit that is far from counting wants nothing, the mean of one always may.
+#[test]
+fn what_cannot_count_wants_nothing_but_for_a_mean() {
+    let wanting = |of_mean: bool, seen: LimitSeen| {
+        let mut look = LimitLook::new(vec![seen], &[of_mean], Bends::default());
+        look.sizes = vec![2.0];
+        look.wanting(&bumped((0.0, 10.0), 0.1))
+    };
+    let broken = LimitSeen { margin: -5.0, broken_at: Some(0.0), ..unseen() };
+    assert!(wanting(false, broken) == 0.0 && wanting(true, broken) > 0.0);
+    assert!(wanting(false, unseen()) > 0.0);
+}
+
+/// A valley that is deeper than the points by less than a part in 1e12 of what is compared is
+/// rounding.
+#[test]
+fn a_valley_within_the_rounding_of_what_is_compared_is_not_looked_for() {
+    let looks =
+        |size: f64| look((&TWO[..1], [false]), |t| [1.0 + 1e-8 * (t - 3.6) * (t - 3.6)], [size]).1;
+    assert_eq!([looks(1.0), looks(1e3), looks(1e6)], [1, 1, 0]);
+}

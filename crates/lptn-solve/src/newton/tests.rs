@@ -125,3 +125,55 @@ fn several_solutions_are_not_sought_from_warmer_temperatures() {
     assert!(!newton.warmed(&mut workspace(&system), &mut temperatures));
     assert_eq!(temperatures, [380.0, 300.0]);
 }
+
+/// With factors that are too large by a fiftieth each correction leaves a part in 51 of what was
+/// left. The one that foretells less than 1e-10 K, four times over, is the last.
+#[test]
+fn corrections_end_when_the_next_one_is_foretold_to_be_small() {
+    let own = "-1 [W/K] * (T - absolute(300 [K]))";
+    let network = bodies(&[(100.0, "1 [W]"), (0.0, own)], Some("2 [W/K]"));
+    let system = ThermalSystem::assemble(&network).unwrap();
+    let mut newton = Newton::new(&system, vec![1]).unwrap_or_else(|_| panic!("none"));
+    let mut work = workspace(&system);
+    newton.factorize(&mut work, &[300.0, 310.0], 0.0).unwrap_or_else(|_| panic!("singular"));
+    let matrix: Vec<f64> = newton.matrix().iter().map(|value| 1.02 * value).collect();
+    for start in [1e-3, 1e-5, 1e-7, 3e-9] {
+        newton.lean_on(&matrix);
+        newton.lean();
+        let mut temperatures = [300.0, 300.0 + start];
+        assert_eq!(newton.contract(&mut work, &mut temperatures), Some(true), "{start}");
+        let (mut left, mut last) = (start, f64::INFINITY);
+        loop {
+            let size = left / 1.02;
+            let next = if last < f64::INFINITY { 4.0 * size * size / last } else { size };
+            left -= size;
+            if size.min(next) <= 1e-10 {
+                break;
+            }
+            last = size;
+        }
+        let found = temperatures[1] - 300.0;
+        assert!((found - left).abs() < 0.02 * left + 3e-13, "{start}: {found:e} for {left:e}");
+        newton.lean_on(&[]);
+    }
+}
+
+/// A move of more than a kelvin may have led to another solution, a smaller one has not: the
+/// factors stay.
+#[test]
+fn factors_are_made_anew_where_a_massless_node_of_several_solutions_moves_far() {
+    let system =
+        ThermalSystem::assemble(&bodies(&[(100.0, "1 [W]"), (0.0, STEP)], Some("2 [W/K]")));
+    let system = system.unwrap();
+    for (to, guarded, stay) in [(310.9, true, true), (311.2, true, false), (311.2, false, true)] {
+        let mut newton = Newton::new(&system, vec![1]).unwrap_or_else(|_| panic!("none"));
+        let mut work = workspace(&system);
+        newton.factorize(&mut work, &[body(310.0), 310.0], 0.0).unwrap_or_else(|_| panic!("none"));
+        newton.guarded = guarded;
+        let known = newton.matrix().to_vec();
+        let mut temperatures = [body(to), 310.0];
+        newton.follow(&mut work, &mut temperatures).unwrap_or_else(|_| panic!("it ends"));
+        assert!((temperatures[1] - to).abs() < 1e-7, "{temperatures:?}");
+        assert_eq!(newton.matrix() == known, stay, "{to} {guarded}");
+    }
+}

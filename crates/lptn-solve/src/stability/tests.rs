@@ -99,3 +99,39 @@ fn one_of_many_pairs_that_swings_up_is_found() {
     capacities[40] = 5e4;
     assert!(matches!(pairs(2.0, &capacities).0, Some(80 | 81)));
 }
+
+/// The first gains 1 W/K net and feels nothing of the second, which it cools: that moves by
+/// `-b / (C / 100 s + 3 W/K)` of the first, and counts by the root of its capacity, or of what it
+/// gives off in a step if it has none.
+#[test]
+fn what_grows_is_where_most_heat_moves() {
+    let place = |b: f64, capacity: f64| {
+        let first = "3 [W/K] * (T - absolute(300 [K]))";
+        let second = format!(
+            "-1 [W/K] * (T - absolute(300 [K])) - {b:?} [W/K] * (n0.T - absolute(300 [K]))"
+        );
+        judged(&[(100.0, first), (capacity, &second)]).0
+    };
+    // 100 times as much heat, moved by 0.29 and 0.029 of the first
+    assert_eq!([place(30.0, 1e4), place(3.0, 1e4)], [Some(1), Some(0)]);
+    // as much, moved by 1.25 and 0.75
+    assert_eq!([place(5.0, 100.0), place(3.0, 100.0)], [Some(1), Some(0)]);
+    // a hundredth, moved by 16 and 8
+    assert_eq!([place(48.16, 1.0), place(24.08, 1.0)], [Some(1), Some(0)]);
+}
+
+/// Joined bodies warm each other: what grows there runs away, though the determinant be positive.
+#[test]
+fn what_warms_each_other_does_not_swing() {
+    let gains = |gain: f64| format!("{gain:?} [W/K] * (T - absolute(300 [K]))");
+    for (gain, unstable) in [(1.0, false), (9.0, true)] {
+        let heat = gains(gain);
+        let network = bodies(&[(100.0, &heat), (100.0, &heat)], Some("1 [W/K]"));
+        let system = ThermalSystem::assemble(&network).unwrap();
+        let mut newton = Newton::new(&system, vec![0, 1]).unwrap_or_else(|_| panic!("none"));
+        let (mut work, at) = (workspace(&system), [300.0; 2]);
+        let found = newton.unstable(&mut work, &at).unwrap_or_else(|_| panic!("singular"));
+        assert_eq!(found.is_some(), unstable);
+        assert!(!newton.swings(&mut work, &at).unwrap_or_else(|_| panic!("no slopes")));
+    }
+}

@@ -156,3 +156,6 @@ impl<'a> Run<'a> {
         Some(there && matches!(newton.unstable(work, &found), Ok(None)))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -187,3 +187,82 @@ fn capacities_are_those_of_the_bodies() {
     let system = ThermalSystem::assemble(&bodies(&heats[..1], None)).unwrap();
     assert!(Corners::of(&system, 1e-3).are_none());
 }
+
+/// The course of `bend`, begun at another time: what is seen of a kink does not depend on it.
+fn bend_from(start: f64, at: f64, (tolerance, fresh): (f64, bool)) -> Option<Bend> {
+    let network = bodies(&[(C, KINK), (C, "1 [W]")], None);
+    let system = ThermalSystem::assemble(&network).unwrap();
+    let course = move |time: f64| vec![310.0 + time - start - at, 300.0];
+    let mut integrator = Scripted::new(&system, start, course);
+    let mut corners = Corners::of(&system, tolerance);
+    let first = [310.0 - at, 300.0, 300.0];
+    let state = integrator.state().to_vec();
+    integrator.system_mut().look(start, &state).unwrap();
+    corners.begin(integrator.system_mut());
+    let step = integrator.goes_to(start + 20.0);
+    let last = [330.0 - at, 300.0, 300.0];
+    let state = integrator.state().to_vec();
+    integrator.system_mut().look(start + 20.0, &state).unwrap();
+    corners.bend(&mut integrator, &step, ([&first, &last], fresh))
+}
+
+#[test]
+fn a_kink_is_judged_alike_whenever_the_step_begins() {
+    for (at, tolerance, fresh) in [
+        (9.0, 1e-6, false),
+        (9.0, 0.3, false),
+        (0.3, 1e-6, false),
+        (0.3, 1e-6, true),
+        (9.0, 9.0, true),
+    ] {
+        let expected = bend_from(0.0, at, (tolerance, fresh));
+        for start in [64.0, -1024.0] {
+            let found = bend_from(start, at, (tolerance, fresh));
+            match (found, expected) {
+                (Some(Bend::In { kink, longest }), Some(Bend::In { kink: k, longest: l })) => {
+                    assert!(kink == k || (kink - start - k).abs() < 1e-9, "{kink} {k}");
+                    assert!(longest == l || (longest - l).abs() < 1e-9, "{longest} {l}");
+                }
+                (found, expected) => assert_eq!(found, expected, "{start} {at}"),
+            }
+        }
+    }
+    let met = bend_from(64.0, 9.0, (1e-6, false));
+    assert!(matches!(met, Some(Bend::In { kink, .. }) if (kink - 73.0).abs() < 1e-9), "{met:?}");
+    let halved = Some(Bend::In { kink: f64::INFINITY, longest: 10.0 });
+    assert_eq!(bend_from(64.0, 0.3, (1e-6, false)), halved);
+}
+
+/// What disturbs by more than a quarter of the tolerance is weighed by what is given off.
+#[test]
+fn a_disturbance_beyond_a_quarter_of_the_tolerance_is_weighed_by_what_is_given_off() {
+    let weighed = disturbance(16.0);
+    let bare = weighed.map(|d| d * (C + 140.0) / C);
+    let most = bare.iter().fold(0.0, |most: f64, d| most.max(*d));
+    for (share, expected) in [(0.99, weighed), (1.01, bare)] {
+        let found = on_the_way(16.0, 4.0 * most * share, |corners, integrator, step, ends| {
+            let samples = samples(integrator, step, [&ends[0], &ends[1]]).unwrap();
+            corners.disturbance(integrator, step, (&samples, &[0])).unwrap()
+        });
+        let off = found.iter().zip(expected).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        assert!(off < 1e-9, "{share}: {found:?} for {expected:?}");
+    }
+}
+
+/// Eight doubles are halved three times: there is no time between two that are neighbours.
+#[test]
+fn a_kink_is_sought_down_to_neighbouring_times() {
+    let network = bodies(&[(C, KINK)], None);
+    let system = ThermalSystem::assemble(&network).unwrap();
+    let (start, double) = (1024.0, 1024.0 * f64::EPSILON);
+    let course = move |time: f64| vec![310.0 + 1e9 * (time - start - 4.5 * double)];
+    let mut integrator = Scripted::new(&system, start, course);
+    let state = integrator.state().to_vec();
+    integrator.system_mut().look(start, &state).unwrap();
+    let mut corners = Corners::of(&system, 1e-6);
+    corners.begin(integrator.system_mut());
+    let step = integrator.goes_to(start + 8.0 * double);
+    integrator.looks.clear();
+    assert_eq!(corners.first_kink(&mut integrator, &step, &[0]), start + 5.0 * double);
+    assert_eq!(integrator.looks, [4.0, 6.0, 5.0].map(|k| start + k * double));
+}

@@ -163,3 +163,84 @@ fn a_step_is_looked_at_if_something_asks_for_it() {
         assert!((errors.elapsed, errors.unseen) == (0.0, 0));
     });
 }
+
+/// Whether an error of a state may grow at its own rate, or be magnified.
+fn may_grow(text: &str) -> bool {
+    let netlist = lptn_netlist::parse("grows.toml", text).unwrap_or_else(|r| panic!("{r}"));
+    Errors::may_grow(&ThermalSystem::assemble(&netlist.network).unwrap())
+}
+
+/// A body with a capacity and a conductance to air, and further sections.
+fn body(capacity: &str, conductance: &str, sections: &str) -> String {
+    format!(
+        "format = 1\n[table]\nfactor = {{ x = [200, 300, 400], x_unit = \"K\", y = [1, 1, 0.5], \
+         outside = \"hold\" }}\n[node]\nbody \
+         = {{ C = \"{capacity}\", T0 = \"absolute(300 [K])\" }}\n{sections}[boundary]\nair = {{ \
+         T = \"absolute(300 [K])\" \
+         }}\n[resistor]\nskin = {{ from = \"body\", to = \"air\", G = \"{conductance}\" \
+         }}\n[run]\nstop = \"1 s\"\n"
+    )
+}
+
+/// Each by itself excludes that nothing grows: a heat that rises with its own temperature, a
+/// massless node that is solved for, a state that is a heat content.
+#[test]
+fn errors_may_grow_where_the_form_of_the_network_does_not_exclude_it() {
+    assert!(!may_grow(&body("1 J/K", "2 W/K", "")));
+    let own = "[source]\nq = { into = \"body\", P = \"3 [W/K] * (T - absolute(300 [K]))\" }\n";
+    assert!(may_grow(&body("1 J/K", "2 W/K", own)));
+    let falls = "1 [J/K] * factor(T - absolute(0 [K]))";
+    assert!(may_grow(&body(falls, "2 W/K", "")));
+    assert!(may_grow(&body(falls, "2 W/K", own)));
+}
+
+/// A massless node with 2 W/K to air and 2.5 W/K of its own, joined by 1 W/K: it follows by
+/// 1 / (2 + 1 - 2.5) = 2 of the state's error, which dies at 2 + 1 - 2 W/K.
+#[test]
+fn what_is_magnified_asks_for_looks_though_it_dies() {
+    let network: &[_] = &[(100.0, "1 [W]"), (0.0, "2.5 [W/K] * (T - absolute(300 [K]))")];
+    with((network, Some("1 [W/K]")), |errors, heat| {
+        near(errors.most(), 2.0);
+        near(errors.rates[0], -0.01);
+        assert!(errors.grows);
+        goes(errors, heat, 10.0, false);
+        near(errors.most(), 2.0);
+    });
+    // an error that neither grows nor dies asks for none
+    let network: &[_] = &[(100.0, "2 [W/K] * (T - absolute(300 [K]))")];
+    with((network, None), |errors, _| assert!(errors.rates[0] == 0.0 && !errors.grows));
+}
+
+/// The speed of a temperature counts, and not its change: here steps of many lengths at 0.5 K/s.
+#[test]
+fn a_longer_step_at_the_same_speed_is_not_faster() {
+    with((&[(100.0, "1 [W]")], None), |errors, _| {
+        let mut now = 300.0;
+        let asked = [2.0, 4.0, 8.0].map(|length| {
+            let before = now;
+            now += 0.5 * length;
+            errors.goes_on([&[before, 300.0], &[now, 300.0]], (length, [true, false]))
+        });
+        assert_eq!(asked, [false; 3]);
+        let shorter = errors.goes_on([&[now, 300.0], &[now + 0.9, 300.0]], (1.0, [true, false]));
+        assert!(shorter, "0.9 K/s");
+    });
+    with((&[(100.0, "1 [W]")], None), |errors, _| {
+        errors.goes_on([&[300.0; 2], &[301.0, 300.0]], (4.0, [true, false]));
+        assert!(errors.goes_on([&[301.0, 300.0], &[301.6, 300.0]], (2.0, [true, false])));
+    });
+}
+
+/// Steps that nobody looked at are one: of 5 and 7 s at -0.02 and 0.04 1/s.
+#[test]
+fn steps_that_were_not_looked_at_are_taken_together() {
+    let network: &[_] = &[(100.0, "1 [W/K^2] * (T - absolute(300 [K]))^2")];
+    with((network, None), |errors, heat| {
+        for length in [5.0, 7.0] {
+            errors.goes_on([&[300.0; 2], &[300.0; 2]], (length, [true, false]));
+        }
+        heat.look(0.0, &[303.0]).unwrap();
+        errors.step(heat);
+        near(errors.most(), (0.5 * 12.0 * (-0.02 + 0.04_f64)).exp());
+    });
+}

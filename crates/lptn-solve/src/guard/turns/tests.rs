@@ -186,3 +186,49 @@ fn a_turn_of_several_temperatures_is_looked_for_ahead() {
     let (found, _) = of([320.0, 319.8], [1.0, 1.0], 5.0);
     assert!((0.01..0.3).contains(&found), "{found}");
 }
+
+/// A bell of 1 mK over the sum of both temperatures.
+const NARROW_BOTH: &str =
+    "1 [W] * exp(-((T + (n1.T - absolute(300 [K])) - absolute(340 [K])) / 0.01 [K])^2)";
+
+/// What is narrow among several temperatures is found to a thousandth of a kelvin, not to a share
+/// of the way.
+#[test]
+fn a_narrow_turn_of_several_temperatures_is_found_where_it_is() {
+    with([NARROW_BOTH, "1 [W]"], |turns, scope| {
+        for rate in [1.0, 0.25, 4.0] {
+            let rates = [rate, rate, 0.0];
+            let course = Course { now: &[305.0, 305.0, 300.0], rates: &rates, last: 12.0 / rate };
+            near(turns.longest(course, scope), 15.0 / rate, 5e-3 / rate);
+        }
+    });
+}
+
+/// A thousandth of a kelvin before a turn the fastest temperature moves by a hundredth of a kelvin.
+#[test]
+fn right_at_a_turn_a_step_moves_by_a_hundredth_of_a_kelvin() {
+    with([NARROW_BOTH, "1 [W]"], |turns, scope| {
+        for rate in [1.0, 4.0] {
+            let rates = [rate, rate, 0.0];
+            let course = Course { now: &[320.0, 319.999, 300.0], rates: &rates, last: 5.0 };
+            near(turns.longest(course, scope), 0.01 / rate, 1e-12);
+        }
+    });
+}
+
+/// A bell of 5 mK is bracketed to far less than a share of what is looked at.
+#[test]
+fn a_narrow_turn_of_one_temperature_is_bracketed_closely() {
+    let bell = "1 [W] * exp(-((T - absolute(340 [K])) / 0.005 [K])^2)";
+    with([bell, "1 [W]"], |turns, scope| {
+        let network = turns.network.clone();
+        for number in [300.0, 350.0] {
+            let family = &mut turns.families[0];
+            family.range = [f64::NAN; 2];
+            family.reach(&network, scope, number);
+            assert_eq!(family.turns.len(), 1);
+            let [from, to] = family.turns[0];
+            assert!(from <= 340.0 && to >= 340.0 && to - from < 0.05, "{from} {to}");
+        }
+    });
+}
