@@ -218,7 +218,8 @@ impl Marks {
 
     fn row(&self, element: usize) -> Option<Row> {
         let number = element + self.skipped.partition_point(|before| *before <= element);
-        let mark = *self.marks.get(number / STRIDE)?;
+        // with the end of the line before: a reader leaves out a byte order mark at its beginning
+        let mark = self.marks.get(number / STRIDE)?.saturating_sub(1);
         let mut records = reader(self.text.text.get(mark..)?).into_records();
         let mut cells = records.nth(number % STRIDE)?.ok()?;
         let mut position = cells.position()?.clone();
