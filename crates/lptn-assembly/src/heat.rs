@@ -39,12 +39,6 @@ impl ThermalSystem {
         Ok(())
     }
 
-    /// True if [`ThermalSystem::boundary_heat`] asks every path and source for its heat.
-    pub fn boundaries_feel_all(&self) -> bool {
-        self.outer.elements.len() == self.elements.len()
-            && self.outer.radiation.len() == self.radiation.len()
-    }
-
     /// Evaluates sources that depend on temperatures, and the heat of elements into boundaries; that
     /// into nodes is not whole.
     fn evaluate_outer(&self, work: &mut Workspace, y: &[f64]) -> Result<(), InputError> {
@@ -53,8 +47,8 @@ impl ThermalSystem {
         for &i in &self.outer.radiation {
             self.radiation[i as usize].add_heat(&work.temperature, &mut work.element_heat);
         }
-        let mut elements = self.outer.elements.iter().map(|&i| &self.elements[i as usize]);
-        elements.try_for_each(|element| element.add_heat(&self.network, work))
+        self.together.evaluate(work, self.elements.len(), true);
+        self.outer.elements.iter().try_for_each(|&i| self.add_known(work, i as usize))
     }
 
     /// The part of [`ThermalSystem::boundary_heat`] that constant conductances carry: all of it for

@@ -24,6 +24,7 @@ mod sweep;
 mod switching;
 mod system;
 mod tangent;
+mod together;
 mod workspace;
 
 pub use change::ChangeError;

@@ -11,6 +11,7 @@ use crate::error::AssemblyError;
 use crate::outer::Outer;
 use crate::pattern::JacobianPattern;
 use crate::radiation::Radiation;
+use crate::together::Together;
 use crate::workspace::Workspace;
 
 /// A network as a system of ordinary differential equations in its nodes with capacity, and of
@@ -43,6 +44,8 @@ pub struct ThermalSystem {
     /// Bodies whose paths are evaluated together, and the positions of the other elements.
     pub(crate) bodies: Arc<Bodies>,
     pub(crate) outer: Arc<Outer>,
+    /// Elements that are evaluated together.
+    pub(crate) together: Arc<Together>,
     pub(crate) streams: Arc<Vec<ConductorId>>,
     /// Whether every element has a symmetric form.
     pub(crate) symmetric: bool,
@@ -82,6 +85,9 @@ impl ThermalSystem {
         let mass = unknowns.iter().map(|&id| network.capacity(id)).collect();
         let stream = |id: &ConductorId| network.conductors()[id.index()].law.is_stream();
         let streams = network.conductor_ids().filter(stream).collect();
+        let outer = Outer::of(network.nodes().len(), &radiation, &elements);
+        let bodies = Bodies::of(network, &elements);
+        let together = Together::of(network, (&elements, &outer), bodies.others());
         Ok(Self {
             network: network.clone(),
             unknowns: Arc::new(unknowns),
@@ -91,9 +97,10 @@ impl ThermalSystem {
             link_slots: Arc::new(link_slots),
             ties: Arc::new(ties),
             bridges: Arc::new(bridges),
-            outer: Arc::new(Outer::of(network.nodes().len(), &radiation, &elements)),
+            outer: Arc::new(outer),
+            together: Arc::new(together),
             radiation: Arc::new(radiation),
-            bodies: Arc::new(Bodies::of(network, &elements)),
+            bodies: Arc::new(bodies),
             elements: Arc::new(elements),
             streams: Arc::new(streams),
             symmetric,
@@ -262,8 +269,22 @@ impl ThermalSystem {
         work.element_heat.fill(0.0);
         self.radiation.iter().for_each(|r| r.add_heat(&work.temperature, &mut work.element_heat));
         self.bodies.add_heat((&self.network, &self.elements), work)?;
-        let mut others = self.bodies.others().map(|i| &self.elements[i]);
-        others.try_for_each(|element| element.add_heat(&self.network, work))
+        self.together.evaluate(work, self.elements.len(), false);
+        self.bodies.others().try_for_each(|i| self.add_known(work, i))
+    }
+
+    /// Adds the heat of an element, which may have been evaluated with others.
+    pub(crate) fn add_known(&self, work: &mut Workspace, element: usize) -> Result<(), InputError> {
+        match work.together.get(element) {
+            Some(heat) if !heat.is_nan() => {
+                let [from, to] = self.elements[element].receivers[..] else { return Ok(()) };
+                let heat = *heat;
+                work.element_heat[from as usize] += -heat;
+                work.element_heat[to as usize] += heat;
+                Ok(())
+            }
+            _ => self.elements[element].add_heat(&self.network, work),
+        }
     }
 
     /// Takes the temperatures of the unknowns.

@@ -4,7 +4,7 @@
 //! Inputs that are straight lines are read at the ends of a segment (`Workspace::draw_line`), not
 //! at every step and row. Expressions that read the time in another way are updated on request.
 
-use lptn_network::{Evaluation, InputError, Network, Positions};
+use lptn_network::{Evaluation, InputError, Network, Positions, SourceId};
 
 use crate::slopes::Slopes;
 
@@ -15,6 +15,11 @@ pub struct Workspace {
     pub(crate) scope: Evaluation,
     /// Heat of every source in W.
     pub(crate) power: Vec<f64>,
+    /// The sources to evaluate again when the time changes; the others only where something
+    /// switches.
+    timed: Vec<SourceId>,
+    /// Whether `power` has the heat of the others.
+    settled: bool,
     /// Heat put into every vertex in W, that of massless nodes handed on.
     pub(crate) heat: Vec<f64>,
     /// Heat that elements other than constant conductances bring to every vertex in W.
@@ -24,6 +29,8 @@ pub struct Workspace {
     pub(crate) slopes: Slopes,
     /// Potential or conductivity of the vertices of a body.
     pub(crate) potentials: Vec<f64>,
+    /// Heat of the elements that were evaluated together in W, by their positions; NaN for others.
+    pub(crate) together: Vec<f64>,
     /// Which controls are on and which comparisons hold.
     positions: Positions,
     /// Whether the inputs have to be evaluated again when the time changes.
@@ -71,11 +78,14 @@ impl Workspace {
         Self {
             scope: network.evaluation(),
             power: vec![0.0; network.sources().len()],
+            timed: network.timed_sources(),
+            settled: false,
             heat: vec![0.0; vertices],
             element_heat: vec![0.0; vertices],
             temperature: vec![f64::NAN; vertices],
             slopes: Slopes::default(),
             potentials: Vec::new(),
+            together: Vec::new(),
             positions: network.initial_positions(),
             varies: network.has_time_dependent_inputs(),
             read_at: None,
@@ -109,10 +119,22 @@ impl Workspace {
         }
         self.behind = false;
         self.scope.set_time(time, segment);
-        network.source_powers(&mut self.scope, &mut self.power)?;
+        self.read_powers(network)?;
         network.boundary_temperatures(&mut self.scope, &mut self.temperature[boundaries..])?;
         self.read_at = Some((time, segment));
         Ok(true)
+    }
+
+    fn read_powers(&mut self, network: &Network) -> Result<(), InputError> {
+        if !self.settled {
+            network.source_powers(&mut self.scope, &mut self.power)?;
+            self.settled = true;
+            return Ok(());
+        }
+        for &id in &self.timed {
+            self.power[id.index()] = network.source_heat(id, &mut self.scope, &[])?;
+        }
+        Ok(())
     }
 
     /// Takes the inputs between two times of a segment for straight lines, which the caller knows:
@@ -166,6 +188,7 @@ impl Workspace {
     pub fn set_positions(&mut self, positions: &Positions) {
         self.scope.set_positions(positions);
         self.positions.clone_from(positions);
+        self.settled = false;
         self.forget();
     }
 

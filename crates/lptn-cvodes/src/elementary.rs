@@ -15,6 +15,14 @@
 //! A linker takes the definition of a program before that of a library, so the C library's are not
 //! looked at. The signatures are those of C11 (7.12) and, for `sincos`, of the GNU C library.
 
+/// A power. The correctly rounded one takes three times as long as that of `libm`, which knows no
+/// other processor. A quarter power, as films of natural convection have it, is two square roots:
+/// each is correctly rounded and the second halves the error of the first, 3/4 of a unit in the last
+/// place in all.
+fn power(x: f64, y: f64) -> f64 {
+    if y == 0.25 && x > 0.0 { x.sqrt().sqrt() } else { libm::pow(x, y) }
+}
+
 /// One function after the other, with its arguments and where it comes from.
 macro_rules! elementary {
     ($($name:ident($($x:ident),+) = $from:path;)*) => {$(
@@ -44,8 +52,7 @@ elementary! {
     cosh(x) = pxfm::f_cosh;
     tanh(x) = pxfm::f_tanh;
     cbrt(x) = pxfm::f_cbrt;
-    // the correctly rounded one takes three times as long, and this one knows no other processor
-    pow(x, y) = libm::pow;
+    pow(x, y) = power;
     hypot(x, y) = libm::hypot;
 }
 

@@ -1,5 +1,6 @@
 //! The names of a netlist: what each stands for.
 
+use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
@@ -60,6 +61,8 @@ pub(crate) struct Names {
     hidden_substances: HashSet<(&'static str, String)>,
     /// A file of names is missing: any name may be what is looked for.
     all_hidden: bool,
+    /// Expressions by their text: templates and scripts write one many times.
+    pub(crate) expressions: RefCell<HashMap<String, Expression>>,
     /// How many similar names were looked for.
     searches: usize,
     /// Grids by name.

@@ -19,9 +19,13 @@ impl Names {
         match &place.raw.kind {
             RawKind::String { text, .. } => {
                 let (at, structure) = (&place.raw.span, &self.structure);
+                if let Some(known) = self.expressions.borrow().get(text) {
+                    return Ok(Text::Expression(self.resolved(at, known.clone())));
+                }
                 match parse_value(text, ty, &|name| self.is_value(&structure.resolve(at, name))) {
                     Ok(Written::Quantity(quantity)) => Ok(Text::Quantity(quantity)),
                     Ok(Written::Expression(expression)) => {
+                        self.expressions.borrow_mut().insert(text.clone(), expression.clone());
                         Ok(Text::Expression(self.resolved(at, expression)))
                     }
                     Err(error) => Err(place.unit_error(&error)),

@@ -209,7 +209,7 @@ impl Law {
 }
 
 /// What is wrong with a value of a field that may change during a run.
-fn impossible(field: &lptn_laws::FieldDeclaration, value: f64) -> Option<InputProblem> {
+pub(crate) fn impossible(field: &lptn_laws::FieldDeclaration, value: f64) -> Option<InputProblem> {
     const CONDUCTANCE: Type = Type::of(Dimension::CONDUCTANCE);
     const RESISTANCE: Type = Type::of(Dimension::RESISTANCE);
     match field.range {

@@ -74,6 +74,7 @@ pub use law::{ConductorFlow, Law, Received};
 pub use lptn_laws::{Carries, Extent, Formula, Kind as ConductorKind};
 pub use names::{UnknownName, is_name, is_path, list_of, list_of_names};
 pub use network::Network;
+pub use network::alike::Alike;
 pub use network::body::Surface;
 pub use network::conductivity::Conductivity;
 pub use network::fields::ValueChange;

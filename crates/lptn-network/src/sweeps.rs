@@ -4,6 +4,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use lptn_laws::Formula;
 use lptn_units::{Degree, Program, Traced, Trend};
 
 use crate::evaluation::Evaluation;
@@ -15,6 +16,7 @@ use crate::network::flow::{name, place};
 use crate::parts::dependence::Dependence;
 use crate::parts::layout::Holds;
 use crate::slot;
+use crate::value::Value;
 
 /// An expression that drives a heat flow, or decides what switches, and reads temperatures in a way that is not a straight
 /// line.
@@ -204,6 +206,9 @@ impl Network {
     ) -> Result<u64, InputError> {
         let conductor = &self.conductors()[id.index()];
         let dependence = self.parts.dependence(id);
+        if let Some(pieces) = self.plain_pieces(id, scope, temperatures) {
+            return Ok(pieces);
+        }
         let at = |k: usize| Traced::variable(temperatures[dependence.vertices[k] as usize]);
         let result = {
             let (slots, stack) = scope.traced();
@@ -222,6 +227,36 @@ impl Network {
             }
         }
         Ok(trace)
+    }
+
+    /// The same for a law that is a product of its values, whose pieces are those of their
+    /// expressions: these are read without the heat.
+    fn plain_pieces(
+        &self,
+        id: ConductorId,
+        scope: &mut Evaluation,
+        temperatures: &[f64],
+    ) -> Option<u64> {
+        let law = &self.conductors()[id.index()].law;
+        let dependence = self.parts.dependence(id);
+        let product =
+            matches!(law.formula(), Formula::Resistance | Formula::Conductance | Formula::Film);
+        if !product || !dependence.named.is_empty() || self.along(id).is_some() {
+            return None;
+        }
+        let at = |k: usize| temperatures[dependence.vertices[k] as usize];
+        let (slots, stack) = scope.plain();
+        place(slots, dependence, &at);
+        let mut number = 0_u64;
+        for value in law.values() {
+            number = number.rotate_left(7);
+            number ^= match value {
+                Value::Constant(_) => 0,
+                Value::Expression(program) => program.pieces(slots, stack, slot::is_of_path)?,
+                Value::Product(_) => return None,
+            };
+        }
+        Some(number)
     }
 
     /// The same for the heat of a source.

@@ -13,8 +13,11 @@ const COARSE: f64 = 300.0;
 /// How often a step is halved at most.
 const HALVINGS: usize = 7;
 
-/// Parts of a step that the values are looked at in.
+/// Parts of a first step that the values are looked at in.
 const PARTS: usize = 16;
+
+/// Parts of a shorter one at least, which then are no longer than those of a first step.
+const FEWEST_PARTS: usize = 4;
 
 /// The share of what bends within steps that may be something else than the values at their ends
 /// foretell. Of a sine that leaves at least six steps in a period.
@@ -62,7 +65,7 @@ pub(crate) fn stretches(
     for &segment in segments {
         let length = segment.to - segment.from;
         let count = (length / first).ceil().max(LEAST);
-        let cells = Cells { segment, step: length / count };
+        let cells = Cells::new(segment, length / count, first);
         let mut finer = Vec::new();
         // a segment that is as short as what is looked for is left to the steps with which the
         // integrator begins
@@ -85,12 +88,18 @@ pub(crate) fn stretches(
 struct Cells {
     segment: Segment,
     step: f64,
+    parts: usize,
 }
 
 /// Some of them, from and to.
 type Range = (usize, usize);
 
 impl Cells {
+    fn new(segment: Segment, step: f64, first: f64) -> Self {
+        let parts = whole_number((step / first * PARTS as f64).ceil());
+        Self { segment, step, parts: parts.clamp(FEWEST_PARTS, PARTS) }
+    }
+
     fn count(&self) -> usize {
         whole_number((self.segment.to - self.segment.from) / self.step)
     }
@@ -101,12 +110,12 @@ impl Cells {
     }
 
     fn start_of(&self, cell: usize) -> f64 {
-        self.place((cell * PARTS) as f64)
+        self.place((cell * self.parts) as f64)
     }
 
     /// The time so many parts of a step after the start.
     fn place(&self, parts: f64) -> f64 {
-        (self.segment.from + parts / PARTS as f64 * self.step).min(self.segment.to)
+        (self.segment.from + parts / self.parts as f64 * self.step).min(self.segment.to)
     }
 
     /// The steps that are judged with those of a range.
@@ -145,12 +154,12 @@ impl Look<'_> {
         scope: &mut Evaluation,
     ) {
         let (first, last) = cells.around((from, to));
-        let bends = bends(samples);
+        let bends = bends(samples, cells.parts);
         let unseen = |cell: &usize| {
             let around = cell.saturating_sub(AROUND).max(first)..(cell + AROUND + 1).min(last);
             let sum = bends[around.start - first..around.end - first].iter();
             let (missed, bent) = sum.fold((0.0, 0.0), |sum, bend| (sum.0 + bend.0, sum.1 + bend.1));
-            missed > MISSED * bent && missed > self.rounding * (around.len() * PARTS) as f64
+            missed > MISSED * bent && missed > self.rounding * (around.len() * cells.parts) as f64
         };
         let unseen: Vec<usize> = (from..to).filter(unseen).collect();
         for run in unseen.chunk_by(|a, b| a + 1 == *b) {
@@ -175,12 +184,12 @@ fn sampled(
     scope: &mut Evaluation,
 ) -> Vec<Vec<f64>> {
     let (first, last) = cells.around(range);
-    let count = (last - first) * PARTS + 1;
+    let count = (last - first) * cells.parts + 1;
     let mut samples = vec![Vec::with_capacity(count); looks.len()];
     if looks.is_empty() {
         return samples;
     }
-    for k in first * PARTS..=last * PARTS {
+    for k in first * cells.parts..=last * cells.parts {
         scope.set_time(cells.place(k as f64), cells.segment.inside());
         for (look, samples) in looks.iter().zip(&mut samples) {
             samples.push(look.network.curve_here(look.curve, scope).unwrap_or(f64::NAN));
@@ -212,18 +221,18 @@ fn largest(
     largest
 }
 
-/// For each step of [`PARTS`] samples how far they are from the cubic through the ends of steps,
+/// For each step of so many samples how far they are from the cubic through the ends of steps,
 /// and from the chord. Where a sample is not a number, nothing is known.
-fn bends(samples: &[f64]) -> Vec<(f64, f64)> {
-    let count = samples.len() / PARTS;
-    let end = |cell: usize| samples[cell * PARTS];
+fn bends(samples: &[f64], parts: usize) -> Vec<(f64, f64)> {
+    let count = samples.len() / parts;
+    let end = |cell: usize| samples[cell * parts];
     let one = |cell: usize| {
         let first = cell.saturating_sub(1).min(count.saturating_sub(3));
         let [y0, y1, y2, y3] = [0, 1, 2, 3].map(|k| end((first + k).min(count)));
         let (d1, d2, d3) = (y1 - y0, y2 - 2.0 * y1 + y0, y3 - 3.0 * (y2 - y1) - y0);
         let (mut missed, mut bent) = (0.0, 0.0);
-        for part in 1..PARTS {
-            let (value, share) = (samples[cell * PARTS + part], part as f64 / PARTS as f64);
+        for part in 1..parts {
+            let (value, share) = (samples[cell * parts + part], part as f64 / parts as f64);
             let u = (cell - first) as f64 + share;
             let cubic = y0 + u * (d1 + (u - 1.0) / 2.0 * (d2 + (u - 2.0) / 3.0 * d3));
             missed += (value - cubic).abs();
@@ -264,7 +273,7 @@ mod tests {
     /// What the cubic misses over what bends, for all steps of samples of a function of the steps.
     fn share(count: usize, of: impl Fn(f64) -> f64) -> f64 {
         let samples: Vec<f64> = (0..=count * PARTS).map(|k| of(k as f64 / PARTS as f64)).collect();
-        let sum = bends(&samples)
+        let sum = bends(&samples, PARTS)
             .into_iter()
             .fold((0.0, 0.0), |sum, bend| (sum.0 + bend.0, sum.1 + bend.1));
         sum.0 / sum.1

@@ -63,6 +63,13 @@ impl Columns {
         self.quantities.is_empty()
     }
 
+    /// Whether any reads more than temperatures.
+    pub(crate) fn ask_for_heat(&self) -> bool {
+        let heat =
+            |quantity: &Quantity| matches!(quantity, Quantity::Heat(_) | Quantity::Report(_));
+        self.quantities.iter().any(heat)
+    }
+
     /// Writes a row from nodes recovered; what cannot be had is NaN. Inputs are read as they are
     /// where a row is read after the run, to the same digits.
     pub(crate) fn push(

@@ -3,6 +3,7 @@
 //! A step is cut where a result bends. Limits, windows and functionals of sweeps use one resolution
 //! (`resolve.rs`). `Network::bends` gives the quantities at whose roots an expression bends.
 
+use crate::bracket::Bracket;
 use crate::interval::{At, Interval, POINTS};
 use crate::stop_reason::StopReason;
 use crate::watch::{is_same, put_in, top};
@@ -19,9 +20,6 @@ const GUESSES: usize = 50;
 
 /// A time is found to this share of the interval.
 const ENOUGH: f64 = 1e-14;
-
-/// Looks for the time at which a curve passes a level.
-const MOST_LOOKS: usize = 160;
 
 /// Where curves bend: when a quantity behind the first `count` ones passes one of its levels.
 #[derive(Clone, Copy)]
@@ -146,53 +144,27 @@ fn guess(
 
 /// Finds the moment at which a curve passes a level between two points (time in s, value): the first
 /// time behind it that was looked at, with the values of all curves there. It is not further away
-/// than `enough` in s unless rounding is more. By the secant method in an interval that shrinks (N.
-/// Anderson, A. Björck, BIT 13 (1973) 253), from a guess.
+/// than `enough` in s unless rounding is more.
 pub(crate) fn passing(
     at: &mut At<'_>,
     (column, level): (usize, f64),
-    ([mut before, mut after], guess): ([(f64, f64); 2], f64),
+    ([before, after], guess): ([(f64, f64); 2], f64),
     enough: f64,
 ) -> Result<End, StopReason> {
     let sign = (after.1 - before.1).signum();
-    let (mut sides, mut last) = ([before.1 - level, after.1 - level], None);
-    let (mut found, mut next, mut width) = (None, guess, after.0 - before.0);
-    for look in 1..=MOST_LOOKS {
-        let (a, b) = (before.0, after.0);
-        let least = enough.max(2.0 * f64::EPSILON * b.abs());
-        if b - a <= least || sides[1] == 0.0 {
-            break;
-        }
-        let slow = look % 3 == 0 && b - a > 0.5 * width;
-        if look % 3 == 0 {
-            // what a halving gains is no merit of the secants
-            width = if slow { 0.5 * (b - a) } else { b - a };
-        }
-        // a good guess is closed in from its other side
-        let time = match next >= a && next <= b && !slow {
-            true => next.clamp(a + 0.5 * least, b - 0.5 * least),
-            false => a.midpoint(b),
-        };
+    let beyond = |value: f64| sign * (value - level);
+    let ends = [before, after].map(|(time, value)| (time, beyond(value)));
+    let (mut bracket, mut found) = (Bracket::new(ends, guess, enough), None);
+    while let Some(time) = bracket.next() {
         let values = at(time)?;
-        let side = values[column] - level;
-        let passed = sign * side > 0.0;
-        let (near, far) = if passed { (1, 0) } else { (0, 1) };
-        if last == Some(passed) {
-            let share = 1.0 - side / sides[near];
-            sides[far] *= if share > 0.0 { share } else { 0.5 };
+        if bracket.put(time, beyond(values[column])) {
+            found = Some((time, values));
         }
-        (sides[near], last) = (side, Some(passed));
-        match passed {
-            true => (after, found) = ((time, side), Some(values)),
-            false => before = (time, side),
-        }
-        next = before.0 + (after.0 - before.0) * (sides[0] / (sides[0] - sides[1]));
     }
-    let values = match found {
-        Some(values) => values,
-        None => at(after.0)?,
-    };
-    Ok((after.0, values))
+    match found {
+        Some(end) => Ok(end),
+        None => Ok((after.0, at(after.0)?)),
+    }
 }
 
 /// The points of a curve over an interval.

@@ -242,6 +242,10 @@ impl<'a> Heat<'a> {
         y: &[f64],
         out: &mut [f64],
     ) -> Result<(), StopReason> {
+        if self.gates.are_plain() && !self.unfold.carries_heat() {
+            self.gates.plain_excess(self.work.positions(), y, out);
+            return Ok(());
+        }
         self.arrive(time, y)?;
         self.gates.excess(self.system, &mut self.work, out).map_err(StopReason::Input)
     }
@@ -365,6 +369,10 @@ impl OdeSystem for Heat<'_> {
     }
 
     fn roots(&mut self, time: f64, y: &[f64], g: &mut [f64]) -> Result<(), Retry> {
+        if self.gates.are_plain() && !self.unfold.carries_heat() {
+            self.gates.plain_excess(self.work.positions(), y, g);
+            return Ok(());
+        }
         self.recover(time, y)?;
         let excess = self.gates.excess(self.system, &mut self.work, g);
         excess.map_err(|error| self.failed(NewtonError::Input(error), Retry::Stop))

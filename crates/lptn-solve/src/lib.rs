@@ -13,6 +13,7 @@ mod anchor;
 mod balance;
 mod beside;
 mod between;
+mod bracket;
 mod branch;
 mod cells;
 mod columns;

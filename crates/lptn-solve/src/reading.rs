@@ -18,6 +18,8 @@ pub(crate) struct Reading<'a> {
     unknowns: Vec<f64>,
     flow: Vec<f64>,
     boundary_heat: Vec<f64>,
+    /// Whether the heat of boundaries and sources is still to be evaluated: most rows ask for none.
+    heat_is_due: bool,
     /// The heat flows that expressions of results name.
     named: Vec<f64>,
 }
@@ -31,6 +33,7 @@ impl<'a> Reading<'a> {
             unknowns: vec![f64::NAN; system.unknowns().len()],
             flow: vec![f64::NAN; system.unknowns().len()],
             boundary_heat: vec![f64::NAN; system.network().boundaries().len()],
+            heat_is_due: false,
             named: Vec::new(),
         }
     }
@@ -43,7 +46,7 @@ impl<'a> Reading<'a> {
     /// Goes where the workspace is; `at` is the time and a time inside the segment, in s. Where a
     /// temperature is not known (NaN), what follows from it is NaN.
     pub(crate) fn place(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
-        let Self { system, scope, reads, unknowns, boundary_heat, named, .. } = self;
+        let Self { system, scope, reads, unknowns, boundary_heat, .. } = self;
         let network = system.network();
         let nodes = system.node_temperatures(work);
         let known = !nodes.iter().any(|t| t.is_nan());
@@ -54,26 +57,37 @@ impl<'a> Reading<'a> {
         if *reads {
             scope.set_temperatures(nodes, system.boundary_temperatures(work));
         }
+        self.heat_is_due = known;
         if !known {
             boundary_heat.fill(f64::NAN);
             return Ok(());
         }
         system.unknown_temperatures(system.node_temperatures(work), unknowns);
-        system.boundary_heat(work, unknowns, boundary_heat)?;
-        named.clear();
+        self.read_named(work)
+    }
+
+    /// Reads the heat flows that expressions name.
+    fn read_named(&mut self, work: &mut Workspace) -> Result<(), InputError> {
+        let network = self.system.network();
+        self.named.clear();
         for heat in network.named_heats() {
-            named.push(heat_of(system, (boundary_heat, scope), work, heat)?);
+            let heat = self.heat(work, heat)?;
+            self.named.push(heat);
         }
-        scope.set_heats(named);
+        self.scope.set_heats(&self.named);
         Ok(())
+    }
+
+    fn heat(&mut self, work: &mut Workspace, heat: HeatOf) -> Result<f64, InputError> {
+        if std::mem::take(&mut self.heat_is_due) {
+            self.system.boundary_heat(work, &self.unknowns, &mut self.boundary_heat)?;
+        }
+        heat_of(self.system, (&self.boundary_heat, &mut self.scope), work, heat)
     }
 
     /// Asks every path and source for its heat where this was placed last.
     pub(crate) fn check_heat(&mut self, work: &mut Workspace) -> Result<(), InputError> {
-        match self.system.boundaries_feel_all() {
-            true => Ok(()), // each was asked already
-            false => self.system.flow(work, &self.unknowns, &mut self.flow),
-        }
+        self.system.flow(work, &self.unknowns, &mut self.flow)
     }
 
     /// One quantity in SI units.
@@ -90,9 +104,7 @@ impl<'a> Reading<'a> {
             Quantity::BoundaryTemperature(id) => {
                 Ok(self.system.boundary_temperatures(work)[id.index()])
             }
-            Quantity::Heat(heat) => {
-                heat_of(self.system, (&self.boundary_heat, &mut self.scope), work, heat)
-            }
+            Quantity::Heat(heat) => self.heat(work, heat),
             Quantity::Signal(id) => Ok(self.scope.signal(id)),
             Quantity::Control(id) => Ok(self.scope.control(id)),
             Quantity::Report(id) => self.system.network().report_value(id, &mut self.scope),

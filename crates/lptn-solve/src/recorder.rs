@@ -234,7 +234,7 @@ impl<'a> Recorder<'a> {
                 let read = integrator.interpolate_sensitivities(time, sensed.carried());
                 read.map_err(|error| StopReason::Integrator { error, node: None })?;
             }
-            if self.is_whole() || !self.columns.is_empty() {
+            if self.is_whole() || self.columns.ask_for_heat() {
                 self.check_heat()?;
             }
             self.push()?;

@@ -38,10 +38,12 @@ fn times(slope: f64, derivative: f64) -> f64 {
     if derivative == 0.0 { 0.0 } else { slope * derivative }
 }
 
-/// The slope of x^a, with the value 0 where it is infinite: at x = 0 for 0 < a < 1.
-fn power_slope(base: f64, exponent: f64) -> f64 {
+/// The slope of `value = x^a`, with the value 0 where it is infinite: at x = 0 for 0 < a < 1.
+fn power_slope(base: f64, exponent: f64, value: f64) -> f64 {
     if base == 0.0 && (0.0..1.0).contains(&exponent) {
         0.0
+    } else if base > 0.0 && value > 0.0 && value.is_finite() {
+        exponent * value / base
     } else {
         exponent * base.powf(exponent - 1.0)
     }
@@ -154,14 +156,15 @@ impl<const N: usize> Scalar for Dual<N> {
     }
 
     fn powf(self, exponent: f64) -> Self {
-        self.chain(self.value.powf(exponent), power_slope(self.value, exponent))
+        let value = self.value.powf(exponent);
+        self.chain(value, power_slope(self.value, exponent, value))
     }
 
     fn pow(self, exponent: Self) -> Self {
         let value = self.value.powf(exponent.value);
         // 0^b is constantly 0 for b > 0, while ln 0 is infinite.
         let in_exponent = if self.value == 0.0 { 0.0 } else { value * self.value.ln() };
-        self.chain2(exponent, value, [power_slope(self.value, exponent.value), in_exponent])
+        self.chain2(exponent, value, [power_slope(self.value, exponent.value, value), in_exponent])
     }
 
     #[inline]

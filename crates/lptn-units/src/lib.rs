@@ -61,8 +61,8 @@ pub use dimension::Dimension;
 pub use dual::Dual;
 pub use error::{UnitError, UnitErrorKind};
 pub use expr::{
-    Comparison, Degree, EvalError, Expression, NoNames, Program, RESERVED, Scope, SlotKind, Split,
-    Symbol, TableCall, Trend, is_function,
+    Comparison, Degree, EvalError, Expression, LANES, Lanes, NoNames, Program, RESERVED, Scope,
+    SlotKind, Split, Symbol, TableCall, Trend, is_function,
 };
 pub use format::{number as format_number, short as format_short, six as format_six};
 pub use problems::{Class, Problem, Problems};

@@ -7,6 +7,8 @@ use crate::error::{UnitError, UnitErrorKind};
 use crate::repair;
 use crate::types::Type;
 use crate::unit_parser::{self, ParsedUnit};
+use std::cell::RefCell;
+use std::collections::BTreeMap;
 
 /// A unit of measurement and its conversion to SI: `si = (value + offset) * scale`.
 #[derive(Clone, PartialEq, Debug)]
@@ -56,8 +58,24 @@ pub(crate) fn parse_or_repair(text: &str) -> Result<ParsedUnit, UnitError> {
     if text.trim().is_empty() {
         return Err(UnitError::new(UnitErrorKind::Empty, 0..text.len()));
     }
-    unit_parser::parse(text).map_err(|error| with_fix(error, text))
+    if let Some(known) = KNOWN.with_borrow(|known| known.get(text).cloned()) {
+        return Ok(known);
+    }
+    let parsed = unit_parser::parse(text).map_err(|error| with_fix(error, text))?;
+    KNOWN.with_borrow_mut(|known| {
+        if known.len() < MOST_KNOWN {
+            known.insert(text.to_owned(), parsed.clone());
+        }
+    });
+    Ok(parsed)
 }
+
+thread_local! {
+    /// Units that were read before: a file writes few of them many times.
+    static KNOWN: RefCell<BTreeMap<String, ParsedUnit>> = const { RefCell::new(BTreeMap::new()) };
+}
+
+const MOST_KNOWN: usize = 64;
 
 fn with_fix(mut error: UnitError, text: &str) -> UnitError {
     let repaired = repair::unit(text);

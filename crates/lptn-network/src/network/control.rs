@@ -4,7 +4,7 @@ use crate::evaluation::Evaluation;
 use crate::id::{ControlId, Item};
 use crate::input_error::{InputError, InputProblem};
 use crate::network::Network;
-use crate::parts::control::{Acts, Thermostat};
+use crate::parts::control::Thermostat;
 use crate::value::Value;
 
 impl Network {
@@ -18,15 +18,22 @@ impl Network {
         self.numbers.min_dwell[id.index()]
     }
 
+    /// The temperatures in K at which a control switches on and off; `None` unless both are
+    /// constant.
+    pub fn thresholds(&self, id: ControlId) -> Option<[f64; 2]> {
+        let Thermostat { on, off, .. } = self.thermostat(id)?;
+        let constant = |value: &Value| self.parts.reads(value).is_constant();
+        if !constant(on) || !constant(off) {
+            return None;
+        }
+        let mut scope = self.evaluation();
+        Some([on.at(&mut scope).ok()?, off.at(&mut scope).ok()?])
+    }
+
     /// The distance in K between the thresholds of a control; `None` unless both are constant.
     pub fn dead_band(&self, id: ControlId) -> Option<f64> {
-        let Thermostat { on, off, .. } = self.thermostat(id)?;
-        let mut scope = self.evaluation();
-        let mut constant = |value: &Value| {
-            let is = self.parts.reads(value).is_constant();
-            is.then(|| value.at(&mut scope).ok()).flatten()
-        };
-        Some((constant(on)? - constant(off)?).abs())
+        let [on, off] = self.thresholds(id)?;
+        Some((on - off).abs())
     }
 
     /// How far, in K, the temperature that a control feels is beyond the threshold at which it
@@ -55,11 +62,6 @@ impl Network {
             ));
         }
         let felt = temperatures[self.vertex(thermostat.sense)];
-        Ok(match (thermostat.acts, scope.is_on(id)) {
-            (Acts::Cooling, false) => felt - on,
-            (Acts::Cooling, true) => off - felt,
-            (Acts::Heating, false) => on - felt,
-            (Acts::Heating, true) => felt - off,
-        })
+        Ok(thermostat.acts.excess([on, off], scope.is_on(id), felt))
     }
 }

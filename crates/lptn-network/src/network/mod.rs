@@ -1,5 +1,6 @@
 //! A thermal network whose invariants hold.
 
+pub(crate) mod alike;
 pub(crate) mod body;
 pub(crate) mod conductivity;
 pub(crate) mod control;
@@ -19,7 +20,7 @@ use crate::build_error::{BuildError, BuildErrors};
 use crate::check::Islands;
 use crate::error::BuildErrorKind;
 use crate::evaluation::Evaluation;
-use crate::id::{ConductorId, Field, Item, NodeId, ParameterId, SignalId};
+use crate::id::{ConductorId, Field, Item, NodeId, ParameterId, SignalId, SourceId};
 use crate::input_error::{InputError, InputProblem};
 use crate::law::{ConductorFlow, Law};
 use crate::names::UnknownName;
@@ -266,6 +267,18 @@ impl Network {
             }
         }
         Ok(())
+    }
+
+    /// The sources whose heat changes with time by itself and depends on no temperature.
+    pub fn timed_sources(&self) -> Vec<SourceId> {
+        let mut timed = vec![false; self.sources().len()];
+        for (item, _, value) in self.inputs() {
+            if let Item::Source(id) = item {
+                timed[id.index()] |= self.depends_on_time(value);
+            }
+        }
+        let free = |id: &SourceId| self.source_variables(*id).is_empty();
+        self.source_ids().filter(|id| timed[id.index()]).filter(free).collect()
     }
 
     /// The name of an item.

@@ -49,8 +49,18 @@ impl Acts {
         }
     }
 
+    /// How far a temperature in K is beyond the threshold at which a control leaves its state.
+    pub fn excess(self, [on, off]: [f64; 2], is_on: bool, felt: f64) -> f64 {
+        match (self, is_on) {
+            (Self::Cooling, false) => felt - on,
+            (Self::Cooling, true) => off - felt,
+            (Self::Heating, false) => on - felt,
+            (Self::Heating, true) => felt - off,
+        }
+    }
+
     /// Whether the threshold for on lies on its side of that for off.
-    pub(crate) fn in_order(self, on: f64, off: f64) -> bool {
+    pub fn in_order(self, on: f64, off: f64) -> bool {
         match self {
             Self::Cooling => on > off,
             Self::Heating => on < off,

@@ -8,6 +8,7 @@
 
 use lptn_integrate::{IntegrateError, Integrator, Step};
 
+use crate::bracket::Bracket;
 use crate::heat::Heat;
 use crate::stop_reason::StopReason;
 
@@ -22,9 +23,6 @@ const HALVINGS: usize = 40;
 
 /// .. and looks into one step for that, at most.
 const LOOKS: usize = 400;
-
-/// Halvings of the interval in which something begins to be due: to the rounding of the time.
-const BISECTIONS: usize = 60;
 
 /// Why a step could not be looked into.
 pub(crate) enum Trouble {
@@ -77,6 +75,7 @@ pub(crate) fn find(
 }
 
 /// How far everything that switches is beyond the point where it does at a time.
+#[derive(Clone)]
 struct Look {
     time: f64,
     excess: Vec<f64>,
@@ -85,6 +84,10 @@ struct Look {
 impl Look {
     fn is_due(&self) -> bool {
         self.excess.iter().any(|excess| *excess > 0.0)
+    }
+
+    fn most(&self) -> f64 {
+        self.excess.iter().copied().fold(f64::NEG_INFINITY, f64::max)
     }
 
     fn due(&self) -> Vec<usize> {
@@ -115,14 +118,14 @@ impl Search {
         Ok(Look { time, excess })
     }
 
-    /// Two times between which something begins to be due: not at the first, but at the second.
+    /// Two looks between which something begins to be due: not at the first, but at the second.
     /// Whether the last of three looks at even distances counts is said.
     fn first(
         &mut self,
         [before, middle, after]: [&Look; 3],
         (halvings, counts): (usize, bool),
         integrator: &mut Stepping<'_>,
-    ) -> Result<Option<(f64, f64)>, Trouble> {
+    ) -> Result<Option<(Look, Look)>, Trouble> {
         if halvings > 0 && self.looks < LOOKS && self.may_rise([before, middle, after]) {
             let left = self.at(integrator, before.time.midpoint(middle.time))?;
             let found = self.first([before, &left, middle], (halvings - 1, true), integrator)?;
@@ -134,7 +137,7 @@ impl Search {
         }
         let pairs = [(before, middle, true), (middle, after, counts)];
         let due = pairs.into_iter().find(|(_, look, counts)| *counts && look.is_due());
-        Ok(due.map(|(before, after, _)| (before.time, after.time)))
+        Ok(due.map(|(before, after, _)| (before.clone(), after.clone())))
     }
 
     /// Whether something that is due at none of three looks may be due between them. A parabola
@@ -152,16 +155,17 @@ impl Search {
     fn narrow(
         &mut self,
         integrator: &mut Stepping<'_>,
-        (mut before, mut after): (f64, f64),
+        (before, mut after): (Look, Look),
     ) -> Result<(Vec<usize>, f64), Trouble> {
-        for _ in 0..BISECTIONS {
-            let middle = before.midpoint(after);
-            match self.at(integrator, middle)?.is_due() {
-                true => after = middle,
-                false => before = middle,
+        let ends = [&before, &after].map(|look| (look.time, look.most()));
+        let mut bracket = Bracket::straight(ends);
+        while let Some(time) = bracket.next() {
+            let look = self.at(integrator, time)?;
+            if bracket.put(time, look.most()) {
+                after = look;
             }
         }
-        Ok((self.at(integrator, after)?.due(), after))
+        Ok((after.due(), after.time))
     }
 }
 

@@ -1,11 +1,35 @@
 //! How far everything that switches is beyond the point where it does.
 
+use std::sync::Arc;
+
 use lptn_assembly::{ThermalSystem, Workspace};
-use lptn_network::InputError;
+use lptn_network::{Acts, ControlId, End, InputError, Positions};
 
 /// A comparison changes only when its sides are apart by what this part of the tolerance makes of
 /// them: without it rounding at the moment of an event would decide which side it is on.
 const MARGIN: f64 = 0.01;
+
+/// A thermostat with constant thresholds that feels a node with capacity.
+#[derive(Clone, Copy, Debug)]
+struct Plain {
+    state: usize,
+    acts: Acts,
+    /// Where it switches on and off, in K.
+    thresholds: [f64; 2],
+}
+
+impl Plain {
+    fn of(system: &ThermalSystem, id: ControlId) -> Option<Self> {
+        let network = system.network();
+        let thermostat = network.thermostat(id)?;
+        let End::Node(node) = thermostat.sense else { return None };
+        let state = system.states().binary_search(&node).ok()?;
+        let thresholds = network.thresholds(id)?;
+        let [on, off] = thresholds;
+        let acts = thermostat.acts;
+        acts.in_order(on, off).then_some(Self { state, acts, thresholds })
+    }
+}
 
 /// What everything that switches waits for: controls in their order, then comparisons.
 #[derive(Clone, Debug, Default)]
@@ -16,15 +40,34 @@ pub(crate) struct Gates {
     pub(crate) margins: Vec<f64>,
     /// What a control is beyond its threshold by less than this, in K, does not count.
     room: f64,
+    /// Every control, if all that switches are plain thermostats.
+    plain: Arc<Vec<Plain>>,
 }
 
 impl Gates {
     pub(crate) fn new(system: &ThermalSystem) -> Self {
         let network = system.network();
+        let plain = network.control_ids().map(|id| Plain::of(system, id));
+        let plain = if network.switches().is_empty() { plain.collect() } else { None };
         Self {
             armed: vec![true; network.controls().len()],
             margins: vec![0.0; network.switches().len()],
             room: 0.0,
+            plain: Arc::new(plain.unwrap_or_default()),
+        }
+    }
+
+    /// Whether the temperatures of the states tell all that [`Gates::excess`] does.
+    pub(crate) fn are_plain(&self) -> bool {
+        !self.plain.is_empty()
+    }
+
+    /// As [`Gates::excess`] for plain thermostats, from the temperatures of the states in K.
+    pub(crate) fn plain_excess(&self, positions: &Positions, states: &[f64], out: &mut [f64]) {
+        let controls = self.plain.iter().zip(&positions.controls).zip(&self.armed);
+        for (((plain, is_on), armed), out) in controls.zip(out) {
+            let excess = plain.acts.excess(plain.thresholds, *is_on, states[plain.state]);
+            *out = if *armed { excess } else { -1.0 };
         }
     }
 

@@ -55,9 +55,9 @@ fn the_first_moment_is_found_to_rounding() {
         let ((due, time), looks) = alone(|t| t - at);
         assert_eq!(due, [0]);
         assert!(time >= at && time - at < 1e-12, "{time} for {at}");
-        // up to the part that has it, sixty halvings, and there
+        // up to the part that has it, where a straight line is met and closed in
         let before = if at < 4.0 { 3 } else { 5 };
-        assert_eq!(looks.len(), before + 61, "{at}");
+        assert!(looks.len() <= before + 4, "{at}: {}", looks.len());
         assert!(looks.iter().all(|look| *look <= if at < 4.0 { 4.0 } else { 8.0 }));
     }
 }
