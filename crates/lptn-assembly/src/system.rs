@@ -273,20 +273,6 @@ impl ThermalSystem {
         self.bodies.others().try_for_each(|i| self.add_known(work, i))
     }
 
-    /// Adds the heat of an element, which may have been evaluated with others.
-    pub(crate) fn add_known(&self, work: &mut Workspace, element: usize) -> Result<(), InputError> {
-        match work.together.get(element) {
-            Some(heat) if !heat.is_nan() => {
-                let [from, to] = self.elements[element].receivers[..] else { return Ok(()) };
-                let heat = *heat;
-                work.element_heat[from as usize] += -heat;
-                work.element_heat[to as usize] += heat;
-                Ok(())
-            }
-            _ => self.elements[element].add_heat(&self.network, work),
-        }
-    }
-
     /// Takes the temperatures of the unknowns.
     pub(crate) fn put(&self, work: &mut Workspace, y: &[f64]) {
         y.iter().zip(self.unknowns.iter()).for_each(|(t, id)| work.temperature[id.index()] = *t);

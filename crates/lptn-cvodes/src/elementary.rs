@@ -19,6 +19,7 @@
 /// other processor. A quarter power, as films of natural convection have it, is two square roots:
 /// each is correctly rounded and the second halves the error of the first, 3/4 of a unit in the last
 /// place in all.
+#[expect(clippy::float_cmp, reason = "a quarter is this number and no other")]
 fn power(x: f64, y: f64) -> f64 {
     if y == 0.25 && x > 0.0 { x.sqrt().sqrt() } else { libm::pow(x, y) }
 }

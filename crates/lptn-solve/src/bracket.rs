@@ -16,6 +16,8 @@ pub(crate) struct Bracket {
     width: f64,
     looks: usize,
     enough: f64,
+    /// The last of [`Bracket::reach`] in s.
+    ahead: f64,
 }
 
 impl Bracket {
@@ -30,6 +32,7 @@ impl Bracket {
             width: after.0 - before.0,
             looks: 0,
             enough,
+            ahead: 0.0,
         }
     }
 
@@ -53,11 +56,21 @@ impl Bracket {
             // what a halving gains is no merit of the secants
             self.width = if slow { 0.5 * (b - a) } else { b - a };
         }
+        if self.sides[0] == 0.0 {
+            self.next = a + self.reach(least);
+        }
         // a good guess is closed in from its other side
         Some(match self.next >= a && self.next <= b && !slow {
             true => self.next.clamp(a + 0.5 * least, b - 0.5 * least),
             false => a.midpoint(b),
         })
+    }
+
+    /// How far ahead to look from where the quantity is zero by rounding, and no straight line
+    /// tells where it rises: further every time.
+    fn reach(&mut self, least: f64) -> f64 {
+        self.ahead = if self.ahead == 0.0 { 0.5 * least } else { 8.0 * self.ahead };
+        self.ahead
     }
 
     /// Takes the quantity at that time; whether it is positive.

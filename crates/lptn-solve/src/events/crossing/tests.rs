@@ -55,9 +55,9 @@ fn the_first_moment_is_found_to_rounding() {
         let ((due, time), looks) = alone(|t| t - at);
         assert_eq!(due, [0]);
         assert!(time >= at && time - at < 1e-12, "{time} for {at}");
-        // up to the part that has it, where a straight line is met and closed in
+        // up to the part that has it, where a straight line is met and its rounding closed in
         let before = if at < 4.0 { 3 } else { 5 };
-        assert!(looks.len() <= before + 4, "{at}: {}", looks.len());
+        assert!(looks.len() <= before + 16, "{at}: {}", looks.len());
         assert!(looks.iter().all(|look| *look <= if at < 4.0 { 4.0 } else { 8.0 }));
     }
 }
@@ -66,20 +66,20 @@ fn the_first_moment_is_found_to_rounding() {
 #[test]
 fn what_comes_and_goes_between_two_reads_is_found() {
     // the reads as measured; these courses know nothing but sums and products
-    for (middle, measured) in [
-        (0.9, [65, 72, 93, 59]),
-        (2.7, [70, 80, 92, 65]),
-        (5.1, [71, 83, 98, 63]),
-        (7.3, [70, 124, 96, 59]),
+    for (middle, most, without) in [
+        (0.9, [36, 50, 70], 59),
+        (2.7, [29, 40, 74], 65),
+        (5.1, [40, 52, 74], 63),
+        (7.3, [41, 80, 74], 59),
     ] {
-        for (half, measured) in [0.5, 0.05, 1e-3].into_iter().zip(measured) {
+        for (half, most) in [0.5, 0.05, 1e-3].into_iter().zip(most) {
             let ((due, time), looks) = alone(|t| half * half - (t - middle) * (t - middle));
             assert_eq!(due, [0], "{middle} {half}");
             assert!((time - middle + half).abs() < 1e-9, "{middle} {half}: {time}");
-            assert_eq!(looks.len(), measured, "{middle} {half}");
+            assert!(looks.len() <= most, "{middle} {half}: {} reads", looks.len());
         }
         let ((due, _), looks) = alone(|t| -1e-6 - (t - middle) * (t - middle));
-        assert_eq!((due.len(), looks.len()), (0, measured[3]), "{middle}");
+        assert_eq!((due.len(), looks.len()), (0, without), "{middle}");
     }
 }
 
