@@ -17,3 +17,4 @@ mod part;
 #[path = "common/rational.rs"]
 mod rational;
 mod system;
+mod together;

@@ -67,3 +67,33 @@ unsafe extern "C" fn sincos(x: f64, sine: *mut f64, cosine: *mut f64) {
         cosine.write(c);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::power;
+
+    /// Fourth powers of whole numbers are exact below 2^53, and so are their quarter powers.
+    #[test]
+    fn quarter_powers_of_fourth_powers_are_exact() {
+        for whole in 1..=9000_u32 {
+            let x = f64::from(whole);
+            assert_eq!(power(x * x * x * x, 0.25).to_bits(), x.to_bits(), "{whole}");
+        }
+    }
+
+    /// Its fourth power is the number again, to four roundings of the root and three of the
+    /// products; and the ends are those of C11 (F.10.4.4).
+    #[test]
+    fn quarter_powers_keep_their_bound_and_their_ends() {
+        for k in -300..=300 {
+            let x = 1.37 * 10.0_f64.powi(k);
+            let root = power(x, 0.25);
+            let back = (root * root) * (root * root);
+            assert!((back / x - 1.0).abs() < 7.0 * f64::EPSILON, "{x}");
+        }
+        assert_eq!(power(f64::INFINITY, 0.25), f64::INFINITY);
+        assert_eq!(power(0.0, 0.25).to_bits(), 0.0_f64.to_bits());
+        assert_eq!(power(-0.0, 0.25).to_bits(), 0.0_f64.to_bits());
+        assert!(power(-1.0, 0.25).is_nan() && power(f64::NAN, 0.25).is_nan());
+    }
+}

@@ -92,3 +92,6 @@ impl Bracket {
         a + (b - a) * (low / (low - high))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -268,7 +268,7 @@ fn flatten(whole: Stretch, mut finer: Vec<Stretch>, gap: f64, out: &mut Vec<Stre
 
 #[cfg(test)]
 mod tests {
-    use super::{MISSED, PARTS, bends};
+    use super::{Cells, MISSED, PARTS, Segment, bends};
 
     /// What the cubic misses over what bends, for all steps of samples of a function of the steps.
     fn share(count: usize, of: impl Fn(f64) -> f64) -> f64 {
@@ -287,6 +287,18 @@ mod tests {
         assert!(pulse(0.1) > MISSED && pulse(3.0) < MISSED, "{} {}", pulse(0.1), pulse(3.0));
         // a cubic is predicted, whatever its size
         assert!(share(7, |x| 1e6 * (x - 3.0).powi(3)) < 1e-9);
+    }
+
+    /// Samples are no further apart than those of a first step, and four in a step at least.
+    #[test]
+    fn short_steps_have_fewer_samples() {
+        let segment = Segment { from: 2.0, to: 12.0 };
+        for (step, parts) in [(1.0, 16), (0.5, 8), (0.3, 5), (0.25, 4), (0.01, 4)] {
+            let cells = Cells::new(segment, step, 1.0);
+            assert_eq!(cells.parts, parts, "{step}");
+            assert!((cells.start_of(3) - 2.0 - 3.0 * step).abs() < 1e-12);
+            assert!((cells.place(parts as f64 / 2.0) - 2.0 - 0.5 * step).abs() < 0.13 * step);
+        }
     }
 }
 

@@ -113,3 +113,27 @@ fn a_derivative_that_is_not_finite_is_an_error() {
     let slots = [Dual::<2>::variable(0.0, 0), Dual::variable(1.0, 1)];
     assert!(program("b / a").eval(&slots, &mut Vec::new()).is_err());
 }
+
+/// Where the power overflows, vanishes or is 1, and of small and large bases, by logarithms:
+/// `ln (a x^(a - 1)) = ln a + (a - 1) ln x`.
+#[test]
+fn slopes_of_powers_are_right_far_away() {
+    let slope = |base: f64, exponent: f64| dual(&format!("a^{exponent}"), base, 1.0).derivatives[0];
+    for base in [1e-200, 1e-30, 0.3, 1.0, 7.0, 1e30, 1e200] {
+        for exponent in [0.25, 0.8, 1.25, 5.0 / 3.0, -0.5] {
+            let size = (exponent - 1.0) * f64::ln(base);
+            if f64::max((exponent * f64::ln(base)).abs(), size.abs()) > 700.0 {
+                continue; // the power or its slope is not a number of 64 bits
+            }
+            let (found, exact) = (slope(base, exponent), exponent * size.exp());
+            // a rounding of the logarithm counts as often as it is large
+            let error = (found / exact - 1.0).abs();
+            assert!(error < 1e-15 * (4.0 + size.abs()), "{base}^{exponent}: {found} {exact}");
+        }
+    }
+    // the power vanishes, its slope does not
+    let found = slope(1e-200, 1.8);
+    assert!((found / 1.8e-160 - 1.0).abs() < 1e-12, "{found}");
+    let ends = dual("a^1.5", 0.0, 1.0).derivatives[0];
+    assert_eq!(ends.to_bits(), 0.0_f64.to_bits());
+}

@@ -14,6 +14,7 @@ mod enclosures;
 mod expressions;
 mod helps;
 mod inference;
+mod lanes;
 mod oracle;
 mod programs;
 mod property;
