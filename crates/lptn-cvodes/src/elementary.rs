@@ -91,7 +91,7 @@ mod tests {
             let back = (root * root) * (root * root);
             assert!((back / x - 1.0).abs() < 7.0 * f64::EPSILON, "{x}");
         }
-        assert_eq!(power(f64::INFINITY, 0.25), f64::INFINITY);
+        assert_eq!(power(f64::INFINITY, 0.25).to_bits(), f64::INFINITY.to_bits());
         assert_eq!(power(0.0, 0.25).to_bits(), 0.0_f64.to_bits());
         assert_eq!(power(-0.0, 0.25).to_bits(), 0.0_f64.to_bits());
         assert!(power(-1.0, 0.25).is_nan() && power(f64::NAN, 0.25).is_nan());

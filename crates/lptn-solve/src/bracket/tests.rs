@@ -24,7 +24,8 @@ fn moment(of: impl Fn(f64) -> f64, enough: f64) -> (f64, usize) {
 /// times as many.
 #[test]
 fn moments_are_closed_in_to_rounding() {
-    let rows: [(&dyn Fn(f64) -> f64, f64, usize); 7] = [
+    type Row<'a> = (&'a dyn Fn(f64) -> f64, f64, usize);
+    let rows: [Row<'_>; 7] = [
         (&|t| t - 3.0, 3.0, 3),
         (&|t| 1e-3 * (t - 0.7), 0.7, 6),
         (&|t| t * t - 2.0, 2.0_f64.sqrt(), 26),

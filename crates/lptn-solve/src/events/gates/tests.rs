@@ -1,5 +1,9 @@
 //! The room of what switches, as a share of the tolerance.
-#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::float_cmp,
+    reason = "a test that cannot go on has failed; numbers that are given"
+)]
 
 use super::*;
 use crate::scripted::workspace;
