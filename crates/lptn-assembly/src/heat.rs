@@ -39,6 +39,20 @@ impl ThermalSystem {
         Ok(())
     }
 
+    /// Adds the heat of an element, which may have been evaluated with others.
+    pub(crate) fn add_known(&self, work: &mut Workspace, element: usize) -> Result<(), InputError> {
+        match work.together.get(element) {
+            Some(heat) if !heat.is_nan() => {
+                let [from, to] = self.elements[element].receivers[..] else { return Ok(()) };
+                let heat = *heat;
+                work.element_heat[from as usize] += -heat;
+                work.element_heat[to as usize] += heat;
+                Ok(())
+            }
+            _ => self.elements[element].add_heat(&self.network, work),
+        }
+    }
+
     /// Evaluates sources that depend on temperatures, and the heat of elements into boundaries; that
     /// into nodes is not whole.
     fn evaluate_outer(&self, work: &mut Workspace, y: &[f64]) -> Result<(), InputError> {

@@ -3,12 +3,11 @@
 //! Their heats are known before the elements are gone through, and are added in the order of the
 //! elements, so that sums are the same to the last digit.
 
-use lptn_network::{Alike, InputError, Network};
+use lptn_network::{Alike, Network};
 
 use crate::element::{Element, Kind};
 use crate::outer::Outer;
 use crate::positions::number;
-use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
 
 /// Fewer are not worth the bookkeeping.
@@ -58,22 +57,6 @@ impl Together {
             for (&element, heat) in elements.iter().zip(&*potentials) {
                 together[element as usize] = *heat;
             }
-        }
-    }
-}
-
-impl ThermalSystem {
-    /// Adds the heat of an element, which may have been evaluated with others.
-    pub(crate) fn add_known(&self, work: &mut Workspace, element: usize) -> Result<(), InputError> {
-        match work.together.get(element) {
-            Some(heat) if !heat.is_nan() => {
-                let [from, to] = self.elements[element].receivers[..] else { return Ok(()) };
-                let heat = *heat;
-                work.element_heat[from as usize] += -heat;
-                work.element_heat[to as usize] += heat;
-                Ok(())
-            }
-            _ => self.elements[element].add_heat(&self.network, work),
         }
     }
 }

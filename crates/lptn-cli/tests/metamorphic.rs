@@ -338,6 +338,14 @@ fn all_formats_show_the_same_numbers() {
     });
 }
 
+/// Events, heats, balances, limits and the work of the solver do not depend on the columns.
+#[test]
+fn columns_decide_nothing() {
+    hold("one column", 7, &|case| {
+        Some(program::columns_decide_nothing(case).map_err(|words| (words, Texts::new())))
+    });
+}
+
 /// A run in two parts, the second from the `state.json` of the first, ends where the whole does.
 #[test]
 fn runs_in_two_parts_are_the_same() {

@@ -86,6 +86,81 @@ fn the_balance_of_a_node_closes() {
         .prints("heat into aluminium");
 }
 
+/// A heater whose power falls with temperature, and a thermostat whose fan carries heat away.
+const FALLING: &str = r#"
+format = 1
+[default]
+T0 = "25 degC"
+[node]
+n1 = { C = "120 J/K" }
+n2 = { C = "900 J/K" }
+[boundary]
+amb = { T = "25 degC" }
+[resistor]
+inner = { from = "n1", to = "n2", G = "3 W/K" }
+outer = { from = "n2", to = "amb", G = "1.5 W/K" }
+[source]
+heater = { into = "n1", P = "90 [W] * (1 - 0.004 [1/K] * (T - 25 [degC]))" }
+[run]
+stop = "20 min"
+output = { every = "5 s" }
+"#;
+
+/// The columns of the table decide no heat of a balance: the power of the heater at the end is that
+/// of the temperature at the end, 90 W (1 - 0.004 (T - 25 degC)).
+#[test]
+fn columns_decide_nothing_of_a_balance() {
+    let fan = "[control]\nfan = { sense = \"n2\", on_above = \"40 degC\", off_below = \"39 degC\" }\n\
+               [source.blown]\ninto = \"n2\"\nP = \"-30 [W] * fan\"\n[run]";
+    for text in [FALLING.to_owned(), FALLING.replace("[run]", fan)] {
+        let folder = Folder::with("f.toml", &text);
+        let run = |more: &[&str]| {
+            let words = ["run", "f.toml", "--no-files", "--balance", "n1", "--format", "json"];
+            folder.run(&[&words, more].concat()).exits(0).json()
+        };
+        let (all, one) = (run(&[]), run(&["--select", "n2.T"]));
+        assert_eq!(all["balance"], one["balance"]);
+        let terms = one["balance"]["terms"].as_array().unwrap();
+        let power = terms.iter().find(|term| term["name"] == "heater").unwrap();
+        let power = power["power"]["value"].as_f64().unwrap();
+        let columns = all["columns"].as_array().unwrap();
+        let place = columns.iter().position(|column| column["name"] == "n1.T").unwrap();
+        let last = all["rows"].as_array().unwrap().last().unwrap()[place].as_f64().unwrap();
+        assert!((power - 90.0 * (1.0 - 0.004 * (last - 25.0))).abs() < 1e-6, "{power} at {last}");
+    }
+}
+
+/// A table that ends just below the peak of a node is left, whatever is printed. The limit is what
+/// looks there.
+#[test]
+fn columns_decide_nothing_of_a_law_that_is_left() {
+    let text = FALLING
+        .replace("G = \"1.5 W/K\"", "G = \"gg(T_from)\"")
+        .replace("P = \"90 [W] * (1 - 0.004 [1/K] * (T - 25 [degC]))\"", "P = \"300 [W] * s\"")
+        .replace("stop = \"20 min\"", "stop = \"400 s\"")
+        .replace("every = \"5 s\"", "every = \"0.5 s\"")
+        .replace("120 J/K", "60 J/K")
+        + "[signal]\ns = { t = [\"0 s\", \"100 s\", \"101 s\", \"2000 s\"], \
+           v = [\"1\", \"1\", \"0\", \"0\"] }\n\
+           [limit]\nm = { of = \"n2.T\", below = \"150 degC\" }\n[table.gg]\nx = [\"0 degC\", \"END degC\"]\n\
+           y = [\"1.5 W/K\", \"1.9 W/K\"]\n";
+    // the peak by the margin of the limit, with a table that is not left
+    let wide = text.replace("END", "60");
+    let wide =
+        Folder::with("g.toml", &wide).run(&["run", "g.toml", "--no-files", "--format", "json"]);
+    let peak = 150.0 - wide.exits(0).json()["limits"]["m"]["margin"]["value"].as_f64().unwrap();
+    for below in [1e-3, 1e-4, 3e-5] {
+        // a table that ends elsewhere is another one: of the same slope
+        let slope = 0.4 / 60.0;
+        let end = peak - below;
+        let text = text.replace("1.9 W/K", &format!("{} W/K", 1.5 + slope * end));
+        let folder = Folder::with("g.toml", &text.replace("END", &end.to_string()));
+        for more in [&[][..], &["--select", "n2.T"], &["--select", "n1.T"]] {
+            folder.run(&[&["run", "g.toml", "--no-files"], more].concat()).exits(3);
+        }
+    }
+}
+
 #[test]
 fn a_balance_of_nothing_is_refused_with_the_name_that_is_near() {
     let folder = gearbox("");

@@ -82,7 +82,7 @@ impl Columns {
             return;
         }
         let read = system.read_exactly(work, at.0, at.1);
-        let known = read.and_then(|()| reading.place(work, at)).is_ok();
+        let known = read.and_then(|()| reading.stand(work, at)).is_ok();
         let mut value = |&quantity: &Quantity| match known {
             true => reading.value(work, quantity).unwrap_or(f64::NAN),
             false => f64::NAN,

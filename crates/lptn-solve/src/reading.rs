@@ -18,7 +18,7 @@ pub(crate) struct Reading<'a> {
     unknowns: Vec<f64>,
     flow: Vec<f64>,
     boundary_heat: Vec<f64>,
-    /// Whether the heat of boundaries and sources is still to be evaluated: most rows ask for none.
+    /// Whether the heat of boundaries and sources is still to be evaluated.
     heat_is_due: bool,
     /// The heat flows that expressions of results name.
     named: Vec<f64>,
@@ -43,9 +43,17 @@ impl<'a> Reading<'a> {
         Self { reads: true, ..Self::new(system) }
     }
 
-    /// Goes where the workspace is; `at` is the time and a time inside the segment, in s. Where a
-    /// temperature is not known (NaN), what follows from it is NaN.
+    /// Goes where the workspace is, and evaluates the heat of boundaries and sources there; `at` is
+    /// the time and a time inside the segment, in s. If a temperature is not known (NaN), what
+    /// follows from it is NaN.
     pub(crate) fn place(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
+        self.stand(work, at)?;
+        self.settle(work)
+    }
+
+    /// As [`Reading::place`] without the heat, which is evaluated when it is read: most rows show
+    /// none. Until then the workspace has the heat of sources of some earlier temperatures.
+    pub(crate) fn stand(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
         let Self { system, scope, reads, unknowns, boundary_heat, .. } = self;
         let network = system.network();
         let nodes = system.node_temperatures(work);
@@ -78,10 +86,18 @@ impl<'a> Reading<'a> {
         Ok(())
     }
 
-    fn heat(&mut self, work: &mut Workspace, heat: HeatOf) -> Result<f64, InputError> {
-        if std::mem::take(&mut self.heat_is_due) {
+    /// Evaluates the heat of boundaries and sources, if that is still to be done.
+    fn settle(&mut self, work: &mut Workspace) -> Result<(), InputError> {
+        if self.heat_is_due {
+            self.boundary_heat.fill(f64::NAN);
             self.system.boundary_heat(work, &self.unknowns, &mut self.boundary_heat)?;
+            self.heat_is_due = false;
         }
+        Ok(())
+    }
+
+    fn heat(&mut self, work: &mut Workspace, heat: HeatOf) -> Result<f64, InputError> {
+        self.settle(work)?;
         heat_of(self.system, (&self.boundary_heat, &mut self.scope), work, heat)
     }
 

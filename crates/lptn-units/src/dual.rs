@@ -43,7 +43,7 @@ fn power_slope(base: f64, exponent: f64, value: f64) -> f64 {
     if base == 0.0 && (0.0..1.0).contains(&exponent) {
         0.0
     } else if base > 0.0 && value > 0.0 && value.is_finite() {
-        exponent * value / base
+        exponent * (value / base)
     } else {
         exponent * base.powf(exponent - 1.0)
     }

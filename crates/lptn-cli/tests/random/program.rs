@@ -81,6 +81,38 @@ pub fn formats(case: &Case) -> Result<(), String> {
     table(case, &folder)
 }
 
+/// A run that shows one column, none of whose values it needs, gives the rest of the answer of one
+/// that shows all.
+pub fn columns_decide_nothing(case: &Case) -> Result<(), String> {
+    let folder = folder(&case.net.texts());
+    let Some(column) = case.results.columns.keys().rfind(|name| name.ends_with(".T")) else {
+        return Ok(());
+    };
+    let node = column.trim_end_matches(".T");
+    let whole = ["run", MAIN, "--no-files", "--format", "json"];
+    let balance = ["--balance", node];
+    // some columns are of boundaries, which have no balance
+    let balance = match folder.run(&[&whole[..], &balance].concat()).code {
+        Some(0 | 1) => &balance[..],
+        _ => &[],
+    };
+    let ask = |more: &[&str]| {
+        let ran = folder.run(&[&whole[..], balance, more].concat());
+        serde_json::from_str(&ran.out).map_err(|error| format!("{error}: {}", ran.err))
+    };
+    let (all, one): (serde_json::Value, serde_json::Value) =
+        (ask(&[])?, ask(&["--select", column])?);
+    for key in ["events", "ledger", "balance", "limits", "statistics"] {
+        if all[key] != one[key] {
+            return Err(format!(
+                "{key} is {} with all columns, {} with {column}",
+                all[key], one[key]
+            ));
+        }
+    }
+    Ok(())
+}
+
 /// The table shows the temperatures at the end as far as its decimals go.
 fn table(case: &Case, folder: &Folder) -> Result<(), String> {
     let shown = folder.run(&["run", MAIN, "--no-files"]).out;
