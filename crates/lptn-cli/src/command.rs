@@ -10,17 +10,25 @@ use lptn_units::suggest;
 use crate::args::{Always, Args};
 use crate::console::Console;
 use crate::drawing::terminal_width;
-use crate::options::{Color, Global};
-use crate::verbs::Verb;
+use crate::options::{Color, Global, TEMPLATE};
+use crate::verbs::{Verb, groups};
 use lptn_answer::exit::Exit;
 use lptn_answer::input::quoted;
 
 /// Longer lines are hard to read, however wide the terminal is.
 const WIDEST_HELP: usize = 100;
 
-/// The parser, with help as wide as the terminal.
+/// The parser, with help as wide as the terminal. Its help lists the verbs by purpose, in place of
+/// clap's list of all.
 pub(crate) fn command() -> clap::Command {
-    Args::command().term_width(terminal_width().min(WIDEST_HELP))
+    let width = terminal_width().min(WIDEST_HELP);
+    let mut command = Args::command().term_width(width);
+    command.build(); // adds `help`
+    let command = command.mut_subcommand("help", |verb| verb.about("Print the help of a command"));
+    let verbs = groups::listed(&command, width);
+    let template = TEMPLATE.replace("{all-args}", &format!("{verbs}{{all-args}}"));
+    let command = command.help_template(template).mut_subcommands(|verb| verb.hide(true));
+    command.override_usage("lptn [OPTIONS] [COMMAND]")
 }
 
 /// What the command line asks for.

@@ -41,7 +41,7 @@ const KEPT: usize = 4 << 20;
 
 fn main() -> ExitCode {
     drop(std::hint::black_box(Vec::<u8>::with_capacity(KEPT)));
-    completion::answer_shell(command::command);
+    completion::answer_shell(<Args as clap::CommandFactory>::command);
     let args = match command::parsed() {
         Ok(args) => args,
         Err(error) => return ExitCode::from(command::refuse(&error) as u8),

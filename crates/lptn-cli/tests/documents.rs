@@ -213,7 +213,7 @@ impl Page {
     fn by_hand(&mut self, block: &Block) {
         for step in steps(&self.lines, block) {
             if !BY_HAND.iter().any(|(start, _)| step.command.starts_with(start))
-                && !step.command.starts_with("lptn completions")
+                && !step.command.starts_with("lptn setup completions")
             {
                 self.complain(step.output.start, &format!("`{}` can be run", step.command));
             }

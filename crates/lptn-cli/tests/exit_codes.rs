@@ -30,7 +30,7 @@ fn what_works_ends_with_0() {
     folder.run(&["--help"]).exits(0).prints("Examples:\n  lptn new");
     folder.run(&["run", "--help"]).exits(0);
     for shell in ["bash", "zsh", "fish", "elvish", "powershell"] {
-        folder.run(&["completions", shell]).exits(0).prints("lptn");
+        folder.run(&["setup", "completions", shell]).exits(0).prints("lptn");
     }
 }
 
@@ -83,7 +83,7 @@ fn usage_ends_with_2() {
         &["run", "gearbox.toml", "--format", "xml"],
         &["run", "gearbox.toml", "-o", "x", "--no-files"],
         &["run", "gearbox.toml", "--quiet", "-v"],
-        &["completions", "dos"],
+        &["setup", "completions", "dos"],
     ];
     for arguments in wrong {
         let ran = folder.run(arguments).exits(2);

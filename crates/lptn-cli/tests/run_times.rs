@@ -62,13 +62,25 @@ fn times_that_do_not_fit_are_refused_by_their_option() {
     }
 }
 
+/// The former words do what they did, and name the new ones.
+#[test]
+fn former_words_of_set_up_work() {
+    let folder = Folder::empty();
+    let now = folder.run(&["setup", "completions", "bash"]).exits(0);
+    let before = folder.run(&["completions", "bash"]).exits(0).says("`lptn setup completions` now");
+    assert_eq!(before.out, now.out);
+    folder.run(&["man", "pages"]).exits(0).says("`lptn setup man` now");
+    assert!(folder.read("pages/lptn-setup-man.1").contains("manual pages"));
+    assert!(!folder.run(&["help"]).out.contains("  man "), "the help names one word");
+}
+
 /// Every verb that the help names has a page with its options.
 #[test]
 fn every_verb_has_a_manual_page() {
     let folder = Folder::empty();
-    folder.run(&["man", "pages"]).exits(0).says("wrote  ");
+    folder.run(&["setup", "man", "pages"]).exits(0).says("wrote  ");
     let help = folder.run(&["help"]).out;
-    let verbs = help.split_once("Commands:").unwrap().1.split_once("Options:").unwrap().0;
+    let verbs = help.split_once("Start here:").unwrap().1.split_once("Options:").unwrap().0;
     let names = verbs.lines().filter_map(|line| line.strip_prefix("  ")?.split(' ').next());
     let names: Vec<&str> = names.filter(|name| !name.is_empty() && *name != "help").collect();
     assert!(names.len() > 15, "{names:?}");

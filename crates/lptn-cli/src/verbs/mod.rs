@@ -2,14 +2,13 @@
 
 pub(crate) mod check;
 pub(crate) mod compare;
-pub(crate) mod completions;
 pub(crate) mod explain;
 pub(crate) mod fit;
 pub(crate) mod gear;
 pub(crate) mod graph;
+pub(crate) mod groups;
 pub(crate) mod impedance;
 pub(crate) mod infer;
-pub(crate) mod man;
 pub(crate) mod materials;
 pub(crate) mod modes;
 pub(crate) mod new;
@@ -20,6 +19,7 @@ pub(crate) mod reduce;
 pub(crate) mod report;
 pub(crate) mod run;
 pub(crate) mod schema;
+pub(crate) mod setup;
 pub(crate) mod size;
 pub(crate) mod steady;
 pub(crate) mod sweep;
@@ -34,15 +34,16 @@ use crate::console::Console;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 
-/// The verb of what does it, `run` of `run::run`.
+/// The verb of the function that does it, `run` of `run::run`.
 fn called(path: &'static str) -> &'static str {
-    path.split("::").next().unwrap_or("").trim()
+    path.rsplit("::").next().unwrap_or("").trim()
 }
 
 /// Names each verb with its options, what does it, as what its answer is drawn and whether it is,
 /// and whether there is a page of it.
 macro_rules! verbs {
     ($(
+        $(#[$attribute:meta])*
         $Verb:ident($($args:ident)::*) => $($does:ident)::*,
         page $paged:expr, drawn $words:literal $drawn:expr;
     )*) => {
@@ -52,7 +53,7 @@ macro_rules! verbs {
         /// What is to be done.
         #[derive(Debug, Subcommand)]
         pub(crate) enum Verb {
-            $($Verb($($args)::*),)*
+            $($(#[$attribute])* $Verb($($args)::*),)*
         }
 
         impl Verb {
@@ -133,6 +134,9 @@ verbs! {
     Units(units::UnitsArgs) => units::units, page |_| true, drawn "" |_| false;
     Materials(materials::MaterialsArgs) => materials::materials, page |_| true, drawn "" |_| false;
     Schema(schema::SchemaArgs) => schema::schema, page |_| false, drawn "" |_| false;
-    Completions(completions::CompletionsArgs) => completions::completions, page |_| false, drawn "" |_| false;
-    Man(man::ManArgs) => man::man, page |_| false, drawn "" |_| false;
+    Setup(setup::SetupArgs) => setup::setup, page |_| false, drawn "" |_| false;
+    #[command(hide = true)]
+    Completions(setup::CompletionsArgs) => setup::former::completions, page |_| false, drawn "" |_| false;
+    #[command(hide = true)]
+    Man(setup::ManArgs) => setup::former::man, page |_| false, drawn "" |_| false;
 }

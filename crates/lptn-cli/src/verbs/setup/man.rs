@@ -1,4 +1,4 @@
-//! `lptn man`
+//! `lptn setup man`
 
 use std::path::PathBuf;
 
@@ -19,7 +19,7 @@ pub(crate) struct ManArgs {
     pub(crate) folder: PathBuf,
 }
 
-pub(crate) fn man(args: &ManArgs, console: &Console) -> Result<Exit, Failure> {
+pub(super) fn write(args: &ManArgs, console: &Console) -> Result<Exit, Failure> {
     let mut command = Args::command();
     // gives every command its whole name and the options that all have
     command.build();

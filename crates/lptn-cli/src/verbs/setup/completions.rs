@@ -1,4 +1,4 @@
-//! `lptn completions`
+//! `lptn setup completions`
 
 use clap::CommandFactory as _;
 use clap_complete::Shell;
@@ -16,7 +16,7 @@ pub(crate) struct CompletionsArgs {
     pub(crate) shell: Shell,
 }
 
-pub(crate) fn completions(args: &CompletionsArgs, console: &Console) -> Result<Exit, Failure> {
+pub(super) fn print(args: &CompletionsArgs, console: &Console) -> Result<Exit, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Args::command(), "lptn", &mut script);
     console.print(&String::from_utf8_lossy(&script))
