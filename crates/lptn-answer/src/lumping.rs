@@ -156,14 +156,40 @@ fn told(reason: NotChecked) -> (&'static str, &'static str) {
     }
 }
 
-/// Every node.
+/// More nodes than this are counted, and so many are shown: the worst, or the first.
+const MOST_SHOWN: usize = 12;
+const SHOWN: usize = 5;
+
+/// The checks to show in the order of the file, or those with the largest Biot numbers.
+fn worst(checks: &[LumpCheck]) -> Vec<&LumpCheck> {
+    let mut shown: Vec<&LumpCheck> = checks.iter().collect();
+    if shown.len() > MOST_SHOWN {
+        let number = |check: &LumpCheck| check.biot.map_or(f64::NEG_INFINITY, |biot| biot.number);
+        shown.sort_by(|a, b| number(b).total_cmp(&number(a)));
+        shown.truncate(SHOWN);
+    }
+    shown
+}
+
+/// Names, or the first of many and how many more there are.
+fn few(mut names: Vec<String>) -> Vec<String> {
+    let count = names.len();
+    if count > MOST_SHOWN {
+        names.truncate(SHOWN);
+        names.push(format!("and {} more", count - SHOWN));
+    }
+    names
+}
+
+/// Nodes one by one; of many the worst.
 fn details(text: &mut Text, network: &Network, lumping: &Lumping) {
     let name = |id: NodeId| network.nodes()[id.index()].name.clone();
     let of_biot = |part: fn(&Biot) -> f64| {
-        move |c: &LumpCheck| c.biot.map_or("-".into(), |b| significant(part(&b), 3))
+        move |c: &&LumpCheck| c.biot.map_or("-".into(), |b| significant(part(&b), 3))
     };
     if !lumping.checks.is_empty() {
-        let table = TextTable::of(&lumping.checks)
+        let shown = worst(&lumping.checks);
+        let table = TextTable::of(&shown)
             .left("lump", |c| name(c.node))
             .right("L_char [mm]", |c| significant(1e3 * c.length, 3))
             .right("h [W/(m^2 K)]", of_biot(|b| b.coefficient))
@@ -171,6 +197,9 @@ fn details(text: &mut Text, network: &Network, lumping: &Lumping) {
             .right("Bi", of_biot(|b| b.number))
             .right("L^2/alpha", |c| c.diffusion.map_or("-".into(), |t| duration(t, 3)));
         text.section().table(table);
+        if shown.len() < lumping.checks.len() {
+            text.line(format!("{} of {} lumps: the largest Bi", shown.len(), lumping.checks.len()));
+        }
     }
     let unknown = |id: &NodeId| ("no L_char", *id);
     let mut reasons: Vec<(&str, NodeId)> = lumping.without_length.iter().map(unknown).collect();
@@ -181,7 +210,7 @@ fn details(text: &mut Text, network: &Network, lumping: &Lumping) {
     reasons.sort_by_key(|(words, _)| *words);
     for group in reasons.chunk_by(|a, b| a.0 == b.0) {
         let names: Vec<String> = group.iter().map(|(_, id)| name(*id)).collect();
-        text.labelled(&format!("{}: ", group[0].0), names);
+        text.labelled(&format!("{}: ", group[0].0), few(names));
     }
 }
 
