@@ -26,7 +26,7 @@ fn main() -> Result<(), lptn::Error> {
         "rise at the end {:.4} K, largest error {worst:.1e} K",
         found[found.len() - 1] - 273.15
     );
-    println!("balance {:.1e} of the heat turned over", balance.unwrap_or(0.0));
+    println!("balance {:.1e} of the heat exchanged", balance.unwrap_or(0.0));
     Ok(())
 }
 

@@ -107,7 +107,7 @@ fn a_heated_island_has_no_steady_state_and_says_so() {
     let system = ThermalSystem::assemble(&b.build().unwrap()).unwrap();
     let error = SteadyState::solve(&system, 0.0).unwrap_err();
     assert_eq!(error.code(), "steady::no_boundary");
-    let text = "no path leads to a boundary from `a` and `c`, where 5 W stay for ever: there is no \
+    let text = "no path leads to a boundary from `a` and `c`, and 5 W cannot leave: there is no \
         steady state";
     assert_eq!(error.to_string(), text);
 }

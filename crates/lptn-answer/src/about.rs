@@ -68,7 +68,7 @@ fn linearity(input: &Input) -> Claim {
     Claim::open(match (linear, network.has_events()) {
         (true, false) => "linear: temperatures rise in proportion to heat",
         (true, true) => "linear between switches",
-        (false, _) => "not linear: what holds at one load need not hold at another",
+        (false, _) => "not linear: a result at one load need not be true at another",
     })
 }
 
@@ -230,7 +230,7 @@ fn made_from(read: &[FileHash], command: &[String]) -> Section {
         text.sentence("command:", &plain(&format!("lptn {}", words.join(" "))));
     }
     text.sentence("lptn:", &versions());
-    Section::of("What it was made from", Piece::Text(text)).folded()
+    Section::of("Files and versions", Piece::Text(text)).folded()
 }
 
 /// "0.1.0, SUNDIALS 7.1.0".

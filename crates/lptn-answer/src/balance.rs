@@ -17,7 +17,7 @@ use crate::failure::Failure;
 pub fn end(netlist: &Netlist, name: Option<&str>, format: Format) -> Result<Option<End>, Failure> {
     let Some(name) = name else { return Ok(None) };
     if format == Format::Csv {
-        let message = "--balance is shown in the table and in JSON: CSV holds columns only";
+        let message = "--balance is shown in the table and in JSON: CSV has columns only";
         return Err(Failure::refused(
             "balance::csv",
             message,
@@ -128,10 +128,10 @@ pub fn section(
         table = amounts(table, (over, "J", all), |line| line.heat);
     }
     text.section().table(table);
-    text.line("positive: into it; 100 % is all that comes in or all that goes out, the larger");
+    text.line("positive: into it; 100 % is all heat in or all heat out, the larger of the two");
     text.lines(
         open(balance).map(|open| {
-            format!("the paths and what is stored differ by {} J", significant(open, 2))
+            format!("the paths and the stored heat differ by {} J", significant(open, 2))
         }),
     );
 }

@@ -32,8 +32,8 @@ pub fn not_bounded(network: &Network, why: Option<&Unbounded>) -> Option<String>
             significant(*steps, 1)
         ),
         Unbounded::Grows { factor } => format!(
-            "errors grow by up to a factor of {} where heat rises faster with temperature than it \
-             is carried off; compare with a smaller --tolerance",
+            "errors grow by up to a factor of {}, as heat rises faster with temperature than it is \
+             removed; compare with a smaller --tolerance",
             significant(*factor, 1)
         ),
         Unbounded::Unresolved { at } => format!(
@@ -59,8 +59,8 @@ pub fn weak_ledger(solution: &Solution) -> Option<String> {
     weak.then(|| {
         let tolerance = significant(solution.tolerance(), 2);
         format!(
-            "so little heat is turned over that at a tolerance of {tolerance} K the balance proves \
-             nothing"
+            "too little heat is exchanged to check the energy balance at a tolerance of \
+             {tolerance} K"
         )
     })
 }

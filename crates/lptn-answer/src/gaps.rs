@@ -16,7 +16,7 @@ pub fn gaps(netlist: &Netlist, table: &Table) -> Vec<Diagnostic> {
         let message =
             format!("report `{}` has no value at {} s", report.name, significant(*time, 6));
         let warning = Diagnostic::warning("run::report_without_value", message).help(
-            "keep divisors and what stands under `sqrt` and `ln` away from 0: `max(x, 1e-9)` with \
+            "keep divisors and the arguments of `sqrt` and `ln` away from 0: `max(x, 1e-9)` with \
              its unit",
         );
         let map = &netlist.source_map;

@@ -81,7 +81,7 @@ fn similar(file: &Path) -> Option<String> {
 fn example(folder: &Path) -> Option<String> {
     if folder.join(RESULT).is_file() {
         let folder = quoted(&folder.display().to_string());
-        return Some(format!("it holds results: `lptn plot {folder}` shows them"));
+        return Some(format!("it contains results: `lptn plot {folder}` shows them"));
     }
     let entries = std::fs::read_dir(folder).ok()?;
     let paths = entries.filter_map(|entry| entry.ok().map(|entry| folder.join(entry.file_name())));

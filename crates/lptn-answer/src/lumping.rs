@@ -71,8 +71,8 @@ fn too_slow(netlist: &Netlist, check: &LumpCheck, (time, stretch): (f64, Stretch
         duration(stretch.to - stretch.from, 3)
     );
     let numbers = format!(
-        "L_char^2 / alpha; from {} to {} no source and no boundary jumps, and for about so long \
-         after a jump one temperature is not that of the body",
+        "L_char^2 / alpha; from {} to {} no source and no boundary jumps, and for about this time \
+         after a jump one temperature does not describe the body",
         duration(stretch.from, 4),
         duration(stretch.to, 4)
     );

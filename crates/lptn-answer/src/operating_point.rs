@@ -73,9 +73,8 @@ impl OperatingPoint {
             _ => "more than".to_owned(),
         };
         vec![format!(
-            "for small disturbances of {}: at {} K to both sides, heat \
-             flows of the full network differ from these by up to {} W, {brought} what the \
-             disturbance brings",
+            "linearised at {}: for ± {} K the heat flows are off by up to {} W, {brought} the heat \
+             of the disturbance",
             self.name,
             significant(disturbance, 3),
             significant(heat, 2),

@@ -16,10 +16,8 @@ pub fn of_cycle(input: &Input, given: Option<&str>) -> Result<f64, Failure> {
     Ok(input::positive("--period", text, what)?.value)
 }
 
-const HELPS: [&str; 2] = [
-    "say after which time all inputs repeat themselves: --period \"10 min\"",
-    "leave --periodic out",
-];
+const HELPS: [&str; 2] =
+    ["give the time after which all inputs repeat: --period \"10 min\"", "leave --periodic out"];
 
 /// The period of the repeated signals in s. What to do where it is not known, and where nothing
 /// changes.
@@ -45,7 +43,7 @@ pub fn of_signals(input: &Input, [unknown, constant]: [&'static str; 2]) -> Resu
             );
             let problem = Diagnostic::error("periodic::no_common_period", message);
             let place = input.netlist.source_map.name(Item::Signal(none.signals[1]));
-            problem.help("change one of the periods, or look at `lptn run`").at(place, "")
+            problem.help("change one of the periods, or use `lptn run`").at(place, "")
         }
     };
     Err(input.refused(Exit::Input, problem))

@@ -92,8 +92,8 @@ fn warning(netlist: &Netlist, paths: &[Left<'_>], run: bool) -> Diagnostic {
         message += &format!("; so it is in {}", list_of(&names, "elements"));
     }
     Diagnostic::warning("run::out_of_range", message).at(netlist.source_map.name(item), "").help(
-        "how much heat flows there is not known well: choose another law, or check how much \
-         depends on it",
+        "the heat flow is uncertain there: choose another law, or check its influence on the \
+         result",
     )
 }
 

@@ -47,8 +47,8 @@ fn other_threshold(input: &Input, error: &TransientError) -> Option<Span> {
 pub fn no_run(input: &Input) -> Failure {
     Failure::refused(
         "run::no_run",
-        format!("{} has no [run]: how long is it to run?", input.text.name),
-        "add these lines, or look at `lptn steady`:\n\n[run]\nstop = \"25 min\"",
+        format!("{} has no [run], so its duration is not known", input.text.name),
+        "add these lines, or use `lptn steady`:\n\n[run]\nstop = \"25 min\"",
     )
 }
 

@@ -69,8 +69,8 @@ fn counted(study: &FitStudy, names: &[&str]) -> String {
     let set: Vec<String> = names.iter().filter(sets).map(|name| format!("`{name}`")).collect();
     if !set.is_empty() {
         return format!(
-            "records set {}, which a fit cannot vary: what all records are off by is a parameter \
-             of its own, for example a factor `f = \"1 ± 0.05\"`",
+            "records set {}, which a fit cannot vary: make the error that all records share a \
+             separate parameter, for example a factor `f = \"1 ± 0.05\"`",
             joined(&set)
         );
     }
@@ -84,7 +84,7 @@ fn counted(study: &FitStudy, names: &[&str]) -> String {
             vary(varied.chain(names.iter().copied()))
         }
     };
-    format!("let the fit count it: {line}; what is exact has no `±`")
+    format!("let the fit include it: {line}; an exact value has no `±`")
 }
 
 /// Of a fit beside a posterior that every other verb takes: what it holds at another value.
@@ -117,7 +117,7 @@ pub fn beside_posterior(
         let (unit, id) = (input.unit_of(one.off.parameter), one.off.parameter);
         let shown = |si: f64| significant(unit.from_si(si), 5);
         format!(
-            "`{}` at {}, where that has {}{}",
+            "`{}` at {}, while the posterior has {}{}",
             name(input, one.off),
             shown(network.parameter_value(id)),
             shown(values[place]),
@@ -126,13 +126,13 @@ pub fn beside_posterior(
     };
     let held: Vec<String> = found.iter().map(held).collect();
     let message = format!(
-        "fit `{}` does not read the posterior that [uncertainty] names, and holds {}{}",
+        "fit `{}` does not read the posterior that [uncertainty] names, and keeps {}{}",
         study.name,
         joined(&held),
         moves(worst, named, ("that moves", "of its standard errors"))
     );
-    let help = "a fit begins with what the netlist itself says, for another one may have counted \
-        the same records: vary what it holds, or write the value there";
+    let help = "a fit starts from the values of the netlist, since another fit may have used the \
+        same records: vary the parameter, or write the value into the netlist";
     let warning = Diagnostic::warning("fit::other_posterior", message);
     Some(warning.at(study.span.clone(), "").help(help))
 }
@@ -146,11 +146,11 @@ pub fn of_plan(
     let (off, moved) = task.taken_as_exact(design);
     let wanted = |i: usize| task.known.iter().find(|known| known.unknown == i).map(|k| k.error);
     let found = Matters::among(&off, moved.as_deref(), &wanted);
-    let words = words(input, (&found, named), "times the error to which it shall be known")?;
+    let words = words(input, (&found, named), "times the wanted error")?;
     let message = format!("plan `{}` does not vary {words}", study.name);
     let varied = study.varied.iter().map(|(name, _)| name.as_str());
     let line = vary(varied.chain(names(input, &found)));
-    let help = format!("let the plan count it: {line}; what is exact has no `±`");
+    let help = format!("let the plan include it: {line}; an exact value has no `±`");
     let warning = Diagnostic::warning("plan::taken_as_exact", message);
     Some(warning.at(study.span.clone(), "").help(help))
 }
@@ -172,7 +172,7 @@ fn words(
         1 => ("it", "it".to_owned()),
         _ => ("them", format!("`{}`", name(input, worst.off))),
     };
-    let moves = moves(worst, named, (&format!("off by as much, {which} moves"), beside));
+    let moves = moves(worst, named, (&format!("an error of this size in {which} moves"), beside));
     Some(format!("{}, and takes {them} as exact{moves}", joined(&all)))
 }
 

@@ -23,8 +23,8 @@ fn unresolved(netlist: &Netlist, open: &Unresolved) -> Diagnostic {
             let limit = &netlist.network.limits()[id.index()];
             let (by, unit) = (significant(*by, 2), limit.ty.dimension.si_unit());
             let message = format!(
-                "`{}` changes faster than a run looks: the margin of limit `{}` may be off by {by} \
-                 {unit}",
+                "`{}` changes faster than a run samples: the margin of limit `{}` may be off by \
+                 {by} {unit}",
                 limit.text, limit.name
             );
             Diagnostic::warning("run::unresolved", message)
@@ -33,16 +33,14 @@ fn unresolved(netlist: &Netlist, open: &Unresolved) -> Diagnostic {
         Unresolved::Mean { column, window, share } => {
             let by = significant(100.0 * share, 2);
             let message = format!(
-                "`{column}` changes faster than a run looks: its mean over `{window}` may be off \
+                "`{column}` changes faster than a run samples: its mean over `{window}` may be off \
                  by {by} %"
             );
             Diagnostic::warning("run::unresolved", message)
         }
     };
-    warning.help(
-        "write what jumps over the time as a signal or with `if(t < ..)`: these times are met \
-         exactly",
-    )
+    warning
+        .help("write jumps over time as a signal or with `if(t < ..)`: these times are met exactly")
 }
 
 /// A warning that names the node, and the path and the source that probably did it.
@@ -51,7 +49,7 @@ fn warning(netlist: &Netlist, beyond: &Beyond) -> Diagnostic {
     let name = |item: Item| network.name_of(item).into_owned();
     let when = beyond.time.map_or_else(String::new, |time| format!(" at {}", duration(time, 4)));
     let message = format!(
-        "node `{}` comes to {} degC{when}, which makes no sense",
+        "node `{}` reaches {} degC{when}, which is not plausible",
         name(Item::Node(beyond.node)),
         significant(beyond.temperature - ZERO_CELSIUS, 4)
     );
@@ -77,7 +75,7 @@ fn warning(netlist: &Netlist, beyond: &Beyond) -> Diagnostic {
         }
     }
     match suspects.is_empty() {
-        true => warning.help("check the units of what joins and heats it"),
+        true => warning.help("check the units of its paths and sources"),
         false => warning.help(format!("check the units of {}", suspects.join(" and "))),
     }
 }

@@ -145,7 +145,7 @@ impl Named<'_> {
                 let changes: Vec<String> =
                     group.directions.iter().map(|d| joined(&change(d))).collect();
                 format!(
-                    "{} cannot be told apart: {} together leave every column as it is; {fix}",
+                    "{} cannot be distinguished: {} together leave every column unchanged; {fix}",
                     self.listed(&group.parameters),
                     changes.join(", or ")
                 )

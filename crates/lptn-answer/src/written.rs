@@ -59,7 +59,7 @@ fn rejected(errors: &BuildErrors) -> WrittenError {
 
 fn mistake(error: &WrittenError) -> Failure {
     let problem = Diagnostic::error("output::written_netlist", error.to_string());
-    let help = "nothing was written; this is a mistake of lptn: please report it with the netlist";
+    let help = "nothing was written; this is a fault in lptn: please report it with the netlist";
     Failure::new(Exit::Failed, problem.help(help))
 }
 
@@ -81,8 +81,7 @@ pub fn can_be_written(
         let message = format!("{} is protected against writing", input.text.name);
         Diagnostic::error(code, message).help("allow it with `chmod u+w`, or leave `--write` out")
     } else if netlist.written_number(parameter).is_some_and(|written| !netlist.is_own(&written)) {
-        let problem =
-            Diagnostic::error(code, format!("`{name}` stands in a file that is included"));
+        let problem = Diagnostic::error(code, format!("`{name}` is in an included file"));
         problem
             .help("other netlists may include it too: change it there, or move the parameter here")
     } else if let Some(other) = netlist.written_together(parameter) {
@@ -95,9 +94,9 @@ pub fn can_be_written(
         problem.at(netlist.source_map.parameter(parameter), "")
     } else if netlist.written_number(parameter).is_none() {
         let message =
-            format!("`{name}` is not written as a number, so no other can be written in its place");
+            format!("`{name}` is not written as a number, so another number cannot replace it");
         let problem = Diagnostic::error(code, message)
-            .help("give it a value of its own, for example `\"5 W/K\"`, or leave `--write` out");
+            .help("give it its own value, for example `\"5 W/K\"`, or leave `--write` out");
         problem.at(netlist.source_map.parameter(parameter), "")
     } else {
         return Ok(());

@@ -13,6 +13,6 @@ pub enum AssemblyError {
             "the massless nodes are too closely meshed to be eliminated: `{name}` has {neighbours} \
              neighbours when its turn comes, and every pair of them would be linked"
         ),
-        help format!("give `{name}` and its likes their capacity, so that they become states");
+        help format!("give `{name}` and nodes like it a capacity, so that they become states");
 }
 }

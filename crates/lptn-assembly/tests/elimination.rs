@@ -266,6 +266,6 @@ fn a_hub_that_would_link_millions_of_pairs_is_named() {
     assert!(error.to_string().contains("`hub` has 7000 neighbours"), "{error}");
     assert_eq!(
         error.help().as_deref(),
-        Some("give `hub` and its likes their capacity, so that they become states")
+        Some("give `hub` and nodes like it a capacity, so that they become states")
     );
 }

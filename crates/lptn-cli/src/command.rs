@@ -97,7 +97,7 @@ fn wrong_usage(text: &str) -> Diagnostic {
 fn page_without_sign(error: &clap::Error) -> Option<Diagnostic> {
     let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else { return None };
     let is_page = Path::new(word).extension().is_some_and(|ending| ending == "html");
-    let message = format!("{word} stands alone: the file of a report is joined with =");
+    let message = format!("{word} is a separate word: the file of a report is joined with =");
     let problem = Diagnostic::error("input::report_file", message);
     is_page.then(|| problem.help(format!("write --report={}", quoted(word))))
 }
@@ -174,15 +174,15 @@ fn word_too_many(error: &clap::Error) -> Option<Diagnostic> {
     let rest = words.get(1..).unwrap_or_default();
     match words.first().map(String::as_str)? {
         "units" => problem(
-            format!("a quantity is one word, and `{word}` is another"),
+            format!("a quantity is one word, but `{word}` is another"),
             format!("write lptn units \"{}\"", rest.join(" ")),
         ),
         verb if is_netlist(word) => {
             let files: Vec<String> =
                 rest.iter().filter(|word| is_netlist(word)).map(|word| quoted(word)).collect();
             problem(
-                format!("`lptn {verb}` takes one netlist, and {word} is another"),
-                format!("`lptn compare {}` sets them side by side", files.join(" ")),
+                format!("`lptn {verb}` takes one netlist, but {word} is another"),
+                format!("`lptn compare {}` compares them", files.join(" ")),
             )
         }
         _ => None,
@@ -214,9 +214,9 @@ fn path_as_verb(word: &str) -> Option<Diagnostic> {
 }
 
 fn verb_is_due(word: &str, is: &str, verb: &str) -> Diagnostic {
-    let message = format!("{word} is a {is}, and a verb is due: what is to be done with it?");
+    let message = format!("{word} is a {is}, and a command is needed before it");
     let list = if verb.starts_with("fit network") { "lptn fit --help" } else { "lptn help" };
-    let help = format!("`lptn {verb} {}`, or another verb: `{list}` lists them", quoted(word));
+    let help = format!("`lptn {verb} {}`, or another command: `{list}` lists them", quoted(word));
     Diagnostic::error("input::no_verb", message).help(help)
 }
 
@@ -224,7 +224,7 @@ fn verb_is_due(word: &str, is: &str, verb: &str) -> Diagnostic {
 fn near_verb(word: &str) -> Option<Diagnostic> {
     let command = Args::command();
     let near = suggest(word, command.get_subcommands().map(clap::Command::get_name))?;
-    let problem = Diagnostic::error("input::no_verb", format!("there is no verb `{word}`"));
+    let problem = Diagnostic::error("input::no_verb", format!("there is no command `{word}`"));
     let help =
         if std::env::args().nth(1).is_some_and(|word| word == "help") { "help " } else { "" };
     Some(problem.help(format!("did you mean `lptn {help}{near}`?")))

@@ -49,7 +49,7 @@ impl Drawing {
             .draw(figures, (terminal_width(), styled))
             .map_err(|error| Failure::of(&error))?;
         let Some(file) = file else { return show(&bytes).map(|()| None) };
-        let help = "name another place for the picture";
+        let help = "name another file for the picture";
         files::replace(file, &bytes).map_err(|failure| failure.with_help(help))?;
         Ok(Some(file.display().to_string()))
     }
@@ -57,7 +57,7 @@ impl Drawing {
 
 /// A chart would stand between numbers that a program reads.
 pub(crate) fn not_here() -> Failure {
-    let message = "`--plot -` draws below a table, and another format was asked for";
+    let message = "`--plot -` draws below a table, but another format is requested";
     Failure::refused(
         "plot::not_here",
         message,

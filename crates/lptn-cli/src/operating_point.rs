@@ -5,7 +5,7 @@ use clap::Args as Arguments;
 /// Where a network that is not linear is taken for a linear one.
 #[derive(Clone, Debug, Default, Arguments)]
 pub(crate) struct At {
-    /// Linearise where the network settles (steady), or at a time of its run such as 10min
+    /// Linearise at the steady state (steady), or at a time of the run such as 10min
     #[arg(long, value_name = "STATE")]
     pub(crate) at: Option<String>,
 }

@@ -23,7 +23,7 @@ pub(crate) struct Global {
     /// Print results and errors only
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub(crate) quiet: bool,
-    /// Print more about the solver, and list what was not checked
+    /// Print more about the solver, and list checks that were skipped
     #[arg(short, long, global = true)]
     pub(crate) verbose: bool,
     #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
@@ -78,7 +78,7 @@ pub(crate) struct Times {
     /// End the run after this time, such as 2h
     #[arg(long, value_name = "TIME")]
     pub(crate) stop: Option<String>,
-    /// Write a row every so often, such as 10s
+    /// Write a row at this interval, such as 10s
     #[arg(long, value_name = "TIME")]
     pub(crate) every: Option<String>,
 }

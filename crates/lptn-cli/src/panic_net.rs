@@ -49,15 +49,13 @@ fn described(panic: &PanicHookInfo<'_>) -> String {
 
 /// What is told to the user, with what those who mend it have to know.
 fn fault(what: &str, arguments: impl Iterator<Item = std::ffi::OsString>) -> Diagnostic {
-    let message =
-        format!("lptn has stopped because of a fault of its own, not of your input: {what}");
+    let message = format!("lptn has stopped because of a fault in lptn, not in your input: {what}");
     let words: Vec<String> = arguments.map(|word| quoted(&word.to_string_lossy())).collect();
     let (version, os) = (env!("CARGO_PKG_VERSION"), std::env::consts::OS);
     Diagnostic::error("program::fault", message).help(format!(
-        "result files of earlier runs are as they were, and what was printed of this one is not to \
-         be used. Please report \
-         the fault with the line above, these two, and the files that the command reads:\n\n\
-         lptn {version}, {os}\nlptn {}",
+        "result files of earlier runs are unchanged; do not use the output of this one. Please \
+         report the fault with the line above, these two, and the files that the command \
+         reads:\n\nlptn {version}, {os}\nlptn {}",
         words.join(" ")
     ))
 }

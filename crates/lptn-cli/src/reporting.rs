@@ -12,7 +12,7 @@ use lptn_answer::exit::Exit;
 use lptn_answer::failure::{Failure, reason};
 
 /// What to do where a report cannot be written.
-const ELSEWHERE: &str = "name another place: --report=FILE.html";
+const ELSEWHERE: &str = "name another file: --report=FILE.html";
 
 /// A report that was asked for, as far as it is known.
 #[derive(Debug, Default)]
@@ -123,6 +123,6 @@ pub(crate) fn nothing() -> Failure {
     Failure::refused(
         "report::nothing",
         "there is no report of this answer",
-        "every verb that prints a result has one",
+        "every command that prints a result has one",
     )
 }

@@ -15,7 +15,7 @@ fn the_gearbox_looks_as_it_was_reviewed() {
 }
 
 fn mask_residual(line: &str) -> String {
-    match (line.find("closes to "), line.find(" of the heat turned over")) {
+    match (line.find("closes to "), line.find(" of the heat exchanged")) {
         (Some(from), Some(to)) => {
             format!("{}RESIDUAL{}", &line[..from + "closes to ".len()], &line[to..])
         }

@@ -359,7 +359,7 @@ fn every_verb_tells_in_the_same_words_that_there_are_several_steady_states() {
     let folder = Folder::with("net.toml", &net);
     folder.write("still.toml", &net[..net.find("[run]").unwrap()]);
     // 0.26 m^2 h(d) d = 9 W at d = 34.6154, 85.1209 (unstable) and 93.8597 K: SciPy 1.17, brentq
-    let words = "several steady states: from its start the network comes to the one with `j` at \
+    let words = "several steady states: from its start the network reaches the one with `j` at \
         143.9 degC; in another it is at 84.62 degC";
     let warnings = |json: &serde_json::Value| -> Vec<String> {
         let all = json["warnings"].as_array().unwrap().iter();

@@ -147,7 +147,7 @@ fn without_a_boundary_the_energy_at_the_start_leads_to_rest() {
         .run(&["steady", "heated.toml"])
         .exits(2)
         .says("steady::no_boundary")
-        .says("1 W stay for ever");
+        .says("1 W cannot leave");
 }
 
 #[test]

@@ -57,7 +57,7 @@ fn two_bodies_are_told_from_one() {
     let folder = folder();
     let ran = folder.run(&["fit", "compare", "one.toml", "two.toml", "-o", "out"]).exits(0);
     let ran = ran.prints("2 candidates, fitted to 120 values of 3 records");
-    ran.prints("the records speak for `two`").says("wrote  out/candidates.csv, unseen.csv");
+    ran.prints("the data favour `two`").says("wrote  out/candidates.csv, unseen.csv");
     assert_eq!(
         folder.files().iter().filter(|file| file.starts_with("out")).count(),
         4,
@@ -91,8 +91,8 @@ fn what_is_by_chance_is_not_told() {
     let fits = fit("plain", "\"R\", \"C\"") + &fit("free", "\"R\", \"C\", \"joint_R\"");
     folder.write("both.toml", &(both + &fits));
     let ran = folder.run(&["fit", "compare", "both.toml"]).exits(1);
-    let ran = ran.prints("the records cannot tell");
-    ran.prints("`plain` does with the fewest").prints("lptn plan");
+    let ran = ran.prints("the records cannot distinguish");
+    ran.prints("`plain` needs the fewest").prints("lptn plan");
     let json = folder.json("fit compare both.toml").exits(1).json();
     assert_eq!((&json["told"], &json["simplest"]), (&false.into(), &"plain".into()));
     // one fit is chosen, and candidates are what is set

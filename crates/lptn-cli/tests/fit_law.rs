@@ -126,8 +126,8 @@ fn the_papers_fits_contradict_each_other() {
     assert!(
         flat.ends_with(
             "contradiction: dT and t_RC imply a power that goes with omega, not omega^(1.67); all \
-             three hold only if t_RC goes with omega^(-0.67): 42.8 min at 1000 rpm and 11.7 min at \
-             7000 rpm"
+             three agree only if t_RC goes with omega^(-0.67): 42.8 min at 1000 rpm and 11.7 min \
+             at 7000 rpm"
         ),
         "{flat}"
     );

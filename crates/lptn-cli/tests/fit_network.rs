@@ -227,13 +227,13 @@ fn where_no_values_are_left_over_it_is_said() {
     let said = |text: String| text.replace('\n', " ");
     let with = said(folder.run(&["fit", "network", "body.toml"]).exits(0).out);
     assert!(
-        with.contains("no values are left over to tell errors from, so they are those of `sigma`"),
+        with.contains("no values are left to estimate errors from, so they follow from `sigma`"),
         "{with}"
     );
     folder.write("body.toml", &netlist(OWN, "vary = [\"R\", \"C\"]"));
     let without = said(folder.run(&["fit", "network", "body.toml"]).exits(0).out);
     assert!(
-        without.trim_end().ends_with("no values are left over to tell errors from"),
+        without.trim_end().ends_with("no values are left to estimate errors from"),
         "{without}"
     );
 }
@@ -262,10 +262,7 @@ fn a_verdict_claims_no_more_than_is_so() {
         ),
     );
     let text = folder.run(&["fit", "network", "body.toml"]).exits(0).out;
-    assert!(
-        text.contains("the records and what is known beforehand (±) determine the 3 parameters"),
-        "{text}"
-    );
+    assert!(text.contains("the records and the priors (±) determine the 3 parameters"), "{text}");
 }
 
 /// Regression: a model that misses a record by many sigma, and a value far from its prior, passed
@@ -279,7 +276,7 @@ fn a_misfit_and_a_contradicted_prior_are_warned_of() {
     folder.write("body.toml", &netlist(&own, "sigma = \"0.01 K\"\nvary = [\"R\", \"P\"]"));
     let err = folder.run(&["fit", "network", "body.toml"]).exits(0).err;
     assert!(
-        err.contains("fit::prior") && err.contains("`R`") && err.contains("from the 0.2 known"),
+        err.contains("fit::prior") && err.contains("`R`") && err.contains("from its prior 0.2"),
         "{err}"
     );
 }

@@ -395,7 +395,7 @@ fn regression_a_record_that_cools_has_no_dissipation() {
     run(&["--capacity", "2659 J/K"])
         .says("fit::cooling")
         .says("the record cools")
-        .says("is no dissipation");
+        .says("is not a dissipation");
     // without a capacity there is no power, and above 10 degC it is one
     for more in [&[][..], &["--capacity", "2659 J/K", "--reference", "10 degC"]] {
         let ran = run(more);

@@ -201,7 +201,7 @@ fn a_control_says_what_it_switches() {
     let text = PARALLEL.replace("P = \"10 W\"", "P = \"10 [W] * guard\"") + heater;
     let folder = Folder::with("two.toml", &text);
     let ran = folder.run(&["graph", "two.toml", "-o", "-"]);
-    let said = "control guard switches loss: on below 25 °C, off above 30 °C, felt at hot";
+    let said = "control guard switches loss: on below 25 °C, off above 30 °C, sensed at hot";
     assert!(ran.out.contains(said), "{}", ran.out);
     let ran = folder.run(&["graph", "two.toml", "--format", "dot"]);
     assert!(ran.out.contains("n1 -> c1") && ran.out.contains("c1 -> s1"), "{}", ran.out);

@@ -233,7 +233,7 @@ fn a_result_beyond_sense_names_the_node_the_path_and_the_source() {
         let found = json["warnings"].as_array().unwrap();
         let beyond = found.iter().find(|w| w["code"] == "run::beyond_sense").unwrap();
         assert!(
-            beyond["message"].as_str().unwrap().starts_with("node `block` comes to "),
+            beyond["message"].as_str().unwrap().starts_with("node `block` reaches "),
             "{beyond}"
         );
         assert!(beyond["help"].as_str().unwrap().ends_with("`skin` and `P`"), "{beyond}");

@@ -20,7 +20,7 @@ fn a_step_and_its_pulses_are_one_exponential() {
     let folder = Folder::with("body.toml", BODY);
     let arguments = ["impedance", "body.toml", "--port", "heat", "--time", "20s,200s"];
     let ran = folder.run(&arguments).exits(0);
-    ran.prints("`body` rises by 2 K/W of `heat`, settled").prints("63.21 %");
+    ran.prints("`body` rises by 2 K/W of `heat`, in steady state").prints("63.21 %");
     let with_pulses =
         ["impedance", "body.toml", "--port", "body", "--time=200s", "--duty=0.25", "--format=csv"];
     let (headers, rows) = csv(&folder.run(&with_pulses).exits(0).out);

@@ -221,6 +221,6 @@ fn neighbours_that_are_off_together_are_told_where_there_are_many() {
     let folder = folder(&study);
     folder.write("record.csv", &text);
     let run = folder.run(&["infer", "body.toml"]).exits(0).says("infer::surprised");
-    let run = run.says("neighbours correlate by 0.1").says("than `drift` says");
+    let run = run.says("neighbours correlate by 0.1").says("than `drift`, ");
     assert!(!run.err.contains("`sigma` is larger"), "{}", run.err);
 }

@@ -70,7 +70,7 @@ fn what_no_record_tells_is_the_last_line() {
     let ran = folder.run(&["plan", "body.toml"]).exits(1);
     ran.prints("not determined by any of the runs").prints("only P R");
     let ran = folder.run(&["plan", "body.toml", "--set", "C=2659 ± 265.9 J/K"]).exits(1);
-    ran.prints("P is known to 10 %, where 2 % is wanted");
+    ran.prints("P is known to 10 %, but 2 % is wanted");
     let known = folder.json("plan body.toml --set C=2659±265.9J/K").exits(1).json();
     let verdict = known["verdict"].as_str().unwrap_or_default();
     assert!(verdict.contains("longer runs do not lead below 10 %: 100 % of the variance"));
@@ -88,7 +88,7 @@ fn errors_over_time_are_rows_and_a_picture() {
     assert!((last[0] - 1800.0).abs() < 1e-9 && (last[1] / error(361) - 1.0).abs() < 1e-6);
     folder.run(&["plan", "body.toml", "--plot", "power.svg"]).exits(0);
     let svg = folder.read("power.svg");
-    assert!(svg.contains("error over what is wanted") && svg.contains("enough"));
+    assert!(svg.contains("error / wanted error") && svg.contains("enough"));
 }
 
 /// Records that are there already count: two of them leave the same error as both runs planned.

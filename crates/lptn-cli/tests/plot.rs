@@ -210,7 +210,7 @@ fn what_cannot_be_drawn_is_said() {
         (&["units", "3 W", "--plot", "x.svg"], "there is no picture of this answer"),
         (&["run", "lump.toml", "--no-files", "--format", "csv", "--plot", "-"], "below a table"),
         (&["plot", "record.csv", "--stop", "5s"], "--stop changes a run"),
-        (&["plot", "lump.toml", "-o", "folder.svg"], "what stands there is not a file"),
+        (&["plot", "lump.toml", "-o", "folder.svg"], "something there is not a file"),
         (&["plot", "lump.toml", "-o", "nowhere/x.svg"], "cannot write nowhere/x.svg"),
     ];
     for (arguments, wanted) in cases {

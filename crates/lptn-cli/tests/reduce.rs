@@ -329,7 +329,7 @@ outer = { from = "wall", to = "air", R = "0.1 K/W" }
         .run(&reduce)
         .exits(0)
         .prints("with C_eq 0 J/K (least_squares)")
-        .prints("answers at once with 90 % of the rise");
+        .prints("90 % of the rise at the port is immediate");
     let json = folder.run(&[&reduce[..], &["--format", "json"]].concat()).exits(0).json();
     assert_eq!(number(&json, &["C_eq", "least_squares"]).to_bits(), 0);
     near(number(&json, &["errors", "least_squares", "step", "max"]), 0.1, 1e-9);

@@ -30,7 +30,7 @@ fn a_glowing_ball_is_one_node_near_its_steady_state() {
     let ran = folder.run(&["reduce", "glow.toml", "--port", "ball", "--at", "steady"]).exits(0);
     let first = ran.out.lines().next();
     assert_eq!(first, Some("near the steady state it collapses to one node, exactly"));
-    ran.prints("for small disturbances of the steady state: at 10 K to both sides");
+    ran.prints("linearised at the steady state: for ± 10 K");
     let json = folder.json("reduce glow.toml --port ball --at steady").exits(0).json();
     let area = 5.670_374_419e-8 * 0.05;
     let hot = (300.0_f64.powi(4) + 1000.0 / area).powf(0.25);

@@ -133,7 +133,7 @@ fn trust_is_told_first() {
     let from = page.find("<ul class=\"claims\">").unwrap();
     let claims = &page[from..from + page[from..].find("</ul>").unwrap()];
     for claim in [
-        "the books close to",
+        "the energy balance closes to",
         "linear: temperatures rise in proportion to heat",
         "no Biot number checked",
         "<li class=\"open\"><b>\u{b7}</b> not verified: errors should be below 1e-4 K",
@@ -150,7 +150,7 @@ fn the_network_is_drawn_at_the_times_that_are_asked_for() {
     let ran = folder.run(&[&command[..], &["100 s", "--at", "3min"]].concat());
     assert_eq!(ran.code, Some(0), "{}", ran.err);
     let page = folder.read("a.html");
-    for heading in ["At 100 s", "At 3 min", "Where it settles"] {
+    for heading in ["At 100 s", "At 3 min", "Steady state"] {
         assert!(page.contains(&format!("<h2>{heading}</h2>")), "{heading}");
     }
     // 25 + 10 (1 - exp(-1)) = 31.32 degC, 10 W/K times that rise
@@ -165,7 +165,7 @@ fn the_network_is_drawn_at_the_times_that_are_asked_for() {
 fn every_verb_that_prints_a_result_has_a_page() {
     let folder = lump();
     for (arguments, says) in [
-        (&["steady", "lump.toml"][..], "Where it settles"),
+        (&["steady", "lump.toml"][..], "Steady state"),
         (&["modes", "lump.toml"], "100 s"),
         (&["verify", "lump.toml"], "verified"),
         (&["reduce", "lump.toml", "--port", "lump"], "Results"),

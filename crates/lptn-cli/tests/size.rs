@@ -218,7 +218,7 @@ fn a_number_of_an_included_file_is_not_written() {
             .replace("G = '3 W/K'", "#"),
     );
     folder.run(&["size", "fan.toml"]).exits(0).prints("G = 1.81819 W/K");
-    folder.run(&["size", "fan.toml", "--write"]).exits(2).says("stands in a file that is included");
+    folder.run(&["size", "fan.toml", "--write"]).exits(2).says("is in an included file");
     // what is written beside an include is proven with it
     folder.write(
         "own.toml",

@@ -55,7 +55,7 @@ fn the_settled_cycle_is_sized() {
     folder
         .run(&["size", "a.toml"])
         .exits(0)
-        .prints("at every moment of the settled cycle of 4 min")
+        .prints("at every moment of the periodic steady state of 4 min")
         .prints("h_forced = 12.772 W/(m^2 K) keeps every requirement");
 }
 

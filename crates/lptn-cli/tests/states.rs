@@ -118,7 +118,7 @@ fn loops_are_stable_as_routh_and_hurwitz_have_it() {
         let found = ran.code == Some(0);
         assert_eq!(found, stable, "case {case}: {column:?}\n{text}\n{}", ran.err);
         if !stable {
-            ran.says("swings more and more");
+            ran.says("oscillates more and more");
         }
     }
     assert!(seen.iter().all(|count| *count > 10), "{seen:?}");

@@ -153,7 +153,7 @@ fn what_is_finished_is_kept_on_ctrl_c() {
     let ran = Ran::of(child.wait_with_output().unwrap()).exits(130).says("--resume");
     let kept = folder.read("out/sweep.csv.part");
     let count = kept.lines().count() - 1;
-    assert!(kept.ends_with('\n') && ran.err.contains(&format!("behind {count} candidates")));
+    assert!(kept.ends_with('\n') && ran.err.contains(&format!("after {count} candidates")));
 }
 
 #[test]

@@ -87,7 +87,7 @@ fn a_fit_beside_a_posterior_says_what_it_holds() {
         folder.run(&["fit", "network", "body.toml"]).exits(0)
     };
     let held = ran("[\"C\", \"P\"]");
-    held.says("fit::other_posterior").says("`R` at 0.3, where that has 0.5 K/W");
+    held.says("fit::other_posterior").says("`R` at 0.3, while the posterior has 0.5 K/W");
     let varied = ran("[\"R\", \"C\"]");
     assert!(!varied.err.contains("other_posterior"), "{}", varied.err);
 }

@@ -183,7 +183,7 @@ impl CsvFile {
             } else if words.contains(&word) {
                 let message = format!("column `{name}` has `{word}` twice");
                 let problem = Diagnostic::error("netlist::csv_twice", message).at(place(), "again");
-                problems.push(problem.help("give each row a name of its own"));
+                problems.push(problem.help("give each row its own name"));
             }
             words.push(word);
             (problems.len() >= MOST_WRONG).then_some(())
@@ -191,7 +191,7 @@ impl CsvFile {
         if words.is_empty() {
             let problem =
                 Diagnostic::error("netlist::csv_no_rows", "the file has a header and no rows");
-            let problem = problem.at(self.head.place.clone(), "nothing stands below");
+            let problem = problem.at(self.head.place.clone(), "nothing below it");
             problems.push(problem.help("write one part a row below the header"));
         }
         let problems: Vec<_> = problems.into_iter().map(|problem| ask.also(problem)).collect();

@@ -17,8 +17,12 @@ const LONGEST_TITLE: usize = 30;
 /// title. `example` is a header as it could be.
 fn check(head: &Head, text: &CsvText, (codes, example): (&Codes, &str)) -> Option<Diagnostic> {
     if head.columns.iter().all(|header| header.written.replace(',', ".").parse::<f64>().is_ok()) {
-        let problem = Diagnostic::error(codes.no_header, "the first line holds numbers, not names")
-            .at(head.place.clone(), "the header belongs above this line");
+        let problem = Diagnostic::error(
+            codes.no_header,
+            "the first line contains numbers, not \
+            names",
+        )
+        .at(head.place.clone(), "the header belongs above this line");
         return Some(
             problem
                 .help(format!("begin with the names of the columns and their units: `{example}`")),
@@ -43,7 +47,7 @@ fn foreign(head: &Head, name: &str, codes: &Codes) -> Option<Diagnostic> {
                 "`lptn fit network {name}` fits a netlist to the records that it names below \
                  [fit.NAME]"
             ),
-            false => "name a CSV file here; other netlists stand in `include`".to_owned(),
+            false => "name a CSV file here; other netlists belong in `include`".to_owned(),
         };
         ("a netlist", help)
     } else if first.starts_with('{') || first == "[" {
@@ -66,8 +70,8 @@ fn separator(head: &Head, name: &str, (rows, codes): (&[Row], &Codes)) -> Option
     let typed = name.chars().all(|c| c.is_alphanumeric() || "/._-".contains(c));
     let name = if typed { name } else { "record.csv" };
     let message = format!("the columns are separated by {words}, not by commas");
-    let problem = Diagnostic::error(codes.separator, message)
-        .at(one.place.clone(), "one column, as it stands");
+    let problem =
+        Diagnostic::error(codes.separator, message).at(one.place.clone(), "one column, as written");
     Some(match decimal {
         true => problem.help(format!(
             "save it with commas between the columns and decimal points, or change both:\n\

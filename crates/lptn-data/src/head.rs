@@ -212,7 +212,7 @@ impl Head {
             ),
         };
         let message = match ask.words.as_str() {
-            "" => format!("column `{name}` {is}, but {due} is due"),
+            "" => format!("column `{name}` {is}, but {due} is needed"),
             words => format!("{words} must be {due}, but column `{name}` {is}"),
         };
         let help = format!("{help}, for example `{name} [{}]`", wanted.usual_unit());
@@ -272,7 +272,7 @@ impl Head {
             .at(row.whole(self.file), "")
             .also(self.place.clone(), "the header");
         ask.also(problem)
-            .help(format!("what is left out is an empty cell between commas: `{example}`"))
+            .help(format!("a missing value is an empty cell between commas: `{example}`"))
     }
 
     /// A cell that does not hold a number.
@@ -284,7 +284,7 @@ impl Head {
     ) -> Diagnostic {
         let (header, cell, codes) = (&self.columns[index], row.cell(index), self.codes);
         let (name, unit) = (&header.name, header.unit.as_deref().unwrap_or_default());
-        let holds = |what: &str| format!("column `{name}` holds `{cell}`, which is {what}");
+        let holds = |what: &str| format!("column `{name}` contains `{cell}`, which is {what}");
         let digits = cell.chars().any(|c| c.is_ascii_digit());
         let (code, message) = match wrong {
             Wrong::Missing => {
@@ -300,13 +300,12 @@ impl Head {
         let help = match wrong {
             Wrong::Missing => "fill it in, or leave the row out".to_owned(),
             Wrong::Cold if codes.of_record => {
-                "0 K is -273.15 degC; leave the cell empty where the sensor had no contact"
-                    .to_owned()
+                "0 K is -273.15 degC; leave the cell empty if the sensor had no contact".to_owned()
             }
             Wrong::Cold => "0 K is -273.15 degC".to_owned(),
             Wrong::Text if digits || !codes.of_record => text_help(name, cell),
-            _ if codes.of_record => "leave the cell empty where nothing was measured".to_owned(),
-            _ => "leave the row out: what is not known is not a point of a curve".to_owned(),
+            _ if codes.of_record => "leave the cell empty if nothing was measured".to_owned(),
+            _ => "leave the row out: an unknown value is not a point of a curve".to_owned(),
         };
         ask.also(Diagnostic::error(code, message).at(row.place(self.file, index), "")).help(help)
     }

@@ -83,7 +83,7 @@ pub(crate) fn text_help(name: &str, cell: &str) -> String {
     if !number.is_empty() && number.parse::<f64>().is_ok() && Unit::parse(unit).is_ok() {
         return format!("write the unit once, in the header: `{name} [{unit}]`");
     }
-    "a cell holds one number; its unit stands in the header".to_owned()
+    "a cell contains one number; its unit is in the header".to_owned()
 }
 
 /// A clock time or a date: `12:00:05`, `2024-05-03`, `03.05.2024`, `3/5/2024`.

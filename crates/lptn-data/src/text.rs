@@ -52,7 +52,7 @@ fn not_text(files: &Files, file: FileId, (name, bytes): (&str, &[u8])) -> Diagno
     let degree = bytes.contains(&0xb0) || bytes.contains(&0xf8);
     let help = match degree && !wide && !sheet {
         true => "write `degC` for the degree sign, or save it as `CSV UTF-8`",
-        false => "choose `CSV UTF-8` where your program saves it",
+        false => "choose `CSV UTF-8` when your program saves it",
     };
     Diagnostic::error("netlist::not_text", format!("{name} is not a text file in UTF-8{why}"))
         .at(Span::new(file, at..end), "")

@@ -149,7 +149,7 @@ fn laws_that_points_cannot_tell_apart_are_said() {
     let rivals: Vec<String> = study.rivals().iter().map(|c| c.law.to_string()).collect();
     assert!(!rivals.is_empty());
     assert!(study.rivals().iter().all(|c| study.behind(c).unwrap() < ALIKE));
-    assert!(study.verdict().contains("cannot be told apart"), "{}", study.verdict());
+    assert!(study.verdict().contains("cannot be distinguished"), "{}", study.verdict());
 }
 
 #[test]

@@ -254,7 +254,7 @@ fn regression_what_tells_no_time_constant_has_none() {
         match refused(&t, &seen) {
             error @ StepError::Undetermined { tau, lack: Lack::Interval { half_width } } => {
                 assert!(half_width >= tau, "{error}");
-                assert!(error.to_string().contains("does not tell t_RC"), "{error}");
+                assert!(error.to_string().contains("does not determine t_RC"), "{error}");
             }
             StepError::Fit(error) => assert_eq!(error.code(), "fit::no_curvature"),
             error => panic!("{error}"),

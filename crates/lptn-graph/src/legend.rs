@@ -54,7 +54,7 @@ fn lines(diagram: &Diagram) -> Vec<String> {
             format!(" switches {}", switched.join(", "))
         };
         let sense = &diagram.places[control.sense].name;
-        format!("control {}{does}: {}, felt at {sense}", control.name, control.rule)
+        format!("control {}{does}: {}, sensed at {sense}", control.name, control.rule)
     });
     controls.collect()
 }

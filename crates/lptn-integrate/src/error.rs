@@ -231,7 +231,7 @@ impl fmt::Display for FactorError {
             Self::NotSymmetric => f.write_str("Cholesky needs a symmetric matrix"),
             Self::NotFactorized => f.write_str("no factors to solve with"),
             Self::WrongLength { expected, found } => {
-                write!(f, "{found} values where {expected} are needed")
+                write!(f, "{found} values instead of {expected}")
             }
             Self::OutOfMemory => f.write_str("out of memory"),
         }
@@ -256,7 +256,7 @@ impl fmt::Display for IntegrateError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::WrongLength { what, expected, found } => {
-                write!(f, "{what} has length {found} where {expected} is needed")
+                write!(f, "{what} has length {found} instead of {expected}")
             }
             Self::InvalidOption { option, value } => {
                 write!(f, "{option} = {} is out of range", Short(*value))

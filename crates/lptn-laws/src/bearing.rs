@@ -123,7 +123,7 @@ impl Law for BearingLoad {
                 ..FieldDeclaration::new(
                     "load",
                     Type::of(Dimension::FORCE),
-                    "load P1 that decides the moment of friction",
+                    "load P1 that determines the moment of friction",
                     "\"2 kN\"",
                 )
                 .from_zero()

@@ -223,7 +223,7 @@ impl Law for Rod {
             length("diameter", "diameter", "\"20 mm\""),
             length("length", "length", "\"0.3 m\""),
         ],
-        validity: "The skin is insulated.",
+        validity: "The outer surface is insulated.",
         source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
             equation 3.6",
         ..BODY

@@ -21,9 +21,9 @@ pub(crate) const Convection: KindDeclaration = KindDeclaration {
             "a convection takes `R`, or `h` and `area`; a path given by `G` belongs in [resistor]",
         ),
         ("A", "the area is `area`"),
-        ("alpha", "the film coefficient is `h`"),
-        ("htc", "the film coefficient is `h`"),
-        ("L", "the length that a correlation is made with is `length`, `height` or `diameter`"),
+        ("alpha", "the heat transfer coefficient is `h`"),
+        ("htc", "the heat transfer coefficient is `h`"),
+        ("L", "the characteristic length of a correlation is `length`, `height` or `diameter`"),
         ("u", "the velocity is `speed`"),
         ("velocity", "the velocity is `speed`"),
         ("beta", "the expansion coefficient is `expansion`"),
@@ -48,8 +48,8 @@ pub(crate) struct Film;
 impl Law for Film {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "film",
-        sentence: "The heat is a film coefficient times an area times the difference of the \
-            temperatures.",
+        sentence: "The heat flow is a heat transfer coefficient times an area times the difference \
+            of the temperatures.",
         equation: "Q = h A (T_from - T_to)",
         kinds: &[Kind::Convection, Kind::Contact],
         named: false,
@@ -59,7 +59,7 @@ impl Law for Film {
                 ..FieldDeclaration::new(
                     "h",
                     Type::of(Dimension::FILM_COEFFICIENT),
-                    "film coefficient",
+                    "heat transfer coefficient",
                     "\"10 W/(m^2 K)\"",
                 )
             },

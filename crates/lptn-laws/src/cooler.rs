@@ -108,21 +108,18 @@ const fn result(key: &'static str, ty: Type, meaning: &'static str) -> ResultDec
 }
 
 const EFFECTIVENESS: ResultDeclaration =
-    result("effectiveness", Type::SCALAR, "heat over the most that could flow");
+    result("effectiveness", Type::SCALAR, "heat flow over the largest possible one");
 const UNITS: ResultDeclaration =
     result("NTU", Type::SCALAR, "number of transfer units, UA over the smaller `mcp`");
-const FROM_OUT: ResultDeclaration = result(
-    "T_out_from",
-    Type::ABSOLUTE_TEMPERATURE,
-    "where the stream of `from` leaves the cooler",
-);
+const FROM_OUT: ResultDeclaration =
+    result("T_out_from", Type::ABSOLUTE_TEMPERATURE, "outlet temperature of the stream of `from`");
 const FROM_IN: ResultDeclaration = result(
     "T_in_from",
     Type::ABSOLUTE_TEMPERATURE,
-    "where the stream of `from` enters, if `from` is its outlet",
+    "inlet temperature of the stream of `from`, if `from` is its outlet",
 );
 const TO_OUT: ResultDeclaration =
-    result("T_out_to", Type::ABSOLUTE_TEMPERATURE, "where the stream of `to` leaves the cooler");
+    result("T_out_to", Type::ABSOLUTE_TEMPERATURE, "outlet temperature of the stream of `to`");
 
 const SIZE: FieldDeclaration = FieldDeclaration {
     hints: Hints::CONDUCTS,
@@ -149,7 +146,7 @@ const RATE: FieldDeclaration =
 
 /// The same where `from` is an outlet: a reversed stream would make it an inlet.
 const fn forward(rate: FieldDeclaration) -> FieldDeclaration {
-    FieldDeclaration { meaning: "the same where `from` is an outlet", ..rate.from_zero() }
+    FieldDeclaration { meaning: "the same if `from` is an outlet", ..rate.from_zero() }
 }
 
 /// What they have in common.
@@ -177,7 +174,7 @@ const COOLER: LawDeclaration = LawDeclaration {
 /// heat no more.
 const TOLD_BY_OUTLET: Group = Group {
     name: "NTU",
-    meaning: "number of transfer units of which an outlet still tells the heat",
+    meaning: "number of transfer units up to which an outlet determines the heat",
     from: 0.0,
     to: 20.0,
 };
@@ -190,7 +187,7 @@ macro_rules! cooler {
         #[derive(Debug)]
         pub(crate) struct $law;
 
-        #[doc = concat!($what, " `from` is where its stream leaves the cooler.")]
+        #[doc = concat!($what, " `from` is the outlet of its stream.")]
         #[derive(Debug)]
         pub(crate) struct $outlet;
 
@@ -249,7 +246,7 @@ cooler!(
     Counterflow,
     CounterflowOutlet,
     "counterflow",
-    "Two streams that run against each other.",
+    "Two streams in opposite directions.",
     "e = (1 - E) / (1 - C_r E), E = exp(-NTU (1 - C_r))",
     [effectiveness_counterflow, effectiveness_parallel],
     [RATES, RATES],
@@ -259,7 +256,7 @@ cooler!(
     Parallel,
     ParallelOutlet,
     "parallel",
-    "Two streams that run side by side.",
+    "Two streams in the same direction.",
     "e = (1 - exp(-NTU (1 + C_r))) / (1 + C_r)",
     [effectiveness_parallel, effectiveness_counterflow],
     [RATES, RATES],

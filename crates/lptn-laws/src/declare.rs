@@ -336,8 +336,8 @@ impl Hints {
     };
     /// Of a measure of a body.
     pub const MEASURE: Self = Self {
-        zero: "a body has measures of more than zero",
-        negative: "a body has measures of more than zero",
+        zero: "a body has dimensions of more than zero",
+        negative: "a body has dimensions of more than zero",
         ..Self::SIGN
     };
     /// Of a number that a catalogue or a drawing gives.

@@ -69,7 +69,7 @@ pub(crate) const K_FIN: FieldDeclaration = FieldDeclaration {
 impl Law for StraightFins {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "straight_fins",
-        sentence: "A surface with straight fins, all with one film coefficient.",
+        sentence: "A surface with straight fins, all with one heat transfer coefficient.",
         equation: "Q = h (A + eta A_fins) (T_from - T_to), eta = tanh(mL)/(mL), m = sqrt(2 h / (k \
             t)), L and t of a fin",
         kinds: &[Kind::Convection],
@@ -80,7 +80,7 @@ impl Law for StraightFins {
                 ..FieldDeclaration::new(
                     "h",
                     Type::of(Dimension::FILM_COEFFICIENT),
-                    "film coefficient",
+                    "heat transfer coefficient",
                     "\"10 W/(m^2 K)\"",
                 )
             },

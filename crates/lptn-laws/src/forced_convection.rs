@@ -161,7 +161,7 @@ pub(crate) struct CrossFlow;
 impl Law for CrossFlow {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "cylinder_in_cross_flow",
-        sentence: "The skin of a long cylinder across a flow.",
+        sentence: "The outer surface of a long cylinder across a flow.",
         equation: "Q = Nu k / diameter A (T_from - T_to), Nu = 0.3 + 0.62 Re^(1/2) Pr^(1/3) / (1 \
             + (0.4/Pr)^(2/3))^(1/4) (1 + (Re/282000)^(5/8))^(4/5)",
         fields: fields!("diameter", "outer diameter of the cylinder", "\"80 mm\""),
@@ -192,12 +192,12 @@ pub(crate) struct CrossFlowHilpert;
 impl Law for CrossFlowHilpert {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "cylinder_in_cross_flow_hilpert",
-        sentence: "The skin of a long cylinder across a flow, by the powers of Hilpert.",
+        sentence: "The outer surface of a long cylinder across a flow, by the powers of Hilpert.",
         equation: "Q = Nu k / diameter A (T_from - T_to), Nu = C Re^m Pr^(1/3), the largest of \
             (C, m) = (0.989, 0.330), (0.911, 0.385), (0.683, 0.466), (0.193, 0.618), (0.027, \
             0.805)",
         validity: "Longer than wide, in a wide and even flow. The source changes at Re = 4, 40, \
-            4000 and 40 000, here where neighbours meet, at 4.5, 35, 4080 and 37 000.",
+            4000 and 40 000, lptn at the crossings of neighbours, 4.5, 35, 4080 and 37 000.",
         groups: &[reynolds(0.4, 4e5), prandtl(0.7, f64::INFINITY)],
         source: "Hilpert, Forsch. Ing.-Wes. 4 (1933) 215; Incropera et al., 6th edition, equation \
             7.52",
@@ -251,7 +251,7 @@ impl Law for Duct {
         equation: "Q = Nu k / diameter A (T_from - T_to), Nu = 3.66 up to Re = 2300, Gnielinski \
             with Petukhov's friction from 4000 on, in proportion to Re between",
         fields: fields!("diameter", "hydraulic diameter of the duct", "\"12 mm\""),
-        validity: "Ten diameters behind the inlet if turbulent, 0.05 Re Pr diameters if laminar; \
+        validity: "Ten diameters after the inlet if turbulent, 0.05 Re Pr diameters if laminar; \
             not round if laminar: another Nu.",
         groups: &[reynolds(0.0, 5e6), prandtl(0.5, 2000.0)],
         source: "Gnielinski, Int. Chem. Eng. 16 (1976) 359, and Int. J. Heat Mass Transfer 63 \

@@ -144,8 +144,8 @@ impl Law for VerticalPlate {
         equation: "Q = Nu k / height A (T_from - T_to), Nu = (0.825 + 0.387 Ra^(1/6) / (1 + \
             (0.492/Pr)^(9/16))^(8/27))^2",
         fields: of_fluid![EXPANSION, length("height", "height of the surface", "\"25 cm\""), AREA,],
-        validity: "One temperature over the height; a cylinder counts as a plate where its \
-            diameter is at least 35 height / Gr^(1/4).",
+        validity: "One temperature over the height; a cylinder counts as a plate if its diameter \
+            is at least 35 height / Gr^(1/4).",
         groups: &[rayleigh_within("Rayleigh number", 0.0, 1e12)],
         source: "Churchill and Chu, Int. J. Heat Mass Transfer 18 (1975) 1323; Incropera et al., \
             6th edition, equation 9.26",
@@ -169,7 +169,7 @@ pub(crate) struct HorizontalCylinder;
 impl Law for HorizontalCylinder {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "horizontal_cylinder",
-        sentence: "The skin of a long horizontal cylinder in a fluid at rest.",
+        sentence: "The outer surface of a long horizontal cylinder in a fluid at rest.",
         equation: "Q = Nu k / diameter A (T_from - T_to), Nu = (0.60 + 0.387 Ra^(1/6) / (1 + \
             (0.559/Pr)^(9/16))^(8/27))^2",
         fields: of_fluid![
@@ -236,8 +236,8 @@ pub(crate) struct UpperSide;
 impl Law for UpperSide {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "upper_side_of_from",
-        sentence: "The upper side of `from`, a horizontal plate, in a fluid at rest; it knows by \
-            itself which of the two is warmer.",
+        sentence: "The upper side of `from`, a horizontal plate, in a fluid at rest; the formula \
+            follows from the warmer of the two.",
         equation: "Q = Nu k / length A (T_from - T_to), Nu = max(0.54 Ra^(1/4), 0.15 Ra^(1/3)) \
             while `from` is the warmer, else 0.27 Ra^(1/4)",
         fields: of_fluid![
@@ -246,7 +246,7 @@ impl Law for UpperSide {
             AREA,
         ],
         validity: "One temperature over the plate; nothing above it within some lengths. The \
-            source changes at Ra = 1e7, here where the two meet, at 4.7e6.",
+            source changes at Ra = 1e7, lptn at the crossing of the two, 4.7e6.",
         groups: &[
             rayleigh_within("Rayleigh number of a fluid that rises or sinks away", 1e4, 1e11),
             rayleigh_within("Rayleigh number of a fluid that lies still", 1e5, 1e10),
@@ -273,12 +273,12 @@ pub(crate) struct LowerSide;
 impl Law for LowerSide {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "lower_side_of_from",
-        sentence: "The lower side of `from`, a horizontal plate, in a fluid at rest; it knows by \
-            itself which of the two is warmer.",
+        sentence: "The lower side of `from`, a horizontal plate, in a fluid at rest; the formula \
+            follows from the warmer of the two.",
         equation: "Q = Nu k / length A (T_from - T_to), Nu = 0.27 Ra^(1/4) while `from` is the \
             warmer, else max(0.54 Ra^(1/4), 0.15 Ra^(1/3))",
         validity: "One temperature over the plate; nothing below it within some lengths. The \
-            source changes at Ra = 1e7, here where the two meet, at 4.7e6.",
+            source changes at Ra = 1e7, lptn at the crossing of the two, 4.7e6.",
         ..UpperSide::DECLARATION
     };
 

@@ -77,7 +77,7 @@ pub(crate) const HARDNESS: FieldDeclaration = FieldDeclaration {
 pub(crate) const GAP: FieldDeclaration = FieldDeclaration::new(
     "h_gap",
     Type::of(Dimension::FILM_COEFFICIENT),
-    "conductance of what fills the gaps: of a gas, its k over its thickness",
+    "conductance of the filling of the gaps: of a gas, its k over its thickness",
     "\"2500 W/(m^2 K)\"",
 )
 .from_zero()

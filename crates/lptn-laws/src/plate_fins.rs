@@ -118,7 +118,7 @@ impl Law for PlateFins {
         ],
         reads_ends: true,
         validity: "Upright channels, open below and above; `from` is the base, and fins much \
-            colder than it convect less. Radiation comes beside it.",
+            colder than it convect less. Radiation is a separate path.",
         groups: &[
             Group { name: "El", meaning: "Elenbaas number Ra_S S / L", from: 0.1, to: 1e5 },
             prandtl(0.6, 0.8),
@@ -168,13 +168,13 @@ impl Law for PlateFinsBlown {
             FINS,
         ],
         validity: "All of the flow passes between the fins, laminar; `from` is the base, `to` the \
-            air as it enters. At rest it carries nothing: natural convection is plate_fins.",
+            air as it enters. At rest it carries no heat: natural convection is plate_fins.",
         groups: &[
             Group { name: "Re*", meaning: "Reynolds number Re_S S / L", from: 0.1, to: 100.0 },
             prandtl(0.6, 0.8),
             Group {
                 name: "Q/Q_air",
-                meaning: "heat over the most that the air between the fins takes",
+                meaning: "heat flow over the most that the air between the fins can take",
                 from: 0.0,
                 to: 1.0,
             },

@@ -180,7 +180,7 @@ impl Law for Interference {
         area: &[],
         extent: Extent::Divided("length"),
         validity: "`from` is the hub, `to` the shaft. Elastic, as long as each other, at rest: \
-            centrifugal forces loosen a fast hub further. Where the fit is lost only `h_gap` \
+            centrifugal forces loosen a fast hub further. If the fit is lost, only `h_gap` \
             conducts.",
         // where the fit is lost the pressure passes through 0
         groups: &[Group { from: 0.0, ..RELATIVE_PRESSURE }],
@@ -200,8 +200,8 @@ impl Law for Interference {
         ResultDeclaration {
             key: "margin",
             ty: Type::of(Dimension::TEMPERATURE),
-            meaning: "by how much hub and shaft may warm together until the fit is lost",
-            missing: "where both parts expand alike",
+            meaning: "common rise of hub and shaft until the fit is lost",
+            missing: "if both parts expand alike",
         },
     ];
 

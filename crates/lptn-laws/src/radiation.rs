@@ -19,7 +19,7 @@ pub(crate) const Radiation: KindDeclaration = KindDeclaration {
         ("epsilon", "the emissivity is `emissivity`"),
         ("F", "the view factor is `view_factor`"),
         ("A", "the area is `area`"),
-        ("h", "a film coefficient with an area belongs in [convection]"),
+        ("h", "a heat transfer coefficient with an area belongs in [convection]"),
     ],
     later: &[],
     surface: Some(SurfaceKind::Seen),
@@ -60,8 +60,8 @@ pub(crate) struct ExchangeArea;
 impl Law for ExchangeArea {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "exchange_area",
-        sentence: "Two surfaces of which the exchange area is known: area, view factor and \
-            emissivities in one.",
+        sentence: "Two surfaces with a known exchange area: area, view factor and emissivities in \
+            one.",
         equation: "Q = sigma Gr (T_from^4 - T_to^4)",
         kinds: &[Kind::Radiation],
         named: false,
@@ -102,8 +102,8 @@ impl Law for GreySurfaces {
         area: &["area", "view_factor"],
         idle: &[],
         extent: Extent::Divided("area"),
-        validity: "Exact for e = 1 (black surfaces) and for F = 1 (an enclosure of two); else what \
-            is reflected is taken to leave.",
+        validity: "Exact for e = 1 (black surfaces) and for F = 1 (an enclosure of two); else \
+            reflected radiation is assumed to leave.",
         source: "Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, \
             equations 13.17 and 13.18",
         ..ExchangeArea::DECLARATION

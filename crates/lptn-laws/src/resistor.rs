@@ -20,8 +20,8 @@ pub(crate) const Resistor: KindDeclaration = KindDeclaration {
         ("R_th", "the resistance is `R`"),
         ("resistance", "the resistance is `R`"),
         ("k", "a conductivity with a shape belongs in [conduction]"),
-        ("h", "a film coefficient with an area belongs in [convection]"),
-        ("area", "a film coefficient with an area belongs in [convection]"),
+        ("h", "a heat transfer coefficient with an area belongs in [convection]"),
+        ("area", "a heat transfer coefficient with an area belongs in [convection]"),
     ],
     later: &[],
     surface: None,
@@ -34,7 +34,7 @@ pub(crate) struct Resistance;
 impl Law for Resistance {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "resistance",
-        sentence: "The heat is the difference of the temperatures over a resistance.",
+        sentence: "The heat flow is the difference of the temperatures over a resistance.",
         equation: "Q = (T_from - T_to) / R",
         kinds: &[Kind::Resistor, Kind::Convection],
         named: false,
@@ -73,7 +73,7 @@ pub(crate) struct Conductance;
 impl Law for Conductance {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "conductance",
-        sentence: "The heat is a conductance times the difference of the temperatures.",
+        sentence: "The heat flow is a conductance times the difference of the temperatures.",
         equation: "Q = G (T_from - T_to)",
         kinds: &[Kind::Resistor],
         fields: &[FieldDeclaration {

@@ -78,7 +78,8 @@ impl Shaft {
 impl Law for Shaft {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "rotating_shaft",
-        sentence: "The skin of a rotating horizontal shaft, at rest or in a flow across it.",
+        sentence: "The outer surface of a rotating horizontal shaft, at rest or in a flow across \
+            it.",
         equation: "Q = Nu k / diameter A (T_from - T_to), Nu = 0.11 ((0.5 Re_w^2 + Re^2 + Gr) \
             Pr)^0.35",
         fields: of_fluid![
@@ -88,11 +89,11 @@ impl Law for Shaft {
             AREA,
             FieldDeclaration { default: Some(0.0), ..SPEED },
         ],
-        validity: "Air; Re_w is made with the speed of the skin.",
+        validity: "Air; Re_w uses the speed of the surface.",
         groups: &[
             Group {
                 name: "Re_w",
-                meaning: "Reynolds number of the speed of the skin",
+                meaning: "Reynolds number of the speed of the surface",
                 from: 0.0,
                 to: 4.3e5,
             },

@@ -218,8 +218,8 @@ const FIELDS: [FieldDeclaration; PLAIN.len() + OWN.len()] = {
 };
 
 /// Why there is no flash temperature.
-const UNDERCUT: &str = "where the path of contact reaches below a base circle, which has no \
-    involute: less addendum, or more teeth";
+const UNDERCUT: &str = "if the path of contact reaches below a base circle, which has no involute: \
+    less addendum, or more teeth";
 
 const RESULTS: &[ResultDeclaration] = &[
     ResultDeclaration {
@@ -243,7 +243,7 @@ const RESULTS: &[ResultDeclaration] = &[
     ResultDeclaration {
         key: "margin",
         ty: Type::of(Dimension::TEMPERATURE),
-        meaning: "by how much `contact` is below `scuffing`",
+        meaning: "distance of `contact` below `scuffing`",
         missing: UNDERCUT,
     },
 ];

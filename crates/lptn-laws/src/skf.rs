@@ -163,7 +163,7 @@ impl Law for BearingSkf {
         ],
         ordered: &[["d", "D"]],
         groups: &[THIN_OIL],
-        validity: "Constants unless said: series 160 and 161, in a bath of oil, mineral oil (mu_EHL \
+        validity: "Default constants: series 160 and 161, in a bath of oil, mineral oil (mu_EHL \
             0.04 synthetic), without drag. As printed, the sliding part jumps where an axial load \
             begins. mu_bl is 0.15 in the catalogue of 2016.",
         source: "SKF, Rolling bearings (catalogue), the SKF model for calculating the frictional \

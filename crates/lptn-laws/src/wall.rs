@@ -156,8 +156,8 @@ impl Law for WallInVerticalFlow {
             length("height", "height of the surface", "\"25 cm\""),
             AREA,
         ],
-        validity: "`from` is the wall. Where the flow runs against the natural one and the cubes of \
-            both are nearer than 1 to 2, they nearly cancel, and that is reported.",
+        validity: "`from` is the wall. If the flow opposes the natural one and the cubes of both \
+            are nearer than 1 to 2, they nearly cancel, which is reported.",
         groups: &[
             reynolds(0.0, 1e8),
             rayleigh_within("Rayleigh number", 0.0, 1e12),
@@ -194,7 +194,8 @@ impl Law for GearboxWall {
         equation: "Q = 18 height^(-0.1) (|dT|/T)^0.3 A (T_from - T_to), height in m, T of the \
             colder end in K, h in W/(m^2 K)",
         fields: &[length("height", "height of the surface", "\"25 cm\""), AREA],
-        validity: "Air; convection alone: what the housing radiates is a [radiation] beside it.",
+        validity: "Air; convection alone: add a [radiation] for the heat that the housing \
+            radiates.",
         groups: &[],
         source: "Funck (1985) in ISO/TR 14179-2",
         confidence: Confidence::Medium,

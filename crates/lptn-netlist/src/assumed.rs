@@ -74,7 +74,7 @@ fn at_the_mean((network, map): (&Network, &SourceMap), item: Item) -> Option<Dia
     let help = match alone {
         true => format!(
             "name a material: `[material.of_{name}]` with `k = \"{}\"`, and `material = \
-             \"of_{name}\"` in the place of `k`",
+             \"of_{name}\"` instead of `k`",
             over_own(program.text())
         ),
         false => "name a [material] whose `k` is an expression of `T`".to_owned(),

@@ -128,8 +128,8 @@ impl Netlist {
              mean something else there"
         );
         let place = believed.named.as_ref().unwrap_or(&believed.top);
-        let help = "name in [uncertainty] what is taken of it: `posterior = { file = \"..\", only = \
-            [\"..\"] }`";
+        let help = "name the parameters to take in [uncertainty]: `posterior = { file = \"..\", \
+            only = [\"..\"] }`";
         Some(Diagnostic::doubt("posterior::other_network", message, place, help))
     }
 
@@ -145,7 +145,7 @@ impl Netlist {
             return None;
         }
         let message = format!(
-            "`{}` has a `±` that the fit did not know of: that of the posterior counts",
+            "`{}` has a `±` that the fit did not use: that of the posterior counts",
             quantity.name
         );
         let written = self.source_map.parameter(id).unwrap_or_else(|| place.clone());
@@ -206,12 +206,15 @@ fn bound(quantity: &PosteriorQuantity, place: &Span) -> Option<Diagnostic> {
     let name = &quantity.name;
     let (message, help) = match quantity.spread {
         None => (
-            format!("`{name}` sat on a bound of the fit, so its error is not known: it is certain"),
+            format!(
+                "`{name}` was on a bound of the fit, so its error is not known: it counts as \
+                exact"
+            ),
             "give it a `±` with `--set`, or fit again with a wider range",
         ),
         Some(spread) if reaches(quantity, spread) => (
             format!("two standard errors of `{name}` reach beyond the bound of the fit"),
-            "the distribution is not cut off there; records that tell more make it narrower",
+            "the distribution is not cut off there; more informative records make it narrower",
         ),
         Some(_) => return None,
     };

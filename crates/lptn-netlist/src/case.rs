@@ -30,8 +30,8 @@ pub(crate) const CASE: SectionDeclaration = SectionDeclaration {
     .needed()],
     example: "{ set = { p = \"1 W/K\" } }",
     elsewhere: &[
-        ("param", "what a case sets is `set`"),
-        ("parameters", "what a case sets is `set`"),
+        ("param", "the parameters of a case are `set`"),
+        ("parameters", "the parameters of a case are `set`"),
     ],
     ..SectionDeclaration::NEW
 };
@@ -179,14 +179,14 @@ impl<'a> Elaboration<'a> {
             };
             if let Some(one) = set.entries.iter().find(|one| sought.contains(&&one.key)) {
                 let message = format!(
-                    "{} seeks `{}`, which case `{}` sets",
+                    "{} varies `{}`, which case `{}` sets",
                     fields.owner.words(),
                     one.key,
                     entry.key
                 );
                 let problem = Diagnostic::error("netlist::case_sets_sought", message)
                     .at(one.key_span.clone(), "set here")
-                    .also(fields.place.clone(), "sought here");
+                    .also(fields.place.clone(), "varied here");
                 let help = "leave it out of the case, or name the other cases in `cases`";
                 self.report(problem.help(help));
                 return None;

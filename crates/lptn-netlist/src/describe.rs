@@ -93,7 +93,7 @@ fn imported(error: &BuildError, map: &SourceMap) -> Option<String> {
         Kind::NotPositive { field: Field::Capacity, value, .. }
             if value.abs() < f64::MIN_POSITIVE =>
         {
-            "leave the cell empty for a node that stores nothing".to_owned()
+            "leave the cell empty for a node that stores no heat".to_owned()
         }
         Kind::NoInitialTemperature { .. } => {
             "fill in the column `T0`, or add `T0 = \"25 degC\"` to [default]".to_owned()

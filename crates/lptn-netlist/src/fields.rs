@@ -222,8 +222,7 @@ fn not_a_table(section: &SectionDeclaration, owner: &Owner, entry: &RawEntry) ->
     let message = format!("{} must be a table of fields, got {got}", owner.words());
     let error = Diagnostic::error("netlist::not_a_table", message).at(entry.value.span.clone(), "");
     if matches!(entry.value.kind, RawKind::Array(_)) {
-        return error
-            .help("write the heading with single brackets: each element has a name of its own");
+        return error.help("write the heading with single brackets: each element has its own name");
     }
     error.help(format!("write it like this: `{} = {}`", entry.key, section.example))
 }
@@ -241,8 +240,7 @@ fn element_inside(
             format!("belongs to `[{kind}.{name}]`, which lasts to the next heading"),
         )
         .help(format!(
-            "put `{key}` above `[{kind}.{name}]`, or give it the heading `[{kind}.{key}]` of its \
-             own"
+            "put `{key}` above `[{kind}.{name}]`, or give it its own heading `[{kind}.{key}]`"
         ))
 }
 

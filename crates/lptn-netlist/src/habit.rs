@@ -76,7 +76,7 @@ impl<'a> Value<'a> {
             return None;
         }
         if self.text.starts_with('(') && self.text.contains('=') {
-            let error = Diagnostic::error("netlist::syntax", "fields stand in braces");
+            let error = Diagnostic::error("netlist::syntax", "fields are in braces");
             return Some(error.help(format!("write `{}`", self.in_braces())));
         }
         self.decimal_comma(format).or_else(|| self.unquoted(message))

@@ -58,7 +58,7 @@ pub(crate) fn missing_format(
 
 /// A text without anything in it.
 pub(crate) fn empty(text: &str, at: Span) -> Diagnostic {
-    let what = if text.trim().is_empty() { "is empty" } else { "holds nothing but comments" };
+    let what = if text.trim().is_empty() { "is empty" } else { "contains nothing but comments" };
     Diagnostic::error("netlist::empty", format!("the netlist {what}"))
         .at(at, "")
         .help(MINIMAL.trim_end())

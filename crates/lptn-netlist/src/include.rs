@@ -204,7 +204,7 @@ impl Work<'_, '_> {
             "netlist::include_cycle",
             message,
             &value.span,
-            "move what both need into a file of its own",
+            "move the common parts into a separate file",
         )
     }
 }
@@ -258,12 +258,12 @@ fn shape(value: &RawValue) -> Diagnostic {
 }
 
 fn study(entry: &RawEntry) -> Diagnostic {
-    let message = format!("`[{}]` cannot stand in a file that is included", entry.key);
+    let message = format!("`[{}]` cannot be in an included file", entry.key);
     Diagnostic::wrong(
         "netlist::study_in_include",
         message,
         &entry.key_span,
-        "move it to the file that is run: what is asked of a network is no part of it",
+        "move it to the file that is run: a run or a study is not a part of a network",
     )
 }
 
@@ -282,7 +282,7 @@ fn not_text(path: &Path, value: &RawValue) -> Diagnostic {
         "netlist::not_text",
         format!("{} is not a text file in UTF-8", path.display()),
         &value.span,
-        "a netlist is a TOML file in UTF-8; choose UTF-8 where your editor saves it",
+        "a netlist is a TOML file in UTF-8; choose UTF-8 when your editor saves it",
     )
 }
 

@@ -21,22 +21,22 @@ use crate::work::Elaboration;
 
 const INFER: SectionDeclaration = SectionDeclaration {
     name: "infer",
-    sentence: "Signals whose course over time is sought, and the record that tells of them.",
+    sentence: "Signals to estimate over time, and the record that determines them.",
     role: Role::Study,
     keys: &[
         shaped("data", "file", RECORDS, "the record", "\"record.csv\"").needed(),
         TIME_OF,
         COLUMNS,
         akin("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\"")
-            .or("as the record is most likely"),
+            .or("the most likely value"),
         key("drift", "K", "the standard deviation of a slow part of the noise", "\"0.05 K\"")
-            .or("a part of `sigma`, as the record is most likely"),
-        key("drift_time", "s", "the time after which that has forgotten itself", "\"5 min\""),
+            .or("a part of `sigma`, the most likely value"),
+        key("drift_time", "s", "the correlation time of this part", "\"5 min\""),
         shaped(
             "find",
             "names of signals, or a table",
             Takes::Either(&[NAMES, Takes::Each(&Takes::Table(&FIND))]),
-            "whose course is sought",
+            "the signals to estimate",
             "[\"P\"]",
         )
         .needed(),
@@ -45,7 +45,8 @@ const INFER: SectionDeclaration = SectionDeclaration {
         words(
             "initial",
             &words_of(&STARTS),
-            "what is known of the start: `T0`; nothing of measured nodes; nothing",
+            "known initial temperatures: `T0` of all nodes; those of nodes that are not measured; \
+             none",
             "\"free\"",
         )
         .or("`\"network\"`"),
@@ -53,13 +54,17 @@ const INFER: SectionDeclaration = SectionDeclaration {
     example: "{ data = \"record.csv\", column = { ring = \"steel.T\" }, find = [\"P\"] }",
     elsewhere: &[
         ("csv", "the record is `data`: `data = \"record.csv\"`"),
-        ("columns", "what a column measures is `column = { ring = \"steel.T\" }`"),
-        ("vary", "what changes over time is `find`; parameters with a `±` are estimated along"),
+        ("columns", "the result that a column measures is `column = { ring = \"steel.T\" }`"),
+        (
+            "vary",
+            "signals that change over time are `find`; parameters with a `±` are estimated \
+            too",
+        ),
         ("set", "a parameter has its value in [param], or by `--set`"),
         (
             "change",
-            "how much a course changes stands with it: `find = { P = { change = \"50 W\", within = \
-             \"1 min\" } }`",
+            "the change of a signal is next to it: `find = { P = { change = \"50 W\", within = \"1 \
+             min\" } }`",
         ),
     ],
     ..SectionDeclaration::NEW
@@ -69,11 +74,11 @@ const INFER: SectionDeclaration = SectionDeclaration {
 const FIND: SectionDeclaration = SectionDeclaration {
     name: "find",
     keys: &[
-        akin("change", "as the signal", "how much it usually changes (1 sigma)", "\"50 W\""),
-        key("within", "s", "in how long a time", "\"1 min\""),
-        flag("positive", "it stays above 0: its logarithm walks", "true").or("`false`"),
-        flag("jumps", "it may jump where the record says so", "false")
-            .or("`true`, but `false` beside `change`"),
+        akin("change", "as the signal", "its usual change (1 sigma)", "\"50 W\""),
+        key("within", "s", "the time for this change", "\"1 min\""),
+        flag("positive", "it stays above 0: its logarithm is estimated", "true").or("`false`"),
+        flag("jumps", "it may jump if the record shows a jump", "false")
+            .or("`true`, but `false` with `change`"),
     ],
     example: "{ change = \"50 W\", within = \"1 min\" }",
     ..SectionDeclaration::NEW
@@ -169,7 +174,7 @@ impl InferStudy {
         };
         let message = format!("{} has to be more than zero", setting.words);
         let problem = Diagnostic::error("netlist::infer_drift", message);
-        let help = "`drift = \"0 K\"` says that all noise is white; leave both keys out where it is \
+        let help = "`drift = \"0 K\"` means that all noise is white; leave both keys out if it is \
                     not known";
         Some(problem.at(setting.span.clone(), "").help(help))
     }
@@ -205,11 +210,11 @@ impl Study for InferStudy {
                 for (sought, change) in self.sought.iter().zip(changes) {
                     if change.is_some_and(|change| !(change > 0.0 && change.is_finite())) {
                         let message = format!(
-                            "how much `{}` changes, and in how long, have to be more than zero",
+                            "the change of `{}` and its time have to be more than zero",
                             sought.name
                         );
                         let help = "write for example `{ change = \"50 W\", within = \"1 min\" }`; \
-                                    what does not change at all is a parameter of `lptn fit network`";
+                                    a constant is a parameter of `lptn fit network`";
                         problems.push(wrong(message, &sought.span).help(help));
                     }
                 }
@@ -272,7 +277,7 @@ impl<'a> Elaboration<'a> {
             let words = fields.owner.field("data");
             let message = format!("{words} names {} records", reads.records.len());
             let span = &reads.records[1].span;
-            let help = "name one: the courses of several runs are several inferences";
+            let help = "name one: several runs need several inferences";
             self.refuse("netlist::infer_records", message, span, help);
             return None;
         }
@@ -280,11 +285,11 @@ impl<'a> Elaboration<'a> {
         for signal in &reads.signals {
             if let Some(both) = sought.iter().find(|sought| sought.name == signal.name) {
                 let message = format!(
-                    "{} follows a column of the record and is sought",
+                    "{} follows a column of the record and is to be estimated",
                     fields.owner.field(&signal.name)
                 );
                 let problem = Diagnostic::error("netlist::infer_signal", message)
-                    .at(both.span.clone(), "sought")
+                    .at(both.span.clone(), "to be estimated")
                     .also(signal.span.clone(), "follows this column");
                 self.report(problem.help("leave it out of `signal`, or out of `find`"));
                 return None;
@@ -357,8 +362,8 @@ impl<'a> Elaboration<'a> {
                      [param] to [signal]"
                 ),
                 (_, true) => format!(
-                    "write one to begin with, `[signal]` with `{name} = \"200 W\"`, and use it where \
-                     it counts, for example `P = \"{name}\"` of a source"
+                    "write one to begin with, `[signal]` with `{name} = \"200 W\"`, and use it in \
+                     the network, for example `P = \"{name}\"` of a source"
                 ),
                 (_, false) => nearest(name, signals, "the signals are"),
             };

@@ -6,7 +6,7 @@ use lptn_network::Context;
 use crate::place::{Place, Wanted};
 use crate::raw::RawKind;
 
-const BOUND_HELP: &str = "what changes belongs in `of`: a difference such as `of = \"steel.T - \
+const BOUND_HELP: &str = "a changing value belongs in `of`: a difference such as `of = \"steel.T - \
     air.T\"` has a constant bound";
 
 /// Temperatures of what is at hand.
@@ -33,7 +33,7 @@ pub(crate) fn not_here(place: Place<'_>, name: &str, wanted: Wanted, at: Span) -
              measured"
         }
         Context::Own => {
-            "it may depend on `T`, the temperature of what it belongs to, and on no other"
+            "it may depend on `T`, the temperature of its own body or fluid, and on no other"
         }
         Context::Result => "name the node or boundary, for example `steel.T`",
         _ => {
@@ -61,8 +61,8 @@ pub(crate) fn depends_on_time(place: Place<'_>, name: &str, at: Span) -> Diagnos
     let help = match place.key {
         "below" | "above" => BOUND_HELP,
         _ => {
-            "sources, boundaries, the values of paths and signals may depend on time; this is \
-             constant"
+            "sources, boundaries, the values of paths and signals may depend on time; this has to \
+             be constant"
         }
     };
     let message = format!("{} has to be constant, but depends on {what}", place.words());
@@ -76,16 +76,16 @@ pub(crate) fn control_not_here(place: Place<'_>, name: &str, at: Span) -> Diagno
     let help = match place.key {
         "below" | "above" => BOUND_HELP,
         "" if words.starts_with("signal") => {
-            "a signal is a function of time; use the control where the signal is used, for example \
+            "a signal is a function of time; use the control together with the signal, for example \
              in a source"
         }
         "" => {
-            "a parameter is constant; use the control where the parameter is used, for example in \
+            "a parameter is constant; use the control together with the parameter, for example in \
              a source"
         }
         _ => {
             "sources, boundaries, the values of paths, thresholds of other controls and limits may \
-             use controls; this is constant"
+             use controls; this has to be constant"
         }
     };
     Diagnostic::error("netlist::control_not_here", message)

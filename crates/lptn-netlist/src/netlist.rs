@@ -382,8 +382,8 @@ fn not_text((name, text): (&str, &str), place: Range<usize>, why: &str) -> Rejec
     let error = Diagnostic::error("netlist::not_text", format!("this is not a text file: {why}"))
         .at(Span::new(file, place), "")
         .help(
-            "a netlist is a TOML file in UTF-8; choose UTF-8 where your editor saves it, \
-               and write `degC` if the degree sign is the trouble",
+            "a netlist is a TOML file in UTF-8; choose UTF-8 when your editor saves it, and write \
+               `degC` if the degree sign is the trouble",
         );
     Rejected { files, diagnostics: vec![error], syntax: true }
 }

@@ -16,8 +16,7 @@ use crate::work::Elaboration;
 
 pub(crate) const PARAM: SectionDeclaration = SectionDeclaration {
     name: ValueKind::Parameter.section(),
-    sentence: "Quantities, numbers, or expressions over other parameters, each below a name of its \
-        own.",
+    sentence: "Quantities, numbers, or expressions over other parameters, each with its own name.",
     role: Role::Value,
     example: "\"0.3 K/W\"",
     ..SectionDeclaration::NEW
@@ -190,5 +189,5 @@ fn describe_cycle(kind: &str, code: &'static str, cycle: &[&Pending<'_>]) -> Dia
     let members = cycle.iter().zip(chain.iter().skip(1));
     let uses =
         members.map(|(member, next)| (member.entry.value.span.clone(), format!("uses {next}")));
-    Diagnostic::error(code, message).places(uses).help("give one of them a value of its own")
+    Diagnostic::error(code, message).places(uses).help("give one of them its own value")
 }

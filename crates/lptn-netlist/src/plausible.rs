@@ -207,9 +207,9 @@ fn apart(
     let warning = Diagnostic::warning("network::decades_apart", message);
     let place = |id: ConductorId| map.name(Item::Conductor(id));
     let warning = warning.at(place(weak), "");
-    let warning = warning.also(place(strong), "beside it");
+    let warning = warning.also(place(strong), "next to it");
     warning.help(
-        "check the prefix of the unit: m is a thousandth, M a million; leave out what carries no \
-            heat",
+        "check the prefix of the unit: m is a thousandth, M a million; leave out paths that carry \
+            no heat",
     )
 }

@@ -246,8 +246,12 @@ fn first_unit(items: &[RawValue]) -> Option<Unit> {
 
 fn rising(words: &str, arguments: &str, x: &PlacedNumbers, index: usize) -> Diagnostic {
     let repeated = x.numbers[index] >= x.numbers[index - 1];
-    let says =
-        if repeated { "the same stands twice" } else { "this one is below the one before it" };
+    let says = if repeated {
+        "the same value appears \
+            twice"
+    } else {
+        "this one is below the one before it"
+    };
     Diagnostic::error(
         TableError::NotIncreasing { index }.code(),
         format!("{arguments} of {words} must rise, but {says}"),
@@ -291,14 +295,14 @@ fn mixed(place: Place<'_>, axis: Axis<'_>, (first, found): (Option<Type>, Type))
             axis.unit
         )),
         false => problem.help(
-            "a list holds values of one kind; `min` and `h` may stand in one list, `W` and `J` not",
+            "a list contains values of one kind; `min` and `h` may be in one list, `W` and `J` not",
         ),
     }
 }
 
 fn two_units(place: Place<'_>, axis: Axis<'_>) -> Diagnostic {
     let message =
-        format!("{} holds a string, but `{}` is for plain numbers", place.words(), axis.unit);
+        format!("{} contains a string, but `{}` is for plain numbers", place.words(), axis.unit);
     Diagnostic::wrong(
         "netlist::two_units",
         message,
@@ -318,8 +322,8 @@ fn is_expression(text: &str) -> bool {
 fn not_constant(place: Place<'_>) -> Diagnostic {
     Diagnostic::wrong(
         "netlist::point_not_constant",
-        format!("{} holds an expression", place.words()),
+        format!("{} contains an expression", place.words()),
         &place.raw.span,
-        "points are numbers or quantities; multiply where the curve is used: `scale * name(x)`",
+        "points are numbers or quantities; multiply the curve when it is used: `scale * name(x)`",
     )
 }

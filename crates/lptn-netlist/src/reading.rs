@@ -211,7 +211,7 @@ impl<'a> Elaboration<'a> {
             Some(near) => format!("did you mean `{near}`?"),
             None => match self.names.value_kind(name) {
                 Some(kind) => {
-                    format!("`{name}` is a {}; only the values of [param] are found", kind.word())
+                    format!("`{name}` is a {}; only values of [param] can be varied", kind.word())
                 }
                 None => "give the value a name in [param] and use it in the element".to_owned(),
             },

@@ -19,7 +19,7 @@ use crate::work::Elaboration;
 
 pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
     name: "run",
-    sentence: "What to simulate.",
+    sentence: "The simulation over time.",
     role: Role::Study,
     keys: &[
         key("stop", "s", "when the run ends", "\"25 min\"").needed(),
@@ -34,7 +34,7 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
             "output",
             "table",
             Takes::Table(&OUTPUT),
-            "when a row is written: `every` so often, or `at` these times",
+            "when rows are written: at intervals of `every`, or `at` listed times",
             "{ every = \"5 s\" }",
         )
         .or("300 rows"),
@@ -53,17 +53,17 @@ pub(crate) const RUN: SectionDeclaration = SectionDeclaration {
             "parts of the run with means and extremes: `from` and `to`",
             "{ climb = { from = \"10 min\", to = \"20 min\" } }",
         ),
-        key("tolerance", "K", "how far temperatures may be off", "\"1e-5 K\"").or("1e-5 K"),
+        key("tolerance", "K", "the accuracy of temperatures", "\"1e-5 K\"").or("1e-5 K"),
         number(
             "balance_error",
-            "largest error of the energy balance, as a share of the heat turned over",
+            "largest error of the energy balance, as a share of the heat exchanged",
             "1e-10",
         )
         .or("1e-8, and 10 tolerances times all capacities"),
         words(
             "integrator",
             &words_of(&IntegratorChoice::WORDS),
-            "how it is computed: `one_step` is for linear networks, `esdirk` for inputs of many points",
+            "the method: `one_step` is for linear networks, `esdirk` for inputs of many points",
             "\"cvode\"",
         )
         .or("`\"auto\"`"),
@@ -307,9 +307,7 @@ fn ends_early(plan: &RunPlan, start: f64, stop: f64) -> Diagnostic {
         Some(start) => error.also(start.span.clone(), "begins here"),
         None => error,
     };
-    error.help(
-        "`stop` has to be after `start`, which is 0 s unless said otherwise: `stop = \"25 min\"`",
-    )
+    error.help("`stop` has to be after `start`, which is 0 s by default: `stop = \"25 min\"`")
 }
 
 /// Evaluates settings and collects what is wrong with them.

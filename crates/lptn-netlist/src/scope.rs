@@ -150,7 +150,7 @@ impl Names {
             return Diagnostic::error("netlist::unknown_name", message)
                 .at(at, "unknown name")
                 .help(
-                    "expressions may use parameters, tables and, where time is allowed, signals, \
+                    "expressions may use parameters, tables and, if time is allowed, signals, \
                  controls and `t`: write the value itself",
                 );
         }

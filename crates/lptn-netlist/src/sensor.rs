@@ -20,44 +20,47 @@ use crate::work::Elaboration;
 
 const SENSOR: SectionDeclaration = SectionDeclaration {
     name: "sensor",
-    sentence: "An instrument of records: what it adds to what it measures, and how well that is known.",
+    sentence: "An instrument of records: its errors, and their uncertainty.",
     role: Role::Study,
     keys: &[
         akin(
             "offset",
             "as the column, with `±`, or `\"free\"`",
-            "what it reads too much",
+            "the constant error of its readings",
             "\"0 ± 3 K\"",
         )
         .or("none"),
         akin(
             "gain",
             "number, with `±`, or `\"free\"`",
-            "by which a reading is multiplied, in degC for a temperature",
+            "the factor of its readings, in degC for a temperature",
             "\"1 ± 0.5 %\"",
         )
         .or("1"),
-        shaped(
-            "lag",
-            "s, with `±`",
-            Takes::Quantity("s"),
-            "the time constant with which it follows",
-            "\"20 s\"",
+        shaped("lag", "s, with `±`", Takes::Quantity("s"), "its time constant", "\"20 s\"")
+            .or("none"),
+        akin("resolution", "as the column", "the step of its readings", "\"0.1 K\"").or("none"),
+        words(
+            "per",
+            &words_of(&PER),
+            "whether an offset belongs to the sensor, or to each \
+            record",
+            "\"record\"",
         )
-        .or("none"),
-        akin("resolution", "as the column", "the step of its numbers", "\"0.1 K\"").or("none"),
-        words("per", &words_of(&PER), "whose the offset is", "\"record\"").or("`\"sensor\"`"),
+        .or("`\"sensor\"`"),
     ],
     example: "{ offset = \"0 ± 3 K\" }",
     elsewhere: &[
-        ("sigma", "how far one sample scatters stands in the fit: `sigma = \"0.2 K\"`"),
+        ("sigma", "the scatter of one sample is in the fit: `sigma = \"0.2 K\"`"),
         (
             "of",
-            "what it measures stands in the fit: `column = { ring = { of = \"steel.T\", sensor = \"tc1\" } }`",
+            "the result that it measures is in the fit: `column = { ring = { of = \"steel.T\", \
+             sensor = \"tc1\" } }`",
         ),
         (
             "node",
-            "what it measures stands in the fit: `column = { ring = { of = \"steel.T\", sensor = \"tc1\" } }`",
+            "the result that it measures is in the fit: `column = { ring = { of = \"steel.T\", \
+             sensor = \"tc1\" } }`",
         ),
         ("tau", "the time constant is `lag`"),
     ],
@@ -138,8 +141,8 @@ impl Study for Sensor {
             let message =
                 format!("no column of a fit or an inference names sensor `{}`", entry.key);
             let help = format!(
-                "name it where a column is read, `ring = {{ of = \"steel.T\", sensor = \"{}\" }}`, \
-                 or remove it",
+                "name it with a column, `ring = {{ of = \"steel.T\", sensor = \"{}\" }}`, or \
+                 remove it",
                 entry.key
             );
             work.report(Diagnostic::doubt(
@@ -234,7 +237,7 @@ impl<'a> Elaboration<'a> {
             let message = format!("{}: there is no sensor `{name}`", fields.owner.words());
             let known: Vec<&str> = all.iter().map(|entry| entry.key.as_str()).collect();
             let help = match known.is_empty() {
-                true => format!("write what it is: `[sensor.{name}]` with `offset = \"0 ± 3 K\"`"),
+                true => format!("write its section: `[sensor.{name}]` with `offset = \"0 ± 3 K\"`"),
                 false => nearest(name, known, "the sensors are"),
             };
             self.refuse("netlist::fit_sensor", message, &raw.span, help);
@@ -288,7 +291,7 @@ impl<'a> Elaboration<'a> {
         }
         if text.starts_with('±') {
             let (words, neutral) = (fields.owner.field(key), if key == "gain" { "1" } else { "0" });
-            let message = format!("{words} says how well it is known, but not what it is");
+            let message = format!("{words} has a `±` without a value before it");
             let help = format!("write `{key} = \"{neutral} {text}\"`");
             self.refuse("netlist::sensor_prior", message, &raw.span, help);
             return None;
@@ -328,24 +331,24 @@ fn unsound(key: &str, quantity: &Quantity) -> Option<(&'static str, &'static str
     match (key, deviation) {
         ("resolution", Some(_)) => Some((
             "netlist::sensor_prior",
-            "has a `±`, and no fit finds a step of numbers",
+            "has a `±`, but a fit does not estimate a resolution",
             "write the step alone: `resolution = \"0.1 K\"`",
         )),
         (_, Some(deviation)) if deviation <= 0.0 => Some((
             "netlist::sensor_prior",
             "is known to ± 0",
-            "write the value alone where it is known, or how well it is known behind `±`",
+            "write the value alone if it is exact, or its uncertainty after `±`",
         )),
         ("gain" | "resolution" | "lag", _) if value <= 0.0 => Some((
             "netlist::sensor_value",
             "has to be more than zero",
-            "leave it out where there is none: a gain is near 1, a lag is a time constant, a \
-             resolution a step of numbers",
+            "leave it out if there is none: a gain is near 1, a lag is a time constant, a \
+             resolution a step of readings",
         )),
         _ if quantity.deviation.is_some_and(|d| d.distribution == Distribution::Lognormal) => {
             Some((
                 "netlist::sensor_prior",
-                "is `(lognormal)`, and what is known of a sensor counts as normal",
+                "is `(lognormal)`, but the prior of a sensor counts as normal",
                 "write it without `(lognormal)`: no fit takes a gain or a lag below 0, and an offset \
                  is as often below 0 as above",
             ))
@@ -358,14 +361,17 @@ fn unsound(key: &str, quantity: &Quantity) -> Option<(&'static str, &'static str
 fn misread(key: &str, text: &str) -> Option<(String, String)> {
     let takes_free = matches!(key, "offset" | "gain");
     if text.eq_ignore_ascii_case(FREE) && !(takes_free && text == FREE) {
-        let alone = format!("cannot be `{text}`: only an offset or a gain is sought from nothing");
+        let alone = format!(
+            "cannot be `{text}`: only an offset or a gain can be estimated without \
+            a prior"
+        );
         return Some(match key {
             "offset" | "gain" => {
                 (format!("cannot be `{text}`"), format!("write `{key} = \"{FREE}\"`"))
             }
             "lag" => {
-                let help = "write about how long it takes, and how well that is known: \
-                            `lag = \"20 ± 10 s\"`";
+                let help = "write its approximate time constant, and the uncertainty: `lag = \"20 \
+                            ± 10 s\"`";
                 (alone, help.to_owned())
             }
             _ => (alone, format!("write the step: `{key} = \"0.1 K\"`")),

@@ -65,9 +65,9 @@ impl Elaboration<'_> {
         if quantity.deviation.is_none() {
             return Some(());
         }
-        let message = format!("{} has a `±`, which counts for nothing there", place.words());
-        let help = "write the value alone: what may be off, and counts, is a parameter in [param] or \
-            a value of a [sensor]";
+        let message = format!("`±` has no effect on {}", place.words());
+        let help = "write the value alone, or put the uncertainty on a parameter in [param] or a \
+            value of a [sensor]";
         self.refuse("netlist::useless_deviation", message, &place.raw.span, help);
         None
     }
@@ -108,7 +108,7 @@ impl Elaboration<'_> {
             (None, Some(_)) => ("drift_time", "drift"),
         };
         let message = format!("{} has `{is}`, but no `{not}`", owner.words());
-        let help = "say how large the drift is and how long it lasts: `drift = \"0.05 K\"` and \
+        let help = "give the size of the drift and its correlation time: `drift = \"0.05 K\"` and \
                     `drift_time = \"5 min\"`";
         self.refuse(code, message, span, help);
         None

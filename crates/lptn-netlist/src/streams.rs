@@ -28,15 +28,15 @@ fn wrong_outlet(network: &Network, map: &SourceMap, outlet: Outlet) -> Diagnosti
     let (section, from) = (conductor.kind.declaration().section, conductor.from);
     let from = network.name_of(from.into());
     let message = format!(
-        "{section} `{}` lets a stream of {} W/K out at `{from}`, where streams bring {} W/K",
+        "{section} `{}` lets a stream of {} W/K out at `{from}`, but streams bring {} W/K there",
         conductor.name(),
         short(rate),
         short(inflow)
     );
     let problem = Diagnostic::warning("network::outlet_stream", message);
     problem.at(map.name(Item::Conductor(path)), "").help(format!(
-        "bring the stream that is cooled to `{from}` by an [advection] of the same flow; where \
-         `from` is the place that the stream comes from, leave `_from_is_outlet` away"
+        "bring the stream that is cooled to `{from}` by an [advection] of the same flow; if `from` \
+         is the inlet of the stream, leave `_from_is_outlet` out"
     ))
 }
 
@@ -61,7 +61,7 @@ fn warning(network: &Network, map: &SourceMap, passing: Passing) -> Diagnostic {
     let problem = problem.at(first.and_then(|(_, id)| map.name(Item::Conductor(id))), "");
     let problem = problem.also(map.name(Item::Node(node)), "the node");
     problem.help(
-        "what flows in flows out: an [advection] to the next node, or to a boundary where the \
-         stream leaves the network",
+        "add the stream that leaves: an [advection] to the next node, or to a boundary if it \
+         leaves the network",
     )
 }

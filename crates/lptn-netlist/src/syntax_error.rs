@@ -154,7 +154,7 @@ fn one(message: &str, place: &Place<'_>, top: &RawTable) -> Diagnostic {
             .at(here(), "a comma is missing before this")
             .help("separate fields by commas: `{ from = \"a\", to = \"b\" }`")
     } else if says("unexpected key or value") {
-        error("something stands after the end of the entry")
+        error("there is text after the end of the entry")
             .at(here(), "does not belong to it")
             .help("begin a new line here; a comment begins with `#`")
     } else if says("extra `=`") {
@@ -196,11 +196,7 @@ fn odd_letter(message: &str, place: &Place<'_>) -> Option<Diagnostic> {
         return None;
     }
     let help = "names are made of the letters a to z and A to Z, digits and `_`: `gehaeuse`, `T_1`";
-    Some(
-        Diagnostic::error(SYNTAX, "name with a letter that cannot be used")
-            .at(place.span(), "")
-            .help(help),
-    )
+    Some(Diagnostic::error(SYNTAX, "name with an invalid letter").at(place.span(), "").help(help))
 }
 
 /// The newcomer's first mistake: a quantity without quotes.
@@ -212,7 +208,7 @@ fn unquoted(place: &Place<'_>) -> Diagnostic {
     // quotes of word processors, and quotes that were opened and not closed
     let bare = fragment.trim_matches(|c: char| c.is_whitespace() || "\"'“”„‘’«»".contains(c));
     Diagnostic::error("netlist::unquoted", "text without quotes")
-        .at(place.span(), "has to stand in straight double quotes")
+        .at(place.span(), "has to be in straight double quotes")
         .help(format!("write \"{}\"", bare.replace('"', "")))
 }
 

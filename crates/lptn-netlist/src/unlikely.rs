@@ -72,7 +72,7 @@ const MOST_USUAL: [Most; 2] = [
         most: 1e4,
         unit: "W/(m^2 K)",
         smaller: "W/(m^2 K)",
-        why: "only what boils or condenses has more than 10 kW/(m^2 K)",
+        why: "only boiling or condensation has more than 10 kW/(m^2 K)",
     },
     Most { key: "thickness", most: 3.0, unit: "m", smaller: "mm", why: "no wall is that thick" },
 ];
@@ -135,7 +135,7 @@ fn capacities(network: &Network, map: &SourceMap) -> Option<Diagnostic> {
     let item = Item::Node(id);
     let place = map.get(item, Field::Capacity).filter(|_| alike && fits)?;
     let message = format!(
-        "the capacity of node `{}` is {} J/K, where other nodes have {} to {} J/K",
+        "the capacity of node `{}` is {} J/K, but other nodes have {} to {} J/K",
         network.name_of(item),
         short(least),
         short(lowest),

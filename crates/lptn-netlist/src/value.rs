@@ -89,8 +89,8 @@ impl Elaboration<'_> {
     /// Refuses the mean over time where a value of one moment is due.
     fn no_mean(&mut self, place: Place<'_>) -> Option<Given> {
         let message =
-            format!("{} has a mean over time where a value of one moment is due", place.words());
-        let help = "let it stand around the whole `of` of `[limit]`, a whole side of `require` or a \
+            format!("{} has a mean over time, but a value of one moment is needed", place.words());
+        let help = "put it around the whole `of` of `[limit]`, a whole side of `require` or a \
                     report of `[sweep]`, or give `[run]` a window; the mean of several values at \
                     every moment is `mean(a.T, b.T)`";
         self.refuse("netlist::mean_over_time", message, &place.raw.span, help);

@@ -300,7 +300,7 @@ pulse = { into = \"block\", P = \"if(t == 5 [s], 100 [W], 0 [W])\" }
     let netlist = lptn_netlist::parse("a.toml", text).unwrap();
     let found: Vec<String> = netlist.warnings.iter().map(|w| netlist.files.plain(w)).collect();
     let expected = "\
-warning[netlist::massless_initial]: `T0` of node `joint` is only where its balance is first tried: \
+warning[netlist::massless_initial]: `T0` of node `joint` is only the first guess of its balance: \
 the node is massless
  --> a.toml:4:16
   = help: leave `T0` out, unless tables do not reach to the other temperatures, or the balance has \

@@ -227,7 +227,7 @@ fn what_cannot_be_included_is_named() {
     );
     says(
         "run_net.toml",
-        "error[netlist::study_in_include]: `[run]` cannot stand in a file that is included\n --> \
+        "error[netlist::study_in_include]: `[run]` cannot be in an included file\n --> \
          run.toml:2:2",
     );
     says("broken_net.toml", "\n --> broken.toml:2:");

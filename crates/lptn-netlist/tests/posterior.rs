@@ -200,7 +200,7 @@ fn labels_that_contradict_the_covariance_are_refused() {
     let (_, rows) = sound.split_once("\"correlation\"").unwrap();
     let opposite = rows.replace("-0.75", "0.75");
     let told = refused(rows, &opposite);
-    assert!(told.contains("different things of ln R and P"), "{told}");
+    assert!(told.contains("contradict each other for ln R and P"), "{told}");
     refused(rows, &rows.replacen("[1.0,-0.75,0.0],", "", 1));
     // without them the quantities say it
     let alone = sound.replace(own, "\"also\": 1").replace("\"correlation\"", "\"more\"");

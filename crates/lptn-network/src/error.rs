@@ -37,11 +37,11 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
         ));
     /// A name that is not `[A-Za-z_][A-Za-z0-9_]*`.
     BadName { item: Item } = "network::bad_name", at Some((*item, Field::Name)),
-        says format!("{} has a name that cannot be used", say.item(*item)),
+        says format!("{} has an invalid name", say.item(*item)),
         help Some(format!("use letters, digits and `_`: `{}`", usable(say.name)));
     /// A name that expressions use for themselves.
     ReservedName { item: Item } = "network::reserved_name", at Some((*item, Field::Name)),
-        says format!("{} has a name with a meaning of its own in expressions", say.item(*item)),
+        says format!("{} has a name that is reserved in expressions", say.item(*item)),
         help Some(format!("choose another name, for example `{}_1`", say.name));
     /// A value of the wrong type.
     WrongType { item: Item, field: Field, wanted: Type, found: Type } = "network::wrong_type",
@@ -70,7 +70,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.field(*item, *field), in_unit(*value, *field)
         ),
         help (*field == Field::MinDwell)
-            .then(|| "leave it out where it may switch again at once".to_owned());
+            .then(|| "leave it out if it may switch again at once".to_owned());
     /// A value that has to be finite, but is not.
     NotFinite { item: Item, field: Field, value: f64 } = "network::not_finite",
         at Some((*item, *field)),
@@ -117,7 +117,8 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     ComparesTemperature { item: Item, field: Field } = "network::compares_temperature",
         at Some((*item, *field)),
         says format!(
-            "{} compares temperatures, or what switches, where the change cannot be followed",
+            "{} compares temperatures, or a switched value, in a place where the change cannot be \
+             followed",
             say.field(*item, *field)
         ),
         help text("sources and paths may compare temperatures, with `<` or `>`; elsewhere write a \
@@ -135,7 +136,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     /// A control of which nothing says when it switches.
     NoThermostat { control: ControlId } = "network::no_thermostat",
         at Some((Item::Control(*control), Field::Name)),
-        says format!("nothing says when control `{}` switches", say.name),
+        says format!("the thresholds of control `{}` are not given", say.name),
         help text("write `sense`, `on_above` and `off_below`, or `on_below` and `off_above`");
     /// A share, such as an emissivity, that is not above 0 and at most 1.
     NotAFraction { item: Item, field: Field, value: f64 } = "network::not_a_fraction",
@@ -177,7 +178,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     LawValues { item: Item, formula: Formula } = "network::law_values",
         at Some((*item, Field::Name)),
         says format!(
-            "{} needs one value for each field of the law `{}`, and a fluid only where it has one",
+            "{} needs one value for each field of the law `{}`, and a fluid only if it has one",
             say.item(*item), formula.declaration().name
         ),
         help Some(format!("its fields are {}", keys(*formula)));
@@ -229,7 +230,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             "{} changes too quickly with temperature to be integrated",
             say.field(*item, *field)
         ),
-        help text("write its mean in place of what swings, or a [table] of its values");
+        help text("write a mean instead of the oscillation, or a [table] of its values");
     /// A property of a fluid that is not known and positive where it is needed.
     FluidUnknown { fluid: FluidId, field: Field } = "network::fluid_unknown",
         at Some((Item::Fluid(*fluid), *field)),
@@ -273,7 +274,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     SourceIntoBoundary { source: SourceId } = "network::source_into_boundary",
         at Some((Item::Source(*source), Field::Into)),
         says format!("{} heats a boundary", say.item(Item::Source(*source))),
-        help text("a boundary keeps its temperature whatever flows in: name a node");
+        help text("a boundary keeps its temperature at any heat flow: name a node");
     /// A node without capacity that is not declared massless.
     NoCapacity { node: NodeId } = "network::no_capacity", at Some((Item::Node(*node), Field::Name)),
         says format!("node `{}` has no capacity", say.name),
@@ -358,7 +359,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             "the area of `{}`, {} m^2, is not that of the face `{name}`, {} m^2",
             say.name, format_short(*given), format_short(*area)
         ),
-        help text("leave `area` out: it is that of the face; a film on a part of it is given by \
-            `G` or `R`");
+        help text("leave `area` out: it is that of the face; convection on a part of it is given \
+            by `G` or `R`");
 }
 }

@@ -132,13 +132,13 @@ pub(crate) fn not_positive(field: Field, value: f64) -> &'static str {
         Field::Law(law) if zero => law.hints.zero,
         Field::Law(law) => law.hints.negative,
         Field::Capacity if zero => "a node that stores nothing is `{ massless = true }`",
-        Field::Capacity => "check the sign: heat that is stored makes a body warmer",
+        Field::Capacity => "check the sign: a heat capacity is positive",
         Field::Mass
         | Field::Volume
         | Field::Density
         | Field::SpecificHeat
         | Field::Conductivity => "a body has a mass, a volume and properties of more than zero",
-        Field::Size | Field::CharacteristicLength => "a body has measures of more than zero",
+        Field::Size | Field::CharacteristicLength => "a body has dimensions of more than zero",
         Field::LatentHeat => "melting takes up heat: give it as a positive number",
         _ => "check the sign: heat flows from the warm to the cold end, whichever is named first",
     }

@@ -28,7 +28,7 @@ pub enum InputProblem {
     NotFinite(value: f64) = INPUT, format!("is {value}");
     /// A result that the law of an element does not have there, and why.
     NoResult { name: String, why: &'static str } = INPUT,
-        format!("cannot be told: there is no `{name}` {why}");
+        format!("is not known: there is no `{name}` {why}");
     /// A temperature below 0 K.
     BelowAbsoluteZero(value: f64) = INPUT, format!("is below absolute zero: {value} K");
     /// The expression could not be evaluated.
@@ -50,7 +50,7 @@ pub enum InputProblem {
     /// A signal that is repeated so often that a run would have to stop at this many points.
     TooManyPoints(count: f64) = INPUT,
         format!("repeats the signal so often that the run would stop at {count:.0} points"),
-        help "give the signal a longer period, or put its mean in its place";
+        help "give the signal a longer period, or use its mean instead";
     /// An emissivity or view factor outside 0 to 1.
     NotAFraction(value: f64) = INPUT, format!("is not between 0 and 1: {value}"),
         help "keep it between 0 and 1: `min(max(x, 0), 1)`";
@@ -73,7 +73,7 @@ pub enum InputProblem {
     /// A fluid outside the temperatures in K for which its specific heat is known and positive.
     OutsideFluid { temperature: f64, range: (f64, f64) } = INPUT,
         format!(
-            "is asked for at {temperature} K, but is known from {} to {} K only",
+            "is needed at {temperature} K, but is known from {} to {} K only",
             range.0, range.1
         ),
         help FURTHER;
@@ -88,7 +88,7 @@ pub enum InputProblem {
     /// A node outside the temperatures in K for which its capacity is known and positive.
     OutsideCapacity { range: (f64, f64) } = INPUT,
         format!(
-            "is not known where the temperature goes: it is known and positive from {} to {} K \
+            "is not known at a temperature of the run: it is known and positive from {} to {} K \
              only",
             range.0, range.1
         ),

@@ -17,7 +17,7 @@ pub enum ReduceError {
     /// The port is a boundary: its temperature is given, whatever heat goes in.
     BoundaryPort { name: String } = "reduce::boundary_port",
         format!("`{name}` is a boundary and cannot be a port"),
-        help "choose a node: a boundary keeps its temperature whatever heat it gets";
+        help "choose a node: a boundary keeps its temperature at any heat flow";
     /// No path leads from the port and the nodes joined to it to a boundary: heat put in there is
     /// never given away.
     NoGround { names: Vec<String> } = "reduce::no_ground",
@@ -31,8 +31,8 @@ pub enum ReduceError {
             "`{name}` is more than a constant: only linear networks have one equivalent resistance"
         ),
         help format!(
-            "near one of its states it has one: --port with --at steady, or with --at 10min; or put \
-             a constant conductance, capacity or heat in place of `{name}`"
+            "near one of its states it has one: --port with --at steady, or with --at 10min; or \
+             replace `{name}` by a constant conductance, capacity or heat"
         );
     /// Streams go on from node to node: heat there is not felt here as heat here is felt there.
     OneWay = "reduce::one_way",
@@ -42,11 +42,12 @@ pub enum ReduceError {
     /// cannot follow.
     Switches { name: String } = "reduce::switches",
         format!("`{name}` switches during a run, which an equivalent of one node cannot follow"),
-        help format!("write 0 or 1 in place of `{name}`, and reduce what is then there");
+        help format!("replace `{name}` by 0 or 1, and reduce that network");
     /// The heat of a source changes with time by a law, of which no share can be written.
     NotGiven { name: String } = "reduce::not_given",
-        format!("the heat of `{name}` changes with time by a law, of which no share can be written"),
-        help format!("put a [source] with the heat that `{name}` has in its place");
+        format!("the heat of `{name}` changes with time by a law, and a share of it cannot be \
+            written"),
+        help format!("replace it by a [source] with the heat of `{name}`");
     /// A source or boundary has no value.
     Input => InputError;
     /// The conductances span more than the numbers can hold.

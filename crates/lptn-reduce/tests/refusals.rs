@@ -43,7 +43,7 @@ fn a_network_that_switches_has_no_run_of_one_node() {
         Reduction::new(&system, node, &ReductionOptions { run, ..Default::default() }).unwrap_err();
     assert_eq!(error.code(), "reduce::switches");
     assert!(
-        error.to_string().contains("`fan`") && error.help().unwrap().contains("in place of `fan`")
+        error.to_string().contains("`fan`") && error.help().unwrap().contains("replace `fan` by")
     );
     // as it stands at the start it is linear: the fan is off, 7 W flow
     let still = Reduction::new(&system, node, &ReductionOptions::default()).unwrap();
@@ -60,7 +60,7 @@ fn what_is_not_linear_is_named_with_what_to_put_in_its_place() {
     b.resistor("film", node, air, lptn_network::Path::conductance(law));
     let error = NortonEquivalent::new(&assembled(b), node).unwrap_err();
     assert!(matches!(&error, ReduceError::NotLinear { name } if name == "film"), "{error:?}");
-    assert!(error.help().unwrap().contains("in place of `film`"));
+    assert!(error.help().unwrap().contains("replace `film` by"));
 }
 
 /// A capacity that no node can have: the error of the network that was to be built is told.

@@ -25,7 +25,7 @@ pub fn balance(flows: &[Flow], stored: f64, turned_over: f64) -> Vec<String> {
     let mut right = terms(std::iter::once(("stored", stored)), floor);
     right.extend(terms(flows.iter().map(|f| (f.name.as_str(), -f.heat)), floor));
     let only_source = left.len() == 1 && stored >= -floor;
-    left.extend(terms(std::iter::once(("what was stored", -stored)), floor));
+    left.extend(terms(std::iter::once(("stored heat", -stored)), floor));
     let total = |side: &[(&str, f64)]| side.iter().map(|term| term.1).sum::<f64>();
     let largest = total(&left).max(total(&right));
     if largest <= 0.0 {
@@ -100,10 +100,7 @@ mod tests {
 
     #[test]
     fn a_cooling_network_gives_what_was_stored() {
-        assert_eq!(
-            line(&[("air", -2.0)], -2.0),
-            "in 2.000 J from what was stored 2.000 = air 2.000 J"
-        );
+        assert_eq!(line(&[("air", -2.0)], -2.0), "in 2.000 J from stored heat 2.000 = air 2.000 J");
     }
 
     #[test]

@@ -44,7 +44,7 @@ fn main() -> Outcome<()> {
         (solution.statistics(), solution.ledger().relative_residual().unwrap_or(0.0));
     println!("assembly {assembled:.3} s, run {seconds:.3} s");
     println!("{} steps, {} factorizations, {} solves", s.steps, s.factorizations, s.linear_solves);
-    println!("balance {balance:.1e} of the heat turned over");
+    println!("balance {balance:.1e} of the heat exchanged");
     if let Some(file) = arguments.get(2) {
         std::fs::write(file, found.iter().flat_map(|t| t.to_le_bytes()).collect::<Vec<u8>>())?;
     } else {

@@ -18,8 +18,7 @@ pub enum SteadyError {
     /// after the other, and the heat in W that they keep receiving.
     NoBoundary { nodes: Vec<NodeId>, names: Vec<String>, heat: f64 } = "steady::no_boundary",
         format!(
-            "no path leads to a boundary from {}, where {} W stay for ever: there is no steady \
-             state",
+            "no path leads to a boundary from {}, and {} W cannot leave: there is no steady state",
             list_of_names(names),
             six_digits(*heat)
         ),
@@ -45,8 +44,8 @@ pub enum SteadyError {
         match rests {
             None => format!("no steady state: {}", runaway(node, source, *from)),
             Some(at) => format!(
-                "from its start the network comes to no steady state: {}; there is a steady state \
-                 with `{node}` at {}, where it does not come to",
+                "from its start the network reaches no steady state: {}; a steady state with \
+                 `{node}` at {} exists but is not reached from the start",
                 runaway(node, source, *from),
                 scales(*at)
             ),
@@ -56,16 +55,17 @@ pub enum SteadyError {
     /// switch: its names, and how many positions were tried.
     Cycles { names: Vec<String>, tried: usize } = "steady::cycles",
         format!(
-            "no steady state, it cycles: in each of the {tried} positions that were tried \
-             something has to switch, among it {}",
+            "no steady state: in each of the {tried} control combinations tried, a control or \
+             comparison has to switch, among them {}",
             list_of(names, "things")
         ),
-        help "run the network over time, `lptn run`: it shows how often it switches, and the means",
+        help "run the network over time, `lptn run`: it shows the number of switches, and the \
+            means",
         class Class::No;
     /// The solution does not balance: heat in and heat out differ by `residual` of the heat turned
     /// over.
     Unbalanced { residual: f64 } = "steady::unbalanced",
-        format!("heat in and heat out differ by {residual:.1e} of the heat turned over"),
+        format!("heat in and heat out differ by {residual:.1e} of the heat exchanged"),
         help MERGE, class Class::Numbers;
 }
 }

@@ -84,10 +84,10 @@ pub enum LedgerError {
     /// Its books do not close: the residual over the heat turned over, and what is allowed.
     Open { residual: f64, bound: f64 } = "run::ledger",
         format!(
-            "heat in, out and stored differ by {residual:.1e} of the heat turned over, more than \
-             the {bound:.1e} allowed"
+            "heat in, out and stored differ by {residual:.1e} of the heat exchanged, more than the \
+             {bound:.1e} allowed"
         ),
-        help "do not use the result: `balance_error` of [run] asks for more than rounding allows, the \
+        help "do not use the result: `balance_error` of [run] is below the rounding error, the \
               numbers of the network are extreme, or lptn has a bug",
         class lptn_units::Class::Numbers;
 }

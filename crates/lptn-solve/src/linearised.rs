@@ -24,15 +24,14 @@ pub enum LinearisedError {
     /// It is not linear, and no state is named; the first item that makes it so.
     NotLinear { item: Item, name: String } = "linearised::not_linear",
         format!("`{name}` makes the network more than constant capacities and conductances"),
-        help "say near which state it is to be looked at: --at steady, or a time such as \
-            --at \"20 min\"";
+        help "name the state to linearise at: --at steady, or a time such as --at \"20 min\"";
     /// A node takes up latent heat at just the temperature that it has there; its name.
     Melts { name: String } = "linearised::melts",
-        format!("`{name}` melts there: its temperature does not answer to heat"),
+        format!("`{name}` melts there: its temperature does not respond to heat"),
         help "choose an operating point at which it is solid or molten";
     /// The balances of the massless nodes cannot be solved for them.
     Singular = "linearised::singular",
-        "the massless nodes do not answer to a small disturbance there",
+        "the massless nodes do not respond to a small disturbance there",
         help "give them a capacity", class lptn_units::Class::Numbers;
 }
 }

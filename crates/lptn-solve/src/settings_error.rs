@@ -28,7 +28,7 @@ pub enum SettingsError {
     FarFromZero { start: f64, stop: f64, resolution: f64 } = "run::settings",
         format!(
             "the run from {start} s lasts {} s, but numbers of this size are {} s apart, too \
-             coarse for what depends on the time",
+             coarse for values that depend on the time",
             six_digits(stop - start),
             six_digits(*resolution)
         ),
@@ -74,5 +74,5 @@ pub enum SettingsError {
 }
 }
 
-const FROM_ZERO: &str = "count the time from the beginning of the run, `start = \"0 s\"`; where an \
-    expression needs the other time, write `(t + 1.7e9 [s])` in place of `t`";
+const FROM_ZERO: &str = "count the time from the beginning of the run, `start = \"0 s\"`; if an \
+    expression needs the other time, write `(t + 1.7e9 [s])` instead of `t`";

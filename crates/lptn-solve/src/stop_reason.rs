@@ -24,7 +24,7 @@ pub enum StopReason {
     Chatter { name: String, changes: usize, place: (Item, Field) } = "run::chatter",
         format!(
             "a comparison in `{name}` changed {changes} times between two rows: the temperatures \
-             stay where it neither holds nor fails"
+             stay at its threshold"
         ),
         help "give it a dead band: a [control] with `on_above` and `off_below`, or `on_below` and \
             `off_above`, whose name is 0 or 1 in expressions; or a gradual change, `0.5 * (1 + \
@@ -39,17 +39,16 @@ pub enum StopReason {
                 list_of(several, "things")
             ),
         },
-        help "switching changes at once what is compared: let a control feel a node with a \
+        help "switching changes the compared value at once: let a control sense a node with a \
             capacity, or give it a `min_dwell`";
     /// More events than a run may have.
     TooManyEvents { count: usize } = "run::too_many_events",
         format!("{count} events, more than a run may have"),
-        help "what switches this often is better replaced by its mean, or made slower by \
-            `min_dwell`";
+        help "replace such frequent switching by its mean, or slow it down by `min_dwell`";
     /// The network switches, but has no node with a capacity.
     NothingSwitches = "run::no_capacity",
         "controls and comparisons of temperatures need a node with a capacity",
-        help "give the nodes that are felt a capacity";
+        help "give the nodes that are sensed a capacity";
     /// The heat of a source grows with the temperature of a node faster than the paths carry it
     /// off, from this temperature in K on.
     Runaway { node: String, source: String, from: f64 } = "run::runaway",
@@ -69,12 +68,12 @@ pub(crate) const COLD: &str =
     "less heat can be taken out than that: check the signs and sizes of the sources";
 
 pub(crate) const RUNS_AWAY: &str = "give it a better path to a cooler place, or less heat at the \
-    start; where the heat is limited in fact, say by what: `min(.., ..)`";
+    start; if the heat is limited in fact, write the limit: `min(.., ..)`";
 
 pub(crate) fn runaway(node: &str, source: &str, from: f64) -> String {
     format!(
         "`{node}` runs away: above {} the heat of `{source}` grows faster with its temperature \
-         than the paths carry it off",
+         than the paths remove it",
         scales(from)
     )
 }

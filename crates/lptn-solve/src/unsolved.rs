@@ -19,21 +19,23 @@ pub enum Unsolved {
         match reader {
             None => format!(
                 "nothing determines the temperature of `{node}` and of the nodes it exchanges heat \
-                 with: no heat that leaves them depends on it, as where a stream stands still"
+                 with: no heat that leaves them depends on it, for example because a stream is at \
+                 rest"
             ),
             Some(reader) => format!(
-                "nothing determines the temperature of `{node}` where the search came to: `{reader}` \
-                 reads it, but does not change with it there, as where a controller is saturated"
+                "nothing determines the temperature of `{node}` at the end of the search: \
+                 `{reader}` reads it, but does not change with it there, like a saturated \
+                 controller"
             ),
         },
         help match reader {
             None => format!(
-                "let a path lead from `{node}` to a boundary at all times; with capacities \
-                 `lptn run` follows it meanwhile"
+                "let a path lead from `{node}` to a boundary at all times; with capacities `lptn \
+                 run` follows it over time"
             ),
             Some(reader) => format!(
-                "begin where `{reader}` changes with `{node}`, by another `T0`; `lptn run` tells \
-                 whether `{reader}` remains saturated"
+                "choose a `T0` at which `{reader}` changes with `{node}`; `lptn run` shows whether \
+                 `{reader}` remains saturated"
             ),
         };
     /// The numbers could not be factorised.
@@ -44,9 +46,9 @@ pub enum Unsolved {
     /// from them.
     Unstable { node: String, swings: bool } = "solve::unstable",
         format!(
-            "the only steady state that was found is unstable: from the least disturbance on \
+            "the only steady state that was found is unstable: after the least disturbance \
              `{node}` {}",
-            if *swings { "swings more and more" } else { "runs away" }
+            if *swings { "oscillates more and more" } else { "runs away" }
         ),
         help if *swings { SWINGS } else { GROWS };
     /// Heat in and out were equal at temperatures that end here: they are equal elsewhere only, and
@@ -54,10 +56,10 @@ pub enum Unsolved {
     Fold { node: String } = "solve::fold",
         format!(
             "the balance of the massless node `{node}` has more than one solution, and the one \
-             that it had so far ends here: it jumps, and where to is not known"
+             that it had so far ends here: it jumps to an unknown one"
         ),
         help format!(
-            "give `{node}` a small capacity in place of `massless = true`, such as `C = \"1 \
+            "give `{node}` a small capacity instead of `massless = true`, such as `C = \"1 \
              mJ/K\"`, and a `T0`"
         );
     /// No temperatures were found at which heat in and heat out are equal: by how much the node
@@ -92,8 +94,8 @@ fn reader(system: &ThermalSystem, unknown: usize) -> Option<String> {
     conductor.map(|id| network.name_of(Item::Conductor(id)).into_owned())
 }
 
-const SWINGS: &str = "check for a controller that feels a temperature too late for its gain; \
-    `lptn run` shows how far it swings";
+const SWINGS: &str = "check for a controller that senses a temperature too late for its gain; \
+    `lptn run` shows the amplitude";
 
 const GROWS: &str = "check for a heat that grows faster with temperature than the cooling does";
 

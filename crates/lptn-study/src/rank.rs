@@ -32,7 +32,7 @@ pub enum RankError {
     /// The run with its sensitivities.
     Sensitive => SensitiveError;
     /// There is no node.
-    NoNode = "rank::no_node", "the network has no node whose temperature could answer",
+    NoNode = "rank::no_node", "the network has no node whose temperature could respond",
         help "add a [node]";
 }
 }

@@ -66,10 +66,7 @@ mod tests {
         for (text, help) in [
             ("10 ± 1 s (lognormel)", Some("write `(lognormal)`")),
             ("10 ± 1 s (rectangel)", Some("write `(rectangle)`")),
-            (
-                "10 ± 1 s (nomral)",
-                Some("leave it out: a deviation is normal unless it says otherwise"),
-            ),
+            ("10 ± 1 s (nomral)", Some("leave it out: a deviation is normal by default")),
         ] {
             let found = parse_quantity(text, None).map_err(|error| error.help());
             assert_eq!(found.err().flatten().as_deref(), help, "{text}");

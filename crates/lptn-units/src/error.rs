@@ -109,7 +109,7 @@ pub enum UnitErrorKind {
         format!("there is no distribution `{word}`"),
         help match meant {
             Some(Distribution::Normal) => {
-                "leave it out: a deviation is normal unless it says otherwise".to_owned()
+                "leave it out: a deviation is normal by default".to_owned()
             }
             Some(meant) => format!("write `({})`", meant.word()),
             None => "there are `(rectangle)`, between two limits, `(lognormal)`, a factor, and \
@@ -118,12 +118,12 @@ pub enum UnitErrorKind {
         };
     /// A distribution behind a value without a deviation.
     DistributionAlone { word: &'static str } = "units::distribution",
-        format!("`({word})` says how a deviation is distributed, and there is no `±`"),
+        format!("`({word})` is the distribution of a deviation, but there is no `±`"),
         help "write how far the value may be off before it: \"20 W ± 5 % (rectangle)\"";
     /// A lognormal value that is not more than zero, or an absolute temperature.
     Lognormal = "units::lognormal",
-        "only a value more than zero that is no temperature can be lognormal",
-        help "leave `(lognormal)` out, or write a factor of its own: \"1 ± 0.2 (lognormal)\"";
+        "only a value more than zero that is not a temperature can be lognormal",
+        help "leave `(lognormal)` out, or write a separate factor: \"1 ± 0.2 (lognormal)\"";
     /// `25 ± 5 % degC`: a percentage of an absolute temperature.
     RelativeDeviation { fix: Option<String> } = "units::relative_deviation",
         "percentage of an absolute temperature", help fix.as_deref().map(write);
@@ -139,7 +139,7 @@ pub enum UnitErrorKind {
     BareDeviation { fix: String } = "units::bare_number",
         "the deviation has no unit, but the value has one", help write(fix);
     /// A fraction in the place of a number: `3/8 in`, `1 1/2 in`.
-    Fraction { fix: String } = "units::fraction", "fraction in the place of a number",
+    Fraction { fix: String } = "units::fraction", "fraction instead of a number",
         help write(fix);
     /// `2 * m` while `m` is both a unit and a parameter.
     TwoReadings { name: String, quantity: String, expression: String } = "units::two_readings",

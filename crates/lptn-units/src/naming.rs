@@ -28,7 +28,7 @@ const KNOWN: &[(Dimension, &str, &str)] = &[
     (Dimension::CAPACITY, "J/K", "heat capacity"),
     (Dimension::CONDUCTANCE, "W/K", "thermal conductance"),
     (Dimension::RESISTANCE, "K/W", "thermal resistance"),
-    (Dimension::FILM_COEFFICIENT, "W/(m^2 K)", "film coefficient"),
+    (Dimension::FILM_COEFFICIENT, "W/(m^2 K)", "heat transfer coefficient"),
     (Dimension::AREA_RESISTANCE, "m^2 K/W", "thermal resistance of an area"),
     (Dimension::CONDUCTIVITY, "W/(m K)", "thermal conductivity"),
     (Dimension::DENSITY, "kg/m^3", "density"),

@@ -40,7 +40,7 @@ fn distributions_stand_behind_deviations() {
 fn wrong_distributions_say_what_to_write() {
     let kelvin = Some(Type::of(Dimension::TEMPERATURE));
     let alone = "write how far the value may be off before it: \"20 W ± 5 % (rectangle)\"";
-    let factor = "leave `(lognormal)` out, or write a factor of its own: \"1 ± 0.2 (lognormal)\"";
+    let factor = "leave `(lognormal)` out, or write a separate factor: \"1 ± 0.2 (lognormal)\"";
     let unit = "write \"0 ± 3 K (rectangle)\"";
     let code = "units::distribution";
     check_wrong(&[

@@ -138,8 +138,8 @@ fn inputs_vary(netlist: &Netlist, name: &str) -> Option<Diagnostic> {
         || !network.changing_inputs().is_empty() || !network.changing_inputs_of(&judged).is_empty();
     let vary = netlist.run.is_none() && changes();
     let message = format!(
-        "{name}: the inputs change with time; without a [run] they are taken at 0 s, and no limit \
-         is judged that depends on them"
+        "{name}: the inputs change with time; without a [run] their values at 0 s are used, and \
+         limits that depend on them are not judged"
     );
     vary.then(|| {
         Diagnostic::warning("steady::inputs_vary", message).help("add a [run] to compare over time")

@@ -13,12 +13,12 @@ const NOTHING: &str = "-";
 /// Looks at how sure the results of a candidate are; what keeps it from being known is a warning.
 pub(super) fn look(input: &Input, found: &mut Candidate, file: &str) -> Option<Diagnostic> {
     let warning = |code, why: &str| {
-        let message = format!("{file}: how sure the results are is not known: {why}");
+        let message = format!("{file}: the uncertainty of the results is not known: {why}");
         Some(Diagnostic::warning(code, message))
     };
     let netlist = &input.netlist;
     let (Some(run), Some(hottest)) = (&netlist.run, &found.hottest) else {
-        return warning("uncertainty::no_run", "it is looked at over a [run]");
+        return warning("uncertainty::no_run", "it is computed over a [run]");
     };
     let parameters = netlist.overrides();
     match Scatter::of_run(&netlist.network, (&parameters, run), hottest) {

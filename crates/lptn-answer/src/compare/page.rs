@@ -300,8 +300,8 @@ fn sentence(comparison: &CompareAnswer) -> String {
             "no candidate has a [limit]".into()
         }
         _ if comparison.rows.iter().any(|row| row.status() == "not judged") => {
-            "limits are not judged if inputs change with time and there is no [run], or if gears \
-             carry no load"
+            "limits are not judged if inputs change with time without a [run], or if gears carry \
+             no load"
                 .into()
         }
         _ if comparison.rows.len() == 1 => "the candidate keeps its limits".into(),

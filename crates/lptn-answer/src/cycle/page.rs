@@ -159,7 +159,7 @@ fn found_section(text: &mut Text, view: &CycleAnswer) {
     let how = match found.method {
         CycleMethod::Modes => "in closed form, mode by mode;",
         CycleMethod::Shooting => "by shooting;",
-        CycleMethod::Stateless => "without a search, as nothing is stored;",
+        CycleMethod::Stateless => "without a search, as no node stores heat;",
     };
     let mut pieces = vec![how.to_owned(), format!("{} integrated,", count(found.cycles, "cycle"))];
     pieces.push(format!("{} steps", found.steps));
@@ -177,7 +177,7 @@ fn found_section(text: &mut Text, view: &CycleAnswer) {
     };
     let ends = vec![
         format!("end and start differ by {},", kelvin(found.residual)),
-        format!("error of taking it for settled {bound}"),
+        format!("error of the periodic steady state {bound}"),
     ];
     text.labelled("settled: ", ends);
     if let (Some(tau), Some(rho)) = (view.slowest(), found.multiplier) {

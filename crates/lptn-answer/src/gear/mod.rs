@@ -27,7 +27,7 @@ const FIFTHS: [f64; 5] = [0.2, 0.4, 0.6, 0.8, 1.0];
 const GEARBOXES: Studies = Studies {
     section: "gearbox",
     codes: ["gear::no_gearbox", "gear::which_gearbox"],
-    question: "which gears turn?",
+    question: "gears are described in a gearbox",
     example: "[gearbox.stage]\nteeth = { sun = 18, planet = 42, ring = 102 }\nplanets = 3\nspeed = \
               \"7000 rpm\"\ninto = \"steel\"",
 };
@@ -145,7 +145,7 @@ fn at_rest(input: &Input, task: &GearTask<'_>) -> Failure {
     let first = task.stages[0];
     let message = format!("gearbox `{}` stands still at {} s", first.name, task.time);
     let problem = Diagnostic::error("gear::at_rest", message).at(Some(first.span.clone()), "");
-    input.refused(Exit::Input, problem.help("say at which speeds: `--speed 1000rpm,3000rpm`"))
+    input.refused(Exit::Input, problem.help("give the speeds: `--speed 1000rpm,3000rpm`"))
 }
 
 fn failed((input, task): (&Input, &GearTask<'_>), error: &GearError) -> Failure {

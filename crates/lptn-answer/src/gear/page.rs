@@ -66,7 +66,7 @@ impl GearAnswer {
                 let held = significant(self.unit.from_si(kelvin), 6);
                 format!("{load}, all nodes at {held} {}", self.unit.text)
             }
-            None => format!("{load}, temperatures settled"),
+            None => format!("{load}, in steady state"),
         }
     }
 
@@ -77,13 +77,12 @@ impl GearAnswer {
         }
         if self.task().network.has_time_dependent_inputs() {
             notes.push(format!(
-                "inputs change with time: but for the speed they are taken as they are at {} s",
+                "inputs change with time: except for the speed their values at {} s are used",
                 self.task().time
             ));
         }
         if self.task().stages[0].loaded {
-            notes
-                .push("torques and the losses of meshes are those without losses elsewhere".into());
+            notes.push("torques and losses of meshes do not include losses elsewhere".into());
         } else {
             notes.push("no torque is given: meshes lose nothing and are left out".into());
         }

@@ -69,10 +69,10 @@ impl GearAnswer {
         for states in block.states.chunks(ACROSS) {
             let of = |part: &PartLoss| part.exponent;
             let rows = exponents(states, of);
-            tables.push(self.table("exponent, temperatures held", states, &rows));
+            tables.push(self.table("exponent, temperatures fixed", states, &rows));
             if block.temperature.is_none() {
                 let rows = exponents(states, |part| part.followed);
-                tables.push(self.table("exponent, settled", states, &rows));
+                tables.push(self.table("exponent, steady", states, &rows));
             }
         }
         tables

@@ -87,7 +87,7 @@ fn grid(input: &Input, name: Option<&str>) -> Result<GridId, Failure> {
 }
 
 fn which_slice(name: &str, shape: &GridField) -> Failure {
-    let message = format!("which slice of `{name}` is to be drawn?");
+    let message = format!("no slice of `{name}` is chosen");
     let layers = shape.cells[2];
     let help =
         format!("add --slice z=1, at most z={layers}, or write the whole grid: --format vtk");

@@ -121,15 +121,15 @@ impl Spectrum {
 fn swings() -> Failure {
     Failure::refused(
         "impedance::swings",
-        "the answer swings as it settles, which no chain of resistances and capacities does",
-        "streams that return do that: ask for the curve, without --foster and --cauer",
+        "the response oscillates as it settles, which a chain of resistances and capacities cannot",
+        "streams that return cause this: ask for the curve, without --foster and --cauer",
     )
 }
 
 fn at_once() -> Failure {
     Failure::refused(
         "impedance::at_once",
-        "nothing here stores heat that the port sees: it answers at once, and has no time constant",
+        "the port sees no heat capacity: it responds at once, without a time constant",
         "`lptn reduce` gives its resistance",
     )
 }
@@ -137,7 +137,7 @@ fn at_once() -> Failure {
 fn between(what: &str) -> Failure {
     Failure::refused(
         "impedance::between",
-        format!("{what} is known only where the heat goes in: leave --to out"),
+        format!("{what} is defined only for the node that is heated: leave --to out"),
         "between two places `--foster` without a number lists all terms, of either sign",
     )
 }
@@ -145,7 +145,7 @@ fn between(what: &str) -> Failure {
 fn too_close(count: usize) -> Failure {
     Failure::refused(
         "impedance::too_close",
-        format!("{count} terms lie too close together to be told apart"),
+        format!("{count} terms lie too close together to be distinguished"),
         "ask for fewer: --foster 4",
     )
 }

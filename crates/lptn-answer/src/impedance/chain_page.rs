@@ -95,7 +95,7 @@ impl ImpedanceAnswer {
     pub(super) fn chain_note(&self, chain: &Chain) -> Option<String> {
         let direct = significant(chain.direct, 5);
         (chain.direct > 0.0)
-            .then(|| format!("{direct} {} of it come at once: in front of all else", self.unit()))
+            .then(|| format!("{direct} {} of it come at once, before all terms", self.unit()))
     }
 
     pub(super) fn chain_json(&self, chain: &Chain, json: &mut Json<'_>) -> io::Result<()> {
@@ -122,7 +122,7 @@ impl ImpedanceAnswer {
             panel.curves.push(Curve::line("R", points).looks(Look::Stems));
             return panel;
         };
-        let axis = Axis::log("capacity up to there", "J/K");
+        let axis = Axis::log("heat capacity up to there", "J/K");
         let mut panel = Panel::new(Axis::linear("resistance from the port", "K/W"), axis);
         // the capacity of a rung stands in front of its resistance
         let steps = |rung: &Rung| {

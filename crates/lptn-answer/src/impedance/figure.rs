@@ -27,7 +27,7 @@ impl ImpedanceAnswer {
                 let note = if self.shares.is_empty() {
                     String::new()
                 } else {
-                    "D: settled pulses that take this share of their period, at their end"
+                    "D: duty cycle of pulses in periodic steady state; rise at the end of a pulse"
                         .to_owned()
                 };
                 Figure { title, note, panels: vec![panel] }

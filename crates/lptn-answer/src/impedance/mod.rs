@@ -159,7 +159,7 @@ impl ImpedanceQuestion {
             Drive::Boundary(_) => None,
         };
         found.ok_or_else(|| {
-            let message = format!("which node answers `{name}`?");
+            let message = format!("no node that responds to `{name}` is named");
             let help = "name it: --to NODE";
             Failure::refused("impedance::no_node", message, help)
         })
@@ -255,7 +255,7 @@ fn no_port(input: &Input) -> Failure {
     let network = &input.netlist.network;
     let heated = network.sources().first().and_then(|source| source.into.first());
     let likely = heated.map_or("NODE", |(node, _)| &network.nodes()[node.index()].name);
-    let message = format!("where does the heat go into {}?", input.text.name);
+    let message = format!("{}: no port is named", input.text.name);
     let file = input.typed().unwrap_or_else(|| "-".into());
     let help = format!(
         "name a node, source or boundary: `lptn impedance {file} --port {}`",
@@ -265,13 +265,15 @@ fn no_port(input: &Input) -> Failure {
 }
 
 fn pulses_elsewhere() -> Failure {
-    let message = "pulses are known where the heat goes in: elsewhere the highest rise comes later";
-    let help = "leave --to or --duty out, or let `lptn steady --periodic` find the settled pulses";
+    let message = "pulses are computed only at the node that is heated: elsewhere the highest rise \
+        comes later";
+    let help = "leave --to or --duty out, or let `lptn steady --periodic` find the periodic steady \
+        state";
     Failure::refused("impedance::pulses_elsewhere", message, help)
 }
 
 fn nothing_to_write() -> Failure {
-    let message = "--write writes an R-tau table or a ladder, and neither is asked for";
+    let message = "--write writes an R-tau table or a ladder, but neither is requested";
     let help = "add --foster or --cauer";
     Failure::refused("impedance::nothing_to_write", message, help)
 }

@@ -21,10 +21,14 @@ impl ImpedanceAnswer {
         let (to, name, unit) = (&self.to, &self.name, self.unit());
         match &self.found {
             Found::Step { settled, .. } => {
-                format!("`{to}` rises by {} {unit} of `{name}`, settled", significant(*settled, 5))
+                format!(
+                    "`{to}` rises by {} {unit} of `{name}`, in steady \
+                    state",
+                    significant(*settled, 5)
+                )
             }
             Found::Swing(_) => {
-                format!("`{to}` in {unit} of `{name}`, which swings as cos(omega t)")
+                format!("`{to}` in {unit} of `{name}`, which oscillates as cos(omega t)")
             }
             Found::Chain(chain) => self.chain_line(chain),
         }

@@ -35,14 +35,14 @@ pub(super) fn of(answer: &InferAnswer) -> Vec<Diagnostic> {
 
 fn start(answer: &InferAnswer, column: &InferredColumn, observed: &Observed) -> Diagnostic {
     let message = format!(
-        "column `{}` begins {} standard deviations from where the network does",
+        "column `{}` begins {} standard deviations from the start of the network",
         observed.column,
         significant(column.first.abs(), 2)
     );
     let at = Diagnostic::warning("infer::start", message).at(observed.span.clone(), "");
     let first = answer.found.times.first().copied().unwrap_or(0.0);
     at.help(format!(
-        "the network stands at `T0` at {}: write `initial = \"free\"` if that is not known, or \
+        "the network is at `T0` at {}: write `initial = \"free\"` if that is not known, or \
          `initial = \"record\"` if it is known of all nodes that are not measured",
         duration(first, 3)
     ))
@@ -64,8 +64,8 @@ fn drifts(
     );
     let at = Diagnostic::warning("infer::drift", message).at(observed.span.clone(), "");
     Some(at.help(
-        "the other columns and the network contradict it: look at the instrument, or at what the \
-         network lacks near it",
+        "the other columns and the network contradict it: check the instrument, or the network \
+         near it",
     ))
 }
 
@@ -84,7 +84,7 @@ fn surprised(
     observed: &Observed,
 ) -> Diagnostic {
     let message = format!(
-        "column `{}`: readings are {} times as far from what was expected as they should be, and \
+        "column `{}`: readings are {} times as far from their predictions as they should be, and \
          neighbours correlate by {}",
         observed.column,
         significant(column.rms, 3),
@@ -93,13 +93,13 @@ fn surprised(
     let task = &answer.task;
     let mut reasons: Vec<&str> = Vec::new();
     if is_wide(column) && task.run.columns[i].sigma.is_some() {
-        reasons.push("`sigma` is larger than is said");
+        reasons.push("`sigma` is larger than stated");
     }
     if is_alike(column) && matches!(task.drift, Drift::Known { .. }) {
-        reasons.push("a slow part of the noise is larger than `drift` says");
+        reasons.push("a slow part of the noise is larger than `drift`");
     }
     if task.sought.iter().any(|sought| sought.intensity.is_some()) {
-        reasons.push("what is sought changes faster than `change` says");
+        reasons.push("an estimated signal changes faster than `change`");
     }
     let mut help = "the bands are too narrow: ".to_owned();
     reasons.iter().for_each(|reason| help += &format!("{reason}, "));

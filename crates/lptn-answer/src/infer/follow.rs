@@ -155,8 +155,8 @@ impl Shown {
             false => (own.value / unit.scale, difference(unit)),
         };
         let message = format!(
-            "{STDIN}{line}: column `{name}` reads {} {unit} at {} s, {} standard deviations from what \
-             was expected: it is {}",
+            "{STDIN}{line}: column `{name}` reads {} {unit} at {} s, {} standard deviations from \
+             its prediction: it is {}",
             significant(value, 6),
             significant(time, 6),
             significant(own.surprise.abs(), 2),
@@ -166,8 +166,8 @@ impl Shown {
         match (own.left_out, self.drops) {
             (true, _) => warning,
             (false, true) => warning.help(
-                "what comes three times in a row, or in the first rows, is believed: look whether the \
-                 instrument is sound, or what happened",
+                "a reading that comes three times in a row, or in the first rows, is accepted: \
+                 check the instrument, or find the cause",
             ),
             (false, false) => warning.help(
                 "a broken wire, or a digit lost? `outliers = \"drop\"` leaves out up to three such \

@@ -125,7 +125,7 @@ fn task(input: &Input, study: &InferStudy) -> Result<InferTask, Failure> {
 const STUDIES: Studies = Studies {
     section: "infer",
     codes: ["infer::no_study", "infer::which_study"],
-    question: "which course is sought, in which record?",
+    question: "an inference needs a record and the signals to estimate",
     example: "[infer.power]\ndata = \"record.csv\"\ncolumn = { ring_gear = \"steel.T\" }\n\
               sigma = \"0.1 K\"\nfind = [\"P\"]",
 };

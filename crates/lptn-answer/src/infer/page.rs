@@ -219,7 +219,7 @@ impl InferAnswer {
             .right("mean", |&j| course(j).mean.map_or(String::new(), |mean| pair(known(j, mean))))
             .optional()
             .right("at the end", |&j| pair(known(j, self.at_end(j))))
-            .right("if it stands still", |&j| pair(known(j, course(j).still.0)))
+            .right("if constant", |&j| pair(known(j, course(j).still.0)))
             .left("unit", |&j| symbol(&self.units[j].text))
             .into()
     }
@@ -337,14 +337,14 @@ impl InferAnswer {
         let bend = (course.slope_intensity * MINUTE.powi(3) / 3.0).sqrt();
         let mut parts = Vec::new();
         if course.intensity > 0.0 {
-            parts.push(format!("walks by {} in 1 min", shown(walk)));
+            parts.push(format!("drifts by {} in 1 min", shown(walk)));
         }
         if course.slope_intensity > 0.0 {
             parts.push(format!("bends by {} in 1 min", shown(bend)));
         }
-        let how = if sought.intensity.is_some() { "as is said" } else { "as is most likely" };
+        let how = if sought.intensity.is_some() { "as given" } else { "most likely" };
         match parts.is_empty() {
-            true => format!("{} stands still, {how}", sought.name),
+            true => format!("{} is constant, {how}", sought.name),
             false => format!("{} {} (1 sigma, {how})", sought.name, parts.join(" and ")),
         }
     }
@@ -361,7 +361,7 @@ impl InferAnswer {
         match ratio > CHANCE {
             true => format!("{name} changes (likelihood ratio {ratio_text}, chance reaches 2.71)"),
             false => format!(
-                "nothing in the record says that {name} changes (likelihood ratio {ratio_text} of \
+                "the record does not show that {name} changes (likelihood ratio {ratio_text} of \
                  2.71)"
             ),
         }
@@ -386,9 +386,8 @@ impl InferAnswer {
             return text.collect::<Vec<_>>().join("; ");
         }
         format!(
-            "not determined: the record cannot tell {} from what else is not known; say more closely \
-             what is known of an offset, a gain, the start or a parameter (`±`), or measure a further \
-             node",
+            "not determined: the record cannot distinguish {} from other unknowns; give an offset, \
+             a gain, the start or a parameter a smaller `±`, or measure another node",
             lacking.join(", ")
         )
     }

@@ -99,8 +99,8 @@ impl ModesAnswer {
         }
         if self.modes.swing() {
             notes.push(
-                "modes with a period swing: their shapes are amplitudes; --format csv and json have \
-                 the phases"
+                "modes with a period oscillate: their shapes are amplitudes; --format csv and json \
+                 have the phases"
                     .to_owned(),
             );
         }
@@ -111,15 +111,14 @@ impl ModesAnswer {
         if let Some(kind) = EventKind::switching(self.network()).next() {
             let name = kind.name(self.network());
             notes.push(format!(
-                "`{name}` switches heat, which plays no part in these modes: the network has them \
-                 between two switches"
+                "`{name}` switches heat; these modes are those between two switches"
             ));
         }
         if lasting > 0 {
             let verb = if lasting == 1 { "lasts" } else { "last" };
             let which = count(lasting, "mode");
             notes.push(format!(
-                "{which} {verb} for ever: no path leads from its nodes to a boundary"
+                "{which} {verb} without end: no path leads from its nodes to a boundary"
             ));
         }
         notes
@@ -185,7 +184,7 @@ fn count_as_number(n: usize) -> f64 {
 
 fn tau(mode: &Mode) -> String {
     match mode.rate {
-        0.0 => "for ever".to_owned(),
+        0.0 => "infinite".to_owned(),
         rate if rate < 0.0 => format!("grows, {}", duration(-mode.tau(), 5)),
         _ => duration(mode.tau(), 5),
     }

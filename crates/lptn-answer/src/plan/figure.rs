@@ -16,7 +16,7 @@ const NAME: usize = 24;
 /// Errors so many times what is wanted, or the least there is, are not drawn.
 const FAR: f64 = 100.0;
 
-const ERROR: &str = "error over what is wanted";
+const ERROR: &str = "error / wanted error";
 
 impl PlanAnswer {
     pub(super) fn pictures(&self) -> Vec<Figure> {

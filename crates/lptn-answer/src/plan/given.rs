@@ -28,7 +28,7 @@ fn of_one(input: &Arc<Input>, given: &GivenFit) -> Vec<Diagnostic> {
         let message = named(&verdict(&answer));
         Diagnostic::warning("plan::given_open", message)
             .at(study.span.clone(), "")
-            .help("the plan is made for one of the values that these records leave")
+            .help("the plan is made for one of the values that these records allow")
     });
     told.chain(open).collect()
 }

@@ -57,7 +57,7 @@ impl Answer for PlanAnswer {
 const STUDIES: Studies = Studies {
     section: "plan",
     codes: ["plan::no_study", "plan::which_study"],
-    question: "what is to be measured?",
+    question: "a plan needs parameters to determine, and places for sensors",
     example: "[plan.next]\nknow = { R_int = \"5 %\" }\n\
               place = { ring = { of = \"steel.T\", noise = \"0.1 K\" } }\n\
               every = \"1 s\"\nduration = \"30 min\"",

@@ -105,7 +105,7 @@ fn besides(answer: &PlanAnswer) -> String {
     }
     match parts.is_empty() {
         true => String::new(),
-        false => format!("; not known besides: {}", parts.join(" and ")),
+        false => format!("; also not known: {}", parts.join(" and ")),
     }
 }
 

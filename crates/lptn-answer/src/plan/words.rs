@@ -57,7 +57,7 @@ fn shared(answer: &PlanAnswer) -> Option<String> {
     let most = all.iter().map(|(_, size)| *size).reduce(f64::max)?;
     let names: Vec<&str> = all.iter().map(|(name, _)| name.as_str()).collect();
     Some(format!(
-        "columns of {} are off together, correlation up to {}; the plan takes places as independent, \
+        "columns of {} share errors, correlation up to {}; the plan treats places as independent, \
          so the errors of several will be larger",
         names.join(", "),
         significant(most, 2)
@@ -145,7 +145,7 @@ pub(super) fn verdict(answer: &PlanAnswer) -> String {
     if plan.reached {
         let places = joined(&answer.places(&plan.places));
         let runs = answer.runs(&plan.runs);
-        return format!("measure {places} and run {runs}: that tells {}", told(answer, plan));
+        return format!("measure {places} and run {runs}: that determines {}", told(answer, plan));
     }
     format!("not reached: {}", short(answer, plan))
 }
@@ -169,7 +169,7 @@ fn short(answer: &PlanAnswer, plan: &DesignPlan) -> String {
         }
         let limit = plan.limits.as_ref().map_or(0.0, |limits| limits[i]);
         let mut text =
-            format!("{name} is known to {}, where {wanted} is wanted", answer.part(i, error));
+            format!("{name} is known to {}, but {wanted} is wanted", answer.part(i, error));
         if limit > known.error {
             let part = answer.part(i, limit);
             text += &format!(", and longer runs do not lead below {part}");
@@ -184,7 +184,7 @@ fn short(answer: &PlanAnswer, plan: &DesignPlan) -> String {
     let more = match (answer.task.budget.is_finite(), plan.runs.len() >= MOST_LEGS) {
         (_, true) => format!(", with {MOST_LEGS} runs, the most that are planned"),
         (true, _) => format!(", for a budget of {}", cost(answer.task.budget)),
-        _ => "; a further run tells next to nothing more".to_owned(),
+        _ => "; a further run adds next to nothing".to_owned(),
     };
     texts.join("; ") + &more
 }

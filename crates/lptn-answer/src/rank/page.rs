@@ -52,14 +52,14 @@ impl RankAnswer {
         if feedback.gain >= 1.0 {
             let times = significant(feedback.gain, 3);
             return Some(format!(
-                "heat of `{source}` comes back {times} times as `{node}` warms: this state does not \
-                 last"
+                "heat of `{source}` comes back {times} times as `{node}` warms: this state is \
+                 unstable"
             ));
         }
         let (share, steeper) =
             (significant(100.0 * feedback.gain, 3), significant(feedback.gain.recip(), 3));
         let tau = self.ranking.slowest.map(|rate| {
-            format!("; disturbances die away with {} at the slowest", duration(rate.recip(), 3))
+            format!("; disturbances decay with {} at the slowest", duration(rate.recip(), 3))
         });
         Some(format!(
             "{share} % of the heat comes back as more heat, most by `{source}`, which grows with \
@@ -98,7 +98,7 @@ impl RankAnswer {
             .collect();
         (!names.is_empty()).then(|| {
             format!(
-                "not ranked: {}, for no value next to theirs is allowed; compare others with --set",
+                "not ranked: {}, as no value next to theirs is allowed; compare others with --set",
                 list_of_names(&names)
             )
         })
@@ -115,7 +115,7 @@ impl RankAnswer {
         };
         match most {
             Some(most) => format!("change first: {}", self.said(&most)),
-            None => format!("{} answers no value", self.node()),
+            None => format!("{} responds to no value", self.node()),
         }
     }
 

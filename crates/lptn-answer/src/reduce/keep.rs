@@ -262,7 +262,7 @@ impl KeptAnswer {
         let folder = place.map(|place| place.parent().unwrap_or(Path::new("")));
         let made = Derived { network: &network, title: &title, run, folder };
         let comment = format!(
-            "# What stands between {} of {}, by `lptn reduce`.\n# Verdict: {}.\n",
+            "# The network between {} of {}, by `lptn reduce`.\n# Verdict: {}.\n",
             plain(&kept),
             plain(&self.input.text.name),
             plain(&self.verdict())

@@ -187,8 +187,8 @@ impl KeptAnswer {
         )];
         let worst = self.projected.errors.share();
         notes.push(format!(
-            "{} that are no network of their own (`--format json`: projected) would be {} % wrong \
-             over every load",
+            "{} that do not form a network (`--format json`: projected) would be {} % wrong over \
+             every load",
             count(self.projected.tau.len(), "mode"),
             significant(100.0 * worst, 2)
         ));
@@ -199,14 +199,14 @@ impl KeptAnswer {
         }
         if self.question.nodes.is_some_and(|nodes| nodes > self.kept.count()) {
             notes.push(format!(
-                "the kept nodes feel {} with capacity: there are no more",
+                "the kept nodes see {} with capacity: there are no more",
                 count(self.kept.count(), "node")
             ));
         }
         if self.kept.moments > 1e-9 {
             notes.push(format!(
-                "the first moments at the kept nodes are missed by {} %: the error over every load \
-                 is smaller so",
+                "the first moments at the kept nodes are off by {} %, which makes the error over \
+                 every load smaller",
                 significant(100.0 * self.kept.moments, 2)
             ));
         }

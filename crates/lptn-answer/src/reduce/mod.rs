@@ -269,7 +269,11 @@ impl ReduceAnswer {
 
     fn comment(&self) -> String {
         let from = plain(&self.input.text.name);
-        let mut text = format!("# What `{}` of {from} sees, by `lptn reduce`.\n", self.port);
+        let mut text = format!(
+            "# The network that `{}` of {from} sees, by `lptn \
+            reduce`.\n",
+            self.port
+        );
         if self.reduction.dynamics.is_some() {
             text += &format!("# Verdict: {}.\n", self.verdict());
         }

@@ -12,8 +12,8 @@ impl ReduceAnswer {
         let mut notes = Vec::new();
         if self.near.is_some() {
             notes.push(
-                "inputs, controls and comparisons are held as they are there; Q_N is the heat of \
-                 the sources there, and T_ref such that the port has its temperature"
+                "inputs, controls and comparisons are fixed at this state; Q_N is the heat of its \
+                 sources, and T_ref gives the port its temperature"
                     .to_owned(),
             );
         } else if self.input.netlist.network.has_time_dependent_inputs() {
@@ -25,21 +25,20 @@ impl ReduceAnswer {
         notes.extend(self.switched().filter(|_| self.near.is_none()));
         notes.extend(self.apart());
         let Some(dynamics) = &self.reduction.dynamics else {
-            notes.push(
-                "the port sees no capacity: T = T_ref + R_eq Q_N holds at every moment".to_owned(),
-            );
+            notes
+                .push("the port sees no capacity: T = T_ref + R_eq Q_N at every moment".to_owned());
             return notes;
         };
         notes.extend(self.elsewhere());
         notes.push(match dynamics.window {
             Some(window) => fitted(window, dynamics, self.near.is_some()),
-            None if self.near.is_some() => "modes swing, coincide or fall at first: R_eq, T_ref, \
-                 Q_N, sum and first_moment are those of the linear network, and no error of a step \
-                 is known"
+            None if self.near.is_some() => "modes oscillate, coincide or fall at first: R_eq, \
+                 T_ref, Q_N, sum and first_moment are those of the linear network, and no error of \
+                 a step is known"
                 .to_owned(),
             None => "streams go on from node to node: R_eq, T_ref, Q_N, sum and first_moment are \
                      exact, while tau_1, the other definitions and the error of a step would need \
-                     modes that may swing"
+                     modes that may oscillate"
                 .to_owned(),
         });
         if let Some(tolerance) = dynamics.tolerance {
@@ -72,8 +71,8 @@ impl ReduceAnswer {
             if self.input.netlist.initial().is_some() { "the state" } else { "their `start`" };
         (!stand.is_empty()).then(|| {
             format!(
-                "T_ref and Q_N are those with {}, as {says} says; what switches over the run is \
-                 not compared",
+                "T_ref and Q_N are those with {}, as {says} says; switching over the run is not \
+                 compared",
                 stand.join(", ")
             )
         })
@@ -116,8 +115,7 @@ impl ReduceAnswer {
         let (length, slowest) = (run.stop - run.start, dynamics.step.as_ref()?.slowest().tau);
         (length < slowest).then(|| {
             format!(
-                "the run of {} is shorter than tau_1, {}: its error says nothing of what comes \
-                 later",
+                "the run of {} is shorter than tau_1, {}: its error does not cover later times",
                 duration(length, 4),
                 duration(slowest, 4)
             )
@@ -131,7 +129,7 @@ impl ReduceAnswer {
         (nearest.capacity <= 0.0).then(|| {
             let share = significant(100.0 * step.direct / step.resistance, 3);
             format!(
-                "the port answers at once with {share} % of the rise: no capacity at all is \
+                "{share} % of the rise at the port is immediate: a heat capacity of zero is \
                  nearest to that"
             )
         })
@@ -161,8 +159,8 @@ fn unresolved(dynamics: &Dynamics) -> Option<String> {
     (step.residual > 1e-6 * step.resistance).then(|| {
         let share = significant(100.0 * step.residual / step.resistance, 2);
         format!(
-            "the fastest modes, {share} % of R_eq, are not resolved: the errors for a step \
-            hold but for its very beginning"
+            "the fastest modes, {share} % of R_eq, are not resolved: the errors for a step are \
+            valid except at its very beginning"
         )
     })
 }

@@ -160,7 +160,7 @@ impl ReduceAnswer {
             ),
         ];
         let heading = format!(
-            "{} points over {}, missed by {} K rms",
+            "{} points over {}, misfit {} K rms",
             bias.points,
             duration(bias.length, 4),
             significant(bias.fit.rms, 3)

@@ -30,7 +30,7 @@ pub(super) fn no_port(input: &Input) -> Failure {
     let names: Vec<String> =
         network.nodes().iter().take(MOST_NAMES).map(|node| node.name.clone()).collect();
     let more = if network.nodes().len() > MOST_NAMES { ", .." } else { "" };
-    let message = format!("{} is seen from which node?", input.text.name);
+    let message = format!("{}: no port is named", input.text.name);
     let file = input.typed().unwrap_or_else(|| "-".into());
     let help = format!(
         "write `lptn reduce {file} --port {}`; its nodes are {}{more}",

@@ -25,7 +25,9 @@ impl ReduceAnswer {
             return "collapses to one resistance, exactly: the port sees no capacity".to_owned();
         }
         let Some((judge, error, within)) = self.judged() else {
-            return "is one resistance in steady state; over time nothing was judged".to_owned();
+            return "is one resistance in steady state; its behaviour over time was not \
+                judged"
+                .to_owned();
         };
         let (share, of) = size(judge, &error);
         let one = match self.count() {

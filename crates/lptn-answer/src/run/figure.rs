@@ -94,6 +94,6 @@ pub fn what(kind: &str, after: bool) -> &'static str {
         ("control", true) => "on",
         ("control", false) => "off",
         (_, true) => "holds",
-        (_, false) => "ceases to hold",
+        (_, false) => "becomes false",
     }
 }

@@ -283,10 +283,10 @@ pub(crate) fn heat_over(text: &mut Text, solution: &Solution, (length, clock): (
     let balance = match ledger.relative_residual() {
         Some(residual) => {
             let (residual, bound) = (significant(residual.abs(), 2), significant(ledger.bound, 2));
-            format!("closes to {residual} of the heat turned over (allowed: {bound})")
+            format!("closes to {residual} of the heat exchanged (allowed: {bound})")
         }
         None => {
-            format!("residual {} J; no heat was turned over", significant(ledger.residual(), 2))
+            format!("residual {} J; no heat was exchanged", significant(ledger.residual(), 2))
         }
     };
     text.sentence(&format!("{:width$}", "balance:"), &balance);

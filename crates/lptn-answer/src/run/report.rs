@@ -43,7 +43,7 @@ impl RunAnswer {
             Some((title, self.solution.snapshot(row)?))
         };
         let settled = self.steady.as_ref().ok();
-        let settled = settled.map(|steady| ("Where it settles".to_owned(), steady.state.clone()));
+        let settled = settled.map(|steady| ("Steady state".to_owned(), steady.state.clone()));
         rows.into_iter().filter_map(one).chain(settled).collect()
     }
 
@@ -51,11 +51,11 @@ impl RunAnswer {
         let ledger = self.solution.ledger();
         let books = match ledger.relative_residual() {
             Some(residual) => format!(
-                "the books close to {} of the heat turned over, {} allowed",
+                "the energy balance closes to {} of the heat exchanged, {} allowed",
                 significant(residual.abs(), 2),
                 significant(ledger.bound, 2)
             ),
-            None => "no heat was turned over".into(),
+            None => "no heat was exchanged".into(),
         };
         let bound = match not_bounded(
             self.solution.network(),

@@ -8,8 +8,8 @@ use lptn_study::SizeError;
 use crate::input::Input;
 use crate::words::spaced;
 
-const OVER: &str = "size over all moments with `over = \"run\"`, or `over = \"periodic\"` for a \
-                    cycle to which the network settles";
+const OVER: &str = "size over all moments with `over = \"run\"`, or `over = \"periodic\"` for the \
+                    periodic steady state";
 
 /// The error with the place of everything that changes.
 pub(super) fn explained(
@@ -57,13 +57,13 @@ fn constant(network: &Network, changing: &[Changing]) -> String {
     match signal.and_then(|id| largest(network, id)) {
         Some(line) => {
             format!(
-                "size for one load with a constant in its place, as below [signal] its largest \
-                value: {line}"
+                "size for one load with a constant instead, for example its largest value below \
+                [signal]: {line}"
             )
         }
         None => {
-            "size for one load with a constant in its place, its mean or its worst value, best as \
-            a parameter that `--set` can change"
+            "size for one load with a constant instead, its mean or its worst value, best as a \
+            parameter that `--set` can change"
                 .into()
         }
     }

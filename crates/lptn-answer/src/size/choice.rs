@@ -303,7 +303,11 @@ impl Page for Chosen {
         let left = self.choices.count - self.choices.judged.len();
         let rest = match left {
             0 => String::new(),
-            left => format!("; {} with more to lose were not looked at", count(left, "choice")),
+            left => format!(
+                "; {} with a worse objective were not \
+                evaluated",
+                count(left, "choice")
+            ),
         };
         let proof = format!("{} {solved} of the full network{rest}", self.choices.solved);
         text.sentence("proof    ", &proof);

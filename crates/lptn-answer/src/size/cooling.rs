@@ -127,7 +127,7 @@ impl CoolingAnswer {
                 ),
             ],
             [
-                "film coefficient x area".into(),
+                "coefficient x area".into(),
                 format!("h A = {} W/K", significant(self.cooling.resistance.recip(), 5)),
                 "1 / R_max".into(),
             ],

@@ -120,7 +120,7 @@ impl Asked {
 const STUDIES: Studies = Studies {
     section: "size",
     codes: ["size::no_study", "size::which_study"],
-    question: "what is to be sized?",
+    question: "a sizing needs parameters or parts, and requirements",
     example: "[size.fan]\nminimise = \"p\"\nvary = { p = { from = \"1 W/K\", to = \"10 W/K\" } }\n\
               require = [\"steel.T <= 80 [degC]\"]",
 };

@@ -12,7 +12,7 @@ use crate::period;
 
 /// What to do where the period of a cycle is not known, and where nothing changes.
 const HELPS: [&str; 2] = [
-    "say after which time all inputs repeat themselves: `period = \"10 min\"`",
+    "give the time after which all inputs repeat: `period = \"10 min\"`",
     "write `over = \"steady\"`",
 ];
 

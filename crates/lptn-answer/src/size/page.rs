@@ -129,7 +129,7 @@ fn over(netlist: &Netlist, study: &SizeStudy) -> Option<String> {
             given.or_else(|| netlist.network.repeat_period().ok().flatten())
         }
     };
-    let what = if study.over == Over::Run { "run" } else { "settled cycle" };
+    let what = if study.over == Over::Run { "run" } else { "periodic steady state" };
     let lasts = lasts.map_or(String::new(), |lasts| format!(" of {}", duration(lasts, 6)));
     let means = study.requirements.iter().all(Requirement::is_of_mean);
     let when = if means { "over" } else { "at every moment of" };
@@ -141,7 +141,7 @@ pub(super) fn solved(over: Over) -> &'static str {
     match over {
         Over::Steady => "steady states",
         Over::Run => "runs",
-        Over::Periodic => "settled cycles",
+        Over::Periodic => "periodic steady states",
     }
 }
 
@@ -249,13 +249,13 @@ fn edge(answer: &Sized) -> Option<String> {
     let broken = format!("breaks `{}` by {off} {unit}", answer.asked.kept.text(edge.broken));
     let unit = input::temperature_unit(None, &answer.asked.input.netlist).ok();
     let Some(((node, [here, there]), unit)) = edge.states.zip(unit) else {
-        return Some(format!("beyond {at} the network goes another way, which {broken}"));
+        return Some(format!("beyond {at} the network reaches another state, which {broken}"));
     };
     let name = answer.asked.input.netlist.network.name_of(Item::Node(node));
     let at_once = |kelvin: f64| format!("{} {}", significant(unit.from_si(kelvin), 4), unit.text);
     Some(format!(
-        "several steady states: up to {at} the network comes to the one with `{name}` at {}, beyond \
-         it to one at {}, which {broken}",
+        "several steady states: up to {at} the network reaches the one with `{name}` at {}, beyond \
+         it one at {}, which {broken}",
         at_once(here),
         at_once(there)
     ))
@@ -268,7 +268,7 @@ pub(super) fn verdict(answer: &Sized) -> String {
         Verdict::Bound => format!("{} keeps every requirement", value(answer)),
         Verdict::Edge => {
             format!(
-                "{} keeps every requirement; the edge is further away than runs are in error",
+                "{} keeps every requirement; the edge is further away than the error of runs",
                 value(answer)
             )
         }

@@ -115,7 +115,7 @@ impl Sized {
             let off = self.kept().margin(i, -self.found.design.judged.margins[i]);
             format!("`{}` is broken by {off}", self.kept().text(i))
         });
-        format!("infeasible: where the search came closest {broken}")
+        format!("infeasible: at the closest values that were found {broken}")
     }
 }
 
@@ -141,7 +141,7 @@ impl Page for Sized {
             text.sentence("note     ", &warning.message);
         }
         let proof = format!(
-            "{} {} of the full network; none of the {} places looked at is better",
+            "{} {} of the full network; none of the {} points evaluated is better",
             self.found.solved,
             page::solved(study.over),
             self.found.looked_at.len()

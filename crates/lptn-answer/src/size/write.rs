@@ -44,7 +44,7 @@ pub(super) fn of_one(answer: &Sized) -> Result<Written, Failure> {
 }
 
 fn no_number(which: &str, keep: &str) -> Failure {
-    let message = format!("{which} 17 digits {keep} what is required");
+    let message = format!("{which} 17 digits {keep} the requirements");
     Failure::new(Exit::Failed, Diagnostic::error("size::write", message))
 }
 

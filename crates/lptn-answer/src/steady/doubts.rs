@@ -30,15 +30,14 @@ pub fn inputs_vary(
     let which =
         if names.is_empty() { String::new() } else { format!(", {}", list_of_names(&names)) };
     let judged = if limits.iter().any(LimitResult::is_open) {
-        ", and no limit is judged that depends on them"
+        ", and limits that depend on them are not judged"
     } else {
         ""
     };
     let at = duration(steady.time, 4);
     let instead = instead(netlist, file).map_or(String::new(), |verb| format!("; {verb}"));
-    let message = format!(
-        "inputs change with time{which}: they are taken as they are at {at}{judged}{instead}"
-    );
+    let message =
+        format!("inputs change with time{which}: their values at {at} are used{judged}{instead}");
     Some(Diagnostic::warning("steady::inputs_vary", message))
 }
 
@@ -46,9 +45,9 @@ pub fn inputs_vary(
 fn instead(netlist: &Netlist, file: Option<&str>) -> Option<String> {
     let file = file.unwrap_or("FILE");
     if matches!(netlist.network.repeat_period(), Ok(Some(_))) {
-        return Some(format!("`lptn steady --periodic {file}` looks at the whole cycle"));
+        return Some(format!("`lptn steady --periodic {file}` solves the whole cycle"));
     }
-    netlist.run.as_ref().map(|_| format!("`lptn run {file}` looks at every time"))
+    netlist.run.as_ref().map(|_| format!("`lptn run {file}` solves every time"))
 }
 
 /// Nodes that keep their energy have a steady state that depends on their start.
@@ -56,8 +55,8 @@ pub fn adiabatic(network: &Network, steady: &SteadyState) -> Option<Diagnostic> 
     let name = |id: &NodeId| network.nodes()[id.index()].name.clone();
     let names: Vec<String> = steady.adiabatic.iter().map(name).collect();
     let message = format!(
-        "no path leads to a boundary from {}: the energy at the start decides where they come to \
-         rest",
+        "no path leads to a boundary from {}: the energy at the start determines their final \
+         temperatures",
         list_of_names(&names)
     );
     (!names.is_empty()).then(|| Diagnostic::warning("steady::energy", message))
@@ -86,15 +85,15 @@ pub fn others(network: &Network, steady: &SteadyState, unit: &Unit) -> Option<Di
             let name = network.name_of(Item::Node(most));
             let stays = match &steady.others {
                 Others::Unstable(_) => {
-                    ", which the least disturbance leaves: from beyond it the network goes \
-                     elsewhere, or runs away"
+                    ", which is unstable: from beyond it the network reaches another state, or \
+                     runs away"
                 }
                 _ => "",
             };
             warn(
                 "steady::several",
                 format!(
-                    "several steady states: from its start the network comes to the one with \
+                    "several steady states: from its start the network reaches the one with \
                      `{name}` at {here}; in another it is at {there}{stays}"
                 ),
             )

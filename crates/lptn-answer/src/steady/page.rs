@@ -215,10 +215,10 @@ impl SteadyAnswer {
             false => "0".into(),
         };
         let laws = about::laws(network, &self.steady.trust.out_of_range);
-        let books = format!("heat in and heat out differ by {books} of the heat turned over");
+        let books = format!("heat in and heat out differ by {books} of the heat exchanged");
         let own = [Claim::checked(true, books)].into_iter().chain(laws);
         let claims = own.chain(limits::claims(network, &self.limits, unit)).collect();
-        let states = vec![("Where it settles".to_owned(), self.steady.state.clone())];
+        let states = vec![("Steady state".to_owned(), self.steady.state.clone())];
         about::about(&self.input, Known { claims, states, unit: Some(unit), sensitivities: None })
     }
 }

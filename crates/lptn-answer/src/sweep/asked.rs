@@ -24,7 +24,7 @@ use crate::input::{self, Input, Studies};
 const STUDIES: Studies = Studies {
     section: "sweep",
     codes: ["sweep::no_study", "sweep::which_study"],
-    question: "what is to be swept?",
+    question: "a sweep needs parameters and reports",
     example: "[sweep.fans]\nmethod = \"grid\"\naxes = { G = { from = \"1 W/K\", to = \"10 W/K\", \
               points = 10 } }\nreport = { T = \"steel.T\" }",
 };
@@ -244,8 +244,8 @@ fn refused(input: &Input, study: &SweepStudy, error: &SweepError) -> Failure {
         }
         SweepError::Periodic(PeriodicError::NotPeriodic(_)) => {
             problem.at(study.span.clone(), "").help(
-                "let signals go on with `after_end = \"repeat\"`, or say after which time all \
-                   inputs repeat themselves: `period = \"10 min\"`",
+                "let signals repeat with `after_end = \"repeat\"`, or give the time after which \
+                   all inputs repeat: `period = \"10 min\"`",
             )
         }
         _ => problem.at(study.span.clone(), ""),

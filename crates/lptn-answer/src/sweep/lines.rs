@@ -45,7 +45,7 @@ impl Lines {
 /// A line that is not a row.
 pub fn damaged(path: &Path, line: u64) -> Failure {
     let message = format!("line {line} of {} is not a row of this sweep", path.display());
-    Failure::refused("sweep::damaged", message, "remove the file and begin anew")
+    Failure::refused("sweep::damaged", message, "remove the file and start again")
 }
 
 /// The row in a line of this many columns; `ranged` if one counts laws outside their ranges.

@@ -88,7 +88,7 @@ impl SweepAnswer {
         let over = match study.over {
             SweepOver::Steady => "in steady state",
             SweepOver::Run => "over the run",
-            SweepOver::Periodic => "over the settled cycle",
+            SweepOver::Periodic => "over the periodic steady state",
         };
         let part = self.asked.shard.map_or(String::new(), |shard| format!(", part {shard}"));
         let rows = usize::try_from(self.tally.rows).unwrap_or(usize::MAX);
@@ -181,7 +181,7 @@ impl SweepAnswer {
         let Count { count: n, first } = self.tally.outside;
         if n > 0 {
             notes.push(format!(
-                "in {} a law was outside of the range in which it is known, the first is case {}",
+                "in {} a law was outside its valid range, the first is case {}",
                 candidates(n),
                 first + 1
             ));
@@ -190,7 +190,7 @@ impl SweepAnswer {
             self.asked.study().reports.iter().find(|r| r.functional == Functional::Life)
         {
             notes.push(format!(
-                "`{}` takes the course that was computed to go on for ever",
+                "`{}` assumes that the computed time history repeats without end",
                 life.name
             ));
         }

@@ -79,7 +79,7 @@ impl FromStr for Shard {
         let parts = text.split_once('/');
         let numbers =
             parts.and_then(|(k, n)| Some((k.trim().parse().ok()?, n.trim().parse().ok()?)));
-        let (k, n) = numbers.ok_or("write the part and how many there are: 3/20")?;
+        let (k, n) = numbers.ok_or("write the part and the number of parts: 3/20")?;
         Self::of(k, n)
     }
 }

@@ -85,15 +85,18 @@ impl NearAnswer {
         let Some(first) = self.near.disturbances.first() else { return NOTHING.into() };
         if let Some(failing) = self.near.failing() {
             let (share, size) = (share(failing.share()), kelvin(failing.size));
-            return format!("not verified: {share} is missed even of a disturbance of {size}");
+            return format!("not verified: the error is {share} even for a disturbance of {size}");
         }
         if self.near.is_linear() {
-            return "verified: every node is within what runs may be off".into();
+            return "verified: every node is within the allowed error of runs".into();
         }
         let largest = self.near.disturbances.iter().filter(|d| d.size >= first.size);
         let missed = share(largest.map(Disturbance::share).fold(0.0, f64::max));
         let size = kelvin(first.size);
-        format!("verified: {missed} is missed of a disturbance of {size}, less of smaller ones")
+        format!(
+            "verified: the error is {missed} for a disturbance of {size}, less for smaller \
+            ones"
+        )
     }
 
     fn passes(&self) -> bool {

@@ -85,7 +85,7 @@ impl RunAnswer {
                     NoReference::TooStiff { own_error } => {
                         let error = significant(*own_error, 2);
                         format!(
-                            "time constants differ so much that it would be good to {error} K only"
+                            "time constants differ too much: it would be accurate to {error} K only"
                         )
                     }
                 };
@@ -102,9 +102,9 @@ impl RunAnswer {
         let worst = self.verification.comparisons.iter().find(|c| !c.passes());
         match (worst, self.is_independent()) {
             _ if self.verification.comparisons.is_empty() => NOTHING.into(),
-            (None, true) => "verified: every node at every row is within what is allowed".into(),
+            (None, true) => "verified: every node at every row is within the allowed error".into(),
             (None, false) => {
-                "consistent, not verified: two tolerances agree within what is allowed".into()
+                "consistent, not verified: two tolerances agree within the allowed error".into()
             }
             (Some(c), _) => format!(
                 "not verified: off by {} K at a tolerance of {} K, {} K allowed",

@@ -132,7 +132,7 @@ pub(crate) fn replace(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let place = place_of(file).map_err(|error| cannot(&reason(&error)))?;
     // a device or a pipe would be lost
     if fs::metadata(&place).is_ok_and(|found| !found.is_file()) {
-        return Err(cannot("what stands there is not a file"));
+        return Err(cannot("something there is not a file"));
     }
     let name = place.file_name().map(|name| name.to_string_lossy().into_owned());
     let (Some(folder), Some(name)) = (place.parent(), name) else {

@@ -88,7 +88,7 @@ pub(crate) fn of_any(head: &Head, index: usize, of_run: bool) -> Result<CsvColum
 }
 
 fn no_time(head: &Head) -> Diagnostic {
-    let problem = Diagnostic::error("record::no_time", "no column holds the times")
+    let problem = Diagnostic::error("record::no_time", "no column contains the times")
         .at(head.place.clone(), "no unit here is one of time");
     let dated = head.columns.iter().find(|header| {
         let name = header.name.to_ascii_lowercase();
@@ -103,7 +103,9 @@ fn no_time(head: &Head) -> Diagnostic {
             "the first line that is not a comment names the columns: `t [s],ring [degC]`; \
              put `#` before the lines above it",
         ),
-        None => problem
-            .help("add a column of times, `t [s]`, or correct the unit of the one that holds them"),
+        None => problem.help(
+            "add a column of times, `t [s]`, or correct the unit of the column with the \
+                times",
+        ),
     }
 }

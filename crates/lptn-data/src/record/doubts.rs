@@ -67,7 +67,7 @@ pub(crate) fn outlying(
         (true, _) => ": they are left out",
     };
     let message = format!(
-        "column `{}` reads {} at {} s, where {near} is next to it{more}{done}",
+        "column `{}` reads {} at {} s, but {near} next to it{more}{done}",
         column.name,
         shown(column, column.values[first]),
         short(record.time[first])
@@ -287,6 +287,6 @@ fn saturated(
     Diagnostic::warning("record::saturated", message)
         .at(line(found.first), "the first row of the run")
         .help(format!(
-            "leave out what comes after {from} s, or measure again with a range that is larger"
+            "leave out the rows after {from} s, or measure again with a range that is larger"
         ))
 }

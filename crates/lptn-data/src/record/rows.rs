@@ -112,7 +112,7 @@ impl<'t> Work<'t> {
         if is_gap(row.cell(index), wrong) {
             return Diagnostic::error("record::row_without_time", "this row has no time")
                 .at(row.place(self.record.file, index), "")
-                .help("remove the row: when it was measured cannot be told");
+                .help("remove the row: its time is not known");
         }
         let problem = self.cells.head.no_number(row, (index, wrong), &Asked::default());
         match row.cell(index).chars().any(|c| c.is_ascii_digit()) {
@@ -136,7 +136,7 @@ impl<'t> Work<'t> {
             problems.push(match range {
                 Some((from, to)) => outside(&head, (&from, &to)),
                 None => Diagnostic::error("record::no_rows", "the record has a header and no rows")
-                    .at(head.place.clone(), "nothing stands below")
+                    .at(head.place.clone(), "nothing below it")
                     .help("below the header belong rows of numbers: `0,25.5`"),
             });
         }
@@ -160,7 +160,7 @@ fn outside(head: &Head, (from, to): (&str, &str)) -> Diagnostic {
 }
 
 fn no_values(column: &RecordColumn) -> Diagnostic {
-    let message = format!("column `{}` holds no value at all", column.name);
+    let message = format!("column `{}` has no value at all", column.name);
     Diagnostic::error("record::no_values", message)
         .at(column.span.clone(), "only gaps below")
         .help("remove the column, or name those that are to be read")

@@ -77,7 +77,7 @@ fn parse(files: &mut Files, name: &str, bytes: &[u8]) -> Result<DataSheet, Vec<D
     let (mut problems, columns, head) = cells.finish();
     if problems.is_empty() && rows.is_empty() {
         let problem = Diagnostic::error("record::no_rows", "the file has a header and no rows");
-        let problem = problem.at(head.place.clone(), "nothing stands below");
+        let problem = problem.at(head.place.clone(), "nothing below it");
         problems.push(problem.help("write one point a line: `1000,8.7`"));
     }
     let sheet = DataSheet { file: text.file, header: head.place, columns, words, rows };

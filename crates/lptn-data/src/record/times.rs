@@ -71,7 +71,7 @@ impl<'t> Order<'t> {
         let errors = [self.reversed.told("row"), self.repeated.told("row")];
         let warning = self.same.map(|(place, count)| {
             let message = match count {
-                1 => "a row stands twice: the second one is left out".to_owned(),
+                1 => "a row appears twice: the second one is left out".to_owned(),
                 _ => format!("{count} rows repeat the row before them: they are left out"),
             };
             Diagnostic::warning("record::same_row", message).at(place, "as the row above")
@@ -84,16 +84,13 @@ fn reversed([last, time]: [String; 2], place: &Span, before: &Span) -> Diagnosti
     Diagnostic::error("record::time_reversed", format!("the time goes back from {last} to {time}"))
         .at(place.clone(), "earlier than the row above it")
         .also(before.clone(), "the row above it")
-        .help(
-            "sort the rows by their time; where two records stand in one file, make two files of \
-            it",
-        )
+        .help("sort the rows by their time; if one file contains two records, split it into two")
 }
 
 fn repeated(time: &str, place: &Span, before: &Span) -> Diagnostic {
     Diagnostic::error(
         "record::time_repeated",
-        format!("the time {time} stands twice, with different values"),
+        format!("the time {time} appears twice, with different values"),
     )
     .at(place.clone(), "again")
     .also(before.clone(), "first here")
@@ -127,8 +124,7 @@ pub(crate) fn holes(record: &Record, text: &str) -> Option<Diagnostic> {
     }
     let [from, to] = [longest, longest + 1].map(|row| record.time[row]);
     let message = format!(
-        "no rows between {from} s and {to} s, where {} s apart is usual: nothing is put in their \
-         place",
+        "no rows between {from} s and {to} s, but {} s apart is usual: the gap is not filled",
         short(median)
     );
     let warning = Diagnostic::warning("record::hole", message)

@@ -18,7 +18,7 @@ pub enum ChoiceError {
     /// Two networks are not fitted to the same records.
     Records { one: String, other: String, record: String } = "fit::other_records",
         format!("`{one}` is fitted to {record}, and `{other}` is not"),
-        help "a likelihood of other records is no likelihood of these: name the same ones in `data` \
+        help "likelihoods of different records cannot be compared: name the same records in `data` \
             of each [fit.NAME]; their order does not matter";
     /// Two networks are not fitted to the same columns of a record, or to other values of them.
     Columns { one: String, other: String, record: String, column: String } = "fit::other_columns",
@@ -35,19 +35,19 @@ pub enum ChoiceError {
         help "write the same `sigma` in each [fit.NAME], and the same `resolution` of its sensor";
     /// A single record whose last third has so many values.
     Nothing { record: String, values: usize } = "fit::nothing_unseen",
-        format!("{record} is a single record, and its last third has {values} values: nothing can \
-            be left out of the fit to be foretold"),
+        format!("{record} is a single record, and its last third has {values} values: no part can \
+            be held out of the fit and predicted"),
         help "name several records in `data`, or a longer one";
     /// The offset of a sensor is another one in each record, and nothing is known of it beforehand.
     Offset { contender: String, sensor: String } = "fit::unseen_offset",
-        format!("`{contender}` cannot foretell a record that it has not seen: the offset of sensor \
-            `{sensor}` is `\"free\"` in each"),
-        help "write what is known of it, such as \"0 ± 2 K\", or share it between the records";
+        format!("`{contender}` cannot predict a held-out record: the offset of sensor `{sensor}` \
+            is `\"free\"` in each"),
+        help "write its prior, such as \"0 ± 2 K\", or share it between the records";
     /// The fit of no network has a minimum; that of this one, and why not.
     NotConverged { contender: String, why: String } = "fit::not_converged",
         format!("no candidate has a fit that converged: that of `{contender}` ended because {why}"),
-        help "`lptn fit network` says more of it; give the parameters start values nearer to what \
-            is expected, and bounds with `from` and `to`",
+        help "`lptn fit network` reports more; give the parameters start values nearer to the \
+            expected ones, and bounds with `from` and `to`",
         class Class::Numbers;
     /// A network cannot be fitted, or not without a record.
     Fit { contender: String, without: Option<String>, error: Box<NetworkFitError> } = error.code(),
@@ -59,7 +59,7 @@ pub enum ChoiceError {
         class error.class();
     /// The run of a record fails with what a network learnt from the others.
     Unseen { contender: String, record: String, error: Box<SensitiveError> } = error.code(),
-        format!("`{contender}` cannot say {record}, which it has not seen: {error}"),
+        format!("`{contender}` cannot predict {record}, which is held out: {error}"),
         source error.as_ref(),
         class match &**error {
             SensitiveError::Run(_) => Class::Numbers,

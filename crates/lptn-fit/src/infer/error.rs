@@ -23,24 +23,25 @@ pub enum InferError {
     Rates => Unsolved as Class::of_numbers;
     /// A value of a sought signal, that of this name, is 0 or less.
     NotPositive { signal: String, value: f64 } = "infer::not_positive",
-        format!("the logarithm of `{signal}` is sought, but its own course comes to {value}"),
-        help "give it a course above 0 to begin with, or leave `positive` out";
+        format!("the logarithm of `{signal}` is estimated, but its values in the netlist reach \
+            {value}"),
+        help "give it values above 0 in the netlist, or leave `positive` out";
     /// The record has fewer than two rows behind its start.
     Short = "infer::short", "the record has fewer than two rows that count",
         help "an inference over time needs a record: a row for each moment";
     /// No column depends on a sought signal.
     Unfelt { signal: String } = "infer::unfelt",
-        format!("no column depends on `{signal}`, so the record says nothing of it"),
+        format!("no column depends on `{signal}`, so the record does not determine it"),
         help "measure a node that it heats or cools, or use it in an element";
     /// Controls or comparisons of temperatures switch.
     Events = "infer::events",
-        "the network has controls or comparisons of temperatures, which switch: what a record tells \
-         of a course across a switch is not known",
-        help "write what they do as a signal of the record, `signal = { fan = \"fan_state\" }`";
+        "the network has controls or comparisons of temperatures, which switch: a signal cannot be \
+         estimated across a switch",
+        help "write their state as a signal of the record, `signal = { fan = \"fan_state\" }`";
     /// So many nodes with capacity are more than can be followed with all their covariances.
     Large { nodes: usize, most: usize } = "infer::large",
-        format!("the network has {nodes} nodes with capacity; {most} can be followed, for each two of \
-            them have a covariance"),
+        format!("the network has {nodes} nodes with capacity; at most {most} are possible, since \
+            every pair of them has a covariance"),
         help "make a smaller network of it: `lptn reduce FILE --keep NODES`";
     /// The time constant of this instrument is not known.
     Lag { sensor: String } = "infer::lag",
@@ -48,27 +49,29 @@ pub enum InferError {
         help "find it by `lptn fit network` and write it as a plain value, `lag = \"20 s\"`";
     /// What this instrument, which a signal follows, reads too much is not known.
     Input { sensor: String } = "infer::input",
-        format!("a signal follows what sensor `{sensor}` reads, whose offset or gain is not known exactly"),
+        format!("a signal follows the readings of sensor `{sensor}`, whose offset or gain is not \
+            known exactly"),
         help "find it by `lptn fit network` and write it as a plain value, `offset = \"1.2 K\"`";
     /// How much a course changes has to be said.
     Smoothness { signal: String } = "infer::smoothness",
-        format!("rows are answered as they come, so how much `{signal}` changes has to be said"),
+        format!("rows are answered as they come, so the change of `{signal}` must be given"),
         help format!(
             "write it, `find = {{ {signal} = {{ change = \"50 W\", within = \"1 min\" }} }}`: without \
              --follow `lptn infer` finds it from a whole record"
         );
     /// Jumps are seen by what comes behind them.
     Jumps { signal: String } = "infer::jumps",
-        format!("rows are answered as they come, and where `{signal}` jumps is seen behind it only"),
-        help "leave `jumps` out: a surprise beyond 5 tells that something has jumped";
+        format!("rows are answered as they come, and a jump of `{signal}` is seen only after it"),
+        help "leave `jumps` out: a surprise beyond 5 shows a jump";
     /// The noise of a column has to be said.
     Noise { column: String } = "infer::noise",
-        format!("rows are answered as they come, so the noise of column `{column}` has to be said"),
-        help "write how far one value scatters, for example `sigma = \"0.2 K\"`";
+        format!("rows are answered as they come, so the noise of column `{column}` must be given"),
+        help "write the scatter of one value, for example `sigma = \"0.2 K\"`";
     /// The courses did not settle in so many rounds.
     NotSettled { rounds: usize } = "infer::not_settled",
-        format!("the courses have not settled after {rounds} rounds, each linear near the one before"),
-        help "begin nearer to what is expected, or say by `change` and `within` how smooth it is",
+        format!("the estimates have not converged after {rounds} rounds, each linear near the one \
+            before"),
+        help "begin nearer to the expected values, or give the smoothness by `change` and `within`",
         class Class::Numbers;
     /// It was interrupted.
     Interrupted = "infer::interrupted", "the inference was interrupted",

@@ -119,7 +119,7 @@ impl LawStudy {
         let names: Vec<String> = rivals.iter().map(|c| c.law.to_string()).collect();
         let close = rivals.last().and_then(|c| self.behind(c)).unwrap_or(f64::NAN);
         format!(
-            "{} and {} cannot be told apart by these points (AICc within {close:.1})",
+            "{} and {} cannot be distinguished by these points (AICc within {close:.1})",
             best.law,
             names.join(", ")
         )

@@ -12,7 +12,7 @@ pub enum LeastSquaresError {
         format!("there are {expected} parameters, and values or bounds for {got}");
     /// Residuals or derivatives are not as many as they were, or as they have to be.
     Residuals { expected: usize, got: usize } = "fit::residuals",
-        format!("the model gave {got} residuals or derivatives in place of {expected}");
+        format!("the model gave {got} residuals or derivatives instead of {expected}");
     /// The bounds of a parameter do not lie one below the other.
     Bounds { parameter: usize } = "fit::bounds",
         format!("the least value of parameter {parameter} is not below its greatest");

@@ -44,11 +44,14 @@ impl Stop {
     pub fn text(self) -> &'static str {
         match self {
             Self::Iterations => "the largest number of steps was made",
-            Self::Stalled => "no shorter step lowers the misfit, although its derivatives say so",
-            Self::Edge => "the misfit falls on towards values for which there is no run",
+            Self::Stalled => {
+                "no shorter step lowers the misfit, although its derivatives predict \
+                it"
+            }
+            Self::Edge => "the misfit keeps falling towards values for which there is no run",
             Self::StartNotFinite => "the model has no finite value at the start",
             Self::DerivativeNotFinite => {
-                "the model has no finite derivative where the search came to"
+                "the model has no finite derivative at the end of the search"
             }
         }
     }

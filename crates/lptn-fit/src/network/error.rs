@@ -14,7 +14,7 @@ pub enum NetworkFitError {
     /// Nothing is varied.
     NoParameter = "fit::no_parameter", "nothing is varied, so nothing can be fitted";
     /// The records hold no value.
-    NoData = "fit::no_data", "the records hold no value of a column that is fitted";
+    NoData = "fit::no_data", "the records have no value of a column that is fitted";
     /// A record, its first and last time in s, begins before its run, whose start is in s, or has
     /// no row behind the start.
     Times { record: String, span: (f64, f64), start: f64 } = "fit::record_times",
@@ -24,8 +24,8 @@ pub enum NetworkFitError {
         ),
         help format!(
             "the times of a record are times of the run, which begins at {start} s: set `start` in \
-             [run] to the time at which the network stood as `T0` says, or take the rows before it \
-             out of the record"
+             [run] to the time at which the network was at `T0`, or take the rows before it out of \
+             the record"
         );
     /// There are fewer values and priors than parameters.
     TooFew { values: usize, parameters: usize } = "fit::too_few_values",
@@ -33,11 +33,11 @@ pub enum NetworkFitError {
         help "vary fewer parameters, or give some a prior with `±`";
     /// The own value of a parameter, by its place among the varied ones, is outside its bounds.
     StartOutside { parameter: usize } = "fit::start_outside",
-        format!("the own value of varied parameter {parameter} is outside its bounds");
+        format!("the start value of varied parameter {parameter} is outside its bounds");
     /// What is known beforehand of a parameter, by its place among the varied ones, cannot be so
     /// correlated with what is known of those before it.
     Correlations { parameter: usize } = "fit::correlations",
-        format!("what is known of varied parameter {parameter} cannot be so correlated");
+        format!("the prior of varied parameter {parameter} has an impossible correlation");
     /// The run of a record fails with the own values of the parameters.
     Start { record: String, error: Box<SensitiveError> } =
         match &**error {
@@ -56,25 +56,26 @@ pub enum NetworkFitError {
     /// A column measures something, as it is written, that no run tells: a parameter, the time.
     Observed { column: String, result: String } = "fit::observed",
         format!("column `{column}` measures `{result}`, which reads no temperature and no heat flow"),
-        help "write what the instrument was exposed to: a temperature, `\"steel.T\"`, a difference, \
-            `\"steel.T - bed.T\"`, or a heat flow, `\"internal.Q\"`";
+        help "write the quantity that the instrument measured: a temperature, `\"steel.T\"`, a \
+            difference, `\"steel.T - bed.T\"`, or a heat flow, `\"internal.Q\"`";
     /// A column measures something, as it is written, that is no sum of temperatures of nodes.
     NotLinear { column: String, result: String } = "fit::not_linear",
         format!("column `{column}` measures `{result}`, which is not a temperature of a node, a mean \
             or a difference of some"),
-        help "only a fit compares other results; write the temperature of a node, `\"steel.T\"`, or \
-            a mean, `\"mean(steel.T, bed.T)\"`: parameters, signals, boundaries, heat flows and `t` \
-            cannot stand there";
+        help "only a fit compares other results; write the temperature of a node, `\"steel.T\"`, \
+            or a mean, `\"mean(steel.T, bed.T)\"`: parameters, signals, boundaries, heat flows and \
+            `t` cannot be used there";
     /// Columns have different units, and this one has no standard deviation.
     Units { column: String, units: [String; 2] } = "fit::units",
-        format!("columns are in {} and in {}, and column `{column}` has no `sigma`: without it there \
-            is no saying what counts how much", units[0], units[1]),
-        help "write how far one value of each column scatters: `{ of = \"skin.Q\", sigma = \"2 W\" }`";
+        format!("columns are in {} and in {}, and column `{column}` has no `sigma`: without it the \
+            weights of the columns are not known", units[0], units[1]),
+        help "write the scatter of one value of each column: `{ of = \"skin.Q\", sigma = \"2 W\" \
+            }`";
     /// What a column measures has no value at this time in s, although something was measured.
     NoValue { record: String, column: String, time: f64 } = "fit::no_value",
-        format!("{record}: what column `{column}` measures has no value at {time} s"),
-        help "look for a root or a logarithm of what is 0 or less there, or for a result that is not \
-            there yet; rows without a value in the column are left out";
+        format!("{record}: the result that column `{column}` measures has no value at {time} s"),
+        help "look for a root or a logarithm of a value of 0 or less, or for a result that does \
+            not exist yet; rows without a value in the column are left out";
     /// A column of a record, which a signal is to follow, has fewer than two values.
     Signal { record: String, column: String } = "fit::signal",
         format!("{record}: a signal follows column `{column}`, which has fewer than two values"),
@@ -82,16 +83,16 @@ pub enum NetworkFitError {
     /// A signal is to follow what a slow sensor reads.
     SignalLag { column: String, sensor: String } = "fit::signal_lag",
         format!("a signal follows column `{column}`, whose sensor `{sensor}` has a lag"),
-        help "what was there before a slow sensor followed cannot be told from noise: name a sensor \
-            without `lag`, or make the place a node, whose column may have a slow sensor";
+        help "the temperature before a slow sensor followed cannot be separated from noise: name a \
+            sensor without `lag`, or make the place a node, whose column may have a slow sensor";
     /// Nodes are to begin at a mean over so many s, which is more than half of the record; how long
     /// that is.
     InitialLong { record: String, mean: f64, length: f64 } = "fit::initial_mean",
         format!(
             "{record}: `initial` is a mean over {mean} s, and the record is {length} s long"
         ),
-        help "a node begins at what its column reads before it has moved: take the mean over its first \
-            rows, `initial = \"2 s\"`, or the first row, `initial = \"record\"`";
+        help "a node begins at the first reading of its column: take the mean over its first rows, \
+            `initial = \"2 s\"`, or the first row, `initial = \"record\"`";
     /// A number of the study has no value.
     Plan => EvalError;
     /// The sum of squares cannot be minimised.

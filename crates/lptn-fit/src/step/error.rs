@@ -44,8 +44,8 @@ pub enum StepError {
     /// it changes beside.
     Saturated { value: f64, from: f64, to: f64, samples: usize } = "fit::saturated",
         format!(
-            "the record stands still at its extreme value from {from} s to {to} s ({samples} \
-             samples) while it changes beside: the instrument was at the end of its range, or the \
+            "the record is constant at its extreme value from {from} s to {to} s ({samples} \
+             samples) but changes elsewhere: the instrument was at the end of its range, or the \
              step began later"
         ),
         help format!("leave {from} s to {to} s out of the record");
@@ -68,19 +68,22 @@ impl Lack {
     fn explain(self, tau: f64) -> String {
         match self {
             Self::Alike => {
-                format!("T_i, T_f and t_RC cannot be told apart at a time constant of {tau:.3e} s")
+                format!(
+                    "T_i, T_f and t_RC cannot be distinguished at a time constant of {tau:.3e} \
+                    s"
+                )
             }
             Self::Interval { half_width } => format!(
-                "the record does not tell t_RC: its 95 % interval is {tau:.3e} s ± \
-                 {half_width:.3e} s, which holds 0"
+                "the record does not determine t_RC: its 95 % interval is {tau:.3e} s ± \
+                 {half_width:.3e} s, which contains 0"
             ),
             Self::Shape { missed, changed } => format!(
-                "the record does not tell t_RC: one exponential misses {missed:.3e} K of it slowly \
-                 and changes by {changed:.3e} K itself"
+                "the record does not determine t_RC: one exponential has a slow misfit of \
+                 {missed:.3e} K and changes by {changed:.3e} K"
             ),
             Self::Spacing { spacing } => format!(
-                "the record does not tell t_RC: at {tau:.3e} s it is shorter than the distance of \
-                 the samples, {spacing:.3e} s"
+                "the record does not determine t_RC: at {tau:.3e} s it is shorter than the \
+                 distance of the samples, {spacing:.3e} s"
             ),
         }
     }
@@ -89,8 +92,8 @@ impl Lack {
         match self {
             Self::Spacing { .. } => "take samples more often, several in each time constant",
             Self::Interval { .. } | Self::Shape { .. } => {
-                "is there a step in it? one that begins at the first row and lasts, with less \
-                 noise or for longer, tells t_RC"
+                "is there a step in it? a step that begins at the first row and lasts, with less \
+                 noise or for longer, determines t_RC"
             }
             Self::Alike => LONGER,
         }
@@ -98,4 +101,4 @@ impl Lack {
 }
 
 const LONGER: &str =
-    "a longer record, until the temperature bends towards its end, tells T_f and t_RC apart";
+    "a longer record, until the temperature bends towards its end, distinguishes T_f from t_RC";

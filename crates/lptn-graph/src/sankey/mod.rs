@@ -31,7 +31,7 @@ pub enum NoSankey {
     /// Nothing flows.
     NoHeat = "graph::no_heat",
         "no heat flows in this state: everything is at one temperature, and no source is on",
-        help "draw another time, --at 10min, or look at the inputs with `lptn check`";
+        help "draw another time, --at 10min, or check the inputs with `lptn check`";
     /// More bars than can be read.
     TooMany { bars: usize } = "graph::too_many",
         format!("{bars} bars are too many for one picture: at most {MOST_PLACES} are drawn"),

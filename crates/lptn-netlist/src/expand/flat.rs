@@ -28,13 +28,20 @@ impl Netlist {
             let (id, _) = controls
                 .find(|(id, held)| held.is_some_and(|held| held < network.min_dwell(*id)))?;
             let name = network.name_of(Item::Control(id));
-            Some((Item::Control(id), format!("control `{name}` starts amid its `min_dwell`"), KEEP))
+            Some((
+                Item::Control(id),
+                format!(
+                    "control `{name}` starts within its \
+                `min_dwell`"
+                ),
+                KEEP,
+            ))
         };
         molten(network).or_else(held)
     }
 }
 
-const KEEP: &str = "only `initial` of [run] can say so: keep the file as it is";
+const KEEP: &str = "only `initial` of [run] can set this: keep the file as it is";
 
 type Reason = (Item, String, &'static str);
 
@@ -55,7 +62,7 @@ fn unnamed(network: &Network) -> Option<Reason> {
     let reserved =
         |name: &str| name.starts_with("import.conductor[") || name.starts_with("import.source[");
     let item = items.find(|item| reserved(&network.name_of(*item)))?;
-    let words = format!("`{}` has no name of its own", network.name_of(item));
+    let words = format!("`{}` has no name", network.name_of(item));
     Some((item, words, "give every row of the CSV file a `name`"))
 }
 

@@ -16,19 +16,15 @@ pub(crate) const COLUMNS: KeyDeclaration = shaped(
     "column",
     "table of results",
     Takes::Each(&Takes::Either(&[Takes::Text, Takes::Table(&FIT_COLUMN)])),
-    "what each column measures",
+    "the result that each column measures",
     "{ ring = \"steel.T\" }",
 )
 .needed();
 
 /// Whether outliers count.
-pub(crate) const OUTLIERS_OF: KeyDeclaration = words(
-    "outliers",
-    &words_of(&OUTLIERS),
-    "values far outside of those before and behind them",
-    "\"drop\"",
-)
-.or("`\"keep\"`");
+pub(crate) const OUTLIERS_OF: KeyDeclaration =
+    words("outliers", &words_of(&OUTLIERS), "values far from their neighbours", "\"drop\"")
+        .or("`\"keep\"`");
 
 /// Signals that follow columns.
 pub(crate) const SIGNALS: KeyDeclaration = shaped(
@@ -38,11 +34,11 @@ pub(crate) const SIGNALS: KeyDeclaration = shaped(
     "signals that follow a column of the record",
     "{ speed = \"omega\" }",
 )
-.or("their own courses");
+.or("their own values over time");
 
 pub(super) const FIT: SectionDeclaration = SectionDeclaration {
     name: "fit",
-    sentence: "Parameters to find from records.",
+    sentence: "Parameters to estimate from records.",
     role: Role::Study,
     keys: &[
         shaped(
@@ -60,7 +56,7 @@ pub(super) const FIT: SectionDeclaration = SectionDeclaration {
             "vary",
             "table of ranges, or names",
             Takes::Either(&[NAMES, Takes::Each(&Takes::Table(&VARY))]),
-            "the parameters to find",
+            "the parameters to estimate",
             "{ p = { from = \"1 W/K\", to = \"10 W/K\" } }",
         )
         .needed(),
@@ -69,7 +65,7 @@ pub(super) const FIT: SectionDeclaration = SectionDeclaration {
         text(
             "initial",
             "`\"record\"`, or s",
-            "where measured nodes begin: at the first row, or the mean of so long",
+            "start of measured nodes: the first row, or the mean over this time",
             "\"record\"",
         )
         .or("`T0`"),
@@ -77,14 +73,14 @@ pub(super) const FIT: SectionDeclaration = SectionDeclaration {
     example: "{ data = \"record.csv\", column = { ring = \"steel.T\" }, vary = [\"R\"] }",
     elsewhere: &[
         ("csv", "the records are `data`: `data = \"record.csv\"`"),
-        ("columns", "what a column measures is `column = { ring = \"steel.T\" }`"),
+        ("columns", "the result that a column measures is `column = { ring = \"steel.T\" }`"),
         (
             "set",
-            "what a record sets stands beside its file: `data = [{ csv = \"r1.csv\", set = { omega \
-             = \"1000 rpm\" } }]`",
+            "write the values that a record sets next to its file: `data = [{ csv = \"r1.csv\", \
+             set = { omega = \"1000 rpm\" } }]`",
         ),
-        ("parameters", "the parameters to find are `vary`"),
-        ("prior", "what is known of a parameter stands in [param]: `R = \"0.3 ± 0.05 K/W\"`"),
+        ("parameters", "the parameters to estimate are `vary`"),
+        ("prior", "the prior of a parameter is in [param]: `R = \"0.3 ± 0.05 K/W\"`"),
         ("start", "the search starts from the value in [param]"),
     ],
     ..SectionDeclaration::NEW
@@ -99,7 +95,7 @@ pub(super) const RECORD: SectionDeclaration = SectionDeclaration {
             "set",
             "table of parameters",
             Takes::Each(&Takes::Like),
-            "the parameters that were others in its run",
+            "the parameters with other values in its run",
             "{ omega = \"1000 rpm\" }",
         ),
     ],
@@ -116,14 +112,21 @@ pub(crate) const RECORDS: Takes =
 pub(super) const FIT_COLUMN: SectionDeclaration = SectionDeclaration {
     name: "column",
     keys: &[
-        text("of", "expression of results", "what the column measures", "\"steel.T\"").needed(),
+        text(
+            "of",
+            "expression of results",
+            "the result that the column \
+            measures",
+            "\"steel.T\"",
+        )
+        .needed(),
         akin("sigma", "as the column", "the standard deviation of one sample", "\"0.2 K\""),
         text("sensor", "name of a sensor", "the instrument that gave it", "\"tc1\""),
     ],
     example: "{ of = \"steel.T\", sigma = \"0.2 K\" }",
     elsewhere: &[
-        ("offset", "what an instrument adds stands in [sensor]: `tc1 = { offset = \"0 ± 3 K\" }`"),
-        ("unit", "the unit stands in the header of the file: `ring [degC]`"),
+        ("offset", "the errors of an instrument are in [sensor]: `tc1 = { offset = \"0 ± 3 K\" }`"),
+        ("unit", "the unit is in the header of the file: `ring [degC]`"),
     ],
     ..SectionDeclaration::NEW
 };
@@ -132,13 +135,20 @@ pub(super) const FIT_COLUMN: SectionDeclaration = SectionDeclaration {
 pub(super) const FIT_SIGNAL: SectionDeclaration = SectionDeclaration {
     name: "signal",
     keys: &[
-        text("column", "name of a column", "what the signal follows", "\"mill_bed\"").needed(),
+        text(
+            "column",
+            "name of a column",
+            "the column that the signal \
+            follows",
+            "\"mill_bed\"",
+        )
+        .needed(),
         text("sensor", "name of a sensor", "the instrument that gave it", "\"tc3\""),
     ],
     example: "{ column = \"mill_bed\", sensor = \"tc3\" }",
     elsewhere: &[(
         "offset",
-        "what an instrument adds stands in [sensor]: `tc3 = { offset = \"0 ± 3 K\" }`",
+        "the errors of an instrument are in [sensor]: `tc3 = { offset = \"0 ± 3 K\" }`",
     )],
     ..SectionDeclaration::NEW
 };

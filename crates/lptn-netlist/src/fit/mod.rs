@@ -201,7 +201,7 @@ impl FitStudy {
         let unit = if ty.absolute { "K".to_owned() } else { ty.dimension.si_unit() };
         let start = lptn_units::format_short(start);
         let message = format!(
-            "`vary` of fit `{fit}`: the range of `{name}` does not hold its own value, {start} \
+            "`vary` of fit `{fit}`: the range of `{name}` does not contain its own value, {start} \
              {unit}, from which the search starts"
         );
         Some(
@@ -246,10 +246,10 @@ impl Study for FitStudy {
                 );
                 let problem =
                     Diagnostic::error("netlist::fit_sigma", message).at(observed.span.clone(), "");
-                problems
-                    .push(problem.help(
-                        "write how far one sample scatters, for example `sigma = \"0.2 K\"`",
-                    ));
+                problems.push(
+                    problem
+                        .help("write the scatter of one sample, for example `sigma = \"0.2 K\"`"),
+                );
             }
         }
         problems

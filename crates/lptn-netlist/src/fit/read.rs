@@ -139,7 +139,7 @@ impl<'a> Elaboration<'a> {
         }
         if !self.names.is_used(name) {
             let message = format!("{words} names `{name}`, which nothing in the network uses");
-            let help = "use it in an element, or leave it out: no record can tell its value";
+            let help = "use it in an element, or leave it out: no record can determine its value";
             self.refuse("netlist::fit_unused", message, place, help);
             return None;
         }
@@ -148,7 +148,7 @@ impl<'a> Elaboration<'a> {
 
     /// `column = { ring_gear = "steel.T", housing = { of = "aluminium.T", sigma = "0.2 K" } }`.
     fn observed(&mut self, fields: &Fields<'a>) -> Vec<Column<'a>> {
-        let wanted = "a table of columns and what they measure";
+        let wanted = "a table of columns and the results that they measure";
         let names = self.listed(fields, "column", Names::Table(wanted, wanted));
         let entries = names.into_iter().flatten().filter_map(|one| one.entry);
         let column = |entry| Column { entry, observed: self.observed_column(fields, entry) };

@@ -94,13 +94,13 @@ impl<'a> Elaboration<'a> {
         };
         if !is_signal(self.names.values.get(&entry.key)) {
             let words = fields.owner.field("signal");
-            let message = format!("{words} names `{}`, which is no signal", entry.key);
+            let message = format!("{words} names `{}`, which is not a signal", entry.key);
             let signals = self.elements(ValueKind::Signal.section()).iter();
             let signals: Vec<&str> = signals.map(|entry| entry.key.as_str()).collect();
             let help = match signals.is_empty() {
                 true => format!(
-                    "write one to begin with, `[signal]` with `{} = \"25 degC\"`, and use it where \
-                     the record counts: in a boundary or a source",
+                    "write one to begin with, `[signal]` with `{} = \"25 degC\"`, and use it in a \
+                     boundary or a source",
                     entry.key
                 ),
                 false => nearest(&entry.key, signals, "the signals are"),
@@ -132,7 +132,8 @@ impl<'a> Elaboration<'a> {
             }
             Ok(_) => {
                 let message = format!("{} is less than zero", place.words());
-                let help = "write \"record\" for the first row, or how long the mean is, \"10 s\"";
+                let help = "write \"record\" for the first row, or the duration of the mean, \"10 \
+                    s\"";
                 self.refuse("netlist::fit_initial", message, &raw.span, help);
                 None
             }

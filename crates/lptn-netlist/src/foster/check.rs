@@ -23,8 +23,9 @@ impl Chain {
         let problem = Diagnostic::error("netlist::foster_series", message);
         let problem = problem.at(map.get(Item::Conductor(id), Field::To), "not a boundary");
         Some(problem.help(
-            "an R-tau table holds against a boundary only; a ladder of the same impedance may be joined to \
-             more: `lptn impedance table.toml --port chip --cauer --write ladder.toml`",
+            "an R-tau table is valid against a boundary only; a ladder of the same impedance may \
+             be joined to more: `lptn impedance table.toml --port chip --cauer --write \
+             ladder.toml`",
         ))
     }
 
@@ -32,8 +33,7 @@ impl Chain {
     fn entered(&self, network: &Network, map: &SourceMap) -> Option<Diagnostic> {
         let inner = self.nodes.iter().skip(1).filter_map(|name| node(network, name));
         let found = self.joined(network, &inner.collect::<Vec<NodeId>>())?;
-        let message =
-            format!("{} `{}` has no places inside to join anything to", FOSTER.name, self.name);
+        let message = format!("{} `{}` has no inner places for a path", FOSTER.name, self.name);
         let problem = Diagnostic::error("netlist::foster_inside", message);
         let problem = problem.at(map.get(found, Field::Name), "is joined to one");
         let help = format!("join it to `{}`, or write the chain as a ladder", self.name);

@@ -22,7 +22,7 @@ pub(crate) const FOSTER: SectionDeclaration = SectionDeclaration {
     sentence: "A node with the thermal impedance of an R-tau table to a boundary.",
     role: Role::Element,
     keys: &[
-        text("to", "name of a boundary", "what the impedance was measured against", "\"case\"")
+        text("to", "name of a boundary", "the reference of the measured impedance", "\"case\"")
             .needed(),
         shaped(
             "R",
@@ -44,7 +44,7 @@ pub(crate) const FOSTER: SectionDeclaration = SectionDeclaration {
     ],
     example: "{ to = \"case\", R = [\"20 mK/W\", \"0.1 K/W\"], tau = [\"1 ms\", \"80 ms\"] }",
     elsewhere: &[
-        ("from", "the chain is a node of its own name: sources and paths name it"),
+        ("from", "the chain is a node with this name: sources and paths name it"),
         ("C", "capacities follow from `R` and `tau`"),
         ("G", "the table has resistances: `R`"),
         ("P", "heat is put in by a [source]: `name = { into = \"chip\", P = \"100 W\" }`"),

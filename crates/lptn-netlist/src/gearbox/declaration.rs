@@ -10,8 +10,8 @@ pub(crate) const MEMBERS: [&str; 6] = ["sun", "carrier", "ring", "planet", "pini
 /// `[gearbox]`, as netlists declare it.
 pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
     name: "gearbox",
-    sentence: "A stage of gears as one block: its speeds and torques, and what its meshes, bearings \
-        and seals lose.",
+    sentence: "A stage of gears as one block: speeds, torques, and losses of its meshes, bearings \
+        and seals.",
     role: Role::Element,
     keys: &[
         shaped(
@@ -22,11 +22,11 @@ pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
             "{ sun = 18, planet = 42, ring = 102 }",
         )
         .needed(),
-        whole("planets", "how many planets there are", "3"),
+        whole("planets", "number of planets", "3"),
         words(
             "spacing",
             &["even", "uneven"],
-            "whether the planets stand at equal angles",
+            "whether the planets are at equal angles",
             "\"uneven\"",
         )
         .or("`\"even\"`"),
@@ -38,13 +38,13 @@ pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
         key(
             "torque",
             "N m",
-            "torque on the input, positive where it drives; without it meshes lose nothing",
+            "torque on the input, positive if it drives; without it meshes lose nothing",
             "\"2 N m\"",
         ),
         text(
             "driven_by",
             "name of a gearbox",
-            "in place of `speed` and `torque`: the stage whose output is the input",
+            "instead of `speed` and `torque`: the stage whose output is the input",
             "\"first\"",
         ),
         number("ratio", "speed of the input over that of the output, to be checked", "6.67"),
@@ -57,26 +57,26 @@ pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
         text(
             "lubricant",
             "name of a lubricant",
-            "of meshes, and of parts that take one and have none of their own",
+            "of meshes, and of parts that need one and do not name it",
             "\"iso_vg_220\"",
         ),
         text(
             "scuffing",
             "absolute temperature, or a word",
-            "with `torque`: as in [mesh]; each mesh tells its `margin` then",
+            "with `torque`: as in [mesh]; each mesh then reports its `margin`",
             "\"mineral_ep\"",
         ),
         text(
             "at",
             "name of a node or boundary",
-            "whose temperature the lubricant has; the first node that a part heats unless said",
+            "with the temperature of the lubricant; default: the first node that a part heats",
             "\"name of a node\"",
         ),
         shaped(
             "into",
             "name of a node, or table of one for each member",
             Takes::Either(&[Takes::Text, Takes::Members(&MEMBERS, &Takes::Text)]),
-            "what is heated; a mesh heats its two members in halves",
+            "the heated nodes; a mesh heats its two members in halves",
             "\"name of a node\"",
         )
         .needed(),
@@ -84,21 +84,21 @@ pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
             "bearing",
             "table of bearings",
             Takes::Part("bearing"),
-            "each as below [bearing], with `on`, the member it carries, in place of `speed`",
+            "each as below [bearing], with `on`, the member it carries, instead of `speed`",
             "{ front = { on = \"sun\", model = \"no_load\", d_m = \"30 mm\", f0 = 2 } }",
         ),
         shaped(
             "seal",
             "table of seals",
             Takes::Part("seal"),
-            "each as below [seal], with `on` in place of `speed`",
+            "each as below [seal], with `on` instead of `speed`",
             "{ lip = { on = \"sun\", model = \"shaft\", d = \"20 mm\" } }",
         ),
         shaped(
             "churning",
             "table of gears in oil",
             Takes::Part("churning"),
-            "each as below [churning], with `on` in place of `speed`",
+            "each as below [churning], with `on` instead of `speed`",
             "{ web = { on = \"carrier\", part = \"sides\", D = \"90 mm\", dip = 0.3 } }",
         ),
     ],
@@ -106,11 +106,11 @@ pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
     example: "{ teeth = { sun = 18, planet = 42, ring = 102 }, planets = 3, held = \"ring\", speed = \
         \"7000 rpm\", into = \"name of a node\" }",
     elsewhere: &[
-        ("arrangement", "which one it is follows from the names below `teeth`"),
+        ("arrangement", "the kind follows from the names below `teeth`"),
         ("n", "the speed of the input is `speed`, the number of planets `planets`"),
         ("mesh", "meshes follow from `teeth` and `torque`; their sizes are keys of the gearbox"),
         ("output", "the output follows from `input` and `held`"),
-        ("z", "numbers of teeth stand in `teeth`: `teeth = { sun = 18, planet = 42, ring = 102 }`"),
+        ("z", "numbers of teeth are in `teeth`: `teeth = { sun = 18, planet = 42, ring = 102 }`"),
         ("fixed", "the member that stands still is `held`"),
         ("P", "a heat that is known belongs in [source]"),
     ],

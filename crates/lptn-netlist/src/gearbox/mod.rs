@@ -85,7 +85,7 @@ fn is_usable(entry: &RawEntry, structure: &Structure, problems: &mut Vec<Diagnos
     let own = around.and_then(|path| entry.key.strip_prefix(path)?.strip_prefix('.'));
     let usable = is_name(own.unwrap_or(&entry.key));
     if !usable {
-        let message = format!("gearbox `{}` has a name that cannot be used", entry.key);
+        let message = format!("gearbox `{}` has an invalid name", entry.key);
         let help = "use letters, digits and `_`, and no digit first";
         problems.push(Diagnostic::wrong("network::bad_name", message, &entry.key_span, help));
     }

@@ -82,7 +82,7 @@ impl Writer<'_, '_> {
         let before = problems.len();
         if let Some(own) = table.get("speed") {
             let message = format!("{} follows from the member that it is on", owner.field("speed"));
-            let help = format!("write `{ON} = \"{}\"` in its place", self.stage.input.word());
+            let help = format!("write `{ON} = \"{}\"` instead", self.stage.input.word());
             problems.push(Diagnostic::wrong("netlist::useless_key", message, &own.key_span, help));
         }
         let [on, against] =
@@ -90,7 +90,7 @@ impl Writer<'_, '_> {
         let Some((on_entry, on)) = on else {
             let message = format!("{} has no `{ON}`", owner.words());
             let words: Vec<&str> = self.members().iter().map(|member| member.word()).collect();
-            let help = format!("say which member it is on: {}", list(&words));
+            let help = format!("name the member that it is on: {}", list(&words));
             let at = &written.key_span;
             problems.push(Diagnostic::wrong("netlist::missing_field", message, at, help));
             return None;
@@ -101,7 +101,7 @@ impl Writer<'_, '_> {
             let against = against?;
             if on == against || on == Member::Planet || against == Member::Planet {
                 let message = format!(
-                    "{} cannot be \"{}\" for what is on \"{}\"",
+                    "{} cannot be \"{}\" for a part on \"{}\"",
                     owner.field(AGAINST),
                     against.word(),
                     on.word()
@@ -113,8 +113,11 @@ impl Writer<'_, '_> {
             }
             speed = format!("{speed} - {}", self.name(against, "speed"));
         } else if Some(on) == self.stage.held {
-            let message = format!("{} is held: what is on it does not turn", owner.field(ON));
-            let help = format!("name a member that turns, or with `{AGAINST}` what turns in it");
+            let message = format!("{} is held: a part on it does not turn", owner.field(ON));
+            let help = format!(
+                "name a member that turns, or with `{AGAINST}` the member that \
+                turns in it"
+            );
             let at = &on_entry.value.span;
             problems.push(Diagnostic::wrong("netlist::gear_member", message, at, help));
         }

@@ -160,7 +160,7 @@ impl<'r> Reader<'_, 'r> {
 
     /// The member that is held, by its word; `None` if it is wrong.
     fn held(&mut self, arrangement: Arrangement) -> Option<Option<Member>> {
-        let why = "means nothing for a pair of gears, whose shafts both turn";
+        let why = "has no effect for a pair of gears, whose shafts both turn";
         match (arrangement, self.fields.get("held")) {
             (Arrangement::Pair, None) => Some(None),
             (Arrangement::Pair, Some(_)) => {
@@ -198,7 +198,7 @@ impl<'r> Reader<'_, 'r> {
 
     fn planets(&mut self, arrangement: Arrangement) -> Option<usize> {
         if arrangement == Arrangement::Pair {
-            let why = "means nothing for a pair of gears";
+            let why = "has no effect for a pair of gears";
             ["planets", "spacing"].into_iter().for_each(|key| self.useless(key, why));
             return Some(1);
         }

@@ -36,7 +36,7 @@ impl Elaboration<'_> {
             }
         }
         for entry in missing.filter(|_| file.usable && file.problems.is_empty()) {
-            let message = format!("the state does not say how control `{}` stands", entry.key);
+            let message = format!("the state does not say whether control `{}` is on", entry.key);
             let problem = Diagnostic::error("netlist::state_missing_control", message)
                 .at(entry.key_span.clone(), "")
                 .also(file.state.place.clone(), "the state is read here");

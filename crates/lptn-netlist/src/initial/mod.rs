@@ -159,7 +159,7 @@ impl StateFile {
     }
 
     fn refuse(&mut self, code: &'static str, words: String, place: Span) {
-        let help = "use the `state.json` that `lptn run` writes beside its results";
+        let help = "use the `state.json` that `lptn run` writes next to its results";
         let problem = Diagnostic::error(code, words)
             .at(place, "")
             .also(self.state.place.clone(), "read here");
@@ -228,7 +228,7 @@ impl StateFile {
         for (name, value) in members {
             let Some(found) = read(self, &name, value) else { continue };
             if !named.insert(&name, found, value.span()) {
-                let words = format!("`{name}` stands twice in `{what}` of the state");
+                let words = format!("`{name}` appears twice in `{what}` of the state");
                 self.refuse("netlist::state_twice", words, value.span());
             }
         }
@@ -249,7 +249,7 @@ impl StateFile {
     fn share(&mut self, name: &str, value: JsonValue<'_>) -> Option<f64> {
         let share = self.number(value, &format!("`{name}` in `melted` of the state"))?;
         if !(0.0..=1.0).contains(&share) {
-            let words = format!("how much of `{name}` is molten must be from 0 to 1, got {share}");
+            let words = format!("the molten share of `{name}` must be from 0 to 1, got {share}");
             self.refuse("netlist::state_share", words, value.span());
         }
         Some(share)

@@ -42,8 +42,10 @@ impl StateFile {
         let value = self.in_unit(members, ("held", "value", "s"), place)?;
         let held = self.number(value, &format!("`held` of control `{name}` in the state"))?;
         if held < 0.0 {
-            let words =
-                format!("how long control `{name}` was held must be at least 0 s, got {held} s");
+            let words = format!(
+                "the time since control `{name}` switched must be at least 0 s, got {held} \
+                    s"
+            );
             self.refuse("netlist::state_control", words, value.span());
         }
         Some(held).filter(|held| *held >= 0.0)

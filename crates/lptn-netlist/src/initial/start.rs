@@ -128,7 +128,7 @@ pub(crate) fn warnings(
             None => warning.note("`t` begins at 0 s, and the inputs depend on it"),
         };
         warnings.push(
-            warning.help(format!("to go on where it ended write `start = \"{} s\"`", state.time)),
+            warning.help(format!("to continue from its end write `start = \"{} s\"`", state.time)),
         );
     }
     if state.end != StateEnd::Reached && (apart || written.is_none()) {

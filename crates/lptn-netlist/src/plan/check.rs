@@ -80,8 +80,8 @@ impl PlanStudy {
             false => format!("run `{}` has more than {MOST} samples", run.name),
         };
         (run.duration > 0.0 && every > 0.0).then(|| {
-            let help = "samples are taken at the start and `every` so long after it, as long as \
-                        the run lasts";
+            let help = "samples are taken at the start and then at intervals of `every` until the \
+                        run ends";
             wrong(message, &self.every.span, help)
         })
     }

@@ -4,24 +4,25 @@ use crate::format::{Role, SectionDeclaration, Takes, VALUES, key, names, number,
 
 pub(super) const PLAN: SectionDeclaration = SectionDeclaration {
     name: "plan",
-    sentence: "A measurement to come: what it shall tell, and the sensors and runs that it may take.",
+    sentence: "A measurement to plan: the parameters to determine, and the possible sensors and \
+        runs.",
     role: Role::Study,
     keys: &[
         shaped(
             "know",
             "table of errors",
             Takes::Each(&Takes::Like),
-            "to which standard error each parameter shall be known",
+            "the standard error to reach for each parameter",
             "{ R_int = \"5 %\" }",
         )
         .needed(),
-        names("vary", "list of parameters", "what else is not known", "[\"C_steel\"]")
+        names("vary", "list of parameters", "the other unknown parameters", "[\"C_steel\"]")
             .or("nothing"),
         shaped(
             "place",
             "table of places",
             Takes::Each(&Takes::Table(&PLACE)),
-            "where a sensor could be",
+            "the possible places of a sensor",
             "{ ring = { of = \"steel.T\", noise = \"0.1 K\" } }",
         )
         .needed(),
@@ -34,13 +35,13 @@ pub(super) const PLAN: SectionDeclaration = SectionDeclaration {
         key(
             "drift",
             "K",
-            "the standard deviation of a slow drift beside it, of all such places",
+            "the standard deviation of a slow drift in addition, of all such places",
             "\"0.05 K\"",
         )
         .or("none"),
-        key("drift_time", "s", "the time after which that drift has forgotten itself", "\"5 min\""),
+        key("drift_time", "s", "the correlation time of that drift", "\"5 min\""),
         key("every", "s", "the time between two samples", "\"1 s\"").needed(),
-        key("duration", "s", "how long a run may last at most", "\"30 min\""),
+        key("duration", "s", "the longest duration of a run", "\"30 min\""),
         shaped(
             "run",
             "table of runs",
@@ -48,32 +49,32 @@ pub(super) const PLAN: SectionDeclaration = SectionDeclaration {
             "the runs that could be measured",
             "{ fast = { set = { omega = \"7000 rpm\" } } }",
         )
-        .or("one, as the network stands"),
+        .or("one run of the network"),
         names("done", "list of names", "runs that are measured in any case", "[\"fast\"]")
             .or("none"),
-        names("given", "list of names", "fits whose records are there already", "[\"heating\"]")
+        names("given", "list of names", "fits whose records exist already", "[\"heating\"]")
             .or("none"),
         shaped(
             "cost",
             "table of numbers",
             Takes::Table(&COST),
-            "what a run and an hour of it cost",
+            "the cost of a run and of an hour of it",
             "{ run = 40, hour = 120 }",
         )
         .or("nothing"),
-        number("budget", "what all may cost", "500").or("no limit"),
+        number("budget", "the highest cost of all", "500").or("no limit"),
     ],
     example: "{ know = { R = \"5 %\" }, place = { ring = { of = \"a.T\", noise = \"0.1 K\" } }, \
               every = \"1 s\", duration = \"30 min\" }",
     elsewhere: &[
-        ("sensor", "where sensors could be is `place`; one of them may name a [sensor]"),
-        ("sensors", "where sensors could be is `place`"),
-        ("places", "where sensors could be is `place`"),
+        ("sensor", "the possible places of sensors are `place`; one of them may name a [sensor]"),
+        ("sensors", "the possible places of sensors are `place`"),
+        ("places", "the possible places of sensors are `place`"),
         ("runs", "the runs are `run`: `run = { fast = { set = { omega = \"7000 rpm\" } } }`"),
-        ("target", "what shall be known is `know`"),
+        ("target", "the parameters to determine are `know`"),
         ("sigma", "the standard deviation of one sample is `noise`"),
-        ("prior", "what is known of a parameter stands in [param]: `R = \"0.3 ± 0.05 K/W\"`"),
-        ("data", "records that are there already belong to a fit: `given = [\"heating\"]`"),
+        ("prior", "the prior of a parameter is in [param]: `R = \"0.3 ± 0.05 K/W\"`"),
+        ("data", "records that exist already belong to a fit: `given = [\"heating\"]`"),
     ],
     ..SectionDeclaration::NEW
 };
@@ -82,16 +83,23 @@ pub(super) const PLAN: SectionDeclaration = SectionDeclaration {
 pub(super) const PLACE: SectionDeclaration = SectionDeclaration {
     name: "place",
     keys: &[
-        text("of", "expression of results", "what a sensor there measures", "\"steel.T\"").needed(),
+        text(
+            "of",
+            "expression of results",
+            "the result that a sensor there \
+            measures",
+            "\"steel.T\"",
+        )
+        .needed(),
         key("noise", "K", "the standard deviation of one sample", "\"0.1 K\""),
-        key("drift", "K", "the standard deviation of a slow drift beside it", "\"0.05 K\""),
-        key("drift_time", "s", "the time after which that drift has forgotten itself", "\"5 min\""),
+        key("drift", "K", "the standard deviation of a slow drift in addition", "\"0.05 K\""),
+        key("drift_time", "s", "the correlation time of that drift", "\"5 min\""),
         text("sensor", "name of a sensor", "the instrument", "\"tc1\""),
-        number("cost", "what a sensor there costs", "40"),
+        number("cost", "the cost of a sensor there", "40"),
     ],
     example: "{ of = \"steel.T\", noise = \"0.1 K\" }",
     elsewhere: &[
-        ("offset", "what an instrument adds stands in [sensor]: `tc1 = { offset = \"0 ± 3 K\" }`"),
+        ("offset", "the errors of an instrument are in [sensor]: `tc1 = { offset = \"0 ± 3 K\" }`"),
         ("sigma", "the standard deviation of one sample is `noise`"),
         ("every", "the time between two samples is one for all places: `every` of the plan"),
     ],
@@ -109,8 +117,8 @@ pub(super) const PLAN_RUN: SectionDeclaration = SectionDeclaration {
             "their values in this run; lists make a run of every combination",
             "{ omega = [\"3000 rpm\", \"7000 rpm\"] }",
         ),
-        key("duration", "s", "how long it may last at most", "\"30 min\""),
-        number("cost", "what it costs beside its time", "40"),
+        key("duration", "s", "its longest duration", "\"30 min\""),
+        number("cost", "its cost in addition to its time", "40"),
     ],
     example: "{ set = { omega = \"7000 rpm\" } }",
     elsewhere: &[(
@@ -124,10 +132,10 @@ pub(super) const PLAN_RUN: SectionDeclaration = SectionDeclaration {
 pub(super) const COST: SectionDeclaration = SectionDeclaration {
     name: "cost",
     keys: &[
-        number("run", "what a run costs beside its time", "40"),
-        number("hour", "what an hour of a run costs", "120"),
+        number("run", "the cost of a run in addition to its time", "40"),
+        number("hour", "the cost of an hour of a run", "120"),
     ],
     example: "{ run = 40, hour = 120 }",
-    elsewhere: &[("sensor", "what a sensor costs stands beside its place")],
+    elsewhere: &[("sensor", "the cost of a sensor is next to its place")],
     ..SectionDeclaration::NEW
 };

@@ -81,7 +81,10 @@ impl<'a> Elaboration<'a> {
         };
         if let Some(percent) = percent_of(&entry.value) {
             if ty.absolute {
-                let message = format!("{words}: the zero of the temperature `{name}` says nothing");
+                let message = format!(
+                    "{words}: a percentage of the temperature `{name}` is \
+                    ambiguous"
+                );
                 let help = "write the error in K, for example `\"0.5 K\"`";
                 self.refuse("netlist::plan_know", message, &entry.value.span, help);
                 return None;
@@ -133,7 +136,7 @@ impl<'a> Elaboration<'a> {
                 return Some(found);
             }
             let message =
-                format!("{} measures `{}`, which is no temperature", owner.words(), found.text);
+                format!("{} measures `{}`, which is not a temperature", owner.words(), found.text);
             let help =
                 "write a temperature, `of = \"steel.T\"`, or a mean, `of = \"mean(a.T, b.T)\"`";
             self.refuse("netlist::plan_place", message, &raw.span, help);
@@ -277,9 +280,13 @@ impl<'a> Elaboration<'a> {
                 let Some((_, span)) = sought.iter().find(|(sought, _)| *sought == name) else {
                     continue;
                 };
-                let message = format!("`{name}` is to be found, and run `{}` sets it", run.name);
+                let message = format!(
+                    "`{name}` is to be estimated, but run `{}` sets \
+                    it",
+                    run.name
+                );
                 let problem = Diagnostic::error("netlist::plan_set_and_sought", message)
-                    .at((*span).clone(), "to be found")
+                    .at((*span).clone(), "to be estimated")
                     .also(run.span.clone(), "set by this run");
                 let help = format!("leave `{name}` out of `set`, or out of `know` and `vary`");
                 self.report(problem.help(help));

@@ -68,7 +68,7 @@ fn whole(json: Json<'_>) -> Result<PosteriorFile, Wrong> {
     let members = value.members().ok_or_else(not_json)?;
     let object = Object { words: "the posterior".into(), members, place: top.clone() };
     if object.text("kind").ok().as_deref() != Some("posterior") {
-        let words = "this file is no posterior of a fit".to_owned();
+        let words = "this file is not a posterior of a fit".to_owned();
         return Err(("posterior::format", words, top));
     }
     let format = object.get("format")?;
@@ -81,7 +81,7 @@ fn whole(json: Json<'_>) -> Result<PosteriorFile, Wrong> {
     for (i, value) in object.list("quantities")?.into_iter().enumerate() {
         let found = quantity(i, value)?;
         if quantities.iter().any(|other: &PosteriorQuantity| other.name == found.name) {
-            let words = format!("`{}` stands twice in the posterior", found.name);
+            let words = format!("`{}` appears twice in the posterior", found.name);
             return Err(("posterior::member", words, value.span()));
         }
         quantities.push(found);
@@ -117,7 +117,7 @@ fn joint(object: &Object<'_>, quantities: &mut [PosteriorQuantity]) -> Result<Co
         if (variance.sqrt() / told - 1.0).abs() > SAME || told.is_nan() {
             let name = &quantity.name;
             let words =
-                format!("the standard error of `{name}` and the covariance say different things");
+                format!("the standard error of `{name}` and the covariance contradict each other");
             return Err(wrong(words));
         }
         for (j, other) in rows.iter().enumerate().take(i) {
@@ -175,7 +175,7 @@ fn labelled(
         Some(at) => wrong(
             "correlation",
             format!(
-                "`correlation` and the covariance say different things of {} and {}",
+                "`correlation` and the covariance contradict each other for {} and {}",
                 own[at / n],
                 own[at % n]
             ),

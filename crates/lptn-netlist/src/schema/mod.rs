@@ -47,17 +47,17 @@ pub fn schema() -> Value {
 fn top() -> Map<String, Value> {
     let text = |meaning: &str| json!({ "description": meaning, "type": "string" });
     let files = json!({
-        "description": "Files whose contents stand in front of this one, relative to it.",
+        "description": "Files whose contents come before this one, relative to it.",
         "type": "array",
         "items": { "type": "string" },
         "examples": [["materials.toml"]],
     });
     let format = json!({ "description": "The format of netlists, which is 1.", "const": 1 });
-    let title = text("What the network is called in results.");
+    let title = text("The name of the network in results.");
     let all = [
         ("format", format),
         ("title", title),
-        ("description", text("What it is, for people.")),
+        ("description", text("A description for readers.")),
         ("include", files),
     ];
     all.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()

@@ -10,7 +10,7 @@ use crate::work::{Elaboration, stand_in};
 
 pub(crate) const BOUNDARY: SectionDeclaration = SectionDeclaration {
     name: "boundary",
-    sentence: "A place whose temperature is given, whatever flows in.",
+    sentence: "A place with a given temperature, at any heat flow.",
     role: Role::Element,
     keys: &[
         key("T", ABSOLUTE, "temperature, constant or a function of `t`", "\"25 degC\"").needed()
@@ -20,7 +20,8 @@ pub(crate) const BOUNDARY: SectionDeclaration = SectionDeclaration {
         ("T0", "the temperature of a boundary is `T`"),
         (
             "C",
-            "a boundary keeps its temperature whatever flows in; what has a capacity is a [node]",
+            "a boundary keeps its temperature at any heat flow; a place with a capacity is a \
+             [node]",
         ),
     ],
     ..SectionDeclaration::NEW

@@ -26,18 +26,18 @@ pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
         text(
             "sense",
             "name",
-            "the node or boundary that is felt",
+            "the node or boundary that is sensed",
             "\"name of a node or boundary\"",
         )
         .needed(),
-        key("on_above", ABSOLUTE, "of cooling: above it, it goes on", "\"60 degC\""),
-        key("off_below", ABSOLUTE, "of cooling: below it, it goes off", "\"55 degC\""),
-        key("on_below", ABSOLUTE, "of heating: below it, it goes on", "\"18 degC\""),
-        key("off_above", ABSOLUTE, "of heating: above it, it goes off", "\"20 degC\""),
+        key("on_above", ABSOLUTE, "cooling: switches on above it", "\"60 degC\""),
+        key("off_below", ABSOLUTE, "cooling: switches off below it", "\"55 degC\""),
+        key("on_below", ABSOLUTE, "heating: switches on below it", "\"18 degC\""),
+        key("off_above", ABSOLUTE, "heating: switches off above it", "\"20 degC\""),
         words(
             "start",
             &words_of(&STARTS),
-            "how it stands at the start, between the thresholds",
+            "its state at the start, between the thresholds",
             "\"on\"",
         )
         .or("`\"off\"`"),
@@ -47,9 +47,9 @@ pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
     elsewhere: &[
         ("kind", "every control is a thermostat: leave `kind` out"),
         ("type", "every control is a thermostat: leave `type` out"),
-        ("node", "the node or boundary that is felt is `sense`"),
-        ("of", "the node or boundary that is felt is `sense`"),
-        ("sensor", "the node or boundary that is felt is `sense`"),
+        ("node", "the node or boundary that is sensed is `sense`"),
+        ("of", "the node or boundary that is sensed is `sense`"),
+        ("sensor", "the node or boundary that is sensed is `sense`"),
         ("setpoint", BOTH),
         ("hysteresis", BOTH),
         ("band", BOTH),
@@ -57,7 +57,7 @@ pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
         ("dwell", "the least time between two switches is `min_dwell`"),
         (
             "P",
-            "what it switches uses its name, which is 0 or 1: `P = \"100 [W] * name\"` of a \
+            "a switched value uses its name, which is 0 or 1: `P = \"100 [W] * name\"` of a \
              [source]",
         ),
     ],
@@ -226,7 +226,8 @@ fn narrow_band(
     let places = fields.into_iter().flatten().filter_map(|field| map.get(Item::Control(id), field));
     let problem = problem.places(places.map(|span| (span, String::new())));
     problem.help(format!(
-        "widen it, or write `tolerance = \"{} K\"` in [run]: when it switches is not resolved",
+        "widen it, or write `tolerance = \"{} K\"` in [run]: the times of its switches are not \
+         resolved",
         short(band / NARROW)
     ))
 }

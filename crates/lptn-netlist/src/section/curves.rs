@@ -45,7 +45,7 @@ impl<'a> Elaboration<'a> {
         let Some(knots) = knots(&curves, outside) else {
             let message =
                 format!("the curves of {} have no arguments in common", fields.owner.words());
-            let help = "give each curve the same range, or say `outside = \"hold\"`";
+            let help = "give each curve the same range, or write `outside = \"hold\"`";
             self.refuse("netlist::curves_apart", message, &raw.span, help);
             return None;
         };

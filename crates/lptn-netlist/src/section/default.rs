@@ -12,7 +12,7 @@ use crate::work::{Elaboration, stand_in};
 
 pub(crate) const DEFAULT: SectionDeclaration = SectionDeclaration {
     name: "default",
-    sentence: "What holds unless an element says otherwise.",
+    sentence: "Defaults for all elements.",
     role: Role::Default,
     keys: &[
         key("T0", ABSOLUTE, "temperature of the nodes at the start", "\"25 degC\""),

@@ -206,7 +206,7 @@ impl<'a> Elaboration<'a> {
                 );
                 let problem = Diagnostic::error("netlist::not_a_node", message)
                     .at(raw.span.clone(), "a boundary")
-                    .help("a boundary keeps its temperature whatever flows in: name a node");
+                    .help("a boundary keeps its temperature at any heat flow: name a node");
                 self.report(problem);
                 None
             }
@@ -243,7 +243,7 @@ impl<'a> Elaboration<'a> {
             None if is_name(name) => {
                 error.help(format!("add it, for example {}", example(name, wanted)))
             }
-            None => error.help("write the name as it stands below [node] or [boundary]"),
+            None => error.help("write the name as it is below [node] or [boundary]"),
         }
     }
 

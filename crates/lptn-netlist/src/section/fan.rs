@@ -37,12 +37,12 @@ pub(crate) const FAN: SectionDeclaration = SectionDeclaration {
             "duty",
             "pair",
             Takes::List(&Takes::Text, 2, 2),
-            "in place of `curve` and `system`: flow and pressure at the rated speed",
+            "instead of `curve` and `system`: flow and pressure at the rated speed",
             "[\"180 m^3/h\", \"48 Pa\"]",
         ),
         key("rated_speed", "rad/s", "the speed to which they belong", "\"2800 rpm\"").needed(),
         key("power", "W", "the power at the rated speed in this system", "\"9 W\""),
-        number("efficiency", "in place of `power`: flow times pressure over power", "0.3"),
+        number("efficiency", "instead of `power`: flow times pressure over power", "0.3"),
     ],
     either: &[&["duty", "curve"]],
     example: "{ curve = [[\"0 m^3/h\", \"120 Pa\"], [\"300 m^3/h\", \"0 Pa\"]], system = [\"200 m^3/h\", \
@@ -51,7 +51,7 @@ pub(crate) const FAN: SectionDeclaration = SectionDeclaration {
         ("resistance", "the system is `system`, one flow with the pressure that it takes"),
         (
             "speed",
-            "the speed is the argument of `NAME.flow(n)`; what it belongs to is `rated_speed`",
+            "the speed is the argument of `NAME.flow(n)`; the speed of the curve is `rated_speed`",
         ),
         ("into", "its heat is a [source]: `{ into = \"..\", P = \"NAME.power(n)\" }`"),
     ],
@@ -125,7 +125,7 @@ impl<'a> Elaboration<'a> {
             if self.builder.has_table(&call) || self.names.has_failed(&call) {
                 continue;
             }
-            let message = format!("fan `{name}` has no `{what}`, which is asked for here");
+            let message = format!("fan `{name}` has no `{what}`, which is needed here");
             let samples = ["power", "efficiency"].map(|key| FAN.sample(key));
             let help = format!("add `{}` or `{}` to the fan", samples[0], samples[1]);
             self.refuse("netlist::no_property", message, at, help);
@@ -136,7 +136,7 @@ impl<'a> Elaboration<'a> {
     /// Flow and pressure at the rated speed.
     fn duty(&mut self, fields: &Fields<'a>) -> Option<[f64; 2]> {
         if let Some(raw) = fields.get("duty") {
-            self.refuse_keys(fields, &["curve", "system"], "means nothing beside `duty`");
+            self.refuse_keys(fields, &["curve", "system"], "has no effect with `duty`");
             return self.pair_above_zero(fields, ("duty", raw));
         }
         let (curve, system) = (self.require(fields, "curve"), self.require(fields, "system"));
@@ -181,7 +181,7 @@ impl<'a> Elaboration<'a> {
             return Some(pair);
         }
         let message = format!("{} must be more than zero, both of them", fields.owner.field(key));
-        let help = "a system without flow or without pressure says nothing of others";
+        let help = "one point without flow or without pressure does not define the system";
         self.refuse("network::not_positive", message, &raw.span, help);
         None
     }
@@ -210,7 +210,7 @@ impl<'a> Elaboration<'a> {
             (None, None) => Some(None),
             (Some(raw), other) => {
                 if other.is_some() {
-                    let why = "means nothing beside `power`";
+                    let why = "has no effect with `power`";
                     self.refuse_keys(fields, &["efficiency"], why);
                 }
                 let power = self.above_zero(fields, ("power", raw), POWER)?;
@@ -276,7 +276,7 @@ fn wrong_curve(points: &[[f64; 2]]) -> Option<(String, &'static str)> {
     let pair = pair(|pair| pair[1][1] > pair[0][1])?;
     let [from, to] = [pair[0][1], pair[1][1]].map(pressure);
     let message = format!("rises with the flow: {from} and then {to}");
-    let help = "where a curve rises, a fan may run at several flows: leave that part out, or check \
+    let help = "if a curve rises, a fan may run at several flows: leave that part out, or check \
         whether flow and pressure are exchanged";
     Some((message, help))
 }
@@ -289,7 +289,7 @@ fn no_duty(fields: &Fields<'_>, (curve, resistance): (&[[f64; 2]], f64), at: &Sp
     let (place, point) = if steep { ("begins", begins) } else { ("ends", ends) };
     let [at_flow, has] = point.copied().unwrap_or_default();
     let message = format!(
-        "{} {place} at {} with {}, where the system takes {}",
+        "{} {place} at {} with {}, but the system takes {} there",
         fields.owner.field("curve"),
         flow(at_flow),
         pressure(has),

@@ -18,7 +18,7 @@ use crate::work::{Elaboration, KnownFluid, stand_in};
 
 pub(crate) const FLUID: SectionDeclaration = SectionDeclaration {
     name: "fluid",
-    sentence: "What streams are made of.",
+    sentence: "Properties of a fluid that flows.",
     role: Role::Substance,
     keys: &[
         property(
@@ -31,14 +31,20 @@ pub(crate) const FLUID: SectionDeclaration = SectionDeclaration {
         property(
             "k",
             "W/(m K)",
-            "thermal conductivity, for films; may depend on `T`",
+            "thermal conductivity, for convection; may depend on `T`",
             "\"0.14 W/(m K)\"",
         ),
-        property("viscosity", "Pa s", "dynamic, for films; may depend on `T`", "\"0.07 Pa s\""),
+        property(
+            "viscosity",
+            "Pa s",
+            "dynamic, for convection; may depend on \
+            `T`",
+            "\"0.07 Pa s\"",
+        ),
         property(
             "expansion",
             "1/K",
-            "volumetric, for films of natural convection; may depend on `T`, 1/T for an ideal gas",
+            "volumetric, for natural convection; may depend on `T`, 1/T for an ideal gas",
             "\"0.0007 1/K\"",
         ),
         SOURCE_OF,
@@ -146,7 +152,7 @@ impl<'a> Elaboration<'a> {
     ) -> Option<Input> {
         let found = self.builder.property_of(fluid.id, LawField::any(field.key)?);
         if found.is_none() {
-            let itself = format!("`{}` of the film itself", fields.sample(field.key));
+            let itself = format!("`{}` of the convection itself", fields.sample(field.key));
             self.report(lacks(fields, (name, raw), (field.key, &itself)));
         }
         found
@@ -210,12 +216,11 @@ impl<'a> Elaboration<'a> {
             return problem.help(format!("did you mean `{near}`?"));
         }
         if self.elements("material").iter().any(|entry| entry.key == name) {
-            return problem.help(format!("`{name}` is a material: what flows is a [fluid]"));
+            return problem.help(format!("`{name}` is a material: a flow needs a [fluid]"));
         }
         problem.help(format!(
             "`lptn materials` lists the library; your own belong below [fluid], with their own \
-             numbers in the place of `?`: `{name} = {{ density = \"? kg/m^3\", cp = \"? J/(kg \
-             K)\" }}`"
+             numbers instead of `?`: `{name} = {{ density = \"? kg/m^3\", cp = \"? J/(kg K)\" }}`"
         ))
     }
 }

@@ -66,7 +66,7 @@ fn two_forms(fields: &Fields<'_>, begun: &[&[&str]]) -> Diagnostic {
     let keys = all.iter().enumerate().filter(|(i, key)| !all[..*i].contains(key));
     let keys = keys.map(|(_, key)| *key);
     let error = fields.several("netlist::two_laws", message, keys);
-    error.help("keep one of them; two paths side by side are two elements")
+    error.help("keep one of them; two parallel paths are two elements")
 }
 
 #[cfg(test)]

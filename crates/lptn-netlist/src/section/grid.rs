@@ -34,7 +34,7 @@ pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
             "cells",
             "list of one to three whole numbers",
             Takes::List(&Takes::Whole, 1, 3),
-            "how many cells along x, y and z",
+            "numbers of cells along x, y and z",
             "[20, 20, 4]",
         )
         .needed(),
@@ -185,7 +185,7 @@ impl<'a> Elaboration<'a> {
         let [x, y, z] = list else {
             let message =
                 format!("{} has {}, not three", fields.owner.field("size"), lengths(list.len()));
-            let help = "a block has three lengths, along x, y and z, also where it is not divided";
+            let help = "a block has three lengths, along x, y and z, even if it is not divided";
             let help = format!("{help}: `{}`", fields.sample("size"));
             self.refuse("netlist::grid_size", message, &raw.span, help);
             return None;
@@ -238,9 +238,10 @@ impl<'a> Elaboration<'a> {
                 fields.owner.words()
             );
             let problem = Diagnostic::error("netlist::missing_field", message);
-            self.report(problem.at(fields.place.clone(), "does not say what it is made of").help(
-                format!("add `{}`, or the properties themselves", fields.sample("material")),
-            ));
+            self.report(problem.at(fields.place.clone(), "has no properties").help(format!(
+                "add `{}`, or the properties themselves",
+                fields.sample("material")
+            )));
             return None;
         }
         for key in ["k", "density", "cp"] {

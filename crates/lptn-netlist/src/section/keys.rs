@@ -18,7 +18,7 @@ pub(super) const CP: KeyDeclaration = property(
 pub(super) const CP_OF_FLUID: KeyDeclaration =
     KeyDeclaration { example: "\"4180 J/(kg K)\"", ..CP }.needed();
 pub(super) const SOURCE_OF: KeyDeclaration =
-    text("source", "text", "where the numbers come from", "\"where the numbers come from\"");
+    text("source", "text", "source of the numbers", "\"source of the numbers\"");
 
 /// What a lump is made of.
 pub(super) const CAPACITY: KeyDeclaration =
@@ -26,26 +26,26 @@ pub(super) const CAPACITY: KeyDeclaration =
 pub(super) const MATERIAL_OF: KeyDeclaration = text(
     "material",
     "name of a material",
-    "one of the file or of the library (`lptn materials`), in place of the values that it gives",
+    "one of the file or of the library (`lptn materials`), instead of the values that it gives",
     "\"steel_8620\"",
 );
 /// What a loss is lubricated with.
 pub(crate) const LUBRICANT_OF: KeyDeclaration = text(
     "lubricant",
     "name of a lubricant",
-    "one of the file or of the library, in place of the values that it gives",
+    "one of the file or of the library, instead of the values that it gives",
     "\"iso_vg_220\"",
 );
 pub(super) const AT: KeyDeclaration = text(
     "at",
     "name of a node or boundary",
-    "with `lubricant`: whose temperature it has; the first that is heated unless said",
+    "with `lubricant`: the place with its temperature; default: the first that is heated",
     "\"name of a node\"",
 );
 pub(super) const FLUID_OF: KeyDeclaration = text(
     "fluid",
     "name of a fluid",
-    "one of the file or of the library (`lptn materials`), in place of the properties that it gives",
+    "one of the file or of the library (`lptn materials`), instead of the properties that it gives",
     "\"air\"",
 );
 pub(super) const MASS: KeyDeclaration =

@@ -13,18 +13,25 @@ use crate::work::{Elaboration, stand_in};
 
 pub(crate) const LIMIT: SectionDeclaration = SectionDeclaration {
     name: "limit",
-    sentence: "What the results have to keep: an upper or a lower bound of a result.",
+    sentence: "A requirement: an upper or a lower bound of a result.",
     role: Role::Element,
     keys: &[
-        text("of", "expression of results", "what is limited", "\"steel.T\"").needed(),
+        text("of", "expression of results", "the limited result", "\"steel.T\"").needed(),
         akin("below", "as `of`", "the highest value that is allowed", "\"110 degC\""),
         akin("above", "as `of`", "the lowest value that is allowed", "\"-20 degC\""),
-        words("severity", &["error", "warning"], "how bad it is", "\"warning\"").or("`\"error\"`"),
+        words(
+            "severity",
+            &["error", "warning"],
+            "the severity of a broken \
+            limit",
+            "\"warning\"",
+        )
+        .or("`\"error\"`"),
     ],
     either: &[&["below", "above"]],
     example: "{ of = \"a.T\", below = \"110 degC\" }",
     elsewhere: &[
-        ("node", "what is limited is `of`, for example `of = \"a.T\"`"),
+        ("node", "the limited result is `of`, for example `of = \"a.T\"`"),
         ("max", "the highest value that is allowed is `below`"),
         ("min", "the lowest value that is allowed is `above`"),
     ],
@@ -71,7 +78,7 @@ impl<'a> Elaboration<'a> {
                         format!("{} is a constant", place.words()),
                     )
                     .at(raw.span.clone(), "never changes")
-                    .help("name what the run computes, for example `of = \"steel.T\"`"),
+                    .help("name a result of the run, for example `of = \"steel.T\"`"),
                 );
                 nothing()
             }
@@ -135,6 +142,6 @@ impl<'a> Elaboration<'a> {
 fn no_bound(fields: &Fields<'_>) -> Diagnostic {
     let message = format!("{} has neither `below` nor `above`", fields.owner.words());
     Diagnostic::error("netlist::no_bound", message)
-        .at(fields.place.clone(), "does not say what is to be kept")
+        .at(fields.place.clone(), "has no bound")
         .help(format!("add `{}` or `{}`", fields.sample("below"), fields.sample("above")))
 }

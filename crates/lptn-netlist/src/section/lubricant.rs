@@ -33,13 +33,19 @@ pub(crate) const LUBRICANT: SectionDeclaration = SectionDeclaration {
         key(
             "nu_40",
             "m^2/s",
-            "in place of `viscosity`: that at 40 degC, with `VI`",
+            "instead of `viscosity`: that at 40 degC, with `VI`",
             "\"220 mm^2/s\"",
         ),
         number("VI", "with `nu_40`: the viscosity index, after ASTM D2270", "95"),
-        number("c", "what is added to the viscosity in mm^2/s: 0.8 is DIN 51563", "0.8").or("0.7"),
+        number(
+            "c",
+            "the constant added to the viscosity in mm^2/s: 0.8 is DIN \
+            51563",
+            "0.8",
+        )
+        .or("0.7"),
         key("density", "kg/m^3", "density at 15 degC", "\"890 kg/m^3\""),
-        key("expansion", "1/K", "with `density`: how it falls per kelvin", "\"0.00065 1/K\"")
+        key("expansion", "1/K", "with `density`: its decrease per kelvin", "\"0.00065 1/K\"")
             .or("0"),
         SOURCE_OF,
     ],
@@ -48,7 +54,7 @@ pub(crate) const LUBRICANT: SectionDeclaration = SectionDeclaration {
     elsewhere: &[
         ("nu", "the viscosity is `viscosity`, at two temperatures, or `nu_40` with `VI`"),
         ("nu_100", "give both points: `viscosity = [[\"40 degC\", ..], [\"100 degC\", ..]]`"),
-        ("cp", "what carries heat is a [fluid]"),
+        ("cp", "a medium that carries heat is a [fluid]"),
     ],
     ..SectionDeclaration::NEW
 };
@@ -204,7 +210,7 @@ impl<'a> Elaboration<'a> {
         let (nu_40, index) = (nu_40?, index?);
         let Some(nu_100) = lptn_laws::viscosity_at_100(nu_40 * 1e6, index) else {
             let message = format!(
-                "no oil of {} mm^2/s at 40 degC has the viscosity index {} that {} says",
+                "no oil of {} mm^2/s at 40 degC has the viscosity index {} of {}",
                 format_short(nu_40 * 1e6),
                 format_short(index),
                 fields.owner.words()
@@ -341,7 +347,7 @@ fn wrong_points(fields: &Fields<'_>, points: [[f64; 2]; 2], raw: &RawValue) -> D
     } else if nu1 >= nu0 {
         (
             format!("the viscosity of {owner} does not fall: {} and then {}", mm(nu0), mm(nu1)),
-            "an oil is thinner where it is warmer: exchange the two viscosities".to_owned(),
+            "an oil is thinner if it is warmer: exchange the two viscosities".to_owned(),
         )
     } else if !(covered(nu0) && covered(nu1)) {
         let wrong = if covered(nu0) { nu1 } else { nu0 };

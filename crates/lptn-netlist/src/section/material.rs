@@ -17,14 +17,26 @@ use crate::work::{Elaboration, Known, stand_in};
 
 pub(crate) const MATERIAL: SectionDeclaration = SectionDeclaration {
     name: "material",
-    sentence: "What bodies are made of; each property where it is known.",
+    sentence: "Properties of solids; each may be left out if it is not used.",
     role: Role::Substance,
     keys: &[
         DENSITY,
         CP,
         property("k", "W/(m K)", "thermal conductivity, in the same way", "\"46.6 W/(m K)\""),
-        key("solidus", ABSOLUTE, "where it begins to melt; all three or none", "\"55 degC\""),
-        key("liquidus", ABSOLUTE, "where it is molten; `solidus` and above", "\"57 degC\""),
+        key(
+            "solidus",
+            ABSOLUTE,
+            "temperature at which melting begins; all three or \
+            none",
+            "\"55 degC\"",
+        ),
+        key(
+            "liquidus",
+            ABSOLUTE,
+            "temperature at which it is molten; `solidus` and \
+            above",
+            "\"57 degC\"",
+        ),
         key("latent_heat", "J/kg", "taken up evenly from `solidus` to `liquidus`", "\"200 kJ/kg\""),
         SOURCE_OF,
     ],
@@ -274,6 +286,6 @@ fn no_size(fields: &Fields<'_>) -> Diagnostic {
     let message =
         format!("{} has a `material` but neither `mass` nor `volume`", fields.owner.words());
     Diagnostic::error("netlist::no_size", message)
-        .at(fields.place.clone(), "does not say how much of it there is")
+        .at(fields.place.clone(), "has no amount")
         .help(format!("add `{}` or `{}`", fields.sample("mass"), fields.sample("volume")))
 }

@@ -18,7 +18,7 @@ pub(super) const START: KeyDeclaration =
 
 pub(crate) const NODE: SectionDeclaration = SectionDeclaration {
     name: "node",
-    sentence: "A body of one temperature, or a junction that stores nothing.",
+    sentence: "A body of one temperature, or a junction that stores no heat.",
     role: Role::Element,
     keys: &[
         START,
@@ -27,7 +27,7 @@ pub(crate) const NODE: SectionDeclaration = SectionDeclaration {
         MASS,
         VOLUME,
         key("L_char", "m", "volume over surface, to check whether the node is a lump", "\"12 mm\""),
-        flag("massless", "whether it is a junction that stores nothing", "true").or("`false`"),
+        flag("massless", "whether it is a junction that stores no heat", "true").or("`false`"),
     ],
     example: "{ T0 = \"25 degC\", C = \"500 J/K\" }",
     elsewhere: &[
@@ -57,7 +57,7 @@ impl<'a> Elaboration<'a> {
         let (doubtful, massless) = (massless.is_none(), massless.unwrap_or(false));
         if let (true, None, Some(raw)) = (massless, capacity_at, initial_at) {
             let message = format!(
-                "`T0` of node `{}` is only where its balance is first tried: the node is massless",
+                "`T0` of node `{}` is only the first guess of its balance: the node is massless",
                 entry.key
             );
             let help = "leave `T0` out, unless tables do not reach to the other temperatures, or the balance has \

@@ -74,7 +74,7 @@ impl<'a> Elaboration<'a> {
     fn refuse_named(&mut self, fields: &Fields<'a>, path: &PathSection, selector: &str) {
         let named = path.values.iter().filter(|value| !value.plain).map(|value| value.field.key);
         let keys: Vec<&str> = ["fluid"].into_iter().chain(named).collect();
-        self.refuse_keys(fields, &keys, &format!("means nothing without `{selector}`"));
+        self.refuse_keys(fields, &keys, &format!("has no effect without `{selector}`"));
     }
 
     /// The law that a word chooses; fields of others mean nothing beside it.
@@ -110,7 +110,7 @@ impl<'a> Elaboration<'a> {
         self.refuse_keys(
             fields,
             &others,
-            &format!("means nothing for {what}, which takes {}", list(&takes)),
+            &format!("has no effect for {what}, which takes {}", list(&takes)),
         );
         self.check_oil(fields, (path.kind, law), &what);
         let mut needed = own.filter(|field| {
@@ -133,11 +133,11 @@ impl<'a> Elaboration<'a> {
             of_oil(field) && !fields.has(field.key) || word_of(fields, field).is_some()
         };
         if !law.declaration().fields.iter().any(open) {
-            let why = format!("gives nothing that {what} takes");
+            let why = format!("has no effect: {what} does not use it");
             self.refuse_keys(fields, &[LUBRICANT_OF.name], &why);
         }
         if !fields.has(LUBRICANT_OF.name) {
-            let why = "says where a `lubricant` is, which is not named";
+            let why = "has no effect without a `lubricant`";
             self.refuse_keys(fields, &[AT.name], why);
         }
     }

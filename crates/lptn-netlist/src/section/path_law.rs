@@ -71,7 +71,7 @@ pub(super) fn not_a_list(
     count: usize,
 ) -> Diagnostic {
     let values = if count == 1 { "one value".to_owned() } else { format!("{count} values") };
-    let message = format!("{} has {values} where {most} belong", fields.owner.field(field.key));
+    let message = format!("{} has {values} instead of {most}", fields.owner.field(field.key));
     let list = vec![field.example; most].join(", ");
     let each = if most == 2 { "one for `from`, one for `to`" } else { "one for each" };
     let help = format!("write a list, {each}: `{} = [{list}]`", field.key);

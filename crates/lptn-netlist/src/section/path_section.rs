@@ -143,19 +143,27 @@ fn leak(takes: Takes) -> &'static Takes {
 }
 
 /// What flows in a stream.
-const STREAMS: KeyDeclaration = text("fluid", "name of a fluid", "what streams", "\"water\"");
+const STREAMS: KeyDeclaration = text(
+    "fluid",
+    "name of a fluid",
+    "the fluid that \
+    flows",
+    "\"water\"",
+);
 
 const END: &str = "name of a node or boundary";
 
 const ENDS: [KeyDeclaration; 2] = [
+    text("from", END, "the end that positive heat leaves", "\"name of a node or boundary\"")
+        .needed(),
     text(
-        "from",
+        "to",
         END,
-        "where heat comes from while it is positive",
-        "\"name of a node or boundary\"",
+        "the end that positive heat \
+        enters",
+        "\"name of another node or boundary\"",
     )
     .needed(),
-    text("to", END, "where it goes", "\"name of another node or boundary\"").needed(),
 ];
 
 const INTO: KeyDeclaration = shaped(

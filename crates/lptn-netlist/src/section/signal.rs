@@ -40,11 +40,11 @@ pub(crate) const SIGNAL: SectionDeclaration = SectionDeclaration {
         CSV,
         text("time", "name of a column", "with `csv`: the times", "\"t\""),
         COLUMN,
-        words("interp", &words_of(&JOINS), "what joins the points", "\"linear\"")
+        words("interp", &words_of(&JOINS), "the interpolation between points", "\"linear\"")
             .or("`\"linear\"`"),
-        words("after_end", &words_of(&AFTER), "what follows the last point", "\"hold\"")
+        words("after_end", &words_of(&AFTER), "the values after the last point", "\"hold\"")
             .or("`\"error\"`"),
-        key("period", "s", "with `\"repeat\"`: from one beginning to the next", "\"60 s\"")
+        key("period", "s", "with `\"repeat\"`: the time from one start to the next", "\"60 s\"")
             .or("as long as the points"),
     ],
     either: &[&["t", "csv"], &["v", "csv"]],
@@ -208,8 +208,8 @@ fn open_round(
         format!("{} {unit}", format_number(rounded))
     };
     let message = format!(
-        "{} repeats and does not end as it begins: is the last point the end of a round, or does \
-         it last as long as the others?",
+        "{} repeats and does not end as it begins: does the last point end the cycle, or does it \
+         last as long as the others?",
         fields.owner.words()
     );
     let diagnostic = Diagnostic::error("netlist::open_round", message);
@@ -217,7 +217,7 @@ fn open_round(
     let diagnostic = diagnostic.also(values.place(0), "the first value");
     Some(diagnostic.also(fields.place.clone(), "repeats").help(format!(
         "write `period = \"{}\"` if the last value lasts as long as the others, or `period = \
-         \"{}\"` if the next round begins at the last point",
+         \"{}\"` if the next cycle begins at the last point",
         shown(span + step),
         shown(span)
     )))

@@ -146,7 +146,7 @@ fn boundary(fields: &Fields<'_>, at: &Span) -> Diagnostic {
         format!("{} heats a boundary", fields.owner.words()),
     )
     .at(at.clone(), "a boundary")
-    .help("a boundary keeps its temperature whatever flows in: name a node")
+    .help("a boundary keeps its temperature at any heat flow: name a node")
 }
 
 fn negative(place: Place<'_>) -> Diagnostic {
@@ -154,7 +154,7 @@ fn negative(place: Place<'_>) -> Diagnostic {
         "netlist::share",
         format!("the share {} is negative", place.words()),
         &place.raw.span,
-        "a node from which heat is taken has a source of its own with a negative `P`",
+        "a node from which heat is taken has its own source with a negative `P`",
     )
 }
 

@@ -22,7 +22,7 @@ use crate::work::Elaboration;
 pub(super) const CSV: KeyDeclaration = text(
     "csv",
     "file",
-    "in place of the lists: a CSV file, and the names of its columns",
+    "instead of the lists: a CSV file, and the names of its columns",
     "\"cycle.csv\"",
 );
 /// The points of a table: a list, or the name of a column.
@@ -51,13 +51,19 @@ pub(crate) const TABLE: SectionDeclaration = SectionDeclaration {
             "csv",
             "file, or a list of files",
             FILES,
-            "in place of the lists: a CSV file, and the names of its columns; of several files one \
+            "instead of the lists: a CSV file, and the names of its columns; of several files one \
              curve each, and its number, from 1, is the first argument",
             "\"cycle.csv\"",
         ),
         COLUMN,
-        words("interp", &words_of(&INTERPOLATIONS), "what joins the points", "\"linear\"")
-            .or("`\"linear\"`"),
+        words(
+            "interp",
+            &words_of(&INTERPOLATIONS),
+            "the interpolation between \
+            points",
+            "\"linear\"",
+        )
+        .or("`\"linear\"`"),
         words(
             "outside",
             &words_of(&OUTSIDE),
@@ -298,7 +304,7 @@ impl Grid<'_> {
         let mut problem = Diagnostic::error("netlist::grid_incomplete", message)
             .at(self.file_header.clone(), "the columns")
             .help("add the row that is missing: every first argument with every second one");
-        let parts = [(0, x, "this argument"), (1, y, "does not stand together with this one")];
+        let parts = [(0, x, "this argument"), (1, y, "does not occur with this one")];
         for (axis, knot, text) in parts {
             let same = |number: &f64| number.total_cmp(&self.knots[axis][knot]).is_eq();
             if let Some(row) = self.axes[axis].numbers.iter().position(same) {

@@ -71,7 +71,7 @@ fn check_section(entry: &RawEntry) -> Option<Diagnostic> {
         RawKind::Table(_) => None,
         RawKind::Array(_) => Some(
             error(format!("`[[{name}]]` is a list, but `{name}` is a section"))
-                .help(format!("write `[{name}]` once; each entry below it has a name of its own")),
+                .help(format!("write `[{name}]` once; each entry below it has its own name")),
         ),
         other => Some(
             error(format!("`{name}` is a section, got {}", other.with_article()))
@@ -125,10 +125,9 @@ fn unknown(entry: &RawEntry, format: &NetlistFormat) -> Diagnostic {
         Some(near) if TOP_KEYS.contains(&near) => format!("did you mean `{near}`?"),
         Some(near) => format!("did you mean `[{near}]`?"),
         None if is_table => format!("the sections are {}", list(&format.names())),
-        None => format!(
-            "a parameter belongs below the heading `[param]`; here stand {}",
-            list(&TOP_KEYS)
-        ),
+        None => {
+            format!("a parameter belongs below the heading `[param]`; here are {}", list(&TOP_KEYS))
+        }
     };
     Diagnostic::error(code, message).at(place, "").help(help)
 }

@@ -143,11 +143,11 @@ fn no_parameter<'n>(
     (name, place): (&str, &Span),
     known: impl Iterator<Item = &'n str>,
 ) -> Diagnostic {
-    let message = format!("column `{name}` is named after no parameter");
+    let message = format!("column `{name}` is not named after a parameter");
     let help = match suggest(name, known) {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!(
-            "give it a value in [param], `{name} = ..`; columns for people are `part`, `maker`, \
+            "give it a value in [param], `{name} = ..`; columns for readers are `part`, `maker`, \
              `source`, `note` and `url`"
         ),
     };

@@ -38,12 +38,12 @@ impl SizeStudy {
         }
         let varied = self.varied.first().map(|one| &one.span);
         let place = varied.or(self.catalogues.first().map(|one| &one.span))?;
-        let message = format!("size `{}` seeks `{sought}`, which nothing varies", self.name);
+        let message = format!("size `{}` optimises `{sought}`, which nothing varies", self.name);
         let help = match self.catalogues.is_empty() {
             true => format!(
                 "write it like this: `vary = {{ {sought} = {{ from = \"..\", to = \"..\" }} }}`"
             ),
-            false => format!("give a catalogue a column `{sought}`, or seek one that it has"),
+            false => format!("give a catalogue a column `{sought}`, or optimise one that it has"),
         };
         Some(Diagnostic::wrong("netlist::size_vary", message, place, help))
     }

@@ -26,13 +26,13 @@ const SIZE: SectionDeclaration = SectionDeclaration {
         text(
             "minimise",
             "parameter, or expression of parameters and results",
-            "whose least value is sought",
+            "the objective, if the least value is best",
             "\"name of a parameter\"",
         ),
         text(
             "maximise",
             "parameter, or expression of parameters and results",
-            "whose largest value is sought",
+            "the objective, if the largest value is best",
             "\"name of a parameter\"",
         ),
         shaped(
@@ -45,29 +45,36 @@ const SIZE: SectionDeclaration = SectionDeclaration {
         names(
             "require",
             "list of comparisons of results",
-            "what has to be kept",
+            "the requirements",
             "[\"steel.T <= 80 [degC]\"]",
         )
         .needed(),
         words(
             "over",
             &words_of(&Over::WORDS),
-            "when it has to be kept: in steady state, at every moment of [run], in the settled \
-             cycle",
+            "when they are checked: in steady state, at every moment of [run], in the periodic \
+             steady state",
             "\"run\"",
         )
         .or("`\"steady\"`"),
-        key("period", "s", "how long a cycle is", "\"10 min\"").or("that of the repeated signals"),
+        key(
+            "period",
+            "s",
+            "the length of a \
+            cycle",
+            "\"10 min\"",
+        )
+        .or("that of the repeated signals"),
         shaped(
             "catalogue",
             "file, or a list of files",
             FILES,
-            "parts to choose from, one a row, in place of `vary` or beside it",
+            "parts to choose from, one a row, instead of `vary` or in addition to it",
             "\"parts.csv\"",
         ),
         number(
             "probability",
-            "how likely each requirement has to be kept, by the `±` of parameters",
+            "the probability with which each requirement is kept, by the `±` of parameters",
             "\"95 %\"",
         ),
         names("cases", "list of names", "the load cases that count", "[\"hot\"]")

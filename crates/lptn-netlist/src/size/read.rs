@@ -79,14 +79,18 @@ impl<'a> Elaboration<'a> {
         let over = self.choice(fields, "over", &Over::WORDS)?;
         if over == Over::Run && self.raw.top.get(RUN.name).is_none() {
             let message = format!("{} = \"run\" needs a [run]", fields.owner.field("over"));
-            let help = "say how long it lasts:\n\n[run]\nstop = \"25 min\"";
+            let help = "give its duration:\n\n[run]\nstop = \"25 min\"";
             self.refuse("netlist::size_over", message, &fields.get("over")?.span, help);
             return None;
         }
         let Some(period) = fields.get("period") else { return Some((over, None)) };
         if over != Over::Periodic {
-            let message = format!("{} belongs to a settled cycle", fields.owner.field("period"));
-            let help = "write `over = \"periodic\"` beside it, or leave it out";
+            let message = format!(
+                "{} belongs to a periodic steady \
+                state",
+                fields.owner.field("period")
+            );
+            let help = "add `over = \"periodic\"`, or leave it out";
             self.refuse("netlist::size_over", message, &period.span, help);
             return None;
         }
@@ -110,12 +114,10 @@ impl<'a> Elaboration<'a> {
         let parsed = Expression::parse(text).ok();
         let of_results = parsed.as_ref().is_some_and(|e| self.reads_results(e));
         if of_results && !steady {
-            let message = format!(
-                "{} reads results, which have no one value over time",
-                fields.owner.field(key)
-            );
-            let help = "minimise an expression of parameters, or size in steady state; what has to \
-                        be kept over time is `require`";
+            let message =
+                format!("{} reads results, which change over time", fields.owner.field(key));
+            let help = "minimise an expression of parameters, or size in steady state; \
+                        requirements over time are `require`";
             self.refuse("netlist::size_goal", message, &raw.span, help);
             return None;
         }
@@ -212,10 +214,8 @@ impl<'a> Elaboration<'a> {
             |side: &Expression| side.names().iter().all(|(name, _)| self.names.is_parameter(name));
         let fits = sides.iter().zip(&means).all(|(side, mean)| mean.is_some() || constant(side));
         if of_mean && !fits {
-            let message = format!(
-                "{} compares a mean over time with what is not the same all the time",
-                place.words()
-            );
+            let message =
+                format!("{} compares a mean over time with a value that changes", place.words());
             let help = "compare it with a value or with another mean: `mean(a.T) <= mean(b.T)`";
             self.refuse("netlist::mean_over_time", message, &place.raw.span, help);
             return None;
@@ -251,13 +251,13 @@ fn one_goal(fields: &Fields<'_>, both: bool) -> Diagnostic {
     let has = if both {
         "has both `minimise` and `maximise`"
     } else {
-        "says neither `minimise` nor `maximise`"
+        "has neither `minimise` nor `maximise`"
     };
     Diagnostic::wrong(
         "netlist::size_goal",
         format!("{} {has}", fields.owner.words()),
         fields.place,
-        "name one parameter: `minimise = \"p\"` for the least value that does, `maximise` for the \
-         largest",
+        "name one parameter: `minimise = \"p\"` for the least value that keeps the requirements, \
+         `maximise` for the largest",
     )
 }

@@ -131,7 +131,7 @@ impl<'a> Elaboration<'a> {
         let keys = ["points", "steps"].into_iter().filter(|key| range.get(key).is_some());
         let given: Vec<&str> = keys.collect();
         if method.is_sampled() {
-            let why = format!("means nothing where samples are taken: `{}`", method.word());
+            let why = format!("has no effect if samples are taken: `{}`", method.word());
             self.refuse_keys(range, &given, &why);
             return given.is_empty().then_some(0);
         }
@@ -144,7 +144,7 @@ impl<'a> Elaboration<'a> {
                     "netlist::sweep_points",
                     message,
                     range.place,
-                    "say how many values there are, for example `points = 10`",
+                    "give the number of values, for example `points = 10`",
                 ));
             }
             return None;

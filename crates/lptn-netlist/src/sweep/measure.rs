@@ -144,7 +144,11 @@ impl<'a> Elaboration<'a> {
         };
         if over == SweepOver::Steady {
             let inner = arguments.first().map_or("", |first| first.text().trim());
-            let message = format!("{} is of a course, and a steady state has none", place.words());
+            let message = format!(
+                "{} needs results over time, but a steady state is one \
+                moment",
+                place.words()
+            );
             let help = format!(
                 "write `{inner}`, which is its value there, or report `over = \"run\"` or `over = \
                  \"periodic\"`"
@@ -154,7 +158,7 @@ impl<'a> Elaboration<'a> {
         }
         if arguments.len() != functional.arity() {
             let message = format!(
-                "{} has {} arguments where {} are due",
+                "{} has {} arguments instead of {}",
                 place.words(),
                 arguments.len(),
                 functional.arity()
@@ -184,10 +188,10 @@ impl<'a> Elaboration<'a> {
         let (message, help) = match inner {
             Some((name, _)) => (
                 format!("{} has `{name}` inside of an expression", place.words()),
-                format!("let it stand around the expression: `{name}(..)` as a whole"),
+                format!("put it around the whole expression: `{name}(..)`"),
             ),
             None => (
-                format!("{} does not say of which moment it is", place.words()),
+                format!("{} varies over time: it needs a functional", place.words()),
                 format!(
                     "write `max({0})`, `last({0})`, `mean({0})` or another functional around it",
                     whole.text().trim()

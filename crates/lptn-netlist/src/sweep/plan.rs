@@ -171,7 +171,7 @@ impl Check<'_> {
                 "write the least value as `from` and the largest as `to`",
             );
         } else if log && ty.absolute {
-            let message = format!("{words}: temperatures have no ratio that means anything");
+            let message = format!("{words}: the ratio of two temperatures has no meaning");
             self.wrong(CODE, message, at, "leave `scale` out");
         } else if log && from <= 0.0 {
             let message = format!("{words}: a range by ratios has to begin above zero");

@@ -113,7 +113,11 @@ impl<'a> Elaboration<'a> {
             return None;
         };
         if table.entries.is_empty() {
-            let message = format!("{} is empty: nothing is asked", fields.owner.field("report"));
+            let message = format!(
+                "{} is empty: there is nothing to \
+                report",
+                fields.owner.field("report")
+            );
             let help = format!("write it like this: `{}`", fields.sample("report"));
             self.refuse("netlist::sweep_empty", message, &raw.span, help);
             return None;

@@ -19,8 +19,8 @@ pub(super) const OPEN_PARAMETER: SectionDeclaration = SectionDeclaration {
     keys: &[text("unit", "unit", "the unit of the values that it is set to", "\"K/W\"").needed()],
     example: "{ unit = \"K/W\" }",
     elsewhere: &[
-        ("value", "a value of its own stands alone: `m = \"0.2 kg\"`"),
-        ("default", "a value of its own stands alone: `m = \"0.2 kg\"`"),
+        ("value", "a default value is written alone: `m = \"0.2 kg\"`"),
+        ("default", "a default value is written alone: `m = \"0.2 kg\"`"),
     ],
     ..SectionDeclaration::NEW
 };
@@ -199,12 +199,12 @@ impl<'r> Template<'r> {
     fn unusable(&self, (kind, name): (&str, &str), span: &lptn_data::Span) -> Option<Diagnostic> {
         let words = format!("{kind} `{name}` of template `{}`", self.name());
         if !is_name(name) {
-            let message = format!("{words} has a name that cannot be used");
+            let message = format!("{words} has an invalid name");
             let help = "use letters, digits and `_`, and no digit first";
             return Some(Diagnostic::wrong("network::bad_name", message, span, help));
         }
         let reserved = RESERVED.contains(&name);
-        let message = format!("{words} has a name with a meaning of its own in expressions");
+        let message = format!("{words} has a name that is reserved in expressions");
         reserved.then(|| {
             let help = format!("choose another one, for example `{name}_1`");
             Diagnostic::wrong("network::reserved_name", message, span, help)
@@ -241,14 +241,14 @@ fn no_table(words: &str, value: &RawValue, kind: &RawKind) -> Diagnostic {
 fn unknown_part(template: &str, part: &RawEntry, format: &NetlistFormat) -> Diagnostic {
     let key = part.key.as_str();
     if format.is_outside_templates(key) {
-        let message = format!("`[{key}]` cannot stand in template `{template}`");
+        let message = format!("`[{key}]` cannot be in template `{template}`");
         return Diagnostic::wrong(
             "netlist::not_in_template",
             message,
             &part.key_span,
             format!(
-                "a template holds `param`, `port` and elements: move `[{key}]` to the top of the \
-                 file"
+                "a template contains `param`, `port` and elements: move `[{key}]` to the top of \
+                 the file"
             ),
         );
     }
@@ -256,8 +256,8 @@ fn unknown_part(template: &str, part: &RawEntry, format: &NetlistFormat) -> Diag
     let inside: Vec<&str> = [PORT].into_iter().chain(inside).collect();
     let problem = Diagnostic::error(
         "netlist::unknown_section",
-        format!("template `{template}` cannot hold `{key}`"),
+        format!("template `{template}` cannot contain `{key}`"),
     )
     .at(part.key_span.clone(), "");
-    problem.help(nearest(key, inside.iter().copied(), "a template holds"))
+    problem.help(nearest(key, inside.iter().copied(), "a template contains"))
 }

@@ -12,7 +12,7 @@ pub(crate) fn by_port(name: &str) -> String {
     let port = name.rsplit('.').next().filter(|port| is_name(port)).unwrap_or("port");
     format!(
         "a template knows the rest of the network by its ports: add `{port}` to its `port`, and \
-         `connect = {{ {port} = \"{name}\" }}` where it is used"
+         `connect = {{ {port} = \"{name}\" }}` when it is used"
     )
 }
 

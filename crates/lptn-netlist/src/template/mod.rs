@@ -36,7 +36,7 @@ pub(crate) use wrong_path::wrong_path;
 /// `[template.NAME]`; what it holds is read by itself.
 pub(crate) const TEMPLATE: SectionDeclaration = SectionDeclaration {
     name: "template",
-    sentence: "A part that is written once: its elements stand below `[template.NAME.node]` and so \
+    sentence: "A part that is written once: its elements are below `[template.NAME.node]` and so \
         on.",
     role: Role::Template,
     keys: &[
@@ -50,7 +50,7 @@ pub(crate) const TEMPLATE: SectionDeclaration = SectionDeclaration {
         names(
             "port",
             "list of names",
-            "what it knows of the rest of the network",
+            "the places of the rest of the network that it uses",
             "[\"in\", \"out\"]",
         ),
     ],
@@ -63,13 +63,13 @@ pub(crate) const USE: SectionDeclaration = SectionDeclaration {
     sentence: "A template in use: once, or several times.",
     role: Role::Use,
     keys: &[
-        text("template", "name of a template", "what is used", "\"planet\"").needed(),
-        whole("count", "how many there are; without it there is one, without an index", "3"),
+        text("template", "name of a template", "the template that is used", "\"planet\"").needed(),
+        whole("count", "the number of instances; without it there is one, without an index", "3"),
         shaped(
             "connect",
             "table of names of nodes or boundaries",
             Takes::Each(&Takes::Either(&[Takes::Text, NAMES])),
-            "what each port leads to",
+            "the node or boundary of each port",
             "{ carrier = \"carrier\" }",
         ),
         shaped(
@@ -83,12 +83,16 @@ pub(crate) const USE: SectionDeclaration = SectionDeclaration {
     example: "{ template = \"planet\", count = 3, connect = { carrier = \"carrier\" } }",
     elsewhere: &[
         ("param", "parameters of the template are given in `set`: `set = { ratio = 0.5 }`"),
-        ("port", "what a port leads to stands in `connect`: `connect = { carrier = \"carrier\" }`"),
+        (
+            "port",
+            "the node or boundary of a port is in `connect`: `connect = { carrier = \
+            \"carrier\" }`",
+        ),
         (
             "ports",
-            "what a port leads to stands in `connect`: `connect = { carrier = \"carrier\" }`",
+            "the node or boundary of a port is in `connect`: `connect = { carrier = \"carrier\" }`",
         ),
-        ("n", "how many there are is `count`"),
+        ("n", "the number of instances is `count`"),
     ],
     ..SectionDeclaration::NEW
 };

@@ -198,7 +198,7 @@ fn with_of(entry: &RawEntry, key: String, text: String) -> RawEntry {
 
 fn no_instances(used: &str, at: &Span) -> Diagnostic {
     let message =
-        format!("`{used}[*]` stands for every instance, but `{used}` is no use with a `count`");
+        format!("`{used}[*]` means every instance, but `{used}` is not a use with a `count`");
     Diagnostic::wrong(
         "netlist::pattern",
         message,
@@ -210,7 +210,7 @@ fn no_instances(used: &str, at: &Span) -> Diagnostic {
 /// Patterns of one expression that do not go through the same instances.
 fn uneven(names: &[(String, Range<usize>)], value: &RawValue) -> Diagnostic {
     let list: Vec<&str> = names.iter().map(|(name, _)| name.as_str()).collect();
-    let message = format!("{} do not stand for the same instances", lptn_data::list(&list));
+    let message = format!("{} do not have the same instances", lptn_data::list(&list));
     Diagnostic::wrong(
         "netlist::pattern",
         message,

@@ -88,8 +88,8 @@ fn count(fields: &Fields<'_>, raw: &RawValue, problems: &mut Vec<Diagnostic>) ->
         RawKind::Float(number) => number.clone(),
         RawKind::String { .. } => {
             let message = format!("{words} has to be a whole number, got a string");
-            let help = "write the number itself, `count = 3`: parameters do not change what a \
-                network consists of";
+            let help = "write the number itself, `count = 3`: parameters do not change the \
+                elements of a network";
             problems.push(wrong(message, help));
             return None;
         }
@@ -272,13 +272,13 @@ fn missing_port(template: &Template<'_>, fields: &Fields<'_>, missing: &[&str]) 
     if let Some((_, value)) = template.ports.iter().find(|(port, _)| missing.contains(port)) {
         problem = problem.also(value.span.clone(), "a port of the template");
     }
-    problem.help(format!("say what it leads to: `connect = {{ {} }}`", lines.join(", ")))
+    problem.help(format!("name its node or boundary: `connect = {{ {} }}`", lines.join(", ")))
 }
 
 fn not_set(fields: &Fields<'_>, parameter: &Parameter<'_>) -> Diagnostic {
     let name = &parameter.entry.key;
     let message =
-        format!("{} does not set `{name}`, which has no value of its own", fields.owner.words());
+        format!("{} does not set `{name}`, which has no default value", fields.owner.words());
     let unit = parameter.ty.map_or_else(String::new, |ty| match ty.usual_unit() {
         unit if unit == "1" => String::new(),
         unit => format!(" {unit}"),

@@ -32,11 +32,11 @@ impl Structure {
                 match (used.count, index) {
                     (Some(count), Some("*")) => {
                         let help = format!(
-                            "name one, {}; all of them may stand in `of` of a limit, in `into` of \
-                             a source and in `select`",
+                            "name one, {}; all of them may be in `of` of a limit, in `into` of a \
+                             source and in `select`",
                             range((&full, tail), count)
                         );
-                        return wrong("a pattern cannot stand here".to_owned(), help);
+                        return wrong("a pattern cannot be used here".to_owned(), help);
                     }
                     (Some(count), None) => {
                         let why = format!("`{full}` has {}", instances(count));

@@ -45,9 +45,9 @@ pub(crate) fn check(
         };
         let [a, b] = &written.between;
         if found(a).is_some() && found(b).is_some() {
-            let message = format!("the posterior says how `{a}` and `{b}` are correlated");
-            let help =
-                "leave this correlation out, or name in `only` what is taken of the posterior";
+            let message = format!("the posterior contains the correlation of `{a}` and `{b}`");
+            let help = "leave this correlation out, or name the parameters to take of the posterior in \
+                 `only`";
             problems.push(wrong(message, help));
             continue;
         }
@@ -108,8 +108,9 @@ fn one(
             format!("the posterior has a parameter `{name}` that the netlist does not have");
         let names = network.parameters().iter().map(|parameter| parameter.name.as_str());
         let otherwise = || {
-            "fit this netlist, or take what there is: `posterior = { file = \"..\", only = [\"..\"] }`"
-                .to_owned()
+            "fit this netlist, or take a part of it: `posterior = { file = \"..\", only = [\"..\"] \
+             }`"
+            .to_owned()
         };
         let problem = problem("posterior::unknown_parameter", words, place, named);
         return Some(problem.did_you_mean(name, names, otherwise));

@@ -16,7 +16,7 @@ use crate::toml_text::{TomlFields, key as toml_key, string, strings};
 
 pub(crate) const UNCERTAINTY: SectionDeclaration = SectionDeclaration {
     name: "uncertainty",
-    sentence: "What is known of parameters together, beside the `±` of each.",
+    sentence: "The joint uncertainty of parameters, in addition to the `±` of each.",
     role: Role::Study,
     keys: &[
         shaped(
@@ -30,7 +30,7 @@ pub(crate) const UNCERTAINTY: SectionDeclaration = SectionDeclaration {
             "correlation",
             "table of parameters, each with a table of others",
             Takes::Each(&Takes::Each(&Takes::Number)),
-            "how far two parameters are off together, more than -1 and less than 1",
+            "the correlation of two parameters, more than -1 and less than 1",
             "{ R_skin = { alpha = -0.87 } }",
         ),
     ],

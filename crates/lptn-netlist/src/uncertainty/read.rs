@@ -14,7 +14,7 @@ use crate::work::Elaboration;
 pub(super) const POSTERIOR: SectionDeclaration = SectionDeclaration {
     name: "posterior",
     keys: &[
-        text("file", "file", "what a fit wrote", "\"results/posterior.json\"").needed(),
+        text("file", "file", "the posterior of a fit", "\"results/posterior.json\"").needed(),
         names("only", "list of names", "the parameters that are taken", "[\"alpha\"]"),
     ],
     example: "{ file = \"results/posterior.json\", only = [\"alpha\"] }",
@@ -152,7 +152,7 @@ impl<'a> Elaboration<'a> {
                  {}",
                 text.trim()
             );
-            let help = "of two values that always go together make one an expression of the other";
+            let help = "if two values always go together, make one an expression of the other";
             self.report(wrong(message, &other.value.span, help));
             return None;
         }

@@ -13,23 +13,23 @@ pub enum LadderError {
     /// An element that is not a positive number, in the row with this index from 0.
     NotPositive { what: &'static str, row: usize, value: f64 } = "ladder::not_positive",
         format!("the {what} of row {} must be positive and finite, got {value}", row + 1),
-        help "leave out rows that are nothing; write what comes at once as the direct resistance";
+        help "leave out rows of zero; write the immediate part as the direct resistance";
     /// A direct resistance that is negative or not a number.
     Direct(value: f64) = "ladder::direct",
         format!("the direct resistance must be 0 or positive, and finite, got {value}"),
-        help "write 0 unless the port has no capacity of its own";
+        help "write 0 unless the port has no capacity itself";
     /// Elements of the other form beyond what a number holds.
     Range { form: &'static str } = "ladder::range",
         format!("elements of the {form} are too large or too small for a number"),
         help "leave out rows: many time constants close together need elements of 1e300 and more, \
-            which no measurement can tell",
+            which no measurement can determine",
         class Class::Numbers;
     /// Time constants that agree in so many digits that their shares cannot be told apart: the
     /// chain would miss the ladder by this part.
     Close { error: f64 } = "ladder::close",
         format!(
-            "time constants of the ladder are too close to be told apart: the Foster chain would \
-             be wrong by {error:.1e} of its value"
+            "time constants of the ladder are too close to be distinguished: the Foster chain \
+             would be wrong by {error:.1e} of its value"
         ),
         help "put rungs together that are joined weakly",
         class Class::Numbers;

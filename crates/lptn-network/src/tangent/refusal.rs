@@ -28,7 +28,7 @@ pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
     /// A massless node leaps from one solution of its balance to another, at a time that moves with
     /// the parameters. A run finds that, not the form of the network.
     Leaps = "sensitivity::leaps", at None,
-        says "a massless node leaps, at a time that moves with the parameters".to_owned(),
+        says "a massless node jumps, at a time that moves with the parameters".to_owned(),
         help None;
     /// How a node melts changes by more than its size.
     Melting { node: NodeId } = "sensitivity::melting", at Some(Item::Node(*node)),
@@ -81,6 +81,6 @@ impl Problem for NoTangents {
     }
 
     fn help(&self) -> Option<String> {
-        Some("take differences of runs: `sensitive_run` does so where it has to".to_owned())
+        Some("take differences of runs: `sensitive_run` does so if it has to".to_owned())
     }
 }

@@ -102,13 +102,13 @@ pub(crate) fn far(panel: &Panel) -> Vec<String> {
     let (low, high) = range::upward(panel);
     let text = |limit: &Level| {
         let way = if limit.value > f64::midpoint(low, high) { "above" } else { "below" };
-        format!("{}, {way} what is shown", limit.name)
+        format!("{}, {way} the range shown", limit.name)
     };
     let mut texts: Vec<String> = range::far(panel).map(text).collect();
     if texts.len() > FAR {
         let more = texts.len() - FAR + 1;
         texts.truncate(FAR - 1);
-        texts.push(format!("and {more} more limits beyond what is shown"));
+        texts.push(format!("and {more} more limits beyond the range shown"));
     }
     texts
 }

@@ -52,7 +52,7 @@ fn a_figure_says_names_units_limits_and_moments() {
         "steel",
         "aluminium",
         "steel at most 90 °C",
-        "seal at most 400 °C, above what is shown",
+        "seal at most 400 °C, above the range shown",
         "fan on",
         "difference [K]",
     ] {

@@ -89,11 +89,11 @@ pub enum ExactError {
         format!("`{name}` switches at times that depend on the temperatures"), help CONSTANTS;
     /// The conductances of the massless nodes span more than the numbers can hold.
     Singular = "exact::singular",
-        "the conductances of the massless nodes span more than the numbers can hold",
+        "the conductances of the massless nodes span more than floating-point numbers can",
         help MERGE, class Class::Numbers;
     /// Rates of nodes that streams join span more than the numbers can hold.
     Rates = "exact::singular",
-        "the rates of the nodes that streams join span more than the numbers can hold",
+        "the rates of the nodes that streams join span more than floating-point numbers can",
         help MERGE, class Class::Numbers;
     /// The eigenvalues were not found.
     Modes = "exact::modes", "the eigenvalues of the network were not found", help MERGE,

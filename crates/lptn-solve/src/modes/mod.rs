@@ -70,7 +70,7 @@ pub enum ModesError {
             takes";
     /// Modes coincide: the network has fewer than it has nodes.
     Defective = "modes::defective",
-        "modes coincide: a chain of like cells that a stream passes one way does not forget by \
+        "modes coincide: a chain of like cells that a stream passes one way does not decay by \
             exponentials alone",
         help "`lptn impedance` shows how long each node takes";
     /// The eigenvalues were not found.

@@ -12,7 +12,7 @@ pub enum PeriodicError {
     /// An input is not the same one period later.
     NotPeriodic(found: NotPeriodic) = "periodic::not_periodic", not_periodic(found),
         help match found.values {
-            [_, None] => "let the signal go on for ever: after_end = \"repeat\"",
+            [_, None] => "let the signal repeat: after_end = \"repeat\"",
             _ => "give the period with which all inputs repeat: --period \"10 min\"",
         };
     /// An input has no value.
@@ -21,25 +21,23 @@ pub enum PeriodicError {
     /// first one.
     NoBalance { nodes: Vec<NodeId>, names: Vec<String>, heat: f64 } = "periodic::no_balance",
         format!(
-            "no path leads to a boundary from {}, where every cycle leaves {} J: there is no \
+            "no path leads to a boundary from {}, and every cycle leaves {} J: there is no \
              periodic state",
             list_of_names(names),
             six_digits(*heat)
         ),
-        help "add a path to a boundary, or look at `lptn run`";
+        help "add a path to a boundary, or use `lptn run`";
     /// The cycles do not come to the same state; the smallest difference in K between the start of
     /// a cycle and its end.
     NotFound { cycles: usize, residual: f64 } = "periodic::not_found",
         format!(
-            "{cycles} cycles came to no state that repeats itself; the best one was off by \
-             {residual:.1e} K"
+            "{cycles} cycles reached no periodic state; the best one was off by {residual:.1e} K"
         ),
-        help "look at some cycles one after the other: `lptn run`", class Class::Numbers;
+        help "simulate some cycles one after the other: `lptn run`", class Class::Numbers;
     /// What switches never does so in one cycle as in the next.
     Switches { cycles: usize } = "periodic::switches",
-        format!("in {cycles} cycles controls and comparisons did not come to switch alike twice in \
-            a row"),
-        help "the controls have a rhythm of their own: look at `lptn run`, and at means over many \
+        format!("in {cycles} cycles controls and comparisons did not switch alike twice in a row"),
+        help "the controls have their own rhythm: use `lptn run`, and means over many \
             cycles", class Class::No;
     /// A cycle could not be integrated.
     Cycle => TransientError as Class::of_numbers;

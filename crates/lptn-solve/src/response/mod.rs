@@ -44,7 +44,7 @@ pub enum ResponseError {
         help "add a path to a boundary, or ask at frequencies above 0: without one, a constant heat \
             never leads to a rise that stays";
     /// A network near a state that grows by itself: nothing settles.
-    Grows = "response::grows", "disturbances of this state grow by themselves: nothing settles",
+    Grows = "response::grows", "this state is unstable: disturbances grow by themselves",
         help "choose another operating point; `lptn modes` shows what grows";
     /// The numbers fail.
     Factorization(error: FactorError) = "response::singular", error, source error,

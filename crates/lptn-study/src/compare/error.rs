@@ -21,12 +21,13 @@ pub enum CompareError {
     Start => Unsolved as Class::of_numbers;
     /// It has no settled cycle, where that is what is asked for.
     Cycle(error: Arc<PeriodicError>) = error.code(),
-        format!("there is no settled cycle: {error}"),
+        format!("there is no periodic steady state: {error}"),
         source error.as_ref(), help error.help(), class error.class().not_an_answer();
     /// Its inputs change with time, and no signal is repeated.
     NoPeriod = "periodic::no_period",
-        "its inputs change with time and no signal is repeated, so there is no settled cycle",
-        help "let a signal go on for ever: after_end = \"repeat\"";
+        "its inputs change with time and no signal is repeated, so there is no periodic steady \
+         state",
+        help "let a signal repeat: after_end = \"repeat\"";
     /// Its run was interrupted at this time in s: peaks and limits of a part would read like those
     /// of the whole.
     Interrupted(time: f64) = "run::interrupted", format!("the run was interrupted at {time} s"),

@@ -24,12 +24,12 @@ pub enum SizeError {
     /// A probability is asked for, and no parameter has a `±`.
     NoDeviation = "size::no_deviation",
         "`probability` counts the `±` of parameters, and none has any",
-        help "say how well a parameter is known: `P = \"100 ± 5 W\"`, or with `--set`";
+        help "give a parameter its uncertainty: `P = \"100 ± 5 W\"`, or with `--set`";
     /// What is required depends on inputs that change with time: there is no one steady state to
     /// judge. At least one.
     Changing(inputs: Vec<Changing>) = "size::inputs_change",
-        "what is required depends on inputs that change with time, and a steady state knows only \
-         one moment of them";
+        "the requirements depend on inputs that change with time, but a steady state is one moment \
+         of them";
     /// The catalogues have more combinations than can be judged.
     TooMany { most: usize } = "size::too_many",
         format!("the catalogues have more than {most} combinations"),
@@ -94,7 +94,7 @@ pub enum TrialError {
         source error.as_ref(), help error.help(), class not_an_answer(error.class());
     /// It has no settled cycle.
     Periodic(error: Arc<PeriodicError>) = error.code(),
-        format!("there is no settled cycle: {error}"),
+        format!("there is no periodic steady state: {error}"),
         source error.as_ref(), help error.help(), class not_an_answer(error.class());
     /// A requirement, as it was written, has no value; why not, or `None` if it gave no finite
     /// number.
@@ -106,8 +106,8 @@ pub enum TrialError {
     /// What is sought has no value; why not, or `None` if it gave no finite number.
     Objective(error: Option<EvalError>) = "size::objective",
         match error {
-            Some(error) => format!("what is sought has no value: {error}"),
-            None => "what is sought has no finite value".to_owned(),
+            Some(error) => format!("the objective has no value: {error}"),
+            None => "the objective has no finite value".to_owned(),
         };
     /// It was interrupted.
     Interrupted = "run::interrupted", "interrupted before there was an answer",

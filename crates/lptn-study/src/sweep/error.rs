@@ -9,14 +9,14 @@ lptn_units::errors! {
 pub enum SweepError {
     /// What is reported of a steady state depends on inputs that change with time. At least one.
     Changing(inputs: Vec<Changing>) = "sweep::inputs_change",
-        "what is reported depends on inputs that change with time, and a steady state knows only \
-         one moment of them",
+        "the reports depend on inputs that change with time, but a steady state is one moment of \
+         them",
         help "write `over = \"run\"` or `over = \"periodic\"`, with a functional such as `max(..)` \
               in every report";
     /// The length of the cycle is not known.
     NoPeriod = "sweep::no_period",
         "no signal is repeated, so the length of the cycle is not known",
-        help "say after which time all inputs repeat themselves: `period = \"10 min\"`";
+        help "give the time after which all inputs repeat: `period = \"10 min\"`";
     /// The cycle is none at the netlist's own values.
     Periodic => PeriodicError;
 }

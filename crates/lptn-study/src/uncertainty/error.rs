@@ -39,11 +39,11 @@ pub enum UncertaintyError {
         lost.iter().fold("too few samples have a result".to_owned(), |text, lost| {
             format!("{text}; {lost}")
         }),
-        help "make the `±` smaller: most of what it allows is not a network that runs",
+        help "make the `±` smaller: most values that it allows do not give a network that runs",
         class Class::Numbers;
     /// There is no network a little beside the parameters' values.
     Network(errors: BuildErrors) = "uncertainty::network",
-        format!("there is no network beside the values: {errors}"), source errors,
+        format!("there is no network next to the values: {errors}"), source errors,
         class Class::Numbers;
     /// The network itself cannot be assembled.
     Assembly => AssemblyError as Class::of_numbers;

@@ -45,7 +45,7 @@ impl FitCompareAnswer {
     /// Measured less foretold, of one column of one record.
     fn missed(&self, order: &[usize], (record, column): (usize, usize)) -> Panel {
         let run = &self.judged(self.choice.best).task.runs[record];
-        let name = format!("{}: measured \u{2212} foretold", run.columns[column].name);
+        let name = format!("{}: measured \u{2212} predicted", run.columns[column].name);
         let mut panel = Panel::new(
             Axis::time(),
             Axis::linear(name, run.columns[column].ty.dimension.si_unit()),
@@ -58,7 +58,7 @@ impl FitCompareAnswer {
         let zero = ends.map(|time| (*time, 0.0)).collect();
         panel.curves.push(Curve::line("", zero).looks(Look::Dashed).as_place(order.len()));
         if let Held::LastThird { from } = self.choice.held {
-            panel.moments.push(Moment { name: "not seen".into(), at: from });
+            panel.moments.push(Moment { name: "held out".into(), at: from });
         }
         panel
     }
@@ -67,7 +67,7 @@ impl FitCompareAnswer {
     fn of_each(&self, order: &[usize]) -> Panel {
         let names = order.iter().map(|&i| shortened(self.name(i), NAME)).collect();
         let mut panel = Panel::new(
-            Axis::linear("unseen misfit rms", self.unit()),
+            Axis::linear("held-out misfit rms", self.unit()),
             Axis::names("candidate", names),
         );
         for (place, &i) in order.iter().enumerate() {

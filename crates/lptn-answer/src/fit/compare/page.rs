@@ -100,7 +100,7 @@ fn overview(answer: &FitCompareAnswer, order: &[usize]) -> TextTable {
         .right(format!("misfit [{unit}]"), |&i| kelvin(answer.judged(i).fit.rms))
         .right("AICc", |&i| answer.shown_above(i))
         .right("weight", |&i| answer.judged(i).weight.map_or(NOTHING.to_owned(), share))
-        .right(format!("unseen [{unit}]"), |&i| kelvin(answer.judged(i).unseen_rms()))
+        .right(format!("held-out [{unit}]"), |&i| kelvin(answer.judged(i).unseen_rms()))
         .right("times best", |&i| {
             behind(i).map_or("1".to_owned(), |behind| ratio(behind.ratio, behind.interval))
         });
@@ -148,20 +148,19 @@ fn notes(answer: &FitCompareAnswer) -> Vec<(&'static str, String)> {
     let of_noise = |&i: &usize| answer.judged(i).likely.of_noise.to_string();
     let noise: Vec<String> = answer.order().iter().map(of_noise).collect();
     let mut notes = vec![
-        ("unseen", unseen(answer)),
+        ("held-out", unseen(answer)),
         (
             "AICc",
             format!(
-                "above the least, from {}; the noise takes {} numbers more",
+                "above the least, from {}; the noise needs {} numbers more",
                 count(means, "mean"),
                 noise.join(", ")
             ),
         ),
     ];
     if answer.judged(answer.choice.best).whiteness.iter().any(Option::is_some) {
-        let text = format!(
-            "p of Ljung and Box, {LAGS} lags: below 0.05 what is left over follows on itself"
-        );
+        let text =
+            format!("p of Ljung and Box, {LAGS} lags: below 0.05 the residuals are correlated");
         notes.push(("white", text));
     }
     notes.extend(likelier(answer).map(|text| ("but", text)));

@@ -19,17 +19,17 @@ pub(super) fn unseen(answer: &FitCompareAnswer) -> String {
         .iter()
         .any(|one| one.task.unknowns().iter().any(|unknown| unknown.run().is_some()));
     let offsets = if of_sensors {
-        "; the offset that a sensor has in that record alone is what is known of it beforehand"
+        "; an offset that a sensor has in that record alone takes its prior value"
     } else {
         ""
     };
     match answer.choice.held {
         Held::EachRecord => format!(
-            "each of the {} in its turn is foretold by a fit to the others{offsets}",
+            "each of the {} in turn is predicted by a fit to the others{offsets}",
             count(records(answer), "record")
         ),
         Held::LastThird { from } => format!(
-            "the last third of the record, behind {}, is foretold by a fit to what is before",
+            "the last third of the record, after {}, is predicted by a fit to the part before",
             duration(from, 3)
         ),
     }
@@ -61,14 +61,14 @@ fn told(answer: &FitCompareAnswer) -> String {
     let (name, rms) = (answer.name(best), significant(answer.judged(best).unseen_rms(), 2));
     let behind = answer.judged(next).behind.as_ref().map_or(String::new(), times);
     let text = format!(
-        "the records speak for `{name}`: it misses what it has not seen by {rms} {} rms, `{}` by \
-         {behind} as much",
+        "the data favour `{name}`: it predicts held-out data to {rms} {} rms; the error of `{}` is \
+         {behind} as large",
         answer.unit(),
         answer.name(next)
     );
     match answer.choice.held {
         Held::EachRecord => text,
-        Held::LastThird { .. } => text + "; that is one record, and another may say otherwise",
+        Held::LastThird { .. } => text + "; this is one record, and another may disagree",
     }
 }
 
@@ -76,13 +76,13 @@ fn open(answer: &FitCompareAnswer, rivals: &[usize]) -> String {
     let (best, simplest) = (answer.choice.best, answer.choice.simplest());
     let names: Vec<String> = rivals.iter().map(|&i| answer.name(i).to_owned()).collect();
     let mut text = format!(
-        "the records cannot tell {} from `{}`{}",
+        "the records cannot distinguish {} from `{}`{}",
         lptn_network::list_of(&names, "candidates"),
         answer.name(best),
         why(answer, rivals[0])
     );
     if answer.judged(simplest).likely.unknowns < most(answer, rivals) {
-        text += &format!("; `{}` does with the fewest numbers", answer.name(simplest));
+        text += &format!("; `{}` needs the fewest numbers", answer.name(simplest));
     }
     text + &what_would(answer, rivals[0])
 }
@@ -97,17 +97,16 @@ fn most(answer: &FitCompareAnswer, rivals: &[usize]) -> usize {
 fn why(answer: &FitCompareAnswer, rival: usize) -> String {
     let (judged, best) = (answer.judged(rival), answer.judged(answer.choice.best));
     let Some(behind) = &judged.behind else { return String::new() };
-    let missed =
-        format!("what it has not seen `{}` misses by {}", answer.name(rival), times(behind));
+    let missed = format!("the held-out error of `{}` is {}", answer.name(rival), times(behind));
     match (behind.interval, judged.likely.aicc, best.likely.aicc) {
-        (Some(_), _, _) => format!(": {missed} as much"),
+        (Some(_), _, _) => format!(": {missed} as large"),
         (None, Some(own), Some(least)) => format!(
-            ": {missed} as much, and its AICc is {} {}; of a single record both have to speak \
-             against it, AICc by {MARGIN}",
+            ": {missed} as large, and its AICc is {} {}; with one record, rejection needs a larger \
+             error and an AICc higher by {MARGIN}",
             fixed((own - least).abs(), 1),
             if own < least { "lower" } else { "higher" }
         ),
-        (None, _, _) => format!(": {missed} as much, and there are too few values for AICc"),
+        (None, _, _) => format!(": {missed} as large, and there are too few values for AICc"),
     }
 }
 
@@ -117,7 +116,7 @@ fn what_would(answer: &FitCompareAnswer, rival: usize) -> String {
     let mut text = String::new();
     if let Some(apart) = judged.apart {
         if apart.by < SAME {
-            return ". They compute the same, so no record can tell".to_owned();
+            return ". They compute the same, so no record can distinguish them".to_owned();
         }
         let run = &judged.task.runs[apart.run];
         text += &format!(
@@ -130,9 +129,9 @@ fn what_would(answer: &FitCompareAnswer, rival: usize) -> String {
         );
     }
     if let Some(records) = judged.behind.and_then(|behind| behind.records) {
-        text += &format!("; some {records} records like these would tell");
+        text += &format!("; about {records} records like these would distinguish them");
     }
-    text + ". `lptn plan` finds a run that tells more"
+    text + ". `lptn plan` finds a more informative run"
 }
 
 /// What is doubtful of how a candidate says what it has not seen.
@@ -151,22 +150,22 @@ pub(super) fn doubts(answer: &FitCompareAnswer, i: usize) -> Vec<Diagnostic> {
     if let Some(stop) = &judged.fit.not_converged {
         let message = format!("{}: the fit did not converge: {}", one.name, stop.text());
         let doubt = Diagnostic::warning("fit::not_converged", message);
-        doubts.push(doubt.help(
-            "it is not taken; start values nearer to what is expected, and bounds, would help",
-        ));
+        doubts.push(
+            doubt.help("it is not used: give start values nearer to the expected ones, and bounds"),
+        );
     }
     if let Some(records) = within(&|part| !part.converged) {
         let message = format!("{}: the fit without {records} found no minimum", one.name);
         let doubt = Diagnostic::warning("fit::unseen_search", message);
-        doubts.push(doubt.help("what it foretells is from the best values that were tried"));
+        doubts.push(doubt.help("its predictions use the best values that were tried"));
     }
     if let Some(records) = within(&|part| !part.whole).filter(|_| answer.fits[i].is_whole()) {
         let message =
             format!("{}: without {records} the rest does not determine every value", one.name);
         let doubt = Diagnostic::warning("fit::unseen_open", message);
         doubts.push(doubt.help(
-            "what it foretells then depends on where the search began: add records, or give what \
-             is varied a `±`",
+            "its predictions then depend on the start of the search: add records, or give the \
+             varied parameters a `±`",
         ));
     }
     doubts.into_iter().map(|doubt| doubt.at(one.study.span.clone(), "")).collect()
@@ -179,12 +178,12 @@ pub(super) fn likelier(answer: &FitCompareAnswer) -> Option<String> {
     let (name, below) = (answer.name(other), fixed(below, 1));
     Some(match answer.choice.held {
         Held::EachRecord => format!(
-            "the records that it sees are likelier with `{name}` (AICc {below} lower), which \
-             foretells others worse: it follows what does not repeat itself"
+            "`{name}` fits the records better (AICc {below} lower) but predicts held-out ones \
+             worse: it follows effects that do not repeat"
         ),
         Held::LastThird { .. } => format!(
-            "the whole record is likelier with `{name}` (AICc {below} lower), which foretells its \
-             last third worse: the two contradict each other"
+            "`{name}` fits the whole record better (AICc {below} lower) but predicts its last \
+             third worse: the two contradict each other"
         ),
     })
 }

@@ -220,7 +220,7 @@ impl StatedLawsAnswer {
             notes.extend(law.relative_error.map(|_| "band: \u{b1} as stated".to_owned()));
             if let Some((name, of)) = implied {
                 over.law(name, (Look::Dashed, 1), |speed| (of(speed), f64::NAN));
-                notes.push(format!("dashed: {name}, with which all three would hold"));
+                notes.push(format!("dashed: {name}, with which all three would agree"));
             }
             over.figure("Three laws of the speed", &notes)
         };

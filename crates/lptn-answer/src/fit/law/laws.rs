@@ -188,7 +188,7 @@ pub(super) fn verdict(found: &Consistency, unit: &SpeedUnit) -> String {
             format!("{} min at {}", fixed(at.needed / 60.0, 1), unit.speed(at.speed))
         };
         return format!(
-            "contradiction: dT and t_RC imply a power that goes with {}, not {}; all three hold \
+            "contradiction: dT and t_RC imply a power that goes with {}, not {}; all three agree \
              only if t_RC goes with {}: {} and {}",
             power(found.implied.value),
             power(found.power.value),
@@ -217,7 +217,7 @@ pub(super) fn verdict(found: &Consistency, unit: &SpeedUnit) -> String {
              {percent} % only"
         );
     }
-    "dT, t_RC and P agree: P = C dT / t_RC holds at all speeds, within their errors".to_owned()
+    "dT, t_RC and P agree: P = C dT / t_RC is true at all speeds, within their errors".to_owned()
 }
 
 /// A relative standard error from which on a ratio tells nothing.

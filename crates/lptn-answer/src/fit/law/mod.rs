@@ -121,10 +121,10 @@ impl FitLawQuestion {
     pub fn begin(&self, folder: &Path) -> Result<FitOfRuns, Failure> {
         let capacity = capacity(self.capacity.as_deref())?;
         if self.posterior {
-            let message = "the powers of a folder of records share the error of one capacity, \
-                which no coefficient knows of: there is no posterior of a law";
-            let help =
-                "fit the network to the records, `lptn fit network`: its posterior knows of all";
+            let message = "the powers of a folder of records share the error of one heat capacity, \
+                which the coefficients do not include: a law has no posterior";
+            let help = "fit the network to the records, `lptn fit network`: its posterior includes every \
+                 error";
             return Err(no_posterior(message, help));
         }
         FitOfRuns::new(self, folder, capacity)
@@ -195,7 +195,7 @@ fn start(text: &str) -> Result<Start, Failure> {
     let Some((name, value)) = text.split_once('=') else {
         return Err(Failure::refused(
             "fit::law_start",
-            format!("`{text}` gives no name a value"),
+            format!("`{text}` does not give a name a value"),
             "write for example --start \"a = 20 mW/rpm\"",
         ));
     };

@@ -218,14 +218,14 @@ fn notes(study: &LawStudy, text: &mut Text) {
         .iter()
         .any(|c| c.fitted().is_some_and(|f| f.aicc.is_some()) && !c.eligible());
     if negative {
-        let why =
-            "a coefficient is below 0: no sum of losses; the best without is one of the others";
+        let why = "a coefficient is below 0, so the law is not a sum of losses; the best is one of the \
+             others";
         text.sentence("negative  ", why);
     }
     if study.dispersion > 1.0 {
         let scatter = format!(
-            "the points scatter {} times as far as their standard errors say: AICc and errors \
-             count it",
+            "the points scatter {} times as far as their standard errors: AICc and errors include \
+             it",
             significant(study.dispersion.sqrt(), 2)
         );
         text.sentence("scatter   ", &scatter);
@@ -233,8 +233,7 @@ fn notes(study: &LawStudy, text: &mut Text) {
     if let (Some(least), Some(best)) = (study.least_rmse(), study.best())
         && least.law.to_string() != best.law.to_string()
     {
-        let least =
-            format!("is least for {}, which has more coefficients to reach it with", least.law);
+        let least = format!("is least for {}, which has more coefficients", least.law);
         text.sentence("rmse      ", &least);
     }
     let singles = study.single_powers();

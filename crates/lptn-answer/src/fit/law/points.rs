@@ -76,7 +76,7 @@ impl<'a> Lookup<'a> {
         }
         let wanted = Type::of(wanted).with_article();
         let message =
-            format!("column `{name}` is {}, but {wanted} is due", column.unit.ty.with_article());
+            format!("column `{name}` is {}, but {wanted} is needed", column.unit.ty.with_article());
         Err(self.refused(Diagnostic::error("record::unit", message).at(column.span.clone(), "")))
     }
 
@@ -94,19 +94,18 @@ impl<'a> Lookup<'a> {
         match self.of(wanted).as_slice() {
             [only] => Ok(only),
             [] => {
-                let message = format!("no column holds {what}");
+                let message = format!("no column contains {what}");
                 let problem = Diagnostic::error("fit::law_column", message);
-                let problem = problem.at(self.sheet.header.clone(), "no unit here is one of it");
+                let problem = problem.at(self.sheet.header.clone(), "no unit here fits");
                 Err(self.refused(problem.help(format!("give it a header like `{unit}`"))))
             }
             [first, second, ..] => {
                 let message =
-                    format!("several columns hold {what}: `{}`, `{}`", first.name, second.name);
+                    format!("several columns contain {what}: `{}`, `{}`", first.name, second.name);
                 let problem = Diagnostic::error("fit::law_column", message);
                 let problem = problem.at(second.span.clone(), "").also(first.span.clone(), "");
-                Err(self.refused(
-                    problem.help(format!("name the one that is meant: {option} {}", first.name)),
-                ))
+                Err(self
+                    .refused(problem.help(format!("name one of them: {option} {}", first.name))))
             }
         }
     }

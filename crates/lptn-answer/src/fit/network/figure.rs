@@ -60,7 +60,7 @@ impl FitNetworkAnswer {
         }
         if chosen.len() < all.len() {
             let (shown, all) = (chosen.len(), all.len());
-            notes.push(format!("the {shown} of {all} columns that are missed most are drawn"));
+            notes.push(format!("the {shown} of {all} columns with the largest misfit are drawn"));
         }
         Figure { title: run.name.clone(), note: notes.join("\n"), panels }
     }
@@ -137,6 +137,6 @@ impl Drawn<'_> {
             format!("{value} {}", self.shown.of_differences)
         };
         let sigma = misfit.sigma.map_or(String::new(), |sigma| format!(", sigma {}", shown(sigma)));
-        format!("{}: missed by {} rms{sigma}", self.of.name, shown(misfit.rms))
+        format!("{}: misfit {} rms{sigma}", self.of.name, shown(misfit.rms))
     }
 }

@@ -61,7 +61,7 @@ impl InterruptedFit {
         if let Some(file) = self.input.typed() {
             let named = |name: &String| format!(" {}", quoted(name));
             let study = self.study.as_ref().map_or(String::new(), named);
-            message += &format!("\ngo on from them: lptn fit network {file}{study}");
+            message += &format!("\ncontinue from them: lptn fit network {file}{study}");
             for [name, value, unit] in values {
                 let unit = spaced(unit);
                 message += &format!(" --set {}", quoted(&format!("{name}={value}{unit}")));

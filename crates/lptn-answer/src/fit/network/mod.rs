@@ -95,7 +95,7 @@ impl Answer for FitNetworkAnswer {
 pub(super) const STUDIES: Studies = Studies {
     section: "fit",
     codes: ["fit::no_study", "fit::which_study"],
-    question: "what is to be fitted to what?",
+    question: "a fit needs records and parameters",
     example: "[fit.heating]\ndata = \"record.csv\"\ncolumn = { ring_gear = \"steel.T\" }\n\
               sigma = \"0.2 K\"\nvary = { R_int = { from = \"1 mK/W\", to = \"1 K/W\" } }",
 };

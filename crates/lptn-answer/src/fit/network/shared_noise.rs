@@ -23,7 +23,8 @@ pub(super) fn text(answer: &FitNetworkAnswer) -> Option<String> {
     let all: Vec<String> = answer.fit.shared_noise.iter().map(one).collect();
     (!all.is_empty()).then(|| {
         format!(
-            "columns of one record are off together, correlation up to {}; the errors count it",
+            "columns of one record share errors, correlation up to {}; the standard errors include \
+             it",
             all.join(", ")
         )
     })

@@ -37,18 +37,20 @@ pub(super) fn unfound(task: &NetworkFitTask, (stop, fit): (Stop, &NetworkFit)) -
             if stop == Stop::Edge && part < 1e-2 && unknown.sensor().is_some() =>
         {
             format!(
-                "the records would have `{}` be nothing: hold it, or leave it out of its sensor",
+                "the records fit best with `{}` at zero: fix it, or leave it out of its sensor",
                 unknown.name
             )
         }
         Some((unknown, part)) if stop == Stop::Edge && part < 1e-2 => format!(
-            "the records would have `{}` be nothing, or less: give it a least value with `from`, \
-             which the fit may then name as its end, or hold it",
+            "the records fit best with `{}` at zero or below: give it a least value with `from`, \
+             or fix it",
             unknown.name
         ),
-        _ => "give the parameters start values nearer to what is expected, and bounds with `from` \
+        _ => {
+            "give the parameters start values nearer to the expected ones, and bounds with `from` \
               and `to`"
-            .to_owned(),
+                .to_owned()
+        }
     }
 }
 
@@ -65,8 +67,8 @@ pub(crate) fn doubts(answer: &FitNetworkAnswer) -> Vec<Diagnostic> {
         }
         let end = if side == Side::Lower { "least" } else { "greatest" };
         let message = format!(
-            "`{}` sits on the {end} value of its range: it has no standard error, and those of the \
-             others hold only if this value is right",
+            "`{}` is at the {end} value of its range: it has no standard error, and those of the \
+             others are valid only if this value is right",
             answer.name(i)
         );
         let place = answer.place(i).clone();
@@ -78,13 +80,12 @@ pub(crate) fn doubts(answer: &FitNetworkAnswer) -> Vec<Diagnostic> {
         answer.task.runs.iter().flat_map(|run| &run.columns).any(|column| column.sigma.is_none());
     if priors && unweighted {
         let message = format!(
-            "without `sigma` a value of a record counts as known to 1 {} beside what `±` says of a \
+            "without `sigma` a value of a record counts as known to 1 {}, next to the `±` of a \
              parameter",
             common(&answer.task)
         );
         let doubt = Diagnostic::warning("fit::no_sigma", message).at(answer.study.span.clone(), "");
-        doubts
-            .push(doubt.help("write how far one value scatters, for example `sigma = \"0.2 K\"`"));
+        doubts.push(doubt.help("write the scatter of one value, for example `sigma = \"0.2 K\"`"));
     }
     doubts.extend((0..answer.fit.parameters.len()).filter_map(|i| off_prior(answer, i)));
     let (of, found) = ((&*answer.input, &answer.study), (&answer.task, &answer.fit));
@@ -101,11 +102,11 @@ pub(crate) fn doubts(answer: &FitNetworkAnswer) -> Vec<Diagnostic> {
 fn no_lag(answer: &FitNetworkAnswer, i: usize) -> Diagnostic {
     let name = answer.name(i);
     let message = format!(
-        "the records speak for no lag: `{name}` comes to 0 s and has no standard error, and those \
-         of the others hold only if that is right"
+        "the records show no lag: `{name}` becomes 0 s without a standard error, and those of the \
+         others are valid only if that is right"
     );
     let doubt = Diagnostic::warning("fit::on_bound", message).at(answer.place(i).clone(), "");
-    doubt.help("leave `lag` out of the sensor, or give it from a test of its own")
+    doubt.help("leave `lag` out of the sensor, or give its value from a separate test")
 }
 
 /// An interval of more standard errors to each side is worth a word: many values have two.
@@ -123,8 +124,8 @@ fn drifting(answer: &FitNetworkAnswer) -> Option<Diagnostic> {
     let ratios = (0..answer.fit.parameters.len()).filter_map(wide);
     let (widest, ratio) = ratios.max_by(|a, b| a.1.total_cmp(&b.1))?;
     let message = format!(
-        "{} {}: a drift as slow as the record is as likely as none: the 95 % intervals count it, \
-         and that of {} is {} standard errors wide to each side",
+        "{} {}: the data cannot exclude a drift as slow as the record; the 95 % intervals include \
+         it, and that of {} is ± {} standard errors",
         if names.len() == 1 { "column" } else { "columns" },
         names.join(", "),
         answer.name(widest),
@@ -132,8 +133,8 @@ fn drifting(answer: &FitNetworkAnswer) -> Option<Diagnostic> {
     );
     let doubt = Diagnostic::warning("fit::slow_drift", message).at(answer.study.span.clone(), "");
     let doubt = doubt.help(
-        "the curve takes such a drift up, and one or two records cannot tell it; a sensor beside it \
-         whose temperature stays can, and so can three records and more by how far they differ",
+        "one or two records cannot separate such a drift from the response: add a sensor at a \
+         constant temperature, or measure three records or more",
     );
     (!names.is_empty() && ratio > WIDE).then_some(doubt)
 }
@@ -147,20 +148,20 @@ fn differing(answer: &FitNetworkAnswer) -> Option<Diagnostic> {
     let (ratio, name) = (significant(most.ratio, 2), answer.name(*widest));
     let message = match all.len() {
         1 => format!(
-            "what the records say of `{name}` differs {ratio} times as far as their noise tells: \
-             its error follows from how they scatter"
+            "the records give values of `{name}` that differ {ratio} times as far as their noise \
+             explains: its error follows from their scatter"
         ),
         _ => format!(
-            "what the records say of {} differs farther than their noise tells, of `{name}` \
-             {ratio} times as far: their errors follow from how they scatter",
+            "the records give values of {} that differ farther than their noise explains, those of \
+             `{name}` {ratio} times as far: their errors follow from their scatter",
             names.join(", ")
         ),
     };
     let doubt = Diagnostic::warning("fit::records_differ", message);
     Some(doubt.at(answer.study.span.clone(), "").help(
-        "something changes from run to run that the network holds fixed, such as mounting, oil, a \
-         start or a law of the speed: fit the records one by one to see with what it changes, and \
-         let `lptn fit compare` say which network foretells a record that it has not seen",
+        "something that the network keeps fixed changes from run to run, such as mounting, oil, a \
+         start or a law of the speed: fit the records one by one to find it, and use `lptn fit \
+         compare` to find the network that predicts a held-out record best",
     ))
 }
 
@@ -170,7 +171,7 @@ fn off_prior(answer: &FitNetworkAnswer, i: usize) -> Option<Diagnostic> {
     let off = (fitted.value - fitted.start).abs() / prior;
     let shown = |si: f64| significant(answer.shown(i, si), DIGITS);
     let message = format!(
-        "`{}` is fitted as {} {}, {} standard deviations from the {} known beforehand",
+        "`{}` is fitted as {} {}, {} standard deviations from its prior {}",
         answer.name(i),
         shown(fitted.value),
         answer.units[i].text,
@@ -180,8 +181,7 @@ fn off_prior(answer: &FitNetworkAnswer, i: usize) -> Option<Diagnostic> {
     let doubt = Diagnostic::warning("fit::prior", message).at(answer.place(i).clone(), "");
     (off > FAR).then(|| {
         doubt.help(
-            "the record and what `±` says of it contradict each other: one of them is wrong, or \
-             the model",
+            "the record and the `±` contradict each other: one of them is wrong, or the model is",
         )
     })
 }
@@ -217,12 +217,12 @@ fn misfit(
         .map(|value| format!("{} {unit}", significant(value, 3)));
     let message = match count {
         1 => format!(
-            "the model does not describe column `{name}` of {record}: it misses it by {rms} rms, \
-             where `sigma` is {sigma}"
+            "the model does not describe column `{name}` of {record}: the misfit is {rms} rms, but \
+             `sigma` is {sigma}"
         ),
         _ => format!(
-            "the model does not describe column `{name}` in {count} records: it misses it by more \
-             than {FAR} times `sigma`, most in {record}, by {rms} rms, where `sigma` is {sigma}"
+            "the model does not describe column `{name}` in {count} records: the misfit is more \
+             than {FAR} times `sigma`, most in {record}, {rms} rms, but `sigma` is {sigma}"
         ),
     };
     let doubt = Diagnostic::warning("fit::misfit", message).at(answer.study.span.clone(), "");
@@ -239,7 +239,8 @@ fn misfit(
             significant(seconds, 2)
         ),
         None => {
-            "look for what the network leaves out, or for a `sigma` that is too small".to_owned()
+            "look for an effect that the network leaves out, or for a `sigma` that is too \
+             small".to_owned()
         }
     })
 }
@@ -257,7 +258,9 @@ pub(super) fn type_of(answer: &FitNetworkAnswer, combination: &Combination) -> O
 /// The last line: what the fit determined.
 pub(crate) fn verdict(answer: &FitNetworkAnswer) -> String {
     let Some(known) = &answer.fit.identifiability else {
-        return "what the records determine cannot be told: derivatives are not finite".to_owned();
+        return "it is not known which parameters the records determine: derivatives are not \
+            finite"
+            .to_owned();
     };
     let mut parts = Vec::new();
     if !known.unfelt.is_empty() {
@@ -269,7 +272,7 @@ pub(crate) fn verdict(answer: &FitNetworkAnswer) -> String {
     }
     let count = answer.fit.parameters.len();
     let by = if answer.unknowns.iter().any(|unknown| unknown.prior.is_some()) {
-        "the records and what is known beforehand (±)"
+        "the records and the priors (±)"
     } else {
         "the records"
     };
@@ -296,10 +299,8 @@ pub(super) fn sought(answer: &FitNetworkAnswer) -> String {
 /// take up.
 fn unchecked(answer: &FitNetworkAnswer) -> &'static str {
     match (answer.fit.left_over, &answer.fit.covariance) {
-        (0, Some(_)) => {
-            "; no values are left over to tell errors from, so they are those of `sigma`"
-        }
-        (0, None) => "; no values are left over to tell errors from",
+        (0, Some(_)) => "; no values are left to estimate errors from, so they follow from `sigma`",
+        (0, None) => "; no values are left to estimate errors from",
         _ => "",
     }
 }

@@ -35,11 +35,11 @@ pub(super) fn of(request: &Request, column: &StepColumn) -> Vec<Diagnostic> {
     if fit.coarse {
         let step = significant(fit.resolution.unwrap_or(f64::NAN), 3);
         let message = format!(
-            "column `{name}`: what the curve misses is the rounding of the logger to {step} K, \
-             which does not average out"
+            "column `{name}`: the residual is the rounding of the logger to {step} K, which does \
+             not average out"
         );
-        let help = "the 95 % intervals hold the truth less often than they say: in 86 of 100 \
-            records with a step of five deviations of slow noise";
+        let help = "the 95 % intervals contain the true value less often: in 86 of 100 records \
+            with a step of five deviations of slow noise";
         warnings.push(at(Diagnostic::warning("fit::coarse", message)).help(help));
     }
     // where the noise that is seen is slow itself, its own interval is hardly wider
@@ -49,7 +49,7 @@ pub(super) fn of(request: &Request, column: &StepColumn) -> Vec<Diagnostic> {
     let drift = column.power.drift;
     if drift.abs() > 0.05 * column.power.rise.value.abs() {
         let message = format!(
-            "the reference `{}` changes by {} K over the record, and its mean is taken",
+            "the reference `{}` changes by {} K over the record, and its mean is used",
             column.power.reference,
             significant(drift, 3)
         );
@@ -66,12 +66,12 @@ const WIDE: f64 = 2.5;
 /// That a drift as slow as the record is in the intervals.
 fn drifting(name: &str, fit: &StepFit) -> Diagnostic {
     let message = format!(
-        "column `{name}`: a drift as slow as the record is as likely as none: the 95 % \
-         interval of t_RC counts it, and is {} standard errors wide to each side",
+        "column `{name}`: the data cannot exclude a drift as slow as the record; the 95 % interval \
+         of t_RC includes it and is ± {} standard errors",
         significant(fit.tau.half_width / fit.tau.standard_error, 2)
     );
-    let help = "one exponential takes such a drift up, and the record cannot tell it; a sensor \
-        beside it whose temperature stays, or a second record, can";
+    let help = "one record cannot separate such a drift from the response: add a sensor at a \
+        constant temperature, or a second record";
     Diagnostic::warning("fit::slow_drift", message).help(help)
 }
 
@@ -86,7 +86,8 @@ fn short(name: &str, fit: &StepFit) -> Diagnostic {
     );
     let long = duration(LONG_ENOUGH * fit.tau.value, 3);
     let help = format!(
-        "measure for {LONG_ENOUGH} time constants, {long}: what was not measured is in no error"
+        "measure for {LONG_ENOUGH} time constants, {long}: no error includes the part that was not \
+         measured"
     );
     Diagnostic::warning("fit::short", message).help(help)
 }
@@ -104,8 +105,8 @@ fn cut(request: &Request, column: &StepColumn) -> Option<Diagnostic> {
          there",
         column.column.name
     );
-    let help = "count it from where the column was before the step: --reference \"25.5 degC\", or \
-        from a COLUMN";
+    let help = "count it from the temperature before the step: --reference \"25.5 degC\", or from \
+        a COLUMN";
     Some(Diagnostic::warning("fit::cut", message).help(help))
 }
 
@@ -118,15 +119,15 @@ fn cooling(request: &Request, column: &StepColumn) -> Option<Diagnostic> {
     }
     if fit.settled.value < fit.initial.value {
         let message =
-            format!("column `{name}`: the record cools: the negative P_disp is no dissipation");
-        let help = "what cools without heat has P = 0 and tends to its surroundings: T_f is their \
-            temperature, and t_RC and R_eq hold";
+            format!("column `{name}`: the record cools: the negative P_disp is not a dissipation");
+        let help = "a body that cools without heat has P = 0 and tends to its surroundings: T_f is \
+            their temperature, and t_RC and R_eq are valid";
         return Some(Diagnostic::warning("fit::cooling", message).help(help));
     }
     let message = format!(
-        "column `{name}`: T_f is below the reference: the negative P_disp is no dissipation"
+        "column `{name}`: T_f is below the reference: the negative P_disp is not a dissipation"
     );
-    let help = "--reference is where the column would be without heat";
+    let help = "--reference is the temperature of the column without heat";
     Some(Diagnostic::warning("fit::cooling", message).help(help))
 }
 
@@ -142,7 +143,7 @@ fn second(name: &str, two: &TwoExponentials, request: &Request) -> Diagnostic {
             with_error(tau.value, tau.standard_error)
         )
     };
-    let message = format!("column `{name}`: what the curve misses asks for a second exponential");
+    let message = format!("column `{name}`: the residuals need a second exponential");
     Diagnostic::warning("fit::second_exponential", message).note(format!(
         "({}) {} + {} + {}, which misses {} K",
         with_error(settled, error),
@@ -159,9 +160,8 @@ const STILL: f64 = 0.02;
 /// That the step begins after the record.
 fn late(name: &str, start: f64) -> Diagnostic {
     let from = significant(start, 6);
-    let message =
-        format!("column `{name}` stands still until {from} s, and one exponential does not");
-    let help = format!("begin where the step begins, with --from \"{from} s\"");
+    let message = format!("column `{name}` is constant until {from} s, but one exponential is not");
+    let help = format!("begin with the step: --from \"{from} s\"");
     Diagnostic::warning("fit::late_start", message).help(help)
 }
 

@@ -102,7 +102,7 @@ impl FitStepQuestion {
         if self.posterior && request.columns.len() != 1 {
             return Err(Failure::refused(
                 "fit::step_posterior",
-                "--posterior writes what one column says of P_disp and R_eq",
+                "--posterior writes P_disp and R_eq of one column",
                 "name it: --column ring_gear",
             ));
         }

@@ -55,8 +55,8 @@ impl Model {
 
 fn unknown_begin() -> Failure {
     let message =
-        "the run of the model begins with the record, but what is before --from cannot be read";
-    let help = "without --from the first row that cannot be read is named";
+        "the run of the model begins with the record, but a row before --from cannot be read";
+    let help = "leave --from out: the error then names the first such row";
     Failure::refused("fit::no_begin", message, help)
 }
 

@@ -176,7 +176,7 @@ fn intervals(answer: &FitStepAnswer, text: &mut Text) {
             ("n_eff/n".to_owned(), &|c| format!("{:.0}/{}", c.fit.noise.effective, c.fit.samples)),
         ],
     );
-    text.line("± is one standard error; n samples tell as much as n_eff independent ones");
+    text.line("± is one standard error; n samples count as n_eff independent ones");
 }
 
 /// dT, and with a capacity what follows from it.
@@ -246,8 +246,8 @@ fn bias(answer: &FitStepAnswer, text: &mut Text) {
     let Some(model) = &answer.model else {
         text.sentence(
             "",
-            "no ± includes the bias of the method: a body of several parts is no single \
-             exponential; --model FILE --port NODE states it",
+            "no ± includes the bias of the method: a body of several parts does not follow a \
+             single exponential; --model FILE --port NODE states it",
         );
         return;
     };

@@ -80,9 +80,9 @@ pub(super) fn deviation(network: &Network, found: &Uncertainty, input: usize) ->
 /// What a share is where parameters are correlated.
 pub(super) fn shares(found: &Uncertainty) -> Option<String> {
     found.inputs.are_correlated().then(|| {
-        "parameters are correlated, so no share of the variance is one's own: a share is the effect \
-         times what the parameter and the result have in common, may be negative, and the shares \
-         add up to what straight lines tell; Sobol's indices are not defined"
+        "parameters are correlated, so no share of the variance belongs to one alone: a share is \
+         the effect times the covariance with the result and may be negative; the shares add up to \
+         the variance of the linear model; Sobol indices are not defined"
             .to_owned()
     })
 }
@@ -98,7 +98,7 @@ pub(super) fn far_from_normal(network: &Network, found: &Uncertainty) -> Option<
     let mut all = 0..found.inputs.len();
     let name = parameter(network, found, all.find(|&i| shaped(&found.inputs[i]) && rules(i))?);
     Some(format!(
-        "`{name}` is a rectangle and makes most of a result, whose band is taken to be normal: it is \
-         up to a fifth too wide, see --uncertainty sobol"
+        "`{name}` is uniform and dominates a result, whose band is computed as normal: it is up to \
+         a fifth too wide, see --uncertainty sobol"
     ))
 }

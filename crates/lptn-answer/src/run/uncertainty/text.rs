@@ -197,7 +197,7 @@ fn side_by_side(
         inputs.iter().take_while(|input| weight(input) >= LEAST_SHARE).take(MOST_RANKED).count();
     let (shown, others) = inputs.split_at(named);
     let mut table = TextTable::of(shown)
-        .left("what matters", |input| parameter(network, found, *input))
+        .left("parameter", |input| parameter(network, found, *input))
         .right("±", |input| inputs::deviation(network, found, *input));
     for answer in answers {
         let digits = decimals(answer.deviation.value, 3, 1);
@@ -277,8 +277,8 @@ pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String
             let note = |why: &String| {
                 format!(
                     "no exact sensitivities, they are differences of runs: {why}; the further a \
-                     parameter moves, the less a straight line says: --uncertainty sobol follows \
-                     it"
+                     parameter moves, the less accurate a straight line is: use --uncertainty \
+                     sobol"
                 )
             };
             let more =

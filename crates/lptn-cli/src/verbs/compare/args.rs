@@ -23,13 +23,13 @@ pub(crate) struct CompareArgs {
     #[arg(value_name = "FILE", required = true)]
     pub(crate) files: Vec<PathBuf>,
     /// Give a parameter a value in every candidate that has it, or several, R=1K/W,2K/W: each
-    /// makes a candidate of its own; may be repeated
+    /// makes a separate candidate; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub(crate) set: Vec<String>,
     /// Take values and their covariance from a fit, in every candidate that has the parameters
     #[arg(long, value_name = "FILE.json")]
     pub(crate) posterior: Option<PathBuf>,
-    /// Say how sure peaks, margins and their order are, from every ±, by straight lines
+    /// Show the uncertainty of peaks, margins and their order, from every ±, to first order
     #[arg(long, conflicts_with = "periodic")]
     pub(crate) uncertainty: bool,
     /// Make a candidate of every part in a CSV file, with its name as `part` and a column for each
@@ -39,7 +39,7 @@ pub(crate) struct CompareArgs {
     /// Take every netlist in each of its load cases, [case.NAME]
     #[arg(long)]
     pub(crate) cases: bool,
-    /// Compare over the settled cycle of repeated signals, not over the run
+    /// Compare in the periodic steady state of repeated signals, not over the run
     #[arg(long)]
     pub(crate) periodic: bool,
     #[command(flatten)]
@@ -50,7 +50,7 @@ pub(crate) struct CompareArgs {
     pub(crate) sort: SortKey,
     #[command(flatten)]
     pub(crate) scale: Scale,
-    /// Use so many threads, not all of the machine; the result is the same
+    /// Use this number of threads instead of all; the result is the same
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
 }

@@ -14,7 +14,7 @@ Examples:
 #[derive(Debug, Arguments)]
 #[command(before_help = EXAMPLES, help_template = TEMPLATE)]
 pub(crate) struct ExplainArgs {
-    /// The code that stands in brackets in a message, or an area such as units; without it all
+    /// The code in brackets in a message, or an area such as units; without it all
     /// codes are listed
     #[arg(value_name = "CODE")]
     pub(crate) code: Option<String>,

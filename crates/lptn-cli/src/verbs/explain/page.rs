@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::codes::{Code, Part};
 
 /// The network that examples add to.
-const FRAGMENT: &str = "The lines stand in a network with a node `base_node`, a boundary \
+const FRAGMENT: &str = "The lines belong to a network with a node `base_node`, a boundary \
     `base_air` and a resistor of 1 K/W between them.";
 
 /// The codes that were asked for.

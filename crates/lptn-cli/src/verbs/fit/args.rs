@@ -8,7 +8,7 @@ use super::network::NetworkArgs;
 use super::step::StepArgs;
 use crate::options::TEMPLATE;
 
-/// Take time constants, resistances and heat from measured records
+/// Estimate time constants, resistances and heat from measured records
 #[derive(Debug, Arguments)]
 #[command(help_template = TEMPLATE)]
 pub(crate) struct FitArgs {

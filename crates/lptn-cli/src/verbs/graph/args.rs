@@ -28,7 +28,7 @@ pub(crate) struct GraphArgs {
     /// Write this file by its ending; - is stdout
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
-    /// Show temperatures and heat flows where it settles
+    /// Show temperatures and heat flows in steady state
     #[arg(long)]
     pub(crate) steady: bool,
     /// Show them at a time of the run, such as 10min
@@ -69,7 +69,7 @@ pub(crate) struct FieldArgs {
     /// Draw a layer of cells by number or place: z=3, "z=5 mm"
     #[arg(long, value_name = "AXIS=PLACE", conflicts_with_all = ["group", "no_group", "steady", "sankey"])]
     pub(crate) slice: Option<String>,
-    /// Of several grids take this one
+    /// Draw this grid, if there are several
     #[arg(long, value_name = "NAME", conflicts_with = "sankey")]
     pub(crate) grid: Option<String>,
 }

@@ -21,7 +21,7 @@ pub(crate) fn graph(args: &GraphArgs, console: &Console) -> Result<Exit, Failure
         return Err(Failure::refused(
             "graph::format",
             "--plot draws curves, not the network",
-            "write -o FILE in its place",
+            "write -o FILE instead",
         ));
     }
     let only = args.only_a_picture();

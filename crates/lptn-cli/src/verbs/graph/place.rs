@@ -46,7 +46,7 @@ pub(super) fn wanted(
         None => Ok((kind, place)),
         Some([what, option]) => {
             let whole = if kind.is_of_grid() { "the whole grid" } else { "the network" };
-            let message = format!("{what} is a picture, and {} holds {whole}", kind.key());
+            let message = format!("{what} is a picture, but {} contains {whole}", kind.key());
             let problem = Diagnostic::error("graph::format", message);
             Err(refused(problem.help(format!("leave {option} out, or write svg or png"))))
         }
@@ -69,7 +69,7 @@ fn contradiction(path: &Path, format: Kind, of_file: Kind) -> Failure {
 }
 
 fn no_format(path: &Path) -> Failure {
-    let message = format!("the ending of {} says no format", path.display());
+    let message = format!("cannot tell the format from {}", path.display());
     let help = "end it with .svg, .png, .dot, .mmd, .vtk or .csv, or add --format svg";
     refused(Diagnostic::error("graph::format", message).help(help))
 }

@@ -12,14 +12,14 @@ Examples:
   lptn infer gearbox.toml power -o results --plot power.svg
   tail -n +1 -f bench.csv | lptn infer gearbox.toml power --follow";
 
-/// Say how a heat, flow or film coefficient went over time, from a record
+/// Estimate a heat, flow or heat transfer coefficient over time from a record
 #[derive(Debug, Arguments)]
 #[command(before_help = EXAMPLES, help_template = TEMPLATE)]
 pub(crate) struct InferArgs {
     /// A netlist with an [infer.NAME]; - reads stdin
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
-    /// Which [infer.NAME], where there are several
+    /// Which [infer.NAME], if there are several
     #[arg(value_name = "NAME")]
     pub(crate) name: Option<String>,
     /// Give a parameter a value; may be repeated

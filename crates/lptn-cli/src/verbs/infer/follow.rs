@@ -18,7 +18,7 @@ pub(super) fn possible(args: &InferArgs, console: &Console) -> Result<(), Failur
         _ if console.reports() => "--report",
         _ => return Ok(()),
     };
-    let message = format!("{asked} shows a whole record, and --follow answers rows as they come");
+    let message = format!("{asked} shows a whole record, but --follow answers rows as they come");
     let help = "leave one of the two out: --follow prints csv, a line for each row";
     Err(Failure::refused("infer::follow_output", message, help))
 }

@@ -11,14 +11,14 @@ Examples:
   lptn plan gearbox.toml
   lptn plan gearbox.toml next --plot next.svg";
 
-/// Say how to measure: which sensors, which runs, for how long
+/// Plan a measurement: which sensors, which runs, for how long
 #[derive(Debug, Arguments)]
 #[command(before_help = EXAMPLES, help_template = TEMPLATE)]
 pub(crate) struct PlanArgs {
     /// A netlist with a [plan.NAME]; - reads stdin
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
-    /// Which [plan.NAME], where there are several
+    /// Which [plan.NAME], if there are several
     #[arg(value_name = "NAME")]
     pub(crate) name: Option<String>,
     /// Give a parameter a value; may be repeated

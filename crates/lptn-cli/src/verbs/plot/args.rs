@@ -10,7 +10,7 @@ use crate::options::{Scale, TEMPLATE, Times};
 const EXAMPLES: &str = "\
 Examples:
   lptn plot motor.toml                      run it, and draw it here
-  lptn plot out/motor -o motor.svg          draw what a run has written
+  lptn plot out/motor -o motor.svg          draw the results of a run
   lptn plot motor.toml measured.csv -o both.png
   lptn plot small.toml large.toml --select '*.T'";
 

@@ -10,13 +10,13 @@ Examples:
   lptn rank motor.toml --of winding --format csv
   lptn rank motor.toml --over run";
 
-/// Say which values a temperature answers most: what to change first
+/// Rank values by their effect on a temperature: what to change first
 #[derive(Debug, Arguments)]
 #[command(before_help = EXAMPLES, help_template = TEMPLATE)]
 pub(crate) struct RankArgs {
     #[command(flatten)]
     pub(crate) source: Source,
-    /// The node whose temperature answers; else the hottest
+    /// The node whose temperature responds; default: the hottest
     #[arg(long, value_name = "NODE")]
     pub(crate) of: Option<String>,
     /// Its temperature in steady state, or the highest one of the run

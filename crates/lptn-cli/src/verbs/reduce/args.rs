@@ -20,7 +20,7 @@ Examples:
   lptn reduce motor.toml --port winding --max-error 20% --at steady
   lptn reduce motor.toml --keep winding,housing --write kept.toml";
 
-/// Replace a network by one node, and say how wrong that is
+/// Replace a network by one node, and show the error
 #[derive(Debug, Arguments)]
 #[command(before_help = EXAMPLES, help_template = TEMPLATE)]
 pub(crate) struct ReduceArgs {
@@ -29,7 +29,7 @@ pub(crate) struct ReduceArgs {
     /// The node that the network is seen from
     #[arg(long, value_name = "NODE")]
     pub(crate) port: Option<String>,
-    /// Keep several nodes, and what stands between them: steel,housing
+    /// Keep several nodes, and the network between them: steel,housing
     #[arg(long, value_name = "NODES")]
     #[arg(conflicts_with_all = ["port", "definition", "bias", "window", "worst", "at"])]
     pub(crate) keep: Option<String>,
@@ -45,7 +45,7 @@ pub(crate) struct ReduceArgs {
     /// The largest power of these loads, not the largest Q_N
     #[arg(long, value_name = "POWER")]
     pub(crate) power: Option<String>,
-    /// Use so many nodes
+    /// Use this number of nodes
     #[arg(long, value_name = "N", conflicts_with = "definition")]
     #[arg(value_parser = clap::value_parser!(u8).range(1..=100).map(usize::from))]
     pub(crate) nodes: Option<usize>,
@@ -60,7 +60,7 @@ pub(crate) struct ReduceArgs {
     #[arg(long, value_name = "NAME", hide_possible_values = true)]
     #[arg(value_parser = one_of(&Definition::ALL, Definition::key))]
     pub(crate) definition: Option<Definition>,
-    /// Fit one exponential to the run and say what heat it implies
+    /// Fit one exponential to the run and show the heat that it implies
     #[arg(long)]
     pub(crate) bias: bool,
     /// Fit least_squares over this time after the step, not 5 tau_1

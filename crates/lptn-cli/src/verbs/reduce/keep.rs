@@ -41,7 +41,7 @@ pub(super) fn keep(args: &ReduceArgs, console: &Console, names: &str) -> Result<
         console.note(&format!("wrote  {}: all temperatures from the kept", path.display()));
     }
     if let Some(path) = &args.write {
-        wrote((path, "nodes that stand for"), &input, console);
+        wrote((path, "nodes that represent"), &input, console);
     }
     answer.too_large().iter().for_each(|text| console.message(text));
     Ok(answer.exit())

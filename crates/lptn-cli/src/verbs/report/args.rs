@@ -12,7 +12,7 @@ Examples:
   lptn report out/motor
   lptn report out/motor -o for_anna.html";
 
-/// Write what a run has left in a folder as one HTML page
+/// Write the results of a run in a folder as one HTML page
 #[derive(Debug, Arguments)]
 #[command(before_help = EXAMPLES, help_template = TEMPLATE)]
 pub(crate) struct ReportArgs {

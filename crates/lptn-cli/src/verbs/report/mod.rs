@@ -40,7 +40,7 @@ pub(crate) fn report(args: &ReportArgs, console: &Console) -> Result<Exit, Failu
     };
     match outcome {
         Ok(same) => {
-            let message = format!("{RESULT} is not what its run gives now");
+            let message = format!("{RESULT} differs from the result of its run now");
             let problem = Diagnostic::error("report::differs", message);
             let help = "it was written by another version of lptn, or changed since";
             if same { Ok(Exit::Done) } else { Err(Failure::new(Exit::No, problem.help(help))) }
@@ -48,7 +48,10 @@ pub(crate) fn report(args: &ReportArgs, console: &Console) -> Result<Exit, Failu
         Err(why) => {
             let mut report = about::of_command(&[], &crate::files::arguments());
             report.title.clone_from(&figure.title);
-            console.message(&format!("not run again: {why}; the page shows what is in the folder"));
+            console.message(&format!(
+                "not run again: {why}; the page shows the files of the \
+                folder"
+            ));
             report.claims.push(Claim::open(format!("as it was written; not run again: {why}")));
             report.sections.insert(0, Section::of("", Piece::Figure(figure)));
             report.sections.extend(about::manifest(manifest));

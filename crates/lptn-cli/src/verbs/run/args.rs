@@ -40,7 +40,7 @@ pub(crate) struct RunArgs {
     /// Write no files
     #[arg(long)]
     pub(crate) no_files: bool,
-    /// Draw the network in the report as it is then; may be repeated
+    /// Draw the network in the report at this time; may be repeated
     #[arg(long, value_name = "TIME", requires = "report")]
     pub(crate) at: Vec<String>,
     #[command(flatten)]

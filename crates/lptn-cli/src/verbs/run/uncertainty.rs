@@ -22,7 +22,7 @@ pub(crate) struct UncertaintyArgs {
     /// Seed of sobol [1]
     #[arg(long, value_name = "S", requires = "uncertainty")]
     pub(crate) seed: Option<u32>,
-    /// Use so many threads; the result is the same
+    /// Use this number of threads; the result is the same
     #[arg(long, value_name = "N", requires = "uncertainty")]
     pub(crate) threads: Option<usize>,
 }

@@ -19,7 +19,7 @@ pub(crate) struct SizeArgs {
     /// A netlist with a [size.NAME]; without it the options of a cooling are needed
     #[arg(value_name = "FILE")]
     pub(crate) file: Option<PathBuf>,
-    /// Which [size.NAME], where there are several
+    /// Which [size.NAME], if there are several
     #[arg(value_name = "NAME")]
     pub(crate) name: Option<String>,
     /// Give a parameter a value; may be repeated
@@ -31,7 +31,7 @@ pub(crate) struct SizeArgs {
     /// Write the value into the netlist; comments and order stay
     #[arg(long, conflicts_with_all = ["set", "power"])]
     pub(crate) write: bool,
-    /// Use so many threads, not all of the machine; the result is the same
+    /// Use this number of threads instead of all; the result is the same
     #[arg(long, value_name = "N", conflicts_with = "power")]
     pub(crate) threads: Option<usize>,
     #[command(flatten)]
@@ -56,7 +56,7 @@ pub(crate) struct CoolingArgs {
     #[arg(long, value_name = "T", required_unless_present = "file", conflicts_with = "file")]
     #[arg(allow_hyphen_values = true)]
     pub(crate) ambient: Option<String>,
-    /// How much air or oil may warm on its way [10 K]
+    /// Allowed rise of the air or oil on its way [10 K]
     #[arg(long, value_name = "K", conflicts_with = "file", allow_hyphen_values = true)]
     pub(crate) rise: Option<String>,
 }

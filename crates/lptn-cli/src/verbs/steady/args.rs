@@ -12,7 +12,7 @@ Examples:
   lptn steady motor.toml --set P_loss=80W --format json
   lptn steady duty_cycle.toml --periodic";
 
-/// Find the temperatures at which a network settles
+/// Find the steady state of a network
 #[derive(Debug, Arguments)]
 #[command(before_help = EXAMPLES, help_template = TEMPLATE)]
 pub(crate) struct SteadyArgs {
@@ -33,16 +33,16 @@ pub(crate) struct SteadyArgs {
 #[derive(Debug, Arguments)]
 #[command(next_help_heading = "Cycles")]
 pub(crate) struct CycleArgs {
-    /// Find the cycle that repeating inputs settle at
+    /// Find the periodic steady state of repeating inputs
     #[arg(long)]
     pub(crate) periodic: bool,
-    /// The period, such as "10 min"; else that of the signals
+    /// The period, such as "10 min"; default: that of the signals
     #[arg(long, value_name = "TIME", requires = "periodic", allow_hyphen_values = true)]
     pub(crate) period: Option<String>,
     /// Integrate to a tolerance such as 1e-7K
     #[arg(long, value_name = "K", requires = "periodic")]
     pub(crate) tolerance: Option<String>,
-    /// Write the settled cycle into files here
+    /// Write the periodic steady state into files here
     #[arg(short, long, value_name = "DIR", requires = "periodic", conflicts_with = "no_files")]
     pub(crate) output: Option<PathBuf>,
 }

@@ -26,7 +26,7 @@ pub(crate) struct SweepArgs {
     /// A netlist with a [sweep.NAME]; - reads it from stdin
     #[arg(value_name = "FILE", required = true)]
     pub(crate) file: Option<PathBuf>,
-    /// Which [sweep.NAME], where there are several
+    /// Which [sweep.NAME], if there are several
     #[arg(value_name = "NAME")]
     pub(crate) name: Option<String>,
     /// Give a parameter a value; may be repeated
@@ -44,13 +44,13 @@ pub(crate) struct SweepArgs {
     /// Write no files
     #[arg(long, conflicts_with_all = ["output", "resume", "shard"])]
     pub(crate) no_files: bool,
-    /// Go on where a sweep that was stopped left off
+    /// Continue a sweep that was stopped
     #[arg(long)]
     pub(crate) resume: bool,
     /// Solve the k-th of n parts only; auto asks the scheduler of the cluster
     #[arg(long, value_name = "K/N")]
     pub(crate) shard: Option<Shard>,
-    /// Use so many threads, not all of the machine; the result is the same
+    /// Use this number of threads instead of all; the result is the same
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
 }
@@ -68,7 +68,7 @@ pub(crate) struct PlanArgs {
     /// A netlist with a [sweep.NAME]
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
-    /// Which [sweep.NAME], where there are several
+    /// Which [sweep.NAME], if there are several
     #[arg(value_name = "NAME")]
     pub(crate) name: Option<String>,
     /// Give a parameter a value; may be repeated
@@ -80,15 +80,15 @@ pub(crate) struct PlanArgs {
     /// Write a task array for HyperQueue
     #[arg(long)]
     pub(crate) hyperqueue: bool,
-    /// Into how many parts the sweep is cut
+    /// The number of parts of the sweep
     #[arg(long, value_name = "N", default_value_t = 10)]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=100_000))]
     pub(crate) shards: u64,
-    /// How many cores each part gets
+    /// The number of cores of each part
     #[arg(long, value_name = "N", default_value_t = 1)]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1024))]
     pub(crate) cores: u64,
-    /// Where the parts go, instead of out/FILE/NAME
+    /// The folder of the parts, instead of out/FILE/NAME
     #[arg(short, long, value_name = "DIR")]
     pub(crate) output: Option<PathBuf>,
 }
@@ -97,7 +97,7 @@ pub(crate) struct PlanArgs {
 #[derive(Debug, Arguments)]
 #[command(help_template = TEMPLATE)]
 pub(crate) struct MergeArgs {
-    /// The folder that holds the parts
+    /// The folder of the parts
     #[arg(value_name = "DIR")]
     pub(crate) folder: PathBuf,
 }

@@ -37,9 +37,13 @@ impl Found {
         let (part, whole) = (folder.path().join(UNFINISHED), folder.path().join(SWEEP));
         if part.exists() {
             if !resume {
-                let message = format!("{} holds a sweep that was stopped", folder.path().display());
-                let help = "add --resume to go on with it, remove sweep.csv.part to begin anew, or \
-                            choose another folder with -o DIR";
+                let message = format!(
+                    "{} contains a sweep that was \
+                    stopped",
+                    folder.path().display()
+                );
+                let help = "add --resume to go on with it, remove sweep.csv.part to start again, \
+                            or choose another folder with -o DIR";
                 return Err(Failure::refused("sweep::unfinished", message, help));
             }
             same(asked, &folder.path().join(BEGUN), |begun| begun)?;
@@ -64,7 +68,7 @@ fn same(asked: &SweepAsked, file: &Path, of: fn(&Value) -> &Value) -> Result<(),
     }
     let folder = file.parent().unwrap_or(Path::new(".")).display();
     let message = format!(
-        "{folder} holds rows of another sweep: the netlist, its files, the parameters that are \
+        "{folder} contains rows of another sweep: the netlist, its files, the parameters that are \
          set, the version of lptn or the part differ"
     );
     let help = "choose another folder with -o DIR, or remove that one";

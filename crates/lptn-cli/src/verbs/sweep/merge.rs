@@ -60,7 +60,7 @@ fn parts(folder: &Path) -> Result<Vec<Part>, Failure> {
     found.sort_by_key(|(shard, _)| (shard.n, shard.k));
     if found.is_empty() {
         let message = format!("there is no part of a sweep in {}", folder.display());
-        let help = "name the folder that holds part-1-of-N and the others";
+        let help = "name the folder of part-1-of-N and the others";
         return Err(Failure::refused("sweep::no_parts", message, help));
     }
     let mut parts: Vec<Part> =

@@ -59,7 +59,7 @@ fn candidates(args: &SweepArgs, console: &Console) -> Result<Exit, Failure> {
     let (tally, rows) = outcome;
     if interrupted {
         let more = if folder.is_some() { ": add --resume to go on" } else { "" };
-        console.message(&format!("interrupted behind {} candidates{more}", tally.rows));
+        console.message(&format!("interrupted after {} candidates{more}", tally.rows));
         return Ok(Exit::Interrupted);
     }
     show(args, &SweepAnswer { asked, tally, rows }, folder.as_ref(), console)
@@ -81,7 +81,7 @@ fn into_folder(
         Found::Nothing => (Growing::begin(folder, asked)?, asked.range.start),
         Found::Rows => {
             let (growing, from) = Growing::go_on(folder, asked, &mut tally)?;
-            console.note(&format!("goes on behind {} candidates", from - asked.range.start));
+            console.note(&format!("continues after {} candidates", from - asked.range.start));
             (growing, from)
         }
         Found::Whole => {

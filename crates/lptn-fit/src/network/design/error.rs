@@ -25,15 +25,15 @@ pub enum DesignError {
         class error.class();
     /// They can, but no minimum is found.
     NotConverged { fit: String } = "plan::given",
-        format!("fit `{fit}`, whose records are there already, does not converge"),
-        help format!("`lptn fit network` says more of it; without it, leave `{fit}` out of `given`");
+        format!("fit `{fit}`, whose records exist already, does not converge"),
+        help format!("`lptn fit network` reports more; without it, leave `{fit}` out of `given`");
     /// What is sought, by the plan or by a fit whose records are there already, is set by one of the
     /// runs or records.
     Set { parameter: String, by: String } = "plan::given_set",
-        format!("`{parameter}` is to be found, and {by} sets it"),
+        format!("`{parameter}` is to be estimated, but {by} sets it"),
         help format!(
-            "one name has one value in all records and runs: give what is set another name than \
-             `{parameter}`, or leave it out of what is found"
+            "one name has one value in all records and runs: rename the value that is set, or do \
+             not estimate `{parameter}`"
         );
     /// A number of the study has no value.
     Numbers => EvalError;

@@ -84,7 +84,7 @@ fn records(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let mut paths = of_folder(folder, "csv", None)?;
     paths.retain(|path| file_name(path) != RUNS);
     if paths.is_empty() {
-        let message = format!("{} holds no records: no file ends with .csv", folder.display());
+        let message = format!("{} contains no records: no file ends with .csv", folder.display());
         return Err(Failure::new(Exit::Input, Diagnostic::error("fit::law_no_records", message)));
     }
     Ok(paths)
@@ -139,7 +139,7 @@ fn speed(path: &Path, (record, files): (&Record, &Files), speeds: &Speeds) -> Re
     match found.as_slice() {
         [] => refused(
             "fit::law_no_speed",
-            format!("{}: at which speed was it recorded?", path.display()),
+            format!("{}: its speed is not given", path.display()),
             "write a line `# omega = 1000 rpm` above its header, put the speed into its name \
              (`1000rpm.csv`), or add a sheet runs.csv with `file,omega [rpm]`",
         ),

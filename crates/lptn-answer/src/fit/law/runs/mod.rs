@@ -279,16 +279,14 @@ impl FitRunsAnswer {
         }
         let asked = all.iter().filter(|f| f.fit.second.offer.is_some()).count();
         if asked > 0 {
-            let note = format!(
-                "{asked} of {} runs ask for a second exponential: lptn fit step",
-                all.len()
-            );
+            let note =
+                format!("{asked} of {} runs need a second exponential: lptn fit step", all.len());
             text.sentence("shape  ", &note);
         }
         text.sentence(
             "error  ",
-            "± are standard errors of the noise alone; what one exponential makes wrong of a \
-             network is in none of them",
+            "± are standard errors of the noise alone, without the error of describing a network \
+             by one exponential",
         );
     }
 

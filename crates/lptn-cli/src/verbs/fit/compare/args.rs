@@ -12,7 +12,7 @@ Examples:
   lptn fit compare body.toml --fit linear --fit radiating
   lptn fit compare body.toml --set exponent=0,0.25,0.333 -o results/which";
 
-/// Say which of several networks records speak for, by what they have not seen
+/// Choose between networks by how well each predicts held-out data
 #[derive(Debug, Arguments)]
 #[command(before_help = EXAMPLES, help_template = TEMPLATE)]
 pub(crate) struct FitCompareArgs {
@@ -23,10 +23,10 @@ pub(crate) struct FitCompareArgs {
     #[arg(long, value_name = "NAME")]
     pub(crate) fit: Vec<String>,
     /// Give a parameter a value in every candidate that has it, or several, n=1,2: each makes a
-    /// candidate of its own; may be repeated
+    /// separate candidate; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub(crate) set: Vec<String>,
-    /// How many searches begin elsewhere between the bounds [4]
+    /// The number of searches that begin elsewhere between the bounds [4]
     #[arg(long, value_name = "N")]
     pub(crate) starts: Option<u16>,
     /// Write candidates.csv, unseen.csv, choice.json and a manifest here
@@ -34,7 +34,7 @@ pub(crate) struct FitCompareArgs {
     pub(crate) output: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) printed: Printed,
-    /// Use so many threads, not all of the machine; the result is the same
+    /// Use this number of threads instead of all; the result is the same
     #[arg(long, value_name = "N")]
     pub(crate) threads: Option<usize>,
 }

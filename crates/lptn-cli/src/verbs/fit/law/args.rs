@@ -27,10 +27,10 @@ pub(crate) struct LawArgs {
         conflicts_with = "rise_law"
     )]
     pub(crate) points: Option<PathBuf>,
-    /// The column of the speed, where it is not the only rotation
+    /// The column of the speed, if it is not the only rotation
     #[arg(long, value_name = "NAME", requires = "points")]
     pub(crate) speed: Option<String>,
-    /// The column of the power, where it is not the only one; its errors are in NAME_sd
+    /// The column of the power, if it is not the only one; its errors are in NAME_sd
     #[arg(long, value_name = "NAME", requires = "points")]
     pub(crate) power: Option<String>,
     /// The column of the temperature rise, to test whether it agrees with the power
@@ -48,7 +48,7 @@ pub(crate) struct LawArgs {
     /// Begin the search for a coefficient here: "a = 20 mW/rpm"; may be repeated
     #[arg(long, value_name = "NAME=VALUE", requires = "law")]
     pub(crate) start: Vec<String>,
-    /// Give every point the same weight, whatever its standard error
+    /// Give every point the same weight, regardless of its standard error
     #[arg(long, requires = "points")]
     pub(crate) unweighted: bool,
     /// The heat capacity, such as "2659 J/K ± 5 %"
@@ -74,13 +74,13 @@ pub(crate) struct LawArgs {
 #[derive(Debug, Arguments)]
 #[command(next_help_heading = "A folder of records")]
 pub(crate) struct RecordsArgs {
-    /// Fit this column; may be repeated, the first gives the power; all temperatures otherwise
+    /// Fit this column; may be repeated, the first gives the power; default: all temperatures
     #[arg(long, value_name = "NAME", requires = "points")]
     pub(crate) column: Vec<String>,
     /// The zero of dT: initial, a column (its mean), or a temperature
     #[arg(long, value_name = "ZERO", default_value = "initial")]
     pub(crate) reference: String,
-    /// The class of the thermocouples, such as "3 K"
+    /// The accuracy class of the thermocouples, such as "3 K"
     #[arg(long, value_name = "K", requires = "points")]
     pub(crate) sensor: Option<String>,
 }

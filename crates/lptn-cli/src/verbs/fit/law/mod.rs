@@ -103,7 +103,7 @@ fn write_posterior(answer: &FitLawAnswer, file: &Path, console: &Console) -> Res
     if let Some(posterior) = answer.posterior() {
         return posterior::write(&posterior, file, console);
     }
-    let why = "no posterior is written: nothing tells the errors of the coefficients";
+    let why = "no posterior is written: the errors of the coefficients are not known";
     // what stands there would be taken for that of this law
     match files::take_away(file)? {
         true => console.message(&format!("{why}; {} is taken away", file.display())),

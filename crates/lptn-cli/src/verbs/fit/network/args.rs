@@ -18,13 +18,13 @@ pub(crate) struct NetworkArgs {
     /// A netlist with a [fit.NAME]; - reads stdin
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
-    /// Which [fit.NAME], where there are several
+    /// Which [fit.NAME], if there are several
     #[arg(value_name = "NAME")]
     pub(crate) name: Option<String>,
     /// Give a parameter a value; may be repeated
     #[arg(long, value_name = "NAME=VALUE")]
     pub(crate) set: Vec<String>,
-    /// How many searches begin elsewhere between the bounds [4]
+    /// The number of searches that begin elsewhere between the bounds [4]
     #[arg(long, value_name = "N")]
     pub(crate) starts: Option<u16>,
     /// Write the values into the netlist; comments and order stay

@@ -20,19 +20,19 @@ pub(crate) struct StepArgs {
     /// A CSV file with headers like `t [s],ring [degC]`; - reads stdin
     #[arg(value_name = "RECORD")]
     pub(crate) record: PathBuf,
-    /// Fit this column; may be repeated; all temperatures otherwise
+    /// Fit this column; may be repeated; default: all temperatures
     #[arg(long, value_name = "NAME")]
     pub(crate) column: Vec<String>,
-    /// The column of the times, where it is not the first in a unit of time
+    /// The column of the times, if it is not the first in a unit of time
     #[arg(long, value_name = "NAME")]
     pub(crate) time: Option<String>,
-    /// Leave out what is before, such as "30 s" of the record's time
+    /// Leave out the rows before this time of the record, such as "30 s"
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub(crate) from: Option<String>,
-    /// Leave out what is after
+    /// Leave out the rows after this time
     #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     pub(crate) to: Option<String>,
-    /// Leave out values far outside of those before and behind them
+    /// Leave out values far from their neighbours
     #[arg(long)]
     pub(crate) drop_outliers: bool,
     /// Go on to R_eq and P_disp with C_eq, such as "2659 J/K ± 5 %"
@@ -41,7 +41,7 @@ pub(crate) struct StepArgs {
     /// Count dT from T_i (initial), from a column, or from "25.5 degC"
     #[arg(long, value_name = "WHAT", default_value = "initial", allow_hyphen_values = true)]
     pub(crate) reference: String,
-    /// Class error of the thermocouples, such as "3 K"
+    /// Accuracy class of the thermocouples, such as "3 K"
     #[arg(long, value_name = "K", allow_hyphen_values = true)]
     pub(crate) sensor: Option<String>,
     /// State the bias of the method on this network
