@@ -156,8 +156,10 @@ fn told(reason: NotChecked) -> (&'static str, &'static str) {
     }
 }
 
-/// More nodes than this are counted, and so many are shown: the worst, or the first.
+/// More nodes than this are counted.
 const MOST_SHOWN: usize = 12;
+
+/// The number of nodes shown then: the worst, or the first.
 const SHOWN: usize = 5;
 
 /// The checks to show in the order of the file, or those with the largest Biot numbers.

@@ -18,7 +18,7 @@ pub struct Workspace {
     /// The sources to evaluate again when the time changes; the others only where something
     /// switches.
     timed: Vec<SourceId>,
-    /// Whether `power` has the heat of the others.
+    /// True if `power` holds the heat of the other sources, too.
     settled: bool,
     /// Heat put into every vertex in W, that of massless nodes handed on.
     pub(crate) heat: Vec<f64>,

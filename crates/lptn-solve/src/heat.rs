@@ -234,6 +234,15 @@ impl<'a> Heat<'a> {
         })
     }
 
+    /// Writes what [`Gates::excess`] does from the states alone, if these tell it; true if they do.
+    fn excess_is_plain(&self, y: &[f64], out: &mut [f64]) -> bool {
+        let plain = self.gates.are_plain() && !self.unfold.carries_heat();
+        if plain {
+            self.gates.plain_excess(self.work.positions(), y, out);
+        }
+        plain
+    }
+
     /// Writes how far everything that switches is beyond the point where it does; see
     /// [`Gates::excess`].
     pub(crate) fn excess(
@@ -242,8 +251,7 @@ impl<'a> Heat<'a> {
         y: &[f64],
         out: &mut [f64],
     ) -> Result<(), StopReason> {
-        if self.gates.are_plain() && !self.unfold.carries_heat() {
-            self.gates.plain_excess(self.work.positions(), y, out);
+        if self.excess_is_plain(y, out) {
             return Ok(());
         }
         self.arrive(time, y)?;
@@ -369,8 +377,7 @@ impl OdeSystem for Heat<'_> {
     }
 
     fn roots(&mut self, time: f64, y: &[f64], g: &mut [f64]) -> Result<(), Retry> {
-        if self.gates.are_plain() && !self.unfold.carries_heat() {
-            self.gates.plain_excess(self.work.positions(), y, g);
+        if self.excess_is_plain(y, g) {
             return Ok(());
         }
         self.recover(time, y)?;

@@ -85,19 +85,12 @@ pub fn formats(case: &Case) -> Result<(), String> {
 /// that shows all.
 pub fn columns_decide_nothing(case: &Case) -> Result<(), String> {
     let folder = folder(&case.net.texts());
-    let Some(column) = case.results.columns.keys().rfind(|name| name.ends_with(".T")) else {
-        return Ok(());
-    };
-    let node = column.trim_end_matches(".T");
-    let whole = ["run", MAIN, "--no-files", "--format", "json"];
-    let balance = ["--balance", node];
-    // some columns are of boundaries, which have no balance
-    let balance = match folder.run(&[&whole[..], &balance].concat()).code {
-        Some(0 | 1) => &balance[..],
-        _ => &[],
-    };
+    let node = case.net.of("node").find(|node| node.get("massless").is_none());
+    let Some(node) = node.map(|node| &*node.name) else { return Ok(()) };
+    let column = &*format!("{node}.T");
+    let whole = ["run", MAIN, "--no-files", "--format", "json", "--balance", node];
     let ask = |more: &[&str]| {
-        let ran = folder.run(&[&whole[..], balance, more].concat());
+        let ran = folder.run(&[&whole[..], more].concat());
         serde_json::from_str(&ran.out).map_err(|error| format!("{error}: {}", ran.err))
     };
     let (all, one): (serde_json::Value, serde_json::Value) =

@@ -125,6 +125,12 @@ fn call(function: Function, lanes: Lanes) -> Option<Lanes> {
         Function::Sin => lanes.map(f64::sin),
         Function::Cos => lanes.map(f64::cos),
         Function::Tanh => lanes.map(f64::tanh),
-        _ => lanes,
+        // operations of their own, or the value itself in K
+        Function::Min
+        | Function::Max
+        | Function::Mean
+        | Function::If
+        | Function::Kelvin
+        | Function::Absolute => lanes,
     })
 }
