@@ -5,7 +5,7 @@
 //! paths take. If the conductivity is not known at a cell, each path is asked for its own heat and
 //! reports its error.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 use lptn_network::{Conductivity, InputError, Network};
 
@@ -52,10 +52,17 @@ impl Path {
 }
 
 impl Bodies {
-    /// Those of the elements of a network.
-    pub(crate) fn of(network: &Network, elements: &[Element]) -> Self {
+    /// Those of all elements of a network, or of some by their positions, ascending.
+    pub(crate) fn of(
+        network: &Network,
+        elements: &[Element],
+        positions: impl Iterator<Item = usize>,
+    ) -> Self {
         let (mut bodies, mut places) = (Vec::<Body>::new(), BTreeMap::new());
-        for (i, element) in elements.iter().enumerate() {
+        let mut others = Vec::new();
+        for i in positions {
+            others.push(number(i));
+            let element = &elements[i];
             let known = element.conductor.and_then(|id| network.conductivity(id));
             let Some((conductivity, shape)) = known else { continue };
             let body = *places.entry(conductivity.key()).or_insert(bodies.len());
@@ -67,10 +74,9 @@ impl Bodies {
         }
         bodies.retain(|body| body.paths.len() >= LEAST);
         bodies.iter_mut().for_each(Body::number_vertices);
-        let mut others = vec![true; elements.len()];
         let paths = bodies.iter().flat_map(|body| &body.paths);
-        paths.for_each(|path| others[path.element as usize] = false);
-        let others = (0..).zip(others).filter(|(_, other)| *other).map(|(i, _)| i).collect();
+        let within: HashSet<u32> = paths.map(|path| path.element).collect();
+        others.retain(|i| !within.contains(i));
         Self { bodies, others }
     }
 

@@ -11,9 +11,11 @@ use std::collections::BTreeSet;
 
 use lptn_network::InputError;
 
+use crate::bodies::Bodies;
 use crate::element::JacobianForm;
 use crate::positions::{chosen, number};
 use crate::system::ThermalSystem;
+use crate::together::Together;
 use crate::workspace::Workspace;
 
 /// Some unknowns of a system, with the paths and sources that reach them or read them.
@@ -27,7 +29,10 @@ pub struct Part {
     links: Vec<u32>,
     ties: Vec<u32>,
     radiation: Vec<u32>,
-    elements: Vec<u32>,
+    bodies: Bodies,
+    together: Together,
+    /// Those in no body, and whether each is evaluated together with others.
+    elements: Vec<(u32, bool)>,
 }
 
 impl ThermalSystem {
@@ -58,7 +63,13 @@ impl ThermalSystem {
         let unknowns: Vec<(u32, u32)> = read.map(|i| (number(i), number(vertex(i)))).collect();
         unknowns.iter().for_each(|&(_, vertex)| meets[vertex as usize] = false);
         let given = receivers.into_iter().filter(|&v| meets[v as usize]).collect();
-        Part { unknowns, given, links, ties, radiation, elements }
+        let positions = elements.iter().map(|&i| i as usize);
+        let bodies = Bodies::of(&self.network, &self.elements, positions);
+        let together =
+            Together::of(&self.network, (&self.elements, &self.outer), bodies.others());
+        let evaluated: BTreeSet<u32> = together.elements().collect();
+        let elements = bodies.others().map(number).map(|i| (i, evaluated.contains(&i))).collect();
+        Part { unknowns, given, links, ties, radiation, bodies, together, elements }
     }
 
     /// As [`ThermalSystem::flow`] for the unknowns of a part; those of the others are not whole.
@@ -85,8 +96,13 @@ impl ThermalSystem {
         for radiation in part.radiation.iter().map(|&i| &self.radiation[i as usize]) {
             radiation.add_heat(&work.temperature, &mut work.element_heat);
         }
-        for &i in &part.elements {
-            self.elements[i as usize].add_heat(&self.network, work)?;
+        part.bodies.add_heat((&self.network, &self.elements), work)?;
+        part.together.evaluate(work, self.elements.len(), false);
+        for &(i, is_known) in &part.elements {
+            match is_known {
+                true => self.add_known(work, i as usize)?,
+                false => self.elements[i as usize].add_heat(&self.network, work)?,
+            }
         }
         for &(unknown, vertex) in &part.unknowns {
             flow[unknown as usize] += work.element_heat[vertex as usize];
@@ -116,7 +132,8 @@ impl ThermalSystem {
         for radiation in part.radiation.iter().map(|&i| &self.radiation[i as usize]) {
             radiation.add_slopes(&work.temperature, form, values);
         }
-        let mut elements = part.elements.iter().map(|&i| &self.elements[i as usize]);
+        part.bodies.add_slopes((&self.network, &self.elements), work, (form, values))?;
+        let mut elements = part.elements.iter().map(|&(i, _)| &self.elements[i as usize]);
         elements.try_for_each(|element| element.add_slopes(&self.network, work, form, values))
     }
 

@@ -86,7 +86,7 @@ impl ThermalSystem {
         let stream = |id: &ConductorId| network.conductors()[id.index()].law.is_stream();
         let streams = network.conductor_ids().filter(stream).collect();
         let outer = Outer::of(network.nodes().len(), &radiation, &elements);
-        let bodies = Bodies::of(network, &elements);
+        let bodies = Bodies::of(network, &elements, 0..elements.len());
         let together = Together::of(network, (&elements, &outer), bodies.others());
         Ok(Self {
             network: network.clone(),

@@ -44,6 +44,11 @@ impl Together {
         Self { groups, outer }
     }
 
+    /// The positions of all elements of its groups.
+    pub(crate) fn elements(&self) -> impl Iterator<Item = u32> + '_ {
+        self.groups.iter().flat_map(|group| &group.elements).copied()
+    }
+
     /// Evaluates the heats of all groups, or of those that give heat to boundaries.
     pub(crate) fn evaluate(&self, work: &mut Workspace, elements: usize, only_outer: bool) {
         if self.groups.is_empty() {

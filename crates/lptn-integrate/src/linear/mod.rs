@@ -14,6 +14,7 @@ mod columns;
 mod cost;
 mod counts;
 mod dense;
+mod diagonal;
 mod either;
 mod fallback;
 mod incomplete;
@@ -26,6 +27,7 @@ mod sweeps;
 
 pub use cholesky::SparseCholesky;
 pub use dense::Dense;
+pub use diagonal::Diagonal;
 pub use either::Either;
 pub use krylov::Krylov;
 pub use lu::SparseLu;
@@ -73,6 +75,8 @@ pub enum LinearSolverKind {
     DenseCholesky,
     /// Dense LU with partial pivoting.
     DenseLu,
+    /// One division a row.
+    Diagonal,
     /// Sparse Cholesky, approximate minimum degree ordering.
     SparseCholesky,
     /// Sparse LU, column approximate minimum degree ordering.
@@ -197,6 +201,11 @@ pub fn new(
     }
     if is_dense(choice, pattern.size()) {
         return Ok(Box::new(Dense::new(pattern, symmetric)));
+    }
+    if choice == LinearSolver::Auto
+        && let Some(diagonal) = Diagonal::of(pattern, symmetric)
+    {
+        return Ok(Box::new(diagonal));
     }
     if symmetric && choice != LinearSolver::Lu {
         return Ok(Box::new(SparseCholesky::new(pattern)?));
