@@ -65,8 +65,7 @@ impl ThermalSystem {
         let given = receivers.into_iter().filter(|&v| meets[v as usize]).collect();
         let positions = elements.iter().map(|&i| i as usize);
         let bodies = Bodies::of(&self.network, &self.elements, positions);
-        let together =
-            Together::of(&self.network, (&self.elements, &self.outer), bodies.others());
+        let together = Together::of(&self.network, (&self.elements, &self.outer), bodies.others());
         let evaluated: BTreeSet<u32> = together.elements().collect();
         let elements = bodies.others().map(number).map(|i| (i, evaluated.contains(&i))).collect();
         Part { unknowns, given, links, ties, radiation, bodies, together, elements }

@@ -215,3 +215,41 @@ fn siblings_share_the_analysis_and_nothing_else() {
         assert!(error < 1e-12, "{:?}: {error:e}", first.kind());
     }
 }
+
+/// One division a row; what has an entry beside the diagonal, and what is small, goes elsewhere.
+#[test]
+fn a_diagonal_matrix_is_divided_by() {
+    let diagonal = Pattern::new(40, std::iter::empty());
+    let values: Vec<f64> = (0..40).map(|i| 3.0 + f64::from(i)).collect();
+    for symmetric in [true, false] {
+        let mut solver = linear::new(&diagonal, symmetric, LinearSolver::Auto).unwrap();
+        assert_eq!((solver.kind(), solver.fill()), (LinearSolverKind::Diagonal, 40));
+        assert!(solver.solve_in_place(&mut [1.0; 40]).is_err(), "nothing is factorised");
+        solver.factorize(&values).unwrap();
+        solver.check(&diagonal, &values).unwrap();
+        let mut b: Vec<f64> = values.iter().map(|value| 2.5 * value).collect();
+        solver.solve_in_place(&mut b).unwrap();
+        assert_eq!(b, vec![2.5; 40]);
+        let sibling = solver.sibling().unwrap().solve_in_place(&mut [1.0; 40]);
+        assert_eq!(sibling, Err(FactorError::NotFactorized));
+        for wrong in [0.0, f64::NAN] {
+            let mut values = values.clone();
+            values[7] = wrong;
+            let error = match symmetric {
+                true => FactorError::NotPositiveDefinite { index: 7 },
+                false => FactorError::Singular { index: 7 },
+            };
+            assert_eq!(solver.factorize(&values), Err(error), "{wrong}");
+            assert!(solver.solve_in_place(&mut [1.0; 40]).is_err());
+        }
+        let negative: Vec<f64> = values.iter().map(|value| -value).collect();
+        assert_eq!(solver.factorize(&negative).is_ok(), !symmetric);
+        assert!(solver.factorize(&values[1..]).is_err());
+    }
+    let kind = |pattern: &Pattern, choice| linear::new(pattern, false, choice).unwrap().kind();
+    let beside = Pattern::new(40, [(3, 2)].into_iter());
+    assert_eq!(kind(&beside, LinearSolver::Auto), LinearSolverKind::SparseLu);
+    assert_eq!(kind(&diagonal, LinearSolver::Lu), LinearSolverKind::SparseLu);
+    let small = Pattern::new(30, std::iter::empty());
+    assert_eq!(kind(&small, LinearSolver::Auto), LinearSolverKind::DenseLu);
+}
