@@ -24,7 +24,8 @@ impl Diagonal {
 
     /// Whether it cannot be divided by; NaN counts.
     fn fails(&self, value: f64) -> bool {
-        !(if self.symmetric { value } else { value.abs() } > 0.0)
+        let size = if self.symmetric { value } else { value.abs() };
+        size.is_nan() || size <= 0.0
     }
 }
 
