@@ -1,4 +1,4 @@
-//! Why networks cannot be compared on their records.
+//! Reasons why networks cannot be compared on their records.
 
 use lptn_solve::SensitiveError;
 use lptn_units::Class;
@@ -6,11 +6,11 @@ use lptn_units::Class;
 use crate::network::NetworkFitError;
 
 lptn_units::errors! {
-/// Why networks cannot be compared on their records. That the records cannot tell them apart is an
-/// answer and not an error.
+/// Reasons why networks cannot be compared on their records. If the records cannot distinguish
+/// them, that is an answer and not an error.
 #[derive(Debug)]
 pub enum ChoiceError {
-    /// There are fewer than two.
+    /// There are fewer than two networks.
     Alone = "fit::one_candidate",
         "one candidate alone cannot be compared",
         help "name several netlists with a [fit.NAME], or one with several; `--set NAME=A,B` makes \
@@ -26,24 +26,24 @@ pub enum ChoiceError {
             "does not, or not the same values of it"),
         help "name the same columns in `column` of each [fit.NAME]; `outliers` and `time` change \
             values too";
-    /// Two networks do not count a column alike, with these standard deviations in its SI unit.
+    /// Two networks weight a column differently, with these standard deviations in its SI unit.
     Sigma { one: String, other: String, column: String, sigmas: [f64; 2], unit: String } = "fit::other_sigma",
         format!(
             "a value of column `{column}` counts as known to {} {unit} with `{one}` and to {} {unit} \
              with `{other}`", sigmas[0], sigmas[1]
         ),
         help "write the same `sigma` in each [fit.NAME], and the same `resolution` of its sensor";
-    /// A single record whose last third has so many values.
+    /// The last third of a single record has too few values.
     Nothing { record: String, values: usize } = "fit::nothing_unseen",
         format!("{record} is a single record, and its last third has {values} values: no part can \
             be held out of the fit and predicted"),
         help "name several records in `data`, or a longer one";
-    /// The offset of a sensor is another one in each record, and nothing is known of it beforehand.
+    /// The offset of a sensor is free in each record and has no prior.
     Offset { contender: String, sensor: String } = "fit::unseen_offset",
         format!("`{contender}` cannot predict a held-out record: the offset of sensor `{sensor}` \
             is `\"free\"` in each"),
         help "write its prior, such as \"0 ± 2 K\", or share it between the records";
-    /// The fit of no network has a minimum; that of this one, and why not.
+    /// No fit has a minimum: the best network, and why its search ended.
     NotConverged { contender: String, why: String } = "fit::not_converged",
         format!("no candidate has a fit that converged: that of `{contender}` ended because {why}"),
         help "`lptn fit network` reports more; give the parameters start values nearer to the \
@@ -57,7 +57,7 @@ pub enum ChoiceError {
         },
         source error.as_ref(),
         class error.class();
-    /// The run of a record fails with what a network learnt from the others.
+    /// The run of a held-out record fails with the values fitted to the others.
     Unseen { contender: String, record: String, error: Box<SensitiveError> } = error.code(),
         format!("`{contender}` cannot predict {record}, which is held out: {error}"),
         source error.as_ref(),
@@ -65,7 +65,7 @@ pub enum ChoiceError {
             SensitiveError::Run(_) => Class::Numbers,
             _ => Class::Input,
         };
-    /// It was interrupted.
+    /// The comparison was interrupted.
     Interrupted = "run::interrupted", "the comparison was interrupted", class Class::Interrupted;
 }
 }

@@ -1,4 +1,4 @@
-//! How likely records are with the values of a fit, and whether what it leaves is white.
+//! Likelihood of records with the values of a fit, and the test of its residuals for white noise.
 
 use std::f64::consts::TAU;
 
@@ -8,33 +8,33 @@ use crate::choice::Judged;
 use crate::network::{ColumnMisfit, NetworkFit, NetworkFitTask, Priors};
 use crate::noise::{Noise, stretches};
 
-/// How many lags the test of whiteness looks at.
+/// Number of lags in the test of whiteness.
 pub const LAGS: usize = 10;
 
-/// A column of fewer means than these has no noise of its own.
+/// Minimum number of means of a column for its own noise.
 const FEW: usize = 5;
 
-/// What runs leave of a column that they describe perfectly, in K (or another SI unit).
+/// Residual of runs that describe a column perfectly, in K (or another SI unit).
 const ROUNDING: f64 = 1e-6;
 
-/// How likely the records are with the values of a fit.
+/// Likelihood of the records with the values of a fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Likely {
     /// Twice the negative logarithm of the likelihood of the means of all columns, with the most
-    /// likely noise of each; what is known beforehand adds the squares of how far it is missed.
+    /// likely noise of each. Prior knowledge adds the squares of its deviations.
     pub misfit: f64,
     /// Number of means.
     pub means: usize,
     /// Number of unknowns.
     pub unknowns: usize,
-    /// Numbers that describe the noise: one for each column of each record where it is white, three
-    /// where neighbours depend on each other.
+    /// Numbers that describe the noise: one for each column of each record if it is white, three if
+    /// neighbours are correlated.
     pub of_noise: usize,
-    /// Akaike's criterion for few values; `None` where there are too few of them.
+    /// Akaike's criterion for few values; `None` if there are too few of them.
     pub aicc: Option<f64>,
 }
 
-/// The means of what is missed of a column of a record, in its SI unit, with their times.
+/// Residuals of a column of a record in its SI unit (modelled - measured), with their times.
 struct Means {
     column: usize,
     stretch: usize,
@@ -43,7 +43,7 @@ struct Means {
 }
 
 impl Likely {
-    /// Of a fit.
+    /// Likelihood of the records with a fit.
     pub(crate) fn of(task: &NetworkFitTask, fit: &NetworkFit) -> Self {
         let all: Vec<Means> = fit.columns.iter().map(|column| Means::of(task, column)).collect();
         let means = all.iter().map(|one| one.count()).sum();
@@ -89,7 +89,7 @@ impl Means {
         stretches::means(&self.missed, self.stretch)
     }
 
-    /// Twice the negative logarithm of its likelihood, and the numbers that its noise takes.
+    /// Twice the negative logarithm of its likelihood, and the number of noise parameters.
     fn likely(&self) -> Option<(f64, usize)> {
         let count = self.count();
         if count < FEW {
@@ -103,7 +103,7 @@ impl Means {
     }
 }
 
-/// No perfect misfit is a proof of infinite likelihood.
+/// Sets a floor to a misfit: a perfect fit does not prove an infinite likelihood.
 fn least(misfit: f64, n: f64) -> f64 {
     misfit.max(n * (n * ROUNDING * ROUNDING).ln())
 }
@@ -134,7 +134,7 @@ pub(crate) fn weights(judged: &[Judged]) -> Vec<Option<f64>> {
     shares.iter().map(|share| Some(share / sum)).collect()
 }
 
-/// The test of Ljung and Box: whether what is left over of a column follows on itself.
+/// The test of Ljung and Box for autocorrelation of the residuals of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Whiteness {
     /// The sum over its records of n (n + 2) sum of `r_k^2 / (n - k)` over [`LAGS`] lags, with the
@@ -142,11 +142,11 @@ pub struct Whiteness {
     pub statistic: f64,
     /// Degrees of freedom: [`LAGS`] for each record.
     pub degrees: usize,
-    /// The probability that white noise has a greater one (chi-square).
+    /// The probability that white noise has a greater statistic (chi-square).
     pub p: f64,
 }
 
-/// For each column; `None` where no record has twice as many means as lags.
+/// The test for each column; `None` if no record has twice as many means as lags.
 pub(crate) fn whiteness(task: &NetworkFitTask, fit: &NetworkFit) -> Vec<Option<Whiteness>> {
     let all: Vec<Means> = fit.columns.iter().map(|column| Means::of(task, column)).collect();
     let columns = task.runs.first().map_or(0, |run| run.columns.len());

@@ -1,16 +1,15 @@
-//! Which of several networks records speak for.
+//! Choice of the network that records favour.
 //!
-//! More parameters always come nearer to a record. Whether they describe the machine or what was
-//! by chance in its records shows in records that they have not seen: every network is fitted anew
-//! without each of the records, and says the one that was left out. A network is taken only if it
-//! does this better than the others, by a paired test over the records; of a single record it is the
-//! last third that is left out.
+//! Additional parameters always reduce the residuals. Held-out records show if they describe the
+//! machine or chance. Every network is fitted again without each record and predicts that record. A
+//! network is taken only if a paired test over the records shows that it predicts better than the
+//! others. For a single record, the last third is held out.
 //!
-//! Beside that stands Akaike's criterion with the correction of C. M. Hurvich and C.-L. Tsai
-//! (Biometrika 76 (1989) 297), from the likelihood of the means of stretches with noise that need
-//! not be independent ([`crate::noise`]); stretches are as long for all networks, so that it is the
-//! same data whose likelihood is compared. Whether what is left over is white is tested after G. M.
-//! Ljung and G. E. P. Box (Biometrika 65 (1978) 297).
+//! A second measure is Akaike's criterion with the correction of C. M. Hurvich and C.-L. Tsai
+//! (Biometrika 76 (1989) 297). Its likelihood is that of the means of stretches, with noise that
+//! need not be independent ([`crate::noise`]). Stretches are equal for all networks, so the data
+//! are the same. The test of residuals is that of G. M. Ljung and G. E. P. Box (Biometrika 65
+//! (1978) 297).
 //!
 //! The criterion has no vote if there are several records. With correlated noise a likelihood is
 //! only as good as the model of the noise, and a wrong network makes its own noise. The number of
@@ -39,27 +38,27 @@ use lptn_solve::{Proceed, Progress, in_parallel};
 
 use crate::network::{FitStage, NetworkFit, NetworkFitTask, fit_network_observed};
 
-/// By so much Akaike's criterion has to be lower where a single record cannot be tested: the other
-/// network is then 1/20 as likely.
+/// Required difference of Akaike's criterion if a single record cannot be tested: the other network
+/// is then 1/20 as likely.
 pub const MARGIN: f64 = 6.0;
 
-/// A network that may be the one, and what it is fitted to.
+/// A candidate network and its fit.
 #[derive(Clone, Debug)]
 pub struct Contender {
-    /// What it is called.
+    /// Name of the network.
     pub name: String,
-    /// Its fit.
+    /// Task of its fit.
     pub task: NetworkFitTask,
 }
 
-/// How far a choice is.
+/// Progress of a choice.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ChoiceStage<'a> {
-    /// The network that is fitted.
+    /// The network that is being fitted.
     pub contender: &'a str,
-    /// The record that it does not see, from 1, and how many there are; `None` where it sees all.
+    /// The held-out record, from 1, and the number of records; `None` for the fit to all.
     pub without: Option<(usize, usize)>,
-    /// How far that fit is.
+    /// Progress of that fit.
     pub fit: FitStage,
 }
 
@@ -78,63 +77,64 @@ impl fmt::Display for ChoiceStage<'_> {
 /// Is called after every step of every run, on its thread, and may interrupt the choice.
 pub type ChoiceObserver<'a> = dyn Fn(&ChoiceStage<'_>, Progress) -> Proceed + Sync + 'a;
 
-/// What records say of several networks.
+/// Networks compared on records.
 #[derive(Clone, Debug)]
 pub struct Choice {
     /// The networks, in the order in which they were given.
     pub contenders: Vec<Judged>,
-    /// What was left out of the fits.
+    /// Data held out of the fits.
     pub held: Held,
-    /// The network that says best what it has not seen.
+    /// Index of the network that predicts held-out data best.
     pub best: usize,
 }
 
-/// A network, and how it fares.
+/// A network and its results.
 #[derive(Clone, Debug)]
 pub struct Judged {
-    /// What it is called.
+    /// Name of the network.
     pub name: String,
     /// Its task, with records and columns in the order of the first network.
     pub task: NetworkFitTask,
     /// Its fit to all records; one without a minimum is never the best.
     pub fit: NetworkFit,
-    /// How likely the records are with it.
+    /// Likelihood of the records with it.
     pub likely: Likely,
-    /// Its share of likelihood among the networks, by Akaike's criterion; `None` where there are
-    /// too few values for that.
+    /// Its share of likelihood among the networks, by Akaike's criterion; `None` if there are too
+    /// few values for that.
     pub weight: Option<f64>,
-    /// Whether what is left over of each column is white.
+    /// Test of the residuals of each column for white noise.
     pub whiteness: Vec<Option<Whiteness>>,
-    /// How it says each record that it has not seen.
+    /// Its prediction of each held-out record.
     pub unseen: Vec<UnseenRecord>,
-    /// How far behind the best it is in that; `None` for the best.
+    /// Its held-out residuals relative to those of the best network; `None` for the best.
     pub behind: Option<Behind>,
-    /// Where it differs most from the best; `None` for the best.
+    /// Largest difference from the best network; `None` for the best.
     pub apart: Option<Apart>,
 }
 
-/// Where two networks differ most.
+/// Largest difference between two networks.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Apart {
-    /// Place of the record.
+    /// Index of the record.
     pub run: usize,
-    /// Place of the column in the record.
+    /// Index of the column in the record.
     pub column: usize,
-    /// When, in s.
+    /// Time in s.
     pub time: f64,
-    /// By how much, in the SI unit of the column.
+    /// Absolute difference in the SI unit of the column.
     pub by: f64,
 }
 
 impl Choice {
-    /// The networks that the records do not tell from the best, in the order given.
+    /// The networks that the records do not distinguish from the best, in the order given.
     pub fn rivals(&self) -> Vec<usize> {
         let told = |i: &usize| self.is_told(*i);
         (0..self.contenders.len()).filter(|i| *i != self.best && !told(i)).collect()
     }
 
-    /// Whether the records tell a network from the best: it says unseen records worse with 95 %
-    /// confidence; the rest of a single record worse, with a criterion that is higher by [`MARGIN`].
+    /// True if the records distinguish a network from the best. It predicts held-out records worse
+    /// with 95 % confidence. For a single record, it predicts the rest worse and its criterion is
+    /// higher by [`MARGIN`].
     ///
     /// A network whose fit has no minimum is out.
     pub fn is_told(&self, i: usize) -> bool {
@@ -150,8 +150,8 @@ impl Choice {
         }
     }
 
-    /// Of the best and what is not told from it the one with the fewest unknowns, the best among
-    /// equals.
+    /// The network with the fewest unknowns among the best and those not distinguished from it. The
+    /// best comes first among equals.
     pub fn simplest(&self) -> usize {
         let count = |i: &usize| self.contenders[*i].likely.unknowns;
         std::iter::once(self.best).chain(self.rivals()).min_by_key(count).unwrap_or(self.best)
@@ -169,11 +169,11 @@ impl Choice {
     }
 }
 
-/// Fits every network with and without parts of the records, and compares what they say.
+/// Fits every network with and without parts of the records, and compares the predictions.
 ///
 /// # Errors
-/// [`ChoiceError`]: networks that are not fitted to the same values, too little to leave out, and a
-/// fit that fails.
+/// [`ChoiceError`]: networks that are not fitted to the same values, too little data to hold out,
+/// and a fit that fails.
 pub fn choose(
     contenders: &[Contender],
     threads: usize,
@@ -228,7 +228,7 @@ fn fit(
     fit_network_observed(&task, &watch).map_err(failed)
 }
 
-/// What each network is beside the others.
+/// Compares each network with the others.
 fn compare(judged: &mut [Judged], best: usize, task: &NetworkFitTask) {
     let weights = likelihood::weights(judged);
     let behind: Vec<Behind> =
@@ -243,7 +243,7 @@ fn compare(judged: &mut [Judged], best: usize, task: &NetworkFitTask) {
     }
 }
 
-/// Where two fits to the same records differ most.
+/// Largest difference between two fits to the same records, relative to each column's weight.
 fn apart(task: &NetworkFitTask, a: &NetworkFit, b: &NetworkFit) -> Option<Apart> {
     let columns = a.columns.iter().zip(&b.columns).flat_map(|(a, b)| {
         let both = a.modelled.iter().zip(&b.modelled);

@@ -1,27 +1,27 @@
-//! Networks beside each other on what they have not seen.
+//! Comparison of networks on held-out records.
 
 use lptn_units::statistics::student_95;
 
 use crate::choice::{Judged, UnseenRecord};
 
-/// More records than these are no help to anybody.
+/// Largest number of records that is useful.
 const MOST: u32 = 1000;
 
-/// How far behind the best a network is in what it has not seen.
+/// Held-out residuals of a network relative to those of the best network.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Behind {
-    /// How many times as much it misses: the mean over the records of the logarithms, which no
-    /// single record outweighs.
+    /// Ratio of the residuals: the geometric mean over the records, which no single record
+    /// dominates.
     pub ratio: f64,
-    /// The 95 % interval of that, from Student's t over the records; `None` for a single one.
+    /// The 95 % interval of the ratio, from Student's t over the records; `None` for a single one.
     pub interval: Option<(f64, f64)>,
-    /// How many records would tell the two apart, if further ones scatter as these do; `None` where
-    /// that would take more than a thousand, or nothing says how they scatter.
+    /// Number of records that would distinguish the two, if further ones scatter as these do.
+    /// `None` if that is more than 1000, or if the scatter is not known.
     pub records: Option<usize>,
 }
 
 impl Behind {
-    /// Of one network over another one.
+    /// Compares one network with the best one.
     pub(crate) fn of(own: &[UnseenRecord], best: &[UnseenRecord]) -> Self {
         let both = own.iter().zip(best);
         let logarithms: Vec<f64> =
@@ -42,8 +42,8 @@ impl Behind {
     }
 }
 
-/// The network that misses least of what it has not seen, by the mean of the logarithms; the first
-/// of equals. One whose fit has no minimum comes last.
+/// Index of the network with the smallest held-out residuals, by the mean of the logarithms. The
+/// first of equals is taken. A network whose fit has no minimum comes last.
 pub(crate) fn best(judged: &[Judged]) -> usize {
     let mean = |one: &Judged| one.unseen.iter().map(|part| part.over_sigma.ln()).sum::<f64>();
     let lost = |i: usize| judged[i].fit.not_converged.is_some();
@@ -54,8 +54,8 @@ pub(crate) fn best(judged: &[Judged]) -> usize {
 }
 
 impl Judged {
-    /// Root of the mean square, over all values that it has not seen, of what it misses, in the
-    /// unit of [`UnseenRecord::rms`].
+    /// Root mean square of the residuals over all held-out values, in the unit of
+    /// [`UnseenRecord::rms`].
     pub fn unseen_rms(&self) -> f64 {
         let samples: usize = self.unseen.iter().map(|part| part.samples).sum();
         let squares = self.unseen.iter().map(|part| part.rms * part.rms * part.samples as f64);

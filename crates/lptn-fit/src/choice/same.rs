@@ -1,4 +1,4 @@
-//! That all networks are fitted to the same values.
+//! Check that all networks are fitted to the same values.
 
 use crate::choice::Contender;
 use crate::choice::error::ChoiceError;
@@ -37,8 +37,8 @@ fn in_order_of(first: &Contender, other: &Contender) -> Result<Contender, Choice
     Ok(Contender { name: other.name.clone(), task })
 }
 
-/// The place of each column of a record in another one that has the same values; the name of one
-/// that only one of them has.
+/// Index of each column in another record with the same values, or the name of a column that only
+/// one of them has.
 fn columns(run: &MeasuredRun, other: &MeasuredRun) -> Result<Vec<usize>, String> {
     let name =
         |columns: &[MeasuredColumn]| columns.first().map_or(String::new(), |c| c.name.clone());
@@ -62,7 +62,7 @@ fn equal(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-/// What is wrong with a record of the first network that the other one does not read alike.
+/// The error for a record of the first network that the other one reads differently.
 fn differing(
     (first, run): (&Contender, &MeasuredRun),
     (other, left): (&Contender, &[MeasuredRun]),
@@ -77,7 +77,7 @@ fn differing(
     ChoiceError::Columns { one, other, record: run.name.clone(), column }
 }
 
-/// A value has to count as known as well with both.
+/// Checks that a value has the same weight with both networks.
 fn weighed_alike(
     (first, of_first): (&Contender, &[MeasuredRun]),
     (other, of_other): (&str, &[MeasuredRun]),

@@ -1,4 +1,4 @@
-//! What networks say of records that they have not seen.
+//! Predictions of held-out records.
 
 use lptn_solve::{Progress, SensitiveError};
 
@@ -8,53 +8,52 @@ use crate::network::{
     FitStage, MeasuredRun, Misses, NetworkFit, NetworkFitTask, Unknown, UnknownOf, misses, refit,
 };
 
-/// The last third of a record needs so many values.
+/// Minimum number of values in the last third of a record.
 const LEAST: usize = 3;
 
-/// A misfit that runs cannot tell from none, in standard deviations.
+/// Misfit in standard deviations that runs cannot distinguish from zero.
 const SMALL: f64 = 1e-6;
 
-/// What is left out of the fits.
+/// Data held out of the fits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Held {
-    /// Each record in its turn.
+    /// Each record in turn.
     EachRecord,
-    /// Of a single record what is behind this time in s.
+    /// The values of a single record after this time.
     LastThird {
         /// The time in s.
         from: f64,
     },
 }
 
-/// How a network says what it has not seen.
+/// Prediction of held-out data by a network.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UnseenRecord {
-    /// Place of the record.
+    /// Index of the record.
     pub run: usize,
     /// Number of values.
     pub samples: usize,
-    /// Root of the mean square of what it misses, in standard deviations (in SI units where none are
-    /// given).
+    /// Root mean square of the residuals in standard deviations (in SI units if none are given).
     pub over_sigma: f64,
-    /// The same in the SI unit of the columns; in standard deviations where they have none in common.
+    /// The same in the SI unit of the columns; in standard deviations if they have no common unit.
     pub rms: f64,
-    /// Whether the search without the record found a minimum.
+    /// True if the search without the record found a minimum.
     pub converged: bool,
-    /// Whether the other records determine every value.
+    /// True if the other records determine every value.
     pub whole: bool,
-    /// What it says of each column in each row of the record, in SI units; of a single record in the rows
-    /// too that it has seen.
+    /// Predicted values of each column in each row of the record, in SI units. For a single record,
+    /// rows used in the fit are included.
     pub modelled: Vec<Vec<f64>>,
 }
 
-/// A network without a part of the records, and that part alone.
+/// A network without a part of the records, and with that part alone.
 struct Split {
     seen: NetworkFitTask,
     unseen: NetworkFitTask,
 }
 
 impl Held {
-    /// By the number of records.
+    /// Held-out data by the number of records.
     pub(crate) fn of(contenders: &[Contender]) -> Result<Self, ChoiceError> {
         let runs = &contenders[0].task.runs;
         if runs.len() > 1 {
@@ -75,7 +74,7 @@ impl Held {
         }
     }
 
-    /// How many parts are left out, one after the other.
+    /// Number of parts that are held out in turn.
     pub(crate) fn parts(&self, contender: &Contender) -> usize {
         match self {
             Self::EachRecord => contender.task.runs.len(),
@@ -83,7 +82,7 @@ impl Held {
         }
     }
 
-    /// Fits a network without a part, beginning at its fit to all records, and says that part.
+    /// Fits a network without a part, from its fit to all records, and predicts that part.
     pub(crate) fn predict(
         &self,
         (contender, whole): (&Contender, &NetworkFit),
@@ -140,7 +139,7 @@ impl Held {
         }
     }
 
-    /// The place among all records of one among those that are left.
+    /// Index among all records of one that is left.
     fn shifted(&self, run: usize, part: usize) -> Option<usize> {
         match self {
             Self::EachRecord => Some(run + usize::from(run >= part)),
@@ -148,8 +147,8 @@ impl Held {
         }
     }
 
-    /// Values of some unknowns from those of others; their own ones where there is none, such as
-    /// the offset of a sensor in a record that was not seen.
+    /// Values of some unknowns from those of others. An unknown without a counterpart keeps its
+    /// value, such as the offset of a sensor in a held-out record.
     fn carried(
         &self,
         unknowns: &[Unknown],
@@ -169,8 +168,8 @@ impl Held {
     }
 }
 
-/// An offset that is another one in each record, and of which nothing is known, leaves the level of
-/// an unseen record open.
+/// Rejects an offset that is free in each record and has no prior: it leaves the level of a
+/// held-out record open.
 fn known_offsets(contender: &Contender) -> Result<(), ChoiceError> {
     let unknowns = contender.task.unknowns();
     let open = |unknown: &&Unknown| unknown.run().is_some() && unknown.prior.is_none();
@@ -192,7 +191,7 @@ fn early(run: &MeasuredRun, until: f64) -> MeasuredRun {
     run
 }
 
-/// The whole record, of which nothing was measured up to a time.
+/// The whole record, with NaN for all values up to a time.
 fn late(run: &MeasuredRun, from: f64) -> MeasuredRun {
     let mut run = run.clone();
     for column in &mut run.columns {
