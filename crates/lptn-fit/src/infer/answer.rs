@@ -1,4 +1,4 @@
-//! What the smoother says of every moment.
+//! Results of the smoother at every moment.
 
 use lptn_network::NodeId;
 use lptn_units::statistics::NORMAL_95;
@@ -16,12 +16,12 @@ use crate::infer::surprise;
 use crate::infer::task::{InferTask, Uncertain};
 use crate::kalman::Smoother;
 
-/// Infers courses from a record.
+/// Infers time histories from a record.
 ///
-/// Where the smoothness of the only course that is sought is left to the record, bands hold 95 % of
-/// the mixture of all that it may be, each as likely as the record says (with a density that is
-/// even in the logarithm of each intensity). Of what is not known of the moments of jumps the
-/// variance is added, one jump after the other.
+/// If the smoothness of the only time history is not given, bands contain 95 % of a mixture. The
+/// mixture covers all strengths, weighted by the likelihood of the record (with a density that is
+/// even in the logarithm of each intensity). Unknown moments of jumps add variance, one jump after
+/// the other.
 ///
 /// # Errors
 /// [`InferError`]
@@ -36,13 +36,13 @@ pub fn infer(task: &InferTask, observer: &InferObserver<'_>) -> Result<Inferred,
     Ok(found)
 }
 
-/// How large the coordinate of a course comes to be: a factor of e where it is the logarithm.
+/// Size of the coordinate of a time history: a factor of e if it is the logarithm.
 fn size(positive: bool, course: &InferredCourse) -> f64 {
     let largest = course.band.iter().map(|band| band.value.abs()).fold(0.0, f64::max);
     if positive { 1.0 } else { largest }
 }
 
-/// All that follows from where the rounds ended, but for whether courses are determined.
+/// Results of the last round, except whether time histories are determined.
 fn told(task: &InferTask, settled: &Settled) -> Inferred {
     let Settled { model, strength, reference, moments, .. } = settled;
     let (smoother, surprises) = model.smoothed(strength);
@@ -81,7 +81,7 @@ fn told(task: &InferTask, settled: &Settled) -> Inferred {
     }
 }
 
-/// Each course if none changes.
+/// Each time history if none changes, with the log-likelihood then.
 fn still(
     task: &InferTask,
     (reference, model): (&Reference, &Model),
@@ -103,11 +103,11 @@ fn still(
     task.sought.iter().enumerate().map(one).collect()
 }
 
-/// What is asked of the states at every moment.
+/// Requested values of the states at every moment.
 struct Asked<'a> {
     task: &'a InferTask,
     settled: &'a Settled,
-    /// The nodes that are shown.
+    /// The nodes that are reported.
     shown: Vec<NodeId>,
 }
 
@@ -116,13 +116,13 @@ impl<'a> Asked<'a> {
         Self { task, settled, shown: task.network.node_ids().collect() }
     }
 
-    /// How many numbers there are for each moment.
+    /// Number of values for each moment.
     fn of_moment(&self) -> usize {
         self.task.sought.len() + self.shown.len()
     }
 
-    /// Means and deviations of all that is asked: for each moment coordinates and temperatures,
-    /// then the integral of each course.
+    /// Means and deviations of all requested values: for each moment coordinates and temperatures,
+    /// then the integral of each time history.
     fn of(&self, smoother: &Smoother) -> Vec<(f64, f64)> {
         let (model, states) = (&self.settled.model, &self.settled.model.states);
         let (size, count) = (self.of_moment(), self.settled.moments.times.len());

@@ -1,4 +1,4 @@
-//! From one row to the next: what is known of a moment as what the next is linear near.
+//! The estimate at one row as the reference of the next row.
 
 use crate::infer::model::{Model, coordinates};
 use crate::infer::prior::Begins;
@@ -6,7 +6,7 @@ use crate::infer::reference::Reference;
 use crate::infer::task::InferTask;
 use crate::kalman::{Filter, Gaussian};
 
-/// What is known of a moment as the reference of the next, and how the states stand to it.
+/// The estimate at a moment as the reference of the next, and the states relative to it.
 pub(crate) fn carried(
     task: &InferTask,
     (model, reference): (&Model, &Reference),
@@ -43,7 +43,7 @@ pub(crate) fn carried(
     }
     let drifts = states.drifts.iter().filter_map(|column| states.drift(*column));
     drifts.for_each(|place| moved[place] = mean[place]);
-    // a body begins anew as its temperature; integrals begin at 0
+    // a body restarts as its temperature; integrals begin at 0
     let size = |i: usize| match i {
         i if i < states.bodies => {
             let own = &model.nodes[k][begins.bodies[i].index()];

@@ -1,4 +1,4 @@
-//! Whether a record tells a course, or what else is not known hides it.
+//! Check that a record determines a time history and that no other unknown hides it.
 
 use crate::infer::model::Model;
 use crate::infer::states::States;
@@ -6,16 +6,16 @@ use crate::infer::strength::Strength;
 use crate::infer::task::InferTask;
 use crate::network::Certainty;
 
-/// What nothing is known of is taken as known to some wide deviation. Where a band grows by more than
-/// this as that deviation is doubled, it is most of it.
+/// An unknown state is given a wide deviation. If doubling that deviation widens a band by more
+/// than this factor, the band depends on it.
 const HANGS: f64 = 1.5;
 
-/// What is known with a `±` makes most of a band that is so many times as wide as without it.
+/// Values with a `±` dominate a band that is this many times as wide as without them.
 const HIDDEN: f64 = 2.0;
 
-/// Whether each course is determined, by its band where that is narrowest. It is not where the band
-/// hangs on something of which nothing is known: what was taken for that is no knowledge. And it is
-/// not where what is known with a `±` makes it wider than the course is large, `sizes`.
+/// True for each time history that is determined, by its band at the narrowest moment. The band
+/// must not depend on an unknown state, whose deviation is an assumption. Values with a `±` must
+/// not make it wider than the size of the time history, `sizes`.
 pub(crate) fn courses(
     task: &InferTask,
     free: &[bool],
@@ -37,7 +37,7 @@ pub(crate) fn courses(
     sizes.iter().enumerate().map(told).collect()
 }
 
-/// The states of which nothing is known beforehand; `free` says it of the bodies.
+/// The states without prior knowledge; `free` marks those of the bodies.
 fn unknown(task: &InferTask, states: &States, free: &[bool]) -> Vec<bool> {
     let mut all = vec![false; states.count()];
     free.iter().enumerate().for_each(|(i, free)| all[i] = *free);
@@ -53,7 +53,7 @@ fn unknown(task: &InferTask, states: &States, free: &[bool]) -> Vec<bool> {
     all
 }
 
-/// The deviations where what is known beforehand of each state is so many times as wide.
+/// The deviations with the prior deviation of each state multiplied by a factor.
 fn scaled(model: &mut Model, strength: &Strength, by: impl Fn(usize) -> f64) -> Vec<Vec<f64>> {
     let (own, count) = (model.prior.clone(), model.states.count());
     for (at, covariance) in model.prior.covariance.iter_mut().enumerate() {
@@ -64,7 +64,7 @@ fn scaled(model: &mut Model, strength: &Strength, by: impl Fn(usize) -> f64) -> 
     found
 }
 
-/// Standard deviation of the coordinate of each course at every moment.
+/// Standard deviation of the coordinate of each time history at every moment.
 fn deviations(model: &Model, strength: &Strength) -> Vec<Vec<f64>> {
     let (smoother, _) = model.smoothed(strength);
     let states = &model.states;

@@ -11,19 +11,19 @@ use lptn_integrate::vectors::{add, dot};
 
 use crate::kalman::{Transition, multiplied};
 
-/// What becomes of `dx/dt = F x` over a time, where some states are random walks.
+/// Solution of `dx/dt = F x` over a time, with random walks among the states.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Discrete {
     /// `exp(F t)`
     pub(crate) transition: Rc<Transition>,
-    /// For each walk what a steady rise by 1 per s of it brings to every state.
+    /// For each walk, the effect of its steady rise by 1 per s on every state.
     pub(crate) ramps: Vec<Vec<f64>>,
-    /// For each walk the covariance that it brings in at an intensity of 1 per s.
+    /// For each walk, the covariance that it adds at an intensity of 1 per s.
     pub(crate) noises: Vec<Vec<f64>>,
 }
 
 /// Terms of a series of a step so short that the largest sum of a row of `F t` is at most
-/// [`SHORT`]: what is left out is below rounding.
+/// [`SHORT`]: the remainder is below rounding.
 const TERMS: usize = 10;
 const SHORT: f64 = 0.1;
 
@@ -32,9 +32,9 @@ const FACTORIAL: [f64; TERMS + 1] =
     [1.0, 1.0, 2.0, 6.0, 24.0, 120.0, 720.0, 5040.0, 40320.0, 362_880.0, 3_628_800.0];
 
 impl Discrete {
-    /// By series over a short time, which is then doubled. What is doubled is `exp(F t) - 1`, so
-    /// that slow states keep their digits beside fast ones; nothing is inverted and nothing grows,
-    /// however fast a state is.
+    /// Uses a series over a short time, then doubles it. `exp(F t) - 1` is doubled, so that slow
+    /// states keep their digits next to fast ones. Nothing is inverted and nothing grows, however
+    /// fast a state is.
     pub(crate) fn new(rates: &[f64], size: usize, time: f64, walks: &[usize]) -> Self {
         let row = |row: &[f64]| row.iter().map(|x| x.abs()).sum::<f64>();
         let norm = rates.chunks_exact(size.max(1)).map(row).fold(0.0, f64::max) * time;
@@ -62,7 +62,7 @@ impl Discrete {
         Self { transition: Rc::new(Transition::of(&change)), ramps, noises }
     }
 
-    /// The covariance that walks of these intensities bring in.
+    /// The covariance that walks of these intensities add.
     pub(crate) fn noise(&self, intensities: &[f64]) -> Rc<Vec<f64>> {
         let side = self.transition.side();
         let mut noise = vec![0.0; side * side];
@@ -72,7 +72,7 @@ impl Discrete {
         Rc::new(noise)
     }
 
-    /// What comes to the states where the walks rise by so much per s beside what they walk.
+    /// Change of the states if the walks rise at these rates per s in addition to their steps.
     pub(crate) fn input(&self, rises: &[f64]) -> Vec<f64> {
         let mut input = vec![0.0; self.transition.side()];
         for (ramp, rise) in self.ramps.iter().zip(rises) {

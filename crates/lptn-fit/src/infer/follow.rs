@@ -1,7 +1,7 @@
-//! Rows as they come: what is known at each from all rows before it and itself.
+//! Estimates for rows as they come: each from this row and all rows before it.
 //!
-//! Nothing is kept but the state at the last row, so a record may go on forever. Each row is linear
-//! near what was known at the one before it (extended Kalman filter).
+//! Only the state at the last row is kept, so a record may go on without end. Each row is linear
+//! near the estimate of the row before (extended Kalman filter).
 
 use lptn_solve::Proceed;
 use lptn_units::statistics::NORMAL_95;
@@ -21,82 +21,83 @@ use crate::network::{MeasuredColumn, RecordedSignal};
 /// One row of a record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Row {
-    /// In s, behind the row before.
+    /// Time in s, after that of the row before.
     pub time: f64,
-    /// A value in K for each column; NaN where nothing was measured.
+    /// A value in K for each column; NaN if nothing was measured.
     pub values: Vec<f64>,
-    /// A value in SI units for each signal that follows a column of the record; where it is NaN the
-    /// signal holds the value before.
+    /// A value in SI units for each signal that follows a column of the record. If it is NaN, the
+    /// signal keeps the value before.
     pub signals: Vec<f64>,
 }
 
-/// A surprise beyond so many standard deviations is no chance.
+/// A surprise above this number of standard deviations is not chance.
 const BEYOND: f64 = 10.0;
 
-/// So many readings of a column in a row may be left out; the next is believed: the course jumped.
+/// Number of readings of a column in a row that may be left out. The next is believed: a jump.
 const IN_A_ROW: usize = 3;
 
-/// A reading that nobody would expect.
+/// A reading far from its prediction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unexpected {
-    /// The place of its column.
+    /// Index of its column.
     pub column: usize,
-    /// In K.
+    /// Value in K.
     pub value: f64,
-    /// By how many standard deviations it surprised.
+    /// Surprise in standard deviations.
     pub surprise: f64,
-    /// How many of its column there were in a row, with it.
+    /// Number of such readings of its column in a row, including this one.
     pub in_a_row: usize,
-    /// Whether it was left out.
+    /// True if it was left out.
     pub left_out: bool,
 }
 
-/// What is known at a row.
+/// Estimates at a row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Followed {
-    /// In s.
+    /// Time in s.
     pub time: f64,
-    /// Each course.
+    /// Band of each time history.
     pub courses: Vec<Band>,
     /// Temperature of each node in K.
     pub nodes: Vec<Known>,
-    /// By how many standard deviations each column surprised; NaN where nothing was measured.
+    /// Surprise of each column in standard deviations; NaN if nothing was measured.
     pub surprises: Vec<f64>,
-    /// The readings that surprised by more than 10.
+    /// The readings with a surprise above 10 standard deviations.
     pub unexpected: Vec<Unexpected>,
 }
 
 /// Follows a record row by row.
 #[derive(Debug)]
 pub struct Follower {
-    /// What is sought, without rows.
+    /// The task, without rows.
     task: InferTask,
-    /// Whether readings that nobody would expect are left out.
+    /// True if unexpected readings are left out.
     drops: bool,
     waiting: Vec<Row>,
     now: Option<Now>,
-    /// How many readings of each column that nobody would expect came last, in a row.
+    /// Number of unexpected readings of each column that came last, in a row.
     in_a_row: Vec<usize>,
 }
 
-/// What is known at the last row.
+/// Estimates at the last row.
 #[derive(Debug)]
 struct Now {
     last: Row,
-    /// Values at the last row, and what the network itself says.
+    /// Values at the last row, and those of the network itself.
     reference: Reference,
     own: Reference,
     begins: Begins,
     sizes: Vec<f64>,
-    /// How the states stand to the reference.
+    /// The states relative to the reference.
     state: Gaussian,
 }
 
 impl Follower {
-    /// With the strengths that the task says.
+    /// A follower with the strengths given in the task.
     ///
     /// # Errors
-    /// [`InferError`] where it leaves open how much a course changes, or the noise of a column.
+    /// [`InferError`] if the task leaves open how much a time history changes, or the noise of a
+    /// column.
     pub fn new(task: InferTask) -> Result<Self, InferError> {
         checked(&task)?;
         if let Some(sought) = task.sought.iter().find(|sought| sought.intensity.is_none()) {
@@ -112,18 +113,18 @@ impl Follower {
         Ok(Self { task, drops: false, waiting: Vec::new(), now: None, in_a_row })
     }
 
-    /// The same that leaves out up to three readings of a column in a row, each of which surprises
-    /// by more than 10 standard deviations. The fourth is believed. In the first rows, which are
-    /// answered together, nothing is left out: nothing is known of the course before them.
+    /// Leaves out up to three readings of a column in a row, each with a surprise above 10 standard
+    /// deviations. The fourth is believed. In the first rows, which are answered together, nothing
+    /// is left out: nothing is known of the time history before them.
     pub fn dropping(self) -> Self {
         Self { drops: true, ..self }
     }
 
-    /// Takes a row in. Rows wait until there are two moments and something was read behind the
-    /// first, and are answered together then. What was not measured is left out.
+    /// Takes a row in. Rows wait until there are two moments and a reading after the first. They
+    /// are then answered together. Values that were not measured are left out.
     ///
     /// # Errors
-    /// [`InferError`] where the network has no run or rates there, and [`InferError::Record`] for a
+    /// [`InferError`] if the network has no run or rates there, and [`InferError::Record`] for a
     /// row before the start of the run.
     pub fn row(&mut self, mut row: Row) -> Result<Vec<Followed>, InferError> {
         let before = self.now.as_ref().map(|now| &now.last).or(self.waiting.last());
@@ -144,15 +145,15 @@ impl Follower {
         Ok(vec![followed])
     }
 
-    /// Where no more rows come.
+    /// Ends the record.
     ///
     /// # Errors
-    /// [`InferError::Short`] where no row could be answered.
+    /// [`InferError::Short`] if rows were taken in and none could be answered.
     pub fn end(self) -> Result<(), InferError> {
         if self.now.is_some() || self.waiting.is_empty() { Ok(()) } else { Err(InferError::Short) }
     }
 
-    /// From the last row to the next.
+    /// Steps from the last row to the next.
     fn go_on(&self, now: &Now, row: &Row) -> Result<(Followed, Now), InferError> {
         let times = vec![now.last.time, row.time];
         let task = self.of_rows(&times, &[&now.last, row]);
@@ -168,15 +169,14 @@ impl Follower {
         Ok((followed, Now { last: row.clone(), reference, own, begins, sizes, state }))
     }
 
-    /// The first column whose reading is to be left out.
+    /// The first column with a reading to be left out.
     fn to_leave_out(&self, followed: &Followed) -> Option<usize> {
         let beyond = |i: &usize| followed.surprises[*i].abs() > BEYOND;
         let mut columns = (0..self.in_a_row.len()).filter(|i| self.in_a_row[*i] < IN_A_ROW);
         columns.find(beyond).filter(|_| self.drops)
     }
 
-    /// Counts readings that nobody would expect; `left` are the surprises of those that were left
-    /// out.
+    /// Counts unexpected readings; `left` contains the surprises of those that were left out.
     fn note(&mut self, row: &Row, followed: &mut Followed, left: &[f64]) {
         for (column, count) in self.in_a_row.iter_mut().enumerate() {
             let left_out = !left[column].is_nan();
@@ -194,7 +194,7 @@ impl Follower {
         }
     }
 
-    /// The first moments.
+    /// Takes in one of the first rows.
     fn begin(&mut self, row: Row) -> Result<Vec<Followed>, InferError> {
         self.waiting.push(row);
         let Some((mut answers, now)) = self.first(&self.waiting)? else { return Ok(Vec::new()) };
@@ -206,7 +206,7 @@ impl Follower {
         Ok(answers)
     }
 
-    /// Answers the first rows; `None` where more have to come.
+    /// Answers the first rows; `None` if more rows are needed.
     fn first(&self, rows: &[Row]) -> Result<Option<(Vec<Followed>, Now)>, InferError> {
         let Some(last) = rows.last() else { return Ok(None) };
         let all: Vec<&Row> = rows.iter().collect();
@@ -242,7 +242,7 @@ impl Follower {
         Ok(Some((answers.into_iter().skip(moments.before).collect(), now)))
     }
 
-    /// The task of some rows: where a row was answered before, only its signals count.
+    /// The task of some rows. If a row was answered before, only its signals count.
     fn of_rows(&self, times: &[f64], rows: &[&Row]) -> InferTask {
         let mut task = self.task.clone();
         task.run.times = times.to_vec();
@@ -260,7 +260,7 @@ impl Follower {
     }
 }
 
-/// What was read in the rows; the value of the first before them.
+/// Sets a signal to the values of the rows, and to the first of them before.
 fn course(signal: &mut RecordedSignal, place: usize, (first, rows): (f64, &[&Row])) {
     let rows = rows.iter().filter(|row| !row.signals[place].is_nan());
     (signal.times, signal.values) = rows.map(|row| (row.time, row.signals[place])).unzip();
@@ -270,7 +270,7 @@ fn course(signal: &mut RecordedSignal, place: usize, (first, rows): (f64, &[&Row
     }
 }
 
-/// The noise that is said.
+/// The given noise of each column.
 fn noises(task: &InferTask) -> Vec<Noise> {
     let said = |column: &MeasuredColumn| match (column.sigma.unwrap_or(1.0), task.drift) {
         (white, Drift::Known { deviation, time }) => Noise { white, drift: deviation, time },
@@ -279,7 +279,7 @@ fn noises(task: &InferTask) -> Vec<Noise> {
     task.run.columns.iter().map(said).collect()
 }
 
-/// Goes on to a moment and takes its readings in.
+/// Advances a filter to a moment and takes its readings in.
 fn step(
     task: &InferTask,
     (model, reference): (&Model, &Reference),

@@ -1,12 +1,12 @@
-//! Where the search for what is not said begins.
+//! Start values of the search for strengths that are not given.
 
 use crate::infer::model::Model;
 use crate::infer::strength::{Noise, Strength};
 use crate::infer::task::{Drift, InferTask};
 
 impl Strength {
-    /// What is said, and first guesses of what is not. Where it is said how much a course changes,
-    /// its slope is none.
+    /// The given strengths, and first guesses of the others. If the change of a time history is
+    /// given, its slope is constant.
     pub(crate) fn guess(task: &InferTask, model: &Model) -> Self {
         let length = model.length();
         let walk = |(sought, size): (&crate::infer::Sought, &f64)| match sought.intensity {
@@ -17,7 +17,7 @@ impl Strength {
         Self { intensities, noises: noises(task), jumps: Vec::new() }
     }
 
-    /// The same, where walks that stood still are given another chance.
+    /// The same, with guesses for walks of zero strength.
     pub(crate) fn revived(mut self, task: &InferTask, model: &Model) -> Self {
         let guess = Self::guess(task, model).intensities;
         let stood = self.intensities.iter_mut().zip(guess).filter(|(q, _)| **q <= 0.0);
@@ -26,7 +26,7 @@ impl Strength {
     }
 }
 
-/// What is said, and first guesses of what is not.
+/// The given noises, and first guesses of the others.
 fn noises(task: &InferTask) -> Vec<Noise> {
     let one = |i: usize| match task.drift {
         Drift::Known { deviation, time } => {
@@ -39,17 +39,17 @@ fn noises(task: &InferTask) -> Vec<Noise> {
     (0..task.run.columns.len()).map(one).collect()
 }
 
-/// The noise of a column if so large a share of its variance dies away in such a time.
+/// The noise of a column if this share of its variance decays over this time in s.
 pub(crate) fn with(task: &InferTask, column: usize, (part, time): (f64, f64)) -> Noise {
     let said = task.run.columns[column].sigma;
     Noise::split(said.unwrap_or_else(|| Scatter::of(task, column).noise(part, time)), part, time)
 }
 
-/// How values scatter about their neighbours.
+/// Scatter of values about their neighbours.
 struct Scatter {
     /// Mean of the squares of second differences.
     bends: f64,
-    /// The usual distance of two values in s.
+    /// Mean distance of two values in s.
     every: f64,
 }
 

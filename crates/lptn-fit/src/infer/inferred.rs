@@ -1,56 +1,55 @@
-//! What is known of the courses.
+//! Results for the time histories.
 
 use lptn_network::NodeId;
 
 /// A number and its standard deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Known {
-    /// In SI units.
+    /// Value in SI units.
     pub value: f64,
-    /// In the units of a difference.
+    /// Standard deviation in the units of a difference.
     pub deviation: f64,
 }
 
-/// What a record tells of courses over time.
+/// Time histories inferred from a record.
 #[derive(Clone, Debug)]
 pub struct Inferred {
-    /// The moments in s: the rows of the record, and the start of the run where that is known.
+    /// The moments in s: the rows of the record, and the start of the run if it is known.
     pub times: Vec<f64>,
-    /// How many moments stand before the first row of the record.
+    /// Number of moments before the first row of the record.
     pub before: usize,
-    /// Each course that was sought.
+    /// Each estimated time history.
     pub courses: Vec<InferredCourse>,
     /// Temperature of each node at each moment, measured or not: value in K.
     pub nodes: Vec<(NodeId, Vec<Known>)>,
     /// The values of instruments that were not known exactly.
     pub sensors: Vec<InferredSensor>,
-    /// The parameters with a `±`: what the record adds to what was known.
+    /// The parameters with a `±`, updated by the record.
     pub parameters: Vec<Known>,
     /// The columns.
     pub columns: Vec<InferredColumn>,
     /// The logarithm of the probability density of the record, in readings per K.
     pub log_likelihood: f64,
-    /// Where courses jump, in ascending order.
+    /// Jumps of time histories, in ascending order.
     pub jumps: Vec<InferredJump>,
-    /// How many rounds it took, each linear near the courses of the one before.
+    /// Number of rounds, each linear near the time histories of the one before.
     pub rounds: usize,
 }
 
-/// One course.
+/// One time history.
 #[derive(Clone, Debug)]
 pub struct InferredCourse {
-    /// Its most probable value at each moment, in SI units, and the band that holds it with a
+    /// Its most probable value at each moment, in SI units, and the band that contains it with a
     /// probability of 95 %.
     pub band: Vec<Band>,
-    /// Whether the record tells it: the band does not hang on what was taken for something of which
-    /// nothing is known, and what is known with a `±` does not make it wider than the course is
-    /// large.
+    /// True if the record determines it. The band must not depend on the deviation assumed for an
+    /// unknown value. Values with a `±` must not make it wider than the size of the time history.
     pub determined: bool,
-    /// Its mean over the record; `None` where it is the logarithm that walks.
+    /// Its mean over the record; `None` if its logarithm walks.
     pub mean: Option<Known>,
-    /// What was known of it at the start, or of its logarithm: next to nothing.
+    /// Prior value at the start, or of its logarithm: almost without information.
     pub before: Known,
-    /// Variance of its walk per s, in SI units: 0 where nothing in the record says that it walks.
+    /// Variance of its walk per s, in SI units; 0 if the record does not show that it walks.
     pub intensity: f64,
     /// Variance of the walk of its slope per s.
     pub slope_intensity: f64,
@@ -60,7 +59,7 @@ pub struct InferredCourse {
     pub still: (Known, f64),
 }
 
-/// What is known of a course at a moment, in SI units.
+/// Estimate of a time history at a moment, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Band {
     /// The most probable value.
@@ -69,52 +68,52 @@ pub struct Band {
     pub ends: (f64, f64),
 }
 
-/// A course jumps, somewhere between two rows.
+/// A jump of a time history between two rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InferredJump {
-    /// The place of the course in the task.
+    /// Index of the time history in the task.
     pub course: usize,
-    /// The interval in s that holds it with a probability of 95 %, from row to row.
+    /// The interval in s that contains it with a probability of 95 %, from row to row.
     pub between: (f64, f64),
-    /// By how much, in SI units; of its logarithm where it is that which walks.
+    /// Its height in SI units, or that of the logarithm if the logarithm walks.
     pub by: Known,
-    /// By how much the logarithm of the likelihood falls without it.
+    /// Decrease of the log-likelihood without it.
     pub gain: f64,
 }
 
 /// A value of an instrument.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InferredSensor {
-    /// Its place in the task.
+    /// Index of the sensor in the task.
     pub sensor: usize,
-    /// Whether it is the gain; its offset in K otherwise.
+    /// True for its gain; false for its offset in K.
     pub gain: bool,
-    /// What was known beforehand.
+    /// Prior value.
     pub before: Known,
-    /// What is known now.
+    /// Value updated by the record.
     pub now: Known,
 }
 
-/// What the readings of a column were like beside what was expected of each from all before it.
+/// Readings of a column compared with their predictions from all readings before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InferredColumn {
-    /// How many there were.
+    /// Number of readings.
     pub readings: usize,
-    /// Standard deviation of the noise of one reading in K, said or found.
+    /// Standard deviation of the noise of one reading in K, given or estimated.
     pub sigma: f64,
-    /// That of the part of it that dies away slowly, and after how many s 1/e of it is left; `None`
-    /// where all is white.
+    /// Standard deviation of its slow part in K, and the time in s until 1/e of it is left; `None`
+    /// if all is white.
     pub slow: Option<(f64, f64)>,
-    /// By how many standard deviations the first reading surprised.
+    /// Surprise of the first reading in standard deviations.
     pub first: f64,
-    /// Mean of what each reading surprised by, over its standard deviation: 0 but for chance, which
-    /// is 1 / root of their number.
+    /// Mean surprise in standard deviations: 0 but for chance, which is 1 / root of the number of
+    /// readings.
     pub mean: f64,
-    /// Root of the mean of its square: 1 but for chance.
+    /// Root mean square of the surprise: 1 but for chance.
     pub rms: f64,
     /// Correlation of neighbours: 0 but for chance, which is 1 / root of their number.
     pub neighbours: f64,
-    /// By how many K the instrument moves over the record if its offset drifts at a steady rate, as
-    /// far as the other columns tell; `None` where there is no other.
+    /// Drift of the instrument over the record in K, if its offset drifts at a steady rate, as
+    /// determined by the other columns. `None` if there is no other.
     pub drift: Option<Known>,
 }

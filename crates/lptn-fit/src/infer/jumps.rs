@@ -1,8 +1,8 @@
-//! Where courses jump: a bench that holds one load after the other is a course that stands still and
-//! jumps, and is known far better so than as a walk.
+//! Jumps of time histories. A bench that sets one load after another has a time history that is
+//! constant and jumps. It is then known far better than as a walk.
 //!
-//! A jump is a walk that is as strong as the course is large, between two moments. It is taken in
-//! where it makes the record more likely by more than chance would anywhere in it.
+//! A jump is a walk between two moments, as strong as the time history is large. It is accepted if
+//! it makes the record more likely by more than chance would anywhere in it.
 //!
 //! A strong walk between two rows has the mean and the variance of a jump at any time between them.
 //! Filter, smoother and rounds therefore need no notion of jumps. The jump is three times as large
@@ -18,22 +18,22 @@ use crate::infer::search::Open;
 use crate::infer::strength::{Jump, Strength};
 use crate::infer::task::InferTask;
 
-/// Beyond its place, which may be any, a jump costs so many units of the logarithm of the
-/// likelihood: chance alone pays that in at most 5 of 100 records (inequality of A. Markov).
+/// Cost of a jump in units of the log-likelihood, in addition to that of its place, which may be
+/// any. Chance alone pays it in at most 5 of 100 records (inequality of A. Markov).
 const PRICE: f64 = 3.0;
 
-/// So many jumps are tried in a row of which none pays, since one alone may not where two do: in
+/// Number of jumps in a row that are tried without gain, since one alone may not pay if two do: in
 /// the first round, and in others.
 const PATIENCE: [usize; 2] = [4, 1];
 
-/// Where no walk hides jumps, one is tried that gains this part of its price.
+/// If no walk hides jumps, a jump is tried that gains this part of its price.
 const NEARLY: f64 = 0.5;
 
-/// The most jumps.
+/// Largest number of jumps.
 const MOST: usize = 60;
 
-/// The most likely strengths with the jumps that pay, from `start` on, or from the best of many near
-/// it where that is a guess.
+/// The most likely strengths with the jumps that pay. The search begins at `start`, or at the best
+/// of many points near it if it is a guess.
 pub(crate) fn most_likely(
     (task, model): (&InferTask, &Model),
     (start, guessed): (&Strength, bool),
@@ -65,7 +65,7 @@ impl Search<'_> {
         self.open.model.log_likelihood(strength) - self.price * strength.jumps.len() as f64
     }
 
-    /// With one jump after the other, as far as they pay.
+    /// Adds one jump after the other, as long as they pay.
     fn taken_in(&self, found: Strength) -> Strength {
         let mut best = (self.worth(&found), found.clone());
         let hidden = self.hides(&found);
@@ -85,15 +85,14 @@ impl Search<'_> {
         best.1
     }
 
-    /// Whether walks may have taken jumps in: they make the record more likely.
+    /// True if walks may have absorbed jumps: they make the record more likely.
     fn hides(&self, found: &Strength) -> bool {
         let model = self.open.model;
         model.log_likelihood(found) > model.log_likelihood(&found.still()) + 1.0
     }
 
-    /// The jump that makes the record most likely, where all else stays as it is, behind the gain
-    /// of the logarithm of the likelihood (A. S. Willsky, H. L. Jones, IEEE Trans. Autom. Control 21
-    /// (1976) 108).
+    /// The jump that makes the record most likely if all else stays, with its gain in
+    /// log-likelihood first (A. S. Willsky, H. L. Jones, IEEE Trans. Autom. Control 21 (1976) 108).
     fn most_telling(&self, strength: &Strength) -> Option<(f64, Jump)> {
         let model = self.open.model;
         let mut best: Option<(f64, Jump)> = None;
@@ -113,7 +112,7 @@ impl Search<'_> {
         best
     }
 
-    /// Without those that do not pay beside the others.
+    /// Removes jumps that do not pay in addition to the others.
     fn needed(&self, mut found: Strength) -> Strength {
         while !found.jumps.is_empty() {
             let without = found.jumps.iter().map(|jump| {
@@ -130,7 +129,7 @@ impl Search<'_> {
         found
     }
 
-    /// Each where it is most likely beside the others.
+    /// Moves each jump to its most likely place, given the others.
     fn placed(&self, mut found: Strength) -> Strength {
         let model = self.open.model;
         let mut most = model.log_likelihood(&found);
@@ -160,7 +159,7 @@ fn beside(model: &Model, strength: &Strength, i: usize, forward: bool) -> Option
     free.then_some(moved)
 }
 
-/// What is told of the jumps: when, and by how much. What else comes in on the way counts as jump.
+/// Times and heights of the jumps. The walk to the same moment counts as part of a jump.
 pub(crate) fn told(model: &Model, strength: &Strength) -> Vec<InferredJump> {
     let most = model.log_likelihood(strength);
     let one = |(i, jump): (usize, &Jump)| {
@@ -178,7 +177,7 @@ pub(crate) fn told(model: &Model, strength: &Strength) -> Vec<InferredJump> {
     strength.jumps.iter().enumerate().map(one).collect()
 }
 
-/// By how much the course changes, wherever it jumps.
+/// Change of the time history, over all likely places of the jump.
 fn by(model: &Model, places: &[(Strength, f64)], i: usize) -> Known {
     let whole: f64 = places.iter().map(|(_, share)| share).sum();
     let (mut mean, mut square) = (0.0, 0.0);
@@ -198,7 +197,7 @@ fn by(model: &Model, places: &[(Strength, f64)], i: usize) -> Known {
     Known { value: mean, deviation: (square - mean * mean).max(0.0).sqrt() }
 }
 
-/// The first and last moments to which a jump leads, but for 5 % of all that is likely.
+/// The first and last moments to which a jump leads, without the least likely 5 %.
 fn between(places: &[(Strength, f64)], i: usize) -> (usize, usize) {
     let enough = 0.95 * places.iter().map(|(_, share)| share).sum::<f64>();
     let (mut sum, mut ends) = (0.0, (usize::MAX, 0));
@@ -212,7 +211,7 @@ fn between(places: &[(Strength, f64)], i: usize) -> (usize, usize) {
     ends
 }
 
-/// Where else a jump may be, with its share beside that of the place where it is, which is 1.
+/// Other places of a jump, with their likelihood relative to that of the present place.
 pub(crate) fn elsewhere(model: &Model, strength: &Strength, i: usize) -> Vec<(Strength, f64)> {
     /// Places that are less likely do not count.
     const LEAST_SHARE: f64 = 1e-3;

@@ -1,4 +1,4 @@
-//! What everything depends on near the reference, at one moment.
+//! Derivatives near the reference, at one moment.
 
 use lptn_assembly::{ChangeError, ThermalSystem};
 use lptn_solve::{Rates, StateRates};
@@ -8,31 +8,31 @@ use crate::infer::reference::{Changed, Reference};
 use crate::infer::states::States;
 use crate::infer::task::InferTask;
 
-/// By how much a temperature is changed to see what depends on it, in K. Networks with constant
-/// conductances are linear, so any change will do; of others the cubic part remains, some 1e-8.
+/// Change of a temperature that shows its effects, in K. Networks with constant conductances are
+/// linear, so any change will do. For others the cubic part remains, about 1e-8.
 const PROPORTIONAL: f64 = 1.0;
 const CURVED: f64 = 0.1;
 
-/// By which part of itself a course or parameter is changed, or of 1 SI unit where it is 0.
+/// Relative change of a time history or parameter, or change in SI units if it is 0.
 const PART: f64 = 1e-4;
 
-/// Everything at one moment.
+/// Derivatives at one moment.
 #[derive(Clone, Debug)]
 pub(crate) struct Linear {
-    /// Rates of the states that change, row by row, by all that make them.
+    /// Derivatives of the rates of the states that change, row by row.
     pub(crate) rates: Vec<f64>,
-    /// What each state brings to the temperature of each node in K.
+    /// Effect of each state on the temperature of each node in K.
     pub(crate) nodes: Vec<Vec<(usize, f64)>>,
 }
 
-/// The network as it is, and with every course and parameter changed to either side.
+/// The network as it is, and with every time history and parameter changed to both sides.
 pub(crate) struct Systems {
     pub(crate) own: ThermalSystem,
     changed: Vec<([ThermalSystem; 2], f64)>,
 }
 
 impl Systems {
-    /// Courses first, then parameters.
+    /// Changes time histories first, then parameters.
     pub(crate) fn new(
         task: &InferTask,
         (reference, times): (&Reference, &[f64]),
@@ -63,15 +63,15 @@ impl Systems {
     }
 }
 
-/// Looks at moments one after the other.
+/// Linearises at one moment after the other.
 pub(crate) struct Linearise<'a> {
     task: &'a InferTask,
     states: &'a States,
     own: StateRates<'a>,
     changed: Vec<([StateRates<'a>; 2], f64)>,
-    /// Whether rates are the same functions of temperatures at all times.
+    /// True if rates are the same functions of temperatures at all times.
     proportional: bool,
-    /// What bodies do to each other and to nodes, where that is always the same.
+    /// Effects of bodies on each other and on nodes, if they are constant.
     known: Option<Vec<Rates>>,
 }
 
@@ -99,8 +99,8 @@ impl<'a> Linearise<'a> {
         Ok(self.own.carried(nodes)?)
     }
 
-    /// At `time` in s, with these states; `slopes` is what a unit of each course's coordinate and
-    /// of each parameter's is in SI units.
+    /// Derivatives at `time` in s, with these states; `slopes` is one unit of each time history's
+    /// coordinate and of each parameter's in SI units.
     pub(crate) fn at(
         &mut self,
         (time, bodies): (f64, &[f64]),
@@ -121,7 +121,7 @@ impl<'a> Linearise<'a> {
         Ok(self.put(&columns))
     }
 
-    /// What each body does.
+    /// Effects of each body.
     fn bodies(&mut self, time: f64, bodies: &[f64]) -> Result<Vec<Rates>, InferError> {
         if let Some(known) = &self.known {
             return Ok(known.clone());
@@ -173,7 +173,7 @@ impl<'a> Linearise<'a> {
     }
 }
 
-/// By how much rates and temperatures change for each unit.
+/// Change of rates and temperatures per unit.
 fn difference((below, above): &(Rates, Rates), by: f64) -> Rates {
     let slope = |below: &[f64], above: &[f64]| {
         above.iter().zip(below).map(|(above, below)| (above - below) / by).collect()
@@ -181,7 +181,7 @@ fn difference((below, above): &(Rates, Rates), by: f64) -> Rates {
     Rates { states: slope(&below.states, &above.states), nodes: slope(&below.nodes, &above.nodes) }
 }
 
-/// What the states bring to the temperature that a column's instrument is exposed to.
+/// Effects of the states on the temperature at the instrument of a column.
 pub(crate) fn measured(
     task: &InferTask,
     column: usize,
@@ -195,7 +195,7 @@ pub(crate) fn measured(
 }
 
 impl Linear {
-    /// What the states bring to the reading of a column, whose instrument shows `shown` in K.
+    /// Effects of the states on a reading, if its instrument shows `shown` in K, and the reading.
     pub(crate) fn reading(
         &self,
         task: &InferTask,

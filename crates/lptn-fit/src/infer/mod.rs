@@ -1,13 +1,13 @@
-//! Courses over time from records: the heat that is dissipated while it is, or a flow, a film
-//! coefficient, whatever signal a network has.
+//! Time histories from records: the dissipated heat over time, a flow, a heat transfer coefficient,
+//! or any other signal of a network.
 //!
-//! What is sought is a random walk, so smooth that the record is most likely, or as smooth as is
-//! said. Near a run of the network everything is linear, and a Kalman filter and smoother give what
-//! all readings together say of every moment ([`crate::kalman`]). Networks that are not linear in
-//! what is sought are followed in rounds, each near the courses of the one before, until nothing
-//! moves (iterated smoother; B. M. Bell, SIAM J. Optim. 4 (1994) 626): that is the Gauss-Newton
-//! method for the most probable courses. Parameters with a `±` and instruments with one are
-//! estimated along, so what is not known of them widens every band.
+//! An estimated signal is a random walk. Its smoothness makes the record most likely, or is given.
+//! Near a run of the network everything is linear. A Kalman filter and smoother then estimate every
+//! moment from all readings ([`crate::kalman`]). If a network is not linear in the signals, rounds
+//! follow, each near the time histories of the one before, until nothing moves (iterated smoother;
+//! B. M. Bell, SIAM J. Optim. 4 (1994) 626). That is the Gauss-Newton method for the most probable
+//! time histories. Parameters and instruments with a `±` are estimated too, so they widen every
+//! band.
 //!
 //! A quantity that is estimated over time is a signal. Parameters do not change in a run, and the
 //! network knows its constant parts. The estimated time history is therefore one that a run can

@@ -1,4 +1,4 @@
-//! A record and a network, linear near a reference: how states go on, and what is read of them.
+//! A record and a network, linear near a reference: transitions of the states and their readings.
 
 use std::rc::Rc;
 
@@ -14,34 +14,34 @@ use crate::infer::strength::{Jump, Noise, Strength};
 use crate::infer::task::InferTask;
 use crate::kalman::{Fade, Filter, Gaussian, Innovation, Reading, Smoother, Step, Weights};
 
-/// More bodies than this are not followed.
+/// Largest number of bodies that are followed.
 const MOST: usize = 100;
 
 /// Rates that differ by less than this part of the largest are the same, and so are times.
 const SAME: f64 = 1e-11;
 
-/// A course may be so many times as far from its own as would explain all that was read.
+/// Prior deviation of a time history, in sizes that would explain all readings.
 const FAR: f64 = 30.0;
 
-/// A jump is so many times as large as its course, as a standard deviation.
+/// Standard deviation of a jump, in sizes of its time history.
 const JUMP: f64 = 3.0;
 
-/// All that the readings are compared with.
+/// The model that the readings are compared with.
 pub(crate) struct Model {
     pub(crate) states: States,
     /// Temperature of every node in K at every moment of the reference.
     pub(crate) reference: Vec<Vec<f64>>,
-    /// What the instrument of each column shows then in K but for its offset and gain.
+    /// Reading of each column's instrument in K at every moment, without offset and gain.
     pub(crate) shown: Vec<Vec<f64>>,
-    /// What the states bring to the temperature of every node.
+    /// Effect of the states on the temperature of every node.
     pub(crate) nodes: Vec<Vec<Vec<(usize, f64)>>>,
-    /// Between each two moments, with what comes to the states that change as the courses of the
-    /// reference rise.
+    /// Transition between each two moments, and the input to the states that change as the time
+    /// histories of the reference rise.
     steps: Vec<(Rc<Discrete>, Rc<Vec<f64>>)>,
-    /// What was read at each moment.
+    /// Readings at each moment.
     readings: Vec<Vec<Read>>,
     pub(crate) prior: Gaussian,
-    /// The size of each course in its coordinate, as far as all that was read tells.
+    /// Size of each time history in its coordinate, from all readings.
     pub(crate) sizes: Vec<f64>,
     /// The moments in s.
     pub(crate) times: Vec<f64>,
@@ -52,17 +52,17 @@ pub(crate) struct Model {
 pub(crate) struct Read {
     pub(crate) column: usize,
     pub(crate) of: Rc<Weights>,
-    /// Beyond what the reference comes to, in K.
+    /// Difference from the reading of the reference in K.
     pub(crate) beyond: f64,
 }
 
-/// What one unit of the coordinate of a course is in SI units: its logarithm or itself.
+/// One unit of the coordinate of a time history in SI units: of its logarithm or itself.
 fn slope(positive: bool, value: f64) -> f64 {
     if positive { value } else { 1.0 }
 }
 
 impl Model {
-    /// `sizes` are those that were found in the first round, where nothing was explained yet.
+    /// `sizes` are those of the first round, before anything was explained.
     pub(crate) fn new(
         task: &InferTask,
         (moments, begins): (&Moments, &Begins),
@@ -120,12 +120,12 @@ impl Model {
         Ok(model)
     }
 
-    /// What the states bring to the temperature of a node at a moment.
+    /// Effect of the states on the temperature of a node at a moment.
     pub(crate) fn weights(&self, k: usize, node: usize) -> &Weights {
         &self.nodes[k][node]
     }
 
-    /// What is known before anything is read, where noises are these.
+    /// The prior before any reading, with these noises.
     pub(crate) fn begin(&self, noises: &[Noise]) -> Gaussian {
         let mut prior = self.prior.clone();
         let side = prior.mean.len() + 1;
@@ -138,7 +138,7 @@ impl Model {
         prior
     }
 
-    /// Takes a filter to a moment, and its readings in.
+    /// Advances a filter to a moment and takes its readings in.
     pub(crate) fn advance(
         &self,
         filter: &mut Filter,
@@ -153,7 +153,7 @@ impl Model {
         readings.map(|read| (read.column, filter.update(&read.reading(noises)))).collect()
     }
 
-    /// How large each course has to be to explain the farthest reading, if it stands still.
+    /// Size of each constant time history that explains the farthest reading.
     fn found_sizes(&self, task: &InferTask) -> Result<Vec<f64>, InferError> {
         let all = self.readings.iter().flatten();
         let farthest = all.map(|read| read.beyond.abs()).fold(0.0, f64::max);
@@ -169,7 +169,7 @@ impl Model {
         task.sought.iter().enumerate().map(size).collect()
     }
 
-    /// The farthest reading that a course brings about that is 1 all the time.
+    /// The farthest reading that a time history of constantly 1 causes.
     fn answer(&self, j: usize) -> f64 {
         let mut state = vec![0.0; self.states.count()];
         state[self.states.course(j)] = 1.0;
@@ -186,8 +186,8 @@ impl Model {
         farthest
     }
 
-    /// The same with one state more behind all others: by how many K, known to `spread`, a column's
-    /// instrument moves over the record at a steady rate.
+    /// The same with one more state after all others: the steady drift of a column's instrument
+    /// over the record in K, known to `spread`.
     pub(crate) fn drifting(&self, column: usize, spread: f64) -> Self {
         let count = self.states.count() + 1;
         let longer = |row: &[f64]| row.iter().copied().chain([0.0]).collect::<Vec<f64>>();
@@ -223,12 +223,12 @@ impl Model {
         self.times[self.times.len() - 1] - self.times[0]
     }
 
-    /// The logarithm of the probability density of what was read, where walks and noises are these.
+    /// The logarithm of the probability density of the readings, with these walks and noises.
     pub(crate) fn log_likelihood(&self, strength: &Strength) -> f64 {
         self.filtered(strength).log_likelihood()
     }
 
-    /// What is known of the last moment.
+    /// The estimate of the last moment.
     pub(crate) fn filtered(&self, strength: &Strength) -> Filter {
         let mut filter = Filter::new(self.begin(&strength.noises));
         let mut walks = Walks { model: self, strength, last: None };
@@ -243,7 +243,7 @@ impl Model {
         filter
     }
 
-    /// What is known of every moment, and by how much each reading surprised.
+    /// The estimates of every moment, and the surprise of each reading.
     pub(crate) fn smoothed(
         &self,
         strength: &Strength,
@@ -262,13 +262,13 @@ impl Model {
         (smoother, surprises)
     }
 
-    /// The walk on the way to a moment that brings as much about, mean and variance, as a jump at
-    /// any time between.
+    /// Intensity of the walk to a moment that has the mean and variance of a jump at any time
+    /// between.
     fn jump(&self, Jump { to, course }: Jump) -> f64 {
         (JUMP * self.sizes[course]).powi(2) / (self.times[to] - self.times[to - 1])
     }
 
-    /// What a jump by one standard deviation brings to the states that change.
+    /// Effect of a jump by one standard deviation on the states that change.
     pub(crate) fn shock(&self, jump: Jump) -> Vec<f64> {
         let course = self.states.course(jump.course);
         let size = self.states.moving();
@@ -277,7 +277,7 @@ impl Model {
         noise[course * size..][..size].iter().map(|x| x * scale).collect()
     }
 
-    /// The covariance that comes in on the way to a moment.
+    /// The covariance that is added on the way to a moment.
     pub(crate) fn comes_in(&self, to: usize, strength: &Strength) -> Rc<Vec<f64>> {
         let mut intensities = strength.intensities.clone();
         for jump in strength.jumps.iter().filter(|jump| jump.to == to) {
@@ -287,7 +287,7 @@ impl Model {
     }
 }
 
-/// Walks and noises of given strengths: what they bring in is the same as long as nothing else
+/// Walks and noises of given strengths. Their covariance stays the same as long as nothing else
 /// changes.
 struct Walks<'a> {
     model: &'a Model,
@@ -296,7 +296,7 @@ struct Walks<'a> {
 }
 
 impl Walks<'_> {
-    /// On the way to a moment.
+    /// Step to a moment.
     fn step(&mut self, to: usize) -> Step {
         let (discrete, input) = &self.model.steps[to - 1];
         let mut step = match &self.last {
@@ -316,7 +316,7 @@ impl Walks<'_> {
         step
     }
 
-    /// What becomes of the states that no other changes.
+    /// Transitions of the states that no other state changes.
     fn fades(&self, to: usize) -> Rc<Vec<Fade>> {
         let (states, times) = (&self.model.states, &self.model.times);
         let drift = |column: &usize| self.strength.noises[*column].fade(times[to] - times[to - 1]);
@@ -332,7 +332,7 @@ impl Read {
     }
 }
 
-/// Coordinates of all courses at one moment.
+/// Coordinates of all time histories at one moment.
 pub(crate) fn coordinates(task: &InferTask, reference: &Reference, k: usize) -> Vec<f64> {
     let courses = task.sought.iter().zip(&reference.courses);
     courses.map(|(s, course)| if s.positive { course[k].ln() } else { course[k] }).collect()
@@ -342,7 +342,7 @@ fn start(bodies: &[NodeId], nodes: &[f64]) -> Vec<f64> {
     bodies.iter().map(|id| nodes[id.index()]).collect()
 }
 
-/// Between each two moments rates are the mean of both.
+/// Rates between each two moments are the mean of both.
 fn steps(
     (task, states): (&InferTask, &States),
     (times, reference): (&[f64], &Reference),

@@ -1,8 +1,8 @@
-//! What the noise of each column is like, where that is not said: as the record is most likely.
+//! Noise of each column if it is not given: the one that makes the record most likely.
 //!
-//! A thermocouple that follows the air of a hall, or an amplifier that filters, reads two neighbours
-//! too high together. Taken for white, such noise becomes a course that walks: 2 s of it made a
-//! constant power of 223 W wander by 50 W.
+//! A thermocouple that follows the air of a hall, or an amplifier that filters, reads two
+//! neighbours too high together. If such noise is taken for white, the time history walks: 2 s of
+//! it made a constant power of 223 W wander by 50 W.
 //!
 //! The slow part of the noise of a column is an additional state. It comes after the states that
 //! the network moves, so that none of their transitions grows. It is searched together with the
@@ -19,41 +19,41 @@ use crate::infer::strength::{Noise, Strength};
 use crate::infer::task::Drift;
 use crate::simplex;
 
-/// A slow part has to make the record so much more likely, in the logarithm.
+/// Gain in log-likelihood that a slow part must have.
 const WORTH: f64 = 4.0;
 
-/// A slow part without which it is so many times less likely at once is not given another look.
+/// A slow part is kept at once if its gain is this many times `WORTH`.
 const FAR: f64 = 10.0;
 
-/// Times that are tried, from this many distances of rows on, each this many times the one before.
+/// The first time that is tried, in distances of rows, and the factor to the next.
 const SHORTEST: f64 = 1.5;
 const LONGER: f64 = 4.0;
 
-/// The longest time, as a part of the record: what is slower bends like the course.
+/// The longest time, as a part of the record: slower noise bends like the time history.
 const LONGEST: f64 = 0.1;
 
 /// Shares of the variance that are tried.
 const PARTS: [f64; 2] = [0.5, 0.95];
 
-/// The share is searched as its log-odds, which are at most so large.
+/// The share is searched as its log-odds, up to this limit.
 const SURE: f64 = 9.0;
 
-/// The first corners of the search are so far apart.
+/// Distance of the first corners of the search.
 const APART: f64 = 0.5;
 
-/// What is open of the noise of a column: logarithms and log-odds.
+/// Unknowns of the noise of a column: logarithms and log-odds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Unsaid {
     /// Its white part.
     White,
-    /// How much of it is slow, and how slow.
+    /// Share of its slow part, and how slow it is.
     Drift,
-    /// The whole of it, and these.
+    /// The whole of it, and those of its slow part.
     All,
 }
 
 impl Unsaid {
-    /// As numbers of order 1.
+    /// The unknowns as numbers of order 1.
     fn numbers(self, noise: &Noise) -> Vec<f64> {
         let part = (noise.drift / noise.whole()).powi(2);
         let odds = (part / (1.0 - part)).ln().clamp(-SURE, SURE);
@@ -79,7 +79,7 @@ impl Open<'_> {
         self.model.log_likelihood(strength)
     }
 
-    /// What is not said of the noise of a column that has a slow part or has none.
+    /// Unknowns of the noise of a column that has a slow part or has none.
     fn unsaid(&self, column: usize, noise: &Noise) -> Option<Unsaid> {
         let sigma = self.task.run.columns[column].sigma.is_some();
         let slow = noise.drift > 0.0 && self.task.drift == Drift::Open;
@@ -91,12 +91,12 @@ impl Open<'_> {
         }
     }
 
-    /// With the most likely noise of one column after the other.
+    /// Finds the most likely noise of one column after the other.
     pub(crate) fn noised(&self, found: Strength) -> Strength {
         self.with_noises(found, |_| true)
     }
 
-    /// With the most likely noise of those that are white.
+    /// Finds the most likely noise of those that are white.
     pub(crate) fn whitened(&self, found: Strength) -> Strength {
         self.with_noises(found, |unsaid| unsaid == Unsaid::White)
     }
@@ -125,7 +125,7 @@ impl Open<'_> {
         (0.1 * length / rows, LONGEST * length)
     }
 
-    /// With a slow part of the noise of each column that makes the record more likely; the walks
+    /// Adds a slow part to the noise of each column if it makes the record more likely; the walks
     /// are then weaker.
     pub(crate) fn drifted(&self, white: Strength) -> Strength {
         if self.task.drift != Drift::Open || self.model.states.drifts.is_empty() {
@@ -153,7 +153,7 @@ impl Open<'_> {
         start
     }
 
-    /// Without the slow parts that are not worth it beside the others.
+    /// Removes the slow parts that are not worth it in addition to the others.
     pub(crate) fn needed_drifts(&self, mut found: Strength) -> Strength {
         for column in 0..found.noises.len() {
             if found.noises[column].drift <= 0.0 || self.task.drift != Drift::Open {

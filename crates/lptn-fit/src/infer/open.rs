@@ -1,4 +1,4 @@
-//! What is known where the record leaves open how smooth a course is.
+//! Estimates if the record leaves open how smooth a time history is.
 //!
 //! The strength of a random walk has no single value. At the most likely strength, a constant power
 //! would seem known to be constant. Bands are those of a mixture over both strengths, with even
@@ -12,26 +12,25 @@ use crate::infer::strength::Strength;
 use crate::infer::task::InferTask;
 use crate::kalman::Smoother;
 
-/// Intensities that are looked at of each walk.
+/// Number of intensities that are evaluated for each walk.
 const POINTS: usize = 8;
 
-/// Strengths beyond those at which the logarithm of the likelihood has fallen by so much do not
-/// count.
+/// Strengths do not count if the log-likelihood has fallen by more than this.
 const FALLEN: f64 = 7.0;
 
 /// Shares below this do not count.
 const LEAST_SHARE: f64 = 1e-3;
 
-/// Intensities are followed up and down as far from what is expected.
+/// Intensities are followed up to the expected one over this part, and down by its square.
 const LEAST_PART: f64 = 1e-8;
 
-/// In steps of this factor.
+/// Factor of each step.
 const FACTOR: f64 = 2.0;
 
-/// A walk is not felt that changes the logarithm of the likelihood by less.
+/// A walk is negligible if it changes the logarithm of the likelihood by less.
 const NOT_FELT: f64 = 0.05;
 
-/// The strengths that may be, with their shares.
+/// The possible strengths, with their shares.
 fn possible(task: &InferTask, model: &Model, most: &Strength) -> Vec<(Strength, f64)> {
     let alone = vec![(most.clone(), 1.0)];
     let open = open_walks(task);
@@ -53,7 +52,7 @@ fn possible(task: &InferTask, model: &Model, most: &Strength) -> Vec<(Strength, 
     if counts.is_empty() { alone } else { counts }
 }
 
-/// Along one intensity, the others as they are most likely.
+/// One intensity, with the others at their most likely values.
 struct Axis<'a> {
     model: &'a Model,
     most: &'a Strength,
@@ -61,8 +60,8 @@ struct Axis<'a> {
 }
 
 impl Axis<'_> {
-    /// Intensities at even distances of their logarithm, from where the walk is not felt, or is
-    /// too weak, to where it is too strong.
+    /// Intensities at even distances of their logarithm. They range from one that is negligible or
+    /// too weak to one that is too strong.
     fn values(&self, place: usize) -> Vec<f64> {
         let likely = |intensity: f64| {
             let mut there = self.most.clone();
@@ -89,7 +88,7 @@ impl Axis<'_> {
     }
 }
 
-/// Means and standard deviations of what is `asked` of the states of all moments.
+/// Means and standard deviations of the values that `asked` returns.
 pub(crate) fn mixture(
     (task, model, most): (&InferTask, &Model, &Strength),
     asked: impl Fn(&Smoother) -> Vec<(f64, f64)>,

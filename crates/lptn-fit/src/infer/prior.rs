@@ -1,4 +1,4 @@
-//! What is known at the start, before anything is read.
+//! The prior at the start, before anything is read.
 //!
 //! The first rows are known to about 1e-9 of a standard deviation, because the prior is 30 times
 //! wider than needed to explain the record. A wider prior would cost digits where the smoother
@@ -19,9 +19,9 @@ pub(crate) struct Begins {
     own: Vec<f64>,
     /// Its change by a standard deviation of each uncertain parameter.
     by_parameter: Vec<Vec<f64>>,
-    /// Whether nothing is known of it.
+    /// True if nothing is known of it.
     pub(crate) unknown: Vec<bool>,
-    /// The node of each.
+    /// Node of each body.
     pub(crate) bodies: Vec<NodeId>,
 }
 
@@ -41,7 +41,7 @@ impl Begins {
         };
         let by_parameter: Result<_, InferError> =
             task.uncertain.iter().zip(&own.parameters).enumerate().map(change).collect();
-        // a difference of two temperatures says of neither where it begins
+        // a difference of two temperatures does not determine where either begins
         let absolute = task.run.columns.iter().filter(|column| column.ty.absolute);
         let measured: Vec<NodeId> =
             absolute.flat_map(|column| column.nodes()).map(|(node, _)| *node).collect();
@@ -58,13 +58,14 @@ impl Begins {
         })
     }
 
-    /// Whether a body may begin elsewhere than the network says with its own parameters.
+    /// True if a body may not begin as the network says with its own parameters.
     pub(crate) fn may_move(&self, body: usize) -> bool {
         self.unknown[body] || self.by_parameter.iter().any(|change| change[body].abs() > 0.0)
     }
 
-    /// How all states stand to a reference that begins at these temperatures; `spreads` says how
-    /// far each course may be from its own, `shown` what a slow instrument shows of the bodies.
+    /// Distribution of all states relative to a reference that begins at these temperatures.
+    /// `spreads` is the deviation of each time history, `shown` the reading of a slow instrument as
+    /// a sum over bodies.
     pub(crate) fn prior(
         &self,
         (task, states): (&InferTask, &States),
@@ -86,7 +87,8 @@ impl Begins {
             }
             mean[i] = self.own[i] - start[i];
         }
-        // correlated parameters are sums of others that are not; where they cannot be, as if alone
+        // correlated parameters are sums of independent ones; if that fails, they count as
+        // independent
         let uncertain = states.uncertain;
         let factor = task.together.factor().unwrap_or_else(|_| identity(uncertain));
         for column in 0..uncertain {

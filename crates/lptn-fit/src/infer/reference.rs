@@ -11,15 +11,15 @@ use crate::network::{NetworkFitError, follow, line, refined};
 /// Is called after every step of a run, and may interrupt it.
 pub type InferObserver<'a> = dyn Fn(Progress) -> Proceed + 'a;
 
-/// Tolerance in K of the run of a network that is linear, and of others.
+/// Tolerance in K of the run of a linear network, and of others.
 const TOLERANCES: [f64; 2] = [1e-10, 1e-8];
 
-/// The times that count: the start, where that is known, and the rows of the record.
+/// The times that count: the start, if it is known, and the rows of the record.
 #[derive(Clone, Debug)]
 pub(crate) struct Moments {
-    /// In s, ascending.
+    /// Times in s, ascending.
     pub(crate) times: Vec<f64>,
-    /// How many stand before the first row of the record.
+    /// Number of moments before the first row of the record.
     pub(crate) before: usize,
 }
 
@@ -45,16 +45,16 @@ impl Moments {
     }
 }
 
-/// What the reference is: courses, parameters and temperatures at the start.
+/// The reference: time histories, parameters and temperatures at the start.
 #[derive(Clone, Debug)]
 pub(crate) struct Reference {
-    /// Of each sought signal a value in SI units at every moment, straight lines between.
+    /// Values of each estimated signal in SI units at every moment, with straight lines between.
     pub(crate) courses: Vec<Vec<f64>>,
-    /// Of each uncertain parameter.
+    /// Value of each uncertain parameter.
     pub(crate) parameters: Vec<f64>,
-    /// Nodes that begin elsewhere than the network says, in K.
+    /// Nodes that do not begin as the network says, in K.
     pub(crate) initial: Vec<(NodeId, f64)>,
-    /// Of each uncertain value of an instrument.
+    /// Value of each uncertain offset or gain of an instrument.
     pub(crate) reads: Vec<f64>,
 }
 
@@ -62,22 +62,22 @@ pub(crate) struct Reference {
 pub(crate) struct Ran {
     /// Temperature of every node in K at every moment.
     pub(crate) nodes: Vec<Vec<f64>>,
-    /// What the instrument of each column shows in K but for its offset and gain, at every moment.
+    /// Reading of each column's instrument in K at every moment, without offset and gain.
     pub(crate) shown: Vec<Vec<f64>>,
 }
 
-/// What is changed of a reference to see what depends on it.
+/// Change of a reference that shows its effects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Changed {
     Nothing,
-    /// A course, everywhere by so much.
+    /// A time history, by this amount everywhere.
     Course(usize, f64),
     /// An uncertain parameter.
     Parameter(usize, f64),
 }
 
 impl Reference {
-    /// With courses that stand still over two moments.
+    /// The same with time histories that are constant over two moments.
     pub(crate) fn twice(&self) -> Self {
         let courses = self.courses.iter().map(|course| vec![course[0]; 2]).collect();
         Self { courses, ..self.clone() }
@@ -159,7 +159,7 @@ impl Reference {
         Ok(run.solve(system, &mut |step| observer(step))?.result)
     }
 
-    /// Own value of a sought signal at the moments.
+    /// Own value of an estimated signal at the moments.
     pub(crate) fn own(network: &Network, signal: SignalId, times: &[f64]) -> Vec<f64> {
         let mut scope = network.evaluation();
         let at = |&time: &f64| {
@@ -170,7 +170,7 @@ impl Reference {
     }
 }
 
-/// Where times stand among others that hold them all.
+/// Indices of times among others that contain them all.
 fn places(all: &[f64], times: &[f64]) -> Vec<usize> {
     let mut from = 0;
     let place = |time: &f64| {

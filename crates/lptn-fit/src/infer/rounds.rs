@@ -1,4 +1,4 @@
-//! From a task to what is known: rounds until nothing moves.
+//! Rounds from a task to the estimates, until nothing moves.
 
 use lptn_assembly::{ChangeError, ThermalSystem};
 
@@ -12,30 +12,30 @@ use crate::infer::task::InferTask;
 use crate::kalman::Gaussian;
 use crate::network::{Certainty, unknown_input};
 
-/// The most rounds.
+/// Largest number of rounds.
 const MOST: usize = 25;
 
-/// Nothing moves where no course, parameter or instrument does by more than this part of its standard
-/// deviation.
+/// The rounds end if no time history, parameter or instrument moves by more than this part of its
+/// standard deviation.
 const SETTLED: f64 = 1e-4;
 
-/// Behind so many rounds strengths stay as they are: searched again they would differ by what the
-/// search leaves open, and nothing would settle.
+/// After this number of rounds strengths stay as they are. Another search would change them within
+/// its tolerance, and nothing would converge.
 const SEARCHED: usize = 3;
 
-/// Strengths are not searched again where the logarithm of the likelihood has moved by less.
+/// Strengths are not searched again if the logarithm of the likelihood has moved by less.
 const SAME: f64 = 1e-3;
 
-/// A round whose courses no run can follow is taken back by halves so often.
+/// A round whose time histories no run can follow is halved up to this number of times.
 const HALVES: usize = 6;
 
-/// Where the rounds ended.
+/// State at the end of the rounds.
 pub(crate) struct Settled {
     pub(crate) moments: Moments,
     pub(crate) reference: Reference,
     pub(crate) model: Model,
     pub(crate) strength: Strength,
-    /// The bodies of whose start nothing is known.
+    /// True for each body whose start is unknown.
     pub(crate) free: Vec<bool>,
     pub(crate) rounds: usize,
 }
@@ -86,7 +86,7 @@ pub(crate) fn settle(
     Err(InferError::NotSettled { rounds: MOST })
 }
 
-/// What the network itself says, and how it begins.
+/// Values and start of the network itself.
 pub(crate) fn begun(
     task: &InferTask,
     moments: &Moments,
@@ -113,7 +113,7 @@ pub(crate) fn checked(task: &InferTask) -> Result<(), InferError> {
     }
 }
 
-/// The courses and values that the network itself says.
+/// The time histories and values of the network itself.
 fn own(task: &InferTask, moments: &Moments) -> Result<Reference, InferError> {
     let network = task.network.with(&task.run.parameters).map_err(ChangeError::from)?;
     let network = network.recorded(&task.inputs(), &[]).map_err(ChangeError::from)?;
@@ -131,7 +131,7 @@ fn own(task: &InferTask, moments: &Moments) -> Result<Reference, InferError> {
     Ok(Reference { courses, parameters, initial: Vec::new(), reads })
 }
 
-/// What all that was read makes of a reference: a share of the way there.
+/// Moves a reference by a share of the way to the smoothed states.
 fn moved(
     (task, begins): (&InferTask, &Begins),
     (reference, model): (&Reference, &Model),
@@ -162,7 +162,7 @@ fn moved(
     next
 }
 
-/// How far a round has moved anything that is not known, over its standard deviation.
+/// Largest movement of an unknown in a round, over its standard deviation.
 fn distance(
     (task, model): (&InferTask, &Model),
     (reference, next): (&Reference, &Reference),
@@ -182,7 +182,7 @@ fn distance(
     far
 }
 
-/// The same of what stands still: parameters, and values of instruments.
+/// The same for constants: parameters, and values of instruments.
 fn unmoving(
     (task, model): (&InferTask, &Model),
     (reference, next): (&Reference, &Reference),

@@ -1,33 +1,33 @@
-//! How smooth the courses are, where that is not said: as the record is most likely.
+//! Smoothness of the time histories if it is not given: the most likely one for the record.
 
 use crate::infer::model::Model;
 use crate::infer::strength::Strength;
 use crate::infer::task::InferTask;
 use crate::simplex;
 
-/// Powers of e, three apart, by which walks of courses and of slopes are made stronger or weaker to
-/// begin with: from a guess, where jumps explain more than before, and from what is nearly right.
+/// Powers of e, three apart, that scale the walks of time histories and slopes to begin with: from
+/// a guess, with jumps that explain more than before, and from a start that is nearly right.
 const TRIED: [i32; 10] = [-5, -4, -3, -2, -1, 0, 1, 2, 3, 4];
 const WEAKER: [i32; 4] = [-4, -2, -1, 0];
 const NEAR: [i32; 1] = [0];
 
-/// Walks and noises are searched in so many turns, as long as more is gained of the logarithm of the
-/// likelihood.
+/// Largest number of turns in which walks and noises are searched, and the least gain in
+/// log-likelihood for another one.
 const TURNS: usize = 4;
 const LITTLE: f64 = 0.5;
 
-/// So far apart are the first corners of the search, in logarithms.
+/// Distance of the first corners of the search, in logarithms.
 const APART: f64 = 1.0;
 
-/// What may be left open.
+/// The strengths that are not given.
 pub(crate) struct Open<'a> {
-    /// Places of the intensities.
+    /// Indices of the intensities.
     walks: Vec<usize>,
     pub(crate) task: &'a InferTask,
     pub(crate) model: &'a Model,
 }
 
-/// Places of the intensities that are not said.
+/// Indices of the intensities that are not given.
 pub(crate) fn open_walks(task: &InferTask) -> Vec<usize> {
     let open = task.sought.iter().enumerate().filter(|(_, sought)| sought.intensity.is_none());
     open.flat_map(|(j, _)| [2 * j, 2 * j + 1]).collect()
@@ -38,19 +38,20 @@ impl<'a> Open<'a> {
         Self { walks: open_walks(task), task, model }
     }
 
-    /// The most likely from `start` on, or of many near it where that is a guess.
+    /// The most likely strength from `start` on, or from the best of many near it if that is a
+    /// guess.
     pub(crate) fn first(&self, start: &Strength, guessed: bool) -> Strength {
         let walked = self.walked(start, if guessed { &TRIED } else { &NEAR });
         let found = self.noised(walked);
         if guessed { self.drifted(found) } else { found }
     }
 
-    /// The most likely near `start`, where walks may have become weaker.
+    /// The most likely strength near `start`, with walks that may have become weaker.
     pub(crate) fn again(&self, start: &Strength) -> Strength {
         self.whitened(self.walked(start, &WEAKER))
     }
 
-    /// With walks made stronger and weaker by factors whose logarithms these are.
+    /// Scales walks by factors with these logarithms.
     fn at(&self, start: &Strength, logarithms: &[f64]) -> Strength {
         let mut all = start.clone();
         self.walks.iter().zip(logarithms).for_each(|(j, x)| all.intensities[*j] *= x.exp());
@@ -80,7 +81,7 @@ impl<'a> Open<'a> {
         self.at(start, &simplex::minimum(lack, &begin, APART))
     }
 
-    /// Walks and noises in turns, from what is nearly right.
+    /// Searches walks and noises in turns, from a start that is nearly right.
     pub(crate) fn in_turns(&self, mut found: Strength) -> Strength {
         let mut likely = self.model.log_likelihood(&found);
         for _ in 0..TURNS {
@@ -94,8 +95,8 @@ impl<'a> Open<'a> {
         found
     }
 
-    /// The walks with which a start is most likely, of few that are far apart: from none to strong,
-    /// of the course or of its slope.
+    /// The most likely walks for a start among a few that are far apart: from none to strong, of
+    /// the time history or of its slope.
     pub(crate) fn roughly(&self, start: &Strength) -> (f64, Strength) {
         if self.walks.is_empty() {
             return (self.model.log_likelihood(start), start.clone());
@@ -111,7 +112,7 @@ impl<'a> Open<'a> {
         best.unwrap_or_else(|| (f64::NEG_INFINITY, start.clone()))
     }
 
-    /// Walks stand still where the record is as likely so.
+    /// Stops the walks without which the record is as likely.
     pub(crate) fn without_walks(&self, mut found: Strength) -> Strength {
         let mut most = self.model.log_likelihood(&found);
         for &place in &self.walks {

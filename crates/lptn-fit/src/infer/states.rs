@@ -1,45 +1,45 @@
-//! Which number stands where.
+//! Indices of the states.
 
 use crate::infer::task::{Drift, InferTask};
 use crate::network::Certainty;
 
-/// Temperatures and logarithms of which nothing is known are known to so many K, or factors of e.
+/// Prior deviation of unknown temperatures in K, and of unknown logarithms.
 pub(crate) const UNKNOWN_KELVIN: f64 = 100.0;
 
-/// A gain of which nothing is known.
+/// Prior deviation of an unknown gain.
 const UNKNOWN_GAIN: f64 = 1.0;
 
 /// A value of an instrument that is not known exactly.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reads {
-    /// Place of the instrument in the task.
+    /// Index of the instrument in the task.
     pub(crate) sensor: usize,
-    /// Its offset, or its gain.
+    /// True for its gain, false for its offset.
     pub(crate) gain: bool,
-    /// Its value beforehand, and its standard deviation.
+    /// Its prior value, and its standard deviation.
     pub(crate) known: (f64, f64),
 }
 
-/// The places of all states: those that change with time, which are temperatures, what slow
-/// instruments show, what is sought, its integral, and the parameters that rates depend on; then
-/// what no other changes, the values of instruments and the slow part of the noise of columns.
+/// Indices of all states. Those that change with time come first: temperatures, readings of slow
+/// instruments, signals with slopes and integrals, and the parameters that rates depend on. Then
+/// come the values of instruments and the slow noise of columns, which no other state changes.
 #[derive(Clone, Debug)]
 pub(crate) struct States {
-    /// How many temperatures are carried.
+    /// Number of temperatures.
     pub(crate) bodies: usize,
     /// The columns whose instrument is slow, with its time constant in s.
     pub(crate) slow: Vec<(usize, f64)>,
-    /// How many courses are sought.
+    /// Number of estimated time histories.
     pub(crate) sought: usize,
-    /// How many parameters are uncertain.
+    /// Number of uncertain parameters.
     pub(crate) uncertain: usize,
     /// The values of instruments.
     pub(crate) reads: Vec<Reads>,
-    /// The columns whose noise may hold a part that dies away slowly.
+    /// The columns whose noise may have a slow part.
     pub(crate) drifts: Vec<usize>,
 }
 
-/// Columns of fewer values do not tell how slow their noise is.
+/// Columns of fewer values do not determine how slow their noise is.
 const ENOUGH: usize = 30;
 
 impl States {
@@ -58,18 +58,18 @@ impl States {
         }
     }
 
-    /// What the instrument of a column shows, where that is slow.
+    /// Reading of the instrument of a column, if it is slow.
     pub(crate) fn shown(&self, column: usize) -> Option<usize> {
         let place = self.slow.iter().position(|(slow, _)| *slow == column)?;
         Some(self.bodies + place)
     }
 
-    /// A course that is sought.
+    /// An estimated time history.
     pub(crate) fn course(&self, j: usize) -> usize {
         self.bodies + self.slow.len() + j
     }
 
-    /// How fast it rises, but for what it walks.
+    /// Its slope, without the steps of its walk.
     pub(crate) fn slope(&self, j: usize) -> usize {
         self.course(self.sought) + j
     }
@@ -79,17 +79,17 @@ impl States {
         self.slope(self.sought) + j
     }
 
-    /// What walks: each course, and its slope.
+    /// The states that walk: each time history, and its slope.
     pub(crate) fn walks(&self) -> Vec<usize> {
         (0..self.sought).flat_map(|j| [self.course(j), self.slope(j)]).collect()
     }
 
-    /// An uncertain parameter, or the logarithm of one, over its standard deviation.
+    /// An uncertain parameter, or its logarithm, over its standard deviation.
     pub(crate) fn parameter(&self, k: usize) -> usize {
         self.area(self.sought) + k
     }
 
-    /// How many change, or make others change.
+    /// Number of states that change, or make others change.
     pub(crate) fn moving(&self) -> usize {
         self.parameter(self.uncertain)
     }
@@ -99,19 +99,19 @@ impl States {
         self.moving() + r
     }
 
-    /// The slow part of the noise of a column in K, where it may have one.
+    /// The slow part of the noise of a column in K, if it may have one.
     pub(crate) fn drift(&self, column: usize) -> Option<usize> {
         let place = self.drifts.iter().position(|own| *own == column)?;
         Some(self.moving() + self.reads.len() + place)
     }
 
-    /// How many there are.
+    /// Number of states.
     pub(crate) fn count(&self) -> usize {
         self.moving() + self.reads.len() + self.drifts.len()
     }
 }
 
-/// The columns whose noise may hold a part that dies away slowly.
+/// The columns whose noise may have a slow part.
 fn drifts(task: &InferTask) -> Vec<usize> {
     let columns = task.run.columns.iter().enumerate();
     let read = |values: &[f64]| values.iter().filter(|value| !value.is_nan()).count();

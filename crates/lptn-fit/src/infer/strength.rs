@@ -1,27 +1,27 @@
-//! How smooth the courses are, what the noise of a column is like, and where courses jump.
+//! Smoothness of the time histories, noise of the columns, and jumps.
 
 use crate::kalman::Fade;
 
 /// The strengths of walks and noises.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Strength {
-    /// For each course the variance of its walk per s, in the units of its coordinate squared, and
-    /// that of the walk of its slope.
+    /// For each time history the variance of its walk per s, in the units of its coordinate
+    /// squared, and that of the walk of its slope.
     pub(crate) intensities: Vec<f64>,
     /// The noise of each column.
     pub(crate) noises: Vec<Noise>,
-    /// Where courses may jump, in ascending order.
+    /// Possible jumps of time histories, in ascending order.
     pub(crate) jumps: Vec<Jump>,
 }
 
-/// The noise of a column: white, and a part that dies away (J. L. Doob, Ann. Math. 43 (1942) 351).
+/// The noise of a column: white, and a slow part (J. L. Doob, Ann. Math. 43 (1942) 351).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Noise {
     /// Standard deviation of the white part in K, above 0.
     pub(crate) white: f64,
-    /// That of the other.
+    /// Standard deviation of the slow part in K.
     pub(crate) drift: f64,
-    /// The time in s after which 1/e of it is left.
+    /// Time in s after which 1/e of it is left.
     pub(crate) time: f64,
 }
 
@@ -30,8 +30,8 @@ impl Noise {
         Self { white, drift: 0.0, time: 1.0 }
     }
 
-    /// Of a standard deviation of one reading in K, of which so large a share of the variance dies
-    /// away.
+    /// Noise from the standard deviation of one reading in K, with this share of the variance in
+    /// the slow part.
     pub(crate) fn split(whole: f64, share: f64, time: f64) -> Self {
         Self { white: whole * (1.0 - share).sqrt(), drift: whole * share.sqrt(), time }
     }
@@ -41,29 +41,29 @@ impl Noise {
         self.white.hypot(self.drift)
     }
 
-    /// What becomes of the slow part in so many s.
+    /// Transition of the slow part over a time in s.
     pub(crate) fn fade(&self, time: f64) -> Fade {
         let lost = f64::exp_m1(-2.0 * time / self.time);
         Fade { left: f64::exp(-time / self.time), variance: -self.drift * self.drift * lost }
     }
 }
 
-/// A course jumps somewhere between two moments.
+/// A jump of a time history between two moments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Jump {
-    /// The place of the second.
+    /// Index of the second.
     pub(crate) to: usize,
     pub(crate) course: usize,
 }
 
 impl Strength {
-    /// The same with walks that stand still.
+    /// The same without walks and jumps.
     pub(crate) fn still(&self) -> Self {
         let intensities = vec![0.0; self.intensities.len()];
         Self { intensities, noises: self.noises.clone(), jumps: Vec::new() }
     }
 
-    /// The same where all noise is white.
+    /// The same with white noise only.
     pub(crate) fn white(&self, sigma: impl Fn(&Noise) -> f64) -> Self {
         let noises = self.noises.iter().map(|noise| Noise::white(sigma(noise))).collect();
         Self { noises, ..self.clone() }

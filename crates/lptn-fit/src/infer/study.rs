@@ -15,8 +15,8 @@ impl InferTask {
     /// uncertain, with its correlations.
     ///
     /// # Errors
-    /// [`InferError`] for a column that is no temperature of a node, no mean and no difference of some,
-    /// and what the evaluation of the study's numbers reports.
+    /// [`InferError`] for a column that is not a temperature of a node, or a mean or difference of
+    /// some, and for numbers of the study that cannot be evaluated.
     pub fn of(netlist: &Netlist, study: &InferStudy) -> Result<Self, InferError> {
         let network = &netlist.network;
         let mut read = NetworkFitTask::of(netlist, &study.reads, 1)?;
@@ -39,7 +39,7 @@ impl InferTask {
         };
         let drift = study.drift(network)?;
         let drift = drift.map_or(Drift::Open, |(deviation, time)| Drift::Known { deviation, time });
-        // a filter follows what is linear in temperatures of nodes, and no other result
+        // a filter follows results that are linear in temperatures of nodes, and no others
         study.reads.observed.iter().try_for_each(|observed| match observed.ty.dimension {
             of if of == Dimension::TEMPERATURE => weights(network, observed).map(|_| ()),
             _ => Err(NetworkFitError::NotLinear {
@@ -48,7 +48,7 @@ impl InferTask {
             }),
         })?;
         let run = read.runs.swap_remove(0);
-        // what no time of the record can tell is none, and rates by it would be beyond all numbers
+        // a lag that no time of the record resolves is 0: rates by it would be beyond all numbers
         let latest = run.times.iter().fold(0.0, |latest: f64, time| latest.max(time.abs()));
         let prompt = |sensor: &&mut Instrument| sensor.lag.value < f64::EPSILON * latest;
         read.sensors.iter_mut().filter(prompt).for_each(|sensor| sensor.lag.value = 0.0);

@@ -1,5 +1,4 @@
-//! Whether readings came as they were expected: what a record says of the network and of its
-//! instruments.
+//! Comparison of readings with their predictions: a check of the network and its instruments.
 
 use crate::infer::inferred::{InferredColumn, Known};
 use crate::infer::model::Model;
@@ -7,7 +6,7 @@ use crate::infer::states::UNKNOWN_KELVIN;
 use crate::infer::strength::{Noise, Strength};
 use crate::kalman::Innovation;
 
-/// What is told of every column.
+/// Statistics of every column.
 pub(crate) fn columns(
     model: &Model,
     strength: &Strength,
@@ -35,8 +34,8 @@ pub(crate) fn columns(
     strength.noises.iter().enumerate().map(one).collect()
 }
 
-/// The drift of a column over the record, if it is one more thing that is not known. A steady drift
-/// may have been taken for slow noise, so that is left out where the record is likelier then.
+/// The drift of a column over the record, as an additional unknown. A steady drift may have been
+/// taken for slow noise, so that is left out if the record is likelier then.
 fn drift(model: &Model, strength: &Strength, column: usize) -> Known {
     let drifting = model.drifting(column, UNKNOWN_KELVIN);
     let known = |strength: &Strength| {

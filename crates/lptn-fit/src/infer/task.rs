@@ -1,33 +1,33 @@
-//! What is to be inferred from what.
+//! Tasks of inference.
 
 use lptn_network::{Course, Network, ParameterId, SignalId};
 use lptn_units::{Correlations, Distribution, Spread};
 
 use crate::network::{Held, Instrument, MeasuredRun};
 
-/// Courses of signals to infer from one record.
+/// Time histories of signals to infer from one record.
 #[derive(Clone, Debug)]
 pub struct InferTask {
-    /// The network. What is sought begins as its own courses say.
+    /// The network. Estimated signals begin at their own time histories.
     pub network: Network,
     /// The record. Its run begins at `settings.start`.
     pub run: MeasuredRun,
     /// The instruments that columns name.
     pub sensors: Vec<Instrument>,
-    /// What is sought; each signal once.
+    /// The estimated signals, each once.
     pub sought: Vec<Sought>,
-    /// Parameters that are not known exactly. The record tells of them too.
+    /// Parameters that are not known exactly. The record updates them too.
     pub uncertain: Vec<Uncertain>,
-    /// What is known of them together.
+    /// Their correlations.
     pub together: Correlations,
-    /// What is known of the start.
+    /// Knowledge of the start.
     pub start: Start,
-    /// What is known of the slow part of the noise.
+    /// Knowledge of the slow part of the noise.
     pub drift: Drift,
 }
 
 impl InferTask {
-    /// The courses of the signals that follow the record, whose instruments are known.
+    /// The time histories of the signals that follow the record, whose instruments are known.
     pub(crate) fn inputs(&self) -> Vec<(SignalId, Course)> {
         let held = |sensor: Option<usize>| Held::of(sensor.and_then(|i| self.sensors.get(i)));
         self.run.signals.iter().map(|s| (s.signal, s.course(held(s.sensor)))).collect()
@@ -39,76 +39,76 @@ impl InferTask {
 pub struct Uncertain {
     /// The parameter.
     pub parameter: ParameterId,
-    /// Standard deviation in SI units, above 0; of a lognormal one that of its logarithm.
+    /// Standard deviation in SI units, above 0; for a lognormal one, that of its logarithm.
     pub deviation: f64,
-    /// Whether it is its logarithm that is normal, so that it stays above 0.
+    /// True if its logarithm is normal, so that it stays above 0.
     pub lognormal: bool,
 }
 
 impl Uncertain {
-    /// With what is known of a parameter of this value.
+    /// A parameter of this value with its spread.
     pub fn new(parameter: ParameterId, value: f64, spread: Spread) -> Self {
         let lognormal = spread.distribution == Distribution::Lognormal && value > 0.0;
         let deviation = if lognormal { spread.of_logarithm(value) } else { spread.sigma };
         Self { parameter, deviation, lognormal }
     }
 
-    /// What a standard deviation is in SI units at a value, to first order.
+    /// One standard deviation in SI units at a value, to first order.
     pub fn unit(&self, value: f64) -> f64 {
         if self.lognormal { self.deviation * value } else { self.deviation }
     }
 
-    /// The value so many standard deviations beyond another.
+    /// The value moved by a number of standard deviations.
     pub(crate) fn moved(&self, value: f64, by: f64) -> f64 {
         let far = self.deviation * by;
         if self.lognormal { value * far.exp() } else { value + far }
     }
 
-    /// How many standard deviations a value is beyond another.
+    /// Number of standard deviations from another value to this one.
     pub(crate) fn beyond(&self, value: f64, other: f64) -> f64 {
         let far = if self.lognormal { (value / other).ln() } else { value - other };
         far / self.deviation
     }
 }
 
-/// A signal whose course is sought: a random walk, or one of its logarithm.
+/// A signal with a time history to be estimated: a random walk, or one of its logarithm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sought {
     /// The signal.
     pub signal: SignalId,
     /// Its name.
     pub name: String,
-    /// Whether it is its logarithm that walks, so that it stays above 0.
+    /// True if its logarithm walks, so that it stays above 0.
     pub positive: bool,
     /// Variance of the walk per s, in SI units squared per s or, for a logarithm, 1/s; `None` for
     /// the value that makes the record most likely.
     pub intensity: Option<f64>,
-    /// Whether it may jump where the record says so.
+    /// True if it may jump when the record shows it.
     pub jumps: bool,
 }
 
-/// The part of the noise of each column that dies away with `exp(-t / time)`; the rest is white.
+/// The part of the noise of each column that decays with `exp(-t / time)`; the rest is white.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Drift {
-    /// What makes the record most likely. The standard deviation of a column is then that of both
-    /// parts.
+    /// The one that makes the record most likely. The standard deviation of a column is then that
+    /// of both parts.
     Open,
-    /// The same for all columns, beside their own standard deviation.
+    /// The same for all columns, in addition to their own standard deviation.
     Known {
-        /// Standard deviation in K; 0 where all noise is white.
+        /// Standard deviation in K; 0 if all noise is white.
         deviation: f64,
-        /// In s, above 0.
+        /// Time in s, above 0.
         time: f64,
     },
 }
 
-/// What is known of the temperatures at the start.
+/// Knowledge of the temperatures at the start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Start {
     /// They are those of the network.
     Known,
-    /// Nothing of nodes that a column measures; the others are those of the network.
+    /// Unknown for nodes that a column measures; the others are those of the network.
     Measured,
-    /// Nothing.
+    /// All are unknown.
     Free,
 }
