@@ -1,8 +1,8 @@
-//! One reading after the other.
+//! A filter that takes one reading after the other.
 
 use super::{Fade, Gaussian, Reading, Step, weighed};
 
-/// What is known after the readings so far.
+/// The state after the readings so far.
 #[derive(Clone, Debug)]
 pub struct Filter {
     state: Gaussian,
@@ -11,23 +11,23 @@ pub struct Filter {
     room: [Vec<f64>; 2],
 }
 
-/// By how much a reading was not what was expected of it.
+/// Difference of a reading from its prediction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Innovation {
-    /// The reading less what was expected.
+    /// The reading less its prediction.
     pub residual: f64,
     /// The variance of that, noise included.
     pub variance: f64,
 }
 
 impl Filter {
-    /// Begins with what is known before the first reading.
+    /// Begins with the state before the first reading.
     pub fn new(state: Gaussian) -> Self {
         let room = vec![0.0; state.covariance.len()];
         Self { state, log_likelihood: 0.0, room: [room.clone(), room] }
     }
 
-    /// What is known now.
+    /// The present state.
     pub fn state(&self) -> &Gaussian {
         &self.state
     }
@@ -60,7 +60,7 @@ impl Filter {
         self.taken(reading).1
     }
 
-    /// The same; what it changed per unit that it was not expected comes with it.
+    /// The same, with the change of the states per unit of the residual first.
     pub(super) fn taken(&mut self, reading: &Reading) -> (Vec<f64>, Innovation) {
         let spread = self.state.spread(&reading.of);
         let variance = weighed(&reading.of, &spread) + reading.variance;

@@ -2,8 +2,8 @@
 //! J. Basic Eng. 82 (1960) 35), and a smoother that knows all of them (G. J. Bierman, Fixed interval
 //! smoothing with discrete measurements, Int. J. Control 18 (1973) 65), which inverts nothing.
 //!
-//! States have any unit; a covariance has the product of those of its two states. Matrices stand row
-//! by row.
+//! States have any unit; a covariance has the product of those of its two states. Matrices are
+//! stored row by row.
 
 mod filter;
 mod smoother;
@@ -17,10 +17,10 @@ pub use filter::{Filter, Innovation};
 pub use smoother::{Later, Smoother, Told};
 pub use transition::{Fade, Transition};
 
-/// A sum of states: the place of each, and its weight.
+/// A sum of states: the index of each, and its weight.
 pub type Weights = [(usize, f64)];
 
-/// What is known of the states: their mean and covariance.
+/// Distribution of the states: their mean and covariance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gaussian {
     /// Mean of each state.
@@ -29,25 +29,25 @@ pub struct Gaussian {
     pub covariance: Vec<f64>,
 }
 
-/// How the states go on.
+/// Transition of the states to the next moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// What each of the first states becomes of the others.
+    /// Matrix of the first states.
     pub transition: Rc<Transition>,
-    /// What comes to each of them.
+    /// Input to each of them.
     pub input: Rc<Vec<f64>>,
-    /// The covariance of what is not known of that beforehand.
+    /// Covariance of the noise that is added to them.
     pub noise: Rc<Vec<f64>>,
-    /// Of each state behind them; those behind these stay as they are.
+    /// Transitions of the states after them; further states stay as they are.
     pub fades: Rc<Vec<Fade>>,
 }
 
 /// A number that was read: `value = of x + noise`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reading {
-    /// What the states bring to it.
+    /// Weights of the states in it.
     pub of: Rc<Weights>,
-    /// What was read.
+    /// Measured value.
     pub value: f64,
     /// The variance of its noise, above 0.
     pub variance: f64,

@@ -1,4 +1,4 @@
-//! What all readings together say of every moment.
+//! Estimates of every moment from all readings.
 
 use std::rc::Rc;
 
@@ -8,18 +8,18 @@ use super::{
     Fade, Filter, Gaussian, Innovation, Reading, Step, Transition, Weights, multiplied, weighed,
 };
 
-/// Takes readings in and remembers what it takes to go back.
+/// Takes readings in and stores the data for the way back.
 #[derive(Clone, Debug)]
 pub struct Smoother {
     filter: Filter,
     moments: Vec<Moment>,
 }
 
-/// A moment: what was known before its readings, how it was reached, and what they did.
+/// A moment: the state before its readings, the step to it, and its readings.
 #[derive(Clone, Debug)]
 struct Moment {
     before: Gaussian,
-    /// The way to it from the moment before, if there is one.
+    /// The step to it from the moment before, if there is one.
     way: Option<Way>,
     readings: Vec<Taken>,
 }
@@ -38,13 +38,13 @@ struct Taken {
 }
 
 impl Smoother {
-    /// Begins at the first moment, with what is known before its readings.
+    /// Begins at the first moment, with the state before its readings.
     pub fn new(state: Gaussian) -> Self {
         let first = Moment { before: state.clone(), way: None, readings: Vec::new() };
         Self { filter: Filter::new(state), moments: vec![first] }
     }
 
-    /// The filter behind the last reading.
+    /// The filter after the last reading.
     pub fn filter(&self) -> &Filter {
         &self.filter
     }
@@ -69,7 +69,7 @@ impl Smoother {
         innovation
     }
 
-    /// What is known of each moment, first to last, from all readings.
+    /// The state at each moment, first to last, from all readings.
     pub fn smoothed(&self) -> Vec<Gaussian> {
         let mut smoothed: Vec<Gaussian> = Vec::with_capacity(self.moments.len());
         self.backwards(|_, told| smoothed.push(told.whole()));
@@ -77,7 +77,7 @@ impl Smoother {
         smoothed
     }
 
-    /// Visits the moments, last to first, with what all readings say of each.
+    /// Visits the moments, last to first, with the estimate of each from all readings.
     pub fn backwards(&self, mut visit: impl FnMut(usize, &Told<'_>)) {
         let n = self.filter.state().mean.len();
         let mut later = Later { pull: vec![0.0; n], hold: vec![0.0; n * n] };
@@ -95,11 +95,11 @@ impl Smoother {
     }
 }
 
-/// What all readings say of a moment.
+/// Estimate of a moment from all readings.
 #[derive(Clone, Copy, Debug)]
 pub struct Told<'a> {
     before: &'a Gaussian,
-    /// What those from the moment on say.
+    /// Information from the readings of this moment and later.
     pub later: &'a Later,
 }
 
@@ -129,8 +129,8 @@ impl Told<'_> {
     }
 }
 
-/// What later readings say of a moment: they move the mean that was known before them by `P pull`
-/// and its covariance P by `-P hold P`.
+/// Information on a moment from later readings. They move the mean before them by `P pull` and its
+/// covariance P by `-P hold P`.
 #[derive(Clone, Debug)]
 pub struct Later {
     pull: Vec<f64>,
@@ -138,8 +138,8 @@ pub struct Later {
 }
 
 impl Later {
-    /// What they say of a shock to the states on the way to the moment, the first of which came
-    /// along `shock` for each unit: its estimate if nothing is known of its size is `pull / hold`,
+    /// Information on a shock to the states on the way to the moment. One unit of it moves the
+    /// first states by `shock`. If nothing is known of its size, its estimate is `pull / hold`,
     /// with the variance `1 / hold` (P. de Jong, J. Penzer, J. Am. Stat. Assoc. 93 (1998) 796).
     pub fn of_shock(&self, shock: &[f64]) -> (f64, f64) {
         let n = self.pull.len();
@@ -257,7 +257,7 @@ mod tests {
         assert!((smoother.filter().log_likelihood() + 8.439_296_360_033_93).abs() < 1e-12);
     }
 
-    /// Behind the last reading there is nothing more to know.
+    /// After the last reading there is nothing more to know.
     #[test]
     fn the_filter_is_the_smoother_at_the_end() {
         let smoother = followed();

@@ -1,31 +1,31 @@
-//! How states go on: the first by a matrix, those behind them each by itself.
+//! Transitions of states: the first by a matrix, each of the others by itself.
 
 use lptn_integrate::vectors::add;
 
 /// A square matrix without its zeros.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transition {
-    /// Where each row begins, and where the last ends.
+    /// Index at which each row begins, and at which the last ends.
     starts: Vec<usize>,
     entries: Vec<(usize, f64)>,
 }
 
-/// What becomes of a state that no other changes.
+/// Transition of a state that no other changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fade {
     /// The part of it that is left.
     pub left: f64,
-    /// The variance that comes in.
+    /// The variance that is added.
     pub variance: f64,
 }
 
 impl Fade {
-    /// It stays as it is.
+    /// The state stays as it is.
     pub const NONE: Self = Self { left: 1.0, variance: 0.0 };
 }
 
 impl Transition {
-    /// Of a matrix, row by row.
+    /// From a matrix, row by row.
     pub fn of(matrix: &[f64]) -> Self {
         let side = matrix.len().isqrt();
         let mut own = Self { starts: vec![0], entries: Vec::new() };
@@ -46,7 +46,7 @@ impl Transition {
         &self.entries[self.starts[i]..self.starts[i + 1]]
     }
 
-    /// `T x`, where T fades the states behind the matrix.
+    /// `T x`, with a T that fades the states after the matrix.
     pub(crate) fn advanced(&self, fades: &[Fade], x: &[f64]) -> Vec<f64> {
         let d = self.side();
         let one = |i: usize| self.row(i).iter().map(|(k, a)| a * x[*k]).sum();
@@ -77,7 +77,7 @@ impl Transition {
         }
     }
 
-    /// The same, the other way round.
+    /// The transposed matrix.
     pub fn transposed(&self) -> Self {
         let d = self.side();
         let mut dense = vec![0.0; d * d];
@@ -88,7 +88,7 @@ impl Transition {
     }
 }
 
-/// What is left of a state behind the matrix.
+/// The part that is left of a state after the matrix.
 fn left(fades: &[Fade], behind: usize) -> f64 {
     fades.get(behind).map_or(1.0, |fade| fade.left)
 }
