@@ -1,4 +1,4 @@
-//! One law, and what came of fitting it.
+//! One law, and the result of its fit.
 
 use lptn_units::Dimension;
 
@@ -6,27 +6,27 @@ use super::interval::Scatter;
 use super::model::LossLaw;
 use crate::least_squares::Stop;
 
-/// A law and what came of fitting it.
+/// A law and the result of its fit.
 #[derive(Clone, Debug)]
 pub struct LawFit {
-    /// What was fitted.
+    /// The law that was fitted.
     pub law: LossLaw,
-    /// What came of it.
+    /// The result of the fit.
     pub outcome: Outcome,
 }
 
-/// What came of a fit.
+/// The result of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
     /// The coefficients with the least sum of squares.
     Fitted(Box<Fitted>),
     /// There are fewer points, or fewer different speeds, than coefficients.
     TooFew {
-        /// How many of each are needed.
+        /// Required number of each.
         needed: usize,
-        /// Points.
+        /// Number of points.
         points: usize,
-        /// Different speeds.
+        /// Number of different speeds.
         speeds: usize,
     },
     /// The points do not determine all coefficients.
@@ -35,9 +35,9 @@ pub enum Outcome {
     NotConverged(Stop),
     /// The law has no value, or none that is finite.
     NoValue {
-        /// Which point, counted from 0.
+        /// Index of the point.
         point: usize,
-        /// Why.
+        /// Reason.
         reason: String,
     },
 }
@@ -50,10 +50,10 @@ pub struct Coefficient {
     pub name: String,
     /// Its value in SI units.
     pub value: f64,
-    /// Its standard error in SI units; `None` where no point is left over to tell.
+    /// Its standard error in SI units; `None` if no point is left over to estimate it.
     pub standard_error: Option<f64>,
-    /// Half the width of its 95 % interval in SI units, which also holds where points scatter
-    /// unevenly: see [`Estimate::half_width`](super::Estimate::half_width).
+    /// Half the width of its 95 % interval in SI units, also valid if points scatter unevenly: see
+    /// [`Estimate::half_width`](super::Estimate::half_width).
     pub half_width: Option<f64>,
     /// Its dimension: power over a power of the speed, for example.
     pub dimension: Dimension,
@@ -66,28 +66,28 @@ pub struct Fitted {
     pub coefficients: Vec<Coefficient>,
     /// Their correlations, row by row, in -1..1.
     pub correlation: Vec<Vec<f64>>,
-    /// What the law says at every point, in W.
+    /// Value of the law at every point, in W.
     pub values: Vec<f64>,
-    /// Root of the mean square of what it misses, in W: the divisor is the number of points, and
-    /// weights do not count.
+    /// Root mean square of the residuals in W: the divisor is the number of points, and weights do
+    /// not count.
     pub rmse: f64,
-    /// The same of what each point is missed by when the law is fitted to the others, in W; `None`
-    /// where the others do not determine the law.
+    /// The same for each point if the law is fitted to the others, in W; `None` if the others do
+    /// not determine the law.
     pub leave_one_out: Option<f64>,
-    /// Sum of the squares of what it misses, each over its standard error; without standard errors
+    /// Sum of the squares of the residuals, each over its standard error; without standard errors
     /// in W^2.
     pub squares: f64,
     /// Points less coefficients.
     pub degrees_of_freedom: usize,
     /// Akaike's criterion with the correction for few points; smaller is better, only differences
-    /// count. `None` where there are too few points for it.
+    /// count. `None` if there are too few points for it.
     pub aicc: Option<f64>,
-    /// What the points say of numbers that follow from the coefficients.
+    /// Scatter of the points, for numbers that follow from the coefficients.
     pub(crate) scatter: Scatter,
 }
 
 impl Fitted {
-    /// Whether a coefficient is below 0: then a part of the loss would feed heat back, and another
+    /// True if a coefficient is below 0. Then a part of the loss would feed heat back, and another
     /// sum fits as well as this one can without it. The exponent of [`LossLaw::FreeExponent`] does
     /// not count.
     pub fn negative(&self) -> bool {
@@ -109,15 +109,15 @@ impl LawFit {
         }
     }
 
-    /// Whether it may be the answer: fitted, with its criterion, and, where it is a sum of powers,
-    /// without a negative coefficient. What a user writes may have coefficients of any sign.
+    /// True if it may be the answer: fitted, with its criterion. A sum of powers must have no
+    /// negative coefficient; the coefficients of a user's law may have any sign.
     pub fn eligible(&self) -> bool {
         let fitted = self.fitted().filter(|fitted| fitted.aicc.is_some());
         fitted.is_some_and(|fitted| matches!(self.law, LossLaw::Written(_)) || !fitted.negative())
     }
 
-    /// Why there is nothing to show, or why it is not an answer; `None` where nothing has to be
-    /// said.
+    /// The reason why there is no result, or why it is not an answer; `None` if there is nothing to
+    /// report.
     pub fn remark(&self) -> Option<String> {
         match &self.outcome {
             Outcome::Fitted(fitted)

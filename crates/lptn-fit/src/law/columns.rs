@@ -1,4 +1,4 @@
-//! What became of one column of all runs.
+//! Fits of one column of all runs.
 
 use super::consistency::{Consistency, Measured};
 use crate::step::{Capacity, Power, StepFit};
@@ -17,7 +17,7 @@ pub struct RunFit {
 pub struct ColumnFits {
     /// The name of the column in every record.
     pub column: String,
-    /// In the order of the runs.
+    /// Fits in the order of the runs.
     pub fits: Vec<RunFit>,
 }
 
@@ -26,8 +26,8 @@ impl ColumnFits {
         Self { column: column.to_owned(), fits: Vec::new() }
     }
 
-    /// The exponents of rise, time constant and power at speeds in rad/s, by their random errors or
-    /// with every run alike; `None` where there are too few runs or a number is not above 0.
+    /// The exponents of rise, time constant and power at speeds in rad/s, weighted by random errors
+    /// or with equal weights. `None` if there are too few runs or a number is not above 0.
     pub(crate) fn consistency(
         &self,
         speeds: &[f64],

@@ -1,4 +1,4 @@
-//! Whether laws of temperature rise, time constant and power can be true together.
+//! Check that laws of temperature rise, time constant and power can be true together.
 
 use lptn_units::statistics;
 use lptn_units::statistics::two_sided;
@@ -7,14 +7,14 @@ use super::error::LawError;
 use super::stated::{Exponent, LawOf, StatedLaw};
 use crate::step::Capacity;
 
-/// Below this probability that chance alone explains a difference the laws contradict each other.
+/// Laws contradict each other if chance alone explains their difference with less probability.
 pub const SIGNIFICANT: f64 = 0.05;
 
-/// Laws without standard errors contradict each other where no common factor brings their powers
+/// Laws without standard errors contradict each other if no common factor brings their powers
 /// closer than this.
 pub const CLOSE: f64 = 0.05;
 
-/// What the laws say at one speed.
+/// Values of the laws at one speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AtSpeed {
     /// The speed in rad/s.
@@ -27,28 +27,28 @@ pub struct AtSpeed {
     pub implied: f64,
     /// The law of the power, in W.
     pub power: f64,
-    /// The time constant with which rise and power would both hold, `C dT / P`, in s.
+    /// The time constant with which rise and power would both be true, `C dT / P`, in s.
     pub needed: f64,
 }
 
-/// A difference, in units of its standard error, and how likely chance alone makes it as large.
+/// A difference over its standard error, and the probability that chance makes it as large.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Significance {
     /// The difference over its standard error.
     pub z: f64,
-    /// Of a difference as large, in either direction.
+    /// Probability of a difference as large, in either direction.
     pub probability: f64,
 }
 
-/// Implied power over the law's, in the middle of the range: a wrong capacity shows here, a wrong
+/// Implied power over the law's, in the middle of the range. A wrong capacity shows here, a wrong
 /// law in the exponents.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Level {
-    /// Implied over stated power; 1 where they agree.
+    /// Implied over stated power; 1 if they agree.
     pub ratio: f64,
     /// Its relative standard error.
     pub relative_error: Option<f64>,
-    /// Whether it differs from 1.
+    /// Significance of its difference from 1.
     pub significance: Option<Significance>,
 }
 
@@ -68,16 +68,16 @@ pub struct Consistency {
     pub power: Exponent,
     /// The implied exponent less that of the power.
     pub difference: Exponent,
-    /// Whether the exponents differ, where their errors are known.
+    /// Significance of the difference of the exponents, if their errors are known.
     pub exponents: Option<Significance>,
-    /// At the least speed, the geometric middle and the highest speed.
+    /// Values at the least speed, the geometric middle and the highest speed.
     pub at: [AtSpeed; 3],
     /// The capacity in J/K: the one given, or the one with which the powers agree in the middle.
     pub capacity: f64,
     /// Implied against stated power; `None` without a capacity.
     pub level: Option<Level>,
-    /// Points whose power is `C dT / t_RC` of the same point, all with one C: it was computed from
-    /// the others and tells nothing by itself.
+    /// True if the power of each point is `C dT / t_RC`, all with one C. It was then computed from
+    /// the others and gives no information of itself.
     pub derived: bool,
     /// Points less fitted numbers; `None` for stated laws.
     pub degrees_of_freedom: Option<usize>,
@@ -164,14 +164,13 @@ impl Consistency {
         })
     }
 
-    /// Fits a power of the speed to each of three measured quantities, by least squares of their
-    /// logarithms (weighted by relative standard errors where these are known, and then with errors
-    /// no less than these say), and compares. Speeds in rad/s, rises in K, time constants in s,
-    /// powers in W, one of each a point and all above 0. The standard errors of difference and
-    /// level are those of leaving one point out at a time (jackknife: B. Efron, R. J. Tibshirani,
-    /// An Introduction to the Bootstrap, Chapman & Hall 1993, chapter 11), which counts the errors
-    /// that the quantities share; probabilities are Student's with two degrees of freedom less than
-    /// points.
+    /// Fits a power of the speed to each of three measured quantities, and compares. The fits are
+    /// least squares of logarithms. Known relative standard errors are weights and lower bounds of
+    /// errors. Speeds are in rad/s, rises in K, time constants in s, powers in W, one of each per
+    /// point and all above 0. The standard errors of difference and level come from leaving one
+    /// point out at a time (jackknife: B. Efron, R. J. Tibshirani, An Introduction to the
+    /// Bootstrap, Chapman & Hall 1993, chapter 11), which counts shared errors. Probabilities are
+    /// Student's with two degrees of freedom less than points.
     ///
     /// # Errors
     /// [`LawError`] for fewer than 5 points, one speed alone, or a number out of range.
@@ -200,7 +199,7 @@ impl Consistency {
         Ok(found)
     }
 
-    /// What the points say beyond their lines.
+    /// Adds the results that need the single points.
     fn conclude(&mut self, logarithms: &Logarithms, capacity: Option<Capacity>) {
         let logs = &logarithms.values;
         let points = logs[0].len();
@@ -213,7 +212,7 @@ impl Consistency {
         self.derived = offsets.iter().all(|offset| (offset - mean).abs() < ROUNDED);
         self.degrees_of_freedom = freedom;
         if self.derived {
-            // what is left is how the numbers were rounded
+            // the rest is the rounding of the numbers
             self.difference.standard_error = None;
             self.level = capacity.map(|c| level(c.value * mean.exp(), relative(c), None));
             return;
@@ -237,8 +236,8 @@ impl Consistency {
         change.max(1.0 / change).sqrt()
     }
 
-    /// Whether the exponents contradict each other: by more than chance explains, or, where they
-    /// are stated without errors, by more than [`CLOSE`] at the ends of the range.
+    /// True if the exponents contradict each other: by more than chance explains, or, if they are
+    /// stated without errors, by more than [`CLOSE`] at the ends of the range.
     pub fn exponents_contradict(&self) -> bool {
         match self.exponents {
             Some(found) => found.probability < SIGNIFICANT,
@@ -246,8 +245,8 @@ impl Consistency {
         }
     }
 
-    /// Whether the powers contradict each other in the middle of the range, where a capacity is
-    /// given.
+    /// True if the powers contradict each other in the middle of the range; false without a
+    /// capacity.
     pub fn levels_contradict(&self) -> bool {
         self.level.is_some_and(|level| match level.significance {
             Some(found) => found.probability < SIGNIFICANT,
@@ -255,40 +254,40 @@ impl Consistency {
         })
     }
 
-    /// Whether the three can be true together.
+    /// True if the three can be true together.
     pub fn agrees(&self) -> bool {
         !self.exponents_contradict() && !self.levels_contradict()
     }
 
-    /// Whether an exponent that was fitted differs from one that is claimed.
+    /// Significance of the difference between a fitted exponent and a claimed one.
     pub fn claim(&self, found: Exponent, claimed: f64) -> Option<Significance> {
         let error = found.standard_error.filter(|error| *error > 0.0)?;
         Some(significance((found.value - claimed) / error, self.degrees_of_freedom))
     }
 }
 
-/// Up to this part, what differs between points is how numbers were rounded when they were written.
+/// Differences between points up to this part come from rounding in the written numbers.
 const ROUNDED: f64 = 2e-3;
 
 /// Three quantities that were measured at the same points.
 #[derive(Clone, Copy, Debug)]
 pub struct Measured<'a> {
-    /// In rad/s.
+    /// Speeds in rad/s.
     pub speed: &'a [f64],
-    /// In K.
+    /// Temperature rises in K.
     pub rise: &'a [f64],
-    /// In s.
+    /// Time constants in s.
     pub time_constant: &'a [f64],
-    /// In W.
+    /// Powers in W.
     pub power: &'a [f64],
-    /// Standard errors of rises, time constants and powers, where all are known.
+    /// Standard errors of rises, time constants and powers, if all are known.
     pub errors: Option<[&'a [f64]; 3]>,
 }
 
 /// Logarithms of speeds, rises, time constants and powers.
 struct Logarithms {
     values: [Vec<f64>; 4],
-    /// Their standard errors, where they are known; those of the speeds are not used.
+    /// Their standard errors, if they are known; those of the speeds are not used.
     errors: Option<[Vec<f64>; 4]>,
 }
 
@@ -380,12 +379,12 @@ fn level(ratio: f64, relative_error: Option<f64>, degrees_of_freedom: Option<usi
     Level { ratio, relative_error, significance }
 }
 
-/// The relative standard error of a capacity, where it is not taken as exact.
+/// The relative standard error of a capacity, if it is not taken as exact.
 fn relative(capacity: Capacity) -> Option<f64> {
     (capacity.deviation > 0.0).then(|| capacity.deviation / capacity.value)
 }
 
-/// The root of the sum of the squares of those that are known; `None` where none is.
+/// The root of the sum of the squares of the known errors; `None` if none is known.
 fn quadrature(errors: impl Iterator<Item = Option<f64>>) -> Option<f64> {
     let known: Vec<f64> = errors.flatten().collect();
     (!known.is_empty()).then(|| known.iter().map(|e| e * e).sum::<f64>().sqrt())

@@ -1,18 +1,18 @@
-//! How laws with different numbers of coefficients are compared.
+//! Comparison of laws with different numbers of coefficients.
 
 use super::candidate::{Fitted, LawFit};
 use super::points::Points;
 
-/// Root of the mean square of misses: the divisor is their number.
+/// Root mean square of residuals: the divisor is their number.
 pub(crate) fn rms(misses: impl ExactSizeIterator<Item = f64>) -> f64 {
     let count = misses.len() as f64;
     (misses.map(|residual| residual * residual).sum::<f64>() / count).sqrt()
 }
 
-/// The variance that weighted misses have beyond the standard errors given: chi^2 over degrees of
-/// freedom of the law with the most coefficients, at least 1 (K. P. Burnham, D. R. Anderson, Model
-/// Selection and Multimodel Inference, 2nd edition, Springer 2002, section 2.5). 1 without standard
-/// errors, where it is part of each fit.
+/// The factor of the variance of weighted residuals over the given standard errors: chi^2 over
+/// degrees of freedom of the law with the most coefficients, at least 1 (K. P. Burnham, D. R.
+/// Anderson, Model Selection and Multimodel Inference, 2nd edition, Springer 2002, section 2.5). It
+/// is 1 without standard errors, when it is part of each fit.
 pub(crate) fn dispersion(candidates: &[LawFit], points: &Points) -> f64 {
     if points.deviation().is_none() {
         return 1.0;
@@ -40,8 +40,8 @@ pub(crate) fn aicc(fit: &Fitted, points: &Points, dispersion: f64) -> Option<f64
     Some(misfit + 2.0 * k + 2.0 * k * (k + 1.0) / left)
 }
 
-/// The sum of squares, but no less than rounding leaves of it: points without noise are no proof of
-/// infinite weight.
+/// The sum of squares, but at least that of rounding: points without noise do not prove an infinite
+/// weight.
 fn least(fit: &Fitted, points: &Points) -> f64 {
     let rounding = 16.0 * f64::EPSILON * points.largest_power();
     fit.squares.max(points.len() as f64 * rounding * rounding)

@@ -1,13 +1,13 @@
-//! What cannot be fitted.
+//! Errors in fits of laws.
 
 use lptn_units::{Problem, Problems, Type, UnitError};
 
-/// The most coefficients of one law.
+/// Largest number of coefficients of one law.
 pub(crate) const MOST: usize = 8;
 
 lptn_units::errors! {
 /// Points or a law that cannot be used. Rows are counted from 0 here and from 1 in messages; laws
-/// stand as they were written.
+/// are quoted as written.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum LawError {
@@ -20,7 +20,7 @@ pub enum LawError {
     Speed { point: usize, value: f64 } = "fit::law_speed",
         format!("the speed of point {} is {value} rad/s, which is not above 0", point + 1),
         help "leave out points at rest, and give speeds as positive numbers";
-    /// A power, rise or time constant that is not a number, or not above 0 where its logarithm is
+    /// A power, rise or time constant that is not a number, or not above 0 if its logarithm is
     /// needed.
     Power { point: usize } = "fit::law_power",
         format!("a value of point {} is out of range", point + 1);
@@ -36,7 +36,7 @@ pub enum LawError {
     NoCoefficient { law: String } = "fit::law_no_coefficient",
         format!("`{law}` has no coefficient that could be fitted"),
         help "names that are not columns are coefficients: \"a * omega\"";
-    /// A law with more coefficients than there may be.
+    /// A law with too many coefficients.
     ManyCoefficients { law: String, count: usize } = "fit::law_many_coefficients",
         format!("`{law}` has {count} coefficients; at most {MOST} can be fitted");
     /// A coefficient whose unit the law leaves open.
@@ -47,7 +47,7 @@ pub enum LawError {
         );
     /// A start value for a name that is not a coefficient of any law.
     Start { name: String } = "fit::law_start", format!("no law has a coefficient `{name}`");
-    /// A law of speed that is not of the dimension it has to be, times a power of the speed.
+    /// A law whose dimension is not the required one over a power of the speed.
     NotALaw { of: &'static str, found: Type } = "fit::law_dimension",
         format!("the law of {of} is {}, not {of} over a power of the speed", found.with_article()),
         help match *of {

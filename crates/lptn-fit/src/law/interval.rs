@@ -1,4 +1,4 @@
-//! How far numbers may be off that follow from a least-squares fit.
+//! Errors of numbers that follow from a least-squares fit.
 //!
 //! The bars in pictures of `lptn fit law` are one standard error, the `_sd` columns of its files.
 //! Only the bands of fitted laws are 95 % intervals. Student's t with one degree of freedom would
@@ -14,30 +14,30 @@ use crate::Covariance;
 pub struct Estimate {
     /// Its value in SI units.
     pub value: f64,
-    /// Its standard error: from the scatter of all points alike, and no less than what is known of
-    /// the error of each says. NaN where no point is left over to tell.
+    /// Its standard error: from the scatter of all points alike, and at least that of the known
+    /// errors of the points. NaN if no point is left over to estimate it.
     pub standard_error: f64,
     /// Half the width of its 95 % interval: the wider of Student's t times the standard error and
     /// the interval that lets every point scatter in its own way.
     pub half_width: f64,
-    /// How likely chance alone makes it as far from 0: below 5 % where the interval is.
+    /// Probability that chance alone makes it as far from 0: below 5 % if the interval excludes 0.
     pub probability: f64,
 }
 
-/// A point with a larger share in its own value than this says nothing about scatter.
+/// A point with a larger share in its own value than this has no information on scatter.
 const ALONE: f64 = 1.0 - 1e-9;
 
-/// What the points of a fit say of numbers that follow from its coefficients: one entry a point,
-/// each over the scale of the point.
+/// Scatter of a fit, for numbers that follow from its coefficients: one entry a point, each over
+/// the scale of the point.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Scatter {
     /// Derivatives of the model by the coefficients.
     rows: Vec<Vec<f64>>,
-    /// How far each coefficient follows the point.
+    /// Change of each coefficient with the point.
     follows: Vec<Vec<f64>>,
-    /// What the model misses.
+    /// Residuals of the model.
     misses: Vec<f64>,
-    /// The standard error as far as it is known beforehand, or 0.
+    /// The standard error as far as it is known in advance, or 0.
     known: Vec<f64>,
 }
 
@@ -55,8 +55,8 @@ impl Scatter {
         Self { rows, follows, misses, known }
     }
 
-    /// A model that is linear in its coefficients, fitted to `values`, each of which counts the
-    /// same; and the coefficients. `None` where the rows do not determine them.
+    /// Fits a model that is linear in its coefficients to `values` with equal weights, and returns
+    /// the coefficients too. `None` if the rows do not determine them.
     pub(crate) fn linear(
         rows: Vec<Vec<f64>>,
         values: &[f64],
@@ -91,7 +91,7 @@ impl Scatter {
         let (standard_error, degrees) = self.alike(&shares);
         let alike = student_95(degrees) * standard_error;
         let by_chance = |error: f64, degrees: f64| {
-            // a number that is 0 without an error is as likely as can be
+            // a number that is 0 without an error has probability 1
             let z = if value == 0.0 { 0.0 } else { value / error };
             two_sided(z, degrees)
         };
@@ -104,8 +104,8 @@ impl Scatter {
         Estimate { value, standard_error, half_width, probability }
     }
 
-    /// Standard error and degrees of freedom, if all points scatter alike on their scales, by no
-    /// less than is known. No point left over: what is known alone, as if for certain.
+    /// Standard error and degrees of freedom if all points scatter alike on their scales, at least
+    /// the known error. If no point is left over, the known error counts as certain.
     fn alike(&self, shares: &[f64]) -> (f64, f64) {
         let known = shares.iter().zip(&self.known).map(|(share, known)| (share * known).powi(2));
         let known: f64 = known.sum();
@@ -117,10 +117,10 @@ impl Scatter {
         ((squares(shares) * variance).max(known).sqrt(), degrees)
     }
 
-    /// The same, if every point scatters in its own way: the misses one by one, each over the root
-    /// of what its own share leaves of it (HC2: J. G. MacKinnon, H. White, J. Econometrics 29 (1985)
-    /// 305), with the degrees of freedom of R. M. Bell and D. F. McCaffrey (Survey Methodology 28
-    /// (2002) 169). `None` where a point determines a coefficient alone.
+    /// The same if every point scatters in its own way: each residual over the root of one minus
+    /// its own share (HC2: J. G. MacKinnon, H. White, J. Econometrics 29 (1985) 305), with the
+    /// degrees of freedom of R. M. Bell and D. F. McCaffrey (Survey Methodology 28 (2002) 169).
+    /// `None` if no point is left over or one determines a coefficient alone.
     fn each(&self, shares: &[f64]) -> Option<(f64, f64)> {
         let own = self.leverages();
         if self.degrees_of_freedom() == 0.0 || own.iter().any(|own| *own > ALONE) {
@@ -128,7 +128,7 @@ impl Scatter {
         }
         let weights: Vec<f64> = shares.iter().zip(&own).map(|(s, h)| s * s / (1.0 - h)).collect();
         let variance: f64 = weights.iter().zip(&self.misses).map(|(w, miss)| w * miss * miss).sum();
-        // trace and trace of the square of the quadratic form, where all points scatter alike
+        // trace and trace of the square of the quadratic form, if all points scatter alike
         let trace = squares(shares);
         let alone: f64 = weights.iter().zip(&own).map(|(w, h)| w * w * (1.0 - 2.0 * h)).sum();
         let square = alone + self.together(&weights);

@@ -1,11 +1,11 @@
-//! Which law of the speed a measured power follows, and whether laws of power, temperature rise and
-//! time constant can be true together.
+//! The law of the speed that a measured power follows, and a check that laws of power, temperature
+//! rise and time constant can be true together.
 //!
-//! Losses of gearboxes at no load are sums of parts that go with the speed (seals), with its power
-//! 5/3 (bearings in oil or grease: A. Palmgren) and with its third power (gears in oil); AGMA 6123
-//! and ISO/TR 14179 add them up. [`LawStudy`] fits each, every sum of them, a free exponent and
-//! what the user writes, and ranks them. [`Consistency`] asks whether `P = C dT / t_RC` holds
-//! between the laws that were fitted to each. [`RunsStudy`] begins with the records themselves.
+//! Losses of gearboxes at no load are sums of parts proportional to the speed (seals), to its power
+//! 5/3 (bearings in oil or grease: A. Palmgren) and to its third power (gears in oil); AGMA 6123
+//! and ISO/TR 14179 add them up. [`LawStudy`] fits each, every sum of them, a free exponent and the
+//! user's laws, and ranks them. [`Consistency`] checks `P = C dT / t_RC` between the laws that were
+//! fitted to each. [`RunsStudy`] begins with the records themselves.
 //!
 //! ```
 //! use lptn_fit::law::{LawStudy, LossLaw, Points};

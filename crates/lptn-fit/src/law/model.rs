@@ -11,13 +11,13 @@ use super::written::WrittenLaw;
 /// A law of power over speed.
 #[derive(Clone, Debug)]
 pub enum LossLaw {
-    /// The sum of these powers of the speed, each with a coefficient. Their signs are left free:
-    /// where a coefficient comes out negative, the best sum without negative coefficients is one of
-    /// the shorter sums, which stands beside it.
+    /// The sum of these powers of the speed, each with a coefficient of any sign. If one is
+    /// negative, the best sum without negative coefficients is one of the shorter sums, which is
+    /// listed too.
     Powers(Vec<Rational>),
     /// One power with an exponent that is fitted too.
     FreeExponent,
-    /// What a user wrote.
+    /// A law that a user wrote.
     Written(Box<WrittenLaw>),
 }
 

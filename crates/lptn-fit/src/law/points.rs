@@ -1,10 +1,10 @@
-//! What was measured.
+//! Measured points.
 
 use lptn_units::{Dimension, Type};
 
 use super::error::LawError;
 
-/// A quantity that was measured beside the power, and that a written law may use.
+/// A quantity that was measured in addition to the power, and that a written law may use.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
     /// The name by which laws use it.
@@ -18,21 +18,21 @@ pub struct Variable {
 /// Power over speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Points {
-    /// The speed first, then whatever else laws may use.
+    /// The speed first, then other quantities that laws may use.
     variables: Vec<Variable>,
     power: Vec<f64>,
     deviation: Option<Vec<f64>>,
     /// The highest speed in rad/s, at which a law with a free exponent has its coefficient; it
-    /// stays where a point is left out.
+    /// stays if a point is left out.
     top: f64,
 }
 
 impl Points {
-    /// Speeds in rad/s (above 0), powers in W, and the standard error of each power in W (above 0)
-    /// where they are known.
+    /// Points from speeds in rad/s (above 0), powers in W, and the standard error of each power in
+    /// W (above 0) if they are known.
     ///
     /// # Errors
-    /// [`LawError`] where there are no points, lists of different length, or a number out of range.
+    /// [`LawError`] if there are no points, lists of different length, or a number out of range.
     pub fn new(
         speed: Vec<f64>,
         power: Vec<f64>,
@@ -65,7 +65,7 @@ impl Points {
     /// The same points with another name for the speed, and more quantities that laws may use.
     ///
     /// # Errors
-    /// [`LawError::Lengths`] where one has not a value for every point.
+    /// [`LawError::Lengths`] if one does not have a value for every point.
     pub fn with_variables(mut self, speed: &str, others: Vec<Variable>) -> Result<Self, LawError> {
         if let Some(other) = others.iter().find(|variable| variable.values.len() != self.len()) {
             return Err(LawError::Lengths { speeds: self.len(), others: other.values.len() });
@@ -80,12 +80,12 @@ impl Points {
         self.power.len()
     }
 
-    /// Never: there is at least one point.
+    /// False: there is at least one point.
     pub fn is_empty(&self) -> bool {
         self.power.is_empty()
     }
 
-    /// What laws may use, the speed first.
+    /// The variables that laws may use, the speed first.
     pub fn variables(&self) -> &[Variable] {
         &self.variables
     }
@@ -105,12 +105,12 @@ impl Points {
         self.deviation.as_deref()
     }
 
-    /// By what a residual in W is divided: its standard error, or 1.
+    /// Divisor of a residual in W: its standard error, or 1.
     pub(crate) fn scale(&self, point: usize) -> f64 {
         self.deviation.as_ref().map_or(1.0, |sigma| sigma[point])
     }
 
-    /// How many speeds there are that differ by more than rounding.
+    /// Number of speeds that differ by more than rounding.
     pub fn distinct_speeds(&self) -> usize {
         let mut speeds = self.speed().to_vec();
         speeds.sort_by(f64::total_cmp);
@@ -132,7 +132,7 @@ impl Points {
         Self { power, ..self.clone() }
     }
 
-    /// Other speeds in rad/s, at which nothing else is known.
+    /// Points at other speeds in rad/s, at which nothing else is known.
     pub(crate) fn at_speeds(&self, speeds: &[f64]) -> Self {
         let speed = Variable { values: speeds.to_vec(), ..self.variables[0].clone() };
         let (variables, power) = (vec![speed], vec![f64::NAN; speeds.len()]);

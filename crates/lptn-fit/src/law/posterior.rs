@@ -1,4 +1,4 @@
-//! What a law leaves behind for studies.
+//! The posterior of a law, for studies.
 
 use lptn_netlist::{Posterior, PosteriorOf, PosteriorQuantity};
 use lptn_units::statistics::student_95;
@@ -8,8 +8,9 @@ use super::candidate::{Coefficient, LawFit};
 
 impl LawFit {
     /// The coefficients with their covariance, straight in the coefficients, as parameters of the
-    /// same names; with the standard errors to which Student's t gives their 95 % intervals. `points` and `fit` are what the data and the fit are called. `None` where the law
-    /// was not fitted, and where no point is left over to tell errors from.
+    /// same names. Their standard errors are those to which Student's t gives their 95 % intervals.
+    /// `points` and `fit` are the names of the data and the fit. `None` if the law was not fitted,
+    /// or if no point is left over to estimate errors.
     pub fn posterior(&self, points: &str, fit: &str) -> Option<Posterior> {
         let fitted = self.fitted()?;
         let left = fitted.degrees_of_freedom;

@@ -17,7 +17,7 @@ use crate::step::{Capacity, Power, ReferenceTemperature, Sensor, StepError, Step
 /// A record at one speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
-    /// What messages and tables call it, such as its file.
+    /// Its name in messages and tables, such as its file.
     pub name: String,
     /// Its speed in rad/s, above 0.
     pub speed: f64,
@@ -39,7 +39,7 @@ pub enum RunReference {
     Value(f64),
 }
 
-/// How records become powers.
+/// Settings that turn records into powers.
 #[derive(Clone, Debug)]
 pub struct RunsSettings {
     /// The columns to fit; the first is the one whose power gets a law.
@@ -50,16 +50,16 @@ pub struct RunsSettings {
     pub reference: RunReference,
     /// The class of the thermocouples.
     pub sensor: Sensor,
-    /// Whether every run counts the same, whatever the random error of its power.
+    /// True if every run has the same weight, whatever the random error of its power.
     pub unweighted: bool,
-    /// The laws to fit; where it is empty, [`LossLaw::standard`].
+    /// The laws to fit; if it is empty, [`LossLaw::standard`].
     pub laws: Vec<LossLaw>,
-    /// How many threads may work.
+    /// Number of threads.
     pub threads: usize,
 }
 
 lptn_units::errors! {
-/// Why a study is not possible.
+/// Reasons why a study is not possible.
 #[derive(Debug)]
 pub enum RunsError {
     /// A run has no such column.
@@ -73,14 +73,14 @@ pub enum RunsError {
 }
 }
 
-/// How far a coefficient moves when what is the same in all runs is off by one standard deviation.
+/// Change of a coefficient by one standard deviation of an error that all runs share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Systematic {
-    /// By the capacity.
+    /// Change by the capacity.
     pub capacity: f64,
-    /// By the offset of the sensors; 0 where the reference is `T_i` of the same one.
+    /// Change by the offset of the sensors; 0 if the reference is `T_i` of the same one.
     pub offset: f64,
-    /// By the gain of the sensors.
+    /// Change by the gain of the sensors.
     pub gain: f64,
 }
 
@@ -91,7 +91,7 @@ impl Systematic {
     }
 }
 
-/// What came of a study.
+/// Results of a study.
 #[derive(Clone, Debug)]
 pub struct RunsStudy {
     /// Name and speed in rad/s of every run.
@@ -100,8 +100,8 @@ pub struct RunsStudy {
     pub columns: Vec<ColumnFits>,
     /// The laws of the first column's power.
     pub laws: LawStudy,
-    /// The exponents of the first column's rise, time constant and power; `None` where there are
-    /// too few runs, or a rise that is not above 0. The power was computed from the other two: this
+    /// The exponents of the first column's rise, time constant and power; `None` if there are too
+    /// few runs, or a rise that is not above 0. The power was computed from the other two: this
     /// shows which laws of them are possible.
     pub consistency: Option<Consistency>,
     /// The lines of every column over the speed.
@@ -147,8 +147,8 @@ impl RunsStudy {
         })
     }
 
-    /// The systematic errors of the coefficients of a law, in its order and in SI units: by fitting
-    /// powers that are off by one standard deviation. `None` where the law was not fitted.
+    /// The systematic errors of the coefficients of a law, in its order and in SI units: from fits
+    /// to powers that are off by one standard deviation. `None` if the law was not fitted.
     pub fn systematic(&self, candidate: &LawFit) -> Option<Vec<Systematic>> {
         let before = candidate.fitted()?;
         let first = &self.columns.first()?.fits;
@@ -184,7 +184,7 @@ impl RunsStudy {
         (statistics::mean(&taus), (squares / (taus.len() as f64 - 1.0)).sqrt())
     }
 
-    /// How the study was made.
+    /// Settings of the study.
     pub fn settings(&self) -> &RunsSettings {
         &self.settings
     }

@@ -1,8 +1,8 @@
-//! Lines through the rises and time constants of runs, over the speed: what the captions of the
-//! seed paper's Figures 7 and 8 state, and how the columns differ.
+//! Lines through the rises and time constants of runs over the speed, as in the captions of the
+//! seed paper's Figures 7 and 8, and the differences of the columns.
 //!
-//! Every run counts the same, so that the scatter between runs makes the errors; the noise of the
-//! records is their lower bound.
+//! Every run has the same weight, so that the scatter between runs makes the errors; the noise of
+//! the records is their lower bound.
 
 use lptn_units::statistics;
 
@@ -11,7 +11,7 @@ use super::consistency::{Consistency, Significance};
 use super::interval::{Estimate, Scatter};
 use super::stated::Exponent;
 
-/// With fewer runs there is no slope.
+/// Minimum number of runs for a slope.
 const FEWEST: usize = 3;
 
 /// The lines of one column.
@@ -22,8 +22,8 @@ pub struct ColumnLines {
     /// The rise over the speed, by a line through the origin, in K s/rad. `None` for fewer than
     /// three runs or a single speed.
     pub rise: Option<Estimate>,
-    /// The exponent of the rise from logarithms, and whether it differs from 1, the exponent of
-    /// that line; `None` where [`Consistency`] has none.
+    /// The exponent of the rise from logarithms, and the significance of its difference from 1, the
+    /// exponent of that line; `None` if [`Consistency`] has none.
     pub exponent: Option<(Exponent, Significance)>,
     /// The mean of the time constants in s, with the error of the mean. `None` for a single run.
     pub time_constant: Option<Estimate>,
@@ -32,17 +32,17 @@ pub struct ColumnLines {
     pub time_slope: Option<Estimate>,
 }
 
-/// The first column less another one. Both come from the same runs and share what differs from run
-/// to run, so the differences of each run are what counts.
+/// The first column less another one. Both come from the same runs and share the differences
+/// between runs, so the differences within each run count.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnDifference {
-    /// The column from which the other is taken.
+    /// The column from which the other is subtracted.
     pub of: String,
     /// The other column.
     pub less: String,
-    /// Of the slopes of the rise, in K s/rad.
+    /// Difference of the slopes of the rise, in K s/rad.
     pub rise: Option<Estimate>,
-    /// Of the means of the time constants, in s.
+    /// Difference of the means of the time constants, in s.
     pub time_constant: Option<Estimate>,
 }
 
@@ -67,7 +67,7 @@ impl Values {
         Self::of(column, |fit| (fit.fit.tau.value, fit.fit.tau.standard_error))
     }
 
-    /// Run by run.
+    /// Difference run by run.
     fn less(&self, other: &Self) -> Self {
         let values = self.values.iter().zip(&other.values).map(|(a, b)| a - b).collect();
         let known = self.known.iter().zip(&other.known).map(|(a, b)| a.hypot(*b)).collect();
@@ -87,12 +87,12 @@ impl Values {
         several.then(|| self.first(vec![vec![1.0]; self.values.len()])).flatten()
     }
 
-    /// By a line through the origin.
+    /// Slope of a line through the origin.
     fn proportion(&self, speeds: &[f64]) -> Option<Estimate> {
         sloped(speeds).then(|| self.first(speeds.iter().map(|speed| vec![*speed]).collect()))?
     }
 
-    /// By a line with an intercept, which is taken in the middle of the speeds.
+    /// Slope of a line with an intercept, which is taken in the middle of the speeds.
     fn slope(&self, speeds: &[f64]) -> Option<Estimate> {
         let middle = statistics::mean(speeds);
         let rows = || speeds.iter().map(|speed| vec![speed - middle, 1.0]).collect();
@@ -100,14 +100,14 @@ impl Values {
     }
 }
 
-/// Whether runs at these speeds may show a slope.
+/// True if runs at these speeds may show a slope.
 fn sloped(speeds: &[f64]) -> bool {
     let differ = |speed: &f64| (speed - speeds[0]).abs() > 1e-9 * speeds[0];
     speeds.len() >= FEWEST && speeds.iter().any(differ)
 }
 
 impl ColumnLines {
-    /// Of a column at speeds in rad/s; its consistency tells the exponent.
+    /// Lines of a column at speeds in rad/s; its consistency gives the exponent.
     pub(crate) fn of(column: &ColumnFits, speeds: &[f64], laws: Option<&Consistency>) -> Self {
         let (rises, times) = (Values::rises(column), Values::time_constants(column));
         let exponent = laws.and_then(|laws| Some((laws.rise, laws.claim(laws.rise, 1.0)?)));
@@ -122,7 +122,7 @@ impl ColumnLines {
 }
 
 impl ColumnDifference {
-    /// Of every other column to the first.
+    /// Differences of the first column from every other one.
     pub(crate) fn all(columns: &[ColumnFits], speeds: &[f64]) -> Vec<Self> {
         let [first, others @ ..] = columns else { return Vec::new() };
         let (rises, times) = (Values::rises(first), Values::time_constants(first));

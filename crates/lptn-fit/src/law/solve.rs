@@ -11,14 +11,14 @@ use super::points::Points;
 use crate::Covariance;
 use crate::least_squares::{self, Residuals, Settings};
 
-/// Up to here each point is left out in turn and the law fitted anew; beyond, and for laws that are
-/// linear in their coefficients, what is missed then follows from the leverage of the point.
+/// Up to this number, each point is left out in turn and the law fitted again. Beyond it, and for
+/// laws that are linear in their coefficients, the residual follows from the leverage of the point.
 const REFITS: usize = 500;
 
-/// Fits a law; without its criterion.
+/// Fits a law, without its criterion.
 pub(crate) fn fit(law: &LossLaw, points: &Points) -> Outcome {
     let (needed, speeds) = (law.count(), points.distinct_speeds());
-    // what a user writes may use more than the speed
+    // a user's law may use more than the speed
     let speed_alone = points.variables().len() == 1 || !matches!(law, LossLaw::Written(_));
     if points.len() < needed || (speed_alone && speeds < needed) {
         return Outcome::TooFew { needed, points: points.len(), speeds };
@@ -29,7 +29,7 @@ pub(crate) fn fit(law: &LossLaw, points: &Points) -> Outcome {
     }
 }
 
-/// The law about one set of coefficients: misses and derivatives, both over the standard errors.
+/// The law near some coefficients: residuals and derivatives, both over the standard errors.
 struct Local {
     /// Law less data.
     misses: Vec<f64>,
@@ -65,7 +65,7 @@ impl Local {
         &self.jacobian[j * rows..][..rows]
     }
 
-    /// By QR: the coefficients where the linear model of the law is nearest to the data.
+    /// The coefficients at which the linear model of the law is nearest to the data, by QR.
     fn solved(&self, p: &[f64]) -> Option<Vec<f64>> {
         let (rows, count) = (self.misses.len(), p.len());
         let norm = |j: usize| self.column(j).iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -82,8 +82,8 @@ impl Local {
         Covariance::inverse(&self.jacobian, self.misses.len(), &(0..count).collect::<Vec<_>>())
     }
 
-    /// What the misses say of numbers that follow from the coefficients. Standard errors that are
-    /// given are known, and 1 on the scale of the misses.
+    /// Scatter for numbers that follow from the coefficients. Given standard errors are known, and
+    /// 1 on the scale of the residuals.
     fn scatter(&self, inverse: &Covariance, points: &Points) -> Scatter {
         let known = if points.deviation().is_some() { 1.0 } else { 0.0 };
         let count = self.misses.len();
@@ -92,7 +92,7 @@ impl Local {
     }
 }
 
-/// Whether the derivatives by the coefficients are the same wherever these are.
+/// True if the derivatives by the coefficients do not depend on them.
 fn linear(law: &LossLaw, points: &Points) -> bool {
     let LossLaw::Written(written) = law else { return matches!(law, LossLaw::Powers(_)) };
     let [first, .., last] = &written.starts()[..] else {
@@ -119,7 +119,7 @@ fn same_slopes(law: &LossLaw, points: &Points, one: &[f64], other: &[f64]) -> bo
         .all(|(a, b)| (a - b).abs() <= 1e-12 * a.abs().max(b.abs()))
 }
 
-/// Where searches begin.
+/// Start values of the searches.
 fn starts(law: &LossLaw, points: &Points) -> Vec<Vec<f64>> {
     match law {
         LossLaw::Powers(exponents) => vec![vec![0.0; exponents.len()]],
@@ -131,7 +131,7 @@ fn starts(law: &LossLaw, points: &Points) -> Vec<Vec<f64>> {
     }
 }
 
-/// The best coefficients, or why there are none; `near` is where they are expected.
+/// The best coefficients, or why there are none; the search begins at `near` if it is given.
 fn search(law: &LossLaw, points: &Points, near: Option<&[f64]>) -> Result<Vec<f64>, Outcome> {
     let starts = near.map_or_else(|| starts(law, points), |near| vec![near.to_vec()]);
     if linear(law, points) {
@@ -163,7 +163,7 @@ impl Residuals for Search<'_> {
     }
 
     fn evaluate(&mut self, p: &[f64], _: bool) -> least_squares::Evaluated {
-        // where the law has no value a shorter step is asked for
+        // if the law has no value, the search takes a shorter step
         let rows = self.points.len();
         let nowhere = |_| (vec![f64::NAN; rows], vec![f64::NAN; rows * p.len()]);
         let local = Local::new(self.law, self.points, p);
@@ -185,7 +185,7 @@ fn descend(law: &LossLaw, points: &Points, start: &[f64]) -> Result<(f64, Vec<f6
 /// A coefficient whose standard error is this many times its value was not found.
 const DRIFT: f64 = 1e3;
 
-/// Everything about a law with these coefficients but its criterion.
+/// All results of a law with these coefficients except its criterion.
 fn conclude(law: &LossLaw, points: &Points, p: &[f64]) -> Outcome {
     let local = match Local::new(law, points, p) {
         Ok(local) => local,

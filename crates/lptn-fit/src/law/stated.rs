@@ -1,4 +1,4 @@
-//! Laws of the speed as they are stated: a coefficient whose unit tells the exponent, or an
+//! Laws of the speed as they are stated: a coefficient whose unit determines the exponent, or an
 //! expression.
 
 use lptn_units::{
@@ -8,7 +8,7 @@ use lptn_units::{
 use super::error::LawError;
 
 lptn_units::words! {
-/// What a law is a law of.
+/// Quantity that a law gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LawOf {
     /// The rise of a temperature, in K.
@@ -23,7 +23,7 @@ pub fn symbol;
 }
 
 impl LawOf {
-    /// The dimension of what it gives: temperature, time or power.
+    /// The dimension of its values: temperature, time or power.
     pub fn dimension(self) -> Dimension {
         match self {
             Self::Rise => Dimension::TEMPERATURE,
@@ -33,24 +33,24 @@ impl LawOf {
     }
 }
 
-/// An exponent, or the mean of one over a range: how many per cent a quantity grows by for one per
-/// cent of speed.
+/// An exponent, or its mean over a range: the growth of a quantity in per cent for one per cent of
+/// speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Exponent {
     /// Per cent of the quantity for one per cent of speed.
     pub value: f64,
-    /// Its standard error; `None` where the exponent was not fitted but stated.
+    /// Its standard error; `None` if the exponent was not fitted but stated.
     pub standard_error: Option<f64>,
 }
 
 /// A law of the speed.
 #[derive(Clone, Debug)]
 pub struct StatedLaw {
-    /// What it is a law of.
+    /// The quantity that it gives.
     pub of: LawOf,
-    /// As it was written.
+    /// Its text as written.
     pub text: String,
-    /// The relative standard error of its values, where one is stated.
+    /// The relative standard error of its values, if one is stated.
     pub relative_error: Option<f64>,
     form: Form,
 }
@@ -77,12 +77,12 @@ impl Scope for Omega {
 }
 
 impl StatedLaw {
-    /// Reads a law. Where it is a quantity its unit tells the exponent: `0.0084 ± 0.0011 K/rpm` is
-    /// proportional to the speed, `18.6 ± 3.8 min` does not depend on it, `87 ± 15 uW/rpm^(5/3)`
-    /// goes with its power 5/3. Anything else is an expression in `omega`.
+    /// Reads a law. The unit of a quantity determines its exponent: `0.0084 ± 0.0011 K/rpm` is
+    /// proportional to the speed, `18.6 ± 3.8 min` does not depend on it, and `87 ± 15
+    /// uW/rpm^(5/3)` is proportional to its power 5/3. Anything else is an expression in `omega`.
     ///
     /// # Errors
-    /// [`LawError::Units`] for what cannot be read, [`LawError::NotALaw`] for another dimension.
+    /// [`LawError::Units`] if it cannot be read, [`LawError::NotALaw`] for another dimension.
     pub fn parse(of: LawOf, text: &str) -> Result<Self, LawError> {
         let refused = |errors| LawError::Units { law: text.to_owned(), errors };
         if written_quantity(text).is_none() {
@@ -130,7 +130,7 @@ impl StatedLaw {
     /// Its value in SI units at a speed in rad/s.
     ///
     /// # Errors
-    /// [`LawError::NotPositive`] where it has no positive value.
+    /// [`LawError::NotPositive`] if it has no positive value.
     pub fn value(&self, speed: f64) -> Result<f64, LawError> {
         let value = match &self.form {
             Form::Power(coefficient, exponent) => coefficient * speed.powf(*exponent),
@@ -144,7 +144,7 @@ impl StatedLaw {
         }
     }
 
-    /// Its exponent, for an expression the mean over a range of speeds.
+    /// Its exponent; for an expression, the mean over a range of speeds.
     ///
     /// # Errors
     /// [`LawError::NotPositive`] as for [`StatedLaw::value`].

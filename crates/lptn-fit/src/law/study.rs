@@ -1,4 +1,4 @@
-//! Laws side by side.
+//! Laws compared with each other.
 
 use super::candidate::{Fitted, LawFit, Outcome};
 use super::criteria::{aicc, dispersion};
@@ -6,18 +6,18 @@ use super::model::LossLaw;
 use super::points::Points;
 use super::solve;
 
-/// Laws whose criteria differ by less than this cannot be told apart (K. P. Burnham, D. R.
+/// Laws whose criteria differ by less than this cannot be distinguished (K. P. Burnham, D. R.
 /// Anderson, Model Selection and Multimodel Inference, 2nd edition, Springer 2002, section 2.6).
 pub const ALIKE: f64 = 2.0;
 
 /// Laws that were fitted to the same points, best first.
 #[derive(Clone, Debug)]
 pub struct LawStudy {
-    /// What the laws were fitted to.
+    /// The points that the laws were fitted to.
     pub points: Points,
     /// The laws: those that may be the answer by AICc, then the others.
     pub candidates: Vec<LawFit>,
-    /// By how much the variance is larger than the standard errors given say, at least 1; see
+    /// Factor of the variance over that of the given standard errors, at least 1; see
     /// [`Fitted::aicc`](super::Fitted::aicc).
     pub dispersion: f64,
 }
@@ -41,18 +41,18 @@ impl LawStudy {
         Self { points, candidates, dispersion }
     }
 
-    /// The law with the least AICc; `None` where no law has one.
+    /// The law with the least AICc; `None` if no law has one.
     pub fn best(&self) -> Option<&LawFit> {
         self.candidates.first().filter(|first| first.eligible())
     }
 
-    /// By how much the AICc of a law is above that of the best.
+    /// Difference of the AICc of a law from that of the best.
     pub fn behind(&self, candidate: &LawFit) -> Option<f64> {
         let aicc = |candidate: &LawFit| candidate.fitted()?.aicc;
         Some(aicc(candidate)? - aicc(self.best()?)?)
     }
 
-    /// The laws other than the best that may be the answer too: less than [`ALIKE`] behind.
+    /// The laws other than the best that may be the answer too: less than [`ALIKE`] above its AICc.
     pub fn rivals(&self) -> Vec<&LawFit> {
         let close =
             |c: &&LawFit| c.eligible() && self.behind(c).is_some_and(|behind| behind < ALIKE);
@@ -67,12 +67,12 @@ impl LawStudy {
         self.candidates.iter().filter(single).collect()
     }
 
-    /// The law with the least root of the mean square of what it misses (the paper's choice).
+    /// The law with the least root mean square residual (the paper's choice).
     pub fn least_rmse(&self) -> Option<&LawFit> {
         self.least(|fit| Some(fit.rmse))
     }
 
-    /// The law that best foretells a point it was not fitted to.
+    /// The law that best predicts a point it was not fitted to.
     pub fn least_leave_one_out(&self) -> Option<&LawFit> {
         self.least(|fit| fit.leave_one_out)
     }
@@ -83,8 +83,8 @@ impl LawStudy {
         eligible.filter(|c| value(c).is_finite()).min_by(|a, b| value(a).total_cmp(&value(b)))
     }
 
-    /// What a law says at speeds in rad/s, in W, and half the width of its 95 % interval, which is
-    /// NaN where no point is left over to tell. `None` where the law was not fitted, has no value
+    /// Values of a law at speeds in rad/s, in W, and half the width of its 95 % interval, which is
+    /// NaN if no point is left over to estimate it. `None` if the law was not fitted, has no value
     /// at one of the speeds, or may use more than the speed.
     pub fn along(&self, law: &LawFit, speeds: &[f64]) -> Option<Vec<(f64, f64)>> {
         let fit = law.fitted()?;
@@ -126,7 +126,7 @@ impl LawStudy {
     }
 }
 
-/// Answers first, by AICc; then what was fitted, by its misses; then what was not.
+/// Answers first, by AICc; then other fitted laws, by their residuals; then those without a fit.
 fn order(candidate: &LawFit) -> (u8, f64) {
     match candidate.fitted() {
         Some(fit) if candidate.eligible() => (0, fit.aicc.unwrap_or(f64::INFINITY)),

@@ -18,11 +18,11 @@ pub struct WrittenLaw {
     start: Vec<f64>,
     /// Number of variables; the slots of the coefficients follow theirs.
     variables: usize,
-    /// Whether a start value was given for each coefficient.
+    /// True if a start value was given for each coefficient.
     given: bool,
 }
 
-/// The variables, then names whose dimension is settled.
+/// The variables, then names whose dimension is known.
 struct Names<'a> {
     variables: &'a [Variable],
     coefficients: &'a [(String, Dimension)],
@@ -47,10 +47,10 @@ impl Scope for Names<'_> {
 
 impl WrittenLaw {
     /// Reads a law of power over the variables of `points`. The units of the coefficients follow
-    /// from the law; `starts` settles those that it leaves open, and where a search begins.
+    /// from the law. `starts` gives those that it leaves open, and the start of a search.
     ///
     /// # Errors
-    /// [`LawError`] where the text is not an expression, its units do not give a power, or a unit
+    /// [`LawError`] if the text is not an expression, its units do not give a power, or a unit
     /// stays open.
     pub fn new(text: &str, points: &Points, starts: &[Start]) -> Result<Self, LawError> {
         let refused = |errors| LawError::Units { law: text.to_owned(), errors };
@@ -98,7 +98,7 @@ impl WrittenLaw {
         &self.coefficients
     }
 
-    /// Where searches begin, in SI units: at the values given, or at several sizes.
+    /// Start values of searches in SI units: the values given, or several sizes.
     pub(crate) fn starts(&self) -> Vec<Vec<f64>> {
         let factors: &[f64] = if self.given { &[1.0] } else { &[1.0, 0.1, 10.0] };
         factors
@@ -149,9 +149,8 @@ fn coefficients(
     Ok(found)
 }
 
-/// The size that a coefficient of this dimension would have if it were all of the power: the
-/// largest power over the largest speed to the power that the dimension says; 1 in SI units where
-/// it says more than that.
+/// The size that a coefficient of this dimension would have if it were all of the power, from the
+/// largest power and the largest speed. It is 1 in SI units if the dimension has other parts.
 fn usual_size(of: Dimension, points: &Points) -> f64 {
     let [_, mass, .., angle] = of.exponents();
     let speed = Dimension::ANGULAR_VELOCITY.checked_pow(angle);
