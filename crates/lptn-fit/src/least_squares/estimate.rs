@@ -1,8 +1,8 @@
-//! What a search found.
+//! Results of a search.
 
 use crate::{Covariance, Spectrum};
 
-/// A bound that a parameter sits on.
+/// A bound that a parameter is on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// Its least value.
@@ -11,10 +11,10 @@ pub enum Side {
     Upper,
 }
 
-/// Which test ended a search.
+/// The test that ended a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Test {
-    /// What the free parameters could still remove is a negligible part of the residuals.
+    /// The part of the residuals that the free parameters could still remove is negligible.
     Gradient,
     /// A full step would change no parameter.
     Step,
@@ -22,14 +22,14 @@ pub enum Test {
     Cost,
 }
 
-/// Why a search ended without a minimum.
+/// Reasons why a search ended without a minimum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stop {
     /// The largest number of steps was made.
     Iterations,
-    /// However short the step, the sum of squares does not fall although its derivative says so:
-    /// the derivatives are wrong, or the model is noisier than
-    /// [`Settings::error`](super::Settings::error) says.
+    /// No step lowers the sum of squares, however short, although its derivative predicts it. The
+    /// derivatives are wrong, or the model is noisier than
+    /// [`Settings::error`](super::Settings::error).
     Stalled,
     /// The sum of squares falls towards parameters at which the model has no value.
     Edge,
@@ -40,7 +40,7 @@ pub enum Stop {
 }
 
 impl Stop {
-    /// In words, for a sentence that begins with "the fit did not converge:".
+    /// Text for a sentence that begins with "the fit did not converge:".
     pub fn text(self) -> &'static str {
         match self {
             Self::Iterations => "the largest number of steps was made",
@@ -57,32 +57,31 @@ impl Stop {
     }
 }
 
-/// How a search ended.
+/// End of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Termination {
     /// At a minimum.
     Converged(Test),
-    /// Elsewhere: the parameters are those of the lowest sum of squares that was seen, and no
-    /// result.
+    /// Elsewhere: the parameters are those of the lowest sum of squares so far, and not a result.
     NotConverged(Stop),
 }
 
 impl Termination {
-    /// Whether it ended at a minimum.
+    /// True if it ended at a minimum.
     pub fn converged(self) -> bool {
         matches!(self, Self::Converged(_))
     }
 }
 
-/// Where a search ended. Residuals of priors stand behind those of the data.
+/// End of a search. Residuals of priors follow those of the data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LeastSquaresFit {
     /// The parameters, in their order.
     pub parameters: Vec<f64>,
-    /// How the search ended.
+    /// Outcome of the search.
     pub outcome: Termination,
-    /// The bound that each parameter sits on. There the data ask for a value beyond the bound, or
-    /// for none at all.
+    /// The bound that each parameter is on. There the data ask for a value beyond the bound, or for
+    /// none at all.
     pub on_bound: Vec<Option<Side>>,
     /// Sum of the squares of the residuals, priors included.
     pub squares: f64,
@@ -102,7 +101,7 @@ pub struct LeastSquaresFit {
 }
 
 impl LeastSquaresFit {
-    /// The parameters that sit on no bound.
+    /// The parameters that are not on a bound.
     pub fn free(&self) -> Vec<usize> {
         (0..self.parameters.len()).filter(|&j| self.on_bound[j].is_none()).collect()
     }
@@ -113,14 +112,14 @@ impl LeastSquaresFit {
     }
 
     /// `(J^T J)^-1` of the free parameters: their covariance if every residual is in units of its
-    /// own standard deviation and independent of the others. Times `squares / degrees_of_freedom`
-    /// where only the ratios of the deviations are known. `None` where the rank of J is less than
-    /// the number of free parameters.
+    /// own standard deviation and independent of the others. It is multiplied by `squares /
+    /// degrees_of_freedom` if only the ratios of the deviations are known. `None` if the rank of J
+    /// is less than the number of free parameters.
     pub fn covariance(&self) -> Option<Covariance> {
         Covariance::inverse(&self.jacobian, self.residuals.len(), &self.free())
     }
 
-    /// What the residuals determine: [`Spectrum::new`] of the Jacobian with parameter j in units of
+    /// Spectrum of the parameters: [`Spectrum::new`] of the Jacobian with parameter j in units of
     /// `scales[j]`, all parameters included. With `scales` their values it is about their
     /// logarithms.
     pub fn spectrum(&self, scales: &[f64], threshold: f64) -> Option<Spectrum> {

@@ -42,15 +42,15 @@ impl Triangle {
         (0..n).map(|i| self.inside[i] + row(i)).collect()
     }
 
-    /// By how much the step lowers the sum of squares of the linear model.
+    /// Decrease of the sum of squares of the linear model by the step.
     pub(crate) fn reduction(&self, step: &[f64]) -> f64 {
         let change = |(miss, q): (&f64, &f64)| (q - miss) * (q + miss);
         self.misses(step).iter().zip(&self.inside).map(change).sum()
     }
 
-    /// The step of the `free` parameters, by `scales` so long that
-    /// `|R s + target|^2 + damping |s scales|^2` is least. Without damping, directions whose
-    /// singular values are below 1e-14 of the largest are left alone.
+    /// The step of the `free` parameters that minimises `|R s + target|^2 + damping |s scales|^2`.
+    /// Without damping, directions whose singular values are below 1e-14 of the largest are left
+    /// alone.
     pub(crate) fn solve(
         &self,
         free: &[usize],

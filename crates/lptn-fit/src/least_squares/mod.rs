@@ -55,54 +55,54 @@ pub trait Residuals {
     /// The number of parameters, which does not change.
     fn parameters(&self) -> usize;
 
-    /// The residuals (model less data, each over its standard deviation if they differ) at `p`, and
-    /// where `derivatives` are asked for also these, one parameter after the other: `d r_i / d p_j`
-    /// at `j * residuals.len() + i`.
+    /// The residuals (model less data, each over its standard deviation if they differ) at `p`. If
+    /// `derivatives` is true also these, one parameter after the other: `d r_i / d p_j` at `j *
+    /// residuals.len() + i`.
     ///
-    /// The number of residuals does not change. `p` keeps the bounds. Where the model has no value
-    /// at `p`, a residual that is NaN or infinite asks for a shorter step.
+    /// The number of residuals does not change. `p` keeps the bounds. If the model has no value at
+    /// `p`, a residual that is NaN or infinite asks for a shorter step.
     ///
     /// # Errors
     /// [`LeastSquaresError::Interrupted`] ends the search.
     fn evaluate(&mut self, p: &[f64], derivatives: bool) -> Evaluated;
 }
 
-/// What is known of a parameter without the data: `value ± sigma`. It counts as one more residual,
-/// `(p - value) / sigma`, so the others should be in units of their standard deviation.
+/// Prior knowledge of a parameter: `value ± sigma`. It counts as one more residual, `(p - value) /
+/// sigma`, so the others should be in units of their standard deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Prior {
-    /// Which parameter.
+    /// Index of the parameter.
     pub parameter: usize,
-    /// What it is thought to be.
+    /// Its expected value.
     pub value: f64,
     /// One standard deviation, positive.
     pub sigma: f64,
 }
 
-/// How to search.
+/// Settings of a search.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
-    /// Least and greatest value of every parameter, infinite where there is none; empty if no
+    /// Least and greatest value of every parameter, infinite if there is none; empty if no
     /// parameter has bounds.
     pub bounds: Vec<(f64, f64)>,
-    /// What is known beforehand.
+    /// Prior knowledge.
     pub priors: Vec<Prior>,
-    /// The search ends where the part of the residuals that the free parameters could still remove,
-    /// to first order, is this part of all residuals (relative offset: D. M. Bates, D. G. Watts,
+    /// The search ends if the part of the residuals that the free parameters could still remove, to
+    /// first order, is this part of all residuals (relative offset: D. M. Bates, D. G. Watts,
     /// Technometrics 23 (1981) 179). With n residuals and k parameters the parameters are then
     /// within `gradient * sqrt(n)` of their standard errors.
     pub gradient: f64,
-    /// The search ends where a full step changes no parameter by more than this part of it.
+    /// The search ends if a full step changes no parameter by more than this part of it.
     pub step: f64,
     /// Differences of the sum of squares by less than this part of it count as rounding. A step
-    /// that was to lower it by no more, and changes it by no more, is judged by `gradient`'s
-    /// measure instead: while that falls by a tenth or more the search goes on, and then it ends,
-    /// with the parameters within `sqrt(cost n)` of their standard errors.
+    /// with a predicted and actual change below it is judged by `gradient`'s measure instead. While
+    /// that falls by a tenth or more the search goes on. It then ends with the parameters within
+    /// `sqrt(cost n)` of their standard errors.
     pub cost: f64,
-    /// Root of the sum of the squares of what the residuals may be off where their model is
-    /// computed less precisely than to double precision; 0 if it is not. A full step that was to
-    /// change the sum of squares by less than that makes of it, and fails to lower it, is judged
-    /// like one within `cost`. The parameters then are off by what such errors make of them.
+    /// Root of the sum of the squares of the residuals' errors if their model is less precise than
+    /// double precision; 0 if it is not. A full step that fails to lower the sum of squares, and
+    /// was predicted to change it by less than this error does, is judged like one within `cost`.
+    /// The parameters then have the errors that follow from it.
     pub error: f64,
     /// The largest number of steps that lower the sum of squares.
     pub iterations: usize,
@@ -111,7 +111,7 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// As far as double precision leads: 1e-9, 1e-11 and 1e-12, in 1000 steps of reach 3.
+    /// The limits of double precision: 1e-9, 1e-11 and 1e-12, in 1000 steps of reach 3.
     fn default() -> Self {
         Self {
             bounds: Vec::new(),

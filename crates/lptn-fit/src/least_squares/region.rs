@@ -3,7 +3,7 @@
 use super::estimate::Side;
 use super::linear::Triangle;
 
-/// How far every parameter may move, least (not positive) and most (not negative).
+/// Range in which every parameter may move: least (not positive) and most (not negative).
 pub(crate) type Room = Vec<(f64, f64)>;
 
 /// A step, and the bounds it ends on.
@@ -26,8 +26,8 @@ impl Region<'_> {
         length(step, self.scales)
     }
 
-    /// The step that lowers the linear model most among those that are no longer than `radius`, to
-    /// a tenth; with whether the radius bounds it. `None` if no singular values could be computed.
+    /// The step that lowers the linear model most among those no longer than `radius`, to a tenth,
+    /// and true if the radius bounds it. `None` if no singular values could be computed.
     ///
     /// The length falls with the damping, and its inverse is nearly a straight line (M. D. Hebden,
     /// AERE Harwell TP 515 (1973)), which the secant follows.
@@ -64,8 +64,8 @@ impl Region<'_> {
         Some((best, true))
     }
 
-    /// The minimum of the damped model inside the box, by an active set that begins with no step at
-    /// all.
+    /// The minimum of the damped model inside the box, by an active set that begins with a zero
+    /// step.
     pub(crate) fn inside_box(&self, damping: f64) -> Option<BoxStep> {
         let n = self.scales.len();
         let mut at = BoxStep { step: vec![0.0; n], sides: vec![None; n] };
@@ -84,7 +84,7 @@ impl Region<'_> {
         Some(at)
     }
 
-    /// The bound on which the parameter stands if the model pushes it there.
+    /// The bound on which the parameter stays if the model pushes it there.
     fn standing(&self, j: usize, step: &[f64], damping: f64) -> Option<Side> {
         let push = self.push(step, damping)[j];
         match self.room[j] {
@@ -94,7 +94,7 @@ impl Region<'_> {
         }
     }
 
-    /// Where each parameter would go: the negative derivative of the damped model.
+    /// Direction of each parameter: the negative derivative of the damped model.
     fn push(&self, step: &[f64], damping: f64) -> Vec<f64> {
         let gradient = self.model.gradient(step);
         let damped = step.iter().zip(self.scales).map(|(s, d)| damping * s * d * d);
@@ -110,7 +110,7 @@ impl Region<'_> {
         self.model.solve(free, &self.model.misses(&held), self.scales, damping)
     }
 
-    /// Goes to what is wanted, or up to the first bound, which then holds its parameter: true.
+    /// Goes to `wanted`, or up to the first bound, which then fixes its parameter: true.
     fn move_towards(&self, at: &mut BoxStep, free: &[usize], wanted: &[f64]) -> bool {
         let mut part = 1.0;
         let mut first = None;
@@ -135,7 +135,7 @@ impl Region<'_> {
         first.is_some()
     }
 
-    /// The parameter that is held by a bound and is pushed away from it most.
+    /// The parameter that is fixed by a bound and is pushed away from it most.
     fn release(&self, at: &BoxStep, damping: f64) -> Option<usize> {
         let push = self.push(&at.step, damping);
         let away = |j: usize| match at.sides[j] {

@@ -11,10 +11,10 @@ use super::linear::Triangle;
 use super::region::{Region, Room, length};
 use super::{Evaluated, Residuals, Settings};
 
-/// So many times a step is shortened.
+/// Largest number of times that a step is shortened.
 const MOST_TRIALS: usize = 100;
 
-/// So many descents may meet parameters at which the model has no value.
+/// Largest number of descents that meet parameters at which the model has no value.
 const MOST_EDGES: usize = 20;
 
 type Fallible<T> = Result<T, LeastSquaresError>;
@@ -22,10 +22,9 @@ type Fallible<T> = Result<T, LeastSquaresError>;
 /// Finds the parameters, near `start`, for which the sum of the squares of residuals and priors is
 /// least.
 ///
-/// A start outside its bounds begins on them. The minimum is a local one. The tests are those of
-/// [`Settings`], each of the full step that leads to the minimum of the linear model inside the
-/// box, not of one that the trust region cut short; a search that none of them ends says so in
-/// [`LeastSquaresFit::outcome`].
+/// A start outside its bounds begins on them. The minimum is a local one. The tests of [`Settings`]
+/// use the full step to the minimum of the linear model inside the box, not one that the trust
+/// region cut short. If none of them ends the search, [`LeastSquaresFit::outcome`] reports it.
 ///
 /// # Errors
 /// [`LeastSquaresError`]
@@ -97,35 +96,35 @@ struct Place {
     room: Room,
     /// The step to the minimum of the linear model inside the bounds.
     full: Vec<f64>,
-    /// Which part of the residuals that step removes.
+    /// The part of the residuals that this step removes.
     offset: f64,
 }
 
 impl Place {
-    /// Whether the full step changes no parameter by more than this part of it.
+    /// True if the full step changes no parameter by more than this part of it.
     fn moves_less_than(&self, part: f64) -> bool {
         self.full.iter().zip(&self.point.parameters).all(|(s, p)| s.abs() <= part * p.abs())
     }
 }
 
-/// Where a step leads.
+/// Result of a step.
 enum Descent {
-    /// To a lower sum of squares.
+    /// A lower sum of squares.
     Lower(Point),
-    /// To one that differs by rounding only.
+    /// One that differs by rounding only.
     Level(Point),
-    /// Nowhere.
+    /// No further point.
     Stopped(Stop),
 }
 
 /// A step that was tried.
 struct Trial {
     parameters: Vec<f64>,
-    /// Whether the trust region cut it short.
+    /// True if the trust region cut it short.
     cut: bool,
     /// Length in scaled parameters.
     length: f64,
-    /// By which part of the sum of squares it was to lower it, and did.
+    /// Predicted decrease of the sum of squares, as a part of it; `lowered` is the actual one.
     predicted: f64,
     lowered: f64,
 }
@@ -135,7 +134,7 @@ impl<P: Residuals> Search<'_, P> {
         self.settings.bounds.get(j).copied().unwrap_or((f64::NEG_INFINITY, f64::INFINITY))
     }
 
-    /// Residuals, and derivatives where asked for, with those of the priors.
+    /// Residuals, and derivatives if asked for, with those of the priors.
     fn evaluate(&mut self, p: &[f64], with_jacobian: bool) -> Evaluated {
         self.evaluations += 1;
         let (mut residuals, mut jacobian) = self.problem.evaluate(p, with_jacobian)?;
@@ -238,7 +237,7 @@ impl<P: Residuals> Search<'_, P> {
         Ok(Place { point, model, room, full, offset })
     }
 
-    /// The tests of a point, whichever way it was reached.
+    /// The tests of a point, however it was reached.
     fn at_minimum(&self, here: &Place) -> Option<Test> {
         if here.point.squares <= 0.0 || here.offset <= self.settings.gradient {
             return Some(Test::Gradient);
@@ -246,7 +245,7 @@ impl<P: Residuals> Search<'_, P> {
         here.moves_less_than(self.settings.step).then_some(Test::Step)
     }
 
-    /// Where no step leads lower, a minimum whose residuals are rounding is one all the same.
+    /// If no step leads lower, a minimum whose residuals are rounding still counts.
     fn stopped(&self, here: &Place, stop: Stop) -> Termination {
         if here.moves_less_than(1e-8) {
             Termination::Converged(Test::Step)
@@ -261,7 +260,7 @@ impl<P: Residuals> Search<'_, P> {
         let least = f64::EPSILON * region.length(&here.point.parameters);
         let level = self.level(&here.point);
         if here.offset * here.offset <= level {
-            // whatever the region was shortened to by sums of squares that differ by rounding
+            // undo the effect of sums of squares that differ by rounding on the region
             *radius = radius.max(2.0 * region.length(&here.full));
         }
         let mut edge = false;
@@ -294,8 +293,8 @@ impl<P: Residuals> Search<'_, P> {
         Ok(Descent::Stopped(if beyond { Stop::Edge } else { Stop::Stalled }))
     }
 
-    /// The part of the sum of squares by which two of them may differ for no reason: with what the
-    /// residuals r may be off, d, that is (2 |r| |d| + |d|^2) / |r|^2.
+    /// The part of the sum of squares by which two of them may differ by chance: with errors d of
+    /// the residuals r, it is (2 |r| |d| + |d|^2) / |r|^2.
     fn level(&self, point: &Point) -> f64 {
         let part = self.settings.error / point.squares.max(f64::MIN_POSITIVE).sqrt();
         self.settings.cost.max(part * (2.0 + part))
@@ -350,8 +349,8 @@ fn widen(scales: &mut [f64], norms: &[f64]) {
     }
 }
 
-/// A shorter radius after a step that did less than a quarter of what was predicted, a longer one
-/// after one that did three quarters of it.
+/// A shorter radius after a step that did less than a quarter of the prediction, a longer one after
+/// one that did three quarters of it.
 fn next_radius(radius: f64, trial: &Trial) -> f64 {
     let predicted = trial.predicted.max(f64::MIN_POSITIVE);
     if !trial.lowered.is_finite() || trial.lowered < -99.0 {
