@@ -1,4 +1,4 @@
-//! What of the parameters can be told apart where a search ended.
+//! Identifiability of the parameters at the end of a search.
 
 use lptn_solve::Gradient;
 
@@ -8,18 +8,18 @@ use crate::network::task::NetworkFitTask;
 use crate::network::undetermined::Place;
 use crate::network::unknown::Unknown;
 
-/// The size of a temperature as a parameter, in K: its zero says nothing.
+/// The size of a temperature as a parameter, in K: its zero is arbitrary.
 const TEMPERATURE: f64 = 10.0;
 
 /// A value below this part of a parameter's size does not measure it.
 const SMALL: f64 = 0.1;
 
-/// How accurate derivatives are, relative: those that come with runs at a tolerance of 1e-7 K, and
+/// Relative accuracy of derivatives: those that come with runs at a tolerance of 1e-7 K, and
 /// differences.
 const EXACT: f64 = 1e-6;
 pub(crate) const DIFFERENCES: f64 = 1e-4;
 
-/// What counts as the size of an unknown, in SI units.
+/// Size of an unknown in SI units.
 fn size(unknown: &Unknown) -> f64 {
     if unknown.ty.absolute {
         return TEMPERATURE;
@@ -29,21 +29,21 @@ fn size(unknown: &Unknown) -> f64 {
     all.into_iter().find(|size| size.is_finite() && *size > 0.0).unwrap_or(1.0)
 }
 
-/// How accurate derivatives that are had so are, relative.
+/// Relative accuracy of derivatives of this kind.
 pub(crate) fn accuracy(gradient: Gradient) -> f64 {
     if gradient == Gradient::Exact { EXACT } else { DIFFERENCES }
 }
 
-/// What the residuals and their derivatives where the search ended tell of the parameters.
+/// Identifiability of the parameters by the residuals and derivatives at the end of the search.
 pub(crate) fn told_apart(
     (task, unknowns): (&NetworkFitTask, &[Unknown]),
     (at_end, accuracy): (&Evaluated, f64),
     model: &mut Model<'_>,
 ) -> Option<Identifiability> {
-    // in units of its own value a parameter is seen as its logarithm, unless it drifted to nearly
+    // in units of its own value a parameter counts as its logarithm, unless it drifted to nearly
     // nothing
     let scale = |(unknown, value): (&Unknown, &f64)| match (size(unknown), value.abs()) {
-        // an offset of which next to nothing is known is no larger than what was read
+        // an almost unknown offset is not larger than the readings
         (size, _) if unknown.is_shift() => {
             let read = unknown.sensor().map_or(f64::INFINITY, |sensor| task.largest_of(sensor));
             if read > 0.0 { size.min(read) } else { size }

@@ -1,4 +1,4 @@
-//! Whether records differ by more than their noise tells.
+//! Check that records differ by more than their noise explains.
 //!
 //! The scatter from run to run is not visible in the rows of one record. From three records on, an
 //! error is the larger of two sandwiches: one with the noise of the rows, one clustered by record.
@@ -13,29 +13,28 @@
 
 use lptn_units::statistics::chi_square_999;
 
-/// How far apart the records are in what they say of a parameter: mounting, oil or a slow drift
-/// change from run to run.
+/// Scatter of a parameter between records: mounting, oil or a slow drift change from run to run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BetweenRecords {
-    /// How many times as far records are apart as their noise tells, as a root of a mean square.
+    /// Root mean square distance of the records over that expected from their noise.
     pub ratio: f64,
-    /// The standard error that follows from how the records scatter, in SI units.
+    /// The standard error that follows from the scatter of the records, in SI units.
     pub standard_error: f64,
-    /// With so many degrees of freedom: as many records as count, less one.
+    /// Its degrees of freedom: the number of records that count, less one.
     pub degrees_of_freedom: f64,
-    /// Whether chance alone brings such a scatter about in less than one of 1000 fits.
+    /// True if chance alone causes such a scatter in less than one of 1000 fits.
     pub differ: bool,
 }
 
-/// What one record does to a parameter.
+/// Effect of one record on a parameter.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Told {
-    /// By how much it pulls the parameter.
+    /// Distance by which it pulls the parameter.
     pub(crate) pull: f64,
-    /// How far the parameter follows if it is another one in this record: those of all records and
-    /// of what is known beforehand add up to 1.
+    /// Change of the parameter per unit of its change in this record: those of all records and of
+    /// prior knowledge add up to 1.
     pub(crate) share: f64,
-    /// The variance that its noise brings in.
+    /// The variance that its noise adds.
     pub(crate) variance: f64,
 }
 
@@ -43,7 +42,7 @@ impl BetweenRecords {
     /// The mean of the squares of the pulls is the variance of the parameter if records are drawn
     /// by chance (K.-Y. Liang, S. L. Zeger, Biometrika 73 (1986) 13), with as many degrees of
     /// freedom as records that have a share (R. M. Bell, D. F. McCaffrey, Survey Methodology 28
-    /// (2002) 169), less one. `None` where less than two and a half records count.
+    /// (2002) 169), less one. `None` if less than two and a half records count.
     pub(crate) fn of(records: &[Told]) -> Option<Self> {
         const LEAST: f64 = 1.5;
         let told = || records.iter().filter(|told| told.variance > 0.0 && told.share > 0.0);
@@ -56,7 +55,7 @@ impl BetweenRecords {
         let others = told().count() as f64 - 1.0;
         let noise = sum(&|told| told.variance);
         let squares = sum(&|told| told.pull * told.pull / told.variance) - all * all / noise;
-        // what is known beforehand pulls against all of them
+        // prior knowledge pulls against all of them
         let off = sum(&|told| (told.pull - all * told.share / shares).powi(2));
         Some(Self {
             ratio: (squares / others).max(0.0).sqrt(),
@@ -71,7 +70,7 @@ impl BetweenRecords {
 mod tests {
     use super::{BetweenRecords, Told};
 
-    /// Records that tell equally much: the standard error of a mean of 4 values.
+    /// Records with equal shares: the standard error of a mean of 4 values.
     #[test]
     fn analytic_equal_records_have_the_error_of_their_mean() {
         let off = [3.0, -1.0, -4.0, 2.0_f64];

@@ -1,16 +1,16 @@
-//! Which products or sums of parameters are determined where the parameters themselves are not.
+//! Products or sums of parameters that are determined if the parameters themselves are not.
 
 /// Coefficients of a combination are whole numbers up to this.
 const LARGEST: i32 = 2;
 
-/// Parameters in one combination, at most.
+/// Largest number of parameters in one combination.
 const MOST: usize = 3;
 
 /// A combination lies across an undetermined direction if their angle is this close to a right one
 /// (cosine).
 const ACROSS: f64 = 1e-3;
 
-/// What a determined combination is.
+/// Form of a determined combination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CombinationKind {
     /// A product of powers.
@@ -20,8 +20,8 @@ pub enum CombinationKind {
 }
 
 /// The simplest whole-numbered combinations of `count` parameters that lie across every one of the
-/// `unseen` directions: as many independent ones as there are determined directions, or nothing if
-/// there are not so many. In logarithms they are exponents of products.
+/// `unseen` directions: one for each determined direction, or nothing if there are fewer. In
+/// logarithms they are exponents of products.
 pub(crate) fn combinations(unseen: &[Vec<f64>], count: usize) -> Option<Vec<Vec<i32>>> {
     let wanted = count.checked_sub(unseen.len())?;
     let across = |c: &Vec<i32>| unseen.iter().all(|direction| cosine(direction, c).abs() < ACROSS);
@@ -81,7 +81,7 @@ fn gcd(a: i32, b: i32) -> i32 {
     if b == 0 { a } else { gcd(b, a % b) }
 }
 
-/// Adds what is new of a combination to an orthogonal basis; false if there is nothing new.
+/// Adds the new part of a combination to an orthogonal basis; false if there is nothing new.
 fn is_independent(basis: &mut Vec<Vec<f64>>, c: &[i32]) -> bool {
     let mut rest: Vec<f64> = c.iter().map(|&c| f64::from(c)).collect();
     for known in basis.iter() {
@@ -115,7 +115,7 @@ mod tests {
 
     #[test]
     fn two_directions_at_once_and_ones_without_whole_numbers() {
-        // of a, b, c only a b c: anything across it is unseen
+        // of a, b, c only a b c is determined: anything across it is undetermined
         let unseen = [vec![1.0, -1.0, 0.0], vec![1.0, 1.0, -2.0]];
         assert_eq!(combinations(&unseen, 3), Some(vec![vec![1, 1, 1]]));
         assert_eq!(combinations(&[vec![1.0, -0.37]], 2), None);

@@ -2,15 +2,15 @@
 
 use crate::network::unknown::Unknown;
 
-/// For each unknown whether the search moves in its logarithm.
+/// For each unknown, its bounds and true if the search moves in its logarithm.
 pub(crate) struct Coordinates {
     logarithmic: Vec<bool>,
     bounds: Vec<(f64, f64)>,
 }
 
 impl Coordinates {
-    /// Logarithms where the bounds are positive: what is constant for products of powers then is a
-    /// straight line. Without a least value the sign of a parameter is open.
+    /// Takes logarithms if the bounds are positive: lines of constant products of powers are then
+    /// straight. Without a least value the sign of a parameter is open.
     pub(crate) fn new(unknowns: &[Unknown]) -> Self {
         let logarithm = |unknown: &Unknown| !unknown.is_shift() && unknown.bounds.0 > 0.0;
         let logarithmic = unknowns.iter().map(logarithm).collect();
@@ -18,7 +18,7 @@ impl Coordinates {
         Self { logarithmic, bounds }
     }
 
-    /// Whether the search moves in the logarithm of this one.
+    /// True if the search moves in the logarithm of this one.
     pub(crate) fn is_logarithmic(&self, j: usize) -> bool {
         self.logarithmic[j]
     }
@@ -67,7 +67,7 @@ impl Coordinates {
         self.values(&p).0
     }
 
-    /// Whether a parameter has both bounds.
+    /// True if a parameter has both bounds.
     pub(crate) fn is_bounded(&self, j: usize) -> bool {
         let (low, high) = self.bounds()[j];
         low.is_finite() && high.is_finite()

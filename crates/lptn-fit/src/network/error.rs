@@ -1,4 +1,4 @@
-//! Why a network cannot be fitted.
+//! Reasons why a network cannot be fitted.
 
 use lptn_assembly::ChangeError;
 use lptn_solve::SensitiveError;
@@ -8,15 +8,15 @@ use crate::least_squares::LeastSquaresError;
 use crate::network::task::FitStage;
 
 lptn_units::errors! {
-/// Why a network cannot be fitted. That the search does not converge is an answer and not an error.
+/// Reasons why a network cannot be fitted. If the search does not converge, that is an answer.
 #[derive(Debug)]
 pub enum NetworkFitError {
     /// Nothing is varied.
     NoParameter = "fit::no_parameter", "nothing is varied, so nothing can be fitted";
-    /// The records hold no value.
+    /// The records have no value.
     NoData = "fit::no_data", "the records have no value of a column that is fitted";
-    /// A record, its first and last time in s, begins before its run, whose start is in s, or has
-    /// no row behind the start.
+    /// A record, with its first and last time in s, begins before its run, whose start is in s, or
+    /// has no row after the start.
     Times { record: String, span: (f64, f64), start: f64 } = "fit::record_times",
         format!(
             "{record}: rows from {} s to {} s do not fit a run that starts at {start} s",
@@ -34,8 +34,8 @@ pub enum NetworkFitError {
     /// The own value of a parameter, by its place among the varied ones, is outside its bounds.
     StartOutside { parameter: usize } = "fit::start_outside",
         format!("the start value of varied parameter {parameter} is outside its bounds");
-    /// What is known beforehand of a parameter, by its place among the varied ones, cannot be so
-    /// correlated with what is known of those before it.
+    /// The prior of a parameter, by its place among the varied ones, cannot have this correlation
+    /// with those before it.
     Correlations { parameter: usize } = "fit::correlations",
         format!("the prior of varied parameter {parameter} has an impossible correlation");
     /// The run of a record fails with the own values of the parameters.
@@ -53,12 +53,12 @@ pub enum NetworkFitError {
             SensitiveError::Run(_) => Class::Numbers,
             _ => Class::Input,
         };
-    /// A column measures something, as it is written, that no run tells: a parameter, the time.
+    /// A column measures something, as it is written, that no run gives: a parameter, the time.
     Observed { column: String, result: String } = "fit::observed",
         format!("column `{column}` measures `{result}`, which reads no temperature and no heat flow"),
         help "write the quantity that the instrument measured: a temperature, `\"steel.T\"`, a \
             difference, `\"steel.T - bed.T\"`, or a heat flow, `\"internal.Q\"`";
-    /// A column measures something, as it is written, that is no sum of temperatures of nodes.
+    /// A column measures something, as it is written, that is not a sum of temperatures of nodes.
     NotLinear { column: String, result: String } = "fit::not_linear",
         format!("column `{column}` measures `{result}`, which is not a temperature of a node, a mean \
             or a difference of some"),
@@ -71,7 +71,7 @@ pub enum NetworkFitError {
             weights of the columns are not known", units[0], units[1]),
         help "write the scatter of one value of each column: `{ of = \"skin.Q\", sigma = \"2 W\" \
             }`";
-    /// What a column measures has no value at this time in s, although something was measured.
+    /// The result of a column has no value at this time in s, although something was measured.
     NoValue { record: String, column: String, time: f64 } = "fit::no_value",
         format!("{record}: the result that column `{column}` measures has no value at {time} s"),
         help "look for a root or a logarithm of a value of 0 or less, or for a result that does \
@@ -80,13 +80,13 @@ pub enum NetworkFitError {
     Signal { record: String, column: String } = "fit::signal",
         format!("{record}: a signal follows column `{column}`, which has fewer than two values"),
         help "take the record out, or the signal out of `signal`";
-    /// A signal is to follow what a slow sensor reads.
+    /// A signal is to follow the readings of a slow sensor.
     SignalLag { column: String, sensor: String } = "fit::signal_lag",
         format!("a signal follows column `{column}`, whose sensor `{sensor}` has a lag"),
         help "the temperature before a slow sensor followed cannot be separated from noise: name a \
             sensor without `lag`, or make the place a node, whose column may have a slow sensor";
-    /// Nodes are to begin at a mean over so many s, which is more than half of the record; how long
-    /// that is.
+    /// Nodes are to begin at a mean over this time in s, which is more than half of the length of
+    /// the record in s.
     InitialLong { record: String, mean: f64, length: f64 } = "fit::initial_mean",
         format!(
             "{record}: `initial` is a mean over {mean} s, and the record is {length} s long"
@@ -97,8 +97,8 @@ pub enum NetworkFitError {
     Plan => EvalError;
     /// The sum of squares cannot be minimised.
     Search => LeastSquaresError as Class::of_numbers;
-    /// It was interrupted at this stage; the values in SI units that describe the records best
-    /// among those that were tried.
+    /// The fit was interrupted at this stage; `best` contains the values in SI units that describe
+    /// the records best among those that were tried.
     Interrupted { stage: FitStage, best: Option<Vec<f64>> } = "fit::interrupted",
         format!("the fit was interrupted in {stage}"), class Class::Interrupted;
 }

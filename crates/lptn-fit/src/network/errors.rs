@@ -1,4 +1,4 @@
-//! How well the parameters are determined, from what is left over.
+//! Standard errors of the parameters, from the residuals.
 
 use lptn_integrate::vectors::dot;
 use lptn_units::statistics::{degrees_of, student_95};
@@ -13,7 +13,7 @@ use crate::network::shared::{Shared, SharedNoise};
 use crate::network::task::NetworkFitTask;
 use crate::noise::{Middle, Noise, Whitened};
 
-/// With fewer values than this left over, residuals alone do not tell the noise.
+/// If fewer values than this are left over, residuals alone do not determine the noise.
 const FEW: usize = 10;
 
 /// Residuals and derivatives at the end of a fit, and the noise of every column.
@@ -22,14 +22,14 @@ pub(crate) struct Errors<'a> {
     at_end: &'a Evaluated,
     /// Number of residuals that are data.
     data: usize,
-    /// The parameters that have a standard error, and those that are held for it.
+    /// The parameters that have a standard error.
     free: Vec<usize>,
     columns: Vec<ColumnNoise<'a>>,
-    /// What the columns of each record have in common.
+    /// Noise that the columns of each record share.
     shared: Vec<Shared>,
     /// `(J^T J)^-1` of the free parameters.
     inverse: Option<Covariance>,
-    /// How the records differ in each free parameter, where enough of them tell it.
+    /// Scatter of the records in each free parameter, if enough of them determine it.
     between: Vec<Option<BetweenRecords>>,
 }
 
@@ -39,13 +39,13 @@ struct ColumnNoise<'a> {
     noise: Noise,
     /// `J^T Omega J` of the free parameters.
     middle: Middle,
-    /// The same noise as independent values, where the record has other columns.
+    /// The same noise as independent values, if the record has other columns.
     whitened: Option<Whitened>,
 }
 
 impl<'a> Errors<'a> {
-    /// With the parameters that sit on no bound. Where some cannot be told apart, so many of them
-    /// are held that the others can; the errors of the determined ones do not depend on which.
+    /// With the parameters that are not on a bound. If some cannot be distinguished, so many are
+    /// fixed that the others can. The errors of the determined ones do not depend on the choice.
     pub(crate) fn new(
         task: &'a NetworkFitTask,
         model: &'a Model<'_>,
@@ -83,7 +83,7 @@ impl<'a> Errors<'a> {
             .flat_map(|&i| self.derivatives(i)[block.range.clone()].iter().copied())
             .collect();
         let residuals = &self.at_end.residuals[block.range.clone()];
-        // records may drift as slowly as their curves rise; from three on it shows in how they differ
+        // records may drift as slowly as their curves rise; three or more show it by their scatter
         let noise = match self.task.runs.len() {
             records @ 1..=2 => Noise::with_slow_drift((&times, residuals, &slopes), records == 1),
             _ => Noise::estimate(&times, residuals, &slopes),
@@ -94,7 +94,7 @@ impl<'a> Errors<'a> {
         ColumnNoise { block, noise, middle, whitened }
     }
 
-    /// What the columns of a record have in common.
+    /// Noise that the columns of a record share.
     fn shared_in(&self, run: usize) -> Option<Shared> {
         let own = self.columns.iter().enumerate().filter(|(_, column)| column.block.run == run);
         Shared::of(run, own.filter_map(|(i, c)| Some((i, c.whitened.as_ref()?))).collect())
@@ -105,7 +105,7 @@ impl<'a> Errors<'a> {
         self.shared.iter().filter_map(Shared::told).collect()
     }
 
-    /// Of all residuals by one parameter.
+    /// Derivatives of all residuals by one parameter.
     fn derivatives(&self, parameter: usize) -> &[f64] {
         let rows = self.at_end.residuals.len();
         &self.at_end.jacobian[parameter * rows..(parameter + 1) * rows]
@@ -153,8 +153,8 @@ impl<'a> Errors<'a> {
 
     /// The covariance of the free parameters: `(J^T J)^-1 J^T Omega J (J^T J)^-1` with the
     /// covariance Omega of the residuals. Few residuals may be small by chance, and as many as
-    /// parameters vanish: then errors are at least those that the standard deviations given say,
-    /// and where none are given and nothing is left over there are none.
+    /// parameters vanish. Errors are then at least those of the given standard deviations. If none
+    /// are given and nothing is left over, there are none.
     pub(crate) fn covariance(&self) -> Option<Covariance> {
         let inverse = self.inverse.as_ref().filter(|_| self.data > 0)?;
         let found = self.with_records(self.of_noise(inverse, &self.prior()));
@@ -166,9 +166,8 @@ impl<'a> Errors<'a> {
         }
     }
 
-    /// The covariance that the noise of the records and this more of `J^T Omega J` make. What
-    /// columns share widens it only: a difference of them may be known better, but how much better
-    /// is an estimate.
+    /// The covariance from the noise of the records and `more` of `J^T Omega J`. Shared noise only
+    /// widens it: a difference of columns may be known better, but how much better is an estimate.
     fn of_noise(&self, inverse: &Covariance, more: &[f64]) -> Covariance {
         let alone: Vec<f64> = self.noise().iter().zip(more).map(|(a, b)| a + b).collect();
         let mut all = alone.clone();
@@ -179,11 +178,11 @@ impl<'a> Errors<'a> {
         if self.shared.is_empty() { found } else { inverse.sandwich(&all).at_least(&found) }
     }
 
-    /// Half the width of the 95 % interval of a free parameter, and the degrees of freedom of the
-    /// quantile of Student's t that it takes: each column tells the variance that it brings in with
-    /// those of its own noise, and what is known beforehand is known (F. E. Satterthwaite,
-    /// Biometrics Bulletin 2 (1946) 110). Slow drift of several columns adds up in the squares of
-    /// half the widths that it alone has; what columns share widens all of it.
+    /// Half the width of the 95 % interval of a free parameter, and the degrees of freedom of its
+    /// quantile of Student's t. Each column adds its variance with the degrees of freedom of its
+    /// own noise; priors are exact (F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110). Slow
+    /// drifts of several columns add up in the squares of their half widths. Shared noise widens
+    /// all of it.
     pub(crate) fn interval(&self, covariance: &Covariance, parameter: usize) -> Option<(f64, f64)> {
         let error = covariance.standard_error(parameter)?;
         let inverse = self.inverse.as_ref()?;
@@ -205,19 +204,19 @@ impl<'a> Errors<'a> {
         let degrees = if uncertain > 0.0 { known * known / uncertain } else { f64::INFINITY };
         let half = (known * student_95(degrees).powi(2) + wider * drift).sqrt();
         let degrees = if drift > 0.0 { degrees_of(half / (found * wider.sqrt())) } else { degrees };
-        // where few values are left over, the errors that `sigma` says are known
+        // if few values are left over, the errors from `sigma` are known
         let inside = (half.max(student_95(f64::INFINITY) * error), degrees);
         Some(self.widened(parameter, inside).unwrap_or(inside))
     }
 
-    /// The variance of a parameter that each column brings in, and its degrees of freedom.
+    /// The variance of a parameter from each column, and its degrees of freedom.
     fn variances(&self, inverse: &Covariance, parameter: usize) -> Vec<(f64, f64)> {
         let gradient = self.unit(parameter);
         self.columns.iter().map(|column| column.middle.variance(inverse, &gradient)).collect()
     }
 
-    /// Half of how uncertain the variances of all columns together are, as a variance, but for those
-    /// that drift. Columns whose noise is the same are one estimate, not several.
+    /// Half of the uncertainty of the variances of all columns together, as a variance, without
+    /// those that drift. Columns with the same noise are one estimate, not several.
     fn uncertain(&self, each: &[(f64, f64)]) -> f64 {
         let of = |column: usize| match self.columns[column].noise.drifts() {
             true => 0.0,
@@ -235,8 +234,8 @@ impl<'a> Errors<'a> {
         alone + self.shared.iter().map(pairs).sum::<f64>()
     }
 
-    /// By which factor the variance of a parameter is larger since columns share noise, at least 1,
-    /// and half of how uncertain that is, as a variance.
+    /// Factor by which shared noise of columns increases the variance of a parameter, at least 1,
+    /// and half of its uncertainty, as a variance.
     fn in_common(&self, parameter: usize, variance: f64) -> Option<(f64, f64)> {
         let weights = self.weights(parameter)?;
         let all = self.shared.iter().map(|shared| shared.variance(&weights));
@@ -245,13 +244,13 @@ impl<'a> Errors<'a> {
         Some(if wider > 1.0 { (wider, uncertain) } else { (1.0, 0.0) })
     }
 
-    /// How `J^T r` moves a free parameter.
+    /// Effect of `J^T r` on a free parameter.
     fn weights(&self, parameter: usize) -> Option<Vec<f64>> {
         let inverse = self.inverse.as_ref()?;
         self.free.iter().map(|&i| inverse.between(parameter, i)).collect()
     }
 
-    /// An interval from how the records scatter, where that is more than their noise says.
+    /// An interval from the scatter of the records, if that is more than their noise.
     fn widened(&self, parameter: usize, (half, _): (f64, f64)) -> Option<(f64, f64)> {
         let between = self.between(parameter)?;
         let none = vec![0.0; self.free.len() * self.free.len()];
@@ -266,7 +265,7 @@ impl<'a> Errors<'a> {
         (wide > half).then(|| (wide, degrees_of(wide / scatter.hypot(prior))))
     }
 
-    /// How the records differ in what they say of a free parameter.
+    /// Scatter of the records in a free parameter.
     pub(crate) fn between(&self, parameter: usize) -> Option<BetweenRecords> {
         self.between[self.free.binary_search(&parameter).ok()?]
     }
@@ -292,7 +291,7 @@ impl<'a> Errors<'a> {
         BetweenRecords::of(&records)
     }
 
-    /// A covariance whose standard errors count how the records differ; correlations stay.
+    /// A covariance whose standard errors include the scatter of the records; correlations stay.
     fn with_records(&self, found: Covariance) -> Covariance {
         let n = found.parameters.len();
         let mut between = found.clone();
@@ -305,7 +304,7 @@ impl<'a> Errors<'a> {
         found.at_least(&between)
     }
 
-    /// What picks a parameter.
+    /// Unit vector of a parameter.
     fn unit(&self, parameter: usize) -> Vec<f64> {
         let count = self.at_end.jacobian.len() / self.at_end.residuals.len();
         (0..count).map(|i| f64::from(u8::from(i == parameter))).collect()
@@ -321,7 +320,7 @@ impl<'a> Errors<'a> {
         self.task.runs[column.block.run].columns[column.block.column].sigma
     }
 
-    /// `J^T Omega J` of records and of what is known beforehand.
+    /// `J^T Omega J` of records and priors.
     fn middle(&self) -> Vec<f64> {
         self.prior().iter().zip(self.noise()).map(|(prior, noise)| prior + noise).collect()
     }
@@ -334,7 +333,7 @@ impl<'a> Errors<'a> {
         noise
     }
 
-    /// Priors are what they are said to be.
+    /// Priors count as they are given.
     fn prior(&self) -> Vec<f64> {
         let n = self.free.len();
         let prior = |i: usize| &self.derivatives(self.free[i])[self.data..];

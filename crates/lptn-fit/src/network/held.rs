@@ -1,4 +1,4 @@
-//! What instruments are held to be, and what of a run depends on that.
+//! Assumed values of instruments, and the dependence of a run on them.
 
 use lptn_units::{Dimension, Type};
 
@@ -9,7 +9,7 @@ use crate::network::unknown::{Unknown, UnknownOf};
 impl Held {
     const IDEAL: Self = Self { offset: 0.0, gain: 1.0, lag: 0.0 };
 
-    /// Of what is known beforehand.
+    /// Prior values of an instrument.
     pub(crate) fn of(instrument: Option<&Instrument>) -> Self {
         let own = |instrument: &Instrument| Self {
             offset: instrument.offset.value,
@@ -21,7 +21,7 @@ impl Held {
 }
 
 impl NetworkFitTask {
-    /// What an instrument is held to be in a record, with these values of what is sought.
+    /// Assumed values of an instrument in a record, with these values of the unknowns.
     pub(crate) fn held(
         &self,
         (sensor, run): (Option<usize>, usize),
@@ -44,8 +44,8 @@ impl NetworkFitTask {
 }
 
 impl NetworkFitTask {
-    /// Whether some of what is sought changes runs by their starts or inputs, so that its
-    /// derivatives are differences.
+    /// True if some unknown changes runs by their starts or inputs, so that its derivatives are
+    /// differences.
     pub(crate) fn has_inputs_sought(&self, unknowns: &[Unknown]) -> bool {
         let changes = |run: usize, unknown: &Unknown| self.runs[run].change(run, unknown).is_some();
         (0..self.runs.len()).any(|run| unknowns.iter().any(|unknown| changes(run, unknown)))
@@ -59,9 +59,9 @@ impl MeasuredRun {
         signals.chain(self.initial.iter().filter_map(|start| start.sensor))
     }
 
-    /// By how much an unknown is changed to see what the run makes of it; `None` for one on which
-    /// it does not depend, and for parameters. Of networks with constant conductances any will do;
-    /// else half a kelvin leaves about five digits.
+    /// Change of an unknown that shows its effect on the run; `None` if the run does not depend on
+    /// it, and for parameters. For networks with constant conductances any will do; for others half
+    /// a kelvin leaves about five digits.
     pub(crate) fn change(&self, place: usize, unknown: &Unknown) -> Option<f64> {
         const KELVIN: f64 = 0.5;
         const PART: f64 = 1e-3;

@@ -1,4 +1,4 @@
-//! What a misfit looks like: instruments that read too much, or ones that are late.
+//! Likely causes of a misfit: instruments that read too high, or that are late.
 
 use faer::MatRef;
 use lptn_integrate::dense;
@@ -7,39 +7,39 @@ use crate::network::lag::follow;
 use crate::network::model::{Block, Evaluated};
 use crate::network::task::NetworkFitTask;
 
-/// What would explain most of what is missed of a column, were the parameters fitted with it.
+/// An error that would explain most residuals of a column if the parameters were fitted with it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Hint {
-    /// The instrument reads so much too much, in the SI unit of its column.
+    /// The instrument reads this much too high, in the SI unit of its column.
     Offset(f64),
     /// It follows with this time constant in s.
     Lag(f64),
 }
 
-/// A misfit of so many standard deviations is no chance.
+/// A misfit above this number of standard deviations is not chance.
 pub const FAR: f64 = 3.0;
 
-/// The part of the squares that may be left, beside what `sigma` says of the noise.
+/// The part of the squares that may be left, in addition to the noise from `sigma`.
 const LEFT: f64 = 0.03;
 
-/// What there is to ask.
+/// The residuals to explain.
 pub(crate) struct Missed<'a> {
     pub(crate) task: &'a NetworkFitTask,
     pub(crate) at_end: &'a Evaluated,
-    /// The blocks that hold values.
+    /// The blocks with values.
     pub(crate) blocks: Vec<&'a Block>,
-    /// Derivatives of all residuals by the parameters that are free and told apart.
+    /// Derivatives of all residuals by the parameters that are free and distinguished.
     pub(crate) slopes: Vec<&'a [f64]>,
 }
 
 impl Missed<'_> {
-    /// For each place of a column in its record, what would explain its misfit if that is far more
-    /// than `sigma`. The change of the parameters is foretold by their derivatives.
+    /// For each column index, the likely cause of its misfit if that is far more than `sigma`. The
+    /// change of the parameters is predicted from their derivatives.
     pub(crate) fn hints(&self) -> Vec<Option<Hint>> {
         let columns = self.blocks.iter().map(|block| block.column + 1).max().unwrap_or(0);
         let mut hints = vec![None; columns];
         let far: Vec<usize> = (0..columns).filter(|&column| self.is_far(column)).collect();
-        // as many values as there are numbers to find explain anything
+        // with as few values as unknowns anything would be explained
         if far.is_empty() || self.at_end.residuals.len() <= self.slopes.len() + far.len() {
             return hints;
         }
@@ -49,7 +49,7 @@ impl Missed<'_> {
         for (&column, found) in far.iter().zip(&found) {
             lags[column] = Some(-found.change).filter(|lag| *lag > 0.0);
         }
-        // again with the delay itself, which the slope alone does not tell
+        // again with the delay itself, which the slope alone does not give
         let slow = |block: &Block| self.late(block, lags[block.column]);
         for (&column, found) in far.iter().zip(self.explained(&far, &slow)) {
             let lag = lags[column].filter(|_| found.is_most).map(|lag| -found.change * lag);
@@ -76,8 +76,7 @@ impl Missed<'_> {
         })
     }
 
-    /// How much of a change `by` of each column explains what is missed of
-    /// it, all at once.
+    /// The multiples of a change `by` of each column that explain its residuals, all at once.
     fn explained(&self, columns: &[usize], by: &dyn Fn(&Block) -> Vec<f64>) -> Vec<Explained> {
         let rows = self.at_end.residuals.len();
         let mut all: Vec<f64> =
@@ -117,7 +116,7 @@ impl Missed<'_> {
         columns.iter().enumerate().map(answer).collect()
     }
 
-    /// What a delay changes: with a lag that, without one a second of it.
+    /// Change by a delay: by this lag, or without one by a second.
     fn late(&self, block: &Block, lag: Option<f64>) -> Vec<f64> {
         let run = &self.task.runs[block.run];
         let now = &self.at_end.modelled[block.rows.clone()];
@@ -138,10 +137,10 @@ impl Missed<'_> {
     }
 }
 
-/// What a change of a column explains.
+/// Part of the residuals that a change of a column explains.
 struct Explained {
-    /// So many times the change.
+    /// Multiple of the change.
     change: f64,
-    /// Whether all but [`LEFT`] and noise is explained.
+    /// True if all but [`LEFT`] and noise is explained.
     is_most: bool,
 }

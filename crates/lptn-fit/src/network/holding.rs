@@ -1,24 +1,24 @@
-//! A model some of whose parameters are held.
+//! A model with some parameters fixed.
 
 use crate::least_squares::{Evaluated, LeastSquaresError, Residuals};
 use crate::network::model::Model;
 
-/// The same residuals with some parameters held.
+/// The same residuals with some parameters fixed.
 pub(crate) struct Holding<'h, 'a> {
     pub(crate) model: &'h mut Model<'a>,
-    /// Their places, ascending, and their coordinates.
+    /// Their indices, ascending, and their coordinates.
     pub(crate) held: Vec<(usize, f64)>,
 }
 
 impl Holding<'_, '_> {
-    /// All parameters with these in the places that are not held.
+    /// All parameters, with these in the places that are not fixed.
     pub(crate) fn all(&self, others: &[f64]) -> Vec<f64> {
         let mut all = others.to_vec();
         self.held.iter().for_each(|&(place, at)| all.insert(place, at));
         all
     }
 
-    /// Of all parameters those that are not held.
+    /// The parameters that are not fixed.
     pub(crate) fn others(&self, all: &[f64]) -> Vec<f64> {
         let is_held = |place: usize| self.held.iter().any(|(held, _)| *held == place);
         (0..all.len()).filter(|place| !is_held(*place)).map(|place| all[place]).collect()

@@ -1,4 +1,4 @@
-//! What data determine of the parameters, and what they do not.
+//! Parameters that data determine, and those that they do not.
 //!
 //! The identifiable combinations follow from singular values in logarithms of the parameters. A
 //! product or a sum is accepted only after a move along it.
@@ -6,36 +6,36 @@
 use crate::Spectrum;
 use crate::network::undetermined::{Place, Unseparated, groups};
 
-/// What the data determine.
+/// Identifiability of parameters by data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Identifiability {
     /// Singular values of the derivatives of the residuals by the scaled parameters, largest first.
     /// A parameter is in units of its own value (so that it is about its logarithm), a temperature
     /// in units of 10 K.
     pub singular_values: Vec<f64>,
-    /// How many directions are determined.
+    /// Number of determined directions.
     pub rank: usize,
-    /// Places of the parameters that no column and no prior depends on.
+    /// Indices of the parameters that no column and no prior depends on.
     pub unfelt: Vec<usize>,
-    /// Those that are felt, but not apart.
+    /// Parameters that have an effect, but cannot be separated.
     pub unseparated: Vec<Unseparated>,
 }
 
 impl Identifiability {
-    /// Whether every parameter is determined.
+    /// True if every parameter is determined.
     pub fn is_whole(&self) -> bool {
         self.unfelt.is_empty() && self.unseparated.is_empty()
     }
 
-    /// Whether the data determine this one.
+    /// True if the data determine this one.
     pub fn determines(&self, parameter: usize) -> bool {
         let among = |group: &Unseparated| group.parameters.contains(&parameter);
         !self.unfelt.contains(&parameter) && !self.unseparated.iter().any(among)
     }
 }
 
-/// What is determined at `place`. `misfit` gives the residuals for other values, or nothing where
-/// there are none.
+/// Identifiability at `place`. `misfit` gives the residuals for other values, or nothing if there
+/// are none.
 pub(crate) fn identify(
     place: &Place<'_>,
     misfit: &mut dyn FnMut(&[f64]) -> Option<Vec<f64>>,
@@ -73,7 +73,7 @@ mod tests {
     use super::*;
     use crate::network::combination::CombinationKind;
 
-    /// Values of the columns for parameters, and what `identify` makes of them.
+    /// The result of `identify` for columns as a function of the parameters.
     fn told(values: &[f64], model: impl Fn(&[f64]) -> Vec<f64>) -> Identifiability {
         let step = 1e-6;
         let by = |i: usize| {

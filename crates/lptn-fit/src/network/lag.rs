@@ -1,6 +1,6 @@
-//! How an instrument with a time constant follows what it measures.
+//! Response of an instrument with a time constant to the quantity that it measures.
 
-/// A course that is followed, and its derivative by the time constant.
+/// The response, and its derivative by the time constant.
 pub(crate) struct Followed {
     pub(crate) course: Vec<f64>,
     pub(crate) by_lag: Vec<f64>,
@@ -43,7 +43,7 @@ pub(crate) fn follow(times: &[f64], x: &[f64], lag: f64) -> Followed {
 }
 
 /// The coefficients of the cubic through four neighbours of the stretch that begins at `k`, in the
-/// time since then; of as many as there are.
+/// time since then. With fewer neighbours its degree is lower.
 fn cubic(times: &[f64], x: &[f64], k: usize) -> [f64; 4] {
     let others = match x.len() {
         ..=2 => [k + 1; 2],
@@ -63,12 +63,12 @@ fn cubic(times: &[f64], x: &[f64], k: usize) -> [f64; 4] {
     [x[k], d1 - d2 * h + d3 * h * second, d2 - d3 * (h + second), d3]
 }
 
-/// Times between which an instrument with this time constant is followed: `times`, all of which are
-/// kept, with more between them where they are far apart.
+/// Times at which an instrument with this time constant is followed: all `times`, with more between
+/// them if they are far apart.
 pub(crate) fn refined(times: &[f64], lag: f64) -> Vec<f64> {
-    /// So fine that a course with the time constant of the instrument itself is met to 1e-5 of it.
+    /// Steps so fine that a rise with the instrument's own time constant is met to 1e-5 of it.
     const PARTS: f64 = 8.0;
-    /// More rows than this are not had.
+    /// Largest number of rows.
     const MOST: f64 = 20_000.0;
     let length = times.last().copied().unwrap_or(0.0) - times.first().copied().unwrap_or(0.0);
     let step = (lag / PARTS).max(length / MOST);

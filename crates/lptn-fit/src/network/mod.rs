@@ -1,16 +1,16 @@
 //! Parameters of a network from records of its temperatures, heat flows and expressions of them.
 //!
-//! Residuals are model less record, over the standard deviation of a value where one is given, at
-//! every row of every record; what is known of a parameter beforehand (`±`) counts as one more.
-//! Runs are shared out to threads, and nothing depends on how many there are. Searches begin at the
-//! own values and at points between the bounds, on at most 150 rows of each record; the best goes
-//! on with all rows.
+//! Residuals are model less record, over the standard deviation of a value if one is given, at
+//! every row of every record. A prior of a parameter (`±`) counts as one more residual. Runs are
+//! distributed to threads, and nothing depends on their number. Searches begin at the own values
+//! and at points between the bounds, on at most 150 rows of each record; the best goes on with all
+//! rows.
 //!
-//! Standard errors follow from the residuals as they are, not from the standard deviations given,
-//! and know that neighbours in a record are alike: see [`crate::noise`]. Where records differ by more
-//! than that, errors follow from how they differ ([`BetweenRecords`]). Only where few values are
-//! left over they are no smaller than the standard deviations say. [`Identifiability`] tells what
-//! the records cannot separate.
+//! Standard errors follow from the residuals as they are, not from the given standard deviations,
+//! and include that neighbours in a record are alike: see [`crate::noise`]. If records differ by
+//! more than that, errors follow from their scatter ([`BetweenRecords`]). Only if few values are
+//! left over, errors are at least those from the standard deviations. [`Identifiability`] lists the
+//! parameters that the records cannot separate.
 
 mod apart;
 mod between;
@@ -80,8 +80,8 @@ use crate::network::search::{Found, search};
 /// Fits the parameters of a task.
 ///
 /// # Errors
-/// [`NetworkFitError`] for a task that asks for nothing, or where the own values have no run. That
-/// the search does not converge is an answer: [`NetworkFit::not_converged`].
+/// [`NetworkFitError`] for a task with nothing to fit, or if the own values have no run. If the
+/// search does not converge, that is an answer: [`NetworkFit::not_converged`].
 pub fn fit_network(task: &NetworkFitTask) -> Result<NetworkFit, NetworkFitError> {
     fit_network_observed(task, &|_, _| Proceed::Continue)
 }
@@ -89,7 +89,7 @@ pub fn fit_network(task: &NetworkFitTask) -> Result<NetworkFit, NetworkFitError>
 /// The same; `observer` is called after every step of every run and may interrupt the fit.
 ///
 /// # Errors
-/// As [`fit_network`]; [`NetworkFitError::Interrupted`] with the best values so far.
+/// The same as for [`fit_network`]; [`NetworkFitError::Interrupted`] with the best values so far.
 pub fn fit_network_observed(
     task: &NetworkFitTask,
     observer: &FitObserver<'_>,
@@ -122,7 +122,7 @@ pub fn fit_network_observed(
             (&unknowns, &parameters),
             (&errors, &estimate.free(), known),
         ),
-        // values that are no result have no interval
+        // values that are not a result have no interval
         Err(_) => Vec::new(),
     };
     let end = End {
@@ -179,8 +179,8 @@ fn fitted_parameters(
     (0..values.len()).map(parameter).collect()
 }
 
-/// The parameters whose interval is no value ± error, with the rise of the sum of squares at its
-/// ends: those for which that would hold what cannot be, and those on a bound.
+/// The parameters whose interval is not value ± error, with the rise of the sum of squares at its
+/// ends: those for which value ± error contains impossible values, and those on a bound.
 fn one_sided(
     (task, model, at_end): (&NetworkFitTask, &Model<'_>, &Evaluated),
     (unknowns, parameters): (&[Unknown], &[FittedParameter]),
@@ -246,7 +246,7 @@ fn check(task: &NetworkFitTask, unknowns: &[Unknown]) -> Result<(), NetworkFitEr
     }
 }
 
-/// Over standard deviations where the columns have no unit in common: then each has one.
+/// In standard deviations if the columns have no common unit: then each has one.
 fn rms_of(columns: &[ColumnMisfit], one_unit: bool) -> f64 {
     let unit = |c: &ColumnMisfit| if one_unit { 1.0 } else { c.sigma.unwrap_or(1.0) };
     let squares: f64 = columns.iter().map(|c| (c.rms / unit(c)).powi(2) * c.samples as f64).sum();

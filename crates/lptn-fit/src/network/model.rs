@@ -14,7 +14,7 @@ use crate::network::readings::{Beside, Measure, Reader, Rows};
 use crate::network::task::{FitObserver, FitStage, NetworkFitTask};
 use crate::network::unknown::Unknown;
 
-/// So many tolerances a temperature may be off.
+/// Error that a temperature may have, in tolerances.
 const ERROR: f64 = 10.0;
 
 /// The residuals of one column of one record.
@@ -22,9 +22,9 @@ const ERROR: f64 = 10.0;
 pub(crate) struct Block {
     pub(crate) run: usize,
     pub(crate) column: usize,
-    /// Where its residuals stand.
+    /// Range of its residuals.
     pub(crate) range: Range<usize>,
-    /// Where its rows stand, with those in which nothing was measured.
+    /// Range of its rows, with those in which nothing was measured.
     pub(crate) rows: Range<usize>,
 }
 
@@ -44,23 +44,23 @@ pub(crate) struct Model<'a> {
     task: &'a NetworkFitTask,
     unknowns: &'a [Unknown],
     coordinates: &'a Coordinates,
-    /// What is known beforehand.
+    /// Prior knowledge.
     priors: Priors,
     /// The rows of each record that count.
     rows: Vec<Rows>,
     pub(crate) blocks: Vec<Block>,
     tolerance: f64,
-    /// How derivatives are had; known after the first runs.
+    /// Kind of the derivatives; known after the first runs.
     pub(crate) gradient: Option<Gradient>,
-    /// What was computed last.
+    /// The last evaluation.
     last: Option<Evaluated>,
-    /// How often the runs of all records were computed.
+    /// Number of evaluations of the runs of all records.
     pub(crate) evaluations: usize,
-    /// How far the fit is, but for the evaluations of this model.
+    /// Progress of the fit, without the evaluations of this model.
     pub(crate) stage: FitStage,
     /// The least sum of squares so far, and its values.
     pub(crate) best: Option<(f64, Vec<f64>)>,
-    /// Whether the observer has interrupted the fit.
+    /// True if the observer has interrupted the fit.
     pub(crate) interrupted: bool,
     observer: &'a FitObserver<'a>,
 }
@@ -93,7 +93,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// Why a search ended without an answer.
+    /// The reason why a search ended without an answer.
     pub(crate) fn ended(&self, error: LeastSquaresError) -> NetworkFitError {
         match error {
             LeastSquaresError::Interrupted => self.broken_off(),
@@ -101,7 +101,7 @@ impl<'a> Model<'a> {
         }
     }
 
-    /// That the fit was interrupted, with the best values.
+    /// The error of an interrupted fit, with the best values.
     pub(crate) fn broken_off(&self) -> NetworkFitError {
         let best = self.best.as_ref().map(|(_, values)| values.clone());
         NetworkFitError::Interrupted { stage: self.stage_now(), best }
@@ -116,7 +116,7 @@ impl<'a> Model<'a> {
         self.blocks.last().map_or(0, |block| block.range.end)
     }
 
-    /// The root of the sum of the squares of what errors of the runs make of the residuals.
+    /// The root of the sum of the squares of the residuals' errors from errors of the runs.
     pub(crate) fn error(&self) -> f64 {
         let of = |block: &Block| {
             let weight = self.task.runs[block.run].columns[block.column].weight();
@@ -125,8 +125,8 @@ impl<'a> Model<'a> {
         ERROR * self.tolerance * self.blocks.iter().map(of).sum::<f64>().sqrt()
     }
 
-    /// That what a column measures had no value where something was measured, in what was computed
-    /// last: that of an expression may have none.
+    /// The error if a column's quantity had no value in the last evaluation although something was
+    /// measured: an expression may have none.
     pub(crate) fn without_value(&self) -> Option<NetworkFitError> {
         let last = self.last.as_ref()?;
         self.blocks.iter().find_map(|block| {
@@ -143,7 +143,8 @@ impl<'a> Model<'a> {
         })
     }
 
-    /// Residuals and derivatives for values in SI units; the record whose run failed, and why.
+    /// Residuals and derivatives for values in SI units; or the record whose run failed, and the
+    /// reason.
     pub(crate) fn at(&mut self, values: &[f64]) -> Result<&Evaluated, (usize, SensitiveError)> {
         if self.last.as_ref().is_none_or(|last| last.values != values) {
             self.last = None;
@@ -165,7 +166,7 @@ impl<'a> Model<'a> {
         let run = |&i: &usize| self.run(i, values).map_err(|error| (i, error));
         let runs: Vec<Measure> =
             in_parallel(&all, self.task.threads, run).into_iter().collect::<Result<_, _>>()?;
-        // one record's refusal makes differences of its own runs only: say so of all
+        // one record's refusal makes differences of its own runs only: report it for all
         let differences = |measure: &&Measure| measure.gradient != Gradient::Exact;
         let gradient = runs.iter().find(differences).or(runs.first());
         self.gradient = gradient.map(|measure| measure.gradient);
@@ -198,7 +199,7 @@ impl<'a> Model<'a> {
 }
 
 impl NetworkFitTask {
-    /// A record's run with these values of what is sought, compared with the record.
+    /// A record's run with these values of the unknowns, compared with the record.
     pub(crate) fn measured(
         &self,
         (run, rows): (usize, &Rows),
@@ -230,7 +231,7 @@ impl NetworkFitTask {
         Ok(reader.measure(&found))
     }
 
-    /// The network of one record with values of what is sought in SI units.
+    /// The network of one record with values of the unknowns in SI units.
     fn network_of(
         &self,
         place: usize,

@@ -1,10 +1,10 @@
-//! A search that lost itself along what the records do not determine.
+//! Searches that are lost along directions that the records do not determine.
 //!
-//! Along an open direction the sum of squares falls by what errors of the runs leave of a slope, so
-//! a search may walk on until there is no run, or find no step at all. Then so many of the
-//! parameters are held where they began that the others are determined, and these are searched
-//! again. The answer is one if the sum of squares is no larger than where the first search ended,
-//! and the records leave a direction open there too.
+//! Along an open direction the sum of squares falls by errors of the runs, so a search may go on
+//! until there is no run, or find no step at all. So many of the parameters are then fixed at their
+//! start that the others are determined, and these are searched again. The result is an answer if
+//! the sum of squares is not larger than at the end of the first search, and the records leave a
+//! direction open there too.
 //!
 //! A ridge would move every fit a little. Fixed parameters change nothing if the first search
 //! converged. A lag moves straight from 0 for the same reason: its logarithm has no end.
@@ -19,10 +19,10 @@ use crate::network::search::{Found, SAME, exactly, outcome};
 use crate::network::task::NetworkFitTask;
 use crate::network::unknown::Unknown;
 
-/// What the records determine at values in SI units, as [`told_apart`] says.
+/// Identifiability by the records at values in SI units, from [`told_apart`].
 type ToldApart<'t, 'a> = dyn Fn(&mut Found<'a>, &[f64]) -> Option<Identifiability> + 't;
 
-/// The same where the first search converged; else what a search finds that holds what is open.
+/// The same if the first search converged; otherwise the result with the open parameters fixed.
 pub(crate) fn settled<'a>(
     mut found: Found<'a>,
     (task, unknowns, coordinates): (&NetworkFitTask, &[Unknown], &Coordinates),
@@ -32,7 +32,7 @@ pub(crate) fn settled<'a>(
         return Ok(found);
     }
     let before = found.accuracy;
-    // differences of runs by an instrument that changes them tell no slope this small
+    // differences of runs by an instrument that changes them cannot resolve such a small slope
     found.accuracy = if found.exact { before } else { DIFFERENCES };
     let told = |found: &mut Found<'a>, values: &[f64]| {
         let at = found.model.at(values).ok()?.clone();
@@ -54,7 +54,7 @@ pub(crate) fn settled<'a>(
     Ok(found)
 }
 
-/// Parameters that, were they known, would leave nothing open.
+/// Parameters that would leave nothing open if they were known.
 fn held(known: &Identifiability) -> Vec<usize> {
     let mut held = known.unfelt.clone();
     held.extend(known.unseparated.iter().flat_map(|group| group.held()));
@@ -62,7 +62,7 @@ fn held(known: &Identifiability) -> Vec<usize> {
     held
 }
 
-/// The minimum with these parameters held, if it is as low as where the first search ended and
+/// The minimum with these parameters fixed, if it is as low as the end of the first search and
 /// leaves something open.
 fn searched<'a>(
     found: &mut Found<'a>,

@@ -1,4 +1,4 @@
-//! From a `[fit.NAME]` of a netlist to a task.
+//! Tasks from a `[fit.NAME]` of a netlist.
 
 use lptn_analysis::RunAnalysis;
 use lptn_netlist::{FitInitial, FitRecord, FitStudy, Netlist, Observed, Sensor};
@@ -8,14 +8,13 @@ use crate::network::error::NetworkFitError;
 use crate::network::recorded::{RecordedSignal, RecordedStart};
 use crate::network::task::{Instrument, Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask};
 
-/// Searches that begin between the bounds, where the netlist does not say.
+/// Number of searches that begin between the bounds.
 const MORE_STARTS: usize = 4;
 
-/// A temperature that nodes are thought to have while an expression is looked at, in K. Powers of 2
-/// keep sums exact.
+/// Temperature of the nodes while an expression is evaluated, in K. Powers of 2 keep sums exact.
 const BASE: f64 = 256.0;
 
-/// By how much one of them is raised.
+/// Rise of one of them in K.
 const RAISED: f64 = 64.0;
 
 impl NetworkFitTask {
@@ -23,8 +22,8 @@ impl NetworkFitTask {
     /// without one), and the times of its rows are times of that run.
     ///
     /// # Errors
-    /// [`NetworkFitError`] for a column that measures nothing that a run has, for columns whose units
-    /// cannot be compared, and what the evaluation of the study's numbers reports.
+    /// [`NetworkFitError`] for a column that measures no quantity of a run, for columns whose units
+    /// cannot be compared, and for numbers of the study that cannot be evaluated.
     pub fn of(
         netlist: &Netlist,
         study: &FitStudy,
@@ -94,12 +93,12 @@ pub(crate) fn settings(netlist: &Netlist) -> RunAnalysis {
     run.map_or_else(|| RunAnalysis::until(Time(1.0)), of).bare()
 }
 
-/// One record, with what is known of its instruments.
+/// One record, with its study and the instruments.
 struct Begun<'a> {
     study: &'a FitStudy,
     record: &'a FitRecord,
     sensors: &'a [Sensor],
-    /// When its run begins, in s.
+    /// Start of its run in s.
     start: f64,
 }
 
@@ -145,7 +144,7 @@ impl Begun<'_> {
         self.sensors.iter().position(|sensor| Some(&sensor.name) == name)
     }
 
-    /// Where the nodes begin whose temperature a column measures.
+    /// Start of the nodes whose temperature a column measures.
     fn initial(&self, of: &[Measurand]) -> Result<Vec<RecordedStart>, NetworkFitError> {
         let long = match self.study.initial {
             FitInitial::Network => return Ok(Vec::new()),
@@ -172,8 +171,8 @@ impl Begun<'_> {
         Ok(found)
     }
 
-    /// The time over which a mean is taken, if it is no more than half of the record: the rest is
-    /// what the fit is held against.
+    /// The time in s over which a mean is taken, if it is at most half of the record: the fit is
+    /// checked against the rest.
     fn short(&self, mean: f64) -> Result<f64, NetworkFitError> {
         let times = &self.record.record.time;
         let ends = times.first().zip(times.last());
@@ -186,7 +185,7 @@ impl Begun<'_> {
     }
 }
 
-/// What a column measures: a sum of temperatures where it is one, which costs least.
+/// Quantity that a column measures: a sum of temperatures if possible, which costs least.
 fn measurand(network: &Network, observed: &Observed) -> Result<Measurand, NetworkFitError> {
     match weights(network, observed) {
         Ok(nodes) => Ok(Measurand::Temperatures(nodes)),
@@ -217,7 +216,7 @@ fn comparable(study: &FitStudy, sigmas: &[Option<f64>]) -> Result<(), NetworkFit
 /// The nodes whose temperatures make up a result, with their factors.
 ///
 /// # Errors
-/// [`NetworkFitError::NotLinear`] where it is no such sum.
+/// [`NetworkFitError::NotLinear`] if it is not such a sum.
 pub(crate) fn weights(
     network: &Network,
     observed: &Observed,
@@ -231,10 +230,10 @@ pub(crate) fn weights(
     })
 }
 
-/// The factors of a result that is a weighted sum of temperatures of nodes. What it reads is known
+/// The factors of a result that is a weighted sum of temperatures of nodes. Its inputs are known
 /// from its code: a parameter that is 0 now may be another number later. The factors are found by
-/// raising the temperatures one after the other; a result that answers otherwise when all are
-/// raised by different amounts is not such a sum.
+/// raising the temperatures one after the other. If the result differs when all are raised by
+/// different amounts, it is not such a sum.
 fn linear(network: &Network, observed: &Observed) -> Option<Vec<(NodeId, f64)>> {
     if !network.reads_node_temperatures_only(&observed.value) {
         return None;

@@ -1,4 +1,4 @@
-//! What a fit leaves behind for studies.
+//! The posterior of a fit, for studies.
 
 use lptn_netlist::{Posterior, PosteriorOf, PosteriorPrior, PosteriorQuantity};
 use lptn_units::{Correlations, Distribution, Spread};
@@ -9,10 +9,10 @@ use crate::network::task::NetworkFitTask;
 use crate::network::unknown::{Unknown, UnknownOf};
 
 impl NetworkFit {
-    /// The values with their covariance: normal, lognormal where the search moved in logarithms
-    /// (to first order the standard error of the logarithm is that of the value over the value).
-    /// `network` and `fit` are what the two are called, `names` what each unknown of the task is.
-    /// `None` where a value is not determined, or nothing tells how far any may be off.
+    /// The values with their covariance: normal, or lognormal if the search moved in logarithms (to
+    /// first order the standard error of the logarithm is that of the value over the value).
+    /// `network` and `fit` are their names, `names` those of the unknowns of the task. `None` if a
+    /// value is not determined, or if no error can be estimated.
     pub fn posterior(
         &self,
         task: &NetworkFitTask,

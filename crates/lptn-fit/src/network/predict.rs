@@ -1,4 +1,4 @@
-//! What values say of records that they were not fitted to.
+//! Predictions of records that were not used in the fit.
 
 use lptn_solve::SensitiveError;
 
@@ -16,9 +16,9 @@ const TOLERANCE: f64 = 1e-7;
 /// The values of a fit without their errors.
 pub(crate) struct Refitted {
     pub(crate) values: Vec<f64>,
-    /// Whether the search found a minimum.
+    /// True if the search found a minimum.
     pub(crate) converged: bool,
-    /// Whether the records determine every value.
+    /// True if the records determine every value.
     pub(crate) whole: bool,
 }
 
@@ -45,15 +45,15 @@ pub(crate) fn refit(
     Ok(Refitted { values, converged: found.outcome.is_ok(), whole })
 }
 
-/// By how many standard deviations a column of a record is missed, what one is in K, and the
-/// temperature in each row.
+/// Residuals of a column of a record in standard deviations, the standard deviation in its SI unit,
+/// and the modelled value in each row.
 pub(crate) struct Misses {
     pub(crate) over_sigma: Vec<f64>,
     pub(crate) sigma: f64,
     pub(crate) modelled: Vec<f64>,
 }
 
-/// What a network with these values misses of the records of a task.
+/// Residuals of a network with these values for the records of a task.
 pub(crate) fn misses(
     task: &NetworkFitTask,
     values: &[f64],

@@ -1,13 +1,13 @@
-//! What is known of unknowns beforehand, by the `±` of each and by how they are correlated.
+//! Prior knowledge of unknowns, by the `±` of each and by their correlations.
 
 use lptn_units::{Correlations, Distribution};
 
 use crate::network::unknown::Unknown;
 
-/// What is known of an unknown beforehand: one more measurement.
+/// Prior knowledge of an unknown: one more measurement.
 #[derive(Clone, Copy, Debug)]
 struct Prior {
-    /// Which unknown.
+    /// Index of the unknown.
     place: usize,
     known: f64,
     sigma: f64,
@@ -15,14 +15,14 @@ struct Prior {
 }
 
 impl Prior {
-    /// Of those that have one.
+    /// Prior of an unknown, if it has one.
     fn of((place, unknown): (usize, &Unknown)) -> Option<Self> {
         let distribution = unknown.distribution;
         Some(Self { place, known: unknown.own, sigma: unknown.prior?, distribution })
     }
 
-    /// By how many deviations a value is off, and the derivative of that by the value; of a
-    /// lognormal one in its logarithm.
+    /// Distance of a value in standard deviations, and its derivative by the value; for a lognormal
+    /// one, of its logarithm.
     fn residual(&self, value: f64) -> (f64, f64) {
         match self.distribution {
             Distribution::Normal | Distribution::Rectangle => {
@@ -36,9 +36,9 @@ impl Prior {
     }
 }
 
-/// What is known of all unknowns together. With `r` for how many deviations each is off and
-/// `K = L L^T` for their correlations, `L^-1 r` are independent residuals of unit variance: their
-/// sum of squares is `r^T K^-1 r`.
+/// Prior knowledge of all unknowns together. With `r` for the distance of each in standard
+/// deviations and `K = L L^T` for their correlations, `L^-1 r` are independent residuals of unit
+/// variance: their sum of squares is `r^T K^-1 r`.
 #[derive(Clone, Debug)]
 pub(crate) struct Priors {
     all: Vec<Prior>,
@@ -47,8 +47,8 @@ pub(crate) struct Priors {
 }
 
 impl Priors {
-    /// Of unknowns of which the first ones, parameters, are so correlated. What cannot be
-    /// ([`Correlations::factor`]) a fit refuses; here it counts as nothing.
+    /// Priors of unknowns; the correlations are those of the first ones, the parameters. A fit
+    /// refuses impossible ones ([`Correlations::factor`]); here they count as none.
     pub(crate) fn of(unknowns: &[Unknown], known: &Correlations) -> Self {
         let all: Vec<Prior> = unknowns.iter().enumerate().filter_map(Prior::of).collect();
         let together = Self::together(&all, known);
@@ -56,7 +56,7 @@ impl Priors {
         Self { all, factor: factor.unwrap_or_default() }
     }
 
-    /// The first unknown that cannot be so correlated with those before it.
+    /// The first unknown that cannot have its correlations with those before it.
     pub(crate) fn impossible(unknowns: &[Unknown], known: &Correlations) -> Option<usize> {
         let all: Vec<Prior> = unknowns.iter().enumerate().filter_map(Prior::of).collect();
         Self::together(&all, known).factor().err().map(|row| all[row].place)
@@ -74,7 +74,7 @@ impl Priors {
         together
     }
 
-    /// How many there are.
+    /// Number of priors.
     pub(crate) fn count(&self) -> usize {
         self.all.len()
     }

@@ -1,9 +1,9 @@
 //! Intervals of parameters that the records bound on one side only.
 //!
-//! A standard error is a slope at the minimum. Where a positive parameter is known to no better
-//! than its own size the sum of squares is no parabola over the interval, and value ± error holds
-//! numbers that cannot be. Here the parameter is held, the others are fitted again, and the
-//! interval ends where the sum of squares S has risen by `q^2` of its own curvature at the minimum
+//! A standard error is a slope at the minimum. If a positive parameter is known to no better than
+//! its own size, the sum of squares is not a parabola over the interval, and value ± error contains
+//! impossible numbers. Here the parameter is fixed, the others are fitted again, and the interval
+//! ends when the sum of squares S has risen by `q^2` of its own curvature at the minimum
 //!
 //! ```text
 //! S(p) - S_min = (q error)^2 / [(J^T J)^-1]_pp
@@ -24,18 +24,17 @@ use crate::network::holding::Holding;
 use crate::network::model::Model;
 use crate::network::unknown::Unknown;
 
-/// Logarithm of the factor by which a value is followed.
+/// Logarithm of the largest factor by which a value is followed.
 const FAR: f64 = 12.0;
 
 /// A value below this part of half its interval is followed upwards from 0 in units of that half:
-/// no factor of it says where the interval ends.
+/// no factor of it gives the end of the interval.
 const NOTHING: f64 = 1e-3;
 
-/// How near the sum of squares comes to what it shall be, in parts of its rise.
+/// Accuracy of the sum of squares at the end of the interval, in parts of its rise.
 const NEAR: f64 = 1e-4;
 
-/// The ends of a 95 % interval, in SI units; `None` where the records, and the bounds, leave it
-/// open.
+/// The ends of a 95 % interval, in SI units; `None` if the records, and the bounds, leave it open.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Profile {
     /// The least value that the records leave possible.
@@ -44,8 +43,8 @@ pub struct Profile {
     pub high: Option<f64>,
 }
 
-/// Whether value ± half holds what cannot be: numbers beyond a bound, or below 0 of a positive
-/// parameter.
+/// True if value ± half contains impossible values: numbers beyond a bound, or below 0 for a
+/// positive parameter.
 pub(crate) fn misleads(unknown: &Unknown, value: f64, half: f64) -> bool {
     let least = unknown.bounds.0.max(0.0);
     !unknown.is_shift()
@@ -53,7 +52,7 @@ pub(crate) fn misleads(unknown: &Unknown, value: f64, half: f64) -> bool {
         && (value - half <= least || value + half >= unknown.bounds.1)
 }
 
-/// Where the search ended, in its coordinates.
+/// End of the search, in its coordinates.
 pub(crate) struct End<'e> {
     pub(crate) coordinates: &'e Coordinates,
     pub(crate) unknowns: &'e [Unknown],
@@ -62,12 +61,12 @@ pub(crate) struct End<'e> {
     pub(crate) squares: f64,
 }
 
-/// How far the sum of squares rises at the ends of an interval.
+/// Rise of the sum of squares at the ends of an interval.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rise {
-    /// By this much.
+    /// The rise.
     pub(crate) of: f64,
-    /// Half the interval, were the sum of squares the parabola that it is at the minimum.
+    /// Half the interval if the sum of squares were the parabola of its minimum.
     pub(crate) half: f64,
 }
 
@@ -87,7 +86,7 @@ struct Walk<'w, 'a, 'e> {
     end: &'w End<'e>,
     place: usize,
     rise: Rise,
-    /// Where the others stood last.
+    /// Last coordinates of the others.
     others: Vec<f64>,
 }
 
@@ -99,7 +98,7 @@ impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
     }
 
     /// The value at which the sum of squares has risen, in steps that double and then by false
-    /// position (the Illinois rule). `None` where a bound or [`FAR`] comes first, or no run.
+    /// position (the Illinois rule). `None` if a bound or [`FAR`] comes first, or without a run.
     fn end(mut self, sign: f64) -> Option<f64> {
         let most = self.most(sign)?;
         let mut inside = (0.0, -1.0);
@@ -132,7 +131,7 @@ impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
         Some(self.at(sign * outside.0))
     }
 
-    /// How far it is to a bound, at most [`FAR`]; nothing where the value is at the bound.
+    /// Distance to a bound, at most [`FAR`]; `None` if the value is at the bound.
     fn most(&self, sign: f64) -> Option<f64> {
         let (low, high) = self.end.unknowns[self.place].bounds;
         let bound = if sign < 0.0 { low } else { high };
@@ -143,7 +142,7 @@ impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
         Some(if bound > 0.0 { (bound / value).ln().abs().min(FAR) } else { FAR })
     }
 
-    /// The value so far along the way: a factor's logarithm, or that of so many halves and one.
+    /// The value at a distance: the logarithm of a factor, or of a number of halves plus one.
     fn at(&self, along: f64) -> f64 {
         let value = self.end.values[self.place];
         match self.is_nothing() {
@@ -157,8 +156,7 @@ impl<'w, 'a, 'e> Walk<'w, 'a, 'e> {
         least <= 0.0 && self.end.values[self.place] < NOTHING * self.rise.half
     }
 
-    /// By how much the sum of squares has risen beyond `rise`, in units of it, with the parameter
-    /// held.
+    /// Rise of the sum of squares beyond `rise`, in units of it, with the parameter fixed.
     fn excess(&mut self, value: f64) -> Option<f64> {
         let mut bounds = self.end.coordinates.bounds();
         bounds.remove(self.place);

@@ -1,4 +1,4 @@
-//! What the instruments of one record read in its run.
+//! Readings of the instruments of one record in its run.
 //!
 //! A column that is not a sum of temperatures is an expression of results (`Measurand`). It is read
 //! row by row from the run, with the evaluator of reports (`Solution::result`). Its derivative is a
@@ -17,16 +17,16 @@ use crate::network::unknown::{Unknown, UnknownOf};
 
 /// The rows of a record that count, and those of its run.
 pub(crate) struct Rows {
-    /// Places of the rows of the record.
+    /// Indices of the rows of the record.
     pub(crate) chosen: Vec<usize>,
-    /// The times of the run's rows: the start first.
+    /// The times of the run's rows in s: the start first.
     times: Vec<f64>,
-    /// Where those of the record stand among them.
+    /// Indices of the record's rows among them.
     places: Vec<usize>,
 }
 
 impl Rows {
-    /// At most `most` rows of a record. Where an instrument follows slowly, its run has more.
+    /// At most `most` rows of a record. If an instrument follows slowly, its run has more.
     pub(crate) fn new(task: &NetworkFitTask, run: &MeasuredRun, most: usize) -> Self {
         let chosen = chosen(run.times.len(), most);
         let mut times: Vec<f64> = chosen.iter().map(|&row| run.times[row]).collect();
@@ -73,24 +73,24 @@ pub(crate) struct Measure {
     pub(crate) gradient: Gradient,
 }
 
-/// One record with the values of what is sought.
+/// One record with the values of the unknowns.
 pub(crate) struct Reader<'a> {
     pub(crate) task: &'a NetworkFitTask,
-    /// Place of the record.
+    /// Index of the record.
     pub(crate) run: usize,
     pub(crate) rows: &'a Rows,
     pub(crate) unknowns: &'a [Unknown],
     pub(crate) values: &'a [f64],
-    /// The runs beside it where values of instruments change the run itself.
+    /// Additional runs if values of instruments change the run itself.
     pub(crate) beside: &'a [Beside],
 }
 
 /// Runs with less and with more of an unknown.
 pub(crate) struct Beside {
-    /// Place of the unknown.
+    /// Index of the unknown.
     pub(crate) unknown: usize,
     pub(crate) runs: [SensitiveRun; 2],
-    /// By how much the two differ in it.
+    /// Difference of the unknown between the two.
     pub(crate) distance: f64,
 }
 
@@ -129,7 +129,7 @@ impl Reader<'_> {
         measure
     }
 
-    /// Of the reading in the rows of the record, by one unknown.
+    /// Derivative of the reading in the rows of the record by one unknown.
     fn slope(
         &self,
         (unknown, column): (&Unknown, &MeasuredColumn),
@@ -160,7 +160,7 @@ impl Reader<'_> {
     }
 
     fn followed(&self, course: Vec<f64>, held: Held) -> Followed {
-        // a lag that is sought may come to 0, and has a derivative there
+        // an unknown lag may become 0, and has a derivative there
         let has_lag = |unknown: &Unknown| matches!(unknown.of, UnknownOf::Lag { .. });
         match held.lag > 0.0 || self.unknowns.iter().any(has_lag) {
             true => follow(&self.rows.times, &course, held.lag),
@@ -168,7 +168,7 @@ impl Reader<'_> {
         }
     }
 
-    /// In the rows of the record.
+    /// Values in the rows of the record.
     fn picked(&self, values: &[f64]) -> Vec<f64> {
         let at = |&place: &usize| values.get(place).copied().unwrap_or(f64::NAN);
         self.rows.places.iter().map(at).collect()
@@ -176,14 +176,14 @@ impl Reader<'_> {
 }
 
 impl Beside {
-    /// How what a column's instrument is exposed to changes with the unknown.
+    /// Derivative of the quantity at a column's instrument by the unknown.
     fn slopes(&self, column: &MeasuredColumn) -> Vec<f64> {
         let [below, above] = self.runs.each_ref().map(|run| exposed(column, run));
         below.iter().zip(above).map(|(below, above)| (above - below) / self.distance).collect()
     }
 }
 
-/// What a column's instrument is exposed to.
+/// Quantity at a column's instrument.
 fn exposed(column: &MeasuredColumn, found: &SensitiveRun) -> Vec<f64> {
     match &column.of {
         Measurand::Temperatures(of) => combined(of, |node| found.solution.temperature(node)),
@@ -191,7 +191,7 @@ fn exposed(column: &MeasuredColumn, found: &SensitiveRun) -> Vec<f64> {
     }
 }
 
-/// How that changes with a parameter.
+/// Its derivative by a parameter.
 fn slopes(column: &MeasuredColumn, id: ParameterId, found: &SensitiveRun) -> Vec<f64> {
     match &column.of {
         Measurand::Temperatures(of) => combined(of, |node| found.sensitivity(id, node)),

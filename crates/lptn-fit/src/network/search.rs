@@ -10,45 +10,45 @@ use crate::network::model::Model;
 use crate::network::task::{FitObserver, FitStage, NetworkFitTask};
 use crate::network::unknown::Unknown;
 
-/// Rows of a record that the searches look at before the best of them goes on with all.
+/// Number of rows of a record in the searches, before the best of them goes on with all.
 const COARSE_ROWS: usize = 150;
 
-/// Tolerance in K of the runs of the searches, and of what goes on from the best.
+/// Tolerance in K of the runs of the searches, and of the last search.
 const TOLERANCES: [f64; 2] = [1e-6, 1e-7];
 
-/// Sums of squares that differ by less than this part are those of one minimum.
+/// Sums of squares that differ by less than this part belong to one minimum.
 pub(crate) const SAME: f64 = 1e-3;
 
 /// Seed of the starts between the bounds.
 const SEED: u32 = 6;
 
-/// How the searches from several starts came out.
+/// Results of the searches from several starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Starts {
-    /// How many there were, the own values first.
+    /// Number of starts, the own values first.
     pub tried: usize,
-    /// How many of them led to the minimum that was taken.
+    /// Number of them that led to the minimum that was taken.
     pub same: usize,
-    /// How many led to another one.
+    /// Number of them that led to another minimum.
     pub other: usize,
-    /// How many led nowhere.
+    /// Number of them that led to no minimum.
     pub failed: usize,
 }
 
-/// Where the searches ended.
+/// End of the searches.
 pub(crate) struct Found<'a> {
     pub(crate) estimate: LeastSquaresFit,
-    /// Whether that is a minimum; why not.
+    /// The reason if that is not a minimum.
     pub(crate) outcome: Result<(), Stop>,
     pub(crate) starts: Starts,
     pub(crate) gradient: Gradient,
-    /// Whether no derivative is a difference.
+    /// True if no derivative is a difference.
     pub(crate) exact: bool,
-    /// How accurate derivatives are, relative.
+    /// Relative accuracy of derivatives.
     pub(crate) accuracy: f64,
-    /// With all rows.
+    /// The model with all rows.
     pub(crate) model: Model<'a>,
-    /// How often the runs of all records were computed before.
+    /// Number of earlier evaluations of the runs of all records.
     pub(crate) searches: usize,
 }
 
@@ -93,7 +93,7 @@ pub(crate) fn search<'a>(
     );
     model.best = Some((f64::INFINITY, coordinates.values(&ends[best].parameters).0));
     model.stage = FitStage { search: 0, ..coarse.stage_now() };
-    // rows that the searches did not look at may be where an expression has no value
+    // an expression may have no value in rows that the searches left out
     let begins = coordinates.values(&ends[best].parameters).0;
     if model.at(&begins).is_ok() {
         model.without_value().map_or(Ok(()), Err)?;
@@ -113,7 +113,7 @@ fn settings(coordinates: &Coordinates, (gradient, step): (f64, f64), error: f64)
     Settings { bounds, gradient, step, error, iterations: 200, ..Settings::default() }
 }
 
-/// How the last search goes on, with runs that are off by `error`.
+/// Settings of the last search, with runs that are off by `error`.
 pub(crate) fn exactly(coordinates: &Coordinates, (gradient, error): (Gradient, f64)) -> Settings {
     let ends = match gradient {
         Gradient::Exact => (1e-7, 1e-10),
@@ -139,7 +139,7 @@ fn starts(task: &NetworkFitTask, coordinates: &Coordinates, own: &[f64]) -> Vec<
     starts
 }
 
-/// The lowest minimum, or the lowest point where no search found one; how the others compare.
+/// The lowest minimum, or the lowest point if no search found one, and counts of the others.
 fn best(ends: &[LeastSquaresFit], floor: f64) -> (usize, Starts) {
     let converged = |end: &LeastSquaresFit| end.outcome.converged() || removable(end) <= floor;
     let rank = |i: &usize| (!converged(&ends[*i]), ends[*i].squares);
@@ -161,8 +161,8 @@ fn removable(end: &LeastSquaresFit) -> f64 {
     end.offset * end.squares.sqrt()
 }
 
-/// A search that gets no further because what is left to remove is less than the errors of the runs
-/// is at its minimum.
+/// A search is at its minimum if it gets no further because less is left to remove than the errors
+/// of the runs.
 pub(crate) fn outcome(end: &LeastSquaresFit, floor: f64, exact: bool) -> Result<(), Stop> {
     /// Differences of runs are no more accurate than this.
     const DIFFERENCES: f64 = 1e-3;

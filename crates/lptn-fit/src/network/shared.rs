@@ -1,10 +1,10 @@
-//! Noise that the columns of one record have in common: of thermocouples on one cold junction, of an
-//! amplifier, or because the room that none of them is modelled with moves.
+//! Noise that the columns of one record share: of thermocouples on one cold junction, of an
+//! amplifier, or because the temperature of the room moves and is in no model.
 //!
 //! It does not average out over the columns. Each of them is taken as independent values of unit
-//! variance ([`Whitened`]), which are what its own noise is made of; these are compared at the same
-//! times. The covariance of two columns then is that correlation times the product of their roots,
-//! so the whole is a covariance as well, and that of a column with itself stays what it is.
+//! variance ([`Whitened`]), which make up its own noise; these are compared at the same times. The
+//! covariance of two columns is then that correlation times the product of their roots. The whole
+//! is a covariance as well, and that of a column with itself is unchanged.
 //!
 //! The correlations come from whitened residuals, for which chance is 1/n whatever the noise.
 //! Common noise may be slow next to white noise of each column, so means of four are tried too.
@@ -17,47 +17,48 @@ use crate::noise::Whitened;
 /// Noise that columns of a record share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SharedNoise {
-    /// Place of the record.
+    /// Index of the record.
     pub run: usize,
     /// The largest correlation of the noise of two of its columns at the same times, by size.
     pub correlation: f64,
 }
 
-/// Times that are compared, at most. Of longer records, means over some of them.
+/// Largest number of times that are compared. Longer records use means over some of them.
 const MOST: usize = 200;
 
-/// With fewer nothing is compared.
+/// Minimum number of times for a comparison.
 const LEAST: usize = 6;
 
-/// What is common to columns may be slow beside noise of their own: so many times fewer values show
-/// it, if so many are left.
+/// Common noise may be slow next to the columns' own noise. Fewer values by this factor then show
+/// it, if enough are left.
 const COARSE: usize = 4;
 const LEAST_COARSE: usize = 12;
 
-/// From so many times on an estimated correlation is taken as it is; of fewer, the part is left out
-/// that chance brings about in independent columns (J. Schaefer, K. Strimmer, Statistical
+/// From this number of times on, an estimated correlation is taken as it is. For fewer, the part is
+/// left out that chance causes in independent columns (J. Schaefer, K. Strimmer, Statistical
 /// Applications in Genetics and Molecular Biology 4 (2005) 32).
 const ENOUGH: f64 = 30.0;
 
-/// A correlation is told beyond so many standard deviations of chance, and above this size.
+/// A correlation is reported beyond this number of standard deviations of chance, and above this
+/// size.
 const CLEARLY: f64 = 4.0;
 const WORTH: f64 = 0.2;
 
-/// The columns of one record and how alike their noise is.
+/// The columns of one record and the correlations of their noise.
 pub(crate) struct Shared {
     pub(crate) run: usize,
-    /// The columns by their place among those of the errors.
+    /// Indices of the columns among those of the errors.
     pub(crate) columns: Vec<usize>,
     compared: Compared,
     /// The part of the correlations that counts.
     part: f64,
-    /// For each column and parameter what the independent value of each time adds to `J^T r`.
+    /// For each column and parameter, the part of `J^T r` from the independent value of each time.
     loads: Vec<Vec<Vec<f64>>>,
 }
 
 /// Columns at the same times.
 struct Compared {
-    /// For each column the place of each of its values among the times.
+    /// For each column the index of each of its values among the times.
     places: Vec<Vec<usize>>,
     times: usize,
     /// Row by row.
@@ -65,7 +66,7 @@ struct Compared {
 }
 
 impl Shared {
-    /// `None` where there are no two columns with values enough.
+    /// `None` without two columns with enough values.
     pub(crate) fn of(run: usize, columns: Vec<(usize, &Whitened)>) -> Option<Self> {
         let (columns, whitened): (Vec<usize>, Vec<&Whitened>) = columns.into_iter().unzip();
         let longest = whitened.iter().map(|column| column.times.len()).max()?.min(MOST);
@@ -87,7 +88,7 @@ impl Shared {
         (part > 0.0).then_some(Self { run, columns, compared, part, loads })
     }
 
-    /// What it adds to `J^T Omega J`.
+    /// Contribution to `J^T Omega J`.
     pub(crate) fn middle(&self) -> Vec<f64> {
         let n = self.loads.first().map_or(0, Vec::len);
         let mut middle = vec![0.0; n * n];
@@ -100,7 +101,7 @@ impl Shared {
         middle
     }
 
-    /// What the other columns have in common with one, of what each time adds for a parameter.
+    /// Common part of the other columns with one, at each time for a parameter.
     fn others(&self, column: usize, parameter: usize) -> Vec<f64> {
         let mut sum = vec![0.0; self.compared.times];
         for (d, loads) in self.loads.iter().enumerate().filter(|(d, _)| *d != column) {
@@ -110,8 +111,8 @@ impl Shared {
         sum
     }
 
-    /// What it adds to the variance of a parameter that `J^T r` moves by these weights, and half of
-    /// how uncertain that is, as a variance.
+    /// Contribution to the variance of a parameter that `J^T r` moves by these weights, and half of
+    /// its uncertainty, as a variance.
     pub(crate) fn variance(&self, weights: &[f64]) -> (f64, f64) {
         let of_column = |loads: &Vec<Vec<f64>>| {
             let mut sum = vec![0.0; self.compared.times];
@@ -131,12 +132,12 @@ impl Shared {
         (adds, uncertain)
     }
 
-    /// The correlation of two columns by their place in this record.
+    /// The correlation of two columns by their index in this record.
     pub(crate) fn alike(&self, c: usize, d: usize) -> f64 {
         self.compared.correlations[c * self.columns.len() + d]
     }
 
-    /// What of it counts.
+    /// The part of it that counts.
     fn counted(&self, c: usize, d: usize) -> f64 {
         self.part * self.alike(c, d)
     }
@@ -145,7 +146,7 @@ impl Shared {
         pairs(self.columns.len())
     }
 
-    /// Where chance alone does not explain it.
+    /// The shared noise, if chance alone does not explain it.
     pub(crate) fn told(&self) -> Option<SharedNoise> {
         let all = self.pairs().map(|(c, d)| self.alike(c, d));
         let correlation = all.max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
@@ -155,7 +156,7 @@ impl Shared {
 }
 
 impl Compared {
-    /// All columns at so many times: these are means of neighbours where there are more.
+    /// All columns at this number of times: means of neighbours if there are more.
     fn at(columns: &[&Whitened], times: usize) -> Self {
         let mut all: Vec<f64> = columns.iter().flat_map(|column| &column.times).copied().collect();
         all.sort_by(f64::total_cmp);
@@ -177,7 +178,7 @@ impl Compared {
         Self { places, times, correlations }
     }
 
-    /// The sum of the squares of the correlations of pairs, and what chance would make of it.
+    /// The sum of the squares of the correlations of pairs, and its value by chance.
     fn squares(&self) -> (f64, f64) {
         let count = self.places.len();
         let square = |(c, d): (usize, usize)| self.correlations[c * count + d].powi(2);
@@ -200,12 +201,12 @@ impl Compared {
     }
 }
 
-/// All pairs of two, both ways round.
+/// All pairs of two, in both orders.
 fn pairs(count: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..count).flat_map(move |c| (0..count).filter(move |&d| d != c).map(move |d| (c, d)))
 }
 
-/// Independent values of unit variance of each time as one.
+/// Combines the independent values of unit variance at each time into one.
 fn summed(values: &[f64], places: &[usize], times: usize) -> Vec<f64> {
     let mut sums = vec![(0.0, 0.0_f64); times];
     for (value, &place) in values.iter().zip(places) {

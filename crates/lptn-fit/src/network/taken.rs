@@ -1,4 +1,4 @@
-//! What a parameter that is held moves if it is off.
+//! Effect of the error of a fixed parameter.
 //!
 //! One more run of each record at the end has the derivatives by every parameter with a `±` that is
 //! not varied. `(J^T J)^-1 J^T v` is the effect of its error. It is reported only if it is a tenth
@@ -18,35 +18,35 @@ use crate::network::unknown::Unknown;
 /// Tolerance of the runs in K.
 const TOLERANCE: f64 = 1e-7;
 
-/// A held parameter that may be off.
+/// A fixed parameter with an uncertainty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Off {
     /// The parameter.
     pub parameter: ParameterId,
-    /// By how much it may be off in each record, in its SI unit; 0 where it is certain.
+    /// Its standard deviation in each record, in its SI unit; 0 if it is certain.
     pub by: Vec<f64>,
 }
 
 impl Off {
-    /// The most by which it may be off.
+    /// Its largest standard deviation.
     pub fn most(&self) -> f64 {
         self.by.iter().copied().fold(0.0, f64::max)
     }
 }
 
-/// What comes of it that one is off.
+/// Effect of the error of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moved {
-    /// By how much each unknown moves, in its SI unit; `None` of one that is not determined.
+    /// Movement of each unknown, in its SI unit; `None` if it is not determined.
     pub by: Vec<Option<f64>>,
-    /// The root of the sum of squares of what changes of all values, over their standard
-    /// deviations. No unknown moves by more of its errors under independent noise.
+    /// The root of the sum of squares of the changes of all values, over their standard deviations.
+    /// No unknown moves by more of its errors under independent noise.
     pub rows: f64,
 }
 
 impl NetworkFitTask {
-    /// The parameters that are not sought although something is known of how far they may be off: by
-    /// a `±`, of the netlist or of the record, or by a posterior.
+    /// The parameters that are not estimated although they have an uncertainty: by a `±`, of the
+    /// netlist or of the record, or by a posterior.
     pub fn taken_as_exact(&self) -> Vec<Off> {
         let mut found: Vec<Off> = Vec::new();
         for (i, run) in self.runs.iter().enumerate() {
@@ -65,11 +65,11 @@ impl NetworkFitTask {
         found
     }
 
-    /// What each of these moves, where the unknowns have these values: those that `counted` says
-    /// move, the others are held.
+    /// Effect of each of these at these values of the unknowns. Those that `counted` selects move,
+    /// the others are fixed.
     ///
     /// # Errors
-    /// Where a run fails.
+    /// Returns the error of a run that fails.
     pub fn moved_by(
         &self,
         off: &[Off],
@@ -104,7 +104,7 @@ impl NetworkFitTask {
         let priors = Priors::of(&unknowns, &self.correlations);
         priors.rows(values).iter().for_each(|row| add(row, &none));
         let covariance = told.covariance();
-        // a model that reads too much by the row is met by unknowns that make it read less
+        // if the model reads too high, the unknowns move to make it read less
         let moved = |(pull, rows): (&Vec<f64>, &f64)| Moved {
             by: (0..count).map(|i| covariance.moved(i, pull).map(|by| -by)).collect(),
             rows: rows.sqrt(),
@@ -112,7 +112,7 @@ impl NetworkFitTask {
         Ok(pulls.iter().zip(&rows).map(moved).collect())
     }
 
-    /// The runs of all records with derivatives by the unknowns, then by what is held.
+    /// The runs of all records with derivatives by the unknowns, then by the fixed parameters.
     fn with_held(
         &self,
         off: &[Off],
@@ -135,7 +135,7 @@ impl NetworkFitTask {
             let (mut unknowns, mut values) = (unknowns.to_vec(), values.to_vec());
             for own in &held {
                 let id = own.parameter();
-                // a record may have a value of its own
+                // a record may have its own value
                 values.push(id.map_or(own.own, |id| self.held_value(run, id)));
                 unknowns.push((*own).clone());
             }
@@ -154,10 +154,10 @@ impl NetworkFitTask {
 }
 
 impl NetworkFit {
-    /// What each of these moves, of what has a standard error.
+    /// Effect of each of these on the parameters that have a standard error.
     ///
     /// # Errors
-    /// Where a run fails.
+    /// Returns the error of a run that fails.
     pub fn moved_by(
         &self,
         task: &NetworkFitTask,

@@ -1,4 +1,4 @@
-//! What is to be fitted to what.
+//! Tasks of fits.
 
 use std::fmt;
 
@@ -15,28 +15,29 @@ use crate::network::recorded::{RecordedSignal, RecordedStart};
 pub struct NetworkFitTask {
     /// The network; the start values of the parameters are its own.
     pub network: Network,
-    /// What is varied; each parameter once.
+    /// The varied parameters, each once.
     pub parameters: Vec<Varied>,
-    /// How what is known of them beforehand is correlated, in their order.
+    /// Correlations of their priors, in their order.
     pub correlations: Correlations,
     /// The instruments that columns name.
     pub sensors: Vec<Instrument>,
-    /// The records, each of a run of its own.
+    /// The records, each of a separate run.
     pub runs: Vec<MeasuredRun>,
-    /// How many searches begin elsewhere between the bounds, beside the one from the own values.
+    /// Number of searches from points between the bounds, in addition to the one from the own
+    /// values.
     pub more_starts: usize,
-    /// How many runs are computed at once; nothing depends on it.
+    /// Number of runs that are computed at once; nothing depends on it.
     pub threads: usize,
 }
 
-/// How far a fit is.
+/// Progress of a fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FitStage {
-    /// The search, from 1; 0 for what goes on from the best of them with all rows.
+    /// The search, from 1; 0 for the last one, from the best of them with all rows.
     pub search: usize,
-    /// How many searches there are.
+    /// Number of searches.
     pub of: usize,
-    /// How often the runs of all records were begun.
+    /// Number of times that the runs of all records were begun.
     pub evaluations: usize,
 }
 
@@ -53,7 +54,7 @@ impl fmt::Display for FitStage {
 /// Is called after every step of every run, on its thread, and may interrupt the fit.
 pub type FitObserver<'a> = dyn Fn(FitStage, Progress) -> Proceed + Sync + 'a;
 
-/// A record, and the run that it is one of.
+/// A record, and its run.
 #[derive(Clone, Debug)]
 pub struct MeasuredRun {
     /// The name of the record.
@@ -61,33 +62,33 @@ pub struct MeasuredRun {
     /// The values that the parameters have in this run, but for the varied ones; see
     /// [`Network::overrides`].
     pub parameters: Parameters,
-    /// The courses of signals that the record has measured.
+    /// The time histories of signals that the record has measured.
     pub signals: Vec<RecordedSignal>,
-    /// Nodes that begin at another temperature than the network says.
+    /// Nodes that do not begin at the temperature of the network.
     pub initial: Vec<RecordedStart>,
     /// Start and controls of the run; its stop, rows and tolerance follow from the record.
     pub settings: RunAnalysis,
     /// The times of the rows in s, ascending, on the clock of the run: none before its start, at
-    /// least one behind it.
+    /// least one after it.
     pub times: Vec<f64>,
-    /// What was measured.
+    /// The measured columns.
     pub columns: Vec<MeasuredColumn>,
 }
 
-/// What an instrument makes of the temperature x over 0 degC that it measures: `gain y + offset`
-/// over 0 degC, where `lag dy/dt = x - y` from rest at the start of the run. All in SI units. What
-/// else is measured than a temperature counts from its own zero.
+/// An instrument that measures a temperature x over 0 degC. It reads `gain y + offset` over 0 degC,
+/// with `lag dy/dt = x - y` from rest at the start of the run. All in SI units. Other quantities
+/// than temperatures count from their own zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instrument {
     /// Its name.
     pub name: String,
-    /// In the SI unit of its columns, K for a temperature.
+    /// Offset in the SI unit of its columns, K for a temperature.
     pub offset: SensorValue,
-    /// A factor.
+    /// Gain, a factor.
     pub gain: SensorValue,
     /// Its time constant in s; 0 without one.
     pub lag: SensorValue,
-    /// Whether an offset that is sought is another one in each record.
+    /// True if an unknown offset differs from record to record.
     pub per_record: bool,
 }
 
@@ -103,7 +104,7 @@ impl From<&Sensor> for Instrument {
     }
 }
 
-/// What a column measures.
+/// Quantity that a column measures.
 #[derive(Clone, Debug)]
 pub enum Measurand {
     /// The sum of temperatures of nodes times these factors: one of them, a mean, a difference.
@@ -117,15 +118,15 @@ pub enum Measurand {
 pub struct MeasuredColumn {
     /// The name of the column in its file.
     pub name: String,
-    /// What was measured.
+    /// The measured quantity.
     pub of: Measurand,
     /// Its type; values are in the SI unit of that.
     pub ty: Type,
-    /// Place of its instrument among those of the task; an ideal one unless there is one.
+    /// Index of its instrument among those of the task; `None` for an ideal one.
     pub sensor: Option<usize>,
     /// Standard deviation of one value; `None` counts as 1.
     pub sigma: Option<f64>,
-    /// One value for each time; NaN where nothing was measured.
+    /// One value for each time; NaN if nothing was measured.
     pub values: Vec<f64>,
 }
 
@@ -135,13 +136,13 @@ impl MeasuredColumn {
         self.sigma.unwrap_or(1.0)
     }
 
-    /// From where its instrument counts.
+    /// Zero of its instrument.
     pub(crate) fn zero(&self) -> f64 {
         if self.ty.absolute { ZERO_CELSIUS } else { 0.0 }
     }
 
-    /// The nodes whose temperatures make it up, with their factors; none where it is an expression
-    /// of other results.
+    /// The nodes whose temperatures make it up, with their factors; none if it is an expression of
+    /// other results.
     pub fn nodes(&self) -> &[(NodeId, f64)] {
         match &self.of {
             Measurand::Temperatures(nodes) => nodes,
@@ -151,15 +152,15 @@ impl MeasuredColumn {
 }
 
 impl NetworkFitTask {
-    /// The type whose unit all columns have in common, of differences of what they measure; `None`
-    /// where there is none.
+    /// The type of differences of the measured quantities, if all columns have its unit; `None` if
+    /// there is no common one.
     pub fn unit(&self) -> Option<Type> {
         let mut all = self.runs.iter().flat_map(|run| &run.columns).map(|column| column.ty);
         let first = all.next()?.dimension;
         all.all(|ty| ty.dimension == first).then_some(Type::of(first))
     }
 
-    /// The largest of what an instrument read, whatever its sign: over 0 degC of a temperature.
+    /// The largest magnitude of an instrument's readings: over 0 degC for a temperature.
     pub(crate) fn largest_of(&self, sensor: usize) -> f64 {
         let columns = self.runs.iter().flat_map(|run| &run.columns);
         let own = columns.filter(|column| column.sensor == Some(sensor));
@@ -181,14 +182,14 @@ impl MeasuredRun {
         nodes
     }
 
-    /// The type of what an instrument read in it, if it did.
+    /// The type of an instrument's readings in it, if there are any.
     pub(crate) fn reads(&self, sensor: usize) -> Option<Type> {
         let columns = self.columns.iter().map(|column| (column.sensor, column.ty));
         let signals = self.signals.iter().map(|signal| (signal.sensor, signal.ty));
         columns.chain(signals).find(|(own, _)| *own == Some(sensor)).map(|(_, ty)| ty)
     }
 
-    /// What has to be kept of its run.
+    /// The nodes that must be kept of its run.
     pub(crate) fn kept(&self) -> RecordedNodes {
         let follows = |column: &MeasuredColumn| matches!(column.of, Measurand::Result(_));
         match self.columns.iter().any(follows) {

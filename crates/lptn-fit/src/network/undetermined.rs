@@ -1,37 +1,37 @@
-//! Parameters that undetermined directions tie together, and what is determined of them.
+//! Parameters that undetermined directions connect, and their determined combinations.
 
 use crate::network::combination::{CombinationKind, combinations};
 
 /// A parameter takes part in an undetermined direction if its share of it is larger than this.
 const SHARE: f64 = 1e-4;
 
-/// A displacement along an undetermined direction may change the residuals by this part of what it
-/// would do to them if its parameters were determined.
+/// A displacement along an undetermined direction may change the residuals by this part of the
+/// change that it would cause if its parameters were determined.
 const UNCHANGED: f64 = 1e-2;
 
-/// How far the parameters are moved to see whether a direction stays undetermined: a change of a
-/// logarithm.
+/// Distance by which the parameters are moved to check that a direction stays undetermined: a
+/// change of a logarithm.
 const MOVED: f64 = 0.2;
 
-/// A combination of parameters that is determined where they are not.
+/// A combination of parameters that is determined although they are not.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Combination {
-    /// Whether it is a product or a sum.
+    /// Product or sum.
     pub kind: CombinationKind,
-    /// Place among the varied parameters, and exponent or factor.
+    /// Index among the varied parameters, and exponent or factor.
     pub terms: Vec<(usize, i32)>,
     /// Its value in SI units.
     pub value: f64,
 }
 
-/// Parameters that cannot be told from each other.
+/// Parameters that cannot be distinguished from each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unseparated {
-    /// Their places among the varied parameters.
+    /// Their indices among the varied parameters.
     pub parameters: Vec<usize>,
-    /// How many more of them have to be known from elsewhere.
+    /// Number of them that have to be known from elsewhere.
     pub missing: usize,
-    /// What is determined of them; `None` if that is not a simple product or sum.
+    /// Their determined combinations; `None` if these are not simple products or sums.
     pub determined: Option<Vec<Combination>>,
     /// Changes, in SI units, that leave every column as it is to first order: one list for each
     /// missing one.
@@ -39,7 +39,7 @@ pub struct Unseparated {
 }
 
 impl Unseparated {
-    /// Parameters that, were they known, would let the others be told apart.
+    /// Parameters that would make the others distinguishable if they were known.
     pub(crate) fn held(&self) -> Vec<usize> {
         let only = |k: usize, c: usize| {
             (0..self.directions.len())
@@ -51,18 +51,18 @@ impl Unseparated {
     }
 }
 
-/// Where the parameters stand.
+/// State of the parameters.
 pub(crate) struct Place<'a> {
     /// Derivatives of the residuals by the parameters, one parameter after the other.
     pub(crate) jacobian: &'a [f64],
     /// Values in SI units.
     pub(crate) values: &'a [f64],
-    /// In units of which each is seen; its value where that is about its logarithm.
+    /// Unit of each parameter; its value if it counts as its logarithm.
     pub(crate) scales: &'a [f64],
-    /// Singular values and columns below this part of the largest count as 0: derivatives are as
-    /// accurate as that and no more.
+    /// Singular values and columns below this part of the largest count as 0: derivatives are not
+    /// more accurate.
     pub(crate) accuracy: f64,
-    /// Whether parameters `i` and `j` can be added.
+    /// True if parameters `i` and `j` can be added.
     pub(crate) addable: &'a dyn Fn(usize, usize) -> bool,
 }
 
@@ -72,8 +72,7 @@ impl Place<'_> {
     }
 }
 
-/// Parameters that undetermined directions tie together, with those directions in scaled
-/// parameters.
+/// Parameters that undetermined directions connect, with those directions in scaled parameters.
 pub(crate) struct Group {
     members: Vec<usize>,
     directions: Vec<Vec<f64>>,
@@ -104,8 +103,8 @@ pub(crate) fn groups(felt: &[usize], unseen: &[Vec<f64>]) -> Vec<Group> {
     groups
 }
 
-/// A basis of what some directions span, reduced: each has a 1 where the others have a 0. Parts of
-/// directions below [`SHARE`] are nothing.
+/// A reduced basis of the span of some directions: each has a 1 at the place of a 0 in the others.
+/// Parts of directions below [`SHARE`] count as 0.
 fn basis(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let columns = rows.first().map_or(0, Vec::len);
     let mut found: Vec<Vec<f64>> = Vec::new();
@@ -136,7 +135,7 @@ fn basis(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
 }
 
 impl Group {
-    /// What is determined of the group, in words if a product or a sum of whole numbers says it.
+    /// The determined combinations of the group, if these are products or sums of whole numbers.
     pub(crate) fn named(
         self,
         place: &Place<'_>,
@@ -178,8 +177,8 @@ impl Group {
         }
     }
 
-    /// The parameters moved along a direction, as far as their combinations of this kind stay the
-    /// same exactly.
+    /// The parameters moved along a direction so that their combinations of this kind stay exactly
+    /// the same.
     fn moved(
         &self,
         place: &Place<'_>,
@@ -198,7 +197,7 @@ impl Group {
         values.iter().all(|v| v.is_finite()).then_some(values)
     }
 
-    /// What moving the parameters one by one would do to the residuals.
+    /// Expected change of the residuals if the parameters were moved one by one.
     fn expected(&self, direction: &[f64], length: &dyn Fn(usize) -> f64) -> f64 {
         let largest = direction.iter().fold(0.0, |most: f64, d| most.max(d.abs()));
         let each = self

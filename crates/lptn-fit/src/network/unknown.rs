@@ -11,26 +11,26 @@ use lptn_units::{Dimension, Distribution, Type};
 
 use crate::network::task::{Instrument, NetworkFitTask};
 
-/// What an unknown is a value of.
+/// Quantity of an unknown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnknownOf {
     /// A parameter of the network.
     Parameter(ParameterId),
-    /// The offset of a sensor, by its place in the task: of all records, or of one.
+    /// The offset of a sensor, by its index in the task: for all records, or for one.
     Offset {
-        /// Place of the sensor.
+        /// Index of the sensor.
         sensor: usize,
-        /// Place of the record.
+        /// Index of the record.
         run: Option<usize>,
     },
     /// The gain of a sensor.
     Gain {
-        /// Place of the sensor.
+        /// Index of the sensor.
         sensor: usize,
     },
     /// The time constant of a sensor.
     Lag {
-        /// Place of the sensor.
+        /// Index of the sensor.
         sensor: usize,
     },
 }
@@ -38,17 +38,17 @@ pub enum UnknownOf {
 /// A number to find, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Unknown {
-    /// What it is a value of.
+    /// Its quantity.
     pub of: UnknownOf,
     /// Its name: a parameter's, or `tc1.offset`.
     pub name: String,
-    /// Its own value, where a search begins and what is known of it beforehand.
+    /// Its own value: the start of a search, and the prior value.
     pub own: f64,
     /// Its least and its greatest value.
     pub bounds: (f64, f64),
-    /// Standard deviation of what is known beforehand.
+    /// Prior standard deviation.
     pub prior: Option<f64>,
-    /// How that is distributed: a rectangle counts as normal with its standard deviation.
+    /// Distribution of the prior: a rectangle counts as normal with its standard deviation.
     pub distribution: Distribution,
     /// Its type.
     pub ty: Type,
@@ -63,7 +63,7 @@ impl Unknown {
         }
     }
 
-    /// The record that it alone concerns.
+    /// The only record that it concerns, if there is one.
     pub fn run(&self) -> Option<usize> {
         match self.of {
             UnknownOf::Offset { run, .. } => run,
@@ -71,7 +71,7 @@ impl Unknown {
         }
     }
 
-    /// The place of the sensor, if it is a value of one.
+    /// The index of the sensor, if it is a value of one.
     pub fn sensor(&self) -> Option<usize> {
         match self.of {
             UnknownOf::Parameter(_) => None,
@@ -81,15 +81,15 @@ impl Unknown {
         }
     }
 
-    /// Whether its zero says nothing, so that it is never seen as a logarithm.
+    /// True if its zero has no meaning, so that it never counts as a logarithm.
     pub fn is_shift(&self) -> bool {
         self.ty.absolute || matches!(self.of, UnknownOf::Offset { .. })
     }
 }
 
 impl NetworkFitTask {
-    /// What the fit finds: the varied parameters, then what is not known of the sensors that its
-    /// columns name, sensor by sensor.
+    /// The unknowns of the fit: the varied parameters, then the unknown values of the sensors that
+    /// its records use, sensor by sensor.
     pub fn unknowns(&self) -> Vec<Unknown> {
         let parameter = |varied: &lptn_network::Varied| {
             let parameter = &self.network.parameters()[varied.parameter.index()];

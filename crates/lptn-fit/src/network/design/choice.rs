@@ -1,10 +1,10 @@
-//! Which sensors and runs to take: what reaches all for the least cost.
+//! Choice of sensors and runs: those that reach all targets at the least cost.
 
 use crate::network::design::information::Information;
 use crate::network::design::sets::BestSet;
 use crate::network::design::space::{Leg, Score, Space};
 
-/// Runs of one design, at most.
+/// Largest number of runs of one design.
 pub const MOST_LEGS: usize = 8;
 
 /// A design.
@@ -25,8 +25,8 @@ impl Choice {
         Self { places: places.to_vec(), legs, score, cost, seconds }
     }
 
-    /// What reaches all before what does not; then the cheaper, the one with fewer sensors, the
-    /// shorter. Of what does not, what leads further.
+    /// Designs that reach all targets come first: the cheaper, the one with fewer sensors, the
+    /// shorter. Among the others, the one that leads further comes first.
     fn is_before(&self, other: &Self) -> bool {
         let price = |choice: &Self| (choice.cost, choice.places.len() as f64, choice.seconds);
         match (self.score.is_reached(), other.score.is_reached()) {
@@ -37,8 +37,8 @@ impl Choice {
     }
 }
 
-/// The best design: of one run, as short as it can be, with any of the sets; where none reaches
-/// all, of several runs with the best sets, each time the run that tells most.
+/// The best design of one run, as short as possible, with any of the sets. If none reaches all
+/// targets, several runs with the best sets, each time the most informative run.
 pub(super) fn choose(
     space: &Space<'_>,
     (best, sets): (&[BestSet], &[Vec<usize>]),
@@ -50,7 +50,7 @@ pub(super) fn choose(
     single.or_else(|| first(best.iter().filter_map(|set| several(space, &set.places)).collect()))
 }
 
-/// Designs of one run, or of none where all is known already.
+/// Designs of one run, or of none if all targets are reached already.
 fn single(space: &Space<'_>, places: &[usize]) -> Vec<Choice> {
     let base = space.base(places);
     let score = space.score(&base);
@@ -76,8 +76,8 @@ fn reached(
     (all, score)
 }
 
-/// One run after the other until all is reached, then each as short as it can be; or until a further
-/// one does not lead further, or the budget is used up.
+/// One run after the other until all targets are reached, then each as short as possible. Ends if a
+/// further run does not lead further, or the budget is used up.
 fn several(space: &Space<'_>, places: &[usize]) -> Option<Choice> {
     let mut base = space.base(places);
     let mut left = space.task.budget - space.cost_of_places(places);
@@ -119,7 +119,7 @@ fn together(space: &Space<'_>, places: &[usize], legs: &[Leg]) -> Information {
     all
 }
 
-/// Runs that are all cut to the least part of themselves with which all is reached.
+/// Runs that are all cut to the least part of themselves that reaches all targets.
 fn evenly(space: &Space<'_>, places: &[usize], legs: &[Leg]) -> Vec<Leg> {
     const PARTS: usize = 50;
     let cut = |part: usize| -> Vec<Leg> {
@@ -135,7 +135,7 @@ fn evenly(space: &Space<'_>, places: &[usize], legs: &[Leg]) -> Vec<Leg> {
     (1..PARTS).find(is_enough).map_or_else(|| legs.to_vec(), cut)
 }
 
-/// Each run as short as it can be beside the others, in this order; one that is not needed is left
+/// Each run as short as possible next to the others, in this order; one that is not needed is left
 /// out.
 fn one_by_one(space: &Space<'_>, places: &[usize], (legs, order): (&[Leg], &[usize])) -> Vec<Leg> {
     let mut now: Vec<Option<Leg>> = legs.iter().copied().map(Some).collect();

@@ -1,4 +1,4 @@
-//! Why a measurement cannot be planned.
+//! Reasons why a measurement cannot be planned.
 
 use lptn_solve::SensitiveError;
 use lptn_units::{Class, EvalError};
@@ -6,8 +6,8 @@ use lptn_units::{Class, EvalError};
 use crate::network::error::NetworkFitError;
 
 lptn_units::errors! {
-/// Why a measurement cannot be planned. That nothing reaches what shall be known is an answer and
-/// not an error.
+/// Reasons why a measurement cannot be planned. If nothing reaches the targets, that is an answer
+/// and not an error.
 #[derive(Debug)]
 pub enum DesignError {
     /// A run that could be measured fails.
@@ -18,17 +18,17 @@ pub enum DesignError {
             SensitiveError::Run(_) => Class::Numbers,
             _ => Class::Input,
         };
-    /// The records of a fit that are there already cannot be fitted.
+    /// The existing records of a fit cannot be fitted.
     Given { fit: String, error: Box<NetworkFitError> } = error.code(),
         format!("fit `{fit}`: {error}"),
         source error.as_ref(),
         class error.class();
-    /// They can, but no minimum is found.
+    /// The fit of existing records finds no minimum.
     NotConverged { fit: String } = "plan::given",
         format!("fit `{fit}`, whose records exist already, does not converge"),
         help format!("`lptn fit network` reports more; without it, leave `{fit}` out of `given`");
-    /// What is sought, by the plan or by a fit whose records are there already, is set by one of the
-    /// runs or records.
+    /// A parameter to be estimated, by the plan or by a fit of existing records, is set by one of
+    /// the runs or records.
     Set { parameter: String, by: String } = "plan::given_set",
         format!("`{parameter}` is to be estimated, but {by} sets it"),
         help format!(
@@ -37,9 +37,9 @@ pub enum DesignError {
         );
     /// A number of the study has no value.
     Numbers => EvalError;
-    /// What is measured at a place cannot be.
+    /// The result at a place cannot be measured.
     Place => NetworkFitError;
-    /// It was interrupted.
+    /// The plan was interrupted.
     Interrupted = "run::interrupted", "the plan was interrupted", class Class::Interrupted;
 }
 }

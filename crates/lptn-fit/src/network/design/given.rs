@@ -1,4 +1,4 @@
-//! Records that are there already.
+//! Existing records.
 
 use lptn_netlist::{Netlist, PlanStudy};
 use lptn_network::ParameterId;
@@ -9,26 +9,26 @@ use crate::network::fit_network_observed;
 use crate::network::fitted::{ColumnMisfit, NetworkFit};
 use crate::network::task::{FitObserver, MeasuredRun, NetworkFitTask};
 
-/// The fit of records that are there already.
+/// The fit of existing records.
 #[derive(Clone, Debug)]
 pub struct GivenFit {
     /// Its name.
     pub name: String,
-    /// What was fitted.
+    /// Task of the fit.
     pub task: NetworkFitTask,
-    /// What came of it.
+    /// Result of the fit.
     pub fit: NetworkFit,
 }
 
-/// The records of fits, and what they tell.
+/// The records of fits, and their results.
 #[derive(Default)]
 pub(super) struct Given {
     pub(super) fits: Vec<GivenFit>,
     pub(super) runs: Vec<MeasuredRun>,
-    /// For each column of each record the variance that its residuals leave in what all of them
-    /// have in common, over that of independent ones of its weight.
+    /// For each column of each record the variance of the mean of its residuals, over that of
+    /// independent ones of its weight.
     pub(super) factors: Vec<Vec<f64>>,
-    /// What was fitted, in SI units; a later fit counts.
+    /// Fitted values in SI units; those of a later fit count.
     pub(super) values: Vec<(ParameterId, f64)>,
 }
 
@@ -70,7 +70,7 @@ fn factors(task: &NetworkFitTask, fit: &NetworkFit) -> Vec<Vec<f64>> {
     factors
 }
 
-/// Residuals that follow each other tell less than as many independent ones.
+/// Correlated residuals have less information than as many independent ones.
 fn factor(misfit: &ColumnMisfit, weight: f64) -> f64 {
     let fewer = misfit.samples as f64 / misfit.effective.max(1.0);
     (misfit.rms / weight).powi(2) * fewer

@@ -1,4 +1,4 @@
-//! What rows of a planned record tell of the unknowns.
+//! Information in rows of a planned record about the unknowns.
 
 use faer::{Mat, MatRef};
 use lptn_integrate::dense;
@@ -10,10 +10,10 @@ use crate::noise::Tied;
 /// as its root.
 const NOTHING: f64 = 1e-12;
 
-/// What least squares makes of some rows: with derivatives `x` over the standard deviation of a
-/// value, the sum of `x x^T` (Fisher's information, where values are independent) and that of
-/// `x Omega x^T` with their correlation Omega. The covariance of a fit is
-/// `bread^-1 middle bread^-1`. Both add up over rows, sensors and runs.
+/// Sums of least squares over some rows. With derivatives `x` over the standard deviation of a
+/// value, they are the sum of `x x^T` (Fisher's information, if values are independent) and that of
+/// `x Omega x^T` with their correlation Omega. The covariance of a fit is `bread^-1 middle
+/// bread^-1`. Both add up over rows, sensors and runs.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Information {
     pub(super) count: usize,
@@ -33,21 +33,21 @@ impl Information {
         sum(&mut self.middle, &other.middle);
     }
 
-    /// What is known of one unknown beforehand, to this standard deviation.
+    /// Adds prior knowledge of one unknown, to this standard deviation.
     pub(super) fn add_prior(&mut self, unknown: usize, deviation: f64) {
         let at = unknown * self.count + unknown;
         self.bread[at] += deviation.powi(-2);
         self.middle[at] += deviation.powi(-2);
     }
 
-    /// So many equal rows, in units of the error that their mean has.
+    /// Adds a row several times, in units of the error that their mean has.
     pub(crate) fn add_row(&mut self, x: &[f64], times: f64) {
         add_product(&mut self.bread, x, times);
         add_product(&mut self.middle, x, times);
     }
 
-    /// Without the last unknowns, which are sought too but concern nothing else: least squares of
-    /// the first `count` alone tells the same. Those that nothing is known of are not there.
+    /// Eliminates the last unknowns, which are estimated too but concern nothing else. Least
+    /// squares of the first `count` alone gives the same. Unknowns without information are dropped.
     pub(super) fn without_last(&self, count: usize) -> Self {
         let mut left = self.clone();
         while left.count > count {
@@ -73,24 +73,24 @@ impl Information {
         left
     }
 
-    /// The covariance of what a fit finds.
+    /// The covariance of the fitted values.
     pub(crate) fn covariance(&self) -> Found {
         let (inverse, unknown) = inverse(&self.bread, self.count);
         Found { covariance: inverse.sandwich(&self.middle), inverse, unknown }
     }
 
-    /// The standard errors of a fit; infinite where one is not determined.
+    /// The standard errors of a fit; infinite if one is not determined.
     pub(super) fn errors(&self) -> Vec<f64> {
         let covariance = self.covariance();
         (0..self.count).map(|i| covariance.error(i)).collect()
     }
 }
 
-/// The covariance of what a fit finds, and what it does not find.
+/// The covariance of the fitted values, and the unknowns that are not determined.
 #[derive(Clone, Debug)]
 pub(crate) struct Found {
     covariance: Covariance,
-    /// Of the information, where it has one.
+    /// Inverse of the information, if it has one.
     inverse: Covariance,
     /// Unknowns that are not determined.
     unknown: Vec<bool>,
@@ -104,18 +104,18 @@ impl Found {
         at(&self.covariance, i, i).max(0.0).sqrt()
     }
 
-    /// By how much an unknown moves where so much is pulled at all of them, the sum of `x r` over
-    /// rows that change by r; `None` where it is not determined.
+    /// Movement of an unknown by a pull at all of them, the sum of `x r` over rows that change by
+    /// r; `None` if it is not determined.
     pub(crate) fn moved(&self, i: usize, pull: &[f64]) -> Option<f64> {
         let by = (0..pull.len()).map(|k| at(&self.inverse, i, k) * pull[k]).sum();
         (!self.unknown[i]).then_some(by)
     }
 
-    /// The part of the variance of one unknown that comes from what `known` says of another
-    /// beforehand. The fit moves by `w` for each unit that the value known beforehand moves, with
-    /// `w = A^-1 Lambda` of its information Lambda, and the covariance of that value with the fitted
-    /// one is `A^-1`: of correlated ones a share is this product (J. W. Pratt, Proc. 2nd Int. Tampere
-    /// Conf. Statistics (1987) 245), of one alone `(A^-1 / deviation)^2`.
+    /// The part of the variance of one unknown that comes from the prior `known` of another. The
+    /// fit moves by `w` for each unit that the prior value moves, with `w = A^-1 Lambda` of its
+    /// information Lambda. The covariance of that value with the fitted one is `A^-1`. A share of
+    /// correlated ones is this product (J. W. Pratt, Proc. 2nd Int. Tampere Conf. Statistics (1987)
+    /// 245), of one alone `(A^-1 / deviation)^2`.
     pub(super) fn share(&self, i: usize, (of, known): (usize, &Information)) -> f64 {
         let n = known.count;
         let weight: f64 = (0..n).map(|k| at(&self.inverse, i, k) * known.bread[k * n + of]).sum();
@@ -127,8 +127,8 @@ fn at(covariance: &Covariance, i: usize, j: usize) -> f64 {
     covariance.values[i * covariance.parameters.len() + j]
 }
 
-/// The inverse of a symmetric matrix that is not negative, and which of its unknowns are not
-/// determined: of them it says nothing.
+/// The inverse of a symmetric matrix that is not negative, and its unknowns that are not
+/// determined, for which the inverse has no meaning.
 fn inverse(a: &[f64], n: usize) -> (Covariance, Vec<bool>) {
     let scale: Vec<f64> = (0..n).map(|i| a[i * n + i].max(0.0).sqrt()).collect();
     let felt: Vec<usize> = (0..n).filter(|&i| scale[i] > 0.0).collect();
@@ -148,9 +148,9 @@ fn inverse(a: &[f64], n: usize) -> (Covariance, Vec<bool>) {
     (Covariance { parameters: (0..n).collect(), values }, unknown)
 }
 
-/// The inverse of a matrix with ones in its diagonal; `None` where it is close to singular.
+/// The inverse of a matrix with ones in its diagonal; `None` if it is close to singular.
 fn by_cholesky(a: MatRef<'_, f64>) -> Option<Mat<f64>> {
-    /// Below the root of this pivot eigenvalues have to tell.
+    /// If the square of a root is below this, eigenvalues decide.
     const SMALL: f64 = 1e-9;
     let roots = dense::cholesky_diagonal(a)?;
     let one = Mat::identity(a.nrows(), a.nrows());
@@ -158,7 +158,7 @@ fn by_cholesky(a: MatRef<'_, f64>) -> Option<Mat<f64>> {
     regular.then(|| dense::cholesky_solve(a, one.as_ref()))?
 }
 
-/// The inverse on what is determined, and which unknowns take part in what is not.
+/// The inverse on the determined directions, and the unknowns that take part in the others.
 fn by_eigenvalues(a: MatRef<'_, f64>) -> (Mat<f64>, Vec<bool>) {
     /// An unknown takes part in an undetermined direction if its share of it is larger than this.
     const SHARE: f64 = 1e-4;
@@ -183,12 +183,12 @@ pub(super) struct RowSum {
     tied: Tied,
     /// The share of the correlated part of the variance that is left after one row.
     decay: f64,
-    /// The variance of the noise over that by which values are weighed.
+    /// The variance of the noise over that of the weight of the values.
     variance: f64,
 }
 
 impl RowSum {
-    /// No row so far, of noise whose variance has so large a `correlated` part.
+    /// The sum before the first row, for noise with this `correlated` part of its variance.
     pub(super) fn new(count: usize, (correlated, decay): (f64, f64), variance: f64) -> Self {
         let (sum, tied) = (Information::none(count), Tied::new(count, correlated));
         Self { sum, tied, decay, variance }
@@ -220,13 +220,13 @@ mod tests {
         sum.sum
     }
 
-    /// Of a straight line through n values of variance 1 the slope has 12 / (n (n^2 - 1)).
+    /// The slope of a straight line through n values of variance 1 has 12 / (n (n^2 - 1)).
     #[test]
     fn analytic_slope_of_a_straight_line() {
         let errors = line(10).errors();
         assert!((errors[1].powi(2) - 12.0 / 990.0).abs() < 1e-15);
         assert!((errors[0].powi(2) - 2.0 * 19.0 / 110.0).abs() < 1e-14);
-        // an unknown that is left out is one that was fitted
+        // an unknown that is eliminated counts as fitted
         let mut turned = RowSum::new(2, WHITE, 1.0);
         (0..10).for_each(|k| turned.add(&[f64::from(k), 1.0]));
         let alone = turned.sum.without_last(1).errors();

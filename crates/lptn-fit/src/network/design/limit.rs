@@ -1,4 +1,4 @@
-//! What errors fall to if the runs of a design last for ever.
+//! Limits of the errors if the runs of a design never end.
 
 use crate::network::design::error::DesignError;
 use crate::network::design::information::Information;
@@ -6,20 +6,21 @@ use crate::network::design::sensitive::{DesignObserver, row_of};
 use crate::network::design::space::Space;
 use crate::network::task::{MeasuredColumn, MeasuredRun};
 
-/// So many times as long runs are looked at.
+/// Factor on the length of the runs that are evaluated.
 const LONGER: f64 = 100.0;
 
-/// Rows behind the end of a run that are looked at; each stands for those up to the next.
+/// Number of rows after the end of a run; each represents those up to the next.
 const ROWS: usize = 2000;
 
-/// An error that is below this part of what so long runs leave has no limit but 0.
+/// An error that is below this part of that after such long runs has no limit but 0.
 const NONE: f64 = 0.05;
 
-/// For each unknown the limit of its standard error as the runs of a design last longer and
-/// longer, at most what they tell now; 0 where it falls on and on. `base` is what is known besides.
+/// For each unknown the limit of its standard error as the runs of a design last longer and longer,
+/// at most its value `now`; 0 if it keeps falling. `base` is the other knowledge.
 ///
-/// Behind its end a run tells more and more of what it then stays at, and no more of anything else:
-/// the variance falls to its limit as 1/t, so those of half the time and of all of it tell that.
+/// After its end a run informs more and more about its final state, and about nothing else. The
+/// variance falls to its limit as 1/t, so its values at half the time and at all of it give the
+/// limit.
 pub(super) fn limits(
     space: &Space<'_>,
     (places, runs): (&[usize], &[(usize, usize)]),
@@ -43,7 +44,7 @@ pub(super) fn limits(
     Ok(half.iter().zip(&whole).zip(now).map(limit).collect())
 }
 
-/// What a run of so many samples tells if it goes on, half as long and as long as is looked at.
+/// Information of a run of some samples that goes on, at half and at all of the evaluated length.
 fn longer(
     space: &Space<'_>,
     places: &[usize],
@@ -69,7 +70,7 @@ fn longer(
     Ok(sums.map(|sum| space.settled(run, sum)))
 }
 
-/// The rows of a record behind its end.
+/// The rows of a record after its end.
 fn go_on(run: &mut MeasuredRun, (end, apart): (f64, f64)) {
     run.times = (1..=ROWS).map(|k| end + k as f64 * apart).collect();
     let zeros = |column: &mut MeasuredColumn| column.values = vec![0.0; ROWS];

@@ -1,18 +1,18 @@
-//! Which measurement tells parameters of a network to a given error, before anything is measured.
+//! Choice of a measurement that determines parameters of a network to a given error.
 //!
-//! What a record tells of its unknowns follows from the derivatives of its temperatures alone:
-//! Fisher's information is the sum of `x x^T` over its rows, `x` being the derivatives of a row over
-//! the standard deviation of its value. It adds up over rows, sensors and runs, so each run is
-//! computed once, and every set of sensors and every length is a sum. The error that is predicted
-//! is that of the fit of [`crate::network`], which takes values as independent: `A^-1 M A^-1` with
+//! The information of a record about its unknowns follows from the derivatives of its temperatures
+//! alone. Fisher's information is the sum of `x x^T` over its rows, `x` being the derivatives of a
+//! row over the standard deviation of its value. It adds up over rows, sensors and runs, so each
+//! run is computed once, and every set of sensors and every length is a sum. The predicted error is
+//! that of the fit of [`crate::network`], which takes values as independent: `A^-1 M A^-1` with
 //! that sum `A` and the same sum `M` under the correlation of the noise (see [`crate::noise`]).
-//! Values of a sensor that drifts are weighed by what many of them leave of it
+//! Values of a drifting sensor are weighted by the drift that many of them retain
 //! ([`DesignPlace::weight`]).
 //!
-//! Sensors are chosen out of every set ([`MOST_PLACES`] places at most; beyond, by exchange), runs
-//! one after the other, each time the one that leads furthest: where the largest error is least,
-//! over what it may be. The problem is that of V. V. Fedorov, Theory of Optimal Experiments, 1972;
-//! A. C. Atkinson, A. N. Donev, R. D. Tobias, Optimum Experimental Designs, with SAS, 2007.
+//! Sensors are chosen from every set ([`MOST_PLACES`] places at most; beyond, by exchange), runs
+//! one after the other: each time the one with the least largest error over its target. The problem
+//! is that of V. V. Fedorov, Theory of Optimal Experiments, 1972; A. C. Atkinson, A. N. Donev, R.
+//! D. Tobias, Optimum Experimental Designs, with SAS, 2007.
 //!
 //! A plan predicts the fit that will be made, not the best possible one. Each run is computed once,
 //! at some 50 lengths; only the length in the answer is found row by row. The offset of a single
@@ -52,62 +52,62 @@ use crate::network::identify::Identifiability;
 use crate::network::model::Model;
 use crate::network::unknown::Unknown;
 
-/// Rows of a run that are looked at to see what no record tells.
+/// Number of rows of a run in the search for unknowns that no record determines.
 const FEW_ROWS: usize = 150;
 
-/// What is best measured, and what it tells. Errors are standard errors, one for each of
-/// [`DesignTask::unknowns`] in its SI unit, infinite where nothing determines it.
+/// The best measurement, and its errors. Errors are standard errors, one for each of
+/// [`DesignTask::unknowns`] in its SI unit, infinite if nothing determines it.
 #[derive(Clone, Debug)]
 pub struct Design {
-    /// What is known before: by `±`, and by the records that are there already.
+    /// Errors before the measurement: by `±`, and by existing records.
     pub before: Vec<f64>,
     /// The best set for each number of places, the smallest first.
     pub sets: Vec<DesignSet>,
-    /// How these were found.
+    /// Search for these sets.
     pub searched: Searched,
-    /// What is best measured; none where the budget has room for no run, and where something that
-    /// shall be known is never determined.
+    /// The best measurement; none if the budget has room for no run, or if a target is never
+    /// determined.
     pub plan: Option<DesignPlan>,
     /// Each run as the next one, with sensors at the places of the plan; the best first.
     pub next: Vec<NextRun>,
-    /// Errors of the plan over the time that is measured, in s; its last run goes on to its end.
+    /// Errors of the plan over the measured time, in s; its last run goes on to its end.
     pub curve: Vec<(f64, Vec<f64>)>,
-    /// What sensors at every place and all runs together do not determine.
+    /// Unknowns that sensors at every place and all runs together do not determine.
     pub never: Option<Never>,
-    /// Whether derivatives are exact, and not differences of runs.
+    /// True if derivatives are exact, and not differences of runs.
     pub exact: bool,
 }
 
-/// The best set of so many places.
+/// The best set with a number of places.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DesignSet {
     /// The places.
     pub places: Vec<usize>,
-    /// The run that tells most with them, and how many samples of it the budget has room for.
+    /// The most informative run with them, and the number of its samples that the budget allows.
     pub run: Option<(usize, usize)>,
-    /// What it tells.
+    /// Errors after it.
     pub errors: Vec<f64>,
-    /// After how many samples all is known that shall be; about, a length that was looked at.
+    /// Number of samples that reaches all targets; about, an evaluated length.
     pub enough: Option<usize>,
 }
 
-/// What is best measured.
+/// The best measurement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DesignPlan {
-    /// Where sensors are.
+    /// Places of the sensors.
     pub places: Vec<usize>,
     /// The runs, with their samples.
     pub runs: Vec<(usize, usize)>,
-    /// What they tell.
+    /// Errors after them.
     pub errors: Vec<f64>,
-    /// Whether all is known that shall be.
+    /// True if all targets are reached.
     pub reached: bool,
-    /// What sensors and runs cost.
+    /// Cost of sensors and runs.
     pub cost: f64,
-    /// For each unknown the one of whose `±` most of its variance comes, and that part of it.
+    /// For each unknown the one whose `±` causes most of its variance, and that part of it.
     pub causes: Vec<Option<(usize, f64)>>,
-    /// To what its error falls if the runs last longer and longer; 0 where it falls on and on. None
-    /// where such runs fail.
+    /// Limit of each error if the runs last longer and longer; 0 if it keeps falling. None if such
+    /// runs fail.
     pub limits: Option<Vec<f64>>,
 }
 
@@ -116,30 +116,30 @@ pub struct DesignPlan {
 pub struct NextRun {
     /// The run, and its samples.
     pub run: (usize, usize),
-    /// What it tells.
+    /// Errors after it.
     pub errors: Vec<f64>,
-    /// After how many samples all is known that shall be; about, a length that was looked at.
+    /// Number of samples that reaches all targets; about, an evaluated length.
     pub enough: Option<usize>,
-    /// What it costs, without sensors.
+    /// Its cost, without sensors.
     pub cost: f64,
 }
 
-/// What no record of the runs tells, however long.
+/// Unknowns that no record of the runs determines, however long.
 #[derive(Clone, Debug)]
 pub struct Never {
-    /// Everything that is sought; the offsets of single records are among it.
+    /// All estimated unknowns; the offsets of single records are among them.
     pub unknowns: Vec<Unknown>,
-    /// Its values.
+    /// Their values.
     pub values: Vec<f64>,
-    /// What is determined.
+    /// Their identifiability.
     pub told: Identifiability,
 }
 
 /// Plans a measurement.
 ///
 /// # Errors
-/// [`DesignError`] where a run fails or is interrupted. That nothing reaches what shall be known is
-/// an answer.
+/// [`DesignError`] if a run fails or is interrupted. If nothing reaches the targets, that is an
+/// answer.
 pub fn design(task: &DesignTask, observer: &DesignObserver<'_>) -> Result<Design, DesignError> {
     let space = Space::new(task, observer)?;
     let (best, sets, searched) = best_sets(&space);
@@ -169,7 +169,7 @@ pub fn design(task: &DesignTask, observer: &DesignObserver<'_>) -> Result<Design
     Ok(design)
 }
 
-/// Whether something that shall be known is never determined.
+/// True if a target is never determined.
 fn is_lost(task: &DesignTask, never: Option<&Never>) -> bool {
     never.is_some_and(|never| {
         let lost = |known: &Known| !never.determines(&task.unknowns[known.unknown]);
@@ -178,7 +178,7 @@ fn is_lost(task: &DesignTask, never: Option<&Never>) -> bool {
 }
 
 impl Never {
-    /// Whether one of what is sought is determined.
+    /// True if an estimated unknown is determined.
     pub fn determines(&self, unknown: &Unknown) -> bool {
         let place = self.unknowns.iter().position(|own| own.of == unknown.of);
         place.is_some_and(|place| self.told.determines(place))
@@ -197,7 +197,7 @@ fn of_set(space: &Space<'_>, set: &BestSet) -> DesignSet {
     }
 }
 
-/// After how many samples of a run all is known that shall be; one where it is known already.
+/// Number of samples of a run that reaches all targets; 1 if they are reached already.
 fn enough(space: &Space<'_>, places: &[usize], (base, leg): (&Information, Leg)) -> Option<usize> {
     match space.score(base).is_reached() {
         true => Some(1),
@@ -221,7 +221,7 @@ fn next(space: &Space<'_>, places: &[usize]) -> Vec<NextRun> {
     all
 }
 
-/// What is known before the last run of a design, and that run.
+/// Information before the last run of a design, and that run.
 fn before_last(space: &Space<'_>, choice: &Choice) -> (Information, Option<Leg>) {
     let mut base = space.base(&choice.places);
     let [all @ .., last] = choice.legs.as_slice() else { return (base, None) };
@@ -266,7 +266,7 @@ fn plan(
     })
 }
 
-/// For each unknown the one of whose `±` most of its variance comes.
+/// For each unknown the one whose `±` causes most of its variance.
 fn causes(space: &Space<'_>, told: &Information) -> Vec<Option<(usize, f64)>> {
     let (covariance, known) = (told.covariance(), space.task.of_priors());
     let unknowns = space.task.unknowns.iter().enumerate();
@@ -282,7 +282,7 @@ fn causes(space: &Space<'_>, told: &Information) -> Vec<Option<(usize, f64)>> {
     (0..told.count).map(most).collect()
 }
 
-/// Errors over the time that is measured, run after run, the last one to its end.
+/// Errors over the measured time, run after run, the last one to its end.
 fn curve(space: &Space<'_>, choice: &Choice) -> Vec<(f64, Vec<f64>)> {
     let (mut base, mut begun) = (space.base(&choice.places), 0.0);
     let mut points = Vec::new();
@@ -301,7 +301,7 @@ fn curve(space: &Space<'_>, choice: &Choice) -> Vec<(f64, Vec<f64>)> {
     points
 }
 
-/// What sensors everywhere and every run together do not determine.
+/// Unknowns that sensors everywhere and every run together do not determine.
 fn never(space: &Space<'_>, observer: &DesignObserver<'_>) -> Result<Option<Never>, DesignError> {
     let (task, mut all) = (space.task, space.before.clone());
     let places: Vec<usize> = (0..task.places.len()).collect();

@@ -1,4 +1,4 @@
-//! The records that a plan would bring.
+//! The records that a plan would give.
 
 use lptn_solve::Proceed;
 
@@ -7,12 +7,11 @@ use crate::network::design::task::DesignTask;
 use crate::network::task::{MeasuredColumn, MeasuredRun, NetworkFitTask};
 
 impl DesignTask {
-    /// The fit of the records that runs of so many samples bring with sensors at some places, as
-    /// they are without noise, for the values of the unknowns. Noise added to them makes records to
-    /// try a plan with.
+    /// The fit of the records from runs of these samples with sensors at some places, without
+    /// noise, for the values of the unknowns. Noise added to them makes records to try a plan with.
     ///
     /// # Errors
-    /// [`DesignError`] where a run fails.
+    /// [`DesignError`] if a run fails.
     pub fn records(
         &self,
         (places, runs): (&[usize], &[(usize, usize)]),

@@ -1,4 +1,4 @@
-//! What each run tells, had once for every sensor and every length.
+//! Information of each run, computed once for every sensor and every length.
 
 use lptn_solve::{Gradient, Proceed, Progress, SensitiveError, in_parallel};
 
@@ -13,23 +13,23 @@ use crate::network::unknown::Unknown;
 /// Is called after every step of every run with the number of the run, and may interrupt them.
 pub type DesignObserver<'a> = dyn Fn(usize, Progress) -> Proceed + Sync + 'a;
 
-/// The runs have a tolerance of at most so much, in K.
+/// Largest tolerance of the runs, in K.
 const TOLERANCE: f64 = 1e-10;
 
-/// Lengths of a run that are looked at: so many at equal distances, and as many at equal ratios.
+/// Number of lengths of a run at equal distances, and of others at equal ratios.
 const LENGTHS: usize = 48;
 
-/// What one run tells at several lengths.
+/// Information of one run at several lengths.
 #[derive(Clone, Debug)]
 pub(super) struct RunInformation {
     /// Numbers of samples, ascending; the last is the whole run.
     pub(super) lengths: Vec<usize>,
-    /// For each place what it tells at each of these lengths: of all unknowns, then of those that
-    /// this record alone has.
+    /// For each place its information at each of these lengths: about all unknowns, then about
+    /// those that this record alone has.
     pub(super) places: Vec<Vec<Information>>,
-    /// Standard deviation of what is known beforehand of each of those, where there is one.
+    /// Prior standard deviation of each of those, if there is one.
     pub(super) own: Vec<Option<f64>>,
-    /// Whether the derivatives are exact, and not differences of runs.
+    /// True if the derivatives are exact, and not differences of runs.
     pub(super) exact: bool,
 }
 
@@ -41,12 +41,12 @@ pub(super) struct PlannedRecord {
 }
 
 impl PlannedRecord {
-    /// Derivatives of what a place reads in a row by all unknowns, over its standard deviation.
+    /// Derivatives of a place's reading in a row by all unknowns, over its standard deviation.
     pub(super) fn row(&self, place: usize, row: usize) -> Vec<f64> {
         row_of(&self.measure, &self.unknowns, place * self.rows + row)
     }
 
-    /// No row of a place so far.
+    /// The sum of a place before its first row.
     pub(super) fn begin(&self, place: &DesignPlace) -> RowSum {
         let noise = (place.correlated, place.decay);
         RowSum::new(self.unknowns.len(), noise, (place.deviation / place.weight()).powi(2))
@@ -58,7 +58,7 @@ impl PlannedRecord {
 }
 
 impl DesignTask {
-    /// What every run that could be measured tells.
+    /// Information of every run that could be measured.
     pub(super) fn informations(
         &self,
         observer: &DesignObserver<'_>,
@@ -103,7 +103,7 @@ impl DesignTask {
         Ok(PlannedRecord { unknowns: self.unknowns_of(at), rows, measure })
     }
 
-    /// What is known beforehand, of what is not another one in each record.
+    /// Prior knowledge of the unknowns that all records share.
     pub(super) fn of_priors(&self) -> Information {
         let mut all = Information::none(self.unknowns.len());
         let priors = Priors::of(&self.unknowns, &self.fit.correlations);
@@ -111,7 +111,7 @@ impl DesignTask {
         all
     }
 
-    /// What the records that are there already tell.
+    /// Information of the existing records.
     pub(super) fn of_given(
         &self,
         observer: &DesignObserver<'_>,
@@ -146,7 +146,7 @@ impl DesignTask {
         all
     }
 
-    /// Derivatives of what the columns of a record read by its unknowns, over their standard
+    /// Derivatives of the readings of a record's columns by its unknowns, over their standard
     /// deviations; `fit` is the task's own, or one with other rows.
     pub(super) fn measure(
         &self,
@@ -172,7 +172,7 @@ pub(super) fn row_of(measure: &Measure, unknowns: &[Unknown], row: usize) -> Vec
     (0..unknowns.len()).map(|i| measure.jacobian[i * rows + row]).collect()
 }
 
-/// Numbers of samples at which a run of so many is looked at.
+/// Numbers of samples at which a run of `samples` is evaluated.
 fn lengths(samples: usize) -> Vec<usize> {
     let ratio = (samples as f64).powf(1.0 / LENGTHS as f64);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "up to samples")]

@@ -1,32 +1,33 @@
-//! Which sensors: the best set for each number of them.
+//! Choice of sensors: the best set for each number of them.
 
 use lptn_solve::in_parallel;
 
 use crate::network::design::space::{Leg, Score, Space};
 
-/// Every set is looked at up to so many places; beyond, places are added one by one and exchanged.
+/// Largest number of places for which every set is evaluated; beyond, places are added and
+/// exchanged.
 pub const MOST_PLACES: usize = 10;
 
-/// The best set of so many places, judged by the best single run.
+/// The best set with a number of places, judged by the best single run.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct BestSet {
     pub(super) places: Vec<usize>,
-    /// That run; none where the budget has room for none.
+    /// Its run; none if the budget has room for none.
     pub(super) leg: Option<Leg>,
     pub(super) score: Score,
 }
 
-/// How the sets were found.
+/// Search for the sets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Searched {
-    /// How many sets were looked at.
+    /// Number of sets that were evaluated.
     pub sets: usize,
-    /// Whether those are all that there are.
+    /// True if those are all sets.
     pub all: bool,
 }
 
-/// The best set for each number of places, the smallest first; all sets that were looked at where
-/// those are all.
+/// The best set for each number of places, the smallest first, and the sets to choose from: all of
+/// them if all were evaluated.
 pub(super) fn best_sets(space: &Space<'_>) -> (Vec<BestSet>, Vec<Vec<usize>>, Searched) {
     let count = space.task.places.len();
     if count > MOST_PLACES {
@@ -47,7 +48,7 @@ pub(super) fn best_sets(space: &Space<'_>) -> (Vec<BestSet>, Vec<Vec<usize>>, Se
     (best.into_iter().flatten().collect(), all, searched)
 }
 
-/// Of two that lead equally far the cheaper one is better.
+/// If two lead equally far, the cheaper one is better.
 fn better(space: &Space<'_>, one: &BestSet, other: &BestSet) -> bool {
     let cost = |set: &BestSet| space.cost_of_places(&set.places);
     one.score < other.score || (one.score == other.score && cost(one) < cost(other))
@@ -60,8 +61,8 @@ fn judge(space: &Space<'_>, places: &[usize]) -> BestSet {
     BestSet { places: places.to_vec(), leg, score }
 }
 
-/// Adds the place that leads furthest, then takes another place for one of the set as long as that
-/// leads further (V. V. Fedorov, Theory of Optimal Experiments, 1972).
+/// Adds the place that leads furthest, then exchanges places of the set as long as that leads
+/// further (V. V. Fedorov, Theory of Optimal Experiments, 1972).
 fn exchanged(space: &Space<'_>, count: usize) -> (Vec<BestSet>, Vec<Vec<usize>>, Searched) {
     let (mut best, mut sets): (Vec<BestSet>, usize) = (Vec::new(), 0);
     let mut pick = |from: Vec<Vec<usize>>| {

@@ -1,19 +1,19 @@
-//! Everything that could be measured, and what it would tell.
+//! Possible measurements, and their information.
 
 use crate::network::design::error::DesignError;
 use crate::network::design::information::{Information, RowSum};
 use crate::network::design::sensitive::{DesignObserver, RunInformation};
 use crate::network::design::task::DesignTask;
 
-/// How far a design is from what shall be known: how many of it are not determined at all, and the
-/// largest error of the others, over what it may be.
+/// Distance of a design from its targets: the number of those that are not determined, and the
+/// largest error of the others over its target.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub(super) struct Score(usize, f64);
 
 impl Score {
     pub(super) const WORST: Self = Self(usize::MAX, f64::INFINITY);
 
-    /// Whether it is less than a percent better than another.
+    /// True if it is less than a percent better than another.
     pub(super) fn is_about(self, other: Self) -> bool {
         self.0 == other.0 && self.1 > 0.99 * other.1
     }
@@ -23,18 +23,18 @@ impl Score {
     }
 }
 
-/// A run of a design, and at how many of its lengths it ends.
+/// A run of a design, and the length at which it ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Leg {
     pub(super) run: usize,
-    /// Place among the lengths of the run.
+    /// Index among the lengths of the run.
     pub(super) length: usize,
 }
 
 pub(super) struct Space<'t> {
     pub(super) task: &'t DesignTask,
     pub(super) runs: Vec<RunInformation>,
-    /// What is known beforehand, by `±` and by the records that are there already.
+    /// Prior information, by `±` and by existing records.
     pub(super) before: Information,
 }
 
@@ -49,8 +49,8 @@ impl<'t> Space<'t> {
         Ok(Self { task, runs, before })
     }
 
-    /// What is known before the next run: by `±`, by the records that are there already, and by the
-    /// runs that are measured in any case, with sensors at these places.
+    /// Information before the next run: by `±`, by existing records, and by the runs that are
+    /// measured in any case, with sensors at these places.
     pub(super) fn base(&self, places: &[usize]) -> Information {
         let mut all = self.before.clone();
         let done = (0..self.runs.len()).filter(|&run| self.task.runs[run].done);
@@ -63,7 +63,7 @@ impl<'t> Space<'t> {
         Leg { run, length: self.runs[run].lengths.len() - 1 }
     }
 
-    /// What one run tells with sensors at these places.
+    /// Information of one run with sensors at these places.
     pub(super) fn tells(&self, places: &[usize], leg: Leg) -> Information {
         let of = |place: &usize| &self.runs[leg.run].places[*place][leg.length];
         let mut all = Information::none(of(&places[0]).count);
@@ -71,7 +71,7 @@ impl<'t> Space<'t> {
         self.settled(leg.run, all)
     }
 
-    /// Without the unknowns that a record of this run has for itself.
+    /// Eliminates the unknowns that only a record of this run has, with their priors.
     pub(super) fn settled(&self, run: usize, mut all: Information) -> Information {
         let shared = self.task.unknowns.len();
         for (i, own) in self.runs[run].own.iter().enumerate() {
@@ -99,7 +99,7 @@ impl<'t> Space<'t> {
         self.runs[leg.run].lengths[leg.length]
     }
 
-    /// What sensors at these places cost, and a run of so many samples.
+    /// Cost of sensors at these places.
     pub(super) fn cost_of_places(&self, places: &[usize]) -> f64 {
         places.iter().map(|&place| self.task.places[place].cost).sum()
     }
@@ -112,14 +112,14 @@ impl<'t> Space<'t> {
         self.cost_of_run(leg.run, self.samples(leg))
     }
 
-    /// The longest that a run may last for what is left of the budget.
+    /// The longest run that the rest of the budget allows.
     pub(super) fn longest(&self, run: usize, left: f64) -> Option<Leg> {
         let legs = (0..self.runs[run].lengths.len()).map(|length| Leg { run, length });
         legs.rev().find(|leg| self.cost_of(*leg) <= left)
     }
 
-    /// The shortest length of a run, up to this one, with which what shall be known is, beside what
-    /// is known before.
+    /// The shortest length of a run, up to this one, that reaches all targets together with the
+    /// information before.
     pub(super) fn shortest(
         &self,
         places: &[usize],
@@ -141,8 +141,8 @@ impl<'t> Space<'t> {
         Some(Leg { length: high, ..longest })
     }
 
-    /// The run that tells most beside what is known before, as long as it may last, and how far
-    /// it leads.
+    /// The most informative run in addition to the information before, as long as it may last, and
+    /// its score.
     pub(super) fn best_run(
         &self,
         places: &[usize],
@@ -157,7 +157,7 @@ impl<'t> Space<'t> {
         scored.reduce(|best, next| if next.1 < best.1 { next } else { best })
     }
 
-    /// What a run tells after so many samples, with the unknowns that its record has for itself.
+    /// Information of a run after some samples, with the unknowns that only its record has.
     pub(super) fn exactly(
         &self,
         places: &[usize],
@@ -177,7 +177,7 @@ impl<'t> Space<'t> {
         Ok(all.unwrap_or_else(|| Information::none(self.task.unknowns.len())))
     }
 
-    /// The fewest samples of a run with which what shall be known is: between those of two lengths.
+    /// The fewest samples of a run that reach all targets: between those of two lengths.
     pub(super) fn fewest(
         &self,
         places: &[usize],

@@ -1,4 +1,4 @@
-//! What a plan takes as exact although something is known of how far it may be off.
+//! Values that a plan takes as exact although they have an uncertainty.
 
 use crate::network::design::Design;
 use crate::network::design::error::DesignError;
@@ -8,9 +8,8 @@ use crate::network::task::NetworkFitTask;
 use crate::network::unknown::Unknown;
 
 impl DesignTask {
-    /// The parameters that are not sought although something is known of how far they may be off,
-    /// and what each moves in the fit of the records that are there and of those that are planned;
-    /// `None` where a run fails.
+    /// The parameters that are not estimated although they have an uncertainty, and the effect of
+    /// each on the fit of the existing and the planned records; `None` if a run fails.
     pub fn taken_as_exact(&self, design: &Design) -> (Vec<Off>, Option<Vec<Moved>>) {
         let Ok(task) = self.with_plan(design) else { return (self.fit.taken_as_exact(), None) };
         let off = task.taken_as_exact();
@@ -23,7 +22,7 @@ impl DesignTask {
         (off, moved)
     }
 
-    /// The records that are there and those of the plan; every run where there is none.
+    /// The existing records and those of the plan; every run if there is none.
     fn with_plan(&self, design: &Design) -> Result<NetworkFitTask, DesignError> {
         let (given, possible) = self.fit.runs.split_at(self.given());
         let planned = match &design.plan {

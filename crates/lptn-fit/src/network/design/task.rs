@@ -1,4 +1,4 @@
-//! From a `[plan.NAME]` of a netlist to what can be computed.
+//! Tasks from a `[plan.NAME]` of a netlist.
 
 use lptn_analysis::RunAnalysis;
 use lptn_netlist::{
@@ -18,37 +18,37 @@ use crate::network::unknown::Unknown;
 /// A measurement to plan.
 #[derive(Clone, Debug)]
 pub struct DesignTask {
-    /// The records that are there already, then one that could be for each run, with every place.
+    /// The existing records, then a possible one for each run, with every place.
     pub(super) fit: NetworkFitTask,
-    /// For each column of the records that are there the variance that its residuals leave in what
-    /// all of them have in common, over that of independent ones of its weight.
+    /// For each column of the existing records the variance of the mean of its residuals, over that
+    /// of independent ones of its weight.
     pub(super) factors: Vec<Vec<f64>>,
-    /// The fits of the records that are there.
+    /// The fits of the existing records.
     pub given_fits: Vec<GivenFit>,
-    /// What is not known: parameters, then values of sensors that are those of every record.
+    /// The unknowns: parameters, then values of sensors that all records share.
     pub unknowns: Vec<Unknown>,
     /// The values of the unknowns for which the plan is made.
     pub values: Vec<f64>,
-    /// What shall be known.
+    /// The targets.
     pub known: Vec<Known>,
-    /// Where sensors could be.
+    /// Possible places of sensors.
     pub places: Vec<DesignPlace>,
     /// The runs that could be measured.
     pub runs: Vec<DesignRun>,
     /// The time between two samples in s.
     pub every: f64,
-    /// What an hour costs.
+    /// Cost of an hour.
     pub hour: f64,
-    /// What all may cost; infinite without a limit.
+    /// Largest cost of everything; infinite without a limit.
     pub budget: f64,
 }
 
-/// An unknown that shall be known.
+/// An unknown with a target.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Known {
-    /// Its place among the unknowns.
+    /// Its index among the unknowns.
     pub unknown: usize,
-    /// Its standard error, in its SI unit.
+    /// Its required standard error, in its SI unit.
     pub error: f64,
 }
 
@@ -61,9 +61,9 @@ pub struct DesignPlace {
     pub deviation: f64,
     /// The part of that variance that drifts.
     pub correlated: f64,
-    /// What is left of it from one sample to the next.
+    /// The share of it that is left from one sample to the next.
     pub decay: f64,
-    /// What a sensor there costs.
+    /// Cost of a sensor there.
     pub cost: f64,
 }
 
@@ -72,21 +72,21 @@ pub struct DesignPlace {
 pub struct DesignRun {
     /// Its name.
     pub name: String,
-    /// What it costs beside its time.
+    /// Its cost in addition to that of its time.
     pub cost: f64,
-    /// Whether it is measured in any case.
+    /// True if it is measured in any case.
     pub done: bool,
-    /// How many samples it has at most.
+    /// Largest number of samples.
     pub samples: usize,
 }
 
 impl DesignTask {
-    /// The task of a study; the records that it says are there already are fitted first, and the
-    /// plan is made for the values that they tell.
+    /// The task of a study. Its existing records are fitted first, and the plan is made for the
+    /// fitted values.
     ///
     /// # Errors
     /// [`DesignError`] for a place that is not measured as a temperature of a node or a mean of
-    /// some, for a fit that fails, and what the evaluation of the study's numbers reports.
+    /// some, for a fit that fails, and for numbers of the study that cannot be evaluated.
     pub fn of(
         netlist: &Netlist,
         study: &PlanStudy,
@@ -142,12 +142,12 @@ impl DesignTask {
         })
     }
 
-    /// How many records are there already.
+    /// Number of existing records.
     pub fn given(&self) -> usize {
         self.factors.len()
     }
 
-    /// Whether an unknown is a parameter, or a value of a sensor at one of these places.
+    /// True for a parameter, and for a value of a sensor at one of these places.
     pub fn concerns(&self, unknown: &Unknown, places: &[usize]) -> bool {
         let columns = self.fit.runs.last().map_or(&[][..], |run| run.columns.as_slice());
         let sensor_of = |place: &usize| columns.get(*place).and_then(|column| column.sensor);
@@ -155,19 +155,19 @@ impl DesignTask {
         sensor.is_none() || places.iter().any(|place| sensor_of(place) == sensor)
     }
 
-    /// The names of all records, those that are there already first.
+    /// The names of all records, the existing ones first.
     pub fn record_names(&self) -> Vec<String> {
         self.fit.runs.iter().map(|run| run.name.clone()).collect()
     }
 
-    /// How long a run lasts that has so many samples, in s.
+    /// Duration in s of a run with this number of samples.
     pub fn lasts(&self, samples: usize) -> f64 {
         samples.saturating_sub(1) as f64 * self.every
     }
 }
 
-/// What is sought: what shall be known, then what else is not, and what the records that are there
-/// were fitted with: they tell of all of these together, and of none alone.
+/// Parameters to be estimated: those with a target, the other unknowns, and those that existing
+/// records were fitted with. The records inform about all of these together, and about none alone.
 fn sought(netlist: &Netlist, (numbers, given): (&PlanNumbers, &Given)) -> Vec<Varied> {
     let mut ids: Vec<ParameterId> = numbers.known.iter().map(|(id, _)| *id).collect();
     for id in numbers.varied.iter().chain(given.values.iter().map(|(id, _)| id)) {
@@ -185,7 +185,7 @@ fn sought(netlist: &Netlist, (numbers, given): (&PlanNumbers, &Given)) -> Vec<Va
     ids.iter().map(varied).collect()
 }
 
-/// What is sought has one value, which neither a run nor a record that is there may set.
+/// Checks that no run and no existing record sets a parameter to be estimated.
 fn settable(netlist: &Netlist, study: &PlanStudy, sought: &[Varied]) -> Result<(), DesignError> {
     let given = |fit: &&FitStudy| study.given.contains(&fit.name);
     let fits = netlist.studies.fits.iter().filter(given);
@@ -257,17 +257,17 @@ impl DesignPlace {
         }
     }
 
-    /// The standard deviation in K that values are weighed by: so much more of a drift is left in
-    /// the mean of many values than of independent ones. This is the `sigma` that a fit takes,
-    /// which else would believe a drifting record more than what is known beforehand.
+    /// The standard deviation in K for the weight of a value. It counts that the mean of many
+    /// values retains more of a drift than of independent noise. This is the `sigma` that a fit
+    /// takes; without it the fit would trust a drifting record more than priors.
     pub fn weight(&self) -> f64 {
         let kept = (1.0 + self.decay) / (1.0 - self.decay);
         self.deviation * (1.0 + self.correlated * (kept - 1.0)).sqrt()
     }
 }
 
-/// The instruments, and that of each place: one that a single place names is that instrument; of
-/// one that several name, each has its own.
+/// The instruments, and that of each place. If a single place names an instrument, it is that one;
+/// if several name it, each has its own.
 fn instruments(sensors: &[Sensor], places: &[PlanPlace]) -> (Vec<Instrument>, Vec<Option<usize>>) {
     let mut all: Vec<Instrument> = sensors.iter().map(Instrument::from).collect();
     let named = |name: &String| {
@@ -290,14 +290,14 @@ fn instruments(sensors: &[Sensor], places: &[PlanPlace]) -> (Vec<Instrument>, Ve
 }
 
 fn samples(run: &RunNumbers, every: f64) -> usize {
-    // the last one counts where rounding leaves it just behind the end
+    // the last one counts if rounding leaves it just after the end
     let steps = (run.duration / every * (1.0 + 1e-12)).floor();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to 1e6")]
     let steps = steps as usize;
     steps + 1
 }
 
-/// A record that could be: what it reads does not matter.
+/// A possible record; its readings do not matter.
 fn planned(
     run: &RunNumbers,
     settings: &RunAnalysis,
