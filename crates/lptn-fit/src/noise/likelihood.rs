@@ -13,11 +13,11 @@ use crate::simplex;
 /// Samples are filtered four series at once.
 const LANES: usize = 4;
 
-/// Times of noise that may be possible, and with their logits.
+/// Number of times of noise that may be possible, and of their pairs with logits.
 const TIMES: i32 = 24;
 const PLACES: f64 = 24.0 * 13.0;
 
-/// What noise is like, its deviation apart.
+/// Shape of noise, without its deviation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shape {
     /// Correlated part of the variance.
@@ -41,11 +41,11 @@ impl Shape {
 /// A likelihood, times -2 and less constants.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Value {
-    /// Of what the fitted parameters could not remove.
+    /// Likelihood of the part that the fitted parameters could not remove.
     pub(crate) restricted: f64,
-    /// Of all samples, with the parameters at their most likely values.
+    /// Likelihood of all samples, with the parameters at their most likely values.
     pub(crate) whole: f64,
-    /// Standard deviation of the noise, where the restricted one is greatest.
+    /// Standard deviation of the noise at the maximum of the restricted one.
     pub(crate) deviation: f64,
 }
 
@@ -94,12 +94,12 @@ impl Likelihood {
         self.rank
     }
 
-    /// Whether three more numbers can be estimated.
+    /// True if three more numbers can be estimated.
     pub(crate) fn has_freedom(&self) -> bool {
         self.times.len() > self.rank + 4
     }
 
-    /// The likelihood of a shape; infinite where it cannot be.
+    /// The likelihood of a shape; infinite if it is impossible.
     pub(crate) fn at(&self, shape: Shape) -> Value {
         let (whitened, determinant) = self.filtered(shape);
         let width = self.rank + 1;
@@ -124,7 +124,7 @@ impl Likelihood {
         }
     }
 
-    /// The series less what the filter foretells, over the deviation of that; and the logarithm of
+    /// The series less the filter's predictions, over the deviation of that; and the logarithm of
     /// the determinant.
     fn filtered(&self, shape: Shape) -> (Vec<f64>, f64) {
         let gains = Gains::new(&self.times, shape);
@@ -145,7 +145,7 @@ impl Likelihood {
         (whitened, gains.determinant)
     }
 
-    /// Where the restricted likelihood is greatest, as `ln theta` and the logit.
+    /// Maximum of the restricted likelihood: `ln theta` and the logit, and its value.
     pub(crate) fn maximise(&self) -> ([f64; 2], Value) {
         let length = self.times[self.times.len() - 1] - self.times[0];
         let (least, most) = ((0.3 * self.spacing).ln(), length.max(self.spacing).ln());
@@ -167,9 +167,9 @@ impl Likelihood {
     }
 
     /// The covariance of `ln theta` and the logit at the greatest likelihood: twice the inverse of
-    /// the second derivatives of what [`Likelihood::at`] gives. A direction in which it does not
-    /// bend is taken as known: there the noise does not depend on it. `None` where the time is known
-    /// to no better than a factor: then the likelihood is no parabola.
+    /// the second derivatives of [`Likelihood::at`]. A direction without curvature is taken as
+    /// known: there the noise does not depend on it. `None` if the time is known only to a factor:
+    /// then the likelihood is not a parabola.
     pub(crate) fn spread(&self, [time, logit]: [f64; 2]) -> Option<[[f64; 2]; 2]> {
         /// Standard deviation of the logarithm of the time.
         const WELL: f64 = 0.4;
@@ -199,7 +199,7 @@ impl Likelihood {
 /// A shape that the samples leave possible.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Possible {
-    /// How likely it is; those of all sum up to 1.
+    /// Its probability; those of all sum up to 1.
     pub(crate) weight: f64,
     pub(crate) shape: Shape,
     /// Standard deviation of the noise if it is the one.
@@ -207,9 +207,8 @@ pub(crate) struct Possible {
 }
 
 impl Likelihood {
-    /// The shapes that the samples leave possible, with as many of them for each factor of the time
-    /// and for each step of the logit: before anything is measured all are equally likely, up to a
-    /// time as long as the record.
+    /// The shapes that the samples leave possible. Before any measurement, all factors of the time,
+    /// up to a time as long as the record, and all steps of the logit are equally likely.
     pub(crate) fn possible(&self) -> Vec<Possible> {
         let (least, most) = ((0.3 * self.spacing).ln(), self.length().ln());
         let time = |k: i32| least + (most - least) * f64::from(k) / f64::from(TIMES - 1);
@@ -217,7 +216,7 @@ impl Likelihood {
         self.mixture(places).0
     }
 
-    /// The same, and white noise, which is `prior` times as likely beforehand as all of them
+    /// The same, and white noise, which is a priori `prior` times as likely as all of them
     /// together.
     pub(super) fn white_or_possible(&self, prior: f64) -> Vec<Possible> {
         let white = self.at(Shape::WHITE);
@@ -237,8 +236,8 @@ impl Likelihood {
         (self.times[self.times.len() - 1] - self.times[0]).max(self.spacing)
     }
 
-    /// The shapes of these places (`ln theta` and the logit), all equally likely beforehand, and
-    /// the least of their likelihoods.
+    /// The shapes of these places (`ln theta` and the logit), all equally likely a priori, and the
+    /// least of their values, times -2.
     pub(super) fn mixture(&self, places: impl Iterator<Item = [f64; 2]>) -> (Vec<Possible>, f64) {
         let shape = |place: [f64; 2]| Shape::at(place, self.spacing);
         let all: Vec<(Shape, Value)> =
@@ -255,8 +254,8 @@ impl Likelihood {
     }
 }
 
-/// The filter's numbers for every sample: how much of the state is left, gain, and weight of what
-/// was not predicted.
+/// The filter's numbers for every sample: remaining part of the state, gain, and weight of the
+/// residual.
 pub(super) struct Gains {
     pub(super) steps: Vec<[f64; 3]>,
     determinant: f64,
@@ -294,8 +293,8 @@ impl Gains {
     }
 }
 
-/// An orthonormal basis of the columns (Gram and Schmidt, each twice); columns that others make up
-/// are left out.
+/// An orthonormal basis of the columns (Gram and Schmidt, each twice), without columns that are
+/// combinations of others.
 pub(crate) fn orthonormal(columns: &[f64], rows: usize) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::new();
     for column in columns.chunks(rows.max(1)) {

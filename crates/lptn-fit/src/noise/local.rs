@@ -1,5 +1,5 @@
-//! Noise whose strength changes within the record: beside a part that starts to rattle, or with the
-//! temperature.
+//! Noise whose strength changes within the record: next to a part that starts to rattle, or with
+//! the temperature.
 //!
 //! Blocks of means of the residual, not of its square, determine the strength; their scatter gives
 //! their error. The residual of a wrong curve grows in one part of the record too, so changes from
@@ -13,31 +13,31 @@ use lptn_units::statistics::chi_square_999;
 
 use super::stretches;
 
-/// Blocks of the record whose strengths are compared, at most, and the least.
+/// Largest number of blocks of the record whose strengths are compared, and the least.
 const BLOCKS: usize = 8;
 const LEAST_BLOCKS: usize = 2;
 
-/// A block has to hold as many independent values.
+/// Minimum number of independent values in a block.
 const ENOUGH: f64 = 16.0;
 
-/// Of longer records means of stretches are looked at, so many.
+/// Number of values of longer records: means of stretches.
 const LONG: usize = 2000;
 
-/// How far an uneven noise has to lie beyond what chance brings about in one of 1000 records: how
-/// many values are independent is an estimate too, and of few blocks a rough one.
+/// Factor by which an uneven noise has to exceed the chance of one in 1000 records. The number of
+/// independent values is an estimate too, and a rough one for few blocks.
 const CLEARLY: f64 = 2.0;
 
 /// Correlations below this part no longer count.
 const ALIKE: f64 = 0.05;
 
 /// The standard deviation of the noise at each sample over the root of the mean square of all;
-/// empty where chance explains how it differs from block to block.
-/// Neighbours have to differ more or less too: a curve that the model does not follow makes what is
-/// missed larger in one part of the record, and is not noise.
+/// empty if chance explains the differences between blocks.
+/// Changes between neighbours have to differ too: a curve that the model does not follow makes the
+/// residual larger in one part of the record, and is not noise.
 ///
-/// Strengths are means of what is missed, not of its square, and how far such a mean may be off is
-/// taken from its own scatter: so heavy tails and rounding look no more uneven than they are. They
-/// change along straight lines in the logarithm from the middle of a block to that of the next.
+/// Strengths are means of the residual, not of its square. The error of such a mean is taken from
+/// its own scatter, so heavy tails and rounding look no more uneven than they are. They change
+/// along straight lines in the logarithm from the middle of a block to that of the next.
 pub(super) fn strengths(residuals: &[f64]) -> Vec<f64> {
     let size = residuals.len().div_ceil(LONG).max(1);
     let means = |values: Vec<f64>| stretches::means(&values, size);
@@ -56,7 +56,7 @@ pub(super) fn strengths(residuals: &[f64]) -> Vec<f64> {
     }
 }
 
-/// Residuals and their derivatives as they would be if the noise had one strength.
+/// Residuals and their derivatives as if the noise had one strength.
 pub(super) fn even<'a>(strengths: &[f64], values: &'a [f64]) -> Cow<'a, [f64]> {
     if strengths.is_empty() {
         return Cow::Borrowed(values);
@@ -66,13 +66,13 @@ pub(super) fn even<'a>(strengths: &[f64], values: &'a [f64]) -> Cow<'a, [f64]> {
     Cow::Owned(columns.concat())
 }
 
-/// The same the other way round.
+/// The inverse of `even`.
 pub(super) fn uneven<'a>(strengths: &[f64], values: &'a [f64]) -> Cow<'a, [f64]> {
     let back: Vec<f64> = strengths.iter().map(|s| 1.0 / s).collect();
     even(&back, values)
 }
 
-/// How far values are off from 0, in blocks that follow each other.
+/// Distances of values from 0, in blocks that follow each other.
 struct Blocks<'a> {
     sizes: &'a [f64],
     count: usize,
@@ -95,13 +95,13 @@ impl<'a> Blocks<'a> {
         i * self.count / self.sizes.len()
     }
 
-    /// What each value is beyond the mean of its block, over that.
+    /// Distance of each value from the mean of its block, over that mean.
     fn beyond(&self) -> Vec<f64> {
         let mean = |i: usize| self.means[self.block(i)].max(f64::MIN_POSITIVE);
         self.sizes.iter().enumerate().map(|(i, size)| size / mean(i) - 1.0).collect()
     }
 
-    /// How many independent values would tell the mean as well; 0 where all values are the same.
+    /// Number of independent values that give the mean as well; 0 if all values are the same.
     fn independent(&self) -> f64 {
         let beyond = self.beyond();
         let n = beyond.len();
@@ -114,7 +114,7 @@ impl<'a> Blocks<'a> {
         n as f64 / (1.0 + 2.0 * alike.sum::<f64>())
     }
 
-    /// Whether means differ by more than chance explains.
+    /// True if means differ by more than chance explains.
     fn differ(&self) -> bool {
         if self.means.iter().any(|mean| *mean <= 0.0) {
             return false;

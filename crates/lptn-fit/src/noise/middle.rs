@@ -1,4 +1,4 @@
-//! What the sandwich holds.
+//! The middle of the sandwich.
 
 use lptn_units::statistics::{NORMAL_95, degrees_of, mixed_95, student_95};
 
@@ -6,17 +6,17 @@ use super::likelihood::{Possible, Shape};
 use super::{Noise, stretches};
 use crate::Covariance;
 
-/// `J^T Omega J` of the samples of one record, and what is known of it.
+/// `J^T Omega J` of the samples of one record, and its uncertainty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Middle {
     /// Row by row; the number of parameters squared.
     pub values: Vec<f64>,
-    /// Derivatives by the two numbers that the likelihood is greatest for.
+    /// Derivatives by the two numbers that maximise the likelihood.
     slopes: [Vec<f64>; 2],
     spread: [[f64; 2]; 2],
     /// Means less fitted parameters.
     free: f64,
-    /// Where several shapes of the noise are possible: how likely each is, and its values.
+    /// If several shapes of the noise are possible: the probability of each, and its values.
     possible: Vec<(f64, Vec<f64>)>,
 }
 
@@ -49,13 +49,13 @@ impl Middle {
         Self { values, slopes, spread: noise.spread, free, possible }
     }
 
-    /// The degrees of freedom with which the variance of a quantity is known that has these
-    /// derivatives by all parameters of the fit, `inverse` being `(J^T J)^-1`.
+    /// The degrees of freedom of the variance of a quantity with these derivatives by all
+    /// parameters of the fit; `inverse` is `(J^T J)^-1`.
     pub fn degrees_of_freedom(&self, inverse: &Covariance, gradient: &[f64]) -> f64 {
         self.variance(inverse, gradient).1
     }
 
-    /// That variance too, in front of its degrees of freedom.
+    /// The variance, followed by its degrees of freedom.
     pub(crate) fn variance(&self, inverse: &Covariance, gradient: &[f64]) -> (f64, f64) {
         let n = inverse.parameters.len();
         let weight = |i: usize| {
@@ -103,8 +103,8 @@ pub(super) fn product(times: &[f64], jacobian: &[f64], shape: Shape) -> Vec<f64>
     values
 }
 
-/// Rows of derivatives whose errors have something in common with those before: exponential
-/// correlations add up from row to row.
+/// Rows of derivatives whose errors share a part with those before: exponential correlations add up
+/// from row to row.
 #[derive(Clone, Debug)]
 pub(crate) struct Tied {
     /// The correlated part of the variance.
@@ -114,12 +114,12 @@ pub(crate) struct Tied {
 }
 
 impl Tied {
-    /// No row so far.
+    /// The state before the first row.
     pub(crate) fn new(count: usize, correlated: f64) -> Self {
         Self { correlated, before: vec![0.0; count] }
     }
 
-    /// Adds to a matrix, row by row, what a row brings to `variance J^T V J`.
+    /// Adds the contribution of a row to `variance J^T V J` to a matrix, row by row.
     pub(crate) fn add(&self, x: &[f64], variance: f64, sum: &mut [f64]) {
         let before = &self.before;
         for (i, a) in x.iter().enumerate() {
@@ -130,7 +130,7 @@ impl Tied {
         }
     }
 
-    /// Goes on to the row after this one, at which `decay` is left of what they have in common.
+    /// Goes on to the row after this one, at which `decay` is left of their common part.
     pub(crate) fn pass(&mut self, x: &[f64], decay: f64) {
         self.before.iter_mut().zip(x).for_each(|(b, x)| *b = decay * (*b + x));
     }

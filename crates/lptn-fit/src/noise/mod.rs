@@ -1,31 +1,31 @@
-//! Standard errors where residuals depend on those before them.
+//! Standard errors if residuals depend on those before them.
 //!
-//! Least squares takes residuals as independent. Those of a thermocouple are not: they drift, and
-//! the rounding of the instrument adds a part that hides the drift from an estimate by the
-//! correlation of neighbours (a plain AR(1) correction). What a fit feels is the slow part of the
-//! noise alone. So it is the means of stretches of the record (some 100 of them) that get a model,
-//! with a correlated and a white part,
+//! Least squares takes residuals as independent. Those of a thermocouple are not: they drift. The
+//! rounding of the instrument adds a part that hides the drift from an estimate by the correlation
+//! of neighbours (a plain AR(1) correction). A fit feels only the slow part of the noise. The model
+//! is therefore one of the means of stretches of the record (some 100 of them), with a correlated
+//! and a white part,
 //!
 //! ```text
 //! covariance(e(t), e(t')) = s^2 (c exp(-|t - t'| / theta) + (1 - c) [t = t'])
 //! ```
 //!
-//! which on an even grid of times is an ARMA(1,1) process, with c up to where its spectrum would
-//! fall below 0; what happens inside a stretch need not be modelled. `s`, `c` and `theta` maximise
-//! the *restricted* likelihood (H. D. Patterson, R. Thompson, Biometrika 58 (1971) 545; D. A.
-//! Harville, J. Am. Stat. Assoc. 72 (1977) 320): that of what the fitted parameters could not
-//! remove, so that variance and correlation are not biased low by the fit. It is computed by a
+//! which on an even grid of times is an ARMA(1,1) process, with c up to the limit at which its
+//! spectrum falls below 0. The noise inside a stretch need not be modelled. `s`, `c` and `theta`
+//! maximise the *restricted* likelihood (H. D. Patterson, R. Thompson, Biometrika 58 (1971) 545; D.
+//! A. Harville, J. Am. Stat. Assoc. 72 (1977) 320): that of the part that the fitted parameters
+//! could not remove, so the fit does not bias variance and correlation low. It is computed by a
 //! Kalman filter over the samples (A. C. Harvey, Forecasting, Structural Time Series Models and the
 //! Kalman Filter, 1989, chapter 3), for any times, so gaps need no treatment.
 //!
 //! The covariance of the parameters is the sandwich `(J^T J)^-1 J^T Omega J (J^T J)^-1`, exact for
-//! least squares with residuals of covariance Omega. How well the variance itself is known is
+//! least squares with residuals of covariance Omega. The uncertainty of the variance itself is
 //! counted in degrees of freedom after F. E. Satterthwaite (Biometrics Bulletin 2 (1946) 110), from
-//! the curvature of the restricted likelihood, and gives the quantile of Student's t that an
-//! interval takes. Where the time is not known to better than a factor (slow drift, few samples)
-//! one shape does not stand for what is possible: the interval then holds 95 % of the mixture of
-//! all shapes, each as likely as the restricted likelihood says, up to a time as long as the record,
-//! and the degrees of freedom are those whose quantile is as wide.
+//! the curvature of the restricted likelihood. They give the quantile of Student's t for an
+//! interval. If the time is known only to a factor (slow drift, few samples), one shape does not
+//! represent all. The interval then contains 95 % of the mixture of all shapes, weighted by the
+//! restricted likelihood, up to a time as long as the record. The degrees of freedom are those
+//! whose quantile is as wide.
 
 mod likelihood;
 mod local;
@@ -42,11 +42,11 @@ pub(crate) use middle::Tied;
 pub use resolution::resolution;
 pub(crate) use whitened::Whitened;
 
-/// So few means do not tell white noise from slow noise.
+/// Fewer means do not distinguish white noise from slow noise.
 const FEW: f64 = 100.0;
 
-/// How likely white noise is beforehand, against all correlated ones, where a curve that takes up
-/// slow noise goes through few samples.
+/// Prior odds of white noise against all correlated ones, if a curve that absorbs slow noise goes
+/// through few samples.
 const WHITE_OF_FEW: f64 = 0.25;
 
 /// The random part of a record.
@@ -63,22 +63,22 @@ pub struct Noise {
     pub stretch: usize,
     /// The noise of these means.
     pub means: Means,
-    /// Fitted parameters that the residuals feel.
+    /// Number of fitted parameters that the residuals feel.
     rank: usize,
-    /// Where the likelihood is greatest, the covariance of these two numbers, and the distance of
-    /// two means in s.
+    /// Maximum of the likelihood, the covariance of its two numbers, and the distance of two means
+    /// in s.
     place: [f64; 2],
     spread: [[f64; 2]; 2],
     spacing: f64,
-    /// Where one shape does not stand for what is known: all that are possible.
+    /// All shapes that are possible, if one does not represent them.
     possible: Vec<Possible>,
-    /// Whether those are drift as slow as the record.
+    /// True if those are drift as slow as the record.
     slow: bool,
-    /// Twice the negative logarithm of the restricted likelihood, of white noise and where it is
-    /// greatest.
+    /// Twice the negative logarithm of the restricted likelihood, of white noise and at its
+    /// maximum.
     white: f64,
     likeliest: f64,
-    /// The strength of the noise at each sample over that of all; empty where it is the same.
+    /// The strength of the noise at each sample over that of all; empty if it is the same.
     strengths: Vec<f64>,
 }
 
@@ -87,10 +87,10 @@ pub struct Noise {
 pub struct Means {
     /// Standard deviation `s`, in the unit of the residuals.
     pub deviation: f64,
-    /// The factor `c` of the correlation. Above 1 where means of neighbours have more in common
-    /// than what is left of it from stretch to stretch.
+    /// The factor `c` of the correlation. Above 1 if means of neighbours have more in common than
+    /// the part that is left from stretch to stretch.
     pub correlated: f64,
-    /// The time `theta` in s in which that part's correlation falls to 1/e; 0 where nothing is
+    /// The time `theta` in s in which that part's correlation falls to 1/e; 0 if nothing is
     /// correlated.
     pub time: f64,
     /// Twice the negative logarithm of the likelihood (of the means, not the restricted one), up to
@@ -102,8 +102,8 @@ impl Noise {
     /// From the `residuals` of a fit at ascending `times` in s and their derivatives by the fitted
     /// parameters, one parameter after the other.
     ///
-    /// White noise is taken where the two more numbers do not lower Akaike's criterion. Residuals
-    /// that are all 0 have deviation 0.
+    /// White noise is taken if the two more numbers do not lower Akaike's criterion. Residuals that
+    /// are all 0 have deviation 0.
     pub fn estimate(times: &[f64], residuals: &[f64], jacobian: &[f64]) -> Self {
         Self::of_even((times, residuals, jacobian), Self::even)
     }
@@ -113,7 +113,7 @@ impl Noise {
         Self::of_stretches(times, residuals, jacobian, stretches::size(times.len(), jacobian))
     }
 
-    /// What `of` makes of residuals and derivatives over the strength that the noise has at each.
+    /// The result of `of` for residuals and derivatives over the strength of the noise at each.
     fn of_even(
         (times, residuals, jacobian): (&[f64], &[f64], &[f64]),
         of: impl Fn((&[f64], &[f64], &[f64])) -> Self,
@@ -125,8 +125,8 @@ impl Noise {
         Self { strengths, ..noise }
     }
 
-    /// As [`Noise::estimate`], for a record that stands alone: where drift as slow as the record is
-    /// as likely as none, intervals hold 95 % of the mixture of all such drifts.
+    /// The same as [`Noise::estimate`] for a single record: if drift as slow as the record is as
+    /// likely as none, intervals contain 95 % of the mixture of all such drifts.
     pub fn with_drift(times: &[f64], residuals: &[f64], jacobian: &[f64]) -> Self {
         let drifting =
             |record: (&[f64], &[f64], &[f64])| Self::drifting(record, slow::BEHIND_OF_STEP);
@@ -153,8 +153,8 @@ impl Noise {
         Self::even((times, residuals, jacobian))
     }
 
-    /// As [`Noise::with_drift`], for a curve whose start is known, of one or two records: few
-    /// samples tell its noise as [`Noise::estimate`] says.
+    /// The same as [`Noise::with_drift`] for a curve with a known start, of one or two records. The
+    /// noise of few samples is that of [`Noise::estimate`].
     pub(crate) fn with_slow_drift(
         (times, residuals, jacobian): (&[f64], &[f64], &[f64]),
         alone: bool,
@@ -167,12 +167,12 @@ impl Noise {
         Self::of_even((times, residuals, jacobian), drifting)
     }
 
-    /// Whether drift as slow as the record is as likely as none, and is in the intervals.
+    /// True if drift as slow as the record is as likely as none, and is in the intervals.
     pub fn drifts(&self) -> bool {
         self.slow
     }
 
-    /// As [`Noise::estimate`], with stretches of `stretch` samples.
+    /// The same as [`Noise::estimate`], with stretches of `stretch` samples.
     pub(crate) fn of_stretches(
         times: &[f64],
         residuals: &[f64],
@@ -221,7 +221,7 @@ impl Noise {
         noise
     }
 
-    /// Takes correlated noise in place of white where it is more likely.
+    /// Takes correlated noise instead of white noise if it is more likely.
     fn refine(&mut self, likelihood: &Likelihood, white: f64) {
         let (place, best) = likelihood.maximise();
         self.likeliest = best.restricted;
@@ -250,7 +250,7 @@ impl Noise {
             (self.deviation * self.deviation / variance).clamp(1.0, self.samples as f64);
     }
 
-    /// `J^T Omega J`, which the sandwich holds, with how it changes with what was estimated.
+    /// `J^T Omega J` in the sandwich, with its derivatives by the estimated numbers.
     pub fn middle(&self, times: &[f64], jacobian: &[f64]) -> Middle {
         Middle::new(self, times, &local::uneven(&self.strengths, jacobian))
     }

@@ -1,7 +1,7 @@
 //! The step of an instrument's numbers.
 
 /// The largest step of which all differences of the values are multiples, in their unit: 0.1 K for
-/// a logger that prints one decimal. `None` where there is none above 1e-7 of the largest value, or
+/// a logger that prints one decimal. `None` if there is none above 1e-7 of the largest value, or if
 /// fewer than three values differ.
 pub fn resolution(values: &[f64]) -> Option<f64> {
     let mut sorted: Vec<f64> = values.iter().copied().filter(|v| v.is_finite()).collect();

@@ -9,37 +9,36 @@
 
 use super::likelihood::{Likelihood, Possible};
 
-/// Times of slow drift, in lengths of the record. Below the first a record tells drift from its
-/// curve; beyond the last drift is a straight line with an offset.
+/// Times of slow drift, in lengths of the record. Below the first a record distinguishes drift from
+/// its curve; beyond the last drift is a straight line with an offset.
 const TIMES: [f64; 2] = [0.3, 5.0];
 const PLACES: i32 = 12;
 
-/// Logits of the drift's part of the variance: from where it is felt beside white noise.
+/// Logits of the drift's part of the variance, from the least that is felt next to white noise.
 const LOGITS: std::ops::RangeInclusive<i32> = 0..=9;
 
-/// How far the likelihood of slow drift may lie behind that of white noise, doubled as all of them,
-/// for one exponential: nearly as likely is likely enough.
+/// Distance of slow drift below white noise in twice the log-likelihood that is allowed for one
+/// exponential: nearly as likely is likely enough.
 pub(super) const BEHIND_OF_STEP: f64 = 0.15;
 
-/// The same for a network, whose start is known: its curve takes less of a drift up, so that fewer
+/// The same for a network with a known start: its curve absorbs less of a drift, so that fewer
 /// clean records look as if they drifted.
 pub(super) const BEHIND_OF_NETWORK: f64 = 2.0;
 
-/// The same for one of two records of a network, of which each tells of the drift of the other.
+/// The same for one of two records of a network, each of which shows the drift of the other.
 pub(super) const BEHIND_OF_TWO: f64 = 0.0;
 
-/// How far the likelihood of slow drift may lie behind that of the likeliest noise.
+/// The distance of slow drift below the likeliest noise that is allowed.
 const BEHIND: f64 = 4.0;
 
 impl Likelihood {
-    /// All shapes of drift as slow as the record, where that is as likely as white noise and
-    /// not refuted by a faster drift: these are twice the negative logarithms of the likelihoods of
-    /// `white` noise and of the `likeliest`.
+    /// All shapes of drift as slow as the record, if that is as likely as white noise and not
+    /// refuted by a faster drift. `white` and `likeliest` are twice the negative logarithms of the
+    /// likelihoods of white noise and of the likeliest.
     ///
-    /// A fit takes up most of such drift, so what is left of it is small even where the error that
-    /// it makes is several times that of the noise. A test for it finds half of them at 5 % of
-    /// false alarms; so no test is made: drift counts where it is no less likely than none, or not
-    /// further `behind`.
+    /// A fit absorbs most of such drift, so its residual is small even if its error is several
+    /// times that of the noise. A test for it finds half of them at 5 % of false alarms; so no test
+    /// is made. Drift counts if it is no less likely than none, or not further `behind`.
     pub(super) fn slow(
         &self,
         (white, likeliest): (f64, f64),

@@ -9,8 +9,8 @@ use crate::noise::likelihood::orthonormal;
 /// A record of fewer samples is not cut.
 const LONG: usize = 400;
 
-/// A longer one is cut into at least so many stretches: more would follow the fast noise, which no
-/// fit feels, and the slow one would be taken for faster than it is.
+/// Minimum number of stretches of a longer record. More would follow the fast noise, which no fit
+/// feels, and the slow noise would be taken for faster than it is.
 const STRETCHES: usize = 100;
 
 /// The part of the derivatives' squares that the means have to keep.
@@ -28,7 +28,7 @@ pub(super) fn size(rows: usize, jacobian: &[f64]) -> usize {
 }
 
 /// The number of samples that leaves [`STRETCHES`]: in those the fast noise is white, so that only
-/// slow noise is left to be told.
+/// slow noise is left to estimate.
 pub(crate) fn longest(rows: usize) -> usize {
     if rows < LONG { 1 } else { rows / STRETCHES }
 }
@@ -44,7 +44,7 @@ pub(crate) fn means(values: &[f64], size: usize) -> Vec<f64> {
     values.chunks_exact(size).map(|stretch| stretch.iter().sum::<f64>() / size as f64).collect()
 }
 
-/// The same for every column of so many rows.
+/// The same for every column of `rows` rows.
 pub(super) fn means_of_columns(columns: &[f64], rows: usize, size: usize) -> Vec<f64> {
     columns.chunks(rows.max(1)).flat_map(|column| means(column, size)).collect()
 }

@@ -6,21 +6,21 @@ use super::likelihood::{Gains, Shape, orthonormal};
 use super::{Noise, local, stretches};
 
 /// The noise of a record is `L n`, with independent n of unit variance and the lower triangular
-/// root L of its covariance: n of the residuals, and what it does to a fit.
+/// root L of its covariance: n of the residuals, and its effect on a fit.
 #[derive(Clone, Debug)]
 pub(crate) struct Whitened {
     /// The times of the means in s.
     pub(crate) times: Vec<f64>,
-    /// `L^-1` times the residuals, less what the fitted parameters could take up: the n that were,
-    /// up to a factor.
+    /// `L^-1` times the residuals, less the part that the fitted parameters could absorb: the
+    /// actual n, up to a factor.
     pub(crate) residuals: Vec<f64>,
-    /// `L^T` times the derivatives, for each parameter in turn: what each n adds to `J^T r`. The
-    /// products of two are those of [`Middle`](super::Middle).
+    /// `L^T` times the derivatives, for each parameter in turn: the contribution of each n to `J^T
+    /// r`. The products of two are those of [`Middle`](super::Middle).
     pub(crate) loads: Vec<Vec<f64>>,
 }
 
 impl Noise {
-    /// Of the residuals and derivatives from which the noise was estimated.
+    /// Whitens the residuals and derivatives from which the noise was estimated.
     pub(crate) fn whitened(
         &self,
         times: &[f64],
@@ -46,7 +46,8 @@ impl Noise {
     }
 }
 
-/// `L^-1` times a column: each value less what those before it predict, over the deviation of that.
+/// `L^-1` times a column: each value less its prediction by those before, over the deviation of
+/// that.
 fn filtered(gains: &Gains, column: &[f64]) -> Vec<f64> {
     let mut state = 0.0;
     let one = |(&value, &[decay, gain, weight]): (&f64, &[f64; 3])| {
