@@ -1,4 +1,4 @@
-//! What the method gets wrong of a network that is known.
+//! Bias of the method for a known network.
 
 use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
@@ -8,57 +8,55 @@ use lptn_solve::{Proceed, RecordedNodes};
 
 use super::error::StepError;
 
-/// A number of the network, and what the fit makes of it.
+/// A number of the network, and its value by the fit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FittedValue {
-    /// As it is.
+    /// True value.
     pub real: f64,
-    /// As one exponential has it.
+    /// Value of one exponential.
     pub fitted: f64,
 }
 
 impl FittedValue {
-    /// What the fit adds: to be subtracted from a measured value.
+    /// Error of the fit: to be subtracted from a measured value.
     pub fn bias(&self) -> f64 {
         self.fitted - self.real
     }
 }
 
-/// The same fit on a network's own answer, without noise, at the record's times: what one
-/// exponential gets wrong because the network has several nodes. It stands apart from the standard
-/// errors, which know nothing of it.
+/// The same fit on a network's own response, without noise, at the record's times: the errors of
+/// one exponential because the network has several nodes. The standard errors do not include them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelBias {
-    /// `T_i`: the port at the first time that is fitted, in K; as fitted for a port without
-    /// capacity at the start, which has no start of its own.
+    /// `T_i`: the port at the first time that is fitted, in K. A port without capacity has no
+    /// start, so there the fitted value counts.
     pub initial: FittedValue,
     /// `T_f`: the port in steady state with the inputs of the start, in K.
     pub settled: FittedValue,
     /// `t_RC`: `C_sum R_eq` of the network at the port, in s.
     pub tau: FittedValue,
-    /// `P`: the heat that the port feels, in W, against `C_sum (T_f - T_i) / t_RC`; where the
-    /// record is cut, with the port's temperature at the start of the run for `T_i`: that of the
-    /// cut gives no heat.
+    /// `P`: the heat at the port, in W, against `C_sum (T_f - T_i) / t_RC`. If the record is cut,
+    /// `T_i` is the port's temperature at the start of the run: that of the cut gives no heat.
     pub power: FittedValue,
     /// `C_sum` in J/K: the sum of the capacities that heat from the port reaches.
     pub capacity: f64,
     /// `R_eq` of the network at the port, in K/W.
     pub resistance: f64,
-    /// Root of the mean square of what one exponential misses of the network's answer, in K.
+    /// Root mean square of the residuals of one exponential, in K.
     pub rms: f64,
-    /// The network's own answer: times of the record in s, and the port in K.
+    /// The network's own response: times of the record in s, and the port in K.
     pub answer: Vec<(f64, f64)>,
 }
 
-/// What the port does.
+/// Response of the port.
 struct PortFit {
-    /// At the start of the run, in K.
+    /// Temperature at the start of the run, in K.
     start: f64,
     /// The exponential through the times that are fitted, from the first of them.
     fit: ExponentialFit,
     /// The port at the first of them, in K.
     first: f64,
-    /// Whether that is after the start.
+    /// True if that is after the start.
     cut: bool,
     /// Times of the record in s, and the port in K.
     answer: Vec<(f64, f64)>,
@@ -124,7 +122,7 @@ impl PortFit {
             .solve(system, &mut |_| Proceed::Continue)
             .map_err(|e| StepError::Model(ReduceError::Run(e)))?;
         let temperatures = solution.temperature(port).unwrap_or_default();
-        // a run has a row at its start, whether or not it is among those that are asked for
+        // a run has a row at its start, also if none is asked for there
         let skipped = solution.times().partition_point(|&t| t < first);
         let times: Vec<f64> = solution.times()[skipped..].iter().map(|t| t - first).collect();
         let (&start, &at_first) =

@@ -1,9 +1,9 @@
-//! Why a record has no exponential.
+//! Reasons why a record has no exponential.
 
 use lptn_reduce::{FitError, ReduceError};
 use lptn_units::Class;
 
-/// Why a record does not tell its time constant.
+/// Reasons why a record does not determine its time constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Lack {
     /// `T_i`, `T_f` and `t_RC` have the same effect on it.
@@ -13,11 +13,11 @@ pub enum Lack {
         /// Half its width in s.
         half_width: f64,
     },
-    /// What the curve misses slowly is more than what it changes: the record has another shape.
+    /// The slow residuals of the curve exceed its change: the record has another shape.
     Shape {
-        /// Root of the mean square of what it misses, in means of twelfths of the record, in K.
+        /// Root mean square of the residuals, in means of twelfths of the record, in K.
         missed: f64,
-        /// The same of what the curve departs from its mean, in K.
+        /// The same of the curve's distances from its mean, in K.
         changed: f64,
     },
     /// The curve has settled before the second sample.
@@ -28,10 +28,10 @@ pub enum Lack {
 }
 
 lptn_units::errors! {
-/// Why a column could not be fitted, or a fit not compared with a model.
+/// Reasons why a column could not be fitted, or a fit not compared with a model.
 #[derive(Debug)]
 pub enum StepError {
-    /// Times and values are not as many.
+    /// Times and values differ in number.
     Length { times: usize, values: usize } = "fit::not_a_record",
         format!("there are {times} times and {values} values");
     /// Too few samples, not a record, a constant column, or one without curvature.
@@ -40,8 +40,8 @@ pub enum StepError {
             FitError::NoCurvature { .. } => Some(LONGER.to_owned()),
             error => error.help(),
         }, class error.class();
-    /// The record stands still at its least or greatest value in K, between these times in s, while
-    /// it changes beside.
+    /// The record is constant at its least or greatest value in K, between these times in s, but
+    /// changes elsewhere.
     Saturated { value: f64, from: f64, to: f64, samples: usize } = "fit::saturated",
         format!(
             "the record is constant at its extreme value from {from} s to {to} s ({samples} \
@@ -49,8 +49,8 @@ pub enum StepError {
              step began later"
         ),
         help format!("leave {from} s to {to} s out of the record");
-    /// The record does not tell `T_i`, `T_f` and `t_RC`: the time constant in s at which it does
-    /// not, and what is missing.
+    /// The record does not determine `T_i`, `T_f` and `t_RC`: the time constant in s at which it
+    /// does not, and the reason.
     Undetermined { tau: f64, lack: Lack } = "fit::undetermined", lack.explain(*tau),
         help lack.help(), class Class::Numbers;
     /// The reference column has no samples.

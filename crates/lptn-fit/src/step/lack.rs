@@ -1,4 +1,4 @@
-//! Records that tell no time constant.
+//! Records that determine no time constant.
 
 use lptn_units::statistics;
 
@@ -6,19 +6,19 @@ use super::Estimated;
 use super::error::Lack;
 use crate::noise::stretches;
 
-/// The slow part of a misfit is looked at through the means of so many stretches.
+/// Number of stretches whose means show the slow part of a misfit.
 const STRETCHES: usize = 12;
 
-/// A curve that has settled before the second sample: the first alone says `T_i`, and the second
-/// alone `t_RC`.
+/// A curve that has settled before the second sample: the first alone determines `T_i`, and the
+/// second alone `t_RC`.
 pub(super) fn between(times: &[f64], tau: f64) -> Option<Lack> {
     let spacing = times[1] - times[0];
     (tau < spacing).then_some(Lack::Spacing { spacing })
 }
 
-/// A time constant whose interval holds 0, and a curve that is not the record's: what it misses
-/// (`residuals`, curve less record) slowly, in means of twelfths of the record, is in the square
-/// more than what the curve itself changes.
+/// A time constant whose interval contains 0, or a curve that is not the record's: its slow
+/// `residuals` (curve less record, in means of twelfths of the record) are larger in the square
+/// than the changes of the curve itself.
 pub(super) fn of(tau: &Estimated, values: &[f64], residuals: &[f64]) -> Option<Lack> {
     if tau.half_width >= tau.value {
         return Some(Lack::Interval { half_width: tau.half_width });

@@ -2,8 +2,8 @@
 //!
 //! `T(t) = T_f + (T_i - T_f) exp(-t / t_RC)` (the paper's equation 10, which prints `T_i` and `T_f`
 //! exchanged) by least squares: [`StepFit`]. With a capacity follow `R_eq = t_RC / C` and
-//! `P = dT / R_eq` (equations 8 and 11): [`Power`]. With a model follows what the method itself
-//! gets wrong of it: [`ModelBias`]. Without one, no error that is stated here includes that bias.
+//! `P = dT / R_eq` (equations 8 and 11): [`Power`]. With a model follow the errors of the method:
+//! [`ModelBias`]. Without one, no error that is stated here includes that bias.
 //!
 //! Units: s, K, W, J/K. Temperatures may be on any scale with kelvins as steps; differences come
 //! out the same.
@@ -37,8 +37,7 @@ pub struct Estimated {
     pub value: f64,
     /// Its standard error, corrected for residuals that depend on each other.
     pub standard_error: f64,
-    /// What the error would be if every sample were independent of the others: for comparison, it
-    /// is too small.
+    /// The error if every sample were independent of the others: for comparison, it is too small.
     pub naive: f64,
     /// Half the width of the 95 % interval: the error times the quantile of Student's t.
     pub half_width: f64,
@@ -58,11 +57,11 @@ impl Estimated {
 pub struct StepFit {
     /// `T_i`: the curve at the first time.
     pub initial: Estimated,
-    /// `T_f`: what it tends to.
+    /// `T_f`: the limit of the curve.
     pub settled: Estimated,
     /// `t_RC` in s.
     pub tau: Estimated,
-    /// Root of the mean square of what the curve misses, in K.
+    /// Root mean square of the residuals, in K.
     pub rms: f64,
     /// Number of samples that were fitted.
     pub samples: usize,
@@ -70,24 +69,24 @@ pub struct StepFit {
     pub gaps: usize,
     /// From the first to the last sample, in s.
     pub length: f64,
-    /// How far `T_f` lies beyond the curve's end, in K: where the record is shorter than
+    /// Distance of `T_f` beyond the curve's end, in K: if the record is shorter than
     /// [`LONG_ENOUGH`] time constants, that much is extrapolated.
     pub beyond: f64,
     /// The random part of the record.
     pub noise: Noise,
-    /// The step of the instrument's numbers in K, where they have one.
+    /// The step of the instrument's numbers in K, if they have one.
     pub resolution: Option<f64>,
-    /// Whether the residuals are little more than the rounding to that step. It then follows the
-    /// curve and does not average out as noise does: the intervals hold the truth less often than
-    /// they say (in 86 of 100 records with a step of five deviations of slow noise).
+    /// True if the residuals are little more than the rounding to that step. It then follows the
+    /// curve and does not average out as noise does: the intervals contain the true value less
+    /// often than they say (in 86 of 100 records with a step of five deviations of slow noise).
     pub coarse: bool,
-    /// Whether the residuals ask for a second exponential.
+    /// Test for a second exponential in the residuals.
     pub second: LikelihoodRatioTest,
-    /// What errors of derived quantities need.
+    /// Data for the errors of derived quantities.
     random: Random,
 }
 
-/// How well any function of fitted numbers is known.
+/// Random errors of any function of fitted numbers.
 #[derive(Clone, Debug, PartialEq)]
 struct Random {
     /// `(J^T J)^-1`.
@@ -100,8 +99,8 @@ struct Random {
 }
 
 impl Random {
-    /// From the derivatives of residuals at these times, one number after the other; `None` where
-    /// they do not determine all numbers.
+    /// From the derivatives of residuals at these times, one number after the other; `None` if they
+    /// do not determine all numbers.
     fn new(times: &[f64], jacobian: &[f64], noise: &Noise) -> Option<Self> {
         let all: Vec<usize> = (0..jacobian.len() / times.len()).collect();
         let inverse = Covariance::inverse(jacobian, times.len(), &all)?;
@@ -121,8 +120,7 @@ impl Random {
 }
 
 impl StepFit {
-    /// Fits a column: `temperatures` in K at strictly ascending `times` in s, NaN where there is
-    /// none.
+    /// Fits a column: `temperatures` in K at strictly ascending `times` in s, NaN if there is none.
     ///
     /// # Errors
     /// [`StepError`]
@@ -187,13 +185,14 @@ impl StepFit {
         to + (from - to) * (-time / self.tau.value).exp()
     }
 
-    /// Whether the record is so short that `T_f` and `t_RC` are extrapolated.
+    /// True if the record is so short that `T_f` and `t_RC` are extrapolated.
     pub fn extrapolates(&self) -> bool {
         self.time_constants() < LONG_ENOUGH
     }
 }
 
-/// What one exponential misses (curve less record), and its derivatives by `T_i`, `T_f` and `t_RC`.
+/// Residuals of one exponential (curve less record), and its derivatives by `T_i`, `T_f` and
+/// `t_RC`.
 fn curve(times: &[f64], values: &[f64], [initial, settled, tau]: [f64; 3]) -> (Vec<f64>, Vec<f64>) {
     let decay: Vec<f64> = times.iter().map(|t| (-t / tau).exp()).collect();
     let misses =

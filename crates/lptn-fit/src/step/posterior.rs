@@ -1,4 +1,4 @@
-//! What a step leaves behind for studies.
+//! The posterior of a step, for studies.
 
 use lptn_netlist::{Posterior, PosteriorOf, PosteriorQuantity};
 use lptn_units::statistics::student_95;
@@ -6,22 +6,22 @@ use lptn_units::{Correlations, Dimension, Distribution, Spread};
 
 use super::{Capacity, Power, StepFit};
 
-/// A quantity, and how it changes with what errors come from.
+/// A quantity, and its derivatives by the sources of its error.
 struct Derived {
     name: &'static str,
     dimension: Dimension,
     value: f64,
-    /// By `T_i`, `T_f` and `t_RC`.
+    /// Derivatives by `T_i`, `T_f` and `t_RC`.
     fit: [f64; 3],
-    /// By what else the rise may be off, and by the capacity.
+    /// Derivatives by other errors of the rise, and by the capacity.
     rise: f64,
     capacity: f64,
 }
 
 impl Power {
-    /// `P_disp`, `R_eq` and, where it is not exact, `C_eq` with their covariance, random and
-    /// systematic, as parameters of these names: a body of `C_eq` that loses its heat over `R_eq` is
-    /// what the method takes the machine for. `record` and `column` are what the data are called.
+    /// `P_disp`, `R_eq` and, if it is not exact, `C_eq` with their covariance, random and
+    /// systematic, as parameters of these names. The method models the machine as a body of `C_eq`
+    /// that loses its heat over `R_eq`. `record` and `column` are the names of the data.
     pub fn posterior(
         &self,
         fit: &StepFit,
@@ -52,7 +52,7 @@ impl Power {
 
     fn derived(&self, fit: &StepFit, c: f64, own: bool) -> [Derived; 3] {
         let (tau, heat, resistance) = (fit.tau.value, self.power.value, self.resistance.value);
-        // T_i takes part only where it is the reference
+        // T_i takes part only if it is the reference
         let initial = if own { -c / tau } else { 0.0 };
         let of = |name, dimension, value| Derived {
             name,
@@ -82,7 +82,7 @@ impl Power {
 impl Derived {
     fn quantity(&self, fit: &StepFit, sigma: f64) -> PosteriorQuantity {
         let random = fit.random.estimated(self.value, &self.fit);
-        // what is known beforehand is known (F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110)
+        // priors are exact (F. E. Satterthwaite, Biometrics Bulletin 2 (1946) 110)
         let share = (sigma / random.standard_error).powi(4);
         let degrees = Some(random.degrees_of_freedom * share).filter(|d| d.is_finite());
         PosteriorQuantity {

@@ -1,4 +1,4 @@
-//! From a time constant to a heat.
+//! Heat from a time constant.
 
 use lptn_units::statistics;
 use lptn_units::statistics::student_95;
@@ -17,10 +17,10 @@ pub struct Capacity {
     pub deviation: f64,
 }
 
-/// What a thermocouple of some class may be wrong by.
+/// Possible errors of a thermocouple of some class.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Sensor {
-    /// The limit of its offset, in K: ± 3 K in the paper. All offsets inside are thought equally
+    /// The limit of its offset, in K: ± 3 K in the paper. All offsets inside are assumed equally
     /// likely, so one standard deviation is this over sqrt(3) (GUM, JCGM 100:2008, 4.3.7). It drops
     /// out of differences of one sensor.
     pub class: f64,
@@ -39,14 +39,14 @@ pub enum ReferenceTemperature<'a> {
         name: String,
         /// The record's times in s.
         times: &'a [f64],
-        /// Its temperatures in K, NaN where there is none.
+        /// Its temperatures in K, NaN if there is none.
         temperatures: &'a [f64],
     },
     /// A temperature in K, on the scale of the record, taken as exact.
     Value(f64),
 }
 
-/// A number whose random and systematic errors stand apart: the first falls with more samples or
+/// A number with separate random and systematic errors: the first falls with more samples or
 /// repeated runs, the second is the same in every run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Parted {
@@ -60,8 +60,8 @@ pub struct Parted {
     pub systematic: f64,
 }
 
-/// What a step says with a capacity. That a network of several nodes does not follow one
-/// exponential is not in the errors: [`ModelBias`](super::ModelBias).
+/// Results of a step with a capacity. The errors do not include that a network of several nodes
+/// does not follow one exponential: see [`ModelBias`](super::ModelBias).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Power {
     /// `R_eq = t_RC / C` in K/W (equation 8).
@@ -76,8 +76,8 @@ pub struct Power {
     pub reference_temperature: f64,
     /// That error.
     pub reference_error: f64,
-    /// How much the reference column changes over the record by its straight line, in K; 0 for the
-    /// others. A bed that warms is not fixed ground.
+    /// Change of the reference column over the record by its straight line, in K; 0 for the others.
+    /// A bed that warms is not fixed ground.
     pub drift: f64,
 }
 
@@ -103,7 +103,7 @@ impl Power {
         let resistance = parted(fit, tau / c, [0.0, 0.0, 1.0 / c], 0.0, tau / c * relative);
         let offset = f64::sqrt(zero.sensors) * sensor.class / 3_f64.sqrt();
         let in_rise = offset.hypot(sensor.gain * rise);
-        // T_i takes part only where it is the reference
+        // T_i takes part only if it is the reference
         let initial = if zero.own { -1.0 } else { 0.0 };
         let of_rise = parted(fit, rise, [initial, 1.0, 0.0], zero.error, in_rise);
         let heat = c * rise / tau;
@@ -133,11 +133,11 @@ fn parted(fit: &StepFit, value: f64, gradient: [f64; 3], more: f64, systematic: 
 struct Zero {
     name: String,
     value: f64,
-    /// Random error from elsewhere than the fit.
+    /// Random error from other sources than the fit.
     error: f64,
-    /// Whether it is `T_i` of the fit.
+    /// True if it is `T_i` of the fit.
     own: bool,
-    /// How many sensors' offsets are in a difference to it.
+    /// Number of sensors whose offsets are in a difference to it.
     sensors: f64,
     drift: f64,
 }

@@ -1,16 +1,16 @@
-//! Stretches in which an instrument stood at the end of its range.
+//! Stretches in which an instrument was at the end of its range.
 
 use lptn_reduce::fit_exponential;
 
 use super::error::StepError;
 
-/// A stretch of equal extreme values counts from so many samples on.
+/// Minimum number of samples in a stretch of equal extreme values.
 const FEWEST: usize = 10;
 
-/// Refuses a record that stands still at its least or greatest value where, by the exponential
-/// through the rest of it, it should be elsewhere: in the mean by more than five times what that
-/// exponential misses of the rest, or than the instrument's `step`. A record that has settled to
-/// within a step is not refused.
+/// Refuses a record that is constant at its least or greatest value although, by the exponential
+/// through the rest of it, it should be elsewhere. The mean distance must exceed five times the
+/// larger of that exponential's residual in the rest and the instrument's `step`. A record that has
+/// settled to within a step is not refused.
 pub(super) fn check(times: &[f64], values: &[f64], first: f64, step: f64) -> Result<(), StepError> {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

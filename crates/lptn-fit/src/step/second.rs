@@ -1,4 +1,4 @@
-//! Whether a record asks for a second exponential, and that.
+//! Test for a second exponential in a record, and its fit.
 
 use lptn_integrate::vectors::{dot, take_off};
 use lptn_reduce::ExponentialFit;
@@ -8,23 +8,23 @@ use super::{Estimated, Random};
 use crate::least_squares::{Evaluated, LeastSquaresFit, Residuals, Settings, minimise};
 use crate::noise::{Noise, orthonormal, stretches};
 
-/// A record is looked at through the means of some so many stretches.
+/// Number of stretches whose means are tested.
 const STRETCHES: usize = 400;
 
-/// Of 1000 records without a second exponential at most some 10 have a larger likelihood ratio
+/// At most some 10 of 1000 records without a second exponential have a larger likelihood ratio
 /// (measured in the tests: its time constant is free, so the ratio does not follow chi-square with
 /// two degrees of freedom, whose value would be 9.2).
 const THRESHOLD: f64 = 13.0;
 
-/// The likelihood ratio test of whether the residuals ask for a second exponential.
+/// The likelihood ratio test for a second exponential in the residuals.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LikelihoodRatioTest {
     /// Twice the logarithm of the ratio of the likelihoods with and without it, both with noise
     /// that is correlated as its residuals are: slow noise alone does not ask for it.
     pub ratio: f64,
-    /// What that has to exceed.
+    /// The limit that the ratio has to exceed.
     pub threshold: f64,
-    /// The second exponential, where it is asked for.
+    /// The second exponential, if the test asks for it.
     pub offer: Option<TwoExponentials>,
 }
 
@@ -33,11 +33,11 @@ pub struct LikelihoodRatioTest {
 pub struct TwoExponentials {
     /// `T_f` in K.
     pub settled: Estimated,
-    /// `A_1` and `A_2` in K; negative where the temperature rises.
+    /// `A_1` and `A_2` in K; negative if the temperature rises.
     pub amplitudes: [Estimated; 2],
     /// `t_1 > t_2` in s.
     pub taus: [Estimated; 2],
-    /// Root of the mean square of what it misses, in K.
+    /// Root mean square of the residuals, in K.
     pub rms: f64,
 }
 
@@ -79,7 +79,7 @@ pub(super) fn ask(times: &[f64], values: &[f64], one: &ExponentialFit) -> Likeli
     }
 }
 
-/// Whether both parts can be seen: no time constant is on its bound, and they differ.
+/// True if both parts are visible: no time constant is on its bound, and they differ.
 fn distinct(found: &LeastSquaresFit, times: &[f64]) -> bool {
     let (p, length) = (&found.parameters, times[times.len() - 1] - times[0]);
     let seen = |log: f64| log.exp() < 30.0 * length;
@@ -130,9 +130,9 @@ impl Two<'_> {
         minimise(self, start, &settings).ok()
     }
 
-    /// From one exponential: the time constant of a grid whose decay takes most of its `residuals`,
-    /// beside what their derivatives can take. Between two time constants that are near each other
-    /// nothing is sought.
+    /// Start from one exponential: the time constant of a grid whose decay explains most of its
+    /// `residuals` in addition to their derivatives. Time constants near the first one are not
+    /// tried.
     fn start(&self, tau: f64, residuals: &[f64], jacobian: &[f64]) -> Option<Vec<f64>> {
         const GRID: usize = 24;
         let basis = orthonormal(jacobian, self.times.len());
