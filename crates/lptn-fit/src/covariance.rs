@@ -1,4 +1,4 @@
-//! How well parameters are determined, and together with which others.
+//! Covariance of parameters: standard errors and correlations.
 
 use faer::{Mat, MatRef};
 use lptn_integrate::dense;
@@ -6,7 +6,7 @@ use lptn_integrate::dense;
 /// The covariance of some parameters of a fit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Covariance {
-    /// Which parameters, ascending; those that sit on a bound are not among them.
+    /// Indices of the parameters, ascending; those on a bound are not among them.
     pub parameters: Vec<usize>,
     /// Row by row, `parameters.len()` squared, in the product of the parameters' units.
     pub values: Vec<f64>,
@@ -14,8 +14,8 @@ pub struct Covariance {
 
 impl Covariance {
     /// `(J^T J)^-1` of some `parameters`, from the singular values of their columns scaled to
-    /// length 1. `jacobian` holds the derivatives of `rows` residuals, one parameter after the
-    /// other. `None` where the smallest singular value is below `1e-12` of the largest: then some
+    /// length 1. `jacobian` contains the derivatives of `rows` residuals, one parameter after the
+    /// other. `None` if the smallest singular value is below `1e-12` of the largest: then some
     /// combination of the parameters is not determined.
     pub fn inverse(jacobian: &[f64], rows: usize, parameters: &[usize]) -> Option<Self> {
         let n = parameters.len();
@@ -27,8 +27,8 @@ impl Covariance {
         Some(Self { parameters: parameters.to_vec(), values })
     }
 
-    /// `(J^T J)^-1 M (J^T J)^-1` where this is `(J^T J)^-1`: the covariance of least squares when
-    /// that of the residuals is `Omega` and `M = J^T Omega J` (row by row).
+    /// `(J^T J)^-1 M (J^T J)^-1` if this is `(J^T J)^-1`: the covariance of least squares when that
+    /// of the residuals is `Omega` and `M = J^T Omega J` (row by row).
     #[must_use]
     pub fn sandwich(&self, middle: &[f64]) -> Self {
         let n = self.parameters.len();
@@ -51,8 +51,8 @@ impl Covariance {
         }
     }
 
-    /// With standard errors that are nowhere below those of `other`, of the same parameters;
-    /// correlations stay.
+    /// Raises standard errors to at least those of `other`, of the same parameters; correlations
+    /// stay.
     pub(crate) fn at_least(&self, other: &Self) -> Self {
         let n = self.parameters.len();
         let factor = |i: usize| (other.values[i * n + i] / self.values[i * n + i]).max(1.0).sqrt();
@@ -61,23 +61,23 @@ impl Covariance {
         Self { parameters: self.parameters.clone(), values }
     }
 
-    /// The covariance of parameters `i` and `j`; `None` where one of them is not free.
+    /// The covariance of parameters `i` and `j`; `None` if one of them is not free.
     pub fn between(&self, i: usize, j: usize) -> Option<f64> {
         let place = |p: usize| self.parameters.binary_search(&p).ok();
         Some(self.values[place(i)? * self.parameters.len() + place(j)?])
     }
 
-    /// The standard error of parameter `j`; `None` where it is not free.
+    /// The standard error of parameter `j`; `None` if it is not free.
     pub fn standard_error(&self, j: usize) -> Option<f64> {
         self.between(j, j).map(f64::sqrt)
     }
 
-    /// The correlation of parameters `i` and `j`, in -1..1; `None` where one of them is not free.
+    /// The correlation of parameters `i` and `j`, in -1..1; `None` if one of them is not free.
     pub fn correlation(&self, i: usize, j: usize) -> Option<f64> {
         Some(self.between(i, j)? / (self.between(i, i)? * self.between(j, j)?).sqrt())
     }
 
-    /// The standard deviation of a quantity with these derivatives by all parameters of the fit.
+    /// Standard deviation of a quantity with these derivatives by all parameters of the fit.
     pub fn propagated(&self, gradient: &[f64]) -> f64 {
         let n = self.parameters.len();
         let term = |at: usize| {

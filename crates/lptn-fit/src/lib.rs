@@ -1,10 +1,10 @@
-//! Parameters from measurements, with what the measurements can and cannot tell.
+//! Parameters from measurements, and how well the measurements determine them.
 //!
 //! [`least_squares`] finds the parameters of any model that are nearest to data; [`Covariance`] and
-//! [`Spectrum`] say how well the data determine them. [`noise`] gives standard errors where
-//! residuals depend on those before them. [`step`] is the seed paper's fit of one exponential,
-//! [`network`] the fit of any network's parameters,
-//! [`choice`] which of several networks the records speak for.
+//! [`Spectrum`] show how well the data determine them. [`noise`] gives standard errors if residuals
+//! depend on those before them. [`step`] is the seed paper's fit of one exponential, and
+//! [`network`] the fit of any network's parameters. [`choice`] finds the network that records
+//! favour.
 
 pub mod choice;
 pub mod infer;

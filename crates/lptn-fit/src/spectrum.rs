@@ -1,4 +1,4 @@
-//! Which combinations of parameters data determine.
+//! Combinations of parameters that data determine.
 
 use faer::{Mat, MatRef};
 use lptn_integrate::dense;
@@ -19,7 +19,7 @@ pub struct Spectrum {
 }
 
 impl Spectrum {
-    /// Of the derivatives `jacobian`, one parameter after the other, with parameter j in units of
+    /// From the derivatives `jacobian`, one parameter after the other, with parameter j in units of
     /// `scales[j]`: its own value makes the directions those of logarithms, in which a product of
     /// parameters is a sum.
     ///
@@ -46,7 +46,7 @@ impl Spectrum {
         Some(Self { values, directions, rank, threshold })
     }
 
-    /// The directions that the residuals do not feel.
+    /// The directions that do not change the residuals.
     pub fn unseen(&self) -> &[Vec<f64>] {
         &self.directions[self.rank..]
     }
