@@ -1,6 +1,6 @@
 //! The minimum of a function of some numbers without its derivatives.
 
-/// By the simplex of J. A. Nelder and R. Mead (Computer Journal 7 (1965) 308), to 1e-3 of the
+/// Uses the simplex of J. A. Nelder and R. Mead (Computer Journal 7 (1965) 308), to 1e-3 of the
 /// function and 1e-2 of the numbers, all of order 1, or 40 steps for two of them. It begins with
 /// corners that are `size` apart.
 pub(crate) fn minimum(function: impl Fn(&[f64]) -> f64, start: &[f64], size: f64) -> Vec<f64> {

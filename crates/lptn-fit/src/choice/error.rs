@@ -49,7 +49,7 @@ pub enum ChoiceError {
         help "`lptn fit network` reports more; give the parameters start values nearer to the \
             expected ones, and bounds with `from` and `to`",
         class Class::Numbers;
-    /// A network cannot be fitted, or not without a record.
+    /// A network cannot be fitted to all records, or to all but one.
     Fit { contender: String, without: Option<String>, error: Box<NetworkFitError> } = error.code(),
         match without {
             Some(record) => format!("`{contender}` without {record}: {error}"),

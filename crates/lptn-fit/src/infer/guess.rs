@@ -6,7 +6,7 @@ use crate::infer::task::{Drift, InferTask};
 
 impl Strength {
     /// The given strengths, and first guesses of the others. If the change of a time history is
-    /// given, its slope is constant.
+    /// given, the intensity of its slope is 0.
     pub(crate) fn guess(task: &InferTask, model: &Model) -> Self {
         let length = model.length();
         let walk = |(sought, size): (&crate::infer::Sought, &f64)| match sought.intensity {

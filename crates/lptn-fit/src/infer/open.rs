@@ -21,7 +21,7 @@ const FALLEN: f64 = 7.0;
 /// Shares below this do not count.
 const LEAST_SHARE: f64 = 1e-3;
 
-/// Intensities are followed up to the expected one over this part, and down by its square.
+/// Limits of the intensities: up to the expected one over this part, down by its square.
 const LEAST_PART: f64 = 1e-8;
 
 /// Factor of each step.

@@ -58,14 +58,14 @@ impl Begins {
         })
     }
 
-    /// True if a body may not begin as the network says with its own parameters.
+    /// True if a body may begin at another temperature than that of the network's own parameters.
     pub(crate) fn may_move(&self, body: usize) -> bool {
         self.unknown[body] || self.by_parameter.iter().any(|change| change[body].abs() > 0.0)
     }
 
-    /// Distribution of all states relative to a reference that begins at these temperatures.
-    /// `spreads` is the deviation of each time history, `shown` the reading of a slow instrument as
-    /// a sum over bodies.
+    /// Distribution of the states relative to a reference with this start. `spreads` is the
+    /// deviation of each time history, `shown` the reading of a slow instrument as a sum over
+    /// bodies.
     pub(crate) fn prior(
         &self,
         (task, states): (&InferTask, &States),
@@ -87,8 +87,7 @@ impl Begins {
             }
             mean[i] = self.own[i] - start[i];
         }
-        // correlated parameters are sums of independent ones; if that fails, they count as
-        // independent
+        // correlated parameters are sums of independent ones; if that fails, all are independent
         let uncertain = states.uncertain;
         let factor = task.together.factor().unwrap_or_else(|_| identity(uncertain));
         for column in 0..uncertain {

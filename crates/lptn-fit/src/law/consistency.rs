@@ -7,7 +7,7 @@ use super::error::LawError;
 use super::stated::{Exponent, LawOf, StatedLaw};
 use crate::step::Capacity;
 
-/// Laws contradict each other if chance alone explains their difference with less probability.
+/// Laws contradict each other if chance alone explains a difference with less probability.
 pub const SIGNIFICANT: f64 = 0.05;
 
 /// Laws without standard errors contradict each other if no common factor brings their powers
@@ -77,7 +77,7 @@ pub struct Consistency {
     /// Implied against stated power; `None` without a capacity.
     pub level: Option<Level>,
     /// True if the power of each point is `C dT / t_RC`, all with one C. It was then computed from
-    /// the others and gives no information of itself.
+    /// the others and adds no information.
     pub derived: bool,
     /// Points less fitted numbers; `None` for stated laws.
     pub degrees_of_freedom: Option<usize>,

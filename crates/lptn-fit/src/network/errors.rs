@@ -44,8 +44,9 @@ struct ColumnNoise<'a> {
 }
 
 impl<'a> Errors<'a> {
-    /// With the parameters that are not on a bound. If some cannot be distinguished, so many are
-    /// fixed that the others can. The errors of the determined ones do not depend on the choice.
+    /// With the parameters that are not on a bound. If some cannot be distinguished, enough of them
+    /// are fixed to separate the others. The errors of the determined ones do not depend on the
+    /// choice.
     pub(crate) fn new(
         task: &'a NetworkFitTask,
         model: &'a Model<'_>,

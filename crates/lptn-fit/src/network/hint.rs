@@ -137,7 +137,7 @@ impl Missed<'_> {
     }
 }
 
-/// Part of the residuals that a change of a column explains.
+/// Explanation of residuals by a change of a column.
 struct Explained {
     /// Multiple of the change.
     change: f64,

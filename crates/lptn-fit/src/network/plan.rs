@@ -8,7 +8,7 @@ use crate::network::error::NetworkFitError;
 use crate::network::recorded::{RecordedSignal, RecordedStart};
 use crate::network::task::{Instrument, Measurand, MeasuredColumn, MeasuredRun, NetworkFitTask};
 
-/// Number of searches that begin between the bounds.
+/// Default number of searches that begin between the bounds.
 const MORE_STARTS: usize = 4;
 
 /// Temperature of the nodes while an expression is evaluated, in K. Powers of 2 keep sums exact.

@@ -4,7 +4,7 @@
 //! row by row from the run, with the evaluator of reports (`Solution::result`). Its derivative is a
 //! difference in each row along the sensitivities of all temperatures
 //! (`SensitiveRun::result_slope`). Nothing is integrated there, so it keeps eight digits and covers
-//! every law, stream and massless node.
+//! every law, stream and zero-capacity node.
 
 use lptn_analysis::RunAnalysis;
 use lptn_network::{NodeId, ParameterId};

@@ -103,8 +103,8 @@ pub(crate) fn groups(felt: &[usize], unseen: &[Vec<f64>]) -> Vec<Group> {
     groups
 }
 
-/// A reduced basis of the span of some directions: each has a 1 at the place of a 0 in the others.
-/// Parts of directions below [`SHARE`] count as 0.
+/// A reduced basis of the span of some directions: each has a 1 at a place where the others have a
+/// 0. Parts of directions below [`SHARE`] count as 0.
 fn basis(mut rows: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let columns = rows.first().map_or(0, Vec::len);
     let mut found: Vec<Vec<f64>> = Vec::new();

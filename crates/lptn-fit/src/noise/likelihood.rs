@@ -237,7 +237,7 @@ impl Likelihood {
     }
 
     /// The shapes of these places (`ln theta` and the logit), all equally likely a priori, and the
-    /// least of their values, times -2.
+    /// least restricted `Value` among them.
     pub(super) fn mixture(&self, places: impl Iterator<Item = [f64; 2]>) -> (Vec<Possible>, f64) {
         let shape = |place: [f64; 2]| Shape::at(place, self.spacing);
         let all: Vec<(Shape, Value)> =

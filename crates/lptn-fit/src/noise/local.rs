@@ -20,7 +20,7 @@ const LEAST_BLOCKS: usize = 2;
 /// Minimum number of independent values in a block.
 const ENOUGH: f64 = 16.0;
 
-/// Number of values of longer records: means of stretches.
+/// Largest number of values; longer records use means of stretches.
 const LONG: usize = 2000;
 
 /// Factor by which an uneven noise has to exceed the chance of one in 1000 records. The number of

@@ -17,7 +17,7 @@ const PLACES: i32 = 12;
 /// Logits of the drift's part of the variance, from the least that is felt next to white noise.
 const LOGITS: std::ops::RangeInclusive<i32> = 0..=9;
 
-/// Distance of slow drift below white noise in twice the log-likelihood that is allowed for one
+/// Allowed distance of slow drift below white noise, in twice the log-likelihood, for one
 /// exponential: nearly as likely is likely enough.
 pub(super) const BEHIND_OF_STEP: f64 = 0.15;
 
@@ -28,7 +28,7 @@ pub(super) const BEHIND_OF_NETWORK: f64 = 2.0;
 /// The same for one of two records of a network, each of which shows the drift of the other.
 pub(super) const BEHIND_OF_TWO: f64 = 0.0;
 
-/// The distance of slow drift below the likeliest noise that is allowed.
+/// Allowed distance of slow drift below the likeliest noise.
 const BEHIND: f64 = 4.0;
 
 impl Likelihood {
@@ -38,7 +38,7 @@ impl Likelihood {
     ///
     /// A fit absorbs most of such drift, so its residual is small even if its error is several
     /// times that of the noise. A test for it finds half of them at 5 % of false alarms; so no test
-    /// is made. Drift counts if it is no less likely than none, or not further `behind`.
+    /// is made. Drift counts if it is as likely as none, or less likely by at most `behind`.
     pub(super) fn slow(
         &self,
         (white, likeliest): (f64, f64),

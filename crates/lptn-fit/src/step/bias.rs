@@ -28,15 +28,16 @@ impl FittedValue {
 /// one exponential because the network has several nodes. The standard errors do not include them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ModelBias {
-    /// `T_i`: the port at the first time that is fitted, in K. A port without capacity has no
-    /// start, so there the fitted value counts.
+    /// `T_i`: the port at the first time that is fitted, in K. At the start of the run a port
+    /// without capacity has no start temperature, so there the fitted value counts.
     pub initial: FittedValue,
     /// `T_f`: the port in steady state with the inputs of the start, in K.
     pub settled: FittedValue,
     /// `t_RC`: `C_sum R_eq` of the network at the port, in s.
     pub tau: FittedValue,
-    /// `P`: the heat at the port, in W, against `C_sum (T_f - T_i) / t_RC`. If the record is cut,
-    /// `T_i` is the port's temperature at the start of the run: that of the cut gives no heat.
+    /// `P`: the equivalent heat at the port, in W, against `C_sum (T_f - T_i) / t_RC`. If the
+    /// record is cut, `T_i` is the port's temperature at the start of the run: that of the cut
+    /// gives no heat.
     pub power: FittedValue,
     /// `C_sum` in J/K: the sum of the capacities that heat from the port reaches.
     pub capacity: f64,

@@ -74,7 +74,7 @@ pub struct Power {
     pub reference: String,
     /// Its temperature in K, with its random standard error.
     pub reference_temperature: f64,
-    /// That error.
+    /// Random standard error of that temperature.
     pub reference_error: f64,
     /// Change of the reference column over the record by its straight line, in K; 0 for the others.
     /// A bed that warms is not fixed ground.
@@ -122,7 +122,7 @@ impl Power {
     }
 }
 
-/// With derivatives by `T_i`, `T_f`, `t_RC` and an error from elsewhere.
+/// A number with these derivatives by `T_i`, `T_f`, `t_RC` and another random error.
 fn parted(fit: &StepFit, value: f64, gradient: [f64; 3], more: f64, systematic: f64) -> Parted {
     let found = fit.random.estimated(value, &gradient);
     let random = found.standard_error.hypot(more);

@@ -10,9 +10,9 @@
 //! ([`DesignPlace::weight`]).
 //!
 //! Sensors are chosen from every set ([`MOST_PLACES`] places at most; beyond, by exchange), runs
-//! one after the other: each time the one with the least largest error over its target. The problem
-//! is that of V. V. Fedorov, Theory of Optimal Experiments, 1972; A. C. Atkinson, A. N. Donev, R.
-//! D. Tobias, Optimum Experimental Designs, with SAS, 2007.
+//! one after the other: each time the one whose largest error, over its target, is least. The
+//! problem is that of V. V. Fedorov, Theory of Optimal Experiments, 1972; A. C. Atkinson, A. N.
+//! Donev, R. D. Tobias, Optimum Experimental Designs, with SAS, 2007.
 //!
 //! A plan predicts the fit that will be made, not the best possible one. Each run is computed once,
 //! at some 50 lengths; only the length in the answer is found row by row. The offset of a single

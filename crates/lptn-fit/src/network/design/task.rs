@@ -257,7 +257,7 @@ impl DesignPlace {
         }
     }
 
-    /// The standard deviation in K for the weight of a value. It counts that the mean of many
+    /// The standard deviation in K by which a value is weighted. It includes that the mean of many
     /// values retains more of a drift than of independent noise. This is the `sigma` that a fit
     /// takes; without it the fit would trust a drifting record more than priors.
     pub fn weight(&self) -> f64 {
