@@ -14,15 +14,15 @@ pub(crate) const AXES: [char; 3] = ['x', 'y', 'z'];
 pub struct GridField {
     /// The name of the grid.
     pub name: String,
-    /// How many cells there are along x, y and z.
+    /// Number of cells along x, y and z.
     pub cells: [usize; 3],
-    /// How many indices its cells have.
+    /// Number of indices of its cells.
     pub axes: usize,
     /// Its lengths along x, y and z in m.
     pub size: [f64; 3],
     /// The temperature of each cell in K, the last index running fastest.
     pub kelvin: Vec<f64>,
-    /// What pictures say of them.
+    /// Caption below its pictures.
     pub caption: String,
 }
 
@@ -31,7 +31,7 @@ pub struct GridField {
 pub struct Cut {
     /// The axis it is perpendicular to: 0 for x, 1 for y, 2 for z.
     pub axis: usize,
-    /// Which layer, from 0.
+    /// Index of the layer, from 0.
     pub layer: usize,
 }
 
