@@ -1,13 +1,12 @@
-//! What hangs together with nothing: nodes that no path leads from to a boundary, boundaries that
-//! nothing touches.
+//! Unconnected parts: nodes without a path to a boundary, boundaries that nothing touches.
 
 use lptn_data::Diagnostic;
 use lptn_network::{End, Item, Network, list_of, list_of_names};
 
 use crate::source_map::SourceMap;
 
-/// The warnings. A boundary that an expression or a control reads is not idle; `is_read` knows
-/// those of expressions.
+/// The warnings. A boundary that an expression or a control reads is not idle; `is_read` knows the
+/// boundaries of expressions.
 pub(crate) fn warnings(
     network: &Network,
     map: &SourceMap,

@@ -1,4 +1,4 @@
-//! What is said about names that expressions use where they may not.
+//! Errors about names that expressions use in places that do not allow them.
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::Context;
@@ -9,7 +9,7 @@ use crate::raw::RawKind;
 const BOUND_HELP: &str = "a changing value belongs in `of`: a difference such as `of = \"steel.T - \
     air.T\"` has a constant bound";
 
-/// Temperatures of what is at hand.
+/// Temperatures of the element itself.
 pub(crate) const LOCAL: [&str; 5] = ["T", "T_from", "T_to", "T_mean", "dT"];
 
 /// A temperature in a place that has none of this name.

@@ -96,8 +96,7 @@ impl<'a> Elaboration<'a> {
         sound.then(|| FitRecord { csv: text.to_owned(), record, set, span: raw.span.clone() })
     }
 
-    /// The record that a value names. Without columns to read there is nothing to be said of its
-    /// inside.
+    /// The record that a value names. Without columns to read, its contents cannot be checked.
     fn fit_file(&mut self, raw: &RawValue, query: &RecordQuery) -> Option<Arc<Record>> {
         let csv: &'a crate::csv_files::CsvFiles = self.csv;
         let text = self.kept(csv.text(raw)?.map_err(Diagnostic::clone))?;
@@ -141,7 +140,7 @@ impl<'a> Elaboration<'a> {
         sound
     }
 
-    /// A parameter cannot have a value of a record and be sought as well.
+    /// Refuses a parameter that is varied and has a value from a record.
     pub(crate) fn set_and_varied(
         &mut self,
         fields: &Fields<'a>,
