@@ -110,8 +110,7 @@ impl Wanted {
         Self { ty: Some(ty), context: Context::Own, time: false, controls: false, derived: false }
     }
 
-    /// A value of a path between two ends, or of a source; expressions may name results of
-    /// `context`.
+    /// A value of a path or source, whose expressions may name the temperatures of `context`.
     pub(crate) fn of_law(ty: Option<Type>, context: Context) -> Self {
         Self { ty, context, time: true, controls: true, derived: false }
     }

@@ -14,11 +14,11 @@ use crate::raw::RawTable;
 
 const SYNTAX: &str = "netlist::syntax";
 
-/// Something opened and not closed: what follows is not read as it was meant.
+/// An unclosed part: the text after it is misread.
 pub(crate) const NOT_CLOSED: &str = "netlist::not_closed";
 
-/// Broken lines are explained up to here, further ones only counted: a file with more is probably
-/// no netlist.
+/// Number of broken lines that are explained; further ones are only counted, as a file with more is
+/// probably not a netlist.
 const MOST_ERRORS: usize = 200;
 
 /// Explains the parser's errors, one for each line: after the first the parser has lost its place
@@ -90,7 +90,7 @@ fn is_inside_table(message: &str) -> bool {
         .any(|start| message.starts_with(start))
 }
 
-/// Where an error is.
+/// The place of an error.
 struct Place<'a> {
     file: FileId,
     text: &'a str,
@@ -190,7 +190,7 @@ fn name_in_two(place: &Place<'_>) -> Option<Diagnostic> {
     Some(Diagnostic::error(SYNTAX, "name with a blank in it").at(span, "").help(help))
 }
 
-/// A letter that names cannot hold: `gehäuse`.
+/// A letter that names cannot contain: `gehäuse`.
 fn odd_letter(message: &str, place: &Place<'_>) -> Option<Diagnostic> {
     if !message.starts_with("invalid unquoted key") {
         return None;

@@ -277,7 +277,7 @@ impl<'a> Object<'a> {
         found.number().ok_or_else(|| self.wrong(name, "a number", found))
     }
 
-    /// A number, or nothing where there is `null`.
+    /// A number; `None` for `null`.
     fn maybe(&self, name: &str) -> Result<Option<f64>, Wrong> {
         match self.member(name) {
             None => Ok(None),

@@ -14,7 +14,7 @@ use crate::work::Elaboration;
 
 const TIME: Type = Type::of(Dimension::TIME);
 
-/// What a control for something else than a thermostat would be given.
+/// Help for keys of other kinds of controllers.
 const BOTH: &str = "give both thresholds: `on_above` and `off_below` for cooling, `on_below` and \
     `off_above` for heating";
 
@@ -64,14 +64,14 @@ pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-/// How a control stands at the start.
+/// State of a control at the start.
 const STARTS: [(&str, bool); 2] = [("off", false), ("on", true)];
 
-/// A dead band of fewer tolerances than this is no wider than the error of a run.
+/// A dead band of fewer tolerances than this is within the error of a run.
 const NARROW: f64 = 10.0;
 
 impl<'a> Elaboration<'a> {
-    /// Names every control, so that what is read afterwards may use it.
+    /// Names every control, so that everything read afterwards may use it.
     pub(crate) fn controls(&mut self) -> Vec<(ControlId, &'a RawEntry)> {
         let mut declared = Vec::new();
         for entry in self.elements(CONTROL.name) {
@@ -82,11 +82,11 @@ impl<'a> Elaboration<'a> {
         declared
     }
 
-    /// Says when each control switches, once the places that it can feel are known.
+    /// Gives each control its thresholds, once the places that it can sense are known.
     pub(crate) fn thermostats(&mut self, declared: Vec<(ControlId, &'a RawEntry)>) {
         for (id, entry) in declared {
             if self.thermostat(id, entry).is_none() {
-                // what is wrong with it has been reported
+                // its errors have been reported
                 self.left_out.items.insert(Item::Control(id));
             }
         }
@@ -105,7 +105,7 @@ impl<'a> Elaboration<'a> {
         Some(())
     }
 
-    /// Which way it acts, and when it goes on and off.
+    /// The direction in which it acts, and its two thresholds.
     fn thresholds(&mut self, id: ControlId, fields: &Fields<'a>) -> Option<(Acts, [Input; 2])> {
         let acts = self.acts(fields);
         let every = [Acts::Cooling, Acts::Heating].map(Acts::fields);
@@ -145,7 +145,7 @@ impl<'a> Elaboration<'a> {
         None
     }
 
-    /// Whether it is on at the start.
+    /// True if it is on at the start.
     fn begins_on(&mut self, fields: &Fields<'a>) -> Option<bool> {
         match fields.get("start") {
             Some(raw) if !matches!(raw.kind, RawKind::String { .. }) => {

@@ -1,4 +1,4 @@
-//! Names of nodes and boundaries, where something is connected to them.
+//! Names of nodes and boundaries, in fields that connect something to them.
 
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// The area of the face at which a path ends; of two it is the first.
+    /// The area of the face at which a path ends; of the first, if both ends are faces.
     pub(crate) fn area_of(
         &self,
         fields: &Fields<'_>,
@@ -49,7 +49,8 @@ impl<'a> Elaboration<'a> {
         area.or_else(|| lost.then(|| stand_in(Type::of(Dimension::AREA))))
     }
 
-    /// What a name means that is that of a grid or begins with it, and is no other name.
+    /// The part that a name means which is or begins with the name of a grid and is not another
+    /// name.
     pub(crate) fn part_of_grid<'n>(&self, name: &'n str) -> Option<(&'n str, GridPart)> {
         let other = self.builder.end(name).is_some_and(|end| !self.builder.is_part(end.into()));
         if other { None } else { self.names.grid_part(name) }
@@ -65,8 +66,8 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// What a name that is written at `place` means of a grid; inside a template it has to be one
-    /// of the template's.
+    /// The part of a grid that a name means at `place`; inside a template it has to be one of the
+    /// template's.
     pub(crate) fn part_of_grid_at(&self, place: &Span, name: &str) -> Option<GridPart> {
         let full = self.names.structure.inside(place, name)?;
         self.part_of_grid(&full).map(|(_, part)| part)
@@ -152,8 +153,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Whether every port leads to a node or boundary; what does not is reported once, and not
-    /// where it is used.
+    /// Checks that every port leads to a node or boundary; others are reported once, here only.
     pub(crate) fn connections(&mut self) {
         for (line, connection) in self.structure.connections() {
             let (owner, value) = (Owner::element(USE.name, &line.key), &connection.value);
@@ -168,7 +168,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// A name in a template that is none of its own.
+    /// Error for a name in a template that is not one of its own.
     fn not_inside(
         &self,
         fields: &Fields<'_>,

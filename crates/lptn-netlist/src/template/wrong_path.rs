@@ -3,19 +3,19 @@
 use super::structure::Structure;
 use lptn_data::{Diagnostic, Span};
 
-/// What is wrong with the indices of a path.
+/// The error in the indices of a path.
 #[derive(Debug)]
 pub(crate) struct WrongPath {
-    /// What is wrong, after "names `planet[9].gear`, but".
+    /// The error, after "names `planet[9].gear`, but".
     pub(crate) why: String,
-    /// What to write.
+    /// The correction.
     pub(crate) help: String,
-    /// Where the instances are made.
+    /// The place that makes the instances.
     pub(crate) made: Span,
 }
 
 impl Structure {
-    /// Why a path leads nowhere, if an index of an instance is to blame.
+    /// The error of a path, if an index of an instance is wrong.
     pub(crate) fn wrong_path(&self, path: &str) -> Option<WrongPath> {
         let mut before = String::new();
         for part in path.split('.') {
