@@ -39,7 +39,7 @@ lptn_units::errors! {
 /// A slice that a grid does not have.
 #[derive(Clone, Debug)]
 pub enum NoSlice {
-    /// It does not say where it is.
+    /// Its place is not given.
     NotASlice { text: String, why: Option<Box<UnitError>> } = "graph::slice",
         match why {
             Some(why) => format!("`{text}` is not a slice: {why}"),
@@ -50,7 +50,7 @@ pub enum NoSlice {
     NoLayer { text: String, grid: String, axis: char, layers: usize } = "graph::slice",
         format!("`{text}` lies outside of `{grid}`: it has {layers} layers along {axis}"),
         help format!("name one from 1 to {layers}, {axis}={layers}");
-    /// The grid ends before, in m.
+    /// The grid is shorter; `length` is in m.
     NoPlace { text: String, grid: String, axis: char, length: f64 } = "graph::slice",
         format!(
             "`{text}` lies outside of `{grid}`: it is {} long along {axis}",

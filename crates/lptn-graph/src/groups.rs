@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use lptn_network::{BoundaryId, Item, Network, NodeId};
 
-/// More places than this are grouped unless the user says otherwise.
+/// More places than this are grouped by default.
 pub const MOST_PLACES: usize = 150;
 
 /// Groups are joined further until there are no more places than this.

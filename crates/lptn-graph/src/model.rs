@@ -108,7 +108,7 @@ pub struct Supply {
 pub struct Switching {
     /// Its name.
     pub name: String,
-    /// The place whose temperature it feels.
+    /// The place whose temperature it senses.
     pub sense: usize,
     /// When it switches: `on above 85 °C, off below 75 °C`.
     pub rule: String,
@@ -136,7 +136,7 @@ pub struct Scales {
     pub caption: String,
     /// The largest heat flow in W; not negative.
     pub most: f64,
-    /// The unit of power of 1000 in W that heat flows are written in, and its name.
+    /// The unit of heat flows: its size in W, a power of 1000, and its name.
     pub heat_unit: (f64, String),
     /// Decimals of heat flows.
     pub decimals: usize,

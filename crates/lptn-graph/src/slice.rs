@@ -174,7 +174,7 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// Round places from 0 on, along a side of `length` in m that is `pixels` wide.
+/// Round places from 0 on, along a side of `length` in m that takes `pixels`.
 fn marks(length: f64, pixels: f64) -> Vec<f64> {
     let most = (pixels / 60.0).clamp(1.0, 8.0);
     let least = length / most;

@@ -127,7 +127,7 @@ impl<'a> Scale<'a> {
         format!("{} {}", self.number(kelvin), self.sign())
     }
 
-    /// A temperature in K as it was written: `25 °C`.
+    /// A temperature in K with up to 6 digits: `25 °C`.
     pub(crate) fn given(&self, kelvin: f64) -> String {
         format!("{} {}", significant(self.unit.from_si(kelvin), 6), self.sign())
     }

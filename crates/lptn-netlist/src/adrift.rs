@@ -15,7 +15,7 @@ pub(crate) fn warnings(
     [ungrounded(network, map), idle(network, map, is_read)].into_iter().flatten()
 }
 
-/// A path that was left out looks like this.
+/// Nodes without a path to a boundary: a path may have been forgotten.
 fn ungrounded(network: &Network, map: &SourceMap) -> Option<Diagnostic> {
     let nodes: Vec<_> = network.ungrounded().into_iter().flatten().collect();
     let first = *nodes.first()?;

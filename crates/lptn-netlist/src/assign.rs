@@ -66,7 +66,7 @@ impl Netlist {
     /// Checks that the gears of a network with other parameters mesh, as `--set` does.
     ///
     /// # Errors
-    /// The first stage whose wheels cannot be put together.
+    /// The first stage whose wheels cannot be assembled.
     pub fn meshes(&self, network: &Network) -> Result<(), Box<Diagnostic>> {
         let first = gearbox::check(&self.gearboxes, network).into_iter().next();
         first.map_or(Ok(()), |problem| Err(Box::new(problem)))
@@ -242,7 +242,7 @@ impl Netlist {
         }
     }
 
-    /// The parameters that a value depends on, straight or through others.
+    /// The parameters that a value depends on, directly or through others.
     fn dependencies(&self, item: Item, field: Field) -> HashSet<ParameterId> {
         let mut found = HashSet::new();
         let mut open: Vec<ParameterId> = match item {
@@ -314,7 +314,7 @@ impl Netlist {
                 vec![if field == Field::Of { &limit.of } else { &limit.value }]
             }
             Item::Conductor(id) => {
-                // a conductance out of range may be the fault of any of them
+                // a conductance out of range may result from any of them
                 network.conductors()[id.index()].law.values().iter().collect()
             }
             Item::Signal(id) => match &network.signals()[id.index()].course {

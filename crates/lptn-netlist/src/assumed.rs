@@ -10,7 +10,7 @@ use crate::source_map::SourceMap;
 /// Allowed difference between the addenda of two gears and their sum without shift, in modules.
 const ROUNDED: f64 = 0.005;
 
-/// A warning for each mesh whose addenda say that its profiles are shifted.
+/// A warning for each mesh whose addenda indicate shifted profiles.
 pub(crate) fn shifted_gears(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     let sources = network.source_ids().map(Item::Source);
     sources.filter_map(|item| shifted((network, map), item)).collect()

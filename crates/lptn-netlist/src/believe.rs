@@ -25,8 +25,8 @@ pub enum Taken {
     Known,
 }
 
-/// With fewer degrees of freedom than this a normal distribution is too narrow to be used without
-/// a word: its 95 % interval is 12 % wider already.
+/// With fewer degrees of freedom than this, a normal distribution needs a warning: the 95 %
+/// interval is already 12 % wider.
 const FEW: f64 = 10.0;
 
 /// Two numbers are equal if they differ by less than this share.
@@ -115,7 +115,7 @@ impl Netlist {
         doubts
     }
 
-    /// Warns about a fit of another netlist, unless the netlist names what to take.
+    /// Warns about a fit of another netlist, unless the netlist names parameters.
     fn other_network(&self, believed: &Believed) -> Option<Diagnostic> {
         let (name, _) = self.inputs().next()?;
         let own = Path::new(name).file_stem()?.to_string_lossy();

@@ -136,7 +136,7 @@ impl<'a> Elaboration<'a> {
         })
     }
 
-    /// The cases in which a size has to keep everything: all, unless it names some.
+    /// The cases in which a size has to meet its requirements; default: all.
     pub(crate) fn cases_of(&mut self, fields: &Fields<'a>) -> Option<Option<Vec<String>>> {
         let Some(listed) = self.listed_if_any(fields, ("cases", "a list of names"))? else {
             return Some(None);

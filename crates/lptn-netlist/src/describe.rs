@@ -28,7 +28,7 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
             let grid = if matches!(whole, Item::Grid(_)) { "the grid" } else { "the element" };
             diagnostic.at(map.name(*item), "named here").also(map.name(*whole), grid)
         }
-        // every node of the island, as far as a reader can take them in
+        // at most eight nodes of the island, for readability
         Kind::FloatingIsland { nodes, .. } => {
             let spans = nodes.iter().take(8).filter_map(|node| map.name(Item::Node(*node)));
             let texts = ["not determined"].into_iter().chain(std::iter::repeat("connected to it"));

@@ -49,7 +49,7 @@ pub(crate) struct Found {
 /// Largest number of problems of the network as a whole that are described.
 const MOST_DESCRIBED: usize = 1000;
 
-/// The network, or every reason why there is none. Warnings come with either.
+/// The network, or every error that prevents it. Warnings come with either.
 pub(crate) fn elaborate(
     raw: &RawNetlist,
     (structure, gears): (&Arc<Structure>, &Gears),

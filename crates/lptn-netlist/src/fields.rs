@@ -76,7 +76,7 @@ pub(crate) struct Oil {
     pub(crate) at: String,
 }
 
-/// The fields of one table, with everything wrong about its keys reported.
+/// The fields of one table, with all errors of its keys reported.
 #[derive(Debug)]
 pub(crate) struct Fields<'a> {
     pub(crate) owner: Owner,
@@ -143,7 +143,7 @@ impl<'a> Fields<'a> {
         self.entry(key).map(|entry| &entry.key_span)
     }
 
-    /// The value of a key that has to be there.
+    /// The value of a required key.
     pub(crate) fn require(
         &self,
         key: &str,

@@ -41,7 +41,7 @@ pub struct SectionDeclaration {
     pub keys: &'static [KeyDeclaration],
     /// Groups of keys, at least one of which is required.
     pub either: &'static [&'static [&'static str]],
-    /// Keys that are decided but not supported yet.
+    /// Keys that are reserved but not supported yet.
     pub later: &'static [&'static str],
     /// The right side of an element, for help.
     pub example: &'static str,
@@ -50,7 +50,7 @@ pub struct SectionDeclaration {
 }
 
 impl SectionDeclaration {
-    /// Without keys, to begin with.
+    /// An empty declaration to start from.
     pub const NEW: Self = Self {
         name: "",
         sentence: "",
@@ -114,7 +114,7 @@ pub enum Takes {
     Property(&'static str),
     /// A number without a unit, or an expression.
     Number,
-    /// A quantity or a number: its type follows from something else.
+    /// A quantity or a number: its type follows from another value.
     Like,
     /// A whole number.
     Whole,
@@ -177,7 +177,8 @@ pub(crate) const fn shaped(
     KeyDeclaration { name, takes, said, meaning, default: "", example, needed: false }
 }
 
-/// Functions that declare a key of one type, from an argument of their own, meaning and example.
+/// Functions that declare a key of one type from its name, meaning, example and perhaps one more
+/// value.
 macro_rules! keys {
     ($($(#[$words:meta])* $name:ident($($given:ident: $ty:ty)?) => $takes:expr, $said:expr;)*) => {$(
         $(#[$words])*
@@ -197,7 +198,7 @@ keys! {
     key(unit: &'static str) => Takes::Quantity(unit), unit;
     /// A quantity in a unit, or a table over the temperature.
     property(unit: &'static str) => Takes::Property(unit), unit;
-    /// A quantity or a number whose type follows from something else.
+    /// A quantity or a number whose type follows from another value.
     akin(said: &'static str) => Takes::Like, said;
     /// A string.
     text(said: &'static str) => Takes::Text, said;
@@ -247,12 +248,12 @@ impl KeyDeclaration {
 /// The unit of a key that takes an absolute temperature.
 pub(crate) const ABSOLUTE: &str = "absolute temperature";
 
-/// All sections, in the order in which they are named to people.
+/// All sections, in the order in which messages list them.
 #[derive(Debug)]
 pub struct NetlistFormat {
     /// The sections there are.
     pub sections: Vec<&'static SectionDeclaration>,
-    /// Sections that the format has for later.
+    /// Sections that the format reserves for later.
     pub later: &'static [&'static SectionDeclaration],
 }
 

@@ -11,7 +11,7 @@ use crate::place::{Place, Wanted};
 pub(crate) const VALUES: [&str; 3] = ["mean", "min", "max"];
 
 impl Names {
-    /// The part that a name means which is or begins with the name of a grid, and that name.
+    /// The name of the grid with which `name` begins, and the part of it that `name` means.
     pub(crate) fn grid_part<'n>(&self, name: &'n str) -> Option<(&'n str, GridPart)> {
         let ends = name.match_indices(['.', '[']).map(|(at, _)| at).chain([name.len()]);
         let known = |end: usize| Some((end, self.grids.get(name.get(..end)?)?));

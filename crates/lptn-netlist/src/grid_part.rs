@@ -3,11 +3,11 @@
 use lptn_data::Span;
 use lptn_network::{Face, GridFace, GridId};
 
-/// A grid as far as names need it.
+/// The data of a grid that names need.
 #[derive(Clone, Debug)]
 pub(crate) struct KnownGrid {
     pub(crate) id: GridId,
-    /// Number of cells along each axis that cells have an index of.
+    /// Number of cells along each axis that has an index.
     pub(crate) cells: Vec<usize>,
     /// The place of its name.
     pub(crate) span: Span,
@@ -15,7 +15,7 @@ pub(crate) struct KnownGrid {
     pub(crate) attached: Vec<Face>,
 }
 
-/// The part that a name means which begins with that of a grid.
+/// The meaning of a name that begins with the name of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum GridPart {
     /// The grid itself.
@@ -26,7 +26,7 @@ pub(crate) enum GridPart {
     Face(GridFace),
     /// One cell of a face.
     Surface(GridFace),
-    /// Nothing, for this reason and with this advice.
+    /// Nothing, with the reason and the help.
     Nothing(String, String),
 }
 

@@ -56,7 +56,7 @@ pub(crate) fn missing_format(
     }
 }
 
-/// A text without anything in it.
+/// Error for an empty text.
 pub(crate) fn empty(text: &str, at: Span) -> Diagnostic {
     let what = if text.trim().is_empty() { "is empty" } else { "contains nothing but comments" };
     Diagnostic::error("netlist::empty", format!("the netlist {what}"))

@@ -15,7 +15,7 @@ pub(crate) struct Json<'a> {
     pub(crate) text: &'a str,
 }
 
-/// A value inside a text, unread as yet.
+/// A value inside a text, not yet read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct JsonValue<'a> {
     raw: &'a RawValue,

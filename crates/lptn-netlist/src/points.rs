@@ -279,7 +279,7 @@ fn no_unit(place: Place<'_>, axis: Axis<'_>, ty: Type) -> Diagnostic {
     )
 }
 
-/// A list of one type so far, and an item of another.
+/// Error for a list with items of two types.
 fn mixed(place: Place<'_>, axis: Axis<'_>, (first, found): (Option<Type>, Type)) -> Diagnostic {
     let first = first.unwrap_or(Type::SCALAR);
     let message = format!(

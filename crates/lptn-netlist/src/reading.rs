@@ -71,7 +71,7 @@ impl<'a> Elaboration<'a> {
         self.given(Place { owner: &owner.inside(key), key: "", raw }, wanted)
     }
 
-    /// The value of a key that has to be there.
+    /// The value of a required key.
     pub(crate) fn require(&mut self, fields: &Fields<'a>, key: &str) -> Option<&'a RawValue> {
         fields.require(key, &mut self.problems)
     }

@@ -36,7 +36,7 @@ impl Names {
         }
     }
 
-    /// An unknown name in a place where results may be named.
+    /// Error for an unknown name in a place that takes results.
     pub(crate) fn unknown_result(&mut self, place: Place<'_>, name: &str, at: Span) -> Diagnostic {
         let (words, base) = (place.words(), base(name));
         let dotted = base.len() < name.len();
@@ -77,8 +77,7 @@ impl Names {
         }
     }
 
-    /// The most similar parameter, temperature or heat flow; of equally similar ones the first in
-    /// the alphabet.
+    /// The most similar parameter, temperature or heat flow; in a tie, the first in the alphabet.
     fn similar_result(&mut self, name: &str) -> Option<String> {
         if !self.may_search(self.elements.len()) {
             return None;

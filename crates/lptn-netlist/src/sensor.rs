@@ -3,7 +3,7 @@
 //! No temperature depends on a sensor, so it is a study instead of an element: only fits read it,
 //! and their columns name it.
 //!
-//! As a node with a capacity, its lag would be one more state of every run. An offset would need a
+//! A lag as a node with a capacity would be one more state of every run. An offset would need a
 //! parameter that nothing else in the network uses.
 
 use lptn_data::{Diagnostic, Span, nearest};

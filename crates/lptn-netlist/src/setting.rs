@@ -85,8 +85,7 @@ impl Elaboration<'_> {
         Some(Setting { value, span: raw.span.clone(), words, unit: ty.usual_unit(), help })
     }
 
-    /// A value in its field, of the declared type; `Some(None)` if it is left out, `None` if it is
-    /// wrong.
+    /// A value of the declared type; `Some(None)` if it is left out, `None` if it is wrong.
     pub(crate) fn optional_setting(
         &mut self,
         fields: &Fields<'_>,

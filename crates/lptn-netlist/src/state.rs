@@ -40,7 +40,7 @@ pub struct SavedState<'a> {
     pub title: Option<&'a str>,
     /// The time in s.
     pub time: f64,
-    /// How the run ended.
+    /// The end of the run.
     pub end: StateEnd,
     /// Temperature of every node by name, in K.
     pub temperatures: Vec<(&'a str, f64)>,

@@ -40,7 +40,7 @@ fn wrong_outlet(network: &Network, map: &SourceMap, outlet: Outlet) -> Diagnosti
     ))
 }
 
-/// A rate as people read it.
+/// A rate with six digits.
 fn short(rate: f64) -> String {
     lptn_units::format_number(format!("{rate:.5e}").parse().unwrap_or(rate))
 }

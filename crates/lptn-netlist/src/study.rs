@@ -10,7 +10,7 @@ use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
 use crate::toml_text::{TomlFields, key};
 use crate::work::Elaboration;
 
-/// The name in a text of a file that another file names by a path.
+/// Maps a path that a file names to the path that a new text has to name.
 pub(crate) type PathFrom<'p> = dyn Fn(FileId, &str) -> String + 'p;
 
 /// The type of a parameter.
@@ -53,7 +53,7 @@ pub(crate) trait Study: Sized {
     /// default it is reported as any other element.
     const UNNAMED: Option<[&'static str; 4]> = None;
 
-    /// One of them, as far as it can be read; errors are reported.
+    /// One study, `None` if it cannot be read; errors are reported.
     fn one<'a>(work: &mut Elaboration<'a>, entry: &'a RawEntry) -> Option<Self>;
 
     /// All of them, in file order.

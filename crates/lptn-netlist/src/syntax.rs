@@ -23,7 +23,7 @@ pub(crate) fn read(
     let top = reader.table(tree.get_ref(), 0..0);
     let mut diagnostics = syntax_error::explain(&errors, (file, format), text, &top);
     if diagnostics.is_empty() {
-        // next to broken TOML it would only say the same again
+        // next to broken TOML it would only repeat the same
         diagnostics = reader.newer;
     } else if let Some(other) =
         foreign::recognise((files.name(file), format), (file, text), diagnostics.len())

@@ -11,8 +11,8 @@ use crate::value_help::parameter_help;
 use crate::work::Elaboration;
 
 impl Elaboration<'_> {
-    /// The value of a field; `None` if something is wrong with it, which is then reported, or with
-    /// a parameter it uses, which has been reported.
+    /// The value of a field; `None` after an error in it, which is reported, or in a parameter that
+    /// it uses, which has been reported.
     pub(crate) fn given(&mut self, place: Place<'_>, wanted: Wanted) -> Option<Given> {
         let kelvin = wanted.derived.then(|| place.kelvin_for(wanted.ty)).flatten();
         let text = self.kept(kelvin.map_or_else(|| self.names.text(place, wanted.ty), Err))?;

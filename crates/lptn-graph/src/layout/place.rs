@@ -155,7 +155,7 @@ pub(crate) fn extent(columns: &Columns, levels: &[f64], row: &Range<usize>) -> (
     })
 }
 
-/// Rows of columns, nearly equally wide and near `most` pixels at most; a row ends after places.
+/// Rows of columns of nearly equal width, at most about `most` pixels; a row ends after places.
 pub(crate) fn rows(columns: &Columns, routes: &[Channel], most: f64) -> Vec<Range<usize>> {
     let count = columns.layers.len();
     let width =

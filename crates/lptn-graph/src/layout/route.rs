@@ -189,7 +189,7 @@ pub(crate) fn joined(wires: Vec<[Point; 2]>) -> Vec<[Point; 2]> {
 /// At most this many wires go on from a row to the next one, so that a reader can follow them.
 pub(crate) const MOST_TURNING: usize = 4;
 
-/// A wire on its way to the next row: its net, and where it turns downwards again.
+/// A wire on its way to the next row: its net, and the point at which it turns downwards again.
 pub(crate) type Turned = (usize, Point);
 
 /// The width in pixels that wires take next to a row.
@@ -223,7 +223,7 @@ impl Channel {
         turned
     }
 
-    /// Leads the wires that come from the row before to where this one begins, at `x`.
+    /// Leads the wires that come from the row before to the beginning of this one, at `x`.
     pub(crate) fn enter(&self, out: &mut Arranged, turned: &[Turned], (x, shift): (f64, f64)) {
         for wire in &self.wires {
             let Some((_, at)) = turned.iter().find(|(net, _)| *net == wire.net) else { continue };

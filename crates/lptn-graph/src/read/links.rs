@@ -25,7 +25,7 @@ impl Reader<'_> {
         self.network.whole(item).filter(|whole| matches!(whole, Item::FacePath(_))).unwrap_or(item)
     }
 
-    /// The paths, and which of them each conductor is a part of.
+    /// The paths, and for each conductor the path that it is a part of.
     pub(super) fn links(&self) -> (Vec<Link>, Vec<Option<usize>>) {
         type Ends = (usize, usize, ConductorKind);
         let ends = |id: ConductorId| {

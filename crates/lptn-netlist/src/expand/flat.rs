@@ -54,7 +54,7 @@ fn grid(network: &Network) -> Option<Reason> {
     ))
 }
 
-/// Such names are reserved for the rows of imports.
+/// Imported elements without names: their names are reserved for rows of imports.
 fn unnamed(network: &Network) -> Option<Reason> {
     let conductors = network.conductor_ids().map(Item::Conductor);
     let mut items = conductors.chain(network.source_ids().map(Item::Source));

@@ -146,8 +146,7 @@ impl Facts {
     }
 }
 
-/// A temperature for every vertex that follows from its name, so that the order does not matter:
-/// 280 K to 340 K.
+/// A temperature for every vertex that follows from its name, whatever the order: 280 K to 340 K.
 fn temperatures(network: &Network) -> Vec<f64> {
     let of = |name: &str| {
         280.0

@@ -14,7 +14,7 @@ use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::work::Elaboration;
 
 impl<'a> Elaboration<'a> {
-    /// The records; `None` if something is wrong with one, which is then reported.
+    /// The records; `None` after an error in one, which is reported.
     pub(crate) fn fit_records(
         &mut self,
         fields: &Fields<'a>,
@@ -109,8 +109,8 @@ impl<'a> Elaboration<'a> {
         Some(Arc::new(record))
     }
 
-    /// `set = { omega = "1000 rpm" }`: the parameters with their values; false if something is wrong,
-    /// which is then reported.
+    /// `set = { omega = "1000 rpm" }`: adds the parameters with their values; false after an
+    /// error, which is reported.
     pub(crate) fn parameters_set(
         &mut self,
         owner: &Owner,

@@ -117,7 +117,7 @@ pub struct FitPlan {
     /// Correlations of their priors, in their order.
     pub correlations: Correlations,
     /// The standard deviation of one sample of each of [`FitStudy::observed`], in the unit of its
-    /// type (K for a temperature); `None` where none is given.
+    /// type (K for a temperature); `None` if none is given.
     pub sigmas: Vec<Option<f64>>,
     /// For each of [`FitStudy::records`] the parameters that its run starts from: everything that
     /// was set, and the values of the record. The varied parameters are to be set in addition.
@@ -125,8 +125,8 @@ pub struct FitPlan {
 }
 
 impl FitStudy {
-    /// How to read a further record of the same columns: those that are observed, then those that
-    /// signals follow.
+    /// The query to read a further record: the columns that are observed, then those that signals
+    /// follow.
     pub fn query(&self) -> RecordQuery {
         let named = |name: &str, ty: Type| RecordName { ty: Some(ty), ..RecordName::new(name) };
         let observed = self.observed.iter().map(|observed| named(&observed.column, observed.ty));

@@ -17,7 +17,7 @@ use crate::work::Elaboration;
 /// Words for outliers, which no time history explains; true if they are dropped.
 pub(crate) const OUTLIERS: [(&str, bool); 2] = [("keep", false), ("drop", true)];
 
-/// A column whose result could not be read is still looked for in the records.
+/// A column of the records; `None` if its result could not be read.
 pub(crate) struct Column<'a> {
     pub(crate) entry: &'a RawEntry,
     pub(crate) observed: Option<Observed>,
@@ -192,7 +192,7 @@ impl<'a> Elaboration<'a> {
         };
         let sigma = match own.or_else(|| fields.get("sigma")) {
             None => None,
-            // a difference where a temperature is measured
+            // the deviation of a temperature is a difference
             Some(raw) => {
                 let wanted = Wanted::constant(Type::of(ty.dimension));
                 Some(self.exactly_inside(&owner, ("sigma", raw), wanted)?)

@@ -32,11 +32,11 @@ pub struct FitSignal {
 /// Initial temperatures of nodes whose temperature is a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FitInitial {
-    /// As the network gives them.
+    /// Those of the network.
     Network,
     /// At the first value of the record.
     First,
-    /// At the mean of the values of the first seconds, of this number in s.
+    /// At the mean of the first values of the record, up to this time in s.
     Mean(f64),
 }
 

@@ -20,7 +20,7 @@ pub(super) const SIZES: [(&str, Dimension); 6] = [
     ("helix_angle", Dimension::ANGLE),
 ];
 
-/// Those without which a mesh has no friction.
+/// The keys that the friction of a mesh needs.
 const NEEDED: [&str; 4] = ["module", "width", "Ra", "lubricant"];
 
 /// The parts of a stage that was written out.
@@ -186,7 +186,7 @@ impl Writer<'_, '_> {
                 (None, Some(raw)) if *member == stage.input => raw.clone(),
                 _ => {
                     let (sign, factor) = self.quotient(*member, stage.input);
-                    // as the weight of the member, and not against it
+                    // with the sign of the member's weight, not against it
                     let sign = if sign.is_empty() { "-" } else { "" };
                     RawValue::text(format!("{sign}{input}{factor}"), self.at())
                 }

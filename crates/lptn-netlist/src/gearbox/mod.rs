@@ -5,7 +5,7 @@
 //! list: `stage.sun.speed`, `stage.ring.torque`, `stage.force`. So only commands that ask for
 //! gearboxes know of them.
 //!
-//! A gearbox is expanded after the templates. No crate below knows gears, and sensitivities,
+//! A gearbox is expanded after the templates. No crate below knows of gears, and sensitivities,
 //! `--set`, fits and the expansion need no code for them. Everything that is written keeps the
 //! place of the value that it follows from, so that messages show the user's line.
 

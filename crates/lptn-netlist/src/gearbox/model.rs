@@ -18,7 +18,7 @@ pub struct Gearbox {
     pub held: Option<Member>,
     /// The member whose speed and torque are given.
     pub input: Member,
-    /// The member that the power leaves by.
+    /// The member at which the power leaves.
     pub output: Member,
     /// Number of planets; 1 for a pair of gears.
     pub planets: usize,
@@ -43,7 +43,7 @@ impl Gearbox {
         format!("{}.{}.{what}", self.name, member.word())
     }
 
-    /// The value to set instead of one that follows from others; `None` if `name` is given itself.
+    /// The value to set instead of one that follows from others; `None` for other names.
     pub(crate) fn given_for(&self, name: &str) -> Option<String> {
         let rest = name.strip_prefix(self.name.as_str())?.strip_prefix('.')?;
         let (member, what) = rest.rsplit_once('.').unwrap_or(("", rest));

@@ -9,7 +9,7 @@ use crate::fields::{Fields, Owner};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 use crate::template::Structure;
 
-/// More planets are a mistake.
+/// Largest number of planets; more are a mistake.
 const MOST_PLANETS: usize = 100;
 
 /// A wheel has at most this many teeth.

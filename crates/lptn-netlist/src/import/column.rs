@@ -38,17 +38,17 @@ impl<'a> Elaboration<'a> {
         known.then_some(rows)
     }
 
-    /// A column that has to be there.
+    /// A required column.
     pub(crate) fn required_column(&mut self, rows: &CsvRows<'_>, name: &str) -> Option<usize> {
         self.kept(rows.required(name))
     }
 
-    /// A column that may be there.
+    /// An optional column.
     pub(crate) fn optional_column(&mut self, rows: &CsvRows<'_>, name: &str) -> Option<usize> {
         self.kept(rows.optional(name)).flatten()
     }
 
-    /// A column of numbers that has to be there.
+    /// A required column of numbers.
     pub(crate) fn number_column(
         &mut self,
         rows: &CsvRows<'_>,

@@ -1,5 +1,5 @@
-//! `initial` of `[run]`: temperatures and controls at the start, from the state that another run
-//! left.
+//! `initial` of `[run]`: temperatures and controls at the start, from the final state of another
+//! run.
 
 mod control;
 mod stand;
@@ -42,7 +42,7 @@ pub struct InitialState {
     pub file: String,
     /// Its time in s.
     pub time: f64,
-    /// How the run that wrote it ended.
+    /// The end of the run that wrote it.
     pub end: StateEnd,
     /// The place that names it in the netlist.
     pub place: Span,

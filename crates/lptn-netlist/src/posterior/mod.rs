@@ -50,7 +50,7 @@ pub struct PosteriorQuantity {
     pub value: f64,
     /// Its SI unit.
     pub unit: String,
-    /// Its uncertainty; `None` on a bound, where it is unknown. Normal, or lognormal if the fit
+    /// Its uncertainty; `None` on a bound, as it is unknown. Normal, or lognormal if the fit
     /// varied its logarithm.
     pub spread: Option<Spread>,
     /// Half the width of its 95 % interval.

@@ -203,7 +203,7 @@ fn mixed(fields: &Fields<'_>) -> Diagnostic {
 /// A warning for each control whose dead band the tolerance of the run, in K, does not resolve.
 pub(crate) fn narrow(network: &Network, map: &SourceMap, tolerance: f64) -> Vec<Diagnostic> {
     let bands = network.control_ids().filter_map(|id| Some((id, network.dead_band(id)?)));
-    // as written: the difference of two temperatures has lost digits
+    // a band equal as written is enough: a difference of two temperatures has lost digits
     let narrow = bands.filter(|(_, band)| *band < NARROW * tolerance * (1.0 - 1e-6));
     narrow.map(|(id, band)| narrow_band(network, map, (id, band, tolerance))).collect()
 }

@@ -1,4 +1,4 @@
-//! `csv = ["a.csv", "b.csv"]` of a table: a curve for each of several parts, which have numbers.
+//! `csv = ["a.csv", "b.csv"]` of a table: a curve for each of several numbered parts.
 
 use std::sync::Arc;
 

@@ -49,8 +49,7 @@ impl<'a> Elaboration<'a> {
         area.or_else(|| lost.then(|| stand_in(Type::of(Dimension::AREA))))
     }
 
-    /// The part that a name means which is or begins with the name of a grid and is not another
-    /// name.
+    /// The grid with which `name` begins, and the part that it means; `None` for other names.
     pub(crate) fn part_of_grid<'n>(&self, name: &'n str) -> Option<(&'n str, GridPart)> {
         let other = self.builder.end(name).is_some_and(|end| !self.builder.is_part(end.into()));
         if other { None } else { self.names.grid_part(name) }
@@ -190,7 +189,7 @@ impl<'a> Elaboration<'a> {
         problem.help(nearest(name, names.iter().copied(), "its names are"))
     }
 
-    /// The node that a field names; a boundary is not one.
+    /// The node that a field names; a boundary is refused.
     pub(crate) fn node_end(
         &mut self,
         fields: &Fields<'a>,
@@ -213,7 +212,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// A name that no node or boundary has, which `from` refers to.
+    /// Error for a name, as in `from`, that no node or boundary has.
     pub(crate) fn unknown_end(
         &mut self,
         (from, key): (&str, &str),
@@ -253,7 +252,7 @@ impl<'a> Elaboration<'a> {
         suggest(base, self.names.grids.keys().map(String::as_str))
     }
 
-    /// The most similar name of an end; of equally similar ones the first in the alphabet.
+    /// The most similar name of an end; in a tie, the first in the alphabet.
     fn similar_end(&mut self, name: &str, only_nodes: bool) -> Option<String> {
         if !self.names.may_search(self.builder.node_count()) {
             return None;

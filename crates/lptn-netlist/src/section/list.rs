@@ -39,7 +39,7 @@ use crate::toml_text::TomlFields;
 use crate::uncertainty::UNCERTAINTY;
 use crate::work::Elaboration;
 
-/// The sections before and after those of paths and sources, in the order of lists.
+/// The sections before and after those of paths and sources, in the order of messages.
 static BEFORE: [&SectionDeclaration; 13] = [
     &PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &LUBRICANT, &FAN, &NODE, &GRID,
     &CAPACITOR, &BOUNDARY, &FOSTER,

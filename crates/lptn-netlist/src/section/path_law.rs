@@ -63,8 +63,7 @@ pub(super) fn written(law: Formula) -> String {
     all.join(" with ")
 }
 
-/// Error for a key that takes a list in every law of its kind: one value, or a wrong number of
-/// values.
+/// Error for a wrong number of values of a key that takes a list in every law of its kind.
 pub(super) fn not_a_list(
     fields: &Fields<'_>,
     (field, most): (&FieldDeclaration, usize),

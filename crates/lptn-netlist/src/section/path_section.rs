@@ -40,7 +40,7 @@ pub(crate) struct PathValue {
     pub(super) types: Vec<(Type, Formula)>,
     /// The context of expressions in it: the ends of a path, or the node of a source.
     pub(super) context: Context,
-    /// True if a law takes it that no name chooses.
+    /// True if it belongs to a law that needs no name to choose it.
     pub(super) plain: bool,
 }
 

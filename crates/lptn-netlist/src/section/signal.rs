@@ -62,8 +62,7 @@ const TIME: Type = Type::of(Dimension::TIME);
 const JOINS: [(&str, Join); 3] =
     [("linear", Join::Linear), ("previous", Join::Previous), ("pchip", Join::Pchip)];
 
-/// The continuation after the last point, by its word; the period of a repetition has a separate
-/// key.
+/// The continuation after the last point, by its word; the key `period` is separate.
 #[derive(Clone, Copy, PartialEq)]
 enum After {
     Error,

@@ -116,7 +116,7 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-/// `into = ["a", "b"]`, which lacks the shares.
+/// Error for `into = ["a", "b"]`, which lacks the shares.
 fn list_of_nodes(fields: &Fields<'_>, raw: &RawValue, items: &[RawValue]) -> Diagnostic {
     let words = format!(
         "{} must be the name of a node or a table of shares, got a list",

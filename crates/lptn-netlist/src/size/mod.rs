@@ -177,8 +177,7 @@ pub struct Requirement {
     pub ty: Type,
     low: Value,
     high: Value,
-    /// True if the means over time of both sides are compared instead of their values at every
-    /// moment.
+    /// True if means over time are compared instead of values at every moment.
     of_mean: bool,
 }
 
@@ -239,8 +238,7 @@ pub struct SizeStudy {
     pub span: Span,
     /// The parameters to be sized; with catalogues, for each choice of parts.
     pub varied: Vec<SizeRange>,
-    /// The load cases in each of which all requirements have to be met; `None` for all that there
-    /// are.
+    /// The load cases that each have to meet all requirements; `None` for all cases.
     pub cases: Option<Vec<String>>,
     /// The catalogues; one part is chosen from each.
     pub catalogues: Vec<Catalogue>,

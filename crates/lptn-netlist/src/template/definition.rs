@@ -25,7 +25,7 @@ pub(super) const OPEN_PARAMETER: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-/// A template, checked as far as it can be without being used.
+/// A template, checked as far as possible without its uses.
 #[derive(Debug)]
 pub(super) struct Template<'r> {
     /// Its line.

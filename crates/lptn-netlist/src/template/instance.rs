@@ -12,8 +12,7 @@ use crate::names::ValueKind;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::template::USE;
 
-/// The surroundings of instances: the prefix of their names, and the instance that contains the
-/// text.
+/// The surroundings of instances: prefix of their names, and instance of their text.
 struct Around {
     prefix: String,
     copy: CopyId,

@@ -1,6 +1,6 @@
 //! Templates: parts that are written once and used several times.
 //!
-//! Templates are expanded in the text, before anything is read. Each instance becomes separate
+//! Templates are expanded in the raw tree, before values are read. Each instance becomes separate
 //! elements with full names (`planet[2].gear`) and the values of the template. A place knows its
 //! instance, which determines the meaning of names there ([`Structure::meaning`]). So no section
 //! has to know of templates.

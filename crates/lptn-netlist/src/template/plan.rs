@@ -28,8 +28,7 @@ pub(super) fn of_instance(values: &[RawValue], number: usize) -> Option<&RawValu
     if values.len() == 1 { values.first() } else { values.get(number) }
 }
 
-/// Reads the line of a use; `None` if something is wrong, which is then reported, or if its
-/// template is broken.
+/// Reads the line of a use; `None` after an error, which is reported, or if its template is broken.
 pub(super) fn plan<'r>(
     templates: &'r [Template<'r>],
     entry: &RawEntry,
@@ -240,7 +239,7 @@ fn example(name: &str) -> String {
     )
 }
 
-/// A port or parameter that a template does not have; `give` is how it could be given one.
+/// Error for a port or parameter that a template does not have; `give` shows how to add it.
 fn unknown(
     (template, entry): (&Template<'_>, &RawEntry),
     (what, known): (&str, &[&str]),

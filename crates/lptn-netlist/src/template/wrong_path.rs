@@ -61,7 +61,7 @@ impl Structure {
     }
 }
 
-/// `words` names a path at `place` that is wrong in this way.
+/// Error for a wrong path, which `words` names at `place`.
 pub(crate) fn wrong_path((words, path): (&str, &str), place: Span, wrong: WrongPath) -> Diagnostic {
     let message = format!("{words} names `{path}`, but {}", wrong.why);
     let problem = Diagnostic::error("netlist::no_instance", message).at(place, "");
