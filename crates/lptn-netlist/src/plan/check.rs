@@ -69,7 +69,7 @@ impl PlanStudy {
         all
     }
 
-    /// Checks that a run has at least two samples, and at most a million.
+    /// Checks that a run has at least one, and at most a million, intervals between samples.
     fn durations(&self, numbers: &PlanNumbers) -> Option<Diagnostic> {
         const MOST: f64 = 1e6;
         let every = numbers.every;
