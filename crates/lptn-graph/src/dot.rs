@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use crate::model::{Diagram, Link, PlaceRole, Target};
 
-/// A diagram in the language DOT of Graphviz. Ids are generated; names and titles stand in quoted
-/// strings only.
+/// A diagram in the language DOT of Graphviz. Ids are generated; names and titles appear only in
+/// quoted strings.
 pub fn dot(diagram: &Diagram) -> String {
     let mut out = format!(
         "digraph {{\n  graph [rankdir=LR, label={}, labelloc=t, fontname=Helvetica];\n  node \
@@ -45,7 +45,7 @@ pub(crate) fn push(out: &mut String, text: std::fmt::Arguments<'_>) {
     let _ = out.write_fmt(text);
 }
 
-/// The words beside a path: its name, its value or kind, its heat.
+/// The lines of text at a path: its name, its value or kind, its heat.
 pub(crate) fn link_words(diagram: &Diagram, link: &Link) -> Vec<String> {
     let value = link.value.clone().unwrap_or_else(|| link.kind.declaration().section.to_owned());
     let heat = diagram.scales.as_ref().zip(link.heat);
@@ -53,8 +53,8 @@ pub(crate) fn link_words(diagram: &Diagram, link: &Link) -> Vec<String> {
     [Some(link.name.clone()), Some(value), heat].into_iter().flatten().collect()
 }
 
-/// From which place to which the arrow of a path points, where it has one: that of the fluid, else
-/// that of the heat.
+/// The ends of the arrow of a path, and true if it has one. It points with the fluid, else with the
+/// heat.
 pub(crate) fn arrow(link: &Link) -> (usize, usize, bool) {
     match link.heat {
         _ if link.stream => (link.from, link.to, true),
@@ -92,7 +92,7 @@ fn controls(diagram: &Diagram, out: &mut String) {
     }
 }
 
-/// Lines as one quoted string, whose backslashes and quotes cannot end it or mean anything.
+/// Lines as one quoted string. Backslashes and quotes are escaped.
 fn quoted(lines: &[String]) -> String {
     let escaped = |line: &String| {
         let mut out = String::new();

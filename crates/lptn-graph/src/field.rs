@@ -14,15 +14,15 @@ pub(crate) const AXES: [char; 3] = ['x', 'y', 'z'];
 pub struct GridField {
     /// The name of the grid.
     pub name: String,
-    /// How many cells there are along x, y and z.
+    /// Number of cells along x, y and z.
     pub cells: [usize; 3],
-    /// How many indices its cells have.
+    /// Number of indices of its cells.
     pub axes: usize,
     /// Its lengths along x, y and z in m.
     pub size: [f64; 3],
     /// The temperature of each cell in K, the last index running fastest.
     pub kelvin: Vec<f64>,
-    /// What pictures say of them.
+    /// Caption below its pictures.
     pub caption: String,
 }
 
@@ -31,7 +31,7 @@ pub struct GridField {
 pub struct Cut {
     /// The axis it is perpendicular to: 0 for x, 1 for y, 2 for z.
     pub axis: usize,
-    /// Which layer, from 0.
+    /// Index of the layer, from 0.
     pub layer: usize,
 }
 
@@ -39,7 +39,7 @@ lptn_units::errors! {
 /// A slice that a grid does not have.
 #[derive(Clone, Debug)]
 pub enum NoSlice {
-    /// It does not say where it is.
+    /// Its place is not given.
     NotASlice { text: String, why: Option<Box<UnitError>> } = "graph::slice",
         match why {
             Some(why) => format!("`{text}` is not a slice: {why}"),
@@ -50,7 +50,7 @@ pub enum NoSlice {
     NoLayer { text: String, grid: String, axis: char, layers: usize } = "graph::slice",
         format!("`{text}` lies outside of `{grid}`: it has {layers} layers along {axis}"),
         help format!("name one from 1 to {layers}, {axis}={layers}");
-    /// The grid ends before, in m.
+    /// The grid is shorter; `length` is in m.
     NoPlace { text: String, grid: String, axis: char, length: f64 } = "graph::slice",
         format!(
             "`{text}` lies outside of `{grid}`: it is {} long along {axis}",

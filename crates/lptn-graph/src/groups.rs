@@ -1,19 +1,19 @@
-//! Which nodes and boundaries stand as one box.
+//! Grouping of nodes and boundaries into boxes.
 
 use std::collections::BTreeMap;
 
 use lptn_network::{BoundaryId, Item, Network, NodeId};
 
-/// More places than this are grouped unless the user says otherwise.
+/// More places than this are grouped by default.
 pub const MOST_PLACES: usize = 150;
 
 /// Groups are joined further until there are no more places than this.
 const READABLE: usize = 40;
 
-/// Whether many nodes stand as one box.
+/// Grouping of many nodes into boxes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Grouping {
-    /// Where there are more than [`MOST_PLACES`].
+    /// If there are more than [`MOST_PLACES`].
     Auto,
     /// Always.
     Yes,
@@ -21,26 +21,26 @@ pub enum Grouping {
     No,
 }
 
-/// Nodes or boundaries that stand as one box; one that stands for itself is alone.
+/// Nodes or boundaries that are drawn as one box; an ungrouped one is alone in its group.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Group {
     pub(crate) name: String,
     pub(crate) nodes: Vec<NodeId>,
     pub(crate) boundaries: Vec<BoundaryId>,
-    /// What its members are, if they are more than one.
+    /// Number and kind of its members, if there are several.
     pub(crate) words: Option<String>,
 }
 
-/// How far names are told apart.
+/// Levels at which names are distinguished.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Level {
-    /// Every node stands for itself.
+    /// Every node is a separate box.
     Alone,
-    /// A grid is one, an instance of a template is one.
+    /// Each grid and each instance of a template is one box.
     Instances,
-    /// All instances of a template and all members of a family are one.
+    /// All instances of a template, and all members of a family, are one box.
     Families,
-    /// Names that differ in the number at their end are one.
+    /// Names that differ only in the number at their end are one box.
     Numbers,
 }
 
@@ -100,7 +100,7 @@ fn at_level(network: &Network, level: Level) -> Vec<Group> {
     groups
 }
 
-/// What a name is called at a level.
+/// The name of the box of a node or boundary at a level.
 fn label(name: &str, level: Level) -> String {
     let head = name.split('.').next().unwrap_or(name);
     let family = || match head.split_once('[') {
@@ -109,7 +109,7 @@ fn label(name: &str, level: Level) -> String {
     };
     match level {
         Level::Alone => name.to_owned(),
-        // a member of a family that is no instance stands for itself
+        // a member of a family that is not an instance is a separate box
         Level::Instances => head.to_owned(),
         Level::Families => family(),
         Level::Numbers => {
@@ -121,7 +121,7 @@ fn label(name: &str, level: Level) -> String {
     }
 }
 
-/// A box of one is called as that one is.
+/// Names a box after its only member; otherwise counts the members.
 fn finish(network: &Network, group: &mut Group) {
     match (group.nodes.as_slice(), group.boundaries.as_slice()) {
         ([one], []) => group.name = network.nodes()[one.index()].name.clone(),

@@ -1,4 +1,4 @@
-//! What stands below a diagram: the scale of its temperatures, its controls.
+//! The legend below a diagram: the scale of its temperatures, its controls.
 
 use lptn_plot::font::width;
 use lptn_plot::scene::{Align, Stroke, Text, rectangle};
@@ -22,10 +22,10 @@ const SCALE: f64 = BAR.1 + 2.0 * LINE + 6.0;
 const SIZE: f64 = 12.0;
 const LINE: f64 = 18.0;
 
-/// Between the diagram and what is below it.
+/// Between the diagram and its legend.
 pub(crate) const GAP: f64 = 22.0;
 
-/// The room for what stands below a diagram.
+/// The size of the legend below a diagram.
 pub(crate) fn legend(diagram: &Diagram) -> Size {
     let lines = lines(diagram);
     let widest = lines.iter().map(|text| width(text, SIZE, false)).fold(0.0, f64::max);
@@ -40,7 +40,7 @@ pub(crate) fn scale_size(scales: &Scales) -> Size {
     Size { width: width(&scales.caption, SIZE, false).max(BAR.0), height: GAP + SCALE }
 }
 
-/// Controls with what they switch.
+/// A line for each control, with the names of the paths and sources that it switches.
 fn lines(diagram: &Diagram) -> Vec<String> {
     let target = |target: &Target| match target {
         Target::Link(i) => diagram.links[*i].name.clone(),

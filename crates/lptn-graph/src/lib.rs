@@ -1,11 +1,10 @@
 //! Networks as pictures.
 //!
-//! A [`Diagram`] is a network as it is drawn: its nodes, boundaries, paths and sources with the
-//! words that stand beside them, many alike as one box where asked. [`scene`] lays it out and draws
-//! it with the usual symbols, [`sankey()`] draws its heat flows as bands, [`dot()`] and
-//! [`mermaid()`] write it for other programs. A
-//! [`GridField`] is the temperature of the cells of a grid, drawn slice by slice or written for
-//! ParaView.
+//! A [`Diagram`] is a network as it is drawn: its nodes, boundaries, paths and sources with their
+//! labels, grouped into boxes on request. [`scene`] lays it out and draws it with the usual
+//! symbols, [`sankey()`] draws its heat flows as bands, [`dot()`] and [`mermaid()`] write it for
+//! other programs. A [`GridField`] is the temperature of the cells of a grid, drawn slice by slice
+//! or written for ParaView.
 
 mod dot;
 mod field;

@@ -3,8 +3,8 @@
 use crate::dot::{arrow, link_words, push};
 use crate::model::{Diagram, PlaceRole, Target};
 
-/// A diagram as a flowchart of Mermaid, which GitHub draws. Ids are generated; of names and titles
-/// every letter that could mean anything stands as its number.
+/// A diagram as a flowchart of Mermaid, which GitHub draws. Ids are generated. In names and titles
+/// every letter that could have another meaning is written as its number.
 pub fn mermaid(diagram: &Diagram) -> String {
     let mut out = format!("---\ntitle: {}\n---\nflowchart LR\n", yaml(&diagram.title));
     for (i, place) in diagram.places.iter().enumerate() {
@@ -57,7 +57,7 @@ fn controls(diagram: &Diagram, out: &mut String) {
     }
 }
 
-/// Whether a letter means nothing but itself in labels and in YAML.
+/// True if a letter has no special meaning in labels and in YAML.
 fn is_plain(c: char) -> bool {
     c.is_ascii_alphanumeric()
         || " .,/()_-+=%".contains(c)

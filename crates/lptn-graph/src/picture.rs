@@ -20,7 +20,7 @@ pub const MOST_DRAWN: usize = 600;
 /// A diagram has too many boxes for a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct TooMany {
-    /// How many it has.
+    /// Number of its boxes.
     pub boxes: usize,
 }
 
@@ -57,7 +57,7 @@ const LINE: f64 = 15.0;
 /// Around everything.
 const MARGIN: f64 = 24.0;
 
-/// Letters of a name that are shown; a reader that points at it sees all.
+/// Letters of a name that are shown; a reader who points at it sees all.
 const LETTERS: usize = 30;
 
 /// Rows of columns are as wide as this at most, in pixels.
@@ -101,8 +101,8 @@ pub fn scene(diagram: &Diagram) -> Result<Scene, TooMany> {
     Ok(scene)
 }
 
-/// The places that should stand left and right of each path: heat goes to boundaries where there
-/// are sources, else from the first end to the second.
+/// The places left and right of each path: heat goes to boundaries if there are sources, else from
+/// the first end to the second.
 fn ends(diagram: &Diagram) -> Vec<(usize, usize)> {
     let boundary = |place: usize| diagram.places[place].role == PlaceRole::Boundary;
     let turned = |link: &&Link| {
@@ -155,8 +155,7 @@ fn place_block(diagram: &Diagram, place: &Place) -> Room {
     Room { pin, half: pin.max(beside) + 4.0, above: tall, below: tall + below }
 }
 
-/// What stands below the symbol of a path: its value, and its kind where the symbol does not say
-/// it.
+/// The lines below the symbol of a path: its value, and its kind if the symbol does not show it.
 fn below_link(link: &Link) -> Vec<String> {
     let kind = (link.kind != ConductorKind::Resistor).then(|| link.kind.declaration().section);
     let unknown = || kind.is_none().then(|| "not constant".to_owned());
@@ -174,7 +173,7 @@ fn source_block(source: &Supply, scales: Option<&Scales>) -> Room {
     element_block(&source.name, &below, (None, SOURCE, SOURCE))
 }
 
-/// The value of a source; in the state that is shown its heat where that is not the same.
+/// The value of a source; if its heat in the state that is shown differs, also that heat.
 fn source_words(source: &Supply, scales: Option<&Scales>) -> Vec<String> {
     let heat = scales.zip(source.heat).map(|(scales, heat)| {
         let sign = if heat < 0.0 { "-" } else { "" };
@@ -231,7 +230,7 @@ impl Drawing<'_> {
         }
         let (links, sources) = arranged.elements.split_at(self.diagram.links.len());
         for (i, (link, at)) in self.diagram.links.iter().zip(links).enumerate() {
-            // its own first end stands to the left unless it was turned once
+            // its own first end is to the left unless it was turned once
             let turned = arranged.reversed[i] != (ends[i].0 != link.from);
             self.link(link, moved(*at), turned);
         }

@@ -16,7 +16,7 @@ const ROOM: (f64, f64) = (760.0, 460.0);
 /// A side is not drawn narrower than this.
 const LEAST: f64 = 48.0;
 
-/// More cells than this are not told one by one.
+/// If there are more cells than this, they have no separate labels.
 const MOST_TIPS: usize = 2500;
 
 const MARGIN: f64 = 24.0;
@@ -111,8 +111,8 @@ impl<'a> Sheet<'a> {
         Ink::Field((share.clamp(0.0, 1.0) * (FIELD - 1) as f64).round() as usize)
     }
 
-    /// The cells; neighbours of one colour as one piece, unless they are few enough to be told one
-    /// by one.
+    /// Draws the cells. Neighbours of one colour are one piece, unless the cells are few enough for
+    /// separate labels.
     fn cells(&self, scene: &mut Scene, (x, y): (f64, f64), words: &Scale<'_>) {
         let (columns, rows) = self.counts();
         let (wide, tall) = (self.size.0 / columns as f64, self.size.1 / rows as f64);
@@ -174,7 +174,7 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// Round places along a side of this length in m that has so many pixels, from 0 on.
+/// Round places from 0 on, along a side of `length` in m that takes `pixels`.
 fn marks(length: f64, pixels: f64) -> Vec<f64> {
     let most = (pixels / 60.0).clamp(1.0, 8.0);
     let least = length / most;

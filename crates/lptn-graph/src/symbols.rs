@@ -6,13 +6,13 @@ use lptn_plot::{Ink, Scene};
 /// Half the length of a symbol between two wires.
 pub(crate) const HALF: f64 = 24.0;
 
-/// How far a symbol reaches above and below its wires.
+/// Reach of a symbol above and below its wires.
 pub(crate) const REACH: f64 = 9.0;
 
 /// Radius of a source.
 pub(crate) const SOURCE: f64 = 14.0;
 
-/// What a capacity takes up below its node, and half its width.
+/// The room that a capacity takes below its node, and half its width.
 pub(crate) const CAPACITY: (f64, f64) = (38.0, 13.0);
 
 /// The width of wires.

@@ -14,7 +14,7 @@ pub(crate) fn si(value: f64, unit: &str) -> String {
     format!("{} {}{unit}", significant(value / scale, DIGITS), micro(letter))
 }
 
-/// The prefix for `largest` as it stands before a unit.
+/// The scale and name of `unit` with the prefix for `largest`.
 pub(crate) fn unit_of(largest: f64, unit: &str) -> (f64, String) {
     let (scale, letter) = prefix(largest);
     (scale, format!("{}{unit}", micro(letter)))
@@ -24,7 +24,7 @@ fn micro(letter: &str) -> &str {
     if letter == "u" { "µ" } else { letter }
 }
 
-/// A resistance in K/W; `mK/W` where it is small, and never `kK/W`.
+/// A resistance in K/W; `mK/W` if it is small, and never `kK/W`.
 pub(crate) fn resistance(value: f64) -> String {
     match value {
         x if x >= 0.1 => format!("{} K/W", significant(x, DIGITS)),
@@ -32,7 +32,7 @@ pub(crate) fn resistance(value: f64) -> String {
     }
 }
 
-/// What is known of a path before a run.
+/// The value of a path that is known before a run, if any.
 pub(crate) fn flow(flow: ConductorFlow) -> Option<String> {
     match flow {
         ConductorFlow::Conductance(g) => Some(resistance(1.0 / g)),
@@ -47,7 +47,7 @@ pub(crate) fn number(network: &Network, value: &Value, scope: &mut Evaluation) -
     if is_fixed(network, value) { value.at(scope).ok() } else { None }
 }
 
-/// Whether a value reads nothing but parameters.
+/// True if a value reads only parameters.
 pub(crate) fn is_fixed(network: &Network, value: &Value) -> bool {
     let parameters = || network.parameter_ids().map(|id| network.parameter_slot(id));
     value.slots().iter().all(|slot| parameters().any(|known| known == *slot))
@@ -65,8 +65,8 @@ pub(crate) fn letter(letter: &str, depends: (bool, bool)) -> String {
     format!("{letter}{on}")
 }
 
-/// What several are called: by the name that they share but for their indices, `row[*].base`, else
-/// by their number.
+/// A name for several: the one that they share but for their indices, `row[*].base`, else their
+/// number.
 pub(crate) fn together(names: &[String], what: &str) -> String {
     let mut families = names.iter().map(|name| family(name));
     let first = families.next().unwrap_or_default();
@@ -89,7 +89,7 @@ fn family(name: &str) -> String {
     out
 }
 
-/// What a picture of a state says of it: a reader of the picture sees no warning.
+/// The caption of a picture of a state; a reader of the picture sees no warning.
 pub(crate) fn caption(network: &Network, state: &Snapshot) -> String {
     let time = || lptn_report::duration(state.time, 4);
     match (state.settled, network.changing_inputs().is_empty()) {
@@ -127,12 +127,12 @@ impl<'a> Scale<'a> {
         format!("{} {}", self.number(kelvin), self.sign())
     }
 
-    /// A temperature in K as it was written: `25 °C`.
+    /// A temperature in K with up to 6 digits: `25 °C`.
     pub(crate) fn given(&self, kelvin: f64) -> String {
         format!("{} {}", significant(self.unit.from_si(kelvin), 6), self.sign())
     }
 
-    /// The coldest and the hottest of several, as one where they look alike.
+    /// The coldest and the hottest of several, as one if they look alike.
     pub(crate) fn range(&self, [low, high]: [f64; 2]) -> String {
         match self.number(low) == self.number(high) {
             true => self.text(low),

@@ -1,13 +1,12 @@
-//! What hangs together with nothing: nodes that no path leads from to a boundary, boundaries that
-//! nothing touches.
+//! Unconnected parts: nodes without a path to a boundary, boundaries that nothing touches.
 
 use lptn_data::Diagnostic;
 use lptn_network::{End, Item, Network, list_of, list_of_names};
 
 use crate::source_map::SourceMap;
 
-/// The warnings. A boundary that an expression or a control reads is not idle; `is_read` knows
-/// those of expressions.
+/// The warnings. A boundary that an expression or a control reads is not idle; `is_read` knows the
+/// boundaries of expressions.
 pub(crate) fn warnings(
     network: &Network,
     map: &SourceMap,
@@ -16,7 +15,7 @@ pub(crate) fn warnings(
     [ungrounded(network, map), idle(network, map, is_read)].into_iter().flatten()
 }
 
-/// A path that was left out looks like this.
+/// Nodes without a path to a boundary: a path may have been forgotten.
 fn ungrounded(network: &Network, map: &SourceMap) -> Option<Diagnostic> {
     let nodes: Vec<_> = network.ungrounded().into_iter().flatten().collect();
     let first = *nodes.first()?;

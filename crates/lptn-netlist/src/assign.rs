@@ -16,10 +16,10 @@ use crate::netlist::Netlist;
 use crate::template::wrong_path;
 use crate::value_help::celsius_or_kelvin;
 
-/// What the text of the assignments is called in diagnostics.
+/// Name of the text of the assignments in diagnostics.
 const FILE: &str = "--set";
 
-/// A parameter that was set, and where.
+/// A parameter that was set, with its place.
 struct Assignment {
     id: ParameterId,
     name: String,
@@ -27,12 +27,12 @@ struct Assignment {
 }
 
 impl Netlist {
-    /// Gives parameters other values, written as `omega=5000rpm`. What was set before stays set. On
-    /// an error nothing is changed.
+    /// Gives parameters other values, written as `omega=5000rpm`. Earlier assignments stay. On an
+    /// error nothing changes.
     ///
     /// # Errors
     /// [`Rejected`] with every problem: a text that is not an assignment, an unknown parameter, a
-    /// wrong unit, or what the new values break in the network or in `[run]`.
+    /// wrong unit, or new values that do not suit the network or `[run]`.
     pub fn set(&mut self, assignments: &[String]) -> Result<(), Rejected> {
         if assignments.is_empty() {
             return Ok(()); // nothing is evaluated again
@@ -52,21 +52,21 @@ impl Netlist {
         }
     }
 
-    /// What `[run]` says for a network with other parameters, if it is one that `--set` would take:
+    /// The settings of `[run]` for a network with other parameters, if `--set` would take these:
     /// for loops over candidates.
     ///
     /// # Errors
-    /// What the values break in `[run]` or in a gearbox.
+    /// The problems that the values cause in `[run]` or in a gearbox.
     pub fn settings_of(&self, network: &Network) -> Result<Option<RunSettings>, Vec<Diagnostic>> {
         let run = self.plan.as_ref().map(|plan| plan.settings(network)).transpose()?;
         let gears = gearbox::check(&self.gearboxes, network);
         if gears.is_empty() { Ok(run) } else { Err(gears) }
     }
 
-    /// Whether the gears of a network with other parameters mesh, as `--set` asks.
+    /// Checks that the gears of a network with other parameters mesh, as `--set` does.
     ///
     /// # Errors
-    /// The first stage whose wheels cannot be put together.
+    /// The first stage whose wheels cannot be assembled.
     pub fn meshes(&self, network: &Network) -> Result<(), Box<Diagnostic>> {
         let first = gearbox::check(&self.gearboxes, network).into_iter().next();
         first.map_or(Ok(()), |problem| Err(Box::new(problem)))
@@ -175,8 +175,8 @@ impl Netlist {
         self.network.signal_ids().find(|id| signals[id.index()].name == name)
     }
 
-    /// Whether the text is an expression of parameters, which a netlist may hold but an assignment
-    /// may not.
+    /// True if the text is an expression of parameters, which a netlist may contain but an
+    /// assignment may not.
     fn is_expression(&self, text: &str) -> bool {
         let is_parameter = |name: &str| self.network.parameter(name).is_ok();
         Expression::parse(text).is_ok_and(|e| e.names().iter().any(|(name, _)| is_parameter(name)))
@@ -202,7 +202,7 @@ impl Netlist {
         problem.also(self.source_map.parameter(id), "its value in the netlist")
     }
 
-    /// The network with other parameters, and what it runs.
+    /// The network with other parameters, and the settings of its run.
     pub(crate) fn evaluated(
         &self,
         new: &Parameters,
@@ -242,7 +242,7 @@ impl Netlist {
         }
     }
 
-    /// The parameters that a value depends on, straight or through others.
+    /// The parameters that a value depends on, directly or through others.
     fn dependencies(&self, item: Item, field: Field) -> HashSet<ParameterId> {
         let mut found = HashSet::new();
         let mut open: Vec<ParameterId> = match item {
@@ -314,7 +314,7 @@ impl Netlist {
                 vec![if field == Field::Of { &limit.of } else { &limit.value }]
             }
             Item::Conductor(id) => {
-                // a conductance out of range may be the fault of any of them
+                // a conductance out of range may result from any of them
                 network.conductors()[id.index()].law.values().iter().collect()
             }
             Item::Signal(id) => match &network.signals()[id.index()].course {

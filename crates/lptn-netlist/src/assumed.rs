@@ -1,5 +1,5 @@
-//! What laws assume and a file seems not to keep: gears at the centre distance of their pitch
-//! circles, a conductivity that is straight over the temperatures of a body.
+//! Assumptions of laws that a file seems to violate: gears at the centre distance of their pitch
+//! circles, a conductivity that is linear over the temperatures of a body.
 
 use lptn_data::Diagnostic;
 use lptn_network::{Field, Item, Naming, Network, Value, slot};
@@ -7,10 +7,10 @@ use lptn_units::{Degree, format_six as short};
 
 use crate::source_map::SourceMap;
 
-/// By how much the addenda of two gears may differ from their sum without shift, in modules.
+/// Allowed difference between the addenda of two gears and their sum without shift, in modules.
 const ROUNDED: f64 = 0.005;
 
-/// A warning for each mesh whose addenda say that its profiles are shifted.
+/// A warning for each mesh whose addenda indicate shifted profiles.
 pub(crate) fn shifted_gears(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     let sources = network.source_ids().map(Item::Source);
     sources.filter_map(|item| shifted((network, map), item)).collect()

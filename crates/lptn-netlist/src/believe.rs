@@ -1,4 +1,4 @@
-//! A posterior in the place of a netlist's own values.
+//! A posterior instead of a netlist's own values.
 //!
 //! A posterior is set, not read into the network: its values are overrides, as those of a load case
 //! are. Its standard errors and correlations are in `Parameters`, so that every study gets them
@@ -16,33 +16,33 @@ use crate::netlist::Netlist;
 use crate::posterior::{Believed, PosteriorFile, PosteriorQuantity};
 use crate::uncertainty::{check, joint, only_known};
 
-/// What is taken of a posterior.
+/// The parameters that are taken from a posterior.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Taken {
     /// Every parameter; the network has to have them all.
     All,
-    /// The parameters that the network has; of a network that has none nothing is taken.
+    /// The parameters that the network has, even if there are none.
     Known,
 }
 
-/// With fewer degrees of freedom than this a normal distribution is too narrow to be used without
-/// a word: its 95 % interval is 12 % wider already.
+/// With fewer degrees of freedom than this, a normal distribution needs a warning: the 95 %
+/// interval is already 12 % wider.
 const FEW: f64 = 10.0;
 
-/// Two numbers are one if they are nearer than this part of them.
+/// Two numbers are equal if they differ by less than this share.
 const SAME: f64 = 1e-6;
 
 impl Netlist {
-    /// What a fit found, where `posterior` of `[uncertainty]` or [`Netlist::take_posterior`] names
-    /// it. [`Netlist::believe`] takes its values.
+    /// The result of a fit, if `posterior` of `[uncertainty]` or [`Netlist::take_posterior`] names
+    /// one. [`Netlist::believe`] takes its values.
     pub fn posterior(&self) -> Option<&Believed> {
         self.believed.as_ref()
     }
 
-    /// Takes a posterior from a file that was read, in the place of the one that the netlist names.
+    /// Takes a posterior from a file that was read, instead of the one that the netlist names.
     ///
     /// # Errors
-    /// [`Rejected`] if it is none, or does not fit the network.
+    /// [`Rejected`] if it is not a posterior, or does not fit the network.
     pub fn take_posterior(
         &mut self,
         path: &Path,
@@ -74,12 +74,12 @@ impl Netlist {
         Ok(())
     }
 
-    /// Gives the parameters the values of the posterior, and what is known of them together, in the
-    /// place of their own; without a posterior nothing is done. What was set before goes with it.
+    /// Gives the parameters the values, errors and correlations of the posterior instead of their
+    /// own. Without a posterior nothing changes. Earlier assignments are combined with it.
     ///
     /// # Errors
-    /// [`Rejected`] if there is no such network, or if what is known of all parameters together
-    /// cannot be.
+    /// [`Rejected`] if there is no such network, or if the joint distribution of all parameters is
+    /// impossible.
     pub fn believe(&mut self) -> Result<(), Rejected> {
         let Some(believed) = &self.believed else { return Ok(()) };
         let mut new = self.assigned.clone();
@@ -102,7 +102,7 @@ impl Netlist {
         Ok(())
     }
 
-    /// What is not to be passed over in silence.
+    /// The warnings about a posterior.
     fn doubts(&self, believed: &Believed) -> Vec<Diagnostic> {
         let mut doubts: Vec<Diagnostic> = self.other_network(believed).into_iter().collect();
         for i in believed.chosen() {
@@ -115,7 +115,7 @@ impl Netlist {
         doubts
     }
 
-    /// A fit of another netlist, unless the netlist says what it takes of it.
+    /// Warns about a fit of another netlist, unless the netlist names parameters.
     fn other_network(&self, believed: &Believed) -> Option<Diagnostic> {
         let (name, _) = self.inputs().next()?;
         let own = Path::new(name).file_stem()?.to_string_lossy();
@@ -133,7 +133,7 @@ impl Netlist {
         Some(Diagnostic::doubt("posterior::other_network", message, place, help))
     }
 
-    /// A `±` that the fit did not know of: it does not count.
+    /// Warns about a `±` that the fit did not know: it does not count.
     fn unknown_prior(&self, quantity: &PosteriorQuantity, place: &Span) -> Option<Diagnostic> {
         let id = self.network.parameter(&quantity.name).ok()?;
         let own = self.network.parameters()[id.index()].deviation.filter(|own| own.sigma > 0.0)?;
@@ -155,7 +155,7 @@ impl Netlist {
     }
 }
 
-/// The values and what is known of them, in the place of others.
+/// Puts the values of the posterior, their errors and correlations into `new`.
 fn given(believed: &Believed, network: &Network, new: &mut Parameters) {
     let posterior = &believed.posterior;
     let uncertain = posterior.uncertain();
@@ -164,7 +164,7 @@ fn given(believed: &Believed, network: &Network, new: &mut Parameters) {
         let quantity = &posterior.quantities[i];
         let Ok(id) = network.parameter(&quantity.name) else { continue };
         new.set(id, quantity.value);
-        // on a bound nothing is known of its error
+        // the error of a value on a bound is unknown
         new.set_deviation(id, quantity.spread.unwrap_or(Spread::normal(0.0)));
         if let Ok(row) = uncertain.binary_search(&i) {
             taken.push((id, row));
@@ -201,7 +201,7 @@ fn rounded(value: f64) -> String {
     format_short(format!("{value:.1e}").parse().unwrap_or(value))
 }
 
-/// A value on a bound, or one whose distribution reaches beyond it.
+/// Warns about a value on a bound, or one whose distribution reaches beyond it.
 fn bound(quantity: &PosteriorQuantity, place: &Span) -> Option<Diagnostic> {
     let name = &quantity.name;
     let (message, help) = match quantity.spread {

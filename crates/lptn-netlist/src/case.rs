@@ -41,7 +41,7 @@ pub(crate) const CASE: SectionDeclaration = SectionDeclaration {
 pub struct CaseStudy {
     /// Its name.
     pub name: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
     /// The parameters with their values, in file order; at least one.
     set: Vec<(String, Value)>,
@@ -51,7 +51,7 @@ impl CaseStudy {
     /// The parameters with their values in SI units, for the parameters of `network`.
     ///
     /// # Errors
-    /// What the evaluation of a value reports.
+    /// The error of the evaluation of a value.
     pub fn values(&self, network: &Network) -> Result<Vec<(ParameterId, f64)>, EvalError> {
         let mut scope = network.evaluation();
         let known = self
@@ -61,7 +61,7 @@ impl CaseStudy {
         known.map(|(id, value)| Ok((id, value.at(&mut scope)?))).collect()
     }
 
-    /// What it sets, as it is written for `--set`.
+    /// Its parameters and values, as they are written for `--set`.
     ///
     /// # Errors
     /// As [`CaseStudy::values`].
@@ -86,7 +86,7 @@ impl Study for CaseStudy {
         &self.name
     }
 
-    /// A case has to be one in which there is a network.
+    /// Checks that there is a network in this case.
     fn check(&self, network: &Network) -> Vec<Diagnostic> {
         let problem = |code, message: String| {
             vec![
@@ -136,7 +136,7 @@ impl<'a> Elaboration<'a> {
         })
     }
 
-    /// The cases in which a size has to keep everything: all, unless it names some.
+    /// The cases in which a size has to meet its requirements; default: all.
     pub(crate) fn cases_of(&mut self, fields: &Fields<'a>) -> Option<Option<Vec<String>>> {
         let Some(listed) = self.listed_if_any(fields, ("cases", "a list of names"))? else {
             return Some(None);
@@ -165,7 +165,7 @@ impl<'a> Elaboration<'a> {
         Some(Some(names))
     }
 
-    /// What is sought cannot be set by a case as well.
+    /// A case cannot set a parameter that a study varies.
     pub(crate) fn set_by_cases(
         &mut self,
         (fields, cases): (&Fields<'a>, Option<&[String]>),

@@ -1,4 +1,4 @@
-//! The CSV files that a netlist names: which there are, and how they are loaded.
+//! The CSV files that a netlist names, and how they are loaded.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -26,14 +26,14 @@ const CSV: &str = "csv";
 #[derive(Debug, Default)]
 pub(crate) struct CsvFiles {
     files: HashMap<Span, Result<Arc<CsvFile>, Diagnostic>>,
-    /// Those of `[import]`, which are too long to be held as cells, and of `[fit]`, which are read
-    /// by column.
+    /// Files of `[import]`, which are too long to be stored as cells, and of `[fit]`, which are
+    /// read by column.
     texts: HashMap<Span, Result<CsvText, Diagnostic>>,
 }
 
 impl CsvFiles {
-    /// Reads every file of tables, signals and properties that the netlist names, and those of
-    /// `[import]` and `[fit]`, which are given, through the loader that reads what it includes.
+    /// Reads every file of tables, signals and properties that the netlist names, and the given
+    /// ones of `[import]` and `[fit]`, through the loader of included files.
     pub(crate) fn read<'r>(
         files: &mut Files,
         (raw, format): (&RawNetlist, &NetlistFormat),

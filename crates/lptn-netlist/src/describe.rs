@@ -1,4 +1,4 @@
-//! What the network's builder found, said about the file.
+//! Errors of the network's builder, described for the file.
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{BuildError, BuildErrorKind as Kind, Field, GridFace, Item, Say};
@@ -28,7 +28,7 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
             let grid = if matches!(whole, Item::Grid(_)) { "the grid" } else { "the element" };
             diagnostic.at(map.name(*item), "named here").also(map.name(*whole), grid)
         }
-        // every node of the island, as far as a reader can take them in
+        // at most eight nodes of the island, for readability
         Kind::FloatingIsland { nodes, .. } => {
             let spans = nodes.iter().take(8).filter_map(|node| map.name(Item::Node(*node)));
             let texts = ["not determined"].into_iter().chain(std::iter::repeat("connected to it"));
@@ -86,7 +86,7 @@ fn label(kind: &Kind) -> &'static str {
     }
 }
 
-/// What to do about a row, where it is not what to do about a field.
+/// The help for a row of an import, if that for a field does not suit it.
 fn imported(error: &BuildError, map: &SourceMap) -> Option<String> {
     error.place().filter(|(item, _)| map.is_imported(*item))?;
     Some(match &error.kind {
@@ -102,7 +102,7 @@ fn imported(error: &BuildError, map: &SourceMap) -> Option<String> {
     })
 }
 
-/// Where the number of cells of a grid stands, or its size.
+/// The place of the number of cells of a grid, or of its size.
 fn grid_size(map: &SourceMap, face: GridFace, cells: bool) -> Option<Span> {
     map.get(Item::Grid(face.grid), if cells { Field::Cells } else { Field::Size })
 }

@@ -1,5 +1,4 @@
-//! The same key or heading twice: TOML forbids it, and the parser does not say where the first one
-//! stands.
+//! The same key or heading twice: TOML forbids it, and the parser does not report the first one.
 
 use lptn_data::{Diagnostic, Span};
 
@@ -69,14 +68,14 @@ fn headings(text: &str, last: &Span) -> Vec<Range> {
     found
 }
 
-/// The key of this name in the innermost table around `second`, which stands before it.
+/// The key of this name in the innermost table around `second`, if it is before it.
 fn first_key(name: &str, second: &Span, table: &RawTable) -> Option<Span> {
     let at = second.range.start;
     let inner = table.entries.iter().filter_map(|entry| match &entry.value.kind {
         RawKind::Table(table) => Some((entry, table)),
         _ => None,
     });
-    // an inline table encloses its entries; below a heading stand those up to the next heading
+    // an inline table encloses its entries; those of a heading follow it, up to the next heading
     let around = inner.filter(|(entry, _)| entry.key_span.range.start < at).filter(|(_, table)| {
         let ends = table.entries.iter().map(|e| e.key_span.range.start).any(|start| start < at);
         ends && (table.span.range.contains(&at) || is_heading(table))
@@ -89,7 +88,7 @@ fn first_key(name: &str, second: &Span, table: &RawTable) -> Option<Span> {
     deepest.or_else(own)
 }
 
-/// Whether the table was opened by a heading: its entries stand after it, not inside.
+/// True if a heading opened the table: its entries follow it instead of being inside.
 fn is_heading(table: &RawTable) -> bool {
     table.entries.first().is_some_and(|entry| entry.key_span.range.start >= table.span.range.end)
 }

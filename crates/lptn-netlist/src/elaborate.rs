@@ -28,7 +28,7 @@ use crate::template::Structure;
 use crate::uncertainty::UncertaintyPlan;
 use crate::work::{Elaboration, LeftOut};
 
-/// What a netlist means.
+/// The network of a netlist with everything else that the text defines.
 pub(crate) struct Elaborated {
     pub(crate) network: Network,
     pub(crate) run: Option<RunPlan>,
@@ -39,17 +39,17 @@ pub(crate) struct Elaborated {
     pub(crate) structure: Arc<Structure>,
 }
 
-/// What was found on the way.
+/// Problems found during elaboration.
 pub(crate) struct Found {
     pub(crate) problems: Vec<Diagnostic>,
-    /// How many more there are that were not written down.
+    /// Number of further problems that were not recorded.
     pub(crate) dropped: usize,
 }
 
-/// So many problems of the network as a whole are described.
+/// Largest number of problems of the network as a whole that are described.
 const MOST_DESCRIBED: usize = 1000;
 
-/// The network, or every reason why there is none. Warnings come with either.
+/// The network, or every error that prevents it. Warnings come with either.
 pub(crate) fn elaborate(
     raw: &RawNetlist,
     (structure, gears): (&Arc<Structure>, &Gears),
@@ -132,7 +132,7 @@ impl<'a> Elaboration<'a> {
             });
         }
         if self.problems.iter().any(|problem| problem.severity == Severity::Error) {
-            // what is odd may follow from what is wrong
+            // warnings may follow from errors
             self.problems.retain(|problem| problem.severity == Severity::Error);
             return (None, Found { problems: self.problems, dropped: self.dropped });
         }

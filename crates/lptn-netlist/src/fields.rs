@@ -1,4 +1,4 @@
-//! Reads one table: which of its keys there are, which are missing, which nobody knows.
+//! Reads one table and reports missing and unknown keys.
 
 use lptn_data::{Diagnostic, Span, list};
 use lptn_network::Input;
@@ -7,11 +7,11 @@ use lptn_units::Type;
 use crate::format::{KeyDeclaration, SectionDeclaration};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 
-/// What a field belongs to, in words.
+/// The element or section that a field belongs to, in words.
 #[derive(Clone, Debug)]
 pub(crate) struct Owner {
     words: String,
-    /// Where its keys are declared.
+    /// The section that declares its keys.
     section: &'static SectionDeclaration,
 }
 
@@ -26,7 +26,7 @@ impl Owner {
         Self { words: format!("[{name}]"), section: &SectionDeclaration::NEW }
     }
 
-    /// Whether it is a section and no element.
+    /// True if it is a section, not an element.
     fn is_section(&self) -> bool {
         self.words.contains('[')
     }
@@ -76,17 +76,17 @@ pub(crate) struct Oil {
     pub(crate) at: String,
 }
 
-/// The fields of one table, with everything wrong about its keys reported.
+/// The fields of one table, with all errors of its keys reported.
 #[derive(Debug)]
 pub(crate) struct Fields<'a> {
     pub(crate) owner: Owner,
-    /// Where the element's name stands, or the section's heading.
+    /// The place of the element's name, or of the section's heading.
     pub(crate) place: &'a Span,
-    /// Whether every key is known: a key that is misspelt would be reported as missing as well.
+    /// True if every key is known: otherwise a misspelt key would be reported as missing, too.
     pub(crate) complete: bool,
-    /// The area that is meant where none is given: that of the face at which a path ends.
+    /// The area if none is given: that of the face at which a path ends.
     pub(crate) area: Option<Input>,
-    /// The lubricant of a loss, and where it is.
+    /// The lubricant of a loss, and its place.
     pub(crate) oil: Option<Oil>,
     table: &'a RawTable,
 }
@@ -118,7 +118,7 @@ impl<'a> Fields<'a> {
         Some(Self { owner, place: &entry.key_span, complete, area: None, oil: None, table })
     }
 
-    /// Whether a key is there or is meant without.
+    /// True if a key is given or has a value by default.
     pub(crate) fn has(&self, key: &str) -> bool {
         self.get(key).is_some() || (key == "area" && self.area.is_some())
     }
@@ -133,7 +133,7 @@ impl<'a> Fields<'a> {
         self.table.get(key)
     }
 
-    /// Whether this kind of element has such a key.
+    /// True if this kind of element has such a key.
     pub(crate) fn known(&self, key: &str) -> bool {
         self.owner.section.key(key).is_some()
     }
@@ -143,7 +143,7 @@ impl<'a> Fields<'a> {
         self.entry(key).map(|entry| &entry.key_span)
     }
 
-    /// The value of a key that has to be there.
+    /// The value of a required key.
     pub(crate) fn require(
         &self,
         key: &str,
@@ -162,14 +162,14 @@ impl<'a> Fields<'a> {
         self.owner.section.keys
     }
 
-    /// That a key is missing, with how it could be written.
+    /// Error for a missing key, with how it could be written.
     pub(crate) fn missing(&self, key: &str, message: String) -> Diagnostic {
         Diagnostic::error("netlist::missing_field", message)
             .at(self.place.clone(), format!("`{key}` is missing"))
             .help(format!("add `{}`", self.sample(key)))
     }
 
-    /// The text of a string, for a field that holds a name and not a value.
+    /// The text of a string, for a field that takes a name instead of a value.
     pub(crate) fn text(
         &self,
         key: &str,
@@ -185,12 +185,12 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// That a value of a key, or a part of it, is not what the key takes.
+    /// Error for a value of a key, or a part of it, of the wrong type.
     pub(crate) fn wrong_shape(&self, key: &str, value: &RawValue, wanted: &str) -> Diagnostic {
         wrong_shape(&self.owner.field(key), value, wanted, &self.sample(key))
     }
 
-    /// That of several keys only one can be there: each that is has a label.
+    /// Error for several keys that exclude each other: each one that is given has a label.
     pub(crate) fn several<'k>(
         &self,
         code: &'static str,

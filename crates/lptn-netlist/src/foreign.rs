@@ -1,5 +1,5 @@
-//! Files of other kinds that are given in the place of a netlist. They are named once: what is
-//! wrong with each of their lines as TOML helps nobody.
+//! Files of other kinds that are given instead of a netlist. Each is reported once: errors in each
+//! of its lines as TOML would help no one.
 
 use lptn_data::{Diagnostic, FileId, Span};
 
@@ -8,7 +8,7 @@ use crate::format::NetlistFormat;
 /// The file is not a netlist at all.
 pub(crate) const CODE: &str = "netlist::not_a_netlist";
 
-/// Lines that are looked at.
+/// Lines that are examined.
 const ENOUGH: usize = 50;
 
 /// A text with fewer broken lines is a netlist with mistakes in it.
@@ -16,8 +16,8 @@ const MANY: usize = 8;
 
 const NEW: &str = "a netlist is a TOML file; `lptn new NAME` writes one to start from";
 
-/// What a text is that is not TOML, if it is plainly something else; so many of its lines are
-/// broken.
+/// Error that names the kind of a text that is plainly not TOML; `broken` is the number of its
+/// broken lines.
 pub(crate) fn recognise(
     (name, format): (&str, &NetlistFormat),
     (file, text): (FileId, &str),
@@ -68,13 +68,13 @@ fn json_help(text: &str) -> String {
     }
 }
 
-/// The heading of a section that there is.
+/// True for the heading of a known section.
 fn is_heading(line: &str, format: &NetlistFormat) -> bool {
     let inner = line.split('#').next().unwrap_or_default().trim().trim_matches(['[', ']']).trim();
     line.starts_with('[') && format.has(inner.split('.').next().unwrap_or_default().trim())
 }
 
-/// Two lines or more, all of them with the same separator and none with an equals sign.
+/// True for two lines or more, all with the same separator and none with an equals sign.
 fn is_csv(lines: &[&str]) -> bool {
     let mut cells = lines.iter().filter(|line| !line.starts_with('#')).peekable();
     let separator = |line: &str| [',', ';', '\t'].into_iter().find(|c| line.contains(*c));
@@ -82,7 +82,7 @@ fn is_csv(lines: &[&str]) -> bool {
     lines.len() > 1 && cells.all(|line| line.contains(first) && !line.contains('='))
 }
 
-/// Control lines, or elements between two nodes.
+/// True for control lines, or elements between two nodes.
 fn is_spice(lines: &[&str]) -> bool {
     let control = [".end", ".tran", ".op", ".ac", ".dc", ".model", ".subckt", ".include"];
     let is_control = |line: &&str| control.iter().any(|word| line.to_lowercase().starts_with(word));

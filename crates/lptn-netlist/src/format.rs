@@ -1,28 +1,28 @@
-//! How a section is declared: its keys with what each takes and means, its examples, and what
-//! belongs elsewhere. Help, suggestions, what a template or an included file may hold, and the page
-//! of all keys follow from it.
+//! Declarations of sections: their keys with types and meanings, their examples, and keys that
+//! belong elsewhere. Help, suggestions, the permitted contents of templates and included files, and
+//! the page of all keys follow from them.
 
 use lptn_data::nearest;
 use lptn_units::{Type, Unit};
 
-/// What a section holds.
+/// The role of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// Values that expressions name.
     Value,
-    /// What elements are made of.
+    /// Substances that elements are made of.
     Substance,
     /// Elements, which share one set of names.
     Element,
-    /// What holds unless said otherwise.
+    /// Defaults.
     Default,
     /// Elements from other files.
     Import,
     /// Parts that are written once.
     Template,
-    /// Where such a part is used.
+    /// Uses of such parts.
     Use,
-    /// What is asked of a network.
+    /// Questions about a network.
     Study,
     /// A table inside another section.
     Inner,
@@ -31,17 +31,17 @@ pub enum Role {
 /// A section, or a table inside one.
 #[derive(Debug)]
 pub struct SectionDeclaration {
-    /// Its heading; also what an element of it is called.
+    /// Its heading; also the name of the kind of its elements.
     pub name: &'static str,
-    /// What it holds, in one sentence.
+    /// Its contents, in one sentence.
     pub sentence: &'static str,
-    /// What it is to the others.
+    /// Its role among the sections.
     pub role: Role,
     /// Its keys, or those of its elements.
     pub keys: &'static [KeyDeclaration],
-    /// Keys of which one at least has to be there, in groups.
+    /// Groups of keys, at least one of which is required.
     pub either: &'static [&'static [&'static str]],
-    /// Keys that are decided but not supported yet.
+    /// Keys that are reserved but not supported yet.
     pub later: &'static [&'static str],
     /// The right side of an element, for help.
     pub example: &'static str,
@@ -50,7 +50,7 @@ pub struct SectionDeclaration {
 }
 
 impl SectionDeclaration {
-    /// Without keys, to begin with.
+    /// An empty declaration to start from.
     pub const NEW: Self = Self {
         name: "",
         sentence: "",
@@ -77,7 +77,7 @@ impl SectionDeclaration {
         self.keys.iter().map(|key| key.name).collect()
     }
 
-    /// What to do about a key that it does not have.
+    /// Help for a key that it does not have.
     pub(crate) fn help_for(&self, key: &str) -> String {
         if let Some((_, help)) = self.elsewhere.iter().find(|(name, _)| *name == key) {
             return (*help).to_owned();
@@ -91,22 +91,21 @@ impl SectionDeclaration {
 pub struct KeyDeclaration {
     /// Its name.
     pub name: &'static str,
-    /// What it takes.
+    /// The type of its value.
     pub takes: Takes,
-    /// What it takes in words, where the type does not say it.
+    /// The type of its value in words, if `takes` does not give them.
     pub(crate) said: &'static str,
-    /// What it means, in a few words.
+    /// Its meaning, in a few words.
     pub meaning: &'static str,
-    /// What holds where it is left out; empty where it has to be there, or where nothing is meant
-    /// without it.
+    /// The default; empty if the key is required, or if nothing follows when it is left out.
     pub default: &'static str,
     /// Its right side, as an example.
     pub example: &'static str,
-    /// Whether it has to be there.
+    /// True if it is required.
     pub needed: bool,
 }
 
-/// What a key takes: its words for people and the schema of a netlist follow.
+/// The type of the value of a key: its description and the schema of a netlist follow.
 #[derive(Clone, Copy, Debug)]
 pub enum Takes {
     /// A quantity in this unit, or an expression.
@@ -115,7 +114,7 @@ pub enum Takes {
     Property(&'static str),
     /// A number without a unit, or an expression.
     Number,
-    /// A quantity or a number: its type follows from something else.
+    /// A quantity or a number: its type follows from another value.
     Like,
     /// A whole number.
     Whole,
@@ -125,7 +124,7 @@ pub enum Takes {
     Words(&'static [&'static str]),
     /// A string: a name, a file, an expression.
     Text,
-    /// A list of so many at least and at most.
+    /// A list with a least and a greatest length.
     List(&'static Takes, usize, usize),
     /// A table with these keys.
     Table(&'static SectionDeclaration),
@@ -167,7 +166,7 @@ pub(crate) const fn words_of<T: Copy, const N: usize>(
     words
 }
 
-/// A key that takes what no other function here declares, in these words.
+/// A key of a type that no other function here declares; `said` describes it.
 pub(crate) const fn shaped(
     name: &'static str,
     said: &'static str,
@@ -178,7 +177,8 @@ pub(crate) const fn shaped(
     KeyDeclaration { name, takes, said, meaning, default: "", example, needed: false }
 }
 
-/// Functions that declare a key of one type, by what they are given beside meaning and example.
+/// Functions that declare a key of one type from its name, meaning, example and perhaps one more
+/// value.
 macro_rules! keys {
     ($($(#[$words:meta])* $name:ident($($given:ident: $ty:ty)?) => $takes:expr, $said:expr;)*) => {$(
         $(#[$words])*
@@ -198,7 +198,7 @@ keys! {
     key(unit: &'static str) => Takes::Quantity(unit), unit;
     /// A quantity in a unit, or a table over the temperature.
     property(unit: &'static str) => Takes::Property(unit), unit;
-    /// A quantity or a number whose type follows from something else.
+    /// A quantity or a number whose type follows from another value.
     akin(said: &'static str) => Takes::Like, said;
     /// A string.
     text(said: &'static str) => Takes::Text, said;
@@ -215,7 +215,7 @@ keys! {
 }
 
 impl KeyDeclaration {
-    /// What it takes, in words.
+    /// The type of its value, in words.
     pub fn takes(&self) -> String {
         match self.takes {
             Takes::Words(all) => {
@@ -225,7 +225,7 @@ impl KeyDeclaration {
         }
     }
 
-    /// The type of its value, where that is a quantity or a number.
+    /// The type of its value, if that is a quantity or a number.
     pub(crate) fn ty(&self) -> Type {
         match self.takes {
             Takes::Quantity(ABSOLUTE) => Type::ABSOLUTE_TEMPERATURE,
@@ -234,31 +234,31 @@ impl KeyDeclaration {
         }
     }
 
-    /// With what holds where it is left out.
+    /// The same with a default.
     pub(crate) const fn or(self, default: &'static str) -> Self {
         Self { default, ..self }
     }
 
-    /// That has to be there.
+    /// The same as a required key.
     pub(crate) const fn needed(self) -> Self {
         Self { needed: true, ..self }
     }
 }
 
-/// What a key of an absolute temperature takes.
+/// The unit of a key that takes an absolute temperature.
 pub(crate) const ABSOLUTE: &str = "absolute temperature";
 
-/// All sections, in the order in which they are named to people.
+/// All sections, in the order in which messages list them.
 #[derive(Debug)]
 pub struct NetlistFormat {
     /// The sections there are.
     pub sections: Vec<&'static SectionDeclaration>,
-    /// Sections that the format has for later.
+    /// Sections that the format reserves for later.
     pub later: &'static [&'static SectionDeclaration],
 }
 
 impl NetlistFormat {
-    /// Whether there is a section of this name.
+    /// True if there is a section of this name.
     pub(crate) fn has(&self, name: &str) -> bool {
         self.sections.iter().any(|section| section.name == name)
     }
@@ -268,7 +268,7 @@ impl NetlistFormat {
         self.sections.iter().map(|section| section.name).collect()
     }
 
-    /// What the section of this name is, also one for later.
+    /// The role of the section of this name, including sections for later.
     pub(crate) fn role(&self, name: &str) -> Option<Role> {
         let all = self.sections.iter().chain(self.later);
         all.copied().find(|section| section.name == name).map(|section| section.role)
@@ -280,7 +280,7 @@ impl NetlistFormat {
         elements.map(|section| section.name)
     }
 
-    /// Whether a template cannot hold a section, which there is.
+    /// True if there is a section of this name that a template cannot contain.
     pub(crate) fn is_outside_templates(&self, name: &str) -> bool {
         use Role::{Default, Import, Study, Substance, Template};
         let role = self.role(name);

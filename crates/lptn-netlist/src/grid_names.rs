@@ -1,4 +1,4 @@
-//! What names inside grids mean in expressions: `wall[1,2,3].T`, `wall.x1.T`, `wall.mean`.
+//! Names inside grids in expressions: `wall[1,2,3].T`, `wall.x1.T`, `wall.mean`.
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Context, GridFace};
@@ -7,11 +7,11 @@ use crate::grid_part::{GridPart, KnownGrid};
 use crate::names::Names;
 use crate::place::{Place, Wanted};
 
-/// The values that a grid has of its own.
+/// The values of a whole grid.
 pub(crate) const VALUES: [&str; 3] = ["mean", "min", "max"];
 
 impl Names {
-    /// What a name means that is that of a grid or begins with it, and the name of the grid.
+    /// The name of the grid with which `name` begins, and the part of it that `name` means.
     pub(crate) fn grid_part<'n>(&self, name: &'n str) -> Option<(&'n str, GridPart)> {
         let ends = name.match_indices(['.', '[']).map(|(at, _)| at).chain([name.len()]);
         let known = |end: usize| Some((end, self.grids.get(name.get(..end)?)?));
@@ -20,7 +20,7 @@ impl Names {
         Some((own, grid.part(own, rest)))
     }
 
-    /// Whether a name in an expression is something of a grid that has a value in this place.
+    /// True if a name in an expression is a part of a grid that has a value in this place.
     pub(crate) fn is_of_grid(&self, name: &str, wanted: Wanted) -> bool {
         let Some((base, ending)) = name.rsplit_once('.') else { return false };
         let Some((_, part)) = self.grid_part(base) else { return false };
@@ -42,14 +42,14 @@ impl Names {
         self.grid_of(at).is_some_and(|grid| grid.attached.contains(&at.face))
     }
 
-    /// Whether the whole face is one node of the name of the face.
+    /// True if the whole face is one node with the name of the face.
     fn is_one_node(&self, at: GridFace) -> bool {
         let indices =
             |grid: &KnownGrid| at.face.along().into_iter().any(|axis| axis < grid.cells.len());
         self.is_attached(at) && self.grid_of(at).is_some_and(|grid| !indices(grid))
     }
 
-    /// Why a name in an expression that begins with that of a grid means nothing there.
+    /// The reason why a name in an expression that begins with that of a grid is unknown there.
     pub(crate) fn unknown_of_grid(
         &self,
         place: Place<'_>,

@@ -3,19 +3,19 @@
 use lptn_data::Span;
 use lptn_network::{Face, GridFace, GridId};
 
-/// A grid as far as names need it.
+/// The data of a grid that names need.
 #[derive(Clone, Debug)]
 pub(crate) struct KnownGrid {
     pub(crate) id: GridId,
-    /// How many cells there are along each axis that cells have an index of.
+    /// Number of cells along each axis that has an index.
     pub(crate) cells: Vec<usize>,
-    /// Where its name stands.
+    /// The place of its name.
     pub(crate) span: Span,
     /// The faces that something is attached to.
     pub(crate) attached: Vec<Face>,
 }
 
-/// What a name means that begins with that of a grid.
+/// The meaning of a name that begins with the name of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum GridPart {
     /// The grid itself.
@@ -26,12 +26,12 @@ pub(crate) enum GridPart {
     Face(GridFace),
     /// One cell of a face.
     Surface(GridFace),
-    /// Nothing, for this reason and with this advice.
+    /// Nothing, with the reason and the help.
     Nothing(String, String),
 }
 
 impl KnownGrid {
-    /// What `rest`, which follows the name of the grid, means.
+    /// The part that `rest`, which follows the name of the grid, means.
     pub(crate) fn part(&self, name: &str, rest: &str) -> GridPart {
         if rest.is_empty() {
             return GridPart::Whole(self.id);
@@ -67,7 +67,7 @@ fn faces(name: &str) -> String {
     format!("its faces are {}", all.join(", "))
 }
 
-/// Why these are not indices of cells: the reason and what to write.
+/// The reason why these are not indices of cells, and the correction.
 fn bad_index((name, what): (&str, &str), text: &str, counts: &[usize]) -> Option<(String, String)> {
     let inner = text.strip_prefix('[').and_then(|t| t.strip_suffix(']')).unwrap_or(text);
     let indices: Vec<Option<usize>> =

@@ -1,5 +1,5 @@
-//! What a line that is no TOML was probably meant to be: habits of other notations, which the
-//! parser reports somewhere behind their cause.
+//! The probable meaning of a line that is not TOML: habits of other notations, which the parser
+//! reports in a place after their cause.
 
 use lptn_data::{Diagnostic, FileId, Span};
 use lptn_units::parse_quantity;
@@ -50,7 +50,7 @@ fn semicolon(place: Span) -> Diagnostic {
         .help("write it like this: `{ T0 = \"25 degC\", C = \"500 J/K\" }`")
 }
 
-/// What stands after an equals sign.
+/// The value after an equals sign.
 struct Value<'a> {
     key: &'a str,
     start: usize,
@@ -87,7 +87,7 @@ impl<'a> Value<'a> {
         format!("{{ {inner} }}")
     }
 
-    /// `R = 0,35`, with the unit of the field where none is written.
+    /// `R = 0,35`, with the unit of the field if none is written.
     fn decimal_comma(&self, format: &NetlistFormat) -> Option<Diagnostic> {
         let example = format.example(self.key).unwrap_or_default().trim_matches('"');
         let unit = example.split_once(' ').map_or("", |(_, unit)| unit);
@@ -100,7 +100,7 @@ impl<'a> Value<'a> {
             .then(|| Diagnostic::error(code, error.to_string()).help(help))
     }
 
-    /// `T0 = T_room` and `C = 150 [J/K]`, where the parser tells of something else.
+    /// `T0 = T_room` and `C = 150 [J/K]`, if the parser reports something else.
     fn unquoted(&self, message: &str) -> Option<Diagnostic> {
         let other = ["invalid boolean", "missing key for inline", "unexpected key or value"];
         if !other.iter().any(|start| message.starts_with(start)) || is_toml(self.text) {
@@ -139,7 +139,7 @@ fn length(rest: &str) -> usize {
     rest.len()
 }
 
-/// Whether a text without quotes is a value of TOML: a number, `true`, a date.
+/// True if a text without quotes is a value of TOML: a number, `true`, a date.
 fn is_toml(text: &str) -> bool {
     let digits = text.replace('_', "");
     let date = text.contains([':', '-']) && text.starts_with(|c: char| c.is_ascii_digit());

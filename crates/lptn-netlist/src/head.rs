@@ -8,7 +8,7 @@ use crate::raw::{RawEntry, RawKind};
 
 pub(crate) const MISSING_FORMAT: &str = "netlist::missing_format";
 
-/// What is wrong with the `format` of an included file, which begins at `start`.
+/// The error about the `format` of an included file, which begins at `start`.
 pub(crate) fn check_head(entries: &[RawEntry], start: Span) -> Option<Diagnostic> {
     match entries.iter().find(|entry| entry.key == "format") {
         Some(entry) => check_format(entry),
@@ -56,7 +56,7 @@ pub(crate) fn missing_format(
     }
 }
 
-/// A text without anything in it.
+/// Error for an empty text.
 pub(crate) fn empty(text: &str, at: Span) -> Diagnostic {
     let what = if text.trim().is_empty() { "is empty" } else { "contains nothing but comments" };
     Diagnostic::error("netlist::empty", format!("the netlist {what}"))

@@ -3,7 +3,7 @@
 use lptn_data::{Marks, Span};
 use lptn_network::{Field, Item};
 
-/// What the rows of a file are.
+/// The kind of the rows of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Kind {
     Node,
@@ -25,13 +25,13 @@ impl Kind {
     }
 }
 
-/// Where the elements of one file stand: as many of one kind, one after the other, as it has rows.
+/// The places of the elements of one file: one element of one kind for each row, in order.
 #[derive(Clone, Debug)]
 pub(crate) struct Places {
     pub(crate) kind: Kind,
     /// The position of the first of them in the network.
     pub(crate) first: usize,
-    /// The columns in which fields stand.
+    /// The columns that contain fields.
     pub(crate) columns: Vec<(Field, usize)>,
     pub(crate) marks: Marks,
 }
@@ -46,7 +46,7 @@ impl Places {
         cell.or_else(|| if field == Field::Name { self.marks.line(element) } else { None })
     }
 
-    /// Whether the item is one of these.
+    /// True if the item is one of these.
     pub(crate) fn holds(&self, item: Item) -> bool {
         self.element(item).is_some()
     }
@@ -55,7 +55,7 @@ impl Places {
         self.kind.index(item)?.checked_sub(self.first).filter(|element| *element < self.marks.count)
     }
 
-    /// How many places there are.
+    /// Number of places.
     pub(crate) fn len(&self) -> usize {
         self.marks.count * self.columns.len()
     }

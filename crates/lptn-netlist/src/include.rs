@@ -1,4 +1,4 @@
-//! `include`: one netlist from several files, each value with the place it stands in.
+//! `include`: one netlist from several files, each value with its place.
 //!
 //! Includes are merged as raw trees before names are resolved, so that spans keep their file.
 
@@ -19,7 +19,7 @@ use crate::syntax;
 /// Reads the bytes of a file that a netlist names: one that it includes, or a CSV file.
 pub type Loader<'a> = dyn FnMut(&Path) -> io::Result<Vec<u8>> + 'a;
 
-/// A file that includes another that includes another: more are a mistake.
+/// Greatest depth of files that include each other.
 const DEEPEST: usize = 8;
 
 const INCLUDE: &str = "include";
@@ -37,13 +37,13 @@ const INCLUDED: NamedFile = NamedFile {
 pub(crate) struct Merged {
     pub(crate) raw: RawNetlist,
     pub(crate) problems: Vec<Diagnostic>,
-    /// Whether a file is missing as a whole, so that nothing can be said of what uses it.
+    /// True if a whole file is missing, so that names may be unknown.
     pub(crate) incomplete: bool,
-    /// Whether a text could not even be read, or not as TOML.
+    /// True if a text could not be read, or not as TOML.
     pub(crate) syntax: bool,
 }
 
-/// Puts what a netlist includes in front of its own entries; without `include` nothing is done.
+/// Puts the entries of included files before a netlist's own; without `include` nothing changes.
 pub(crate) fn merge(
     (files, format): (&mut Files, &NetlistFormat),
     raw: RawNetlist,
@@ -67,7 +67,7 @@ pub(crate) fn merge(
     let (entries, includes) = split(own);
     work.includes(&includes, path);
     work.append(entries);
-    // the file itself is what has no place of its own
+    // the file itself has no place inside a file
     work.merged.raw.top.span = span;
     work.merged
 }
@@ -78,7 +78,7 @@ struct Work<'a, 'l> {
     loader: Option<&'a mut Loader<'l>>,
     /// The files that are open: each includes the next.
     stack: Vec<(PathBuf, FileId)>,
-    /// The files that are in: one that several others include is there once.
+    /// The files that are included: a file that several others include is added once.
     done: HashSet<PathBuf>,
     merged: Merged,
 }
@@ -155,7 +155,7 @@ impl Work<'_, '_> {
         );
     }
 
-    /// Adds the entries of a file behind those that are there.
+    /// Adds the entries of a file after the existing ones.
     fn append(&mut self, entries: Vec<RawEntry>) {
         for entry in entries {
             let top = &mut self.merged.raw.top.entries;
@@ -167,7 +167,7 @@ impl Work<'_, '_> {
                 (RawKind::Table(table), RawKind::Table(more)) => {
                     self.merged.problems.extend(append_table(table, more));
                 }
-                // what is wrong with it is said of the first
+                // the first one is reported
                 (_, kind) => {
                     let value = RawValue { span: entry.value.span, kind };
                     top.push(RawEntry { key: entry.key, key_span: entry.key_span, value });
@@ -180,13 +180,13 @@ impl Work<'_, '_> {
         self.merged.problems.push(problem);
     }
 
-    /// A file that is not there: what it holds is missing.
+    /// Reports a missing file, whose contents are missing.
     fn lost(&mut self, problem: Diagnostic) {
         self.merged.incomplete = true;
         self.report(problem);
     }
 
-    /// A file without a text: as wrong as one that is no TOML.
+    /// Reports a file without a text: as wrong as one that is not TOML.
     fn unread(&mut self, problem: Diagnostic) {
         self.merged.syntax = true;
         self.lost(problem);
@@ -214,7 +214,7 @@ fn split(entries: Vec<RawEntry>) -> (Vec<RawEntry>, Vec<RawEntry>) {
     entries.into_iter().partition(|entry| entry.key != INCLUDE)
 }
 
-/// Adds entries of the same section of another file; a key that stands in both is kept once.
+/// Adds entries of the same section of another file; a key of both is kept once.
 fn append_table(table: &mut RawTable, more: RawTable) -> Vec<Diagnostic> {
     let first: HashMap<String, Span> =
         table.entries.iter().map(|entry| (entry.key.clone(), entry.key_span.clone())).collect();
@@ -286,7 +286,7 @@ fn not_text(path: &Path, value: &RawValue) -> Diagnostic {
     )
 }
 
-/// Whether any of the problems keeps the netlist from being used.
+/// True if any problem makes the netlist unusable.
 pub(crate) fn any_error(problems: &[Diagnostic]) -> bool {
     problems.iter().any(|problem| problem.severity == Severity::Error)
 }

@@ -1,4 +1,4 @@
-//! `[infer.NAME]`: courses of signals to find over time, and the record that tells of them.
+//! `[infer.NAME]`: time histories of signals to estimate, and the record that determines them.
 
 use lptn_data::{Diagnostic, Span, nearest};
 use lptn_network::{Network, Value};
@@ -89,43 +89,43 @@ const FIND: SectionDeclaration = SectionDeclaration {
 pub struct InferStudy {
     /// Its name.
     pub name: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
-    /// The record and what its columns measured: a fit that varies nothing.
+    /// The record and the results that its columns measured: a fit that varies nothing.
     pub reads: FitStudy,
-    /// The signals that are sought, in file order; at least one, none twice.
+    /// The signals to be estimated, in file order; at least one, none twice.
     pub sought: Vec<SoughtSignal>,
-    /// What is known of the start.
+    /// Knowledge of the initial temperatures.
     pub start: InferStart,
     /// Standard deviation and time of the slow part of the noise.
     drift: Option<(Setting, Setting)>,
 }
 
-/// A signal whose course is sought.
+/// A signal whose time history is to be estimated.
 #[derive(Clone, Debug)]
 pub struct SoughtSignal {
     /// Its name.
     pub name: String,
     /// Its type.
     pub ty: Type,
-    /// Whether it stays above 0.
+    /// True if it stays above 0.
     pub positive: bool,
-    /// Whether it may jump where the record says so.
+    /// True if it may jump when the record indicates this.
     pub jumps: bool,
-    /// Where it is named.
+    /// The place of its name.
     pub span: Span,
-    /// By how much it changes in which time.
+    /// Its usual change and the time of that change.
     change: Option<(Value, Value)>,
 }
 
-/// What is known of the start.
+/// Knowledge of the initial temperatures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum InferStart {
-    /// It is `T0`.
+    /// They are `T0`.
     Network,
-    /// Nothing of nodes that are measured.
+    /// Those of measured nodes are unknown.
     Record,
-    /// Nothing.
+    /// All are unknown.
     Free,
 }
 
@@ -133,11 +133,11 @@ const STARTS: [(&str, InferStart); 3] =
     [("network", InferStart::Network), ("record", InferStart::Record), ("free", InferStart::Free)];
 
 impl InferStudy {
-    /// For each sought signal by how much it usually changes (1 sigma, in SI units, or a factor
-    /// where it stays above 0) in the root of 1 s; `None` where that is not said.
+    /// For each signal its usual change per root of a second (1 sigma, in SI units, or a factor if
+    /// it stays above 0); `None` if it is not given.
     ///
     /// # Errors
-    /// What the evaluation of a change or a time reports.
+    /// The error of the evaluation of a change or a time.
     pub fn changes(&self, network: &Network) -> Result<Vec<Option<f64>>, EvalError> {
         let mut scope = network.evaluation();
         let mut one = |sought: &SoughtSignal| match &sought.change {
@@ -149,18 +149,17 @@ impl InferStudy {
         self.sought.iter().map(&mut one).collect()
     }
 
-    /// Standard deviation in K and time in s of the slow part of the noise; `None` where that is
-    /// not said.
+    /// Standard deviation in K and time in s of the slow part of the noise; `None` if not given.
     ///
     /// # Errors
-    /// What the evaluation of the two reports.
+    /// The error of the evaluation of either.
     pub fn drift(&self, network: &Network) -> Result<Option<(f64, f64)>, EvalError> {
         let mut scope = network.evaluation();
         let mut at = |setting: &Setting| setting.value.at(&mut scope);
         self.drift.as_ref().map(|(drift, time)| Ok((at(drift)?, at(time)?))).transpose()
     }
 
-    /// What is wrong with the drift.
+    /// The error of the drift.
     fn unsound_drift(&self, network: &Network) -> Option<Diagnostic> {
         let (drift, time) = self.drift.as_ref()?;
         let setting = match self.drift(network) {

@@ -1,4 +1,4 @@
-//! JSON with places: each value knows where it stands.
+//! JSON with places: each value knows its place.
 
 use std::borrow::Cow;
 use std::fmt;
@@ -15,21 +15,21 @@ pub(crate) struct Json<'a> {
     pub(crate) text: &'a str,
 }
 
-/// A value inside a text, unread as yet.
+/// A value inside a text, not yet read.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct JsonValue<'a> {
     raw: &'a RawValue,
     json: Json<'a>,
 }
 
-/// The members of an object in the order of the file; a name may stand twice.
+/// The members of an object in the order of the file; a name may appear twice.
 struct Members<'a>(Vec<(Cow<'a, str>, &'a RawValue)>);
 
 impl<'a> Json<'a> {
     /// The whole value.
     ///
     /// # Errors
-    /// What is wrong, and where.
+    /// The error, and its place.
     pub(crate) fn read(self) -> Result<JsonValue<'a>, (String, Span)> {
         let problem = |error: serde_json::Error| {
             let line: usize =
@@ -46,7 +46,7 @@ impl<'a> Json<'a> {
 }
 
 impl<'a> JsonValue<'a> {
-    /// Where it stands.
+    /// Its place.
     pub(crate) fn span(self) -> Span {
         let text = self.raw.get();
         let start = text.as_ptr().addr().saturating_sub(self.json.text.as_ptr().addr());
@@ -82,7 +82,7 @@ impl<'a> JsonValue<'a> {
         serde_json::from_str(self.raw.get()).ok()
     }
 
-    /// As it stands in the file.
+    /// Its text in the file.
     pub(crate) fn written(self) -> &'a str {
         self.raw.get()
     }

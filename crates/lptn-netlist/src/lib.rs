@@ -1,10 +1,10 @@
 //! Netlists: TOML text to a [`Network`](lptn_network::Network), with every problem named by its
 //! place.
 //!
-//! [`parse`] reads the text into a [`RawNetlist`] (what is written, where), and that into a
-//! [`Netlist`] (what it means). Nothing stops at the first problem: a [`Rejected`] netlist lists
-//! them all, each a [`Diagnostic`] with a stable code, the places in the [`Files`] and, where
-//! possible, the text to paste.
+//! [`parse`] reads the text into a [`RawNetlist`] (the text with places), and that into a
+//! [`Netlist`] (its meaning). Nothing stops at the first problem: a [`Rejected`] netlist lists them
+//! all, each a [`Diagnostic`] with a stable code, the places in the [`Files`] and, if possible, the
+//! text to paste.
 //!
 //! ```
 //! let text = r#"

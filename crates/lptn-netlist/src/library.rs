@@ -1,7 +1,7 @@
 //! The materials and fluids that ship inside, each number with its source.
 //!
-//! The text is compiled in and read when it is first asked for: a netlist that names no material of
-//! the library does not pay for it.
+//! The text is compiled in and read on first use: a netlist without a material of the library does
+//! not pay for it.
 
 use std::sync::LazyLock;
 
@@ -14,7 +14,7 @@ use crate::syntax;
 
 const TEXT: &str = include_str!("library.toml");
 
-/// What films take of its fluids, over temperature.
+/// Properties of its fluids for films, over temperature.
 const FILMS: &str = include_str!("films.toml");
 
 /// One substance of the library. Values in SI units.
@@ -22,7 +22,7 @@ const FILMS: &str = include_str!("films.toml");
 pub struct LibrarySubstance {
     /// The name that netlists use.
     pub name: String,
-    /// What it is, in words.
+    /// Its description.
     pub title: String,
     /// Density in kg/m^3.
     pub density: Option<f64>,
@@ -30,11 +30,11 @@ pub struct LibrarySubstance {
     pub cp: Option<f64>,
     /// Thermal conductivity in W/(m K).
     pub k: Option<f64>,
-    /// Temperature in K at which the properties of a fluid hold; for solids the source says it.
+    /// Temperature in K at which the properties of a fluid are valid; for solids `source` gives it.
     pub temperature: Option<f64>,
-    /// Where the numbers come from, and at which state they hold.
+    /// Source of the numbers, and the state at which they are valid.
     pub source: String,
-    /// What films take of a fluid, by key: tables over temperature in K, in SI units, where there
+    /// Properties of a fluid for films, by key: tables over temperature in K, in SI units, if there
     /// are any.
     pub film: Vec<(String, Table1)>,
 }
@@ -44,13 +44,13 @@ pub struct LibrarySubstance {
 pub struct LibraryLubricant {
     /// The name that netlists use.
     pub name: String,
-    /// What it is, in words.
+    /// Its description.
     pub title: String,
     /// Kinematic viscosity at 40 and at 100 degC in m^2/s.
     pub viscosity: [f64; 2],
     /// Density at 15 degC in kg/m^3.
     pub density: f64,
-    /// Where the numbers come from.
+    /// Source of the numbers.
     pub source: String,
 }
 

@@ -1,7 +1,7 @@
 //! Parameters and other names that a key of a study lists: `vary`, `axes`, `find`, `know`, `only`.
 //!
-//! They have one form: a list of names, or a table of names with what is said of each. What is said
-//! is a value, a list of values, or a range with its ends `from` and `to`.
+//! They have one form: a list of names, or a table of names. In a table each name has a value, a
+//! list of values, or a range with its ends `from` and `to`.
 
 use lptn_data::Span;
 use lptn_network::{Context, Value};
@@ -17,22 +17,22 @@ use crate::work::Elaboration;
 pub(crate) struct Listed<'a> {
     pub(crate) name: &'a str,
     pub(crate) span: &'a Span,
-    /// What is said of it, in a table.
+    /// Its entry in a table.
     pub(crate) entry: Option<&'a RawEntry>,
 }
 
-/// In which form names are listed, and what is wanted, in words.
+/// The form in which names are listed, and a description of it.
 pub(crate) enum Names<'w> {
     /// A list.
     List(&'w str),
-    /// A table; of an empty one the second words are said.
+    /// A table; the second words describe an empty one.
     Table(&'w str, &'w str),
-    /// One of them, with a name at least.
+    /// Either, with at least one name.
     Either(&'w str),
 }
 
 impl<'a> Elaboration<'a> {
-    /// The names that a key lists, which has to be there; what is wrong is reported.
+    /// The names that a key lists, which is required; errors are reported.
     pub(crate) fn listed(
         &mut self,
         fields: &Fields<'a>,
@@ -68,7 +68,7 @@ impl<'a> Elaboration<'a> {
         None
     }
 
-    /// The same of a key that may be left out, or has at least one name.
+    /// The same for a key that may be left out, or has at least one name.
     pub(crate) fn listed_if_any(
         &mut self,
         fields: &Fields<'a>,
@@ -88,8 +88,7 @@ impl<'a> Elaboration<'a> {
         self.builder.scope(Context::Time).symbol(name).map(|symbol| symbol.ty)
     }
 
-    /// The ends of the range of a parameter of this type, as far as they are there; `None` where
-    /// one is wrong.
+    /// The ends of the range of a parameter of this type, as far as given; `None` if one is wrong.
     pub(crate) fn ends(&mut self, range: &Fields<'a>, ty: Type) -> Option<[Option<Value>; 2]> {
         let ends = ["from", "to"].map(|key| match range.get(key) {
             None => Some(None),
@@ -99,7 +98,7 @@ impl<'a> Elaboration<'a> {
         Some([from?, to?])
     }
 
-    /// The same where both have to be there; the help says how, unless it is the usual one.
+    /// The same if both are required; the help shows how, unless it is the usual one.
     pub(crate) fn both_ends(
         &mut self,
         range: &Fields<'a>,

@@ -1,4 +1,4 @@
-//! What is said about names that expressions use where they may not.
+//! Errors about names that expressions use in places that do not allow them.
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::Context;
@@ -9,10 +9,10 @@ use crate::raw::RawKind;
 const BOUND_HELP: &str = "a changing value belongs in `of`: a difference such as `of = \"steel.T - \
     air.T\"` has a constant bound";
 
-/// Temperatures of what is at hand.
+/// Temperatures of the element itself.
 pub(crate) const LOCAL: [&str; 5] = ["T", "T_from", "T_to", "T_mean", "dT"];
 
-/// A temperature in a place that has none of this name.
+/// Error for a temperature in a place that has none of this name.
 pub(crate) fn not_here(place: Place<'_>, name: &str, wanted: Wanted, at: Span) -> Diagnostic {
     let words = place.words();
     let message = format!("{words} cannot use the temperature `{name}`");
@@ -44,7 +44,7 @@ pub(crate) fn not_here(place: Place<'_>, name: &str, wanted: Wanted, at: Span) -
     Diagnostic::error("netlist::temperature_not_here", message).at(at, "").help(help)
 }
 
-/// `t` or a signal where a constant is due.
+/// Error for `t` or a signal in a place for a constant.
 pub(crate) fn depends_on_time(place: Place<'_>, name: &str, at: Span) -> Diagnostic {
     let (what, label) = match name {
         "t" => ("the time `t`".to_owned(), "time"),
@@ -69,7 +69,7 @@ pub(crate) fn depends_on_time(place: Place<'_>, name: &str, at: Span) -> Diagnos
     Diagnostic::error("network::depends_on_time", message).at(at, label).help(help)
 }
 
-/// A control where something has to be known before the run.
+/// Error for a control in a value that must be known before the run.
 pub(crate) fn control_not_here(place: Place<'_>, name: &str, at: Span) -> Diagnostic {
     let words = place.words();
     let message = format!("{words} cannot use control `{name}`, which switches during the run");

@@ -1,4 +1,4 @@
-//! The names of a netlist: what each stands for.
+//! The names of a netlist and their meanings.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -13,7 +13,7 @@ use crate::raw::{RawEntry, RawKind, RawNetlist};
 use crate::template::Structure;
 
 lptn_units::words! {
-/// What a name in an expression can stand for.
+/// The kind of a name in an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ValueKind {
     Parameter = "parameter",
@@ -21,7 +21,7 @@ pub(crate) enum ValueKind {
     Control = "control",
     Table = "table",
 }
-/// What it is called in messages.
+/// Its name in messages.
 pub(crate) fn word;
 }
 
@@ -41,42 +41,42 @@ impl ValueKind {
 /// mistake for one.
 #[derive(Debug, Default)]
 pub(crate) struct Names {
-    /// What names mean inside templates.
+    /// The meaning of names inside templates.
     pub(crate) structure: Arc<Structure>,
     /// With the place of the key, and the position in the section.
     pub(crate) values: HashMap<String, (ValueKind, Span, usize)>,
     /// In file order, for suggestions.
     pub(crate) order: Vec<String>,
     pub(crate) elements: HashMap<String, &'static str>,
-    /// Values that are wrong: what uses them is not reported again.
+    /// Wrong values: elements that use them are not reported again.
     failed: HashSet<String>,
-    /// Results that other laws of an element's kind tell, with the reason why its own does not.
+    /// Results that other laws of an element's kind have, with the reason why its own has not.
     pub(crate) untold: HashMap<String, &'static str>,
     pub(crate) used: HashSet<String>,
     /// Nodes and boundaries whose results expressions read.
     pub(crate) read: HashSet<String>,
-    /// Names in sections that are not known: they may be what is looked for.
+    /// Names in unknown sections: an unknown name may be one of these.
     hidden: HashSet<String>,
     /// Materials and fluids that cannot be read, by section.
     hidden_substances: HashSet<(&'static str, String)>,
-    /// A file of names is missing: any name may be what is looked for.
+    /// A file of names is missing: an unknown name may be in it.
     all_hidden: bool,
     /// Expressions by their text: templates and scripts write one many times.
     pub(crate) expressions: RefCell<HashMap<String, Expression>>,
-    /// How many similar names were looked for.
+    /// Number of searches for similar names.
     searches: usize,
     /// Grids by name.
     pub(crate) grids: BTreeMap<String, KnownGrid>,
     /// Grids that cannot be read.
     hidden_grids: HashSet<String>,
-    /// How many names were looked at for that.
+    /// Number of names that these searches compared.
     looks: usize,
 }
 
-/// After so many suggestions no more are looked for: each takes a look at every name.
+/// After this number of suggestions no more are searched for: each search compares every name.
 const MOST_SEARCHES: usize = 100;
 
-/// After so many looks at names neither.
+/// Nor after this number of comparisons.
 const MOST_LOOKS: usize = 4_000_000;
 
 impl Names {
@@ -87,7 +87,7 @@ impl Names {
             for (position, entry) in entries.enumerate() {
                 names.order.push(entry.key.clone());
                 if names.values.contains_key(&entry.key) {
-                    names.fail(&entry.key); // taken twice: what is meant cannot be told
+                    names.fail(&entry.key); // taken twice: the meaning is unclear
                 } else {
                     names
                         .values
@@ -119,7 +119,7 @@ impl Names {
         self.value_kind(name) == Some(ValueKind::Parameter)
     }
 
-    /// Whether it is a parameter, a signal or a control: a name that stands for a value by itself.
+    /// True for a parameter, a signal or a control: a name that is a value by itself.
     pub(crate) fn is_value(&self, name: &str) -> bool {
         matches!(self.value_kind(name), Some(kind) if kind != ValueKind::Table)
     }
@@ -137,7 +137,7 @@ impl Names {
         self.used.contains(name)
     }
 
-    /// Notes elements that stand inside another one, below `[node.winding]`.
+    /// Notes elements that are inside another one, below `[node.winding]`.
     fn hide_inner(&mut self, element: &RawEntry) {
         if let RawKind::Table(table) = &element.value.kind {
             let inner =
@@ -226,15 +226,15 @@ impl Names {
         self.elements.get(name).copied()
     }
 
-    /// Whether a similar name may still be looked for among so many: not once a file has shown to
-    /// be full of unknown names.
+    /// True if a similar name may be searched for among `names` names: not in a file that has
+    /// proved to be full of unknown names.
     pub(crate) fn may_search(&mut self, names: usize) -> bool {
         self.searches += 1;
         self.looks += names;
         self.searches <= MOST_SEARCHES && self.looks <= MOST_LOOKS.max(names)
     }
 
-    /// Whether an expression reads the temperature or the heat of the node or boundary of this
+    /// True if an expression reads the temperature or the heat of the node or boundary of this
     /// name.
     pub(crate) fn reads(&self, name: &str) -> bool {
         self.read.contains(name)

@@ -1,5 +1,5 @@
-//! Files that a netlist names: how they are read, and which was probably meant by a path that leads
-//! nowhere.
+//! Files that a netlist names: how they are read, and the file that was probably meant by a wrong
+//! path.
 
 use std::io::{self, Error, ErrorKind};
 use std::path::{Component, Path, PathBuf};
@@ -9,9 +9,8 @@ use lptn_units::suggest;
 
 use crate::raw::{RawKind, RawValue};
 
-/// The file that is nearest to a path that leads nowhere: with `/` in place of `\`, in other
-/// letters of case, with the ending that was left out, or, in the same folder and with the same
-/// ending, of a similar name.
+/// The file nearest to a path that does not exist: with `/` instead of `\`, in another case, with
+/// the missing extension, or, in the same folder and with the same extension, of a similar name.
 pub fn similar_file(path: &Path) -> Option<PathBuf> {
     let turned = PathBuf::from(path.to_str()?.replace('\\', "/"));
     let endings = [turned.clone(), turned.with_extension("toml")];
@@ -53,7 +52,7 @@ fn of_similar_name(path: &Path) -> Option<PathBuf> {
             .is_some_and(|other| other.to_lowercase() == ending)
     });
     let files: Vec<PathBuf> = files.collect();
-    // the ending, which all of them share, makes no two names alike
+    // the extension, which all of them share, makes no two names alike
     let mut stems = files.iter().filter_map(|file| file.file_stem()?.to_str());
     let wanted = path.file_stem()?.to_str()?;
     let near = suggest(wanted, &mut stems)?;
@@ -63,7 +62,7 @@ fn of_similar_name(path: &Path) -> Option<PathBuf> {
         .map(|file| folder.join(file))
 }
 
-/// What stands in a folder, in the order of the alphabet.
+/// The names in a folder, in alphabetical order.
 fn names(folder: &Path) -> Option<Vec<String>> {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let entries = std::fs::read_dir(folder).ok()?;
@@ -73,8 +72,7 @@ fn names(folder: &Path) -> Option<Vec<String>> {
     Some(names)
 }
 
-/// What to write in place of a value that names a file, by a path relative to that of the netlist,
-/// which could not be read.
+/// The help for a value that names an unreadable file, by a path relative to that of the netlist.
 fn help(value: &RawValue, path: &Path, error: &Error) -> String {
     let RawKind::String { text: written, .. } = &value.kind else { return String::new() };
     if written.contains(char::is_control) {
@@ -90,15 +88,15 @@ fn help(value: &RawValue, path: &Path, error: &Error) -> String {
     }
 }
 
-/// How a kind of file is spoken of that a netlist names.
+/// Messages about a kind of file that a netlist names.
 pub(crate) struct NamedFile {
-    /// What the netlist does with one: "include one", "read a CSV file".
+    /// The use of one by the netlist: "include one", "read a CSV file".
     pub(crate) does: &'static str,
-    /// The same of a certain one: "include", "read".
+    /// The same for a certain one: "include", "read".
     pub(crate) verb: &'static str,
     pub(crate) without_folder: &'static str,
     pub(crate) not_found: &'static str,
-    /// What else to do where it cannot be read.
+    /// Further help if it cannot be read.
     pub(crate) else_help: &'static str,
 }
 
@@ -127,7 +125,7 @@ impl NamedFile {
         })
     }
 
-    /// That the file cannot be read.
+    /// Error for a file that cannot be read.
     pub(crate) fn unreadable(&self, path: &Path, value: &RawValue, error: &Error) -> Diagnostic {
         let reason = match error.kind() {
             ErrorKind::NotFound => "there is no such file".to_owned(),

@@ -1,4 +1,4 @@
-//! The whole way: text to [`Netlist`], or every reason why not.
+//! The whole way: text to [`Netlist`], or all errors.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -40,32 +40,32 @@ use crate::unlikely;
 pub struct Netlist {
     /// The network, with the parameters of the file and of [`Netlist::set`].
     pub network: Network,
-    /// What to simulate; `None` without `[run]`.
+    /// The run to simulate; `None` without `[run]`.
     pub run: Option<RunSettings>,
-    /// What else is asked of it.
+    /// Its studies.
     pub studies: Studies,
-    /// Where each part of the network stands.
+    /// The place of each part of the network.
     pub source_map: SourceMap,
     /// The texts that places refer to.
     pub files: Files,
-    /// What is probably not meant as it is written, or as it comes out with the parameters that
-    /// were set.
+    /// Warnings: things that are probably not meant as they are written, or as they result from the
+    /// parameters that were set.
     pub warnings: Vec<Diagnostic>,
-    /// Those of them that follow from the text alone.
+    /// Those warnings that follow from the text alone.
     pub(crate) written: Vec<Diagnostic>,
-    /// The unit in which temperatures are shown: degC unless the netlist says otherwise.
+    /// The unit in which temperatures are shown; default: degC.
     pub temperature_unit: Unit,
     pub(crate) plan: Option<RunPlan>,
     /// The state that runs start from.
     pub(crate) initial: Option<InitialState>,
-    /// What is known of parameters together.
+    /// Joint knowledge of the parameters.
     pub(crate) uncertainty: UncertaintyPlan,
-    /// What a fit found.
+    /// The result of a fit.
     pub(crate) believed: Option<Believed>,
     /// Everything that was set so far.
     pub(crate) assigned: Parameters,
     pub(crate) inputs: Vec<FileId>,
-    /// What templates made of it.
+    /// The structure that templates gave it.
     pub(crate) structure: Arc<Structure>,
     pub(crate) gearboxes: Vec<Gearbox>,
 }
@@ -77,7 +77,7 @@ impl Netlist {
         self.inputs.iter().map(|&id| (self.files.name(id), self.files.text(id)))
     }
 
-    /// Finds the warnings anew, for the parameters as they are now.
+    /// Finds the warnings again, for the current parameters.
     pub(crate) fn judge(&mut self) {
         let (network, map) = (&self.network, &self.source_map);
         let start = self.run.as_ref().map_or(0.0, |run| run.start);
@@ -101,13 +101,13 @@ impl Netlist {
         self.warnings = all;
     }
 
-    /// Why a path such as `planet[9].gear` leads nowhere, and what to write, if its index is to
-    /// blame.
+    /// The reason why a path such as `planet[9].gear` is unknown, and the correction, if its index
+    /// is wrong.
     pub fn no_instance(&self, path: &str) -> Option<(String, String)> {
         self.structure.wrong_path(path).map(|wrong| (wrong.why, wrong.help))
     }
 
-    /// The state that runs start from, where `initial` of `[run]` names one.
+    /// The state that runs start from, if `initial` of `[run]` names one.
     pub fn initial(&self) -> Option<&InitialState> {
         self.initial.as_ref()
     }
@@ -117,16 +117,16 @@ impl Netlist {
         self.plan.iter().flat_map(RunPlan::values)
     }
 
-    /// The stages of gears, those that are driven behind those that drive them.
+    /// The stages of gears; each follows the one that drives it.
     pub fn gearboxes(&self) -> &[Gearbox] {
         &self.gearboxes
     }
 
-    /// What to simulate with the parameters that `network` has, which is this one with others;
-    /// `None` without `[run]`.
+    /// The run to simulate with the parameters of `network`, which is this one with others; `None`
+    /// without `[run]`.
     ///
     /// # Errors
-    /// What they break in `[run]`: it ends before it begins, a signal ends earlier.
+    /// The errors that they cause in `[run]`: it ends before it begins, a signal ends earlier.
     pub fn run_of(&self, network: &Network) -> Result<Option<RunSettings>, Vec<Diagnostic>> {
         self.plan.as_ref().map(|plan| plan.settings(network)).transpose()
     }
@@ -137,7 +137,7 @@ impl Netlist {
     }
 }
 
-/// Reads the text of a file, without a look at what it means. The tree holds what could be read,
+/// Reads the text of a file without its meaning. The tree contains everything that could be read,
 /// whatever is wrong elsewhere.
 pub fn parse_raw(files: &Files, file: FileId) -> (RawNetlist, Vec<Diagnostic>) {
     syntax::read(files, file, section::format())
@@ -152,8 +152,8 @@ pub fn read(path: &Path) -> Result<Netlist, ReadError> {
     parse_file(path, &read_bytes(path)?).map_err(ReadError::Rejected)
 }
 
-/// Reads a netlist from the bytes of a file that was read; what it includes, and its CSV files, are
-/// looked for beside it.
+/// Reads a netlist from the bytes of a file that was read. Its included files and CSV files are
+/// searched for in the folder of `path`.
 ///
 /// # Errors
 /// [`Rejected`] with every problem.
@@ -161,7 +161,7 @@ pub fn parse_file(path: &Path, bytes: &[u8]) -> Result<Netlist, Rejected> {
     decode(&path.display().to_string(), bytes, Some(&mut read_named))
 }
 
-/// Reads a netlist from bytes that may not be text; `name` is what diagnostics call it. It cannot
+/// Reads a netlist from bytes that may not be text; `name` is its name in diagnostics. It cannot
 /// name other files.
 ///
 /// # Errors
@@ -187,7 +187,7 @@ fn decode(name: &str, bytes: &[u8], loader: Option<&mut Loader<'_>>) -> Result<N
     }
 }
 
-/// Reads a netlist from text; `name` is what diagnostics call it. It cannot name other files.
+/// Reads a netlist from text; `name` is its name in diagnostics. It cannot name other files.
 ///
 /// # Errors
 /// [`Rejected`] with every problem.
@@ -195,8 +195,8 @@ pub fn parse(name: &str, text: &str) -> Result<Netlist, Rejected> {
     whole(name, text, None)
 }
 
-/// Reads a netlist from text; `loader` reads what it includes and its CSV files, by paths relative
-/// to that of `name`.
+/// Reads a netlist from text; `loader` reads its included files and its CSV files, by paths
+/// relative to that of `name`.
 ///
 /// # Errors
 /// [`Rejected`] with every problem.
@@ -222,7 +222,7 @@ fn whole(name: &str, text: &str, loader: Option<&mut Loader<'_>>) -> Result<Netl
     if !syntax {
         return included(files, raw, (Path::new(name), file), loader);
     }
-    // what is wrong with templates may follow from the broken line
+    // errors of templates may follow from the broken line
     let (Expanded { raw, structure, .. }, gears, _) = written_out(&mut files, raw);
     let (_, found) = elaborate(&raw, (&structure, &gears), &CsvFiles::default(), None);
     add_certain(&mut diagnostics, found.problems, (&files, file));
@@ -275,7 +275,7 @@ fn included(
     }
 }
 
-/// Everything that a text and the files it names came to.
+/// The results of a text and the files it names.
 struct Made {
     done: Elaborated,
     gearboxes: Vec<Gearbox>,
@@ -333,11 +333,11 @@ fn finish(
     Ok(netlist)
 }
 
-/// Problems that are there whatever the broken lines should have said.
+/// Adds problems that do not depend on the contents of broken lines.
 fn add_certain(all: &mut Vec<Diagnostic>, found: Vec<Diagnostic>, (files, file): (&Files, FileId)) {
     let line = |d: &Diagnostic| d.place().map(|span| files.line_column(span).0);
     let broken: HashSet<Option<usize>> = all.iter().map(line).collect();
-    // behind something that was not closed, the parser reads one thing as another
+    // after an unclosed part, the parser mistakes one thing for another
     let end = all
         .iter()
         .filter(|d| d.code == NOT_CLOSED)
@@ -354,7 +354,7 @@ fn add_certain(all: &mut Vec<Diagnostic>, found: Vec<Diagnostic>, (files, file):
     arrange(files, all);
 }
 
-/// Whether a problem is that something is not there: a broken line may be what is missing.
+/// True if a problem is that something is missing: a broken line may contain it.
 fn rests_on_absence(code: &str) -> bool {
     let absences = [
         "netlist::missing_format",

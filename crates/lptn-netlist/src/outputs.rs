@@ -1,4 +1,4 @@
-//! What a run reports beside its own columns: expressions of results, and windows of time.
+//! Reports of a run in addition to its columns: expressions of results, and windows of time.
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Field, Item, WindowSettings};
@@ -87,7 +87,7 @@ impl<'a> Elaboration<'a> {
             }
             return None;
         };
-        // without a key of its own: elsewhere `from` and `to` are names of nodes
+        // without a key: elsewhere `from` and `to` are names of nodes
         let mut setting = self.setting(&fields.owner.inside(key), ("", raw), TIME)?;
         HELP.clone_into(&mut setting.help);
         Some(setting)
@@ -113,7 +113,7 @@ impl WindowPlan {
         [&self.from, &self.to]
     }
 
-    /// The window between these times in s, or why it is none of a run from `start` to `stop`.
+    /// The window between these times in s, or an error if a run from `start` to `stop` lacks it.
     pub(crate) fn settings(
         &self,
         (from, to): (f64, f64),

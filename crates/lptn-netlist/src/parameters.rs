@@ -40,8 +40,8 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// The entries of a section so that each comes after those it uses; cycles are reported, and
-    /// their members left without text.
+    /// The entries of a section, each after those that it uses. Cycles are reported, and their
+    /// members have no text.
     pub(crate) fn in_order(&mut self, kind: ValueKind, code: &'static str) -> Vec<Pending<'a>> {
         let entries = self.elements(kind.section());
         let positions: HashMap<&str, usize> =
@@ -124,7 +124,7 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-/// A parameter of a template is of the type that the template gives it.
+/// Adds the place in the template that gives a parameter its type.
 fn of_type(problem: Diagnostic, wanted: Option<&(Type, Span)>) -> Diagnostic {
     match wanted {
         Some((_, span)) if problem.code == "units::dimension" => {
@@ -134,8 +134,7 @@ fn of_type(problem: Diagnostic, wanted: Option<&(Type, Span)>) -> Diagnostic {
     }
 }
 
-/// Positions so that each parameter comes after those it uses, otherwise in file order; and the
-/// cycles.
+/// Positions in file order, but each parameter after those that it uses; and the cycles.
 fn order(pending: &[Option<Pending<'_>>]) -> (Vec<usize>, Vec<Vec<usize>>) {
     let mut state = vec![State::New; pending.len()];
     let (mut order, mut cycles) = (Vec::with_capacity(pending.len()), Vec::new());

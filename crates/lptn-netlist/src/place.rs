@@ -1,7 +1,7 @@
-//! The place of one value: whose field it is, what it takes, and what is wrong with it.
+//! The place of one value: its field, the type that the field takes, and its errors.
 //!
 //! `K` is an absolute temperature or a difference according to the type of its field. If the type
-//! follows from something else (`Wanted::like`), `K` is a difference.
+//! follows from another value (`Wanted::like`), `K` is a difference.
 
 use std::sync::Arc;
 
@@ -53,19 +53,18 @@ pub(crate) enum Text {
     Expression(Expression),
 }
 
-/// What a field takes.
+/// The type and permitted names of a field.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Wanted {
     /// Its type; any for a parameter.
     pub(crate) ty: Option<Type>,
-    /// Which temperatures it may name.
+    /// The context, which determines the temperatures that it may name.
     pub(crate) context: Context,
-    /// Whether it may depend on `t` and on signals.
+    /// True if it may depend on `t` and on signals.
     pub(crate) time: bool,
-    /// Whether it may depend on controls.
+    /// True if it may depend on controls.
     pub(crate) controls: bool,
-    /// Whether its type is its own, or follows from what something else is: `300 K` is a difference
-    /// then.
+    /// True if its type follows from another value: `300 K` is then a difference.
     pub(crate) derived: bool,
 }
 
@@ -75,7 +74,7 @@ impl Wanted {
         Self { ty: Some(ty), context: Context::Time, time: false, controls: false, derived: false }
     }
 
-    /// A constant of the type that something else has: a parameter's new value, a bound.
+    /// A constant of the same type as another value: a parameter's new value, a bound.
     pub(crate) fn like(ty: Type) -> Self {
         Self { derived: true, ..Self::constant(ty) }
     }
@@ -85,7 +84,7 @@ impl Wanted {
         Self { ty: None, context: Context::Time, time: false, controls: false, derived: false }
     }
 
-    /// A function of time, and of what is on or off.
+    /// A function of time and of controls.
     pub(crate) fn in_time(ty: Type) -> Self {
         Self { ty: Some(ty), context: Context::Time, time: true, controls: true, derived: false }
     }
@@ -106,27 +105,27 @@ impl Wanted {
         }
     }
 
-    /// A constant of this type that may depend on the temperature `T` of what it belongs to.
+    /// A constant of this type that may depend on the temperature `T` of its own element.
     pub(crate) fn own(ty: Type) -> Self {
         Self { ty: Some(ty), context: Context::Own, time: false, controls: false, derived: false }
     }
 
-    /// A value of a path between two ends, or of a source, where expressions may name this.
+    /// A value of a path or source, whose expressions may name the temperatures of `context`.
     pub(crate) fn of_law(ty: Option<Type>, context: Context) -> Self {
         Self { ty, context, time: true, controls: true, derived: false }
     }
 
-    /// Something that results determine.
+    /// A value that follows from results.
     pub(crate) fn of_results() -> Self {
         Self { ty: None, context: Context::Result, time: true, controls: true, derived: false }
     }
 
-    /// Whether it may name the temperature of any node or boundary, `NAME.T`.
+    /// True if it may name the temperature of any node or boundary, `NAME.T`.
     pub(crate) fn names_nodes(self) -> bool {
         matches!(self.context, Context::Control | Context::Source | Context::Link | Context::Result)
     }
 
-    /// Whether this is a name of a temperature in this place.
+    /// True if this is a name of a temperature in this place.
     pub(crate) fn is_local(self, name: &str) -> bool {
         match self.context {
             Context::Own | Context::Source => name == "T",
@@ -136,7 +135,7 @@ impl Wanted {
     }
 }
 
-/// One field of one element: what it is called, and what stands there.
+/// One field of one element: its name and its value.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place<'a> {
     pub(crate) owner: &'a Owner,
@@ -155,8 +154,7 @@ impl Place<'_> {
         Asked { words: self.words(), span: Some(self.raw.span.clone()) }
     }
 
-    /// What is wrong with a whole string in kelvin for an absolute temperature where `K` is a
-    /// difference.
+    /// The error for a string in kelvin for an absolute temperature, if `K` is a difference there.
     pub(crate) fn kelvin_for(&self, ty: Option<Type>) -> Option<Diagnostic> {
         let RawKind::String { text, .. } = &self.raw.kind else { return None };
         let error = ty.filter(|ty| ty.absolute).and_then(|_| kelvin_alone(text))?;
@@ -193,7 +191,7 @@ impl Place<'_> {
 
     fn unit_help(&self, error: &UnitError) -> Option<String> {
         match &error.kind {
-            // the same number in another unit is rarely what was meant
+            // the same number in another unit is rarely right
             UnitErrorKind::Dimension { wanted, fix: Some(fix), .. }
                 if !fix.contains('[') && !self.key.is_empty() =>
             {

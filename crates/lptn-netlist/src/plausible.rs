@@ -1,9 +1,8 @@
-//! Values that nothing real has: nearly always a unit that is a thousand times too large or too
-//! small, or one of another scale. They are looked at as they come out, not as they are written, so
-//! that parameters, expressions and tables are seen too.
+//! Unrealistic values: nearly always a unit that is a thousand times too large or too small, or one
+//! of another scale. The results of parameters, expressions and tables are checked, not their text.
 //!
 //! Warnings that depend on parameters are found from the network (`Netlist::judge`), again after
-//! every `--set`. Only warnings that follow from the text are kept from reading.
+//! every `--set`. Only warnings that follow from the text alone are kept.
 
 use lptn_data::Diagnostic;
 use lptn_network::{
@@ -14,23 +13,23 @@ use lptn_units::format_six as short;
 
 use crate::source_map::SourceMap;
 
-/// So many pairs of conductors are named.
+/// Most pairs of conductors that are named.
 const MOST_PAIRS: usize = 5;
 
-/// Conductances that meet in a node and are further apart than this.
+/// Least ratio of conductances that meet in a node for a warning.
 const DECADES: f64 = 1e9;
 
-/// Below so many W/K next to nothing flows: a path with a part that is left away has some uW/K.
-/// Others that are so weak need not be so far apart.
+/// Below this value in W/K almost nothing flows: a path without one of its parts has some uW/K.
+/// Such weak conductances need a smaller ratio for a warning.
 const WEAK: f64 = 1e-6;
 const DECADES_OF_WEAK: f64 = 1e6;
 
-/// Whether two conductances are so far apart that one of them is hardly meant.
+/// True if two conductances are so far apart that one of them is probably wrong.
 fn far_apart(least: f64, most: f64) -> bool {
     most >= DECADES * least || (least < WEAK && most >= DECADES_OF_WEAK * least)
 }
 
-/// Where a property is looked at if no node has a start, in K.
+/// Temperature in K at which a property is evaluated if no node has a start.
 const ROOM: f64 = 298.15;
 
 /// A property, with the range that covers solids from foams to metals with a factor to spare, in SI
@@ -89,7 +88,7 @@ pub(crate) fn materials(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     properties(network).iter().filter_map(check).collect()
 }
 
-/// A property: of what, which, and its value.
+/// A property: its item, its field, and its value.
 type Property<'a> = (Item, Field, &'a Value);
 
 fn properties(network: &Network) -> Vec<Property<'_>> {
@@ -148,7 +147,7 @@ fn implausible(
     })
 }
 
-/// Whether any two conductances are far apart; in most large networks none are.
+/// True if any two conductances are far apart; in most large networks none are.
 fn are_apart(network: &Network) -> bool {
     let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     for id in network.conductor_ids() {

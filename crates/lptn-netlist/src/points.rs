@@ -17,7 +17,7 @@ pub(crate) struct Axis<'k> {
     pub(crate) unit: &'k str,
     /// The key that names a column of a CSV file.
     pub(crate) column: &'k str,
-    /// Its type, where that is known.
+    /// Its type, if known.
     pub(crate) ty: Option<Type>,
 }
 
@@ -205,8 +205,8 @@ impl<'a> Elaboration<'a> {
         None
     }
 
-    /// What is wrong with the points of a curve, at its place; `arguments` is what has to rise, in
-    /// words.
+    /// Reports the error in the points of a curve, at its place; `arguments` names the values that
+    /// have to rise.
     pub(crate) fn report_points(
         &mut self,
         fields: &Fields<'a>,
@@ -279,7 +279,7 @@ fn no_unit(place: Place<'_>, axis: Axis<'_>, ty: Type) -> Diagnostic {
     )
 }
 
-/// A list of one type so far, and an item of another.
+/// Error for a list with items of two types.
 fn mixed(place: Place<'_>, axis: Axis<'_>, (first, found): (Option<Type>, Type)) -> Diagnostic {
     let first = first.unwrap_or(Type::SCALAR);
     let message = format!(

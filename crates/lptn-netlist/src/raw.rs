@@ -3,8 +3,8 @@
 use lptn_data::{Span, on_borders};
 use serde_json::Value;
 
-/// The sections and keys of one file, in file order. Strings are untouched, numbers are the text
-/// that stands in the file.
+/// The sections and keys of one file, in file order. Strings are untouched, numbers are the text of
+/// the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawNetlist {
     /// The top level; sections are entries whose value is a table.
@@ -31,7 +31,7 @@ impl RawNetlist {
         }
     }
 
-    /// Adds an element to a section, behind those that are there.
+    /// Adds an element to a section, after the existing ones.
     pub(crate) fn push(&mut self, section: &str, element: RawEntry) {
         let entries = &mut self.top.entries;
         let position = entries.iter().position(|known| known.key == section);
@@ -57,7 +57,7 @@ impl RawNetlist {
 pub struct RawTable {
     /// The whole inline table, or the heading of a `[table]`.
     pub span: Span,
-    /// Its entries; no key stands twice.
+    /// Its entries; no key appears twice.
     pub entries: Vec<RawEntry>,
 }
 
@@ -73,14 +73,14 @@ impl RawTable {
 pub struct RawEntry {
     /// The key without quotes.
     pub key: String,
-    /// Where the key stands.
+    /// The place of the key.
     pub key_span: Span,
     /// The value.
     pub value: RawValue,
 }
 
 impl RawEntry {
-    /// An entry that is generated: its key stands where its value does.
+    /// An entry that is generated: its key has the place of its value.
     pub(crate) fn new(key: &str, value: RawValue) -> Self {
         Self { key: key.to_owned(), key_span: value.span.clone(), value }
     }
@@ -89,13 +89,13 @@ impl RawEntry {
 /// A value with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RawValue {
-    /// Where it stands, quotes included.
+    /// Its place, quotes included.
     pub span: Span,
-    /// What it is.
+    /// Its kind.
     pub kind: RawKind,
 }
 
-/// What a value is in TOML.
+/// The kind of a value in TOML.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RawKind {
     /// A string.
@@ -121,7 +121,7 @@ pub enum RawKind {
 }
 
 impl RawKind {
-    /// What it is, with the article that a sentence needs.
+    /// Its kind, with the article that a sentence needs.
     pub(crate) fn with_article(&self) -> &'static str {
         match self {
             Self::String { .. } => "a string",
@@ -138,14 +138,14 @@ impl RawKind {
 }
 
 impl RawTable {
-    /// It as JSON, in which a date is `null`.
+    /// The table as JSON, in which a date is `null`.
     pub fn json(&self) -> Value {
         self.entries.iter().map(|entry| (entry.key.clone(), entry.value.json())).collect()
     }
 }
 
 impl RawValue {
-    /// It as JSON, in which a date is `null`.
+    /// The value as JSON, in which a date is `null`.
     pub fn json(&self) -> Value {
         match &self.kind {
             RawKind::String { text, .. } => text.as_str().into(),
@@ -157,7 +157,7 @@ impl RawValue {
         }
     }
 
-    /// The items of a list; what is no list is one.
+    /// The items of a list; any other value is one item.
     pub(crate) fn items(&self) -> &[Self] {
         match &self.kind {
             RawKind::Array(list) => list,
@@ -177,12 +177,12 @@ impl RawValue {
         }
     }
 
-    /// Text that is generated: its place is that of what it follows from.
+    /// Text that is generated: its place is that of the value that it follows from.
     pub(crate) fn text(text: String, at: &Span) -> Self {
         Self { span: at.clone(), kind: RawKind::String { text, start: None } }
     }
 
-    /// The place of some bytes of the string's content; the whole value where they cannot be told.
+    /// The place of some bytes of the string's content; the whole value if it is unknown.
     pub(crate) fn part(&self, range: &std::ops::Range<usize>) -> Span {
         let RawKind::String { text, start: Some(start) } = &self.kind else {
             return self.span.clone();
@@ -197,7 +197,7 @@ impl RawValue {
     }
 }
 
-/// A number as JSON, which has none that is infinite.
+/// A number as JSON, which has no infinite numbers.
 fn number(text: &str) -> Value {
     let whole = text.parse::<i64>().map(Value::from);
     let finite = |text: &str| text.parse().map_or(0.0, |x: f64| x.clamp(f64::MIN, f64::MAX));

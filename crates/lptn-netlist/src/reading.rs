@@ -1,5 +1,5 @@
-//! Readings that many sections share. Each reports by itself what is wrong, so that a section says
-//! only what is special about it.
+//! Readings that many sections share. Each reports its own errors, so that sections report only
+//! special ones.
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Field, Input, Item};
@@ -12,7 +12,7 @@ use crate::place::{Given, Place, Wanted};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 use crate::work::{Elaboration, stand_in};
 
-/// All values, if none is wrong. Each is read, so that everything that is wrong is reported.
+/// All values, if none is wrong. Each is read, so that every error is reported.
 pub(crate) fn all<T>(read: impl Iterator<Item = Option<T>>) -> Option<Vec<T>> {
     read.collect::<Vec<_>>().into_iter().collect()
 }
@@ -37,8 +37,8 @@ impl<'a> Elaboration<'a> {
         Fields::of(section, owner, entry, &mut self.problems)
     }
 
-    /// The value of a key as the builder takes it: a stand-in if it is wrong, nothing if it is not
-    /// there.
+    /// The value of a key as the builder takes it: a stand-in if it is wrong, `None` if it is
+    /// missing.
     pub(crate) fn input(
         &mut self,
         fields: &Fields<'_>,
@@ -60,8 +60,8 @@ impl<'a> Elaboration<'a> {
         given.map_or_else(|| stand_in(wanted.ty.unwrap_or(Type::SCALAR)), Given::input)
     }
 
-    /// The value of a table's key that is named like a field of something else, as `from` of a
-    /// range: what is said of it names the table.
+    /// The value of a table's key that has the name of a field elsewhere, as `from` of a range:
+    /// messages about it name the table.
     pub(crate) fn given_inside(
         &mut self,
         owner: &Owner,
@@ -71,12 +71,12 @@ impl<'a> Elaboration<'a> {
         self.given(Place { owner: &owner.inside(key), key: "", raw }, wanted)
     }
 
-    /// The value of a key that has to be there.
+    /// The value of a required key.
     pub(crate) fn require(&mut self, fields: &Fields<'a>, key: &str) -> Option<&'a RawValue> {
         fields.require(key, &mut self.problems)
     }
 
-    /// The text of a key that holds a name, if it is there.
+    /// The text of a key that takes a name, if given.
     pub(crate) fn word(
         &mut self,
         fields: &Fields<'a>,
@@ -86,7 +86,7 @@ impl<'a> Elaboration<'a> {
         Some((fields.text(key, raw, &mut self.problems)?, raw))
     }
 
-    /// The text of a key that holds a name and has to be there.
+    /// The text of a key that requires a name.
     pub(crate) fn required_word(
         &mut self,
         fields: &Fields<'a>,
@@ -126,7 +126,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// The value of a key that is `true` or `false`, where there is one.
+    /// The value of a key that is `true` or `false`, if given.
     pub(crate) fn yes_or_no(&mut self, fields: &Fields<'_>, key: &str) -> Option<Option<bool>> {
         match fields.get(key).map(|raw| (raw, &raw.kind)) {
             None => Some(None),
@@ -138,7 +138,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// One of several words; the first unless said otherwise.
+    /// One of several words; default: the first.
     pub(crate) fn choice<T: Copy>(
         &mut self,
         fields: &Fields<'a>,
@@ -162,7 +162,7 @@ impl<'a> Elaboration<'a> {
         None
     }
 
-    /// Keys that mean nothing here.
+    /// Keys that have no effect here.
     pub(crate) fn refuse_keys(&mut self, fields: &Fields<'_>, keys: &[&str], why: &str) {
         for key in keys {
             if let Some(span) = fields.key(key) {
@@ -172,7 +172,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Notes where an element and those of its fields stand that are there.
+    /// Notes the places of an element and of its given fields.
     pub(crate) fn note(&mut self, item: Item, name: &Span, fields: &Fields<'a>, which: &[Field]) {
         self.map.insert(item, Field::Name, name.clone());
         for &field in which {
@@ -182,7 +182,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// What was found; a problem is reported.
+    /// The value; an error is reported.
     pub(crate) fn kept<T>(&mut self, result: Result<T, Diagnostic>) -> Option<T> {
         result.map_err(|problem| self.report(problem)).ok()
     }
@@ -199,7 +199,7 @@ impl<'a> Elaboration<'a> {
         self.report(problem);
     }
 
-    /// Whether a name is that of a parameter; if not, it is reported.
+    /// True if a name is that of a parameter; if not, it is reported.
     pub(crate) fn is_parameter_here(&mut self, words: &str, name: &str, place: &Span) -> bool {
         if self.names.is_parameter(name) {
             return true;

@@ -19,8 +19,8 @@ impl Names {
             && self.kind_of(base).is_some_and(|kind| heats(kind).contains(&ending))
     }
 
-    /// Notes what the law of an element does not tell although others of its kind do; of one that
-    /// is wrong it is not told again.
+    /// Notes results that the law of an element does not have although others of its kind do.
+    /// Results of a wrong law are not reported again.
     pub(crate) fn learn_results(&mut self, element: &str, kind: Kind, law: Option<Formula>) {
         let all = kind.laws().flat_map(|law| law.result_declarations());
         for key in all.map(|result| result.key) {
@@ -36,7 +36,7 @@ impl Names {
         }
     }
 
-    /// An unknown name where results may be named.
+    /// Error for an unknown name in a place that takes results.
     pub(crate) fn unknown_result(&mut self, place: Place<'_>, name: &str, at: Span) -> Diagnostic {
         let (words, base) = (place.words(), base(name));
         let dotted = base.len() < name.len();
@@ -77,8 +77,7 @@ impl Names {
         }
     }
 
-    /// The most similar parameter, temperature or heat flow; of equally similar ones the first in
-    /// the alphabet.
+    /// The most similar parameter, temperature or heat flow; in a tie, the first in the alphabet.
     fn similar_result(&mut self, name: &str) -> Option<String> {
         if !self.may_search(self.elements.len()) {
             return None;
@@ -91,7 +90,7 @@ impl Names {
     }
 }
 
-/// The endings of the heat flows that an element of this section has, and of what its laws tell.
+/// The endings of the heat flows of an element of this section, and of the results of its laws.
 fn heats(kind: &str) -> Vec<&'static str> {
     match kind {
         "boundary" => vec!["Q"],

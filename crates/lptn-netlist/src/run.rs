@@ -1,4 +1,4 @@
-//! `[run]`: what to simulate.
+//! `[run]`: the run to simulate.
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{
@@ -95,7 +95,7 @@ const OUTPUT: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-/// `[run]` before its expressions are evaluated: `--set` may change what they use.
+/// `[run]` before its expressions are evaluated: `--set` may change their parameters.
 #[derive(Clone, Debug)]
 pub(crate) struct RunPlan {
     pub(crate) start: Option<Setting>,
@@ -262,12 +262,12 @@ impl RunPlan {
         own.chain(output).chain(windows).map(|setting| &setting.value)
     }
 
-    /// Where `start` is written, if it is.
+    /// The place of `start`, if given.
     pub(crate) fn start_place(&self) -> Option<&Span> {
         self.start.as_ref().map(|start| &start.span)
     }
 
-    /// A signal that has no value during a part of the run.
+    /// Error for a signal that has no value during a part of the run.
     fn short(
         &self,
         network: &Network,
@@ -310,7 +310,7 @@ fn ends_early(plan: &RunPlan, start: f64, stop: f64) -> Diagnostic {
     error.help("`stop` has to be after `start`, which is 0 s by default: `stop = \"25 min\"`")
 }
 
-/// Evaluates settings and collects what is wrong with them.
+/// Evaluates settings and collects their errors.
 struct Check {
     scope: Evaluation,
     problems: Vec<Diagnostic>,
@@ -395,7 +395,7 @@ impl Check {
     }
 }
 
-/// Whether two times are one but for rounding.
+/// True if two times are equal but for rounding.
 fn same(a: f64, b: f64) -> bool {
     (a - b).abs() <= 4.0 * f64::EPSILON * a.abs().max(b.abs())
 }

@@ -8,12 +8,12 @@ use crate::run::OutputPlan;
 use crate::setting::Setting;
 
 lptn_units::words! {
-/// A time of a run that may be given anew.
+/// A time of a run that may be changed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunTime {
     /// When it ends.
     Stop = "--stop",
-    /// The time between two rows; rows at times of their own are given up for it.
+    /// The time between two rows; it replaces rows at listed times.
     Every = "--every",
 }
 /// The option of the command line.
@@ -21,12 +21,12 @@ pub fn option;
 }
 
 impl Netlist {
-    /// Gives the run another time of `seconds`, written as `text`. Nothing is changed on an error,
-    /// nor without a `[run]`.
+    /// Gives the run another time of `seconds`, written as `text`. Nothing changes on an error, nor
+    /// without a `[run]`.
     ///
     /// # Errors
-    /// [`Rejected`] if the time breaks something of `[run]`: a run that ends before it begins, a
-    /// window or a row that lies outside of it, a signal that ends earlier, too many rows.
+    /// [`Rejected`] if the time does not suit `[run]`: a run that ends before it begins, a window
+    /// or a row outside of it, a signal that ends earlier, too many rows.
     pub fn set_run_time(
         &mut self,
         which: RunTime,

@@ -7,7 +7,7 @@ use lptn_units::{Quantity, format_number};
 use crate::place::Place;
 use crate::raw::RawKind;
 
-/// Nobody who also writes degC writes a temperature below this many K, -100 degC, without a reason.
+/// Temperatures below this, in K (-100 degC), are suspect if others are written in degC.
 const COLD: f64 = ZERO_CELSIUS - 100.0;
 
 /// Deep space, 2.725 K, however it is rounded.
@@ -16,14 +16,14 @@ const SPACE: std::ops::RangeInclusive<f64> = 2.7..=2.73;
 /// The scales in which absolute temperatures are written.
 #[derive(Debug, Default)]
 pub(crate) struct Scales {
-    /// Whether one is in degC or degF.
+    /// True if one is in degC or degF.
     celsius: bool,
-    /// What is said of those in K that are so cold.
+    /// The warnings about those in K that are so cold.
     cold: Vec<Diagnostic>,
 }
 
 impl Scales {
-    /// Notes a temperature that stands in a field.
+    /// Notes a temperature of a field.
     pub(crate) fn note(&mut self, place: Place<'_>, quantity: &Quantity) {
         let RawKind::String { text, .. } = &place.raw.kind else { return };
         if !quantity.ty.absolute {
@@ -32,7 +32,7 @@ impl Scales {
         let number = text.trim().strip_suffix('K').map(str::trim_end);
         let plain = number.filter(|number| number.parse::<f64>().is_ok());
         self.celsius |= number.is_none();
-        // absolute zero is meant: it stands for a sky that gives nothing back
+        // absolute zero is intended: a sky that radiates nothing back
         let space = SPACE.contains(&quantity.value);
         let cold = quantity.value > 0.0 && quantity.value < COLD && !space;
         if let Some(number) = plain.filter(|_| cold) {

@@ -1,4 +1,4 @@
-//! Which names expressions may use in a place, and what is said about those they may not.
+//! The names that expressions may use in a place, and errors about other names.
 
 use std::ops::Range;
 
@@ -51,7 +51,7 @@ impl Names {
         }
     }
 
-    /// Everything wrong with the names of an expression.
+    /// Reports all errors in the names of an expression.
     pub(crate) fn check(
         &mut self,
         place: Place<'_>,

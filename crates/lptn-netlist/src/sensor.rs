@@ -1,9 +1,9 @@
-//! `[sensor.NAME]`: what an instrument makes of the temperature, or heat flow, that it measures.
+//! `[sensor.NAME]`: the output of an instrument for the temperature or heat flow that it measures.
 //!
-//! No temperature depends on a sensor, so it stands with the studies and not with the elements: only
-//! fits read it, and their columns name it.
+//! No temperature depends on a sensor, so it is a study instead of an element: only fits read it,
+//! and their columns name it.
 //!
-//! As a node with a capacity, its lag would be one more state of every run. An offset would need a
+//! A lag as a node with a capacity would be one more state of every run. An offset would need a
 //! parameter that nothing else in the network uses.
 
 use lptn_data::{Diagnostic, Span, nearest};
@@ -67,50 +67,50 @@ const SENSOR: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-/// The word for a value of which nothing is known.
+/// The word for a value without prior knowledge.
 const FREE: &str = "free";
 
 const PER: [(&str, bool); 2] = [("sensor", false), ("record", true)];
 
-/// How well a value of a sensor is known.
+/// Prior knowledge of a value of a sensor.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Certainty {
-    /// It is what it is said to be.
+    /// It is exactly the given value.
     Exact,
-    /// To this standard deviation; a fit finds it.
+    /// To this standard deviation; a fit estimates it.
     Deviation(f64),
-    /// Not at all; a fit finds it.
+    /// None; a fit estimates it.
     Free,
 }
 
 /// A value of a sensor in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SensorValue {
-    /// The value, where a search begins.
+    /// The value, or the start of its estimation.
     pub value: f64,
-    /// How well it is known.
+    /// Prior knowledge of it.
     pub certainty: Certainty,
 }
 
 impl SensorValue {
-    /// A value that is known.
+    /// A value that is exact.
     pub const fn exact(value: f64) -> Self {
         Self { value, certainty: Certainty::Exact }
     }
 
-    /// Whether a fit has to find it.
+    /// True if a fit has to estimate it.
     pub fn is_sought(&self) -> bool {
         self.certainty != Certainty::Exact
     }
 }
 
-/// One `[sensor.NAME]`, in SI units. With x for a temperature over 0 degC, it reads
-/// `gain y + offset` over 0 degC, where `lag dy/dt = x - y`; of what is no temperature, x is that.
+/// One `[sensor.NAME]`, in SI units. If x is a temperature in degC, it shows `gain y + offset` in
+/// degC, where `lag dy/dt = x - y`. Any other measured quantity is x itself.
 #[derive(Clone, Debug)]
 pub struct Sensor {
     /// Its name.
     pub name: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
     /// In the SI unit of the columns that it gave, K for a temperature.
     pub offset: SensorValue,
@@ -120,7 +120,7 @@ pub struct Sensor {
     pub lag: SensorValue,
     /// The step of its numbers in the same unit.
     pub resolution: Option<f64>,
-    /// Whether an offset that is to be found is another one in each record.
+    /// True if an offset that is estimated differs between records.
     pub per_record: bool,
     /// Its fields as they are written.
     written: Vec<(&'static str, String)>,
@@ -171,7 +171,7 @@ impl Study for Sensor {
 }
 
 /// The names of the sensors that columns and signals of fits and inferences, and places of plans,
-/// name.
+/// use.
 fn in_use(raw: &RawNetlist) -> Vec<&str> {
     let fits = ["fit", "infer"].into_iter().flat_map(|section| raw.elements(section));
     let fits = fits.flat_map(|fit| ["column", "signal"].map(|key| inside(&fit.value, key)));
@@ -224,7 +224,7 @@ impl<'a> Elaboration<'a> {
         })
     }
 
-    /// `sensor = "tc1"` of what measures something of a type; nothing inside where there is none.
+    /// `sensor = "tc1"` of a measurement of this type; `Some(None)` if there is none.
     pub(crate) fn sensor_of(
         &mut self,
         fields: &Fields<'a>,
@@ -263,7 +263,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// A value in its field; nothing inside where it is left out, nothing at all where it is wrong.
+    /// A value in its field; `Some(None)` if it is left out, `None` if it is wrong.
     fn sensor_value(
         &mut self,
         fields: &Fields<'a>,
@@ -314,7 +314,7 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-/// The type of what a sensor reads, of differences, as far as its own values say.
+/// The type of differences of a sensor's readings, as far as its own values show it.
 fn type_of(entry: &RawEntry) -> Option<Type> {
     ["offset", "resolution"].into_iter().find_map(|key| match &inside(&entry.value, key)?.kind {
         RawKind::String { text, .. } => {
@@ -325,7 +325,7 @@ fn type_of(entry: &RawEntry) -> Option<Type> {
     })
 }
 
-/// Why a quantity cannot be this value of a sensor: code, what is wrong, and help.
+/// The reason why a quantity cannot be this value of a sensor: code, error, and help.
 fn unsound(key: &str, quantity: &Quantity) -> Option<(&'static str, &'static str, &'static str)> {
     let (value, deviation) = (quantity.value, quantity.deviation.map(|spread| spread.sigma));
     match (key, deviation) {
@@ -357,7 +357,7 @@ fn unsound(key: &str, quantity: &Quantity) -> Option<(&'static str, &'static str
     }
 }
 
-/// What is wrong with a value as it is written, and help.
+/// The error of a value as it is written, and help.
 fn misread(key: &str, text: &str) -> Option<(String, String)> {
     let takes_free = matches!(key, "offset" | "gain");
     if text.eq_ignore_ascii_case(FREE) && !(takes_free && text == FREE) {
@@ -392,7 +392,7 @@ fn misread(key: &str, text: &str) -> Option<(String, String)> {
     Some((message, help))
 }
 
-/// A value in percent without its sign: `1 ± 0.5` of `1 ± 0.5 %`, with its distribution behind it.
+/// A value in percent without its sign: `1 ± 0.5` of `1 ± 0.5 %`, followed by its distribution.
 fn in_percent(text: &str) -> Option<String> {
     let (before, behind) = text.rsplit_once('%')?;
     let behind = behind.trim();
@@ -400,7 +400,7 @@ fn in_percent(text: &str) -> Option<String> {
     distribution.then(|| format!("{} {behind}", before.trim()).trim().to_owned())
 }
 
-/// `1 ± 0.5 %`, which elsewhere could be percentage points: a gain of one percent there is none.
+/// `1 ± 0.5 %`, which elsewhere could be percentage points: there are no gains of one percent.
 fn percent_of(text: &str) -> Option<Quantity> {
     let quantity = parse_quantity(&in_percent(text)?, Some(Type::SCALAR)).ok()?;
     let near_one = (0.5..2.0).contains(&quantity.value);

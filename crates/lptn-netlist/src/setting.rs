@@ -1,4 +1,4 @@
-//! A constant of a run or a window, before it is evaluated: `--set` may change what it uses.
+//! A constant of a run or a window before it is evaluated: `--set` may change its parameters.
 
 use lptn_data::Span;
 use lptn_network::Value;
@@ -23,7 +23,7 @@ pub(crate) struct Setting {
 }
 
 impl Setting {
-    /// As a field of a netlist, in SI units.
+    /// Its text as a field of a netlist, in SI units.
     pub(crate) fn written(&self) -> String {
         match &self.value {
             Value::Constant(number) if self.unit == "1" => format_number(*number),
@@ -37,7 +37,7 @@ impl Setting {
 }
 
 impl Elaboration<'_> {
-    /// A value of which nothing counts how far it may be off: a `±` would be passed over in silence.
+    /// A value that must not have a `±`: this would be silently ignored.
     pub(crate) fn exactly(&mut self, place: Place<'_>, wanted: Wanted) -> Option<Value> {
         let given = self.given(place, wanted)?;
         if let Given::Quantity(quantity) = &given {
@@ -46,7 +46,7 @@ impl Elaboration<'_> {
         Some(given.value())
     }
 
-    /// The same of a field of something inside a field.
+    /// The same for a field of a table inside a field.
     pub(crate) fn exactly_inside(
         &mut self,
         owner: &Owner,
@@ -85,7 +85,7 @@ impl Elaboration<'_> {
         Some(Setting { value, span: raw.span.clone(), words, unit: ty.usual_unit(), help })
     }
 
-    /// A value in its field, of the declared type; nothing inside where it is left out, nothing at all where it is wrong.
+    /// A value of the declared type; `Some(None)` if it is left out, `None` if it is wrong.
     pub(crate) fn optional_setting(
         &mut self,
         fields: &Fields<'_>,
@@ -95,7 +95,7 @@ impl Elaboration<'_> {
         Some(Some(self.setting(&fields.owner, (key, raw), fields.owner.ty(key))?))
     }
 
-    /// A drift has a standard deviation and a time, or there is none.
+    /// The standard deviation and time of a drift, if there is one.
     pub(crate) fn drift(
         &mut self,
         (owner, span, code): (&Owner, &Span, &'static str),

@@ -1,4 +1,4 @@
-//! Where each part of a network stands in its files.
+//! The place of each part of a network in its files.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -34,7 +34,7 @@ impl Sections {
 #[derive(Clone, Debug, Default)]
 pub struct SourceMap {
     spans: HashMap<(Item, Field), Span>,
-    /// The byte at which the content of a string begins, where no escape changes it.
+    /// The byte at which the content of a string begins, if no escape changes it.
     contents: HashMap<(Item, Field), usize>,
     select: Vec<Span>,
     /// The sections of conductors and of sources.
@@ -50,9 +50,9 @@ pub struct SourceMap {
     top: Option<Span>,
     /// `T0` of `[default]`.
     default: Option<Span>,
-    /// Where a part first names its node.
+    /// The place at which a part first names its node.
     parts: HashMap<NodeId, Span>,
-    /// Where the elements of CSV files stand.
+    /// The places of the elements of CSV files.
     imports: Vec<Places>,
     /// The lines of tables of two arguments, which are read from CSV files.
     maps: HashMap<TableId, RawTable>,
@@ -60,9 +60,9 @@ pub struct SourceMap {
 
 impl SourceMap {
     /// The place of a field's value, quotes included; for [`Field::Name`] the place of the key that
-    /// names the item. A node without a `T0` of its own has the place of the default, a part of a
-    /// grid or of a path to a face that of the whole. An imported element has the places of its
-    /// cells; one without a name in the file has its row for a name.
+    /// names the item. A node without its own `T0` has the place of the default, a part of a grid
+    /// or of a path to a face that of the whole. An imported element has the places of its cells;
+    /// one without a name in the file has its row for a name.
     pub fn get(&self, item: Item, field: Field) -> Option<Span> {
         let of_whole = || self.spans.get(&(self.whole(item)?, field));
         let written = self.spans.get(&(item, field)).or_else(of_whole).cloned();
@@ -105,7 +105,7 @@ impl SourceMap {
     }
 
     /// The places of values that carry `±` although they are not parameters: nothing varies them.
-    /// In the order of the files, each text once.
+    /// Each text appears once, in the order of the files.
     pub fn deviations_elsewhere(&self, files: &Files) -> Vec<Span> {
         let no_parameter = |(item, field): &(Item, Field)| {
             !matches!(item, Item::Parameter(_)) && *field != Field::Name
@@ -124,17 +124,17 @@ impl SourceMap {
         &self.select
     }
 
-    /// How many places are known.
+    /// Number of known places.
     pub fn len(&self) -> usize {
         self.spans.len() + self.imports.iter().map(Places::len).sum::<usize>()
     }
 
-    /// Whether no place is known.
+    /// True if no place is known.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// The place of the field, or of the name of its item where the field is not written.
+    /// The place of the field, or of the name of its item if the field is not written.
     pub(crate) fn nearest(&self, item: Item, field: Field) -> Option<Span> {
         self.get(item, field).or_else(|| self.name(item))
     }
@@ -151,12 +151,12 @@ impl SourceMap {
         self.spans.insert((item, field), span);
     }
 
-    /// The beginning of the file, for what has no place of its own.
+    /// The beginning of the file, for problems without a place.
     pub(crate) fn top(&self) -> Option<&Span> {
         self.top.as_ref()
     }
 
-    /// Whether the temperature at the start comes from `[default]`.
+    /// True if the initial temperature comes from `[default]`.
     pub(crate) fn is_default(&self, item: Item) -> bool {
         self.default.is_some() && self.get(item, Field::Initial) == self.default
     }
@@ -169,7 +169,7 @@ impl SourceMap {
         self.default = Some(default);
     }
 
-    /// Where a capacitor says that it belongs to this node.
+    /// The place at which a capacitor names this node.
     pub(crate) fn capacitor_of(&self, node: NodeId) -> Option<&Span> {
         self.parts.get(&node)
     }
@@ -206,7 +206,7 @@ impl SourceMap {
         }
     }
 
-    /// The place of some bytes of a field's string; the whole value where they cannot be told.
+    /// The place of some bytes of a field's string; the whole value if it is unknown.
     pub(crate) fn part(&self, item: Item, field: Field, range: &Range<usize>) -> Option<Span> {
         let whole = self.get(item, field)?;
         match self.content(item, field) {
@@ -217,18 +217,18 @@ impl SourceMap {
         }
     }
 
-    /// The byte at which the content of a field's string begins, where no escape changes it.
+    /// The byte at which the content of a field's string begins, if no escape changes it.
     pub(crate) fn content(&self, item: Item, field: Field) -> Option<usize> {
         let of_whole = || self.contents.get(&(self.whole(item)?, field));
         self.contents.get(&(item, field)).or_else(of_whole).copied()
     }
 
-    /// Whether an item stands in a CSV file of `[import]`.
+    /// True if an item is in a CSV file of `[import]`.
     pub fn is_imported(&self, item: Item) -> bool {
         self.imports.iter().any(|places| places.holds(item))
     }
 
-    /// Notes where the elements of a CSV file stand.
+    /// Notes the places of the elements of a CSV file.
     pub(crate) fn add_import(&mut self, places: Places) {
         self.imports.push(places);
     }

@@ -1,5 +1,4 @@
-//! The state of a network at one time, as the file `state.json` holds it: what a run can start
-//! from.
+//! The state of a network at one time, as in the file `state.json`: a run can start from it.
 //!
 //! A state contains everything that a temperature does not determine. Wax at its melting point is
 //! saved with its molten share, a control with the time since its last switch.
@@ -11,7 +10,7 @@ use std::io::{self, Write};
 pub(crate) const FORMAT: &str = "1";
 
 lptn_units::words! {
-/// How the run ended that wrote a state.
+/// The end of the run that wrote a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StateEnd {
     /// At its stop.
@@ -35,30 +34,30 @@ impl StateEnd {
 /// A state that is to be written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SavedState<'a> {
-    /// What the network is called: its file without the ending.
+    /// The name of the network: its file without the extension.
     pub network: &'a str,
     /// Its title, if it has one.
     pub title: Option<&'a str>,
     /// The time in s.
     pub time: f64,
-    /// How the run ended.
+    /// The end of the run.
     pub end: StateEnd,
     /// Temperature of every node by name, in K.
     pub temperatures: Vec<(&'a str, f64)>,
-    /// How much is molten, from 0 to 1, of each node whose temperature does not tell.
+    /// The molten share, from 0 to 1, of each node whose temperature does not determine it.
     pub melted: Vec<(&'a str, f64)>,
-    /// Where every control stands.
+    /// The state of every control.
     pub controls: Vec<StateControl<'a>>,
 }
 
-/// Where a control stands in a state that is to be written.
+/// A control in a state that is to be written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StateControl<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Whether it is on.
+    /// True if it is on.
     pub on: bool,
-    /// How long it has been so, in s, from 0; `None` if it never switched.
+    /// Time in s since it switched, from 0; `None` if it never switched.
     pub held: Option<f64>,
 }
 
@@ -66,7 +65,7 @@ impl SavedState<'_> {
     /// Writes the file; every number reads back as the same `f64`.
     ///
     /// # Errors
-    /// What the stream reports.
+    /// The error of the stream.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let text = |text: &str| serde_json::Value::from(text);
         writeln!(out, "{{\n  \"format\": {FORMAT},\n  \"network\": {},", text(self.network))?;

@@ -1,13 +1,13 @@
-//! Streams that do not balance: what flows into a node has to flow out of it, and what leaves a
-//! cooler has to arrive.
+//! Streams that do not balance: a flow into a node has to leave it, and a flow from a cooler has to
+//! arrive.
 
 use lptn_data::Diagnostic;
 use lptn_network::{End, Item, Network, Outlet, Passing};
 
 use crate::source_map::SourceMap;
 
-/// A warning for each node into which streams bring another capacity rate than they take away, as
-/// they stand at `time` in s. What has no value there is reported where it is used.
+/// A warning for each node into which streams bring another capacity rate than they take away, at
+/// `time` in s. A rate without a value there is reported by its use.
 pub(crate) fn unbalanced(network: &Network, map: &SourceMap, time: f64) -> Vec<Diagnostic> {
     let passing = network.passing_streams(time).unwrap_or_default();
     let uneven = passing.into_iter().filter(|passing| !passing.is_balanced());
@@ -40,7 +40,7 @@ fn wrong_outlet(network: &Network, map: &SourceMap, outlet: Outlet) -> Diagnosti
     ))
 }
 
-/// A rate as people read it.
+/// A rate with six digits.
 fn short(rate: f64) -> String {
     lptn_units::format_number(format!("{rate:.5e}").parse().unwrap_or(rate))
 }

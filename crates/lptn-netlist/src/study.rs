@@ -1,5 +1,5 @@
-//! What a section of studies does, `[size.NAME]` or `[fit.NAME]`: it is read, checked and written
-//! back.
+//! The interface of a section of studies, `[size.NAME]` or `[fit.NAME]`: it is read, checked and
+//! written back.
 
 use lptn_data::{Diagnostic, FileId};
 use lptn_network::Network;
@@ -10,7 +10,7 @@ use crate::raw::{RawEntry, RawKind, RawNetlist, RawValue};
 use crate::toml_text::{TomlFields, key};
 use crate::work::Elaboration;
 
-/// How a text names a file that another file names by a path.
+/// Maps a path that a file names to the path that a new text has to name.
 pub(crate) type PathFrom<'p> = dyn Fn(FileId, &str) -> String + 'p;
 
 /// The type of a parameter.
@@ -36,7 +36,7 @@ fn unnamed(section: &str, words: [&'static str; 4], first: &RawEntry) -> Diagnos
     Diagnostic::error(code, message).at(first.key_span.clone(), label).help(help)
 }
 
-/// A study, `[SECTION.NAME]`; those that there are stand in `section/list.rs`.
+/// A study, `[SECTION.NAME]`; `section/list.rs` lists all of them.
 pub(crate) trait Study: Sized {
     /// Its section.
     const SECTION: &'static SectionDeclaration;
@@ -49,11 +49,11 @@ pub(crate) trait Study: Sized {
         files(raw, (Self::SECTION.name, Self::FILES))
     }
 
-    /// How one without a name is told: code, what it is, the label of its first key, and a name for
-    /// example. Where nothing is given it is told as any other element.
+    /// Words about one without a name: code, kind, label of its first key, and a sample name. By
+    /// default it is reported as any other element.
     const UNNAMED: Option<[&'static str; 4]> = None;
 
-    /// One of them, as far as it can be read; what is wrong is reported.
+    /// One study, `None` if it cannot be read; errors are reported.
     fn one<'a>(work: &mut Elaboration<'a>, entry: &'a RawEntry) -> Option<Self>;
 
     /// All of them, in file order.
@@ -70,7 +70,7 @@ pub(crate) trait Study: Sized {
     /// Its name.
     fn name(&self) -> &str;
 
-    /// What is wrong with its numbers for the parameters of a network.
+    /// The errors of its numbers for the parameters of a network.
     fn check(&self, network: &Network) -> Vec<Diagnostic>;
 
     /// Its fields as they are written.

@@ -1,4 +1,4 @@
-//! TOML to [`RawNetlist`]: the tree with every place, and what is wrong with the TOML itself.
+//! TOML to [`RawNetlist`]: the tree with every place, and errors of the TOML itself.
 
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
@@ -11,7 +11,7 @@ use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::syntax_error;
 use crate::toml_1_1;
 
-/// Reads the text of a file. The tree holds what could be read, whatever is wrong elsewhere.
+/// Reads the text of a file. The tree contains everything that could be read.
 pub(crate) fn read(
     files: &Files,
     file: FileId,
@@ -23,7 +23,7 @@ pub(crate) fn read(
     let top = reader.table(tree.get_ref(), 0..0);
     let mut diagnostics = syntax_error::explain(&errors, (file, format), text, &top);
     if diagnostics.is_empty() {
-        // next to broken TOML it would only say the same again
+        // next to broken TOML it would only repeat the same
         diagnostics = reader.newer;
     } else if let Some(other) =
         foreign::recognise((files.name(file), format), (file, text), diagnostics.len())
@@ -37,7 +37,7 @@ pub(crate) fn read(
 struct Reader<'a> {
     file: FileId,
     text: &'a str,
-    /// What TOML 1.1 allows and this format does not.
+    /// Features of TOML 1.1, which this format does not allow.
     newer: Vec<Diagnostic>,
 }
 
@@ -89,7 +89,7 @@ impl Reader<'_> {
     }
 }
 
-/// The byte at which the content of a written string begins, if the content stands there letter by
+/// The byte at which the content of a written string begins, if the content is in it letter by
 /// letter.
 fn content_start(written: &str, content: &str) -> Option<usize> {
     let quotes = ["\"\"\"\r\n", "'''\r\n", "\"\"\"\n", "'''\n", "\"\"\"", "'''", "\"", "'"];
@@ -98,8 +98,8 @@ fn content_start(written: &str, content: &str) -> Option<usize> {
     written.get(opening..)?.starts_with(content).then_some(opening)
 }
 
-/// A TOML integer may be hexadecimal, octal or binary; one that does not fit is given to the reader
-/// of numbers as it stands.
+/// A TOML integer may be hexadecimal, octal or binary; one that does not fit goes to the reader of
+/// numbers unchanged.
 fn decimal(digits: &str, radix: u32) -> String {
     match radix {
         10 => digits.to_owned(),

@@ -1,4 +1,4 @@
-//! Broken TOML, said in the words of a netlist.
+//! Broken TOML, explained in the terms of a netlist.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -14,11 +14,11 @@ use crate::raw::RawTable;
 
 const SYNTAX: &str = "netlist::syntax";
 
-/// Something opened and not closed: what follows is not read as it was meant.
+/// An unclosed part: the text after it is misread.
 pub(crate) const NOT_CLOSED: &str = "netlist::not_closed";
 
-/// Broken lines are explained up to here, further ones only counted: a file with more is probably
-/// no netlist.
+/// Number of broken lines that are explained; further ones are only counted, as a file with more is
+/// probably not a netlist.
 const MOST_ERRORS: usize = 200;
 
 /// Explains the parser's errors, one for each line: after the first the parser has lost its place
@@ -41,7 +41,7 @@ pub(crate) fn explain(
         .map(|(line, ..)| *line)
         .collect();
     for (line, message, place) in places {
-        // an inline table that is not closed makes trouble on every line up to the end
+        // an unclosed inline table causes an error on every line up to the end
         let follows = unclosed && is_inside_table(message);
         let hidden = strings.contains(&line) && !is_string(message);
         if follows || hidden || !lines.insert(line) {
@@ -90,7 +90,7 @@ fn is_inside_table(message: &str) -> bool {
         .any(|start| message.starts_with(start))
 }
 
-/// Where an error is.
+/// The place of an error.
 struct Place<'a> {
     file: FileId,
     text: &'a str,
@@ -111,7 +111,7 @@ impl Place<'_> {
         before.rsplit('\n').next().unwrap_or("")
     }
 
-    /// The whole line, and where it begins.
+    /// The byte at which the line begins, and the whole line.
     fn line(&self) -> (usize, &str) {
         let start = self.range.start - self.line_before().len();
         (start, self.text.get(start..).and_then(|rest| rest.lines().next()).unwrap_or(""))
@@ -190,7 +190,7 @@ fn name_in_two(place: &Place<'_>) -> Option<Diagnostic> {
     Some(Diagnostic::error(SYNTAX, "name with a blank in it").at(span, "").help(help))
 }
 
-/// A letter that names cannot hold: `gehäuse`.
+/// A letter that names cannot contain: `gehäuse`.
 fn odd_letter(message: &str, place: &Place<'_>) -> Option<Diagnostic> {
     if !message.starts_with("invalid unquoted key") {
         return None;
@@ -199,7 +199,7 @@ fn odd_letter(message: &str, place: &Place<'_>) -> Option<Diagnostic> {
     Some(Diagnostic::error(SYNTAX, "name with an invalid letter").at(place.span(), "").help(help))
 }
 
-/// The newcomer's first mistake: a quantity without quotes.
+/// The most common first mistake: a quantity without quotes.
 fn unquoted(place: &Place<'_>) -> Diagnostic {
     let fragment = place.fragment();
     if fragment.trim().is_empty() {
@@ -218,7 +218,7 @@ fn value_missing(place: &Place<'_>) -> Diagnostic {
         .help("write a string, such as \"25 degC\", or a number")
 }
 
-/// A string that is still open where its line ends.
+/// A string that is still open at the end of its line.
 fn string_open(place: &Place<'_>) -> Diagnostic {
     let before = place.line_before();
     if before.trim_end().ends_with('=') {
@@ -232,7 +232,7 @@ fn string_open(place: &Place<'_>) -> Diagnostic {
         .help("a string begins and ends with a quote: `R = \"0.3 K/W\"`")
 }
 
-/// An inline table that is still open where its line ends.
+/// An inline table that is still open at the end of its line.
 fn brace_missing(place: &Place<'_>) -> Diagnostic {
     let before = place.text.get(..place.range.start).unwrap_or("");
     let brace = before.rfind('{').map_or(place.range.start..place.range.start, |at| at..at + 1);

@@ -1,5 +1,5 @@
-//! The format is TOML 1.0, the parser reads 1.1: what only 1.1 allows is found here, so that every
-//! netlist can be read by every TOML tool.
+//! The format is TOML 1.0, the parser reads 1.1. Features of 1.1 are found here, so that every TOML
+//! tool can read every netlist.
 
 use lptn_data::{Diagnostic, Span};
 

@@ -1,9 +1,9 @@
-//! What is written: keys, strings, numbers in SI units.
+//! Text of a netlist: keys, strings, numbers in SI units.
 
 use lptn_network::{Value, ZERO_CELSIUS, is_name};
 use lptn_units::{Type, Unit, format_number};
 
-/// A key; a path stands in quotes.
+/// A key; a path is in quotes.
 pub(crate) fn key(name: &str) -> String {
     if is_name(name) { name.to_owned() } else { string(name) }
 }
@@ -46,7 +46,7 @@ pub(crate) fn value(value: &Value, ty: Type) -> String {
         Value::Constant(number) => quantity(*number, ty),
         Value::Expression(program) => string(program.text().trim()),
         Value::Product(factors) => {
-            // lumps are written by what they are made of; nothing else is a product
+            // lumps are written by material and size; nothing else is a product
             let factors: Vec<String> =
                 factors.iter().map(|f| self::value(f, Type::SCALAR)).collect();
             factors.join(" * ")
@@ -54,7 +54,7 @@ pub(crate) fn value(value: &Value, ty: Type) -> String {
     }
 }
 
-/// A constant of the type that something else has: there `K` would be a difference.
+/// A constant of the same type as another value: there `K` would be a difference.
 pub(crate) fn like(value: &Value, ty: Type) -> String {
     match value {
         Value::Constant(number) if ty.absolute => point(*number),
@@ -62,7 +62,7 @@ pub(crate) fn like(value: &Value, ty: Type) -> String {
     }
 }
 
-/// A point on the temperature scale, wherever it stands.
+/// A point on the temperature scale, for any place.
 pub(crate) fn point(kelvin: f64) -> String {
     format!("\"absolute({} [K])\"", format_number(kelvin))
 }
@@ -79,7 +79,7 @@ pub(crate) fn celsius(kelvin: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text }
 }
 
-/// A list of numbers in the unit that people gave them in, if that gives back the same numbers.
+/// A list of numbers in their original unit, if that gives back the same numbers.
 pub(crate) fn list_in(numbers: &[f64], ty: Type, unit: Option<&Unit>) -> (String, Option<String>) {
     let own = |unit: &&Unit| !ty.absolute && unit.text != "1";
     let written =
@@ -98,8 +98,8 @@ fn exact(si: f64, unit: &Unit) -> Option<String> {
     found.map(format_number)
 }
 
-/// A list of numbers, and their unit where they have one; points on the temperature scale in degC,
-/// as `K` would be a difference.
+/// A list of numbers, and their unit if they have one; points on the temperature scale in degC, as
+/// `K` would be a difference.
 pub(crate) fn list(numbers: &[f64], ty: Type) -> (String, Option<String>) {
     let written: Vec<String> =
         numbers.iter().map(|&x| if ty.absolute { celsius(x) } else { format_number(x) }).collect();
@@ -120,18 +120,18 @@ impl TomlFields {
         self.0.push(format!("{} = {}", key(name), written.as_ref()));
     }
 
-    /// Whether a field is there.
+    /// True if a field is there.
     pub(crate) fn has(&self, name: &str) -> bool {
         let start = format!("{} = ", key(name));
         self.0.iter().any(|field| field.starts_with(&start))
     }
 
-    /// A field that holds a name or word.
+    /// A field that contains a name or word.
     pub(crate) fn word(&mut self, name: &str, word: &str) {
         self.put(name, string(word));
     }
 
-    /// A field that is left out where there is nothing.
+    /// A field that is left out if it is `None`.
     pub(crate) fn maybe(&mut self, name: &str, written: Option<impl AsRef<str>>) {
         if let Some(written) = written {
             self.put(name, written);

@@ -1,5 +1,5 @@
-//! Values that something may have, but hardly this: nearly always a prefix or a scale that was
-//! mistaken. They are looked at as they come out, as in [`plausible`](crate::plausible).
+//! Possible but unlikely values: nearly always a wrong prefix or scale. Results are checked, not
+//! text, as in [`plausible`](crate::plausible).
 
 use lptn_data::Diagnostic;
 use lptn_network::{
@@ -9,10 +9,10 @@ use lptn_units::{format_number, format_six as short};
 
 use crate::source_map::SourceMap;
 
-/// So many of a kind are named.
+/// Most warnings of a kind.
 const MOST: usize = 5;
 
-/// Every warning about a value that is hardly meant.
+/// Every warning about an unlikely value.
 pub(crate) fn values(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     let mut all = scales(network, map);
     all.extend(laws(network, map));
@@ -21,8 +21,8 @@ pub(crate) fn values(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     all
 }
 
-/// A number of kelvin that stands for a room: 293, 298.15. As degrees Celsius it is a furnace that
-/// nobody heats to just this.
+/// True for a room temperature in kelvin: 293, 298.15. In degrees Celsius it would be an unusual
+/// temperature of a furnace.
 fn is_room_in_kelvin(number: f64) -> bool {
     const WHOLE: [f64; 8] = [273.0, 283.0, 288.0, 293.0, 295.0, 296.0, 298.0, 303.0];
     let near = |other: f64| (number - other).abs() < 1e-6;
@@ -54,7 +54,7 @@ fn scales(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     odd.take(MOST).collect()
 }
 
-/// The key of a law, the most that is usual, and why.
+/// The key of a law, the largest usual value, and the reason.
 struct Most {
     key: &'static str,
     most: f64,
@@ -64,8 +64,8 @@ struct Most {
     why: &'static str,
 }
 
-/// VDI Heat Atlas, section A2: forced convection of liquids up to 10 kW/(m^2 K); beyond it what
-/// boils or condenses. No plate of a machine or wall of a house is thicker than 3 m.
+/// VDI Heat Atlas, section A2: forced convection of liquids up to 10 kW/(m^2 K); boiling and
+/// condensation beyond it. No plate of a machine or wall of a house is thicker than 3 m.
 const MOST_USUAL: [Most; 2] = [
     Most {
         key: "h",
@@ -123,7 +123,7 @@ fn masses(network: &Network) -> Vec<(NodeId, f64)> {
     constant.collect()
 }
 
-/// One node whose capacity is a thousandth of what the others are like: J beside kJ.
+/// Warns about one node with a thousandth of the capacity of the others: J instead of kJ.
 fn capacities(network: &Network, map: &SourceMap) -> Option<Diagnostic> {
     let masses = masses(network);
     let &(id, least) = masses.iter().min_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -145,16 +145,16 @@ fn capacities(network: &Network, map: &SourceMap) -> Option<Diagnostic> {
     Some(warning.at(place, "").help(format!("did you mean {} kJ/K?", short(least))))
 }
 
-/// A body takes between a nanosecond and thirty years to follow what it is coupled to.
+/// Usual time constants of bodies in s: from a nanosecond to thirty years.
 const TIMES: std::ops::RangeInclusive<f64> = 1e-9..=1e9;
 
-/// Nodes whose time constant no experiment lasts for.
+/// Nodes with time constants outside this range.
 fn time_constants(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     let mut coupled = vec![(0.0, None); network.nodes().len()];
     for (id, conductor) in network.conductor_ids().zip(network.conductors()) {
         let conductance = match network.flow(id) {
             ConductorFlow::Conductance(conductance) => conductance,
-            // how much it is nobody knows here
+            // its value is unknown here
             _ => f64::NAN,
         };
         for end in [conductor.from, conductor.to] {

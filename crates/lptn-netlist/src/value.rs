@@ -11,8 +11,8 @@ use crate::value_help::parameter_help;
 use crate::work::Elaboration;
 
 impl Elaboration<'_> {
-    /// The value of a field; `None` if something is wrong with it, which is then reported, or with
-    /// a parameter it uses, which has been reported.
+    /// The value of a field; `None` after an error in it, which is reported, or in a parameter that
+    /// it uses, which has been reported.
     pub(crate) fn given(&mut self, place: Place<'_>, wanted: Wanted) -> Option<Given> {
         let kelvin = wanted.derived.then(|| place.kelvin_for(wanted.ty)).flatten();
         let text = self.kept(kelvin.map_or_else(|| self.names.text(place, wanted.ty), Err))?;
@@ -78,15 +78,15 @@ impl Elaboration<'_> {
     }
 }
 
-/// What the mean over time is taken of, where an expression as a whole is one: `mean(x)`, as in
-/// `[sweep]`. The mean of several values is one of every moment.
+/// The argument of a mean over time, if an expression as a whole is one: `mean(x)`, as in
+/// `[sweep]`. The mean of several values is a value of each moment.
 pub(crate) fn mean_over_time(expression: &Expression) -> Option<Expression> {
     let (name, mut arguments) = expression.split_call()?;
     (name == "mean" && arguments.len() == 1).then(|| arguments.pop()).flatten()
 }
 
 impl Elaboration<'_> {
-    /// Refuses the mean over time where a value of one moment is due.
+    /// Refuses the mean over time in a place for a value of one moment.
     fn no_mean(&mut self, place: Place<'_>) -> Option<Given> {
         let message =
             format!("{} has a mean over time, but a value of one moment is needed", place.words());
@@ -97,7 +97,7 @@ impl Elaboration<'_> {
         None
     }
 
-    /// Tells the names of imported elements from unknown ones.
+    /// Distinguishes the names of imported elements from unknown ones.
     fn learn(&mut self, expression: &Expression) {
         for (name, _) in expression.names() {
             let name = base(&name);
@@ -119,7 +119,7 @@ fn moment(place: Place<'_>, at: Span) -> Diagnostic {
 
 const FREQUENCY: Type = Type::of(Dimension::FREQUENCY);
 
-/// Whether a power of rad is what is too much or too little.
+/// True if the dimension differs by a power of rad only.
 fn left_over_radians(error: &UnitError) -> bool {
     match &error.kind {
         UnitErrorKind::Dimension { wanted, found, .. } => found.differs_by_radians(**wanted),
@@ -128,11 +128,11 @@ fn left_over_radians(error: &UnitError) -> bool {
     }
 }
 
-/// Parameters of parameters are followed so far.
+/// Depth to which parameters of parameters are followed.
 const DEEPEST: usize = 8;
 
-/// The lines of the frequencies that may have been meant as speeds are shown as well, those of
-/// parameters that parameters are made of too.
+/// Shows the lines of frequencies that may have been meant as speeds, including those of parameters
+/// of parameters.
 fn with_frequencies(
     (raw, all): (&RawNetlist, &Names),
     expression: &Expression,
@@ -161,8 +161,8 @@ fn with_frequencies(
     told
 }
 
-/// A mistake in an expression of one parameter or signal may be that of the parameter: its line is
-/// shown as well.
+/// Shows the line of the parameter of an expression of one parameter or signal, which may contain
+/// the mistake.
 fn with_parameter(
     (raw, all): (&RawNetlist, &Names),
     (place, wanted): (Place<'_>, Wanted),

@@ -1,11 +1,11 @@
-//! What to write in place of a value that its place cannot take.
+//! Help for a value that its place cannot take.
 
 use lptn_units::{Dimension, Type, parse_quantity};
 
 use crate::raw::{RawEntry, RawKind};
 
-/// The line of a parameter that is a bare number, or kelvin where a point on the temperature scale
-/// is due.
+/// The line of a parameter that is a bare number, or a kelvin value in a place for a point on the
+/// temperature scale.
 pub(crate) fn parameter_help(entry: &RawEntry, ty: Type) -> Option<String> {
     let text = match &entry.value.kind {
         RawKind::String { text, .. } | RawKind::Integer(text) | RawKind::Float(text) => text.trim(),
@@ -26,8 +26,8 @@ pub(crate) fn parameter_help(entry: &RawEntry, ty: Type) -> Option<String> {
     None
 }
 
-/// What to write for a number of kelvin that is meant as an absolute temperature, as `line` writes
-/// it `where_to`.
+/// Help for a number of kelvin that is meant as an absolute temperature. `line` writes it,
+/// `where_to` adds its place.
 pub(crate) fn celsius_or_kelvin(
     text: &str,
     line: impl Fn(&str) -> String,

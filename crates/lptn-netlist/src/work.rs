@@ -1,4 +1,4 @@
-//! What is being read: the network as far as it is built, and everything found on the way.
+//! The work in progress: the network as far as it is built, and everything found on the way.
 
 use std::collections::{HashMap, HashSet};
 
@@ -23,9 +23,9 @@ pub(crate) struct Elaboration<'a> {
     pub(crate) raw: &'a RawNetlist,
     /// The sections there are.
     pub(crate) format: &'static NetlistFormat,
-    /// What templates made of it.
+    /// The expanded templates.
     pub(crate) structure: &'a Structure,
-    /// What gearboxes made of it.
+    /// The expanded gearboxes.
     pub(crate) gears: &'a Gears,
     pub(crate) csv: &'a CsvFiles,
     /// The state that the run starts from.
@@ -34,7 +34,7 @@ pub(crate) struct Elaboration<'a> {
     pub(crate) map: SourceMap,
     pub(crate) names: Names,
     pub(crate) problems: Vec<Diagnostic>,
-    /// How many problems of imported rows were not even written down.
+    /// Number of problems of imported rows that were not recorded.
     pub(crate) dropped: usize,
     pub(crate) left_out: LeftOut,
     pub(crate) scales: Scales,
@@ -46,14 +46,14 @@ pub(crate) struct Elaboration<'a> {
     pub(crate) used: HashSet<(&'static str, String)>,
 }
 
-/// What was left out because of an error, so that its absence is not reported as another one.
+/// Parts that were left out because of an error, so that their absence is not another error.
 #[derive(Debug, Default)]
 pub(crate) struct LeftOut {
-    /// A section is not known or not a table: what it holds may be what is missing.
+    /// A section is unknown or not a table: missing names may be in it.
     pub(crate) sections: bool,
     /// `format = 1` below a heading: it is not an element of that section.
     pub(crate) format: Option<Span>,
-    /// A path is missing: islands cannot be told.
+    /// A path is missing: islands cannot be determined.
     pub(crate) paths: bool,
     /// A part of a capacity is missing: nodes may only seem to have none.
     pub(crate) parts: bool,
@@ -62,7 +62,7 @@ pub(crate) struct LeftOut {
 }
 
 impl LeftOut {
-    /// What an instance would have held may be what is missing.
+    /// The parts that may be missing because a use could not be read.
     pub(crate) fn of(structure: &Structure) -> Self {
         let lost = structure.has_lost();
         Self { sections: lost, paths: lost, parts: lost, ..Self::default() }
@@ -120,7 +120,7 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-/// A value in place of one that has been reported.
+/// A value instead of one that has been reported.
 pub(crate) fn stand_in(ty: Type) -> Input {
     Quantity { value: 1.0, deviation: None, ty }.into()
 }

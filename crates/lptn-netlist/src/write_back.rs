@@ -1,4 +1,4 @@
-//! Another number in the place of a parameter's own, everything else of the file as it was.
+//! Another number instead of a parameter's own; the rest of the file stays.
 //!
 //! A number is written into its own bytes, not through a TOML printer. Unit, comments and order
 //! stay. The new text is read back and compared before the file is replaced.
@@ -22,7 +22,7 @@ pub struct WrittenNumber {
 }
 
 impl Netlist {
-    /// Where and in which unit the file writes a parameter's number; `None` if its value is an
+    /// The place and the unit of a parameter's number in the file; `None` if its value is an
     /// expression or a string with escapes.
     pub fn written_number(&self, id: ParameterId) -> Option<WrittenNumber> {
         let (item, field) = (Item::Parameter(id), Field::Value);
@@ -51,21 +51,20 @@ impl Netlist {
             .map(|other| self.network.name_of(Item::Parameter(other)).into_owned())
     }
 
-    /// Whether a number stands in the netlist's own file and not in one that it includes.
+    /// True if a number is in the netlist's own file, not in one that it includes.
     pub fn is_own(&self, written: &WrittenNumber) -> bool {
         self.inputs.first() == Some(&written.file)
     }
 
-    /// The text of the file with `number` in the place of the one written there: comments, order,
-    /// unit and standard deviation stay. A number in place of another cannot change what a string
-    /// or a comment is, so the text is cut at the number's own place rather than parsed and printed
-    /// again.
+    /// The text of the file with `number` instead of the one written there: comments, order, unit
+    /// and standard deviation stay. Another number cannot change the extent of a string or a
+    /// comment, so the text is cut at the number's place rather than parsed and printed again.
     pub fn text_with_number(&self, written: &WrittenNumber, number: &str) -> String {
         self.text_with_numbers(&[(written.clone(), number.to_owned())])
     }
 
-    /// The same for several numbers of one file, each at a place of its own. The text of the first
-    /// one's file.
+    /// The same for several numbers of one file, each at a separate place. Returns the text of the
+    /// first one's file.
     pub fn text_with_numbers(&self, numbers: &[(WrittenNumber, String)]) -> String {
         let Some((first, _)) = numbers.first() else { return String::new() };
         let mut numbers: Vec<_> =

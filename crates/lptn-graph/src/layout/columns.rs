@@ -4,7 +4,7 @@ use super::order::Neighbours;
 use super::rank::Ranks;
 use super::{Element, Room};
 
-/// What stands in a column.
+/// A vertex of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Vertex {
     /// A place.
@@ -15,19 +15,19 @@ pub(crate) enum Vertex {
     Pass(usize),
 }
 
-/// The wire of a place in one channel: what it joins to its left and to its right.
+/// The wire of a place in one channel, with the vertices that it joins to its left and right.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Net {
     pub(crate) left: Vec<usize>,
     pub(crate) right: Vec<usize>,
 }
 
-/// Columns from left to right: places stand in every other one, elements between.
+/// Columns from left to right: places and elements alternate.
 #[derive(Clone, Debug)]
 pub(crate) struct Columns {
     pub(crate) vertices: Vec<Vertex>,
     pub(crate) blocks: Vec<Room>,
-    /// How much each holds on to its level.
+    /// The weight with which each keeps its level.
     pub(crate) weights: Vec<f64>,
     /// The vertices of each column from top to bottom.
     pub(crate) layers: Vec<Vec<usize>>,
@@ -35,8 +35,8 @@ pub(crate) struct Columns {
     pub(crate) nets: Vec<Vec<Net>>,
 }
 
-/// What holds on to its level: a wire on its way through columns more than what stands in one, and
-/// the longest way from each place on most.
+/// Weights with which vertices keep their level: a wire through a column has more than a place or
+/// element. The elements on the longest way from a place have most.
 const PASS: f64 = 30.0;
 const MAIN: f64 = 1e6;
 
@@ -46,7 +46,7 @@ const WIRE: Room = Room { pin: 0.0, half: 0.0, above: 6.0, below: 6.0 };
 impl Columns {
     /// Every place and element in its column.
     pub(crate) fn of(places: &[Room], elements: &[Element], ranks: &Ranks) -> Self {
-        // a source at the first place stands before it
+        // a source at the first place is in a column before it
         let first = usize::from(elements.iter().any(|e| e.from.is_none() && ranks.rank[e.to] == 0));
         let main = main_ways(places.len(), elements, ranks);
         let column = |place: usize| 2 * ranks.rank[place] + first;
@@ -118,7 +118,7 @@ impl Columns {
         self.layers[layer].iter().map(|v| self.blocks[*v].half).fold(0.0, f64::max)
     }
 
-    /// Whether a wire leaves a vertex to its left and to its right.
+    /// For each side, left and right, true if a wire leaves the vertex there.
     pub(crate) fn sides(&self, vertex: usize) -> [bool; 2] {
         let layer = self.layers.iter().position(|layer| layer.contains(&vertex)).unwrap_or(0);
         let left = layer.checked_sub(1).and_then(|channel| self.nets.get(channel));
@@ -129,7 +129,7 @@ impl Columns {
         ]
     }
 
-    /// For each vertex those it is joined to in the columns before and after its own.
+    /// For each vertex, the vertices that it is joined to in the columns before and after its own.
     pub(crate) fn neighbours(&self) -> Neighbours {
         let mut before = vec![Vec::new(); self.vertices.len()];
         let mut after = before.clone();
@@ -145,7 +145,7 @@ impl Columns {
     }
 }
 
-/// For each element whether the longest way on from the place to its left leads through it alone.
+/// For each element, true if only it starts the longest way on from the place to its left.
 fn main_ways(places: usize, elements: &[Element], ranks: &Ranks) -> Vec<bool> {
     let ends = |e: usize| match elements[e].from {
         Some(from) if ranks.reversed[e] => Some((elements[e].to, from)),

@@ -1,10 +1,9 @@
-//! Where everything of a diagram stands: places and elements in columns from left to right, with
-//! wires between them.
+//! Layout of a diagram: places and elements in columns from left to right, with wires between them.
 //!
 //! Sugiyama, Tagawa and Toda (IEEE Trans. SMC 11(2), 1981): directions, ranks, order by
-//! barycentres, coordinates. What is different here: a path is not a line between two places but an
-//! element in a column of its own, so that its words have a room that nothing else enters, and all
-//! wires at a place are one net, which branches as in a circuit diagram.
+//! barycentres, coordinates. Two things differ. A path is an element in a separate column instead
+//! of a line, so nothing else enters the room of its words. All wires at a place are one net, which
+//! branches as in a circuit diagram.
 //!
 //! Libraries for the layout of graphs draw lines where an engineer expects symbols, and layout-rs
 //! takes half a minute for 1000 nodes. Elements in series keep their level. The longest way from a
@@ -18,8 +17,8 @@ mod route;
 
 use columns::{Columns, Vertex};
 
-/// What something takes up around its pins, which are on a level left and right of its middle, in
-/// pixels.
+/// The room of a thing around its pins in pixels. Its pins are on one level left and right of its
+/// middle.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Room {
     /// From the middle to a pin.
@@ -32,13 +31,13 @@ pub(crate) struct Room {
     pub(crate) below: f64,
 }
 
-/// What lies between two places, or before one.
+/// A path between two places, or a source before one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Element {
     pub(crate) block: Room,
-    /// The place that should stand to its left; none for a source.
+    /// The place that should be to its left; none for a source.
     pub(crate) from: Option<usize>,
-    /// The place that should stand to its right.
+    /// The place that should be to its right.
     pub(crate) to: usize,
 }
 
@@ -48,25 +47,25 @@ const BETWEEN_ROWS: f64 = 14.0;
 /// A point of a picture.
 pub(crate) type Point = (f64, f64);
 
-/// Where everything stands.
+/// The positions of everything.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Arranged {
     /// The middle of each place, at the level of its pins.
     pub(crate) places: Vec<Point>,
     /// The middle of each element.
     pub(crate) elements: Vec<Point>,
-    /// Whether `from` of an element stands to its right.
+    /// True if `from` of an element is to its right.
     pub(crate) reversed: Vec<bool>,
     /// Straight pieces of wire.
     pub(crate) wires: Vec<[Point; 2]>,
-    /// Where three of them meet.
+    /// Points at which three of them meet.
     pub(crate) dots: Vec<Point>,
     /// Width and height.
     pub(crate) size: Point,
 }
 
-/// Arranges places and elements in columns; in rows of columns where one row would be wider than
-/// `most` pixels.
+/// Arranges places and elements in columns. There are several rows of columns if one row would be
+/// wider than `most` pixels.
 pub(crate) fn arrange(places: &[Room], elements: &[Element], most: f64) -> Arranged {
     let ranks = rank::ranks(places.len(), elements);
     let mut columns = Columns::of(places, elements, &ranks);
@@ -100,8 +99,8 @@ struct Row<'a> {
 }
 
 impl Row<'_> {
-    /// Puts a row below what there is, with the wires that come from the row before; gives those
-    /// that go on to the next.
+    /// Draws a row below the previous ones, with the wires from the row before. Returns the wires
+    /// that go on to the next row.
     fn draw(&self, out: &mut Arranged, turned: Vec<route::Turned>) -> Vec<route::Turned> {
         let (low, high) = place::extent(self.columns, self.levels, &self.row);
         let shift = if turned.is_empty() { out.size.1 } else { out.size.1 + BETWEEN_ROWS } - low;
@@ -201,8 +200,8 @@ mod tests {
             .find_map(|i| Some((i, route::channel(&columns, &levels, i).upon()?)))
     }
 
-    /// Nothing stands upon anything, no wire goes through the words above and below an element, and
-    /// everything is on the page, whatever the network.
+    /// In any network nothing lies upon anything else, no wire crosses the words above and below an
+    /// element, and everything is on the page.
     #[test]
     fn random_networks_are_laid_out_without_overlap() {
         let mut chance = Chance(0x2545_f491_4f6c_dd1d);

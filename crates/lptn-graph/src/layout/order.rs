@@ -1,13 +1,13 @@
 //! Order in the columns, such that few wires cross.
 
-/// How often all columns are gone through.
+/// Number of sweeps through all columns.
 const SWEEPS: usize = 12;
 
-/// For each vertex those it is joined to in the columns before and after its own.
+/// For each vertex, the vertices that it is joined to in the columns before and after its own.
 pub(crate) type Neighbours = [Vec<Vec<usize>>; 2];
 
-/// Orders every column by the mean position of what its vertices are joined to; the best order that
-/// is met stays.
+/// Orders every column by the mean position of the vertices that its own are joined to. Keeps the
+/// best order found.
 pub(crate) fn reduce_crossings(layers: &mut Vec<Vec<usize>>, neighbours: &Neighbours) {
     let mut best = (crossings(layers, &neighbours[1]), layers.clone());
     for sweep in 0..SWEEPS {
@@ -25,7 +25,7 @@ pub(crate) fn reduce_crossings(layers: &mut Vec<Vec<usize>>, neighbours: &Neighb
     *layers = best.1;
 }
 
-/// Where each vertex stands in its column, from 0, the first, to 1.
+/// Position of each vertex in its column, from 0, the first, to 1.
 fn positions(layers: &[Vec<usize>], count: usize) -> Vec<f64> {
     let mut at = vec![0.0; count];
     for layer in layers {
@@ -45,7 +45,7 @@ fn sort(layers: &mut [Vec<usize>], layer: usize, joined: &[Vec<usize>]) {
     layers[layer].sort_by(|a, b| wish(*a).total_cmp(&wish(*b)));
 }
 
-/// How many pairs of wires cross.
+/// Number of pairs of wires that cross.
 fn crossings(layers: &[Vec<usize>], after: &[Vec<usize>]) -> usize {
     let mut at = vec![0; after.len()];
     for layer in layers {
@@ -56,7 +56,7 @@ fn crossings(layers: &[Vec<usize>], after: &[Vec<usize>]) -> usize {
     layers.iter().map(|layer| inversions(layer, after, &at)).sum()
 }
 
-/// Pairs of wires behind a column whose ends stand in the other order than their beginnings.
+/// Pairs of wires after a column whose ends are in the opposite order to their beginnings.
 fn inversions(layer: &[usize], after: &[Vec<usize>], at: &[usize]) -> usize {
     // a Fenwick tree over the positions of the next column
     let most = layer.iter().flat_map(|v| &after[*v]).map(|v| at[*v] + 1).max().unwrap_or(0);

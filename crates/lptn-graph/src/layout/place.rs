@@ -9,13 +9,13 @@ use super::route::{Channel, MOST_TURNING};
 /// Between two neighbours of a column.
 const GAP: f64 = 14.0;
 
-/// How much wider than the mean a row may be.
+/// A row may be wider than the mean by this factor.
 const UNEVEN: f64 = 1.1;
 
-/// How often levels are drawn towards their neighbours.
+/// Number of rounds that draw levels towards their neighbours.
 const ROUNDS: usize = 24;
 
-/// The weight of what stands in line already.
+/// The weight of vertices that are in line already.
 const HELD: f64 = 1e9;
 
 /// The level of each vertex, downwards, such that wires are nearly straight.
@@ -51,7 +51,7 @@ pub(crate) fn levels(columns: &Columns) -> Vec<f64> {
             });
         }
     }
-    // what comes first stays, and the rest stands in line with it
+    // the first vertices stay, and the rest is put in line with them
     for layer in 0..count {
         settle(layer, &mut at, &|v, at| {
             let wish = in_line(columns, &neighbours[0][v], at);
@@ -70,7 +70,7 @@ pub(crate) fn levels(columns: &Columns) -> Vec<f64> {
     at.iter().map(|level| level.round()).collect()
 }
 
-/// The room of each vertex: what stands in line has that of its tallest, so that nothing bends it.
+/// The room of each vertex; vertices in line have that of the tallest, so that nothing bends them.
 fn rooms(columns: &Columns) -> Vec<Room> {
     let mut rooms = columns.blocks.clone();
     let passes = |v: usize| matches!(columns.vertices[v], Vertex::Pass(_));
@@ -155,7 +155,7 @@ pub(crate) fn extent(columns: &Columns, levels: &[f64], row: &Range<usize>) -> (
     })
 }
 
-/// Rows of columns, each at most so many pixels wide where that can be; a row ends behind places.
+/// Rows of columns of nearly equal width, at most about `most` pixels; a row ends after places.
 pub(crate) fn rows(columns: &Columns, routes: &[Channel], most: f64) -> Vec<Range<usize>> {
     let count = columns.layers.len();
     let width =

@@ -1,16 +1,16 @@
-//! Which place stands how far to the right.
+//! The rank of each place, from left to right.
 
 use super::Element;
 
-/// Ranks of places from 0, and which elements run against their direction.
+/// Ranks of places from 0, and a flag for each element that runs against its direction.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Ranks {
     pub(crate) rank: Vec<usize>,
     pub(crate) reversed: Vec<bool>,
 }
 
-/// Each place stands to the right of all from which an element leads to it; elements that would
-/// close a circle are turned round.
+/// Puts each place to the right of all places from which an element leads to it. Elements that
+/// would close a circle are reversed.
 pub(crate) fn ranks(places: usize, elements: &[Element]) -> Ranks {
     let mut out: Vec<Vec<(usize, usize)>> = vec![Vec::new(); places];
     let mut entered = vec![false; places];
@@ -37,8 +37,8 @@ pub(crate) fn ranks(places: usize, elements: &[Element]) -> Ranks {
     Ranks { rank, reversed }
 }
 
-/// Goes through all places from those that nothing leads to; gives the elements that lead back to a
-/// place on the way, and the places in the order in which they were left.
+/// Goes through all places from those that nothing leads to. Returns a flag for each element that
+/// leads back to a place on the way, and the places in the order in which they were left.
 fn walk(out: &[Vec<(usize, usize)>], entered: &[bool], elements: usize) -> (Vec<bool>, Vec<usize>) {
     let places = out.len();
     let mut reversed = vec![false; elements];
@@ -73,7 +73,7 @@ fn walk(out: &[Vec<(usize, usize)>], entered: &[bool], elements: usize) -> (Vec<
     (reversed, finished)
 }
 
-/// Places that nothing leads to stand just before the first they lead to.
+/// Moves places that nothing leads to just before the first that they lead to.
 fn draw_near(rank: &mut [usize], into: &[Vec<usize>]) {
     let mut first = vec![usize::MAX; rank.len()];
     for (place, before) in into.iter().enumerate() {

@@ -37,14 +37,14 @@ impl Wire {
         all.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), y| (a.min(*y), b.max(*y)))
     }
 
-    /// Whether it needs no piece that runs downwards.
+    /// True if it needs no piece that runs downwards.
     fn is_straight(&self) -> bool {
         let (top, bottom) = self.range();
         top >= bottom
     }
 
-    /// What it costs that this one runs down to the left of another: crossings, and pieces that lie
-    /// upon each other.
+    /// Cost if this one runs down to the left of another: crossings, and pieces that lie upon each
+    /// other.
     fn left_of(&self, other: &Self) -> usize {
         const OVER: usize = 1000;
         let cost = |pins: &[f64], (top, bottom): (f64, f64)| {
@@ -93,12 +93,12 @@ pub(crate) fn channel(columns: &Columns, levels: &[f64], channel: usize) -> Chan
     Channel { wires, tracks }
 }
 
-/// How far a vertex is moved whose wire would lie upon another; twice that is less than the gap
-/// between two neighbours of a column.
+/// Distance by which a vertex is moved if its wire would lie upon another. Twice that is less than
+/// the gap between two neighbours of a column.
 const NUDGE: f64 = 6.0;
 
-/// Moves vertices by a little where two wires have to pass each other on the same levels: drawn
-/// upon each other they would look joined.
+/// Moves vertices by a little if two wires have to pass each other on the same levels: drawn upon
+/// each other they would look joined.
 pub(super) fn pull_apart(columns: &Columns, levels: &mut [f64]) {
     for number in 0..columns.nets.len() {
         for _ in 0..2 {
@@ -186,19 +186,19 @@ pub(crate) fn joined(wires: Vec<[Point; 2]>) -> Vec<[Point; 2]> {
     found.into_iter().map(wire).collect()
 }
 
-/// As many wires may go on from a row to the next one, so that a reader can follow them.
+/// At most this many wires go on from a row to the next one, so that a reader can follow them.
 pub(crate) const MOST_TURNING: usize = 4;
 
-/// A wire on its way to the next row: its net, and where it turns downwards again.
+/// A wire on its way to the next row: its net, and the point at which it turns downwards again.
 pub(crate) type Turned = (usize, Point);
 
-/// The width that so many wires take beside a row.
+/// The width in pixels that wires take next to a row.
 pub(crate) fn beside(wires: usize) -> f64 {
     if wires == 0 { 0.0 } else { TRACK * (wires as f64 + 1.0) }
 }
 
 impl Channel {
-    /// How many wires it has.
+    /// Number of its wires.
     pub(crate) fn count(&self) -> usize {
         self.wires.len()
     }
@@ -223,7 +223,7 @@ impl Channel {
         turned
     }
 
-    /// Leads the wires that come from the row before to where this one begins, at `x`.
+    /// Leads the wires that come from the row before to the beginning of this one, at `x`.
     pub(crate) fn enter(&self, out: &mut Arranged, turned: &[Turned], (x, shift): (f64, f64)) {
         for wire in &self.wires {
             let Some((_, at)) = turned.iter().find(|(net, _)| *net == wire.net) else { continue };

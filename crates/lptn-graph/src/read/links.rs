@@ -19,13 +19,13 @@ struct Bundle {
 }
 
 impl Reader<'_> {
-    /// What a conductor is told as: the path to a face that it is a part of, else itself.
+    /// The item that a conductor is shown as: the path to a face that it is a part of, else itself.
     fn unit(&self, id: ConductorId) -> Item {
         let item = Item::Conductor(id);
         self.network.whole(item).filter(|whole| matches!(whole, Item::FacePath(_))).unwrap_or(item)
     }
 
-    /// The paths, and which of them each conductor is a part of.
+    /// The paths, and for each conductor the path that it is a part of.
     pub(super) fn links(&self) -> (Vec<Link>, Vec<Option<usize>>) {
         type Ends = (usize, usize, ConductorKind);
         let ends = |id: ConductorId| {
@@ -86,7 +86,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Whether a stream flows from its second end to its first.
+    /// True if a stream flows from its second end to its first.
     fn runs_back(&self, id: ConductorId) -> bool {
         match (self.network.flow(id), self.view.state) {
             (ConductorFlow::Stream(rate), _) => rate < 0.0,

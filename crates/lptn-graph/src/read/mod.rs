@@ -12,12 +12,12 @@ use crate::groups::{Group, Grouping, groups};
 use crate::model::{Diagram, Place, PlaceRole, Scales, Switching, Target};
 use crate::words::{self, Scale};
 
-/// How a network is looked at.
+/// Options of a diagram.
 #[derive(Clone, Copy, Debug)]
 pub struct View<'a> {
-    /// What it is called.
+    /// Its title.
     pub title: &'a str,
-    /// Whether many nodes stand as one box.
+    /// Grouping of many nodes into boxes.
     pub grouping: Grouping,
     /// The scale of its temperatures.
     pub unit: &'a Unit,
@@ -25,8 +25,7 @@ pub struct View<'a> {
     pub state: Option<&'a Snapshot>,
 }
 
-/// A network as it is drawn. Values that do not depend on time or temperatures are given as
-/// numbers.
+/// A network as it is drawn. Values that do not depend on time or temperatures are numbers.
 pub fn diagram(network: &Network, view: &View<'_>) -> Diagram {
     let groups = groups(network, view.grouping);
     let span = view.state.map_or([0.0, 100.0], span);
@@ -63,10 +62,11 @@ pub fn diagram(network: &Network, view: &View<'_>) -> Diagram {
     }
 }
 
-/// So many paths of one kind between two groups, or sources of one group, are still told apart.
+/// Most paths of one kind between two groups, or sources of one group, that are shown one by
+/// one.
 const MOST_APART: usize = 3;
 
-/// Heat flows below this, in W, are what rounding left over.
+/// Heat flows below this, in W, are rounding errors.
 const NOISE: f64 = 1e-9;
 
 fn span(state: &Snapshot) -> [f64; 2] {
@@ -92,7 +92,7 @@ struct Reader<'a> {
     scale: Scale<'a>,
     place: Vec<usize>,
     alone: Vec<bool>,
-    /// What each node stores, in W.
+    /// The heat that each node stores, in W.
     stored: Option<Vec<f64>>,
 }
 
@@ -156,13 +156,13 @@ impl Reader<'_> {
         }
     }
 
-    /// What the nodes of a group store together, unless the state has settled.
+    /// The heat in W that the nodes of a group store together; none in a steady state.
     fn stored(&self, group: &Group) -> Option<f64> {
         let stored = self.stored.as_ref()?;
         Some(group.nodes.iter().map(|id| stored[id.index()]).sum())
     }
 
-    /// What streams between members of a group bring, which nothing else of it loses.
+    /// The heat in W that streams between members bring the group; no other member loses it.
     fn within(&self, group: &Group) -> f64 {
         let (Some(state), true) = (self.view.state, group.words.is_some()) else { return 0.0 };
         let members = group.nodes.iter().map(|id| End::Node(*id));
@@ -177,7 +177,7 @@ impl Reader<'_> {
         inside.map(|(_, received)| received.iter().sum::<f64>()).sum()
     }
 
-    /// Where values are read: the time of the state, else the beginning.
+    /// The evaluation at the time of the state, else at the beginning.
     fn scope(&self) -> Evaluation {
         let mut scope = self.network.evaluation();
         let time = self.view.state.map_or(0.0, |state| state.time);

@@ -5,37 +5,37 @@ use crate::model::Diagram;
 /// Flows below this share of the largest are not shown.
 const LEAST: f64 = 1e-9;
 
-/// The heat of a state: where it comes from, where it goes through, where it stays.
+/// The heat of a state: its origins, the places that it passes, and its destinations.
 #[derive(Clone, Debug, Default)]
 pub struct HeatFlows {
-    /// What heat comes from, goes through or ends in: in the order of the diagram its places, then
-    /// its sources, then its streams, then what was stored and what is.
+    /// Origins, places and destinations of heat: in the order of the diagram its places, then its
+    /// sources, then its streams, then released and stored heat.
     pub bars: Vec<Bar>,
-    /// What flows from one bar to another.
+    /// The heat flows from one bar to another.
     pub bands: Vec<Band>,
 }
 
-/// What heat comes from, goes through or ends in.
+/// A thing that heat comes from, goes through or ends in.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bar {
     /// Its name.
     pub name: String,
-    /// What it is.
+    /// Its role.
     pub role: BarRole,
     /// The heat in W that bands bring.
     pub into: f64,
-    /// The heat in W that bands take away. At every place but a boundary it is what they bring.
+    /// The heat in W that bands take away. At every place but a boundary it equals `into`.
     pub out: f64,
 }
 
-/// What a bar is.
+/// The role of a bar.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BarRole {
     /// A node, a boundary or a group, by its position in [`Diagram::places`].
     Place(usize),
-    /// A source, or what it takes where it cools.
+    /// A source; if it cools, the heat that it takes.
     Source,
-    /// The fluid of a stream: what it brings and what it carries away.
+    /// The fluid of a stream: the heat that it brings and carries away.
     Stream,
     /// Heat that capacities had and give back.
     Released,
@@ -48,11 +48,11 @@ pub enum BarRole {
 pub struct Band {
     /// The path, source or stream that brings it.
     pub name: String,
-    /// Where it comes from, a position in [`HeatFlows::bars`].
+    /// The bar that it comes from, a position in [`HeatFlows::bars`].
     pub from: usize,
-    /// Where it goes, a position in [`HeatFlows::bars`].
+    /// The bar that it goes to, a position in [`HeatFlows::bars`].
     pub to: usize,
-    /// How much it is in W, above zero.
+    /// Its heat in W, above zero.
     pub heat: f64,
 }
 
@@ -68,7 +68,7 @@ impl Bar {
 }
 
 impl HeatFlows {
-    /// The heat flows of a diagram; none where it shows no state.
+    /// The heat flows of a diagram; none if it shows no state.
     pub fn of(diagram: &Diagram) -> Self {
         let places = diagram.places.iter().enumerate();
         let bars = places.map(|(i, place)| Bar::new(place.name.clone(), BarRole::Place(i)));
@@ -95,7 +95,7 @@ impl HeatFlows {
         all.without_dust()
     }
 
-    /// Heat from a bar of its own to a place, or to that bar where it is negative.
+    /// Adds a separate bar, with heat from it to a place, or to that bar if negative.
     fn own_bar(&mut self, bar: Bar, place: usize, heat: f64) {
         if heat != 0.0 {
             self.bars.push(bar);
@@ -104,13 +104,13 @@ impl HeatFlows {
         }
     }
 
-    /// Heat from one bar to another, or back where it is negative.
+    /// Heat from one bar to another, or back if it is negative.
     fn band(&mut self, name: String, (from, to): (usize, usize), heat: f64) {
         let (from, to) = if heat < 0.0 { (to, from) } else { (from, to) };
         self.bands.push(Band { name, from, to, heat: heat.abs() });
     }
 
-    /// What places store goes to one bar, and what they release comes from another.
+    /// Leads the heat that places store to one bar, and the heat that they release from another.
     fn store(&mut self, diagram: &Diagram) {
         let (released, stored) = (self.bars.len(), self.bars.len() + 1);
         self.bars.push(Bar::new("released", BarRole::Released));
@@ -125,7 +125,7 @@ impl HeatFlows {
         }
     }
 
-    /// Only what can be seen, with the sums of every bar.
+    /// Drops invisible bands and bars, and sums the heat of every bar.
     fn without_dust(mut self) -> Self {
         let most = self.bands.iter().map(|band| band.heat).fold(0.0, f64::max);
         self.bands.retain(|band| band.heat > LEAST * most);

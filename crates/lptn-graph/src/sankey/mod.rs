@@ -43,7 +43,7 @@ const NAME: f64 = 13.0;
 const VALUE: f64 = 12.0;
 const SMALL: f64 = 11.0;
 
-/// Letters of a name that are shown; a reader that points at it sees all.
+/// Letters of a name that are shown; a reader who points at it sees all.
 const LETTERS: usize = 26;
 
 /// The width of a bar.
@@ -52,24 +52,24 @@ const BAR: f64 = 12.0;
 /// Between a bar and its name.
 const BESIDE: f64 = 6.0;
 
-/// The least room between two columns of bars, and what bands need there to bend.
+/// The least room between two columns of bars, and the room that bands need there to bend.
 const LEAST_GAP: f64 = 120.0;
 const BEND: f64 = 34.0;
 
 /// Around everything.
 const MARGIN: f64 = 24.0;
 
-/// A picture that would be wider than this, in pixels, has no names beside its bands.
+/// A picture that would be wider than this, in pixels, has no names at its bands.
 const MOST_WIDTH: f64 = 2000.0;
 
 /// A band that is narrower than this has no room for its name.
 const NAMED: f64 = 13.0;
 
-/// The heat flows of a diagram as a drawing. Heat flows from left to right, but for bands that
-/// would close a circle, which bear an arrow.
+/// The heat flows of a diagram as a drawing. Heat flows from left to right. Bands that would close
+/// a circle flow back and bear an arrow.
 ///
 /// # Errors
-/// [`NoSankey`] where no state is shown, where nothing flows in it, and for more than
+/// [`NoSankey`] if no state is shown, if nothing flows in it, or if there are more than
 /// [`MOST_PLACES`] bars.
 pub fn sankey(diagram: &Diagram) -> Result<Scene, NoSankey> {
     let scales = diagram.scales.as_ref().ok_or(NoSankey::NoState)?;
@@ -107,17 +107,17 @@ struct Drawing<'a> {
     scales: &'a Scales,
     flows: &'a HeatFlows,
     placed: &'a Placed,
-    /// The left side of each column of bars, and where the room between the words there and the
-    /// names before it has its middle.
+    /// The left side of each column of bars, and the middle of the room between its words and the
+    /// names of bands before the next column.
     x: Vec<f64>,
     free: Vec<f64>,
-    /// Whether bands bear the names of their paths.
+    /// True if bands bear the names of their paths.
     named: bool,
 }
 
 impl Drawing<'_> {
-    /// Finds the places of the columns, and how wide all of it is: beside each bar there is room
-    /// for its words, and before the next column for the names of the bands that end there.
+    /// Places the columns and returns the total width. Next to each bar there is room for its
+    /// words, and before the next column for the names of the bands that end there.
     fn columns(&mut self) -> f64 {
         let mut words = vec![0.0_f64; self.placed.columns];
         let mut names = vec![0.0_f64; self.placed.columns];
@@ -144,7 +144,7 @@ impl Drawing<'_> {
         x - MARGIN
     }
 
-    /// The name of a bar; its heat, and what more there is to know of it.
+    /// The name of a bar; its heat, and its temperature or the direction of its heat.
     fn words(&self, bar: usize) -> [String; 2] {
         let bar = &self.flows.bars[bar];
         let more = match bar.role {
@@ -159,7 +159,7 @@ impl Drawing<'_> {
         [shortened(&bar.name, LETTERS), value]
     }
 
-    /// What stands at the end of a band: the name of its path, and its heat unless a bar says it.
+    /// The label at the end of a band: the name of its path, and its heat unless a bar shows it.
     fn name(&self, band: usize) -> Option<String> {
         let (placed, band) = (&self.placed.bands[band], &self.flows.bands[band]);
         if !self.named || placed.width < NAMED {
@@ -237,7 +237,7 @@ impl Drawing<'_> {
         Path::new(begin.chain(turn).chain([Step::Close]).collect())
     }
 
-    /// Points to the left, where no words are, upon a band that leads there.
+    /// Draws an arrow to the left upon a band that leads there, in a place without words.
     fn arrow(&self, scene: &mut Scene, band: &PlacedBand, top: f64) {
         let &[first, second, ..] = band.levels.as_slice() else { return };
         let x = self.free[band.column];
@@ -249,8 +249,8 @@ impl Drawing<'_> {
     }
 }
 
-/// How much of its way down a curve between two levels has made at a share of its way to the right:
-/// that of [`along`].
+/// Share of its way down that a curve between two levels has made at a share of its way to the
+/// right, as [`along`] draws it.
 fn bent(share: f64) -> f64 {
     let right = |t: f64| 1.5 * t * (1.0 - t) + t.powi(3);
     let (mut low, mut high) = (0.0, 1.0);

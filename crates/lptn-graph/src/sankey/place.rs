@@ -1,4 +1,4 @@
-//! Where the bars stand, and where the bands leave and reach them.
+//! The places of the bars, and the points at which bands leave and reach them.
 
 use super::flows::HeatFlows;
 use crate::layout::order::{Neighbours, reduce_crossings};
@@ -12,7 +12,7 @@ const TALL: f64 = 260.0;
 /// The least width of a band, and height of a bar, in pixels.
 const HAIR: f64 = 0.8;
 
-/// Room that the two lines beside a bar take.
+/// Room that the two lines of text at a bar take.
 pub(crate) const LABEL: f64 = 34.0;
 
 /// Around a band on its way through a column.
@@ -21,13 +21,13 @@ const BESIDE: f64 = 2.0;
 /// Between parts of the picture that no band joins.
 const APART: f64 = 24.0;
 
-/// How much more what stands in line holds on to its level than what does not.
+/// Factor by which a vertex in line keeps its level more firmly than others.
 const HELD: f64 = 1e6;
 
-/// How often bars are drawn towards what they are joined to.
+/// Number of rounds that draw bars towards their neighbours.
 const ROUNDS: usize = 40;
 
-/// Where everything stands. Levels are in pixels downwards from the highest.
+/// The positions of everything. Levels are in pixels downwards from the highest.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Placed {
     pub(crate) bars: Vec<PlacedBar>,
@@ -46,12 +46,12 @@ pub(crate) struct PlacedBar {
 /// A band from left to right.
 #[derive(Clone, Debug)]
 pub(crate) struct PlacedBand {
-    /// Where it begins.
+    /// The column in which it begins.
     pub(crate) column: usize,
     /// Its middle in each column from there to its end.
     pub(crate) levels: Vec<f64>,
     pub(crate) width: f64,
-    /// Whether its heat flows from right to left: it closes a circle.
+    /// True if its heat flows from right to left: it closes a circle.
     pub(crate) reversed: bool,
 }
 
@@ -93,7 +93,7 @@ pub(crate) fn place(flows: &HeatFlows) -> Placed {
     layers.placed(&ranks, &levels)
 }
 
-/// What a band of this width takes up at a bar: a little more, so that the next one is told apart.
+/// The height that a band of this width takes at a bar: a little more, to distinguish the next one.
 fn slot(width: f64) -> f64 {
     width + (0.2 * width).min(1.2)
 }
@@ -174,7 +174,7 @@ impl Layers {
         found
     }
 
-    /// Joins the bands to both sides of every vertex in the order of what they come from.
+    /// Joins the bands to both sides of every vertex in the order of their other ends.
     fn join(&mut self) {
         let mut at = vec![0; self.halves.len()];
         for layer in &self.layers {
@@ -217,7 +217,8 @@ impl Layers {
                 });
             }
         }
-        // what is nearly straight becomes straight: wide bands from the left, then what comes first
+        // nearly straight bands become straight: wide bands from the left, then those that come
+        // first
         let main = |vertex: usize, side: usize| -> Option<usize> {
             let width = |i: &&usize| self.widths[self.pieces[**i].band];
             joined[vertex][side].iter().max_by(|a, b| width(a).total_cmp(&width(b))).copied()
@@ -248,8 +249,7 @@ impl Layers {
         joined
     }
 
-    /// Where the middle of a vertex would have to be for these pieces to be straight; wide ones
-    /// decide.
+    /// The level at which these pieces of a vertex would be straight; wide ones decide.
     fn mean<'a>(
         &self,
         pieces: impl Iterator<Item = &'a usize>,
@@ -263,7 +263,7 @@ impl Layers {
         (weight > 0.0).then(|| sum / weight)
     }
 
-    /// Where the middle of a vertex has to be for a piece to be straight, and how wide it is.
+    /// The level of a vertex at which a piece is straight, and the width of the piece.
     fn straight(&self, piece: usize, vertex: usize, at: &[f64]) -> (f64, f64) {
         let Piece { band, ends, offsets } = self.pieces[piece];
         let own = usize::from(ends[1] == vertex);

@@ -1,4 +1,4 @@
-//! Nodes, and everything that stands between and on them.
+//! Nodes, and all elements between and on them.
 
 use lptn_laws::Kind;
 use lptn_network::{Bound, Conductor, Item, Law, LimitSeverity, Lump, Size, Source, Value};
@@ -27,7 +27,7 @@ impl Writer<'_> {
         self.section("node", &section);
     }
 
-    /// `C`, or what the lump is made of.
+    /// `C`, or material and size of the lump.
     fn capacity(&self, fields: &mut TomlFields, capacity: Option<&Value>, lump: Option<&Lump>) {
         if let Some(Lump { material, size }) = lump {
             fields.word("material", &self.name(Item::Material(*material)));
@@ -112,7 +112,7 @@ impl Writer<'_> {
             declared.fields.iter().zip(law.values()).collect();
         let mut selector = kind.declaration().selector.filter(|_| declared.named);
         for same in parts.chunk_by(|(a, _), (b, _)| a.key == b.key) {
-            // the word that chooses the law stands behind what all of them take
+            // the word that chooses the law follows the keys that all laws take
             let shared = kind.laws().all(|law| law.field(same[0].0.key).is_some());
             if let Some(key) = selector.take_if(|_| !shared) {
                 fields.word(key, declared.name);

@@ -1,4 +1,4 @@
-//! What has no flat form: text that would be another network, or none, is not written.
+//! Networks without a flat form: a text that would describe another network is not written.
 
 use lptn_data::Diagnostic;
 use lptn_network::{Item, Network};
@@ -6,9 +6,8 @@ use lptn_network::{Item, Network};
 use crate::netlist::Netlist;
 
 impl Netlist {
-    /// Why [`Netlist::expanded`] is not this network: its grids, imported elements without names,
-    /// or what only a state can say of the start cannot be written in a flat netlist. `None` for
-    /// all other networks.
+    /// The reason why [`Netlist::expanded`] is not this network; `None` if it is. Grids, imported
+    /// elements without names, and a start that only a state can describe have no flat form.
     pub fn not_flat(&self) -> Option<Diagnostic> {
         let network = &self.network;
         let (item, words, help) =
@@ -19,7 +18,7 @@ impl Netlist {
         Some(problem.at(self.source_map.name(item), ""))
     }
 
-    /// What only a state can say: see `initial` of `[run]`.
+    /// A start that only a state can describe: see `initial` of `[run]`.
     fn of_state(&self) -> Option<Reason> {
         let network = &self.network;
         let held = || {
@@ -55,7 +54,7 @@ fn grid(network: &Network) -> Option<Reason> {
     ))
 }
 
-/// Such names are reserved for the rows of imports.
+/// Imported elements without names: their names are reserved for rows of imports.
 fn unnamed(network: &Network) -> Option<Reason> {
     let conductors = network.conductor_ids().map(Item::Conductor);
     let mut items = conductors.chain(network.source_ids().map(Item::Source));

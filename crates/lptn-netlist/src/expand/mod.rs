@@ -1,8 +1,8 @@
 //! A network as a flat netlist in SI units: no includes, no templates, every value where it
 //! belongs.
 //!
-//! It is written from the network that was built, not from what was read, so that whatever made an
-//! element comes out as the element; and it can be read again.
+//! It is written from the network that was built, not from the text that was read. So every element
+//! appears as itself, whatever made it. The result can be read again.
 //!
 //! The expansion shows the network that is computed, not the intention of the file. Grids and
 //! imports go to the builder directly. One writer serves the expansion and the networks that are
@@ -25,7 +25,7 @@ use crate::netlist::Netlist;
 use crate::toml_text::{TomlFields, string};
 pub use proof::{WrittenError, prove};
 
-/// A network that was made from that of a netlist, and what is written with it.
+/// A network that was derived from that of a netlist, with its title, run and folder.
 #[derive(Clone, Copy, Debug)]
 pub struct Derived<'a> {
     /// The network; its tables are those of the netlist.
@@ -34,15 +34,15 @@ pub struct Derived<'a> {
     pub title: &'a str,
     /// The run that goes with it.
     pub run: Option<&'a RunSettings>,
-    /// The folder in which the text is going to stand, which paths of CSV files are relative to;
-    /// `None` for that of the netlist.
+    /// The folder of the text, which paths of CSV files are relative to; `None` for the folder of
+    /// the netlist.
     pub folder: Option<&'a Path>,
 }
 
 /// The netlist as far as it is written.
 struct Writer<'n> {
     network: &'n Network,
-    /// Where the network comes from, for what only a file says.
+    /// The netlist that the network comes from, for facts that only a file contains.
     origin: &'n Netlist,
     /// The folder that paths are relative to.
     folder: PathBuf,
@@ -60,7 +60,7 @@ impl<'n> Writer<'n> {
         self.text += &format!("title = {}\n", string(title));
     }
 
-    /// A path that a file names, as the text has to name it.
+    /// A path of a file, as the text has to name it.
     fn path(&self, file: FileId, path: &str) -> String {
         if Path::new(path).is_absolute() {
             return path.to_owned();
@@ -101,14 +101,13 @@ fn resolved(path: &Path) -> PathBuf {
 }
 
 impl Netlist {
-    /// The network as a flat netlist, with everything that was set: includes, templates and
-    /// whatever else stands for many elements are written out, quantities are in SI units,
-    /// temperatures in K. Parameters and expressions are kept. Materials of the library are named,
-    /// those of the file written if they are used. Read again it is the same network, and is
-    /// written as the same text.
+    /// The network as a flat netlist, with everything that was set. Includes, templates and other
+    /// short forms are written out, quantities are in SI units, temperatures in K. Parameters and
+    /// expressions are kept. Materials of the library are named; those of the file are written if
+    /// they are used. Read again, it is the same network and is written as the same text.
     ///
-    /// A table of two arguments, and a fit, still name their CSV files, which have to be beside the
-    /// text.
+    /// A table of two arguments, and a fit, still name their CSV files, which have to be next to
+    /// the text.
     pub fn expanded(&self) -> String {
         let mut writer = Writer::new(&self.network, self, None);
         if let Some(title) = self.network.title() {
@@ -132,7 +131,7 @@ impl Netlist {
 }
 
 impl Writer<'_> {
-    /// Everything that is there, and nothing of what is asked of it.
+    /// All elements, without run and studies.
     fn elements(&mut self) {
         self.parameters();
         self.tables();

@@ -1,4 +1,4 @@
-//! What was written is read again before anybody gets it.
+//! A written netlist is read again before it is passed on.
 //!
 //! `prove` reads the text at its final place and compares names, and values at several times.
 
@@ -10,25 +10,23 @@ use lptn_network::{ConductorFlow, Item, Network};
 use crate::netlist::{Netlist, parse_file};
 
 lptn_units::errors! {
-/// A netlist that was written is not the network that it was written for: a mistake of this
-/// program.
+/// A netlist that was written is read as another network: a mistake of this program.
 #[derive(Clone, Debug)]
 pub enum WrittenError {
     /// It is not read; the first reason.
     Rejected { reason: String } = "netlist::written",
         format!("the netlist to be written would not be read: {reason}");
-    /// It is read as another network; what differs, such as "node `steel`".
+    /// It is read as another network; `what` names the difference, such as "node `steel`".
     Differs { what: String } = "netlist::written",
         format!("the netlist to be written would be read as another network: {what} differs");
 }
 }
 
-/// How far two numbers may be apart that come from one text, relative to their size: rounding of a
-/// unit.
+/// Allowed relative difference between two numbers of one text: rounding of a unit.
 const ROUNDING: f64 = 1e-12;
 
-/// Reads a netlist that was written for a network as the file at `place` is going to be read, and
-/// compares: the same names, and the same numbers at several times from `start` to `stop` in s.
+/// Reads a netlist that was written for a network as if from `place`, and compares names, and
+/// numbers at several times from `start` to `stop` in s.
 ///
 /// # Errors
 /// [`WrittenError`] with the first difference.
@@ -53,7 +51,7 @@ pub fn prove(
     }
 }
 
-/// What each item of a network comes to, by kind and name.
+/// The numbers of each item of a network, by kind and name.
 struct Facts(BTreeMap<String, Vec<f64>>);
 
 impl Facts {
@@ -87,7 +85,7 @@ impl Facts {
         }
     }
 
-    /// What has nothing but a name and a text.
+    /// Items that have only a name and a text.
     fn names(&mut self, network: &Network) {
         let controls = network.controls().iter().map(|control| ("control", control.name.as_str()));
         let limits = network.limits().iter().map(|limit| ("limit", limit.name.as_str()));
@@ -98,7 +96,7 @@ impl Facts {
         }
     }
 
-    /// What changes with time; what has no value there is NaN in both.
+    /// Values that change with time; a value that is undefined is NaN in both networks.
     fn at(&mut self, network: &Network, time: f64, temperatures: &[f64]) {
         let mut scope = network.evaluation();
         scope.set_time(time, time);
@@ -148,8 +146,7 @@ impl Facts {
     }
 }
 
-/// A temperature for every vertex that its name tells, so that the order does not matter: 280 K to
-/// 340 K.
+/// A temperature for every vertex that follows from its name, whatever the order: 280 K to 340 K.
 fn temperatures(network: &Network) -> Vec<f64> {
     let of = |name: &str| {
         280.0

@@ -1,4 +1,4 @@
-//! `[run]` and the studies: what is asked of the network.
+//! `[run]` and the studies.
 
 use super::Writer;
 use crate::run::{OutputPlan, RUN};
@@ -57,7 +57,7 @@ impl Writer<'_> {
         self.section(RUN.name, &fields);
     }
 
-    /// The numbers of a run.
+    /// The settings of a run.
     pub(super) fn settings(&mut self, run: &RunSettings) {
         let mut fields = TomlFields::default();
         let time = |seconds: f64| quantity(seconds, Type::of(Dimension::TIME));
@@ -83,7 +83,7 @@ impl Writer<'_> {
         self.section(RUN.name, &fields);
     }
 
-    /// What is known of parameters together.
+    /// Joint knowledge of the parameters: `[uncertainty]`.
     pub(super) fn uncertainty(&mut self) {
         let path = |place: &lptn_data::Span, path: &str| self.path(place.file, path);
         let fields = self.origin.uncertainty.fields(&path);

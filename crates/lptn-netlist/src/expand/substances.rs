@@ -1,4 +1,4 @@
-//! `[material]` and `[fluid]`: those of the file that something uses.
+//! `[material]` and `[fluid]`: those of the file that are used.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -111,7 +111,7 @@ impl Writer<'_> {
         lumps.chain(bodies).collect()
     }
 
-    /// The materials and fluids that paths take properties of.
+    /// The materials and fluids whose properties paths use.
     fn properties_of_paths(&self) -> BTreeSet<Item> {
         let properties = self.network.conductors().iter().flat_map(|conductor| {
             let fields = conductor.law.formula().declaration().fields.iter();
@@ -120,7 +120,7 @@ impl Writer<'_> {
         properties.filter_map(|(_, value)| self.substance_of(value)).collect()
     }
 
-    /// The material or fluid of which this is a property; a constant is written as it is.
+    /// The material or fluid of this property; `None` for a constant.
     pub(super) fn substance_of(&self, property: &Value) -> Option<Item> {
         let Value::Expression(program) = property else { return None };
         let network = &self.network;

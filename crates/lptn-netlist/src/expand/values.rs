@@ -19,7 +19,7 @@ use crate::toml_text::{
 
 const TIME: Type = Type::of(Dimension::TIME);
 
-/// What stands behind `±`, and behind the unit.
+/// The number after `±`, and the suffix after the unit.
 fn behind(spread: Spread) -> (String, String) {
     let written = format_number(spread.sigma * spread.distribution.written());
     (written, spread.suffix())
@@ -108,7 +108,7 @@ impl Writer<'_> {
         self.section("lubricant", &section);
     }
 
-    /// Fans by what they do at their rated speed.
+    /// Fans by their point at rated speed.
     pub(super) fn fans(&mut self) {
         let (network, mut section) = (&self.network, TomlFields::default());
         let of = |name: &str, what: &str| {
@@ -190,7 +190,7 @@ impl Writer<'_> {
         named.next().map(|(name, _)| name)
     }
 
-    /// The places of names, for what is asked of them.
+    /// The name of an item, for sections that refer to it.
     pub(super) fn name(&self, item: impl Into<Item>) -> Cow<'_, str> {
         self.network.name_of(item.into())
     }
@@ -216,7 +216,7 @@ pub(super) fn over_temperature(table: &Table1, ty: Type) -> String {
     fields.inline()
 }
 
-/// How the points of a table are joined, where that is not the usual way.
+/// The interpolation of a table and its values outside, if they are not the default.
 fn joined(fields: &mut TomlFields, table: &Table1) {
     if table.interpolation() == Interpolation::Pchip {
         fields.word("interp", "pchip");
@@ -255,15 +255,15 @@ fn course(signal: &Signal) -> String {
     fields.inline()
 }
 
-/// Whether two tables are the viscosity and the density of one lubricant.
+/// True if two tables are the viscosity and the density of one lubricant.
 fn is_lubricant(viscosity: &str, density: &str) -> bool {
     let [of_viscosity, of_density] =
         [viscosity.strip_suffix(".nu"), density.strip_suffix(".density")];
     of_viscosity.is_some() && of_viscosity == of_density
 }
 
-/// A number without the last digits, so that what is computed from what was written is written
-/// again as it was.
+/// A number without its last digits, so that it is written the same again after it was read and
+/// computed.
 fn twelve_digits(number: f64) -> f64 {
     format!("{number:.11e}").parse().unwrap_or(number)
 }

@@ -14,7 +14,7 @@ use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::work::Elaboration;
 
 impl<'a> Elaboration<'a> {
-    /// The records; `None` if something is wrong with one, which is then reported.
+    /// The records; `None` after an error in one, which is reported.
     pub(crate) fn fit_records(
         &mut self,
         fields: &Fields<'a>,
@@ -96,8 +96,7 @@ impl<'a> Elaboration<'a> {
         sound.then(|| FitRecord { csv: text.to_owned(), record, set, span: raw.span.clone() })
     }
 
-    /// The record that a value names. Without columns to read there is nothing to be said of its
-    /// inside.
+    /// The record that a value names. Without columns to read, its contents cannot be checked.
     fn fit_file(&mut self, raw: &RawValue, query: &RecordQuery) -> Option<Arc<Record>> {
         let csv: &'a crate::csv_files::CsvFiles = self.csv;
         let text = self.kept(csv.text(raw)?.map_err(Diagnostic::clone))?;
@@ -110,8 +109,8 @@ impl<'a> Elaboration<'a> {
         Some(Arc::new(record))
     }
 
-    /// `set = { omega = "1000 rpm" }`: the parameters with their values; false if something is wrong,
-    /// which is then reported.
+    /// `set = { omega = "1000 rpm" }`: adds the parameters with their values; false after an
+    /// error, which is reported.
     pub(crate) fn parameters_set(
         &mut self,
         owner: &Owner,
@@ -141,7 +140,7 @@ impl<'a> Elaboration<'a> {
         sound
     }
 
-    /// A parameter cannot have a value of a record and be sought as well.
+    /// Refuses a parameter that is varied and has a value from a record.
     pub(crate) fn set_and_varied(
         &mut self,
         fields: &Fields<'a>,

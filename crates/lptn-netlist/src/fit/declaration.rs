@@ -11,7 +11,7 @@ pub(crate) const TIME_OF: KeyDeclaration =
     text("time", "name of a column", "the column of the times", "\"t\"")
         .or("the first in a unit of time");
 
-/// What columns measure.
+/// The results that columns measure.
 pub(crate) const COLUMNS: KeyDeclaration = shaped(
     "column",
     "table of results",
@@ -21,7 +21,7 @@ pub(crate) const COLUMNS: KeyDeclaration = shaped(
 )
 .needed();
 
-/// Whether outliers count.
+/// Treatment of outliers.
 pub(crate) const OUTLIERS_OF: KeyDeclaration =
     words("outliers", &words_of(&OUTLIERS), "values far from their neighbours", "\"drop\"")
         .or("`\"keep\"`");

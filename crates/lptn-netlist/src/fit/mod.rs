@@ -1,4 +1,4 @@
-//! `[fit.NAME]`: parameters to find, and the records that tell of them.
+//! `[fit.NAME]`: parameters to estimate, and the records that determine them.
 //!
 //! `FitStudy` keeps the text of `[fit]`; `FitStudy::plan` has its numbers, because `--set` changes
 //! them.
@@ -30,21 +30,21 @@ pub use recorded::{FitInitial, FitSignal};
 pub struct FitStudy {
     /// Its name.
     pub name: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
     /// The records, in file order; at least one.
     pub records: Vec<FitRecord>,
-    /// What their columns measured; at least one.
+    /// The results that their columns measured; at least one.
     pub observed: Vec<Observed>,
-    /// The names of the parameters to find, in file order; at least one, none twice.
+    /// The names of the parameters to estimate, in file order; at least one, none twice.
     pub varied: Vec<VariedName>,
     /// The signals that follow columns of the records.
     pub signals: Vec<FitSignal>,
-    /// Whether values that no course explains were left out.
+    /// True if outliers, which no time history explains, were left out.
     pub drop_outliers: bool,
-    /// Where the measured nodes begin.
+    /// Initial temperatures of the measured nodes.
     pub initial: FitInitial,
-    /// The column of the times, where it is named.
+    /// The column of the times, if it is named.
     pub(crate) time: Option<String>,
 }
 
@@ -55,14 +55,14 @@ pub struct FitRecord {
     pub csv: String,
     /// The columns that are observed, in the order of [`FitStudy::observed`].
     pub record: Arc<Record>,
-    /// Parameters with values of their own for this record, by name.
+    /// Parameters with separate values for this record, by name.
     pub(crate) set: Vec<(String, Value)>,
-    /// The place of what names the file.
+    /// The place of the file name.
     pub span: Span,
 }
 
 impl FitRecord {
-    /// Whether it has a value of its own for a parameter.
+    /// True if it has a separate value for a parameter.
     pub fn sets(&self, parameter: &str) -> bool {
         self.set.iter().any(|(name, _)| name == parameter)
     }
@@ -76,34 +76,34 @@ pub struct Observed {
     /// The result as it is written, `steel.T`: a temperature, a heat flow, or an expression of
     /// results.
     pub text: String,
-    /// The node or boundary, where the result is the temperature of one.
+    /// The node or boundary, if the result is its temperature.
     pub end: Option<End>,
     /// The result; it reads temperatures and heats, see
     /// [`lptn_network::Evaluation::set_temperatures`].
     pub value: Value,
     /// The type of the result.
     pub ty: Type,
-    /// The standard deviation of one sample, where it is given.
+    /// The standard deviation of one sample, if given.
     pub(crate) sigma: Option<Value>,
-    /// The instrument, by its name, where one is named.
+    /// The instrument, by its name, if one is named.
     pub sensor: Option<String>,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
 }
 
-/// A parameter to find.
+/// A parameter to estimate.
 #[derive(Clone, Debug)]
 pub struct VariedName {
     /// Its name.
     pub name: String,
-    /// Where it is named.
+    /// The place of its name.
     pub span: Span,
     pub(crate) from: Option<Value>,
     pub(crate) to: Option<Value>,
 }
 
 impl VariedName {
-    /// Whether it has a least or a greatest value.
+    /// True if it has a least or a greatest value.
     pub fn has_range(&self) -> bool {
         self.from.is_some() || self.to.is_some()
     }
@@ -112,21 +112,21 @@ impl VariedName {
 /// The numbers of a [`FitStudy`] for the parameters of a network, in SI units.
 #[derive(Clone, Debug)]
 pub struct FitPlan {
-    /// The parameters to find, in file order.
+    /// The parameters to estimate, in file order.
     pub varied: Vec<Varied>,
-    /// How what is known of them beforehand is correlated, in their order.
+    /// Correlations of their priors, in their order.
     pub correlations: Correlations,
     /// The standard deviation of one sample of each of [`FitStudy::observed`], in the unit of its
-    /// type (K for a temperature); `None` where none is given.
+    /// type (K for a temperature); `None` if none is given.
     pub sigmas: Vec<Option<f64>>,
     /// For each of [`FitStudy::records`] the parameters that its run starts from: everything that
-    /// was set, and what the record sets. The varied parameters are to be set in addition.
+    /// was set, and the values of the record. The varied parameters are to be set in addition.
     pub parameters: Vec<Parameters>,
 }
 
 impl FitStudy {
-    /// How a further record of the same columns is read: those that are observed, then those that
-    /// signals follow.
+    /// The query to read a further record: the columns that are observed, then those that signals
+    /// follow.
     pub fn query(&self) -> RecordQuery {
         let named = |name: &str, ty: Type| RecordName { ty: Some(ty), ..RecordName::new(name) };
         let observed = self.observed.iter().map(|observed| named(&observed.column, observed.ty));
@@ -138,11 +138,11 @@ impl FitStudy {
         }
     }
 
-    /// The numbers for the parameters of `network`; `set` is what was set in it, see
-    /// [`Netlist::overrides`](crate::Netlist::overrides).
+    /// The numbers for the parameters of `network`; `set` contains the values that were set in it,
+    /// see [`Netlist::overrides`](crate::Netlist::overrides).
     ///
     /// # Errors
-    /// What the evaluation of a bound, a deviation or a value of a record reports.
+    /// The error of the evaluation of a bound, a deviation or a value of a record.
     pub fn plan(&self, network: &Network, set: &Parameters) -> Result<FitPlan, EvalError> {
         let mut scope = network.evaluation();
         let mut at = |value: &Value| value.at(&mut scope);
@@ -271,7 +271,7 @@ impl Study for FitStudy {
 }
 
 impl FitStudy {
-    /// Puts the records and what their columns measured.
+    /// Writes the records and the results that their columns measured.
     pub(crate) fn put_read(&self, fields: &mut TomlFields, network: &Network, path: &PathFrom<'_>) {
         let record = |record: &FitRecord| {
             let csv = string(&path(record.span.file, &record.csv));

@@ -1,4 +1,4 @@
-//! Reads `[fit.NAME]`: what is varied and what is observed.
+//! Reads `[fit.NAME]`: varied parameters and observed results.
 
 use lptn_data::{Diagnostic, Span, list};
 use lptn_network::{End, Value};
@@ -14,16 +14,16 @@ use crate::reading::all;
 use crate::size::VARY;
 use crate::work::Elaboration;
 
-/// What becomes of values that no course explains: whether they are dropped.
+/// Words for outliers, which no time history explains; true if they are dropped.
 pub(crate) const OUTLIERS: [(&str, bool); 2] = [("keep", false), ("drop", true)];
 
-/// A column whose result could not be read is still looked for in the records.
+/// A column of the records; `None` if its result could not be read.
 pub(crate) struct Column<'a> {
     pub(crate) entry: &'a RawEntry,
     pub(crate) observed: Option<Observed>,
 }
 
-/// What is measured, as it is written and as it is read.
+/// A measured result, as it is written and as it is read.
 pub(crate) struct Measured {
     pub(crate) text: String,
     pub(crate) end: Option<End>,
@@ -38,7 +38,7 @@ impl<'a> Elaboration<'a> {
         let initial = self.fit_initial(&fields);
         let drop_outliers = self.choice(&fields, "outliers", &OUTLIERS);
         let reads = self.recorded_columns(&fields, drop_outliers == Some(true));
-        // after the columns, whose expressions may use what is varied
+        // after the columns, whose expressions may use the varied parameters
         let varied = self.varied(&fields);
         let reads = reads?;
         self.set_and_varied(&fields, &reads.records, varied.as_deref().unwrap_or_default());
@@ -52,7 +52,7 @@ impl<'a> Elaboration<'a> {
         })
     }
 
-    /// The records and what their columns measured, as a fit that varies nothing.
+    /// The records and the results that their columns measured, as a fit that varies nothing.
     pub(crate) fn recorded_columns(
         &mut self,
         fields: &Fields<'a>,
@@ -82,7 +82,7 @@ impl<'a> Elaboration<'a> {
         })
     }
 
-    /// Whether it has the keys that have to be there; all that are missing are one problem, for it
+    /// Checks that the required keys are given; all that are missing are one problem, because it
     /// has one place. The help shows them, and `also`.
     pub(crate) fn all_there(&mut self, fields: &Fields<'a>, also: &[&str]) -> Option<()> {
         let is_missing = |key: &&KeyDeclaration| key.needed && fields.get(key.name).is_none();
@@ -132,7 +132,7 @@ impl<'a> Elaboration<'a> {
         Some(VariedName { name: name.to_owned(), span: span.clone(), from, to })
     }
 
-    /// Whether a name is that of a parameter that something depends on.
+    /// Checks that a name is that of a parameter that something depends on.
     pub(crate) fn can_vary(&mut self, words: &str, name: &str, place: &Span) -> Option<()> {
         if !self.is_parameter_here(words, name, place) {
             return None;
@@ -157,7 +157,7 @@ impl<'a> Elaboration<'a> {
         columns
     }
 
-    /// An instrument whose values say no unit measures one kind of thing all the same.
+    /// Reports a sensor that measures quantities of two types.
     fn one_kind_a_sensor(&mut self, columns: &[Column<'a>]) {
         let observed: Vec<&Observed> = columns.iter().filter_map(|c| c.observed.as_ref()).collect();
         for (i, own) in observed.iter().enumerate().filter(|(_, own)| own.sensor.is_some()) {
@@ -192,7 +192,7 @@ impl<'a> Elaboration<'a> {
         };
         let sigma = match own.or_else(|| fields.get("sigma")) {
             None => None,
-            // a difference where a temperature is measured
+            // the deviation of a temperature is a difference
             Some(raw) => {
                 let wanted = Wanted::constant(Type::of(ty.dimension));
                 Some(self.exactly_inside(&owner, ("sigma", raw), wanted)?)
@@ -204,7 +204,7 @@ impl<'a> Elaboration<'a> {
         Some(Observed { column, text, end, value, ty, sigma, sensor, span })
     }
 
-    /// What a column measures.
+    /// The result that a column measures.
     pub(crate) fn fit_result(&mut self, owner: &Owner, of: &RawValue) -> Option<Measured> {
         let RawKind::String { text, .. } = &of.kind else {
             self.report(wrong_shape(owner.words(), of, "the name of a result", "\"steel.T\""));

@@ -1,5 +1,5 @@
-//! What a fit takes from each record beside what it compares: courses of signals and the state at
-//! the start.
+//! Data that a fit takes from each record in addition to the compared columns: time histories of
+//! signals and the initial state.
 
 use lptn_data::{Diagnostic, Span, nearest};
 use lptn_units::{Dimension, Type, parse_quantity};
@@ -20,23 +20,23 @@ pub struct FitSignal {
     pub name: String,
     /// The column.
     pub column: String,
-    /// The instrument that gave it, by its name, where one is named here; else that of the same
-    /// column among those that are compared.
+    /// Its instrument, by name, if one is named here; else that of the same column among those that
+    /// are compared.
     pub sensor: Option<String>,
     /// Its type.
     pub ty: Type,
-    /// Where it is named.
+    /// The place of its name.
     pub span: Span,
 }
 
-/// Where nodes begin whose temperature is a column.
+/// Initial temperatures of nodes whose temperature is a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FitInitial {
-    /// As the network says.
+    /// Those of the network.
     Network,
     /// At the first value of the record.
     First,
-    /// At the mean of the values of the first so many s.
+    /// At the mean of the first values of the record, up to this time in s.
     Mean(f64),
 }
 
@@ -64,7 +64,7 @@ impl FitStudy {
 }
 
 impl<'a> Elaboration<'a> {
-    /// `signal = { speed = "omega", hall = { column = "hall", sensor = "tc3" } }`; nothing where something is wrong, which is then reported.
+    /// `signal = { speed = "omega", hall = { .. } }`; `None` after an error, which is reported.
     pub(super) fn fit_signals(&mut self, fields: &Fields<'a>) -> Option<Vec<FitSignal>> {
         let Some(raw) = fields.get("signal") else { return Some(Vec::new()) };
         let RawKind::Table(table) = &raw.kind else {

@@ -1,4 +1,4 @@
-//! Whether chains stand where their impedance says something.
+//! Checks that chains are in places where their impedance is valid.
 
 use lptn_data::Diagnostic;
 use lptn_network::{CapacitorId, ConductorId, End, Field, Item, Network, NodeId, SourceId};
@@ -6,14 +6,14 @@ use lptn_network::{CapacitorId, ConductorId, End, Field, Item, Network, NodeId, 
 use super::{Chain, FOSTER};
 use crate::source_map::SourceMap;
 
-/// What is wrong about the places of chains.
+/// Errors about the places of chains.
 pub(crate) fn check(chains: &[Chain], network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     let of = |chain: &Chain| chain.series(network, map).or_else(|| chain.entered(network, map));
     chains.iter().filter_map(of).collect()
 }
 
 impl Chain {
-    /// That it does not end at a boundary: then what lies behind takes part in its time constants.
+    /// Error if it does not end at a boundary: the parts after it would change its time constants.
     fn series(&self, network: &Network, map: &SourceMap) -> Option<Diagnostic> {
         let last = self.resistors.last()?;
         let Ok(Item::Conductor(id)) = network.item(last) else { return None };
@@ -29,7 +29,7 @@ impl Chain {
         ))
     }
 
-    /// That something else is joined to its inner nodes.
+    /// Error if another element is joined to its inner nodes.
     fn entered(&self, network: &Network, map: &SourceMap) -> Option<Diagnostic> {
         let inner = self.nodes.iter().skip(1).filter_map(|name| node(network, name));
         let found = self.joined(network, &inner.collect::<Vec<NodeId>>())?;

@@ -61,7 +61,7 @@ pub(crate) struct Chain {
     resistors: Vec<String>,
 }
 
-/// Puts nodes and resistors in the place of every chain.
+/// Replaces every chain by nodes and resistors.
 pub(crate) fn expand(
     raw: &mut RawNetlist,
     structure: &Structure,
@@ -76,7 +76,7 @@ pub(crate) fn expand(
 }
 
 impl Chain {
-    /// The nodes and resistors of a chain; `None` where it has no end.
+    /// The nodes and resistors of a chain; `None` if it has no end.
     fn written_out(
         raw: &mut RawNetlist,
         entry: &RawEntry,
@@ -85,7 +85,7 @@ impl Chain {
     ) -> Option<Self> {
         let (at, rungs) = (&entry.key_span, &read.rungs);
         let around = structure.instance_at(at).map_or(String::new(), |path| format!("{path}."));
-        // what a rung is called beside the block
+        // the name of a rung next to the block
         let here = entry.key.strip_prefix(&around).unwrap_or(&entry.key);
         let node = |k: usize| if k == 0 { here.to_owned() } else { format!("{here}.n{}", k + 1) };
         let mut chain = Self { name: entry.key.clone(), nodes: Vec::new(), resistors: Vec::new() };

@@ -12,17 +12,17 @@ use crate::reading::all;
 
 /// A chain as it is written.
 pub(super) struct Read<'r> {
-    /// Capacities in J/K and the resistances behind them in K/W of the ladder with the impedance of
-    /// the table; of a table that is wrong, something to go on with.
+    /// Heat capacities in J/K, each with the resistance after it in K/W, of the ladder with the
+    /// impedance of the table. If the table is wrong, one rung of 1 J/K and 1 K/W.
     pub(super) rungs: Vec<(f64, f64)>,
-    /// What it stands on.
+    /// The end of the chain.
     pub(super) to: Option<&'r RawValue>,
-    /// Its start, where it has one of its own.
+    /// Its initial temperature, if given.
     pub(super) initial: Option<&'r RawEntry>,
 }
 
 impl<'r> Read<'r> {
-    /// Reads a block and reports what is wrong with it.
+    /// Reads a block and reports its errors.
     pub(super) fn of(entry: &'r RawEntry, problems: &mut Vec<Diagnostic>) -> Self {
         let owner = Owner::element(FOSTER.name, &entry.key);
         let fields = Fields::of(&FOSTER, owner, entry, problems);
@@ -36,7 +36,7 @@ impl<'r> Read<'r> {
     }
 }
 
-/// The columns of a table, each with what is wrong about it.
+/// The columns of a table; reports the errors of each.
 struct Table<'f, 'r> {
     fields: &'f Fields<'r>,
     problems: &'f mut Vec<Diagnostic>,
@@ -92,7 +92,7 @@ impl<'r> Table<'_, 'r> {
         self.problems.push(problem.help("each row of the table has one of both"));
     }
 
-    /// That there is no ladder, at the number which is wrong if it is one.
+    /// Reports that there is no ladder, at the wrong number if there is one.
     fn refuse(&mut self, error: &LadderError) {
         let at = match error {
             LadderError::NotPositive { what: "time constant", row, .. } => self.item("tau", *row),

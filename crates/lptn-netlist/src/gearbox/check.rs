@@ -1,4 +1,4 @@
-//! Whether the wheels of a stage can be put together.
+//! Checks that the wheels of a stage can be assembled.
 
 use std::f64::consts::PI;
 
@@ -9,10 +9,10 @@ use lptn_units::format_short;
 use super::member::{Arrangement, Member};
 use super::model::Gearbox;
 
-/// By which part a stated ratio may differ from that of the teeth.
+/// Allowed relative difference between a stated ratio and that of the teeth.
 const RATIO_TOLERANCE: f64 = 0.01;
 
-/// What is wrong with the teeth of stages, for the parameters of the network.
+/// Errors about the teeth of stages, for the parameters of the network.
 pub(crate) fn check(gearboxes: &[Gearbox], network: &Network) -> Vec<Diagnostic> {
     gearboxes.iter().flat_map(|gearbox| gearbox.check(network)).collect()
 }
@@ -50,7 +50,7 @@ impl Gearbox {
         Diagnostic::wrong(code, message, &self.teeth, help)
     }
 
-    /// That the tips of a ring lie inside its base circle, where no involute is.
+    /// Error if the tips of a ring are inside its base circle, where there is no involute.
     fn undercut(&self, network: &Network, ring: f64) -> Option<Diagnostic> {
         let angle = |key: &str, default: f64| {
             let id = network.parameter(&format!("{}.{key}", self.name));
@@ -123,7 +123,7 @@ impl Gearbox {
         problems
     }
 
-    /// A ratio that was stated is that of the teeth.
+    /// Error if a stated ratio is not that of the teeth.
     fn stated(&self, teeth: &[f64]) -> Option<Diagnostic> {
         let (stated, span) = self.ratio.as_ref()?;
         let ratio = self.ratio_of(teeth);

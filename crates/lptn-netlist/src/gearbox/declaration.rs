@@ -1,4 +1,4 @@
-//! What `[gearbox.NAME]` takes.
+//! The keys of `[gearbox.NAME]`.
 
 use crate::format::{Role, SectionDeclaration, Takes, key, number, shaped, text, whole, words};
 
@@ -120,6 +120,6 @@ pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
 /// The sections of parts that a gearbox may have.
 pub(crate) const PARTS: [&str; 3] = ["bearing", "seal", "churning"];
 
-/// What a part of a gearbox says in place of its speed.
+/// Keys of a part of a gearbox instead of its speed.
 pub(crate) const ON: &str = "on";
 pub(crate) const AGAINST: &str = "against";

@@ -20,17 +20,17 @@ pub(super) const SIZES: [(&str, Dimension); 6] = [
     ("helix_angle", Dimension::ANGLE),
 ];
 
-/// Those without which a mesh has no friction.
+/// The keys that the friction of a mesh needs.
 const NEEDED: [&str; 4] = ["module", "width", "Ra", "lubricant"];
 
-/// What a stage was written out as.
+/// The parts of a stage that was written out.
 pub(super) struct Made {
     pub(super) gearbox: Gearbox,
     /// Entries with their sections.
     pub(super) entries: Vec<(&'static str, RawEntry)>,
     /// The types that its parameters and signals have to have.
     pub(super) types: Vec<(String, Type)>,
-    /// Where its speeds and torques stand: parameters, or signals if the input is one.
+    /// Kinds of its speeds and torques: parameters, or signals if the input is one.
     speed: ValueKind,
     torque: Option<ValueKind>,
 }
@@ -38,13 +38,13 @@ pub(super) struct Made {
 /// Writes entries, each at a place of the block.
 pub(super) struct Writer<'s, 'r> {
     pub(super) stage: &'s Stage<'r>,
-    /// Its name as expressions beside it call it: without the instance that it stands in.
+    /// Its name in expressions next to it: without the path of the instance that contains it.
     pub(super) here: String,
     pub(super) made: Made,
 }
 
 impl Made {
-    /// Writes out a stage, behind the one that drives it.
+    /// Writes out a stage, after the one that drives it.
     pub(super) fn of(
         (stage, driver): (&Stage<'_>, Option<&Made>),
         raw: &RawNetlist,
@@ -117,7 +117,7 @@ impl Writer<'_, '_> {
         &self.stage.entry.key_span
     }
 
-    /// A value of a member as expressions beside the block call it.
+    /// The name of a value of a member in expressions next to the block.
     pub(super) fn name(&self, member: Member, what: &str) -> String {
         format!("{}.{}.{what}", self.here, member.word())
     }
@@ -186,7 +186,7 @@ impl Writer<'_, '_> {
                 (None, Some(raw)) if *member == stage.input => raw.clone(),
                 _ => {
                     let (sign, factor) = self.quotient(*member, stage.input);
-                    // as the weight of the member, and not against it
+                    // with the sign of the member's weight, not against it
                     let sign = if sign.is_empty() { "-" } else { "" };
                     RawValue::text(format!("{sign}{input}{factor}"), self.at())
                 }
@@ -211,7 +211,7 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// What a full name is called beside the block.
+    /// A full name as expressions next to the block write it.
     fn beside(&self, full: &str) -> String {
         let prefix = self.stage.entry.key.strip_suffix(self.here.as_str()).unwrap_or("");
         full.strip_prefix(prefix).unwrap_or(full).to_owned()
@@ -252,7 +252,7 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// Sizes of meshes that lose nothing say nothing.
+    /// Reports sizes of meshes that have no effect because the meshes lose nothing.
     fn useless_without_torque(&self, problems: &mut Vec<Diagnostic>) {
         for key in SIZES.map(|(key, _)| key).into_iter().chain(["scuffing"]) {
             if let Some(span) = self.stage.fields.key(key) {
@@ -266,7 +266,7 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// What a mesh heats: its two members in halves.
+    /// The nodes that a mesh heats: half for each of its members, unless the stage heats one node.
     fn halves(&self, pair: [Member; 2], problems: &mut Vec<Diagnostic>) -> Option<RawValue> {
         if let Heated::One(raw) = self.stage.into {
             return Some(raw.clone());
@@ -293,7 +293,7 @@ impl Writer<'_, '_> {
         Some(RawValue { span: raw.span.clone(), kind: RawKind::Table(table) })
     }
 
-    /// That nothing says what a member heats.
+    /// Error for a member without a node to heat.
     pub(super) fn no_node(&self, member: Member) -> Diagnostic {
         let fields = &self.stage.fields;
         let message = format!("{} has no `{}`", fields.owner.field("into"), member.word());

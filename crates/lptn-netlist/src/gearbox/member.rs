@@ -1,17 +1,17 @@
-//! The members of a stage of gears, and how their speeds and torques hang together.
+//! The members of a stage of gears, and the relations of their speeds and torques.
 //!
-//! Willis: z_s w_s + z_r w_r - (z_s + z_r) w_c = 0, and the torques that act on the members from
-//! outside, without losses, are as z_s : z_r : -(z_s + z_r), so that they and their power sum to
-//! nothing. A pair of gears is z_1 w_1 + z_2 w_2 = 0 with torques as z_1 : z_2; its housing takes
-//! their sum. So one row of weights says both of both.
+//! Willis: z_s w_s + z_r w_r - (z_s + z_r) w_c = 0. The torques that act on the members from
+//! outside, without losses, are as z_s : z_r : -(z_s + z_r). So they and their power sum to zero. A
+//! pair of gears is z_1 w_1 + z_2 w_2 = 0 with torques as z_1 : z_2; its housing takes their sum.
+//! In both cases one row of weights gives speeds and torques.
 
 lptn_units::words! {
-/// A part of a stage that turns, or is held.
+/// A part of a stage that turns, or is fixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Member {
     /// The wheel in the middle of a planetary stage.
     Sun = "sun",
-    /// What the planets turn on.
+    /// The part on which the planets turn.
     Carrier = "carrier",
     /// The wheel with internal teeth.
     Ring = "ring",
@@ -22,11 +22,11 @@ pub enum Member {
     /// The second wheel of a pair.
     Wheel = "wheel",
 }
-/// What it is called, in netlists too.
+/// Its name, also in netlists.
 pub fn word;
 }
 
-/// Which members a stage has.
+/// The members of a stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arrangement {
     /// Sun, planets on a carrier, and a ring.
@@ -36,7 +36,7 @@ pub enum Arrangement {
 }
 
 impl Arrangement {
-    /// The members that turn about fixed axes, and so may be driven, held or lead out.
+    /// The members that turn about fixed axes, and so may be input, output or fixed.
     pub fn shafts(self) -> &'static [Member] {
         match self {
             Self::Planetary => &[Member::Sun, Member::Carrier, Member::Ring],
@@ -61,7 +61,7 @@ impl Arrangement {
     }
 }
 
-/// The weight of a member in sum(weight speed) = 0, to which its torque is proportional: whether it
+/// The weight of a member in sum(weight speed) = 0, to which its torque is proportional: true if it
 /// is negative, and its text. `z` gives the name of the teeth of a wheel.
 pub(super) fn weight(member: Member, z: impl Fn(Member) -> String) -> (bool, String) {
     match member {

@@ -1,11 +1,11 @@
 //! `[gearbox.NAME]`: a stage of gears as one block, written out as speeds, torques, meshes,
 //! bearings and seals before anything is read.
 //!
-//! Speeds and torques become parameters, or signals where the input is one, by the names that the
-//! docs list: `stage.sun.speed`, `stage.ring.torque`, `stage.force`. So nothing behind the netlist
-//! knows of gearboxes but what asks for one.
+//! Speeds and torques become parameters, or signals if the input is one, by the names that the docs
+//! list: `stage.sun.speed`, `stage.ring.torque`, `stage.force`. So only commands that ask for
+//! gearboxes know of them.
 //!
-//! A gearbox is expanded after the templates. No crate below knows gears, and sensitivities,
+//! A gearbox is expanded after the templates. No crate below knows of gears, and sensitivities,
 //! `--set`, fits and the expansion need no code for them. Everything that is written keeps the
 //! place of the value that it follows from, so that messages show the user's line.
 
@@ -31,7 +31,7 @@ use crate::template::Structure;
 use make::Made;
 use stage::Stage;
 
-/// Puts elements in the place of every gearbox.
+/// Replaces every gearbox by its elements.
 pub(crate) fn expand(
     raw: &mut RawNetlist,
     structure: &Structure,
@@ -47,7 +47,7 @@ pub(crate) fn expand(
     let known: Vec<&str> = entries.iter().map(|entry| entry.key.as_str()).collect();
     let mut made: Vec<Made> = Vec::new();
     let mut open: Vec<&Stage<'_>> = stages.iter().collect();
-    // a stage comes behind the one that drives it
+    // a stage comes after the one that drives it
     while !open.is_empty() {
         let before = open.len();
         open.retain(|stage| {
@@ -79,7 +79,7 @@ pub(crate) fn expand(
     gears
 }
 
-/// Whether a gearbox has a name that expressions can call.
+/// Checks that a gearbox has a name that expressions can use.
 fn is_usable(entry: &RawEntry, structure: &Structure, problems: &mut Vec<Diagnostic>) -> bool {
     let around = structure.instance_at(&entry.key_span);
     let own = around.and_then(|path| entry.key.strip_prefix(path)?.strip_prefix('.'));
@@ -92,7 +92,7 @@ fn is_usable(entry: &RawEntry, structure: &Structure, problems: &mut Vec<Diagnos
     usable
 }
 
-/// That the torque of an output goes to two stages.
+/// Error if the torque of an output goes to two stages.
 fn driven_twice(stages: &[Stage<'_>]) -> Option<Diagnostic> {
     let drivers = || stages.iter().filter_map(|stage| stage.driver.as_ref());
     let (at, (name, second)) = drivers()
@@ -107,7 +107,7 @@ fn driven_twice(stages: &[Stage<'_>]) -> Option<Diagnostic> {
     Some(problem.help("give the second one the `speed` and `torque` that it takes of it"))
 }
 
-/// That a stage is driven by nothing; nothing is said where the driver itself is wrong.
+/// Error for a stage without a driver; none if the driver itself is wrong.
 fn no_driver((name, at): &(String, &RawValue), known: &[&str]) -> Option<Diagnostic> {
     if known.contains(&name.as_str()) {
         let message = format!("no stage drives `{name}` in the end: stages drive each other");

@@ -1,4 +1,4 @@
-//! What a netlist knows of a stage of gears once it is written out.
+//! The data of a stage of gears after it is written out.
 
 use std::collections::HashMap;
 
@@ -7,32 +7,32 @@ use lptn_units::Type;
 
 use super::member::{Arrangement, Member};
 
-/// A stage of gears of a netlist, with the names of what it was written out as.
+/// A stage of gears of a netlist, with the names of the items that it was written out as.
 #[derive(Clone, Debug)]
 pub struct Gearbox {
     /// Its full name.
     pub name: String,
-    /// Which members it has.
+    /// Its arrangement of members.
     pub arrangement: Arrangement,
-    /// The member that stands still; a pair of gears has none.
+    /// The fixed member; a pair of gears has none.
     pub held: Option<Member>,
     /// The member whose speed and torque are given.
     pub input: Member,
-    /// The member that the power leaves by.
+    /// The member at which the power leaves.
     pub output: Member,
-    /// How many planets there are; 1 of a pair of gears.
+    /// Number of planets; 1 for a pair of gears.
     pub planets: usize,
-    /// Whether the planets stand at equal angles.
+    /// True if the planets are at equal angles.
     pub even: bool,
     /// The ratio that was stated, with its place.
     pub ratio: Option<(f64, Span)>,
-    /// Whether a torque is given: else its meshes lose nothing and there are none.
+    /// True if a torque is given; without one its meshes lose nothing, and there are none.
     pub loaded: bool,
     /// The stage whose output drives it.
     pub driver: Option<String>,
-    /// What loses power in it.
+    /// The parts that lose power in it.
     pub parts: Vec<GearboxPart>,
-    /// Where its name stands.
+    /// The place of its name.
     pub span: Span,
     pub(crate) teeth: Span,
 }
@@ -43,7 +43,7 @@ impl Gearbox {
         format!("{}.{}.{what}", self.name, member.word())
     }
 
-    /// What to set in the place of a value that follows from others; nothing for what is given.
+    /// The value to set instead of one that follows from others; `None` for other names.
     pub(crate) fn given_for(&self, name: &str) -> Option<String> {
         let rest = name.strip_prefix(self.name.as_str())?.strip_prefix('.')?;
         let (member, what) = rest.rsplit_once('.').unwrap_or(("", rest));
@@ -63,7 +63,7 @@ impl Gearbox {
     }
 }
 
-/// What loses power in a gearbox: one element, or one for each planet.
+/// A part that loses power in a gearbox: one element, or one for each planet.
 #[derive(Clone, Debug)]
 pub struct GearboxPart {
     /// Its name without the index of a planet.

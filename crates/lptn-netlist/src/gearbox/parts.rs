@@ -63,7 +63,7 @@ impl Writer<'_, '_> {
         self.part((section, &written.key), member == Member::Planet, &entries);
     }
 
-    /// Whether the block makes something of this name itself.
+    /// True if the block makes an item of this name itself.
     fn is_own(&self, name: &str) -> bool {
         let own = ["force", "mesh", "sun_planet", "planet_ring"];
         let size = SIZES.iter().any(|(key, _)| *key == name);
@@ -71,8 +71,8 @@ impl Writer<'_, '_> {
         own.contains(&name) || size || member || name.starts_with("z_")
     }
 
-    /// The member that a part is on, and its speed against what it turns in: the housing, or the
-    /// carrier for a planet.
+    /// The member that a part is on, and its speed against the housing; against the carrier for a
+    /// planet.
     fn turning(
         &self,
         (owner, written): (&Owner, &RawEntry),
@@ -152,7 +152,7 @@ impl Writer<'_, '_> {
     }
 }
 
-/// Whether the law of a part reads the lubricant and its table leaves that open.
+/// True if the law of a part reads the lubricant and its table does not give it.
 fn takes_oil(section: &str, table: &RawTable) -> bool {
     let Some(kind) = Kind::ALL.iter().find(|kind| kind.declaration().section == section) else {
         return false;

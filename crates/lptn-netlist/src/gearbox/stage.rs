@@ -1,4 +1,4 @@
-//! Reads the block of a stage: which members it has, which is held, where power comes in.
+//! Reads the block of a stage: its members, the fixed one, and the input.
 
 use lptn_data::{Diagnostic, Severity, Span, list, nearest};
 use lptn_units::{Type, parse_quantity};
@@ -9,10 +9,10 @@ use crate::fields::{Fields, Owner};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 use crate::template::Structure;
 
-/// More planets are a mistake.
+/// Largest number of planets; more are a mistake.
 const MOST_PLANETS: usize = 100;
 
-/// No wheel has more teeth.
+/// A wheel has at most this many teeth.
 const MOST_TEETH: f64 = 10_000.0;
 
 /// A stage as it is written.
@@ -34,17 +34,17 @@ pub(super) struct Stage<'r> {
     pub(super) driver: Option<(String, &'r RawValue)>,
 }
 
-/// What the parts of a stage heat.
+/// The nodes that the parts of a stage heat.
 #[derive(Debug)]
 pub(super) enum Heated<'r> {
-    /// One node, or what else `into` of a source takes.
+    /// One node, or another value that `into` of a source takes.
     One(&'r RawValue),
     /// A node for each member.
     Each(Vec<(Member, &'r RawValue)>),
 }
 
 impl<'r> Stage<'r> {
-    /// Reads a block and reports what is wrong with it.
+    /// Reads a block and reports its errors.
     pub(super) fn read(
         entry: &'r RawEntry,
         structure: &Structure,
@@ -83,7 +83,7 @@ impl<'r> Stage<'r> {
         (!wrong).then_some(stage)
     }
 
-    /// What a member heats, where that is said.
+    /// The node that a member heats, if given.
     pub(super) fn node_of(&self, member: Member) -> Option<&'r RawValue> {
         match &self.into {
             Heated::One(raw) => Some(raw),
@@ -94,7 +94,7 @@ impl<'r> Stage<'r> {
     }
 }
 
-/// Reads the keys, each with what is wrong about it.
+/// Reads the keys and reports their errors.
 struct Reader<'f, 'r> {
     fields: &'f Fields<'r>,
     problems: &'f mut Vec<Diagnostic>,
@@ -111,7 +111,7 @@ impl<'r> Reader<'_, 'r> {
         }
     }
 
-    /// The teeth of every wheel; which wheels there are says what stage it is.
+    /// The teeth of every wheel; the names of the wheels determine the arrangement.
     fn teeth(&mut self) -> Option<(Arrangement, Vec<(Member, &'r RawEntry)>)> {
         let raw = self.fields.require("teeth", self.problems)?;
         let table = self.table("teeth", raw)?;
@@ -146,7 +146,7 @@ impl<'r> Reader<'_, 'r> {
         (found.len() == wheels.len()).then_some((arrangement, found))
     }
 
-    /// That a number of teeth is whole and positive, where it is written as a number.
+    /// Checks that a number of teeth is whole and positive, if it is written as a number.
     fn counted(&mut self, member: Member, raw: &RawValue) {
         let (RawKind::Integer(text) | RawKind::Float(text)) = &raw.kind else { return };
         let whole = |z: f64| (1.0..=MOST_TEETH).contains(&z) && z.fract() == 0.0;
@@ -158,7 +158,7 @@ impl<'r> Reader<'_, 'r> {
         }
     }
 
-    /// The member that is held, by its word; `None` if it is wrong.
+    /// The fixed member, by its word; `None` if it is wrong.
     fn held(&mut self, arrangement: Arrangement) -> Option<Option<Member>> {
         let why = "has no effect for a pair of gears, whose shafts both turn";
         match (arrangement, self.fields.get("held")) {

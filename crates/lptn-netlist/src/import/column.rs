@@ -1,4 +1,4 @@
-//! The columns of an imported file, and what is wrong with its cells.
+//! The columns of an imported file, and errors of its cells.
 
 use lptn_data::{CsvColumn, CsvRows, Diagnostic, MOST_PROBLEMS};
 use lptn_laws::Formula;
@@ -38,17 +38,17 @@ impl<'a> Elaboration<'a> {
         known.then_some(rows)
     }
 
-    /// A column that has to be there.
+    /// A required column.
     pub(crate) fn required_column(&mut self, rows: &CsvRows<'_>, name: &str) -> Option<usize> {
         self.kept(rows.required(name))
     }
 
-    /// A column that may be there.
+    /// An optional column.
     pub(crate) fn optional_column(&mut self, rows: &CsvRows<'_>, name: &str) -> Option<usize> {
         self.kept(rows.optional(name)).flatten()
     }
 
-    /// A column of numbers that has to be there.
+    /// A required column of numbers.
     pub(crate) fn number_column(
         &mut self,
         rows: &CsvRows<'_>,
@@ -87,7 +87,7 @@ impl<'a> Elaboration<'a> {
     pub(crate) fn number(&mut self, rows: &mut CsvRows<'_>, column: &CsvColumn) -> Input {
         let ty = column.unit.ty;
         if !rows.sound {
-            return stand_in(ty); // what stands in which column cannot be told
+            return stand_in(ty); // the columns of the cells are uncertain
         }
         match rows.number(column) {
             Ok(value) => Quantity { value, deviation: None, ty }.into(),
@@ -125,7 +125,7 @@ impl<'a> Elaboration<'a> {
         None
     }
 
-    /// Whether a row has a name; one without is left out.
+    /// True if a row has a name; one without is left out.
     pub(crate) fn is_named(&mut self, rows: &mut CsvRows<'_>, index: usize) -> bool {
         let named = !rows.cell(index).is_empty();
         if !named && rows.sound {
@@ -137,8 +137,8 @@ impl<'a> Elaboration<'a> {
         named
     }
 
-    /// Goes to the next row, if there is one. A row that has more or fewer cells than the header is
-    /// reported: something in it is not where it seems to be.
+    /// Goes to the next row, if there is one. A row with more or fewer cells than the header is
+    /// reported, because its cells may be in the wrong columns.
     pub(crate) fn next_row(&mut self, rows: &mut CsvRows<'_>) -> bool {
         let there = rows.step();
         if there && !rows.sound {
@@ -147,7 +147,7 @@ impl<'a> Elaboration<'a> {
         there
     }
 
-    /// Reports a problem of a row, up to so many of a file.
+    /// Reports a problem of a row, up to [`MOST_PROBLEMS`] of a file.
     fn refuse_row<'s>(
         &mut self,
         rows: &mut CsvRows<'s>,

@@ -1,5 +1,5 @@
-//! `[import]`: elements from CSV files, by the million. Rows are read one after the other and
-//! nothing is kept of them but what the network needs.
+//! `[import]`: elements from CSV files, by the million. Rows are read one after the other, and only
+//! the data that the network needs is kept.
 //!
 //! An imported element costs the memory of its contents. Names are stored once, in the nodes, with
 //! an index of hashes. Conductors without a name get the number of their row as name on request.
@@ -54,7 +54,7 @@ pub(crate) fn files(raw: &RawNetlist) -> impl Iterator<Item = (&str, &RawValue)>
     })
 }
 
-/// What a file holds: the key that names it, and its columns.
+/// The contents of a file: the key that names it, and its columns.
 pub(crate) struct Contents {
     key: &'static str,
     columns: &'static [&'static str],
@@ -74,7 +74,7 @@ const CONDUCTORS: Contents = Contents {
 const SOURCES: Contents =
     Contents { key: "sources", columns: &["into", "P", "name"], example: "into,P [W]" };
 
-/// The way back from the elements, the first of them given, to their rows.
+/// The way back from the elements, the first of which is given, to their rows.
 fn places(
     rows: CsvRows<'_>,
     (kind, first): (Kind, usize),
@@ -208,7 +208,7 @@ impl<'a> Elaboration<'a> {
         self.map.add_import(places(rows, (Kind::Source, first), &fields));
     }
 
-    /// What the absence of a file makes uncertain.
+    /// Notes that names may be unknown because a file is missing.
     fn lost(&mut self) {
         self.names.hide_all();
         self.left_out.sections = true;

@@ -8,14 +8,13 @@ use crate::section::CONTROL;
 use crate::work::Elaboration;
 
 impl Elaboration<'_> {
-    /// Whether a control is on in the state that the run starts from; `None` if it starts from
-    /// none.
+    /// True if a control is on in the state that the run starts from; `None` without such a state.
     pub(crate) fn stands(&self, name: &str) -> Option<bool> {
         self.state?.controls.get(name).map(|(stand, _)| stand.on)
     }
 
-    /// How long each control was held, in s, by id, in the state that the run starts from; empty if
-    /// it starts from none.
+    /// Time in s for which each control has been as it is, by id, in the state that the run starts
+    /// from; empty without such a state.
     pub(crate) fn held(&self) -> Vec<Option<f64>> {
         let Some(file) = self.state else { return Vec::new() };
         let controls = self.elements(CONTROL.name).iter();

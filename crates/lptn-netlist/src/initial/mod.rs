@@ -1,5 +1,5 @@
-//! `initial` of `[run]`: temperatures and controls at the start, from the state that another run
-//! left.
+//! `initial` of `[run]`: temperatures and controls at the start, from the final state of another
+//! run.
 
 mod control;
 mod stand;
@@ -28,23 +28,23 @@ const NAMED: NamedFile = NamedFile {
     else_help: "; `lptn run` writes `out/NAME/state.json`",
 };
 
-/// Where a node whose state is not known is looked at for other mistakes, in K.
+/// Temperature in K of a node whose state is unknown, to check for other mistakes.
 const ANYWHERE: f64 = 298.15;
 
-/// What a state file holds, and nothing else.
+/// All members that a state file may have.
 const MEMBERS: [&str; 8] =
     ["format", "network", "title", "time", "end", "temperatures", "melted", "controls"];
 
 /// The state that a run starts from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InitialState {
-    /// The file that holds it.
+    /// The file that contains it.
     pub file: String,
-    /// The time in s that it stands at.
+    /// Its time in s.
     pub time: f64,
-    /// How the run ended that wrote it.
+    /// The end of the run that wrote it.
     pub end: StateEnd,
-    /// Where the netlist names it.
+    /// The place that names it in the netlist.
     pub place: Span,
 }
 
@@ -72,7 +72,7 @@ impl<T: Copy> Named<T> {
     }
 }
 
-/// A state file, or what is wrong with it.
+/// A state file, or its errors.
 #[derive(Clone, Debug)]
 pub(crate) struct StateFile {
     pub(crate) state: InitialState,
@@ -80,7 +80,7 @@ pub(crate) struct StateFile {
     melted: Named<f64>,
     controls: Named<Stand>,
     problems: Vec<Diagnostic>,
-    /// Whether a file was named.
+    /// True if a file was named.
     usable: bool,
 }
 
@@ -92,7 +92,7 @@ impl StateFile {
         loader: Option<&mut Loader<'_>>,
     ) -> Self {
         let RawKind::String { text, .. } = &value.kind else {
-            // said where `[run]` is read; nodes are not missing a start for it
+            // reported where `[run]` is read; nodes then need no start
             return Self { usable: false, ..Self::empty(String::new(), value) };
         };
         let from =
@@ -166,7 +166,7 @@ impl StateFile {
         self.problems.push(problem.help(help));
     }
 
-    /// What a member holds in this unit; what is wrong with it is reported.
+    /// The contents of a member in this unit; errors are reported.
     fn in_unit<'a>(
         &mut self,
         members: &Members<'a>,
@@ -212,7 +212,7 @@ impl StateFile {
         number
     }
 
-    /// The members of an object by name, each read in this way.
+    /// The members of an object by name, each read by the given function.
     fn named<T: Copy>(
         &mut self,
         value: JsonValue<'_>,

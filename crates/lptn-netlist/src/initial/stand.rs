@@ -5,11 +5,11 @@ use lptn_data::Span;
 use super::{Members, StateFile, member};
 use crate::json::JsonValue;
 
-/// Where a control stands.
+/// The state of a control.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stand {
     pub(super) on: bool,
-    /// How long it has been so, in s; `None` if it never switched.
+    /// Time in s since it switched; `None` if it never switched.
     pub(super) held: Option<f64>,
 }
 

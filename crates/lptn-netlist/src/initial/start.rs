@@ -1,4 +1,4 @@
-//! Where nodes start that a state has a temperature of.
+//! Initial temperatures of nodes from a state.
 
 use std::collections::HashSet;
 
@@ -14,8 +14,8 @@ use crate::state::StateEnd;
 use crate::work::Elaboration;
 
 impl<'a> Elaboration<'a> {
-    /// The temperature of a node in the state that the run starts from; `None` if it starts from
-    /// none.
+    /// The temperature of a node in the state that the run starts from; `None` without such a
+    /// state.
     pub(crate) fn start_of(
         &mut self,
         entry: &RawEntry,
@@ -37,7 +37,7 @@ impl<'a> Elaboration<'a> {
         Some((kelvin(ANYWHERE), None))
     }
 
-    /// How much of a node is molten in the state that the run starts from.
+    /// Sets the molten share of a node from the state that the run starts from.
     pub(crate) fn molten(&mut self, name: &str, id: NodeId) {
         let share = self.state.and_then(|file| file.melted.get(name));
         if let Some((share, _)) = share.filter(|(share, _)| (0.0..=1.0).contains(share)) {
@@ -45,8 +45,8 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// The nodes of grids and imports, which stand in no `[node]`: their temperatures in the state
-    /// take the place of those that the file gives them. And all massless nodes: where they stood.
+    /// Sets the nodes of grids and imports, which are not in `[node]`: temperatures of the state
+    /// replace those of the file. Sets all massless nodes, too.
     pub(crate) fn start_the_others(&mut self) {
         let Some(file) = self.state.filter(|file| file.usable && file.problems.is_empty()) else {
             return;
@@ -82,7 +82,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Reports what is wrong with the state that the run starts from, and what it names beyond the
+    /// Reports the errors of the state that the run starts from, and its names that are not in the
     /// network.
     pub(crate) fn check_state(&mut self) {
         let Some(file) = self.state else { return };
@@ -99,7 +99,7 @@ impl<'a> Elaboration<'a> {
         self.check_controls(file);
     }
 
-    /// Where `T0` of a node is that the state takes the place of.
+    /// Notes the place of `T0` of a node that the state replaces.
     pub(crate) fn place_in_state(&mut self, id: NodeId, place: Option<Span>) {
         if let Some(place) = place {
             self.map.insert(Item::Node(id), Field::Initial, place);
@@ -107,7 +107,7 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-/// What a reader should know of where a run starts.
+/// Warnings about the start of a run.
 pub(crate) fn warnings(
     state: &InitialState,
     plan: Option<&RunPlan>,

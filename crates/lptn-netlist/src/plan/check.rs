@@ -1,4 +1,4 @@
-//! What is wrong with the numbers of a plan.
+//! Errors in the numbers of a plan.
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Network, ParameterId};
@@ -44,7 +44,7 @@ impl PlanStudy {
         self.known.iter().zip(&numbers.known).filter_map(unsound).collect()
     }
 
-    /// Every setting, and whether it may be 0.
+    /// Every setting, with true if it may be 0.
     fn settings(&self) -> Vec<(&Setting, bool)> {
         let mut all = vec![(&self.every, false)];
         all.extend(self.duration.iter().map(|duration| (duration, false)));
@@ -59,7 +59,7 @@ impl PlanStudy {
             all.extend(place.drift.iter().flat_map(|(drift, time)| [(drift, true), (time, false)]));
             all.extend(place.cost.iter().map(|cost| (cost, true)));
         }
-        // what all places share is there more than once
+        // settings that all places share appear more than once
         let mut seen: Vec<&Span> = Vec::new();
         all.retain(|(setting, _)| {
             let new = !seen.contains(&&setting.span);
@@ -69,7 +69,7 @@ impl PlanStudy {
         all
     }
 
-    /// A run has at least two samples, and no more than can be looked at.
+    /// Checks that a run has at least one, and at most a million, intervals between samples.
     fn durations(&self, numbers: &PlanNumbers) -> Option<Diagnostic> {
         const MOST: f64 = 1e6;
         let every = numbers.every;

@@ -1,4 +1,4 @@
-//! `[plan.NAME]`: what a measurement shall tell, and the sensors and runs that it may take.
+//! `[plan.NAME]`: parameters that a measurement must determine, and its possible sensors and runs.
 
 mod check;
 mod declaration;
@@ -19,7 +19,7 @@ use crate::work::Elaboration;
 
 use declaration::PLAN;
 
-/// Combinations of the lists of one run, at most.
+/// Most combinations of the lists of one run.
 pub(crate) const MOST_RUNS: usize = 200;
 
 /// One `[plan.NAME]`, as it is written; [`PlanStudy::numbers`] has its numbers.
@@ -27,19 +27,19 @@ pub(crate) const MOST_RUNS: usize = 200;
 pub struct PlanStudy {
     /// Its name.
     pub name: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
-    /// What shall be known, in file order; at least one.
+    /// The parameters to be determined, in file order; at least one.
     pub known: Vec<Target>,
-    /// The names of what else is not known, with their places.
+    /// The names of further unknown parameters, with their places.
     pub varied: Vec<(String, Span)>,
-    /// Where sensors could be, in file order; at least one.
+    /// Possible places of sensors, in file order; at least one.
     pub places: Vec<PlanPlace>,
     /// The runs that could be measured, in file order.
     pub runs: Vec<PlanRun>,
     /// Names of runs that are measured in any case.
     pub done: Vec<String>,
-    /// Names of the fits whose records are there already.
+    /// Names of the fits whose records exist already.
     pub given: Vec<String>,
     pub(crate) every: Setting,
     pub(crate) duration: Option<Setting>,
@@ -48,23 +48,23 @@ pub struct PlanStudy {
     pub(crate) budget: Option<Setting>,
 }
 
-/// A parameter that shall be known.
+/// A parameter to be determined.
 #[derive(Clone, Debug)]
 pub struct Target {
     /// Its name.
     pub name: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
-    /// In percent of its value, where it is written so.
+    /// The required error in percent of its value, if it is written so.
     pub(crate) percent: Option<f64>,
-    /// Else in its unit.
+    /// The required error in its unit otherwise.
     pub(crate) absolute: Option<Value>,
 }
 
 /// A place where a sensor could be.
 #[derive(Clone, Debug)]
 pub struct PlanPlace {
-    /// Its name as column, what is measured there, and the instrument.
+    /// Its name as column, the measured result, and the instrument.
     pub observed: Observed,
     pub(crate) noise: Setting,
     /// Standard deviation and time of a drift.
@@ -77,7 +77,7 @@ pub struct PlanPlace {
 pub struct PlanRun {
     /// Its name.
     pub name: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
     /// The parameters that it sets, with one value or several.
     pub(crate) set: Vec<(String, Vec<(Value, String)>)>,
@@ -86,7 +86,7 @@ pub struct PlanRun {
 }
 
 impl PlanRun {
-    /// Whether it has values of its own for a parameter.
+    /// True if it has separate values for a parameter.
     pub fn sets(&self, parameter: &str) -> bool {
         self.set.iter().any(|(name, _)| name == parameter)
     }
@@ -95,9 +95,9 @@ impl PlanRun {
 /// The numbers of a [`PlanStudy`] for the parameters of a network, in SI units.
 #[derive(Clone, Debug)]
 pub struct PlanNumbers {
-    /// The parameters that shall be known, with the standard error of each.
+    /// The parameters to be determined, with the required standard error of each.
     pub known: Vec<(ParameterId, KnownTo)>,
-    /// What else is not known; none of those above.
+    /// Further unknown parameters; none of those above.
     pub varied: Vec<ParameterId>,
     /// For each of [`PlanStudy::places`].
     pub places: Vec<PlaceNumbers>,
@@ -105,18 +105,18 @@ pub struct PlanNumbers {
     pub runs: Vec<RunNumbers>,
     /// The time between two samples in s.
     pub every: f64,
-    /// What an hour costs.
+    /// Cost of an hour.
     pub hour: f64,
-    /// What all may cost; infinite without a limit.
+    /// The limit of the total cost; infinite without a limit.
     pub budget: f64,
 }
 
-/// To which standard error a parameter shall be known.
+/// The required standard error of a parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum KnownTo {
-    /// To this part of its value.
+    /// This part of its value.
     Part(f64),
-    /// To this, in its SI unit.
+    /// This number, in its SI unit.
     Error(f64),
 }
 
@@ -139,33 +139,33 @@ pub struct PlaceNumbers {
     pub drift: f64,
     /// The time in s after which 1/e of the drift is left.
     pub drift_time: f64,
-    /// What a sensor there costs.
+    /// Cost of a sensor there.
     pub cost: f64,
 }
 
 /// One run that could be measured.
 #[derive(Clone, Debug)]
 pub struct RunNumbers {
-    /// Its name; with the values that are its own where it is one of several.
+    /// Its name; with its own values if it is one of several.
     pub name: String,
-    /// Place of what it is written as among [`PlanStudy::runs`]; none for the network as it stands.
+    /// Its place among [`PlanStudy::runs`]; none for the network as it is.
     pub of: Option<usize>,
-    /// Whether it is measured in any case.
+    /// True if it is measured in any case.
     pub done: bool,
-    /// Everything that was set, and what the run sets.
+    /// Everything that was set, and the values of the run.
     pub parameters: Parameters,
-    /// How long it may last in s.
+    /// Its longest duration in s.
     pub duration: f64,
-    /// What it costs beside its time.
+    /// Its cost in addition to that of its time.
     pub cost: f64,
 }
 
 impl PlanStudy {
-    /// The numbers for the parameters of `network`; `set` is what was set in it, see
-    /// [`Netlist::overrides`](crate::Netlist::overrides).
+    /// The numbers for the parameters of `network`; `set` contains the values that were set in it,
+    /// see [`Netlist::overrides`](crate::Netlist::overrides).
     ///
     /// # Errors
-    /// What the evaluation of a value reports.
+    /// The error of the evaluation of a value.
     pub fn numbers(&self, network: &Network, set: &Parameters) -> Result<PlanNumbers, EvalError> {
         let mut scope = network.evaluation();
         let mut at = |value: &Value| value.at(&mut scope);

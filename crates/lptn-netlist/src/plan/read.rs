@@ -236,7 +236,7 @@ impl<'a> Elaboration<'a> {
         Some((run?, hour?))
     }
 
-    /// Names of runs or fits that there are.
+    /// Names of existing runs or fits.
     fn plan_names(
         &mut self,
         fields: &Fields<'a>,
@@ -266,7 +266,7 @@ impl<'a> Elaboration<'a> {
         Some(names)
     }
 
-    /// What is sought has one value, which no run can set.
+    /// Refuses runs that set a parameter to be estimated, which has one value.
     fn set_and_sought(
         &mut self,
         runs: &[PlanRun],

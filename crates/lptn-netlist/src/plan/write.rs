@@ -73,7 +73,7 @@ impl PlanRun {
     }
 }
 
-/// A number, where it is there.
+/// A number, if given.
 fn number(setting: Option<&Setting>) -> Option<String> {
     setting.map(|setting| value(&setting.value, Type::SCALAR))
 }

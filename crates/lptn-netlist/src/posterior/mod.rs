@@ -1,4 +1,4 @@
-//! What a fit left behind: values with their covariance, as the file `posterior.json` holds them.
+//! The result of a fit: values with their covariance, as the file `posterior.json` contains them.
 
 mod read;
 mod write;
@@ -12,7 +12,7 @@ use lptn_units::{Correlations, Distribution, Spread};
 pub(crate) const FORMAT: &str = "1";
 
 lptn_units::words! {
-/// What a quantity of a posterior belongs to.
+/// The owner of a quantity of a posterior.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PosteriorOf {
     /// It is a parameter of the network.
@@ -30,55 +30,55 @@ impl PosteriorOf {
     }
 }
 
-/// What was known of a quantity before the fit, in SI units.
+/// Knowledge of a quantity before the fit, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PosteriorPrior {
     /// The value.
     pub value: f64,
-    /// How far it may be off.
+    /// Its uncertainty.
     pub spread: Spread,
 }
 
-/// A quantity that a fit found, in SI units, an absolute temperature in K.
+/// A quantity that a fit estimated, in SI units, an absolute temperature in K.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PosteriorQuantity {
     /// Its name: a parameter's, or `tc1.offset`.
     pub name: String,
-    /// What it belongs to.
+    /// Its owner.
     pub of: PosteriorOf,
-    /// What the fit found.
+    /// The estimate of the fit.
     pub value: f64,
     /// Its SI unit.
     pub unit: String,
-    /// How far it may be off; `None` on a bound, where nothing tells it. Normal, or lognormal where
-    /// the fit moved in its logarithm.
+    /// Its uncertainty; `None` on a bound, as it is unknown. Normal, or lognormal if the fit
+    /// varied its logarithm.
     pub spread: Option<Spread>,
     /// Half the width of its 95 % interval.
     pub half_width: Option<f64>,
-    /// The degrees of freedom of its standard error; `None` where the error is known.
+    /// The degrees of freedom of its standard error; `None` if the error is known.
     pub degrees_of_freedom: Option<f64>,
-    /// The least and the greatest value that the fit allowed; infinite where there is none.
+    /// The least and the greatest value that the fit allowed; infinite if there is none.
     pub bounds: (f64, f64),
-    /// What was known of it before.
+    /// Its prior.
     pub prior: Option<PosteriorPrior>,
 }
 
-/// What a fit found: values, how far each may be off, and how far two are off together.
+/// The result of a fit: values, the uncertainty of each, and their correlations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Posterior {
-    /// What the network is called: its file without the ending.
+    /// The name of the network: its file without the extension.
     pub network: String,
     /// The name of the fit.
     pub fit: String,
-    /// What was found, in the order of the fit.
+    /// The quantities, in the order of the fit.
     pub quantities: Vec<PosteriorQuantity>,
-    /// The correlations of those that have a spread, in their order; of a lognormal one that of its
-    /// logarithm.
+    /// The correlations of the quantities that have a spread, in their order; those of lognormal
+    /// ones are of their logarithms.
     pub correlations: Correlations,
 }
 
 impl PosteriorQuantity {
-    /// What the covariance is of: `alpha`, or `ln alpha`.
+    /// The coordinate of its covariance: `alpha`, or `ln alpha`.
     fn coordinate(&self) -> Option<String> {
         let spread = self.spread?;
         Some(match spread.distribution {
@@ -98,13 +98,13 @@ impl PosteriorQuantity {
 }
 
 impl Posterior {
-    /// The quantities that the covariance is of, as places among all.
+    /// The quantities of the covariance, as positions among all.
     pub fn uncertain(&self) -> Vec<usize> {
         (0..self.quantities.len()).filter(|&i| self.quantities[i].spread.is_some()).collect()
     }
 
-    /// The covariance of the uncertain quantities, row by row, of a lognormal one that of its
-    /// logarithm.
+    /// The covariance of the uncertain quantities, row by row; that of lognormal ones is of their
+    /// logarithms.
     pub fn covariance(&self) -> Vec<Vec<f64>> {
         let sigmas: Vec<f64> =
             self.quantities.iter().filter_map(PosteriorQuantity::sigma).collect();
@@ -113,14 +113,14 @@ impl Posterior {
     }
 }
 
-/// A posterior that a netlist takes: where it came from, and what of it counts.
+/// A posterior that a netlist takes, with its origin and the parameters that count.
 #[derive(Clone, Debug)]
 pub struct Believed {
     /// The posterior.
     pub posterior: Posterior,
     /// The parameters that are taken; all unless named.
     pub only: Option<Vec<String>>,
-    /// Where the netlist names it; `None` for one of the command line.
+    /// The place that names it in the netlist; `None` for one of the command line.
     pub(crate) named: Option<Span>,
     /// The places of the quantities in its file.
     pub(crate) places: Vec<Span>,

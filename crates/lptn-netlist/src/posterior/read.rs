@@ -8,7 +8,7 @@ use lptn_units::{Correlations, Distribution, Spread};
 use super::{FORMAT, Posterior, PosteriorOf, PosteriorPrior, PosteriorQuantity};
 use crate::json::{Json, JsonValue};
 
-/// A standard error and the covariance of one file agree to this.
+/// Allowed relative difference between a standard error and the covariance of one file.
 const SAME: f64 = 1e-6;
 
 const HELP: &str = "use the `posterior.json` that `lptn fit network -o DIR` writes";
@@ -20,7 +20,7 @@ pub(crate) struct PosteriorFile {
     pub(crate) places: Vec<Span>,
 }
 
-/// That something is wrong with a posterior, at its place; `named` is where the netlist names it.
+/// Error about a posterior, at its place; `named` is the place that names it in the netlist.
 pub(crate) fn problem(
     code: &'static str,
     words: impl Into<String>,
@@ -36,10 +36,10 @@ pub(crate) fn problem(
 
 type Members<'a> = Vec<(Cow<'a, str>, JsonValue<'a>)>;
 
-/// The first thing that is wrong; the code, the words, the place.
+/// The first error: code, words, place.
 type Wrong = (&'static str, String, Span);
 
-/// An object of the file: what it is called, its members, its place.
+/// An object of the file: its name in messages, its members, its place.
 struct Object<'a> {
     words: String,
     members: Members<'a>,
@@ -50,7 +50,7 @@ impl PosteriorFile {
     /// Reads a file.
     ///
     /// # Errors
-    /// The first thing that is not as lptn writes it.
+    /// The first deviation from the form that lptn writes.
     pub(crate) fn read(
         files: &Files,
         file: FileId,
@@ -142,7 +142,7 @@ fn joint(object: &Object<'_>, quantities: &mut [PosteriorQuantity]) -> Result<Co
     }
 }
 
-/// What stands beside the covariance says the same, where it is there: whose rows they are, and the
+/// Checks the members next to the covariance, if present: the names of its rows, and the
 /// correlations.
 fn labelled(
     object: &Object<'_>,
@@ -277,7 +277,7 @@ impl<'a> Object<'a> {
         found.number().ok_or_else(|| self.wrong(name, "a number", found))
     }
 
-    /// A number, or nothing where there is `null`.
+    /// A number; `None` for `null`.
     fn maybe(&self, name: &str) -> Result<Option<f64>, Wrong> {
         match self.member(name) {
             None => Ok(None),

@@ -7,7 +7,7 @@ use serde_json::{Map, Value, json};
 
 use super::{FORMAT, Posterior, PosteriorQuantity};
 
-/// What the numbers of the covariance are, for people.
+/// The meaning of the numbers of the covariance, for readers.
 const COORDINATES: &str = "rows and columns are those of `of`; \"ln x\" is the natural logarithm of \
     x over its SI unit, everything else is in the unit of the quantity";
 
@@ -15,7 +15,7 @@ impl Posterior {
     /// Writes the file; every number reads back as the same `f64`.
     ///
     /// # Errors
-    /// What the stream reports.
+    /// The error of the stream.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let text = |value: Value| value.to_string();
         writeln!(out, "{{\n  \"format\": {FORMAT},\n  \"kind\": \"posterior\",")?;

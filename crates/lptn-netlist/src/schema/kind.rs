@@ -1,4 +1,4 @@
-//! The schema of a path or source: which keys the laws of its kind need.
+//! The schema of a path or source: the keys that the laws of its kind need.
 
 use lptn_laws::{FieldDeclaration, Formula, Substance};
 use serde_json::{Value, json};
@@ -8,9 +8,9 @@ use crate::gearbox::{AGAINST, MEMBERS, ON};
 use crate::schema::value::{of_key, one_of, table};
 use crate::section::{LUBRICANT_OF, PathSection};
 
-/// What the face of a grid may say.
+/// The key that the face of a grid may give.
 const AREA: &str = "area";
-/// What the member that a part of a gearbox is on says.
+/// The key that follows from the member that a part of a gearbox is on.
 const SPEED: &str = "speed";
 
 /// An element of a section.
@@ -24,7 +24,7 @@ pub(super) fn element(path: &PathSection) -> Value {
     whole
 }
 
-/// A bearing, seal or gear in oil of a gearbox: `on` says its speed, and the block the rest.
+/// A bearing, seal or gear in oil of a gearbox: `on` determines its speed, and the block the rest.
 pub(super) fn part(path: &PathSection) -> Value {
     let mut whole = table(&path.section);
     let selector = path.kind.declaration().selector;
@@ -39,10 +39,10 @@ pub(super) fn part(path: &PathSection) -> Value {
     whole
 }
 
-/// The keys with which each form of a path begins: one of them has to be there.
+/// The keys with which each form of a path begins: one of them is required.
 fn forms(path: &PathSection) -> Option<Value> {
     let needed = |keys: Vec<&str>| json!({ "required": keys });
-    // the face at which a path ends may say the area
+    // the face at which a path ends may give the area
     let own = |keys: &[&'static str]| keys.iter().copied().filter(|key| *key != AREA).collect();
     let mut all: Vec<Value> = path.forms().map(|keys| needed(own(keys))).collect();
     all.extend(path.kind.declaration().selector.map(|key| needed(vec![key])));
@@ -63,7 +63,7 @@ fn words_of(path: &PathSection) -> impl Iterator<Item = Formula> {
     path.kind.laws().filter(move |law| chosen && first(law))
 }
 
-/// What the laws of a word need: what all of them do, for what is given chooses one.
+/// The keys that all laws of a word need; the given keys choose one of these laws.
 fn of_word(path: &PathSection, law: Formula, is_part: bool) -> Value {
     let word = law.declaration().name;
     let key = path.kind.declaration().selector.unwrap_or_default();
@@ -82,7 +82,7 @@ fn of_word(path: &PathSection, law: Formula, is_part: bool) -> Value {
     })
 }
 
-/// That a field is there, or what gives it.
+/// Requires a field, or a substance that gives it.
 fn need(field: &FieldDeclaration, is_part: bool) -> Option<Value> {
     let key = |key: &str| json!({ "required": [key] });
     match field.property {

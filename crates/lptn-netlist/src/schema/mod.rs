@@ -1,8 +1,8 @@
 //! The JSON schema of a netlist, from the declarations of its sections: editors complete, explain
 //! and check by it.
 //!
-//! It is never stricter than the reader. What a schema cannot say is left to `lptn check`: names,
-//! units, values, and which keys exclude each other.
+//! It is never stricter than the reader. `lptn check` does the rest: names, units, values, and keys
+//! that exclude each other.
 
 mod kind;
 mod value;
@@ -63,7 +63,7 @@ fn top() -> Map<String, Value> {
     all.into_iter().map(|(key, value)| (key.to_owned(), value)).collect()
 }
 
-/// Whether a section has keys, and no elements with names.
+/// True if a section has keys, and no elements with names.
 fn is_alone(section: &SectionDeclaration) -> bool {
     matches!(section.role, Role::Default | Role::Import)
         || [RUN.name, UNCERTAINTY.name].contains(&section.name)
@@ -95,7 +95,7 @@ fn element(section: &'static SectionDeclaration) -> Value {
     }
 }
 
-/// A template holds the sections that stand in it as they stand at the top.
+/// A template, which contains the same sections as the top level.
 fn template(format: &NetlistFormat) -> Value {
     let keys = TEMPLATE.keys.iter().map(|key| (key.name.to_owned(), of_key(key)));
     let inside = format.sections.iter().filter(|section| {

@@ -1,4 +1,4 @@
-//! The schema of what keys take.
+//! The schema of the values of keys.
 
 use lptn_data::Files;
 use lptn_units::parse_quantity;
@@ -12,7 +12,7 @@ use crate::section::TABLE;
 const NAMES: &str =
     r"^[A-Za-z_][A-Za-z0-9_]*(\[[0-9,]+\])?(\.[A-Za-z_][A-Za-z0-9_]*(\[[0-9,]+\])?)*$";
 
-/// A table of names, each of which has such a value.
+/// A table of names, each with such a value.
 pub(super) fn named(value: Value) -> Value {
     object([("patternProperties", json!({ NAMES: value })), ("additionalProperties", false.into())])
 }
@@ -23,7 +23,7 @@ pub(super) fn object<const N: usize>(members: [(&str, Value); N]) -> Value {
     Value::Object(all.map(|(name, value)| (name.to_owned(), value)).collect())
 }
 
-/// What an element of a section is.
+/// A reference to the schema of an element of a section.
 pub(super) fn reference(section: &str) -> Value {
     json!({ "$ref": format!("#/$defs/{section}") })
 }
@@ -52,7 +52,7 @@ pub(super) fn table(section: &SectionDeclaration) -> Value {
     whole
 }
 
-/// What a key takes, with its help, its default and an example.
+/// The values that a key takes, with its help, its default and an example.
 pub(super) fn of_key(key: &KeyDeclaration) -> Value {
     let mut text = format!("{}.\n\nTakes: {}.", key.meaning, key.takes());
     if !key.default.is_empty() {
@@ -68,7 +68,7 @@ pub(super) fn of_key(key: &KeyDeclaration) -> Value {
     Value::Object(all)
 }
 
-/// The schema of what a key takes.
+/// The schema of a type of values.
 pub(super) fn of_takes(takes: &Takes) -> Value {
     match *takes {
         Takes::Quantity(_) | Takes::Text => json!({ "type": "string" }),
@@ -96,7 +96,7 @@ pub(super) fn of_takes(takes: &Takes) -> Value {
     }
 }
 
-/// The example of a key; of a list that law by law has one value, as many of it.
+/// The example of a key; for a list whose laws have one value each, a list of the least length.
 fn example(key: &KeyDeclaration) -> Option<Value> {
     let value = read(key.example)?;
     Some(match key.takes {
@@ -105,7 +105,7 @@ fn example(key: &KeyDeclaration) -> Option<Value> {
     })
 }
 
-/// What holds where a key is left out, if that is a value and no sentence.
+/// The default of a key, if it is a value, not a sentence.
 fn default(key: &KeyDeclaration) -> Option<Value> {
     let text = key.default.trim_matches('`');
     let whole = matches!(key.takes, Takes::Number | Takes::Whole);

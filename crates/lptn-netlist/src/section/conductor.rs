@@ -24,7 +24,7 @@ impl<'a> Elaboration<'a> {
         let mut fields = self.fields(section, entry)?;
         let (from, to) = (self.terminal(&fields, "from"), self.terminal(&fields, "to"));
         fields.area = self.area_of(&fields, [&from, &to]);
-        // a stand-in where the law is wrong, so that the ends still count
+        // a stand-in if the law is wrong, so that the ends still count
         let path = self.path(&fields, of);
         let formula = path.as_ref().map(|path| path.formula());
         self.names.learn_results(&entry.key, of.kind, formula);

@@ -14,7 +14,7 @@ use crate::work::Elaboration;
 
 const TIME: Type = Type::of(Dimension::TIME);
 
-/// What a control for something else than a thermostat would be given.
+/// Help for keys of other kinds of controllers.
 const BOTH: &str = "give both thresholds: `on_above` and `off_below` for cooling, `on_below` and \
     `off_above` for heating";
 
@@ -64,14 +64,14 @@ pub(crate) const CONTROL: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-/// How a control stands at the start.
+/// State of a control at the start.
 const STARTS: [(&str, bool); 2] = [("off", false), ("on", true)];
 
-/// A dead band of fewer tolerances than this is no wider than the error of a run.
+/// A dead band of fewer tolerances than this is within the error of a run.
 const NARROW: f64 = 10.0;
 
 impl<'a> Elaboration<'a> {
-    /// Names every control, so that what is read afterwards may use it.
+    /// Names every control, so that everything read afterwards may use it.
     pub(crate) fn controls(&mut self) -> Vec<(ControlId, &'a RawEntry)> {
         let mut declared = Vec::new();
         for entry in self.elements(CONTROL.name) {
@@ -82,11 +82,11 @@ impl<'a> Elaboration<'a> {
         declared
     }
 
-    /// Says when each control switches, once the places that it can feel are known.
+    /// Gives each control its thresholds, once the places that it can sense are known.
     pub(crate) fn thermostats(&mut self, declared: Vec<(ControlId, &'a RawEntry)>) {
         for (id, entry) in declared {
             if self.thermostat(id, entry).is_none() {
-                // what is wrong with it has been reported
+                // its errors have been reported
                 self.left_out.items.insert(Item::Control(id));
             }
         }
@@ -105,7 +105,7 @@ impl<'a> Elaboration<'a> {
         Some(())
     }
 
-    /// Which way it acts, and when it goes on and off.
+    /// The direction in which it acts, and its two thresholds.
     fn thresholds(&mut self, id: ControlId, fields: &Fields<'a>) -> Option<(Acts, [Input; 2])> {
         let acts = self.acts(fields);
         let every = [Acts::Cooling, Acts::Heating].map(Acts::fields);
@@ -145,7 +145,7 @@ impl<'a> Elaboration<'a> {
         None
     }
 
-    /// Whether it is on at the start.
+    /// True if it is on at the start.
     fn begins_on(&mut self, fields: &Fields<'a>) -> Option<bool> {
         match fields.get("start") {
             Some(raw) if !matches!(raw.kind, RawKind::String { .. }) => {
@@ -203,7 +203,7 @@ fn mixed(fields: &Fields<'_>) -> Diagnostic {
 /// A warning for each control whose dead band the tolerance of the run, in K, does not resolve.
 pub(crate) fn narrow(network: &Network, map: &SourceMap, tolerance: f64) -> Vec<Diagnostic> {
     let bands = network.control_ids().filter_map(|id| Some((id, network.dead_band(id)?)));
-    // as written: the difference of two temperatures has lost digits
+    // a band equal as written is enough: a difference of two temperatures has lost digits
     let narrow = bands.filter(|(_, band)| *band < NARROW * tolerance * (1.0 - 1e-6));
     narrow.map(|(id, band)| narrow_band(network, map, (id, band, tolerance))).collect()
 }

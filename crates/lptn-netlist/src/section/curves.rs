@@ -1,5 +1,4 @@
-//! `csv = ["a.csv", "b.csv"]` of a table: a curve for each of several parts, which are told apart by
-//! their number.
+//! `csv = ["a.csv", "b.csv"]` of a table: a curve for each of several numbered parts.
 
 use std::sync::Arc;
 
@@ -16,7 +15,7 @@ use crate::work::Elaboration;
 type Curve = (Table1, [PlacedNumbers; 2]);
 
 impl<'a> Elaboration<'a> {
-    /// A table of the number of a file, from 1, and of what the file is over.
+    /// A table over the number of a file, from 1, and over the argument of the files.
     pub(super) fn curves_of_files(&mut self, fields: &Fields<'a>) -> Option<TableSymbol> {
         let keys = ["y", "x_unit", "y_unit"];
         self.refuse_keys(fields, &keys, "does not belong to curves from several files");
@@ -85,8 +84,8 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-/// The arguments of all curves, each once; where nothing is held those that every curve has. `None`
-/// where there are none.
+/// The arguments of all curves, each once; unless the end values continue, only those that every
+/// curve covers. `None` if there are fewer than two.
 fn knots(curves: &[Curve], outside: Outside) -> Option<Vec<f64>> {
     let arguments = || curves.iter().map(|(_, [x, _])| x.numbers.as_slice());
     let ends = arguments().filter_map(|x| Some((*x.first()?, *x.last()?)));
@@ -103,7 +102,7 @@ fn knots(curves: &[Curve], outside: Outside) -> Option<Vec<f64>> {
 }
 
 impl<'a> Elaboration<'a> {
-    /// What is outside of a table of two arguments, which is bilinear.
+    /// The values outside a table of two arguments, which is bilinear.
     pub(super) fn straight(&mut self, fields: &Fields<'a>) -> Option<Outside> {
         let outside = self.choice(fields, "outside", &OUTSIDE);
         let interpolation = self.choice(fields, "interp", &INTERPOLATIONS);

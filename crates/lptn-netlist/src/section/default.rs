@@ -1,4 +1,4 @@
-//! `[default]`: what holds unless said otherwise.
+//! `[default]`: default values.
 
 use lptn_data::Diagnostic;
 use lptn_network::Input;
@@ -23,12 +23,12 @@ pub(crate) const DEFAULT: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-/// A temperature at the start, and where it stands.
+/// An initial temperature, and its place.
 pub(crate) type Initial<'a> = (Input, &'a RawValue);
 
 /// The values of `[default]`.
 pub(crate) struct Default<'a> {
-    /// Temperature of the nodes at the start.
+    /// Initial temperature of the nodes.
     pub(crate) initial: Option<Initial<'a>>,
     /// Unit of temperatures in results.
     pub(crate) temperature_unit: Unit,

@@ -1,4 +1,4 @@
-//! Names of nodes and boundaries, where something is connected to them.
+//! Names of nodes and boundaries, in fields that connect something to them.
 
 use std::sync::Arc;
 
@@ -27,7 +27,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// The area of the face at which a path ends; of two it is the first.
+    /// The area of the face at which a path ends; of the first, if both ends are faces.
     pub(crate) fn area_of(
         &self,
         fields: &Fields<'_>,
@@ -49,7 +49,7 @@ impl<'a> Elaboration<'a> {
         area.or_else(|| lost.then(|| stand_in(Type::of(Dimension::AREA))))
     }
 
-    /// What a name means that is that of a grid or begins with it, and is no other name.
+    /// The grid with which `name` begins, and the part that it means; `None` for other names.
     pub(crate) fn part_of_grid<'n>(&self, name: &'n str) -> Option<(&'n str, GridPart)> {
         let other = self.builder.end(name).is_some_and(|end| !self.builder.is_part(end.into()));
         if other { None } else { self.names.grid_part(name) }
@@ -65,8 +65,8 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// What a name that is written at `place` means of a grid; inside a template it has to be one
-    /// of the template's.
+    /// The part of a grid that a name means at `place`; inside a template it has to be one of the
+    /// template's.
     pub(crate) fn part_of_grid_at(&self, place: &Span, name: &str) -> Option<GridPart> {
         let full = self.names.structure.inside(place, name)?;
         self.part_of_grid(&full).map(|(_, part)| part)
@@ -152,8 +152,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Whether every port leads to a node or boundary; what does not is reported once, and not
-    /// where it is used.
+    /// Checks that every port leads to a node or boundary; others are reported once, here only.
     pub(crate) fn connections(&mut self) {
         for (line, connection) in self.structure.connections() {
             let (owner, value) = (Owner::element(USE.name, &line.key), &connection.value);
@@ -168,7 +167,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// A name in a template that is none of its own.
+    /// Error for a name in a template that is not one of its own.
     fn not_inside(
         &self,
         fields: &Fields<'_>,
@@ -190,7 +189,7 @@ impl<'a> Elaboration<'a> {
         problem.help(nearest(name, names.iter().copied(), "its names are"))
     }
 
-    /// The node that a field names; a boundary is not one.
+    /// The node that a field names; a boundary is refused.
     pub(crate) fn node_end(
         &mut self,
         fields: &Fields<'a>,
@@ -213,7 +212,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// A name that no node or boundary has, which `from` refers to.
+    /// Error for a name, as in `from`, that no node or boundary has.
     pub(crate) fn unknown_end(
         &mut self,
         (from, key): (&str, &str),
@@ -253,7 +252,7 @@ impl<'a> Elaboration<'a> {
         suggest(base, self.names.grids.keys().map(String::as_str))
     }
 
-    /// The most similar name of an end; of equally similar ones the first in the alphabet.
+    /// The most similar name of an end; in a tie, the first in the alphabet.
     fn similar_end(&mut self, name: &str, only_nodes: bool) -> Option<String> {
         if !self.names.may_search(self.builder.node_count()) {
             return None;

@@ -63,11 +63,11 @@ const FLOW: Type = Type::of(Dimension::VOLUME_FLOW);
 const PRESSURE: Type = Type::of(Dimension::PRESSURE);
 const POWER: Type = Type::of(Dimension::POWER);
 
-/// What a fan gives: the ending of its name, its power of the speed, its type and usual unit.
+/// The functions of a fan: ending of the name, power of the speed, type and usual unit.
 const GIVEN: [(&str, u8, Type, &str); 3] =
     [("flow", 1, FLOW, "m^3/h"), ("pressure", 2, PRESSURE, "Pa"), ("power", 3, POWER, "W")];
 
-/// How many times its rated speed a fan may turn.
+/// Highest ratio of the speed of a fan to its rated speed.
 const FASTEST: f64 = 2.0;
 
 impl<'a> Elaboration<'a> {
@@ -111,7 +111,7 @@ impl<'a> Elaboration<'a> {
         Some(())
     }
 
-    /// Notes the fans whose functions an expression calls, and misses a power that is not known.
+    /// Notes the fans whose functions an expression calls, and reports a power that is unknown.
     pub(crate) fn learn_fans(&mut self, expression: &Expression, at: &Span) {
         for (call, _) in expression.calls() {
             let Some((name, what)) = call.rsplit_once('.') else { continue };
@@ -243,7 +243,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// A number above 0 that depends on nothing.
+    /// A constant number above 0.
     fn above_zero(
         &mut self,
         fields: &Fields<'a>,
@@ -261,7 +261,7 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-/// What is wrong with the points of a curve, and what to do about it.
+/// The error in the points of a curve, and its help.
 fn wrong_curve(points: &[[f64; 2]]) -> Option<(String, &'static str)> {
     if points.iter().flatten().any(|number| *number < 0.0) {
         let help = "a fan is described from no flow to no pressure: check the signs";
@@ -281,7 +281,7 @@ fn wrong_curve(points: &[[f64; 2]]) -> Option<(String, &'static str)> {
     Some((message, help))
 }
 
-/// That a fan and its system do not meet.
+/// Error for a fan and a system that do not meet.
 fn no_duty(fields: &Fields<'_>, (curve, resistance): (&[[f64; 2]], f64), at: &Span) -> Diagnostic {
     let takes = |point: &[f64; 2]| resistance * point[0] * point[0];
     let (ends, begins) = (curve.last(), curve.first());

@@ -1,4 +1,4 @@
-//! `[fluid]`: what streams are made of and films wetted by.
+//! `[fluid]`: the fluids of streams and films.
 
 use std::sync::Arc;
 
@@ -58,10 +58,10 @@ pub(crate) const FLUID: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-/// What films take of a fluid beside density and specific heat.
+/// Properties of a fluid that films need in addition to density and specific heat.
 const FILM: [&str; 3] = ["k", "viscosity", "expansion"];
 
-/// A fluid with its name, where something names it.
+/// A fluid, with its name and the value that names it.
 pub(super) type UsedFluid<'a> = (KnownFluid, &'a str, &'a RawValue);
 
 impl<'a> Elaboration<'a> {
@@ -115,7 +115,7 @@ impl<'a> Elaboration<'a> {
         None
     }
 
-    /// The fluid of a film, where it does not have all its properties from elsewhere.
+    /// The fluid of a film, unless all its properties are given otherwise.
     pub(super) fn film_fluid(
         &mut self,
         fields: &Fields<'a>,
@@ -225,8 +225,8 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-/// A property of a fluid of the library over its temperature, where there is a table: one that
-/// streams and films share.
+/// A property of a fluid of the library over its temperature, if there is a table; streams and
+/// films share one.
 fn table(record: &LibrarySubstance, key: &str) -> Option<Input> {
     let (property, table) = record.film.iter().find(|(own, _)| own == key)?;
     let ty = LawField::any(key)?.ty;
@@ -240,7 +240,7 @@ fn table(record: &LibrarySubstance, key: &str) -> Option<Input> {
     of_temperature(property, symbol, ty)
 }
 
-/// That a fluid has no such property; what could be given in its place.
+/// Error for a fluid without such a property; `instead` names an alternative.
 fn lacks(
     fields: &Fields<'_>,
     (name, raw): (&str, &RawValue),

@@ -4,8 +4,8 @@ use lptn_data::Diagnostic;
 
 use crate::fields::Fields;
 
-/// Which forms are begun: those of which a key is given that no other form takes. A key that is
-/// given and stands in none of them begins the first form that takes it.
+/// The forms that are begun: those with a given key that no other form takes. A given key in none
+/// of them begins the first form that takes it.
 pub(crate) fn begun(forms: &[&[&str]], given: impl Fn(&str) -> bool) -> Vec<usize> {
     let own = |key: &str| forms.iter().filter(|form| form.contains(&key)).count() == 1;
     let by_own = |&i: &usize| forms[i].iter().any(|key| own(key) && given(key));

@@ -1,4 +1,4 @@
-//! `[grid]`: blocks that are cut into cells, and what ends at their faces.
+//! `[grid]`: blocks that are cut into cells, and connections at their faces.
 
 use lptn_data::Diagnostic;
 use lptn_network::{Field, GridBlock, GridId, Input, Item, Substance};
@@ -73,7 +73,7 @@ pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
 const LENGTH: Type = Type::of(Dimension::LENGTH);
 const CONDUCTIVITY: Type = Type::of(Dimension::CONDUCTIVITY);
 
-/// Where the values of a grid stand.
+/// The fields of a grid whose places are noted.
 const FIELDS: [Field; 7] = [
     Field::Size,
     Field::Cells,
@@ -85,7 +85,7 @@ const FIELDS: [Field; 7] = [
 ];
 
 impl<'a> Elaboration<'a> {
-    /// The grids, and the surfaces of the faces that anything names: expressions may use their
+    /// The grids, and the surfaces of all faces that are named: expressions may use their
     /// temperatures before the path that ends there is read.
     pub(crate) fn grids(&mut self, default: Option<&Initial<'a>>) {
         for entry in self.elements(GRID.name) {
@@ -225,7 +225,7 @@ impl<'a> Elaboration<'a> {
         count
     }
 
-    /// What the grid is made of, and its conductivity along x, y and z.
+    /// The substance of the grid, and its conductivity along x, y and z.
     fn substance(&mut self, fields: &Fields<'a>) -> Option<(Substance<Input>, [Input; 3])> {
         let k = fields.get("k").map(|raw| self.conductivities(fields, raw));
         if fields.get("material").is_some() {

@@ -14,13 +14,13 @@ pub(super) const CP: KeyDeclaration = property(
     "specific heat capacity; constant, an expression in `T`, or a table over it",
     "\"475 J/(kg K)\"",
 );
-/// That of a liquid: the example is water.
+/// Specific heat of a liquid: the example is water.
 pub(super) const CP_OF_FLUID: KeyDeclaration =
     KeyDeclaration { example: "\"4180 J/(kg K)\"", ..CP }.needed();
 pub(super) const SOURCE_OF: KeyDeclaration =
     text("source", "text", "source of the numbers", "\"source of the numbers\"");
 
-/// What a lump is made of.
+/// Heat capacity and material of a lump.
 pub(super) const CAPACITY: KeyDeclaration =
     key("C", "J/K", "heat capacity; may depend on the node's own temperature `T`", "\"500 J/K\"");
 pub(super) const MATERIAL_OF: KeyDeclaration = text(
@@ -29,7 +29,7 @@ pub(super) const MATERIAL_OF: KeyDeclaration = text(
     "one of the file or of the library (`lptn materials`), instead of the values that it gives",
     "\"steel_8620\"",
 );
-/// What a loss is lubricated with.
+/// The lubricant of a loss, and its place.
 pub(crate) const LUBRICANT_OF: KeyDeclaration = text(
     "lubricant",
     "name of a lubricant",

@@ -1,4 +1,4 @@
-//! `[limit]`: what the results have to keep.
+//! `[limit]`: bounds of the results.
 
 use lptn_data::Diagnostic;
 use lptn_network::{Bound, Field, Input, Item, LimitSeverity};
@@ -58,7 +58,7 @@ impl<'a> Elaboration<'a> {
         Some(())
     }
 
-    /// What is limited, its type where that is known, how it is written, and whether its mean is.
+    /// The limited result, its type if known, its text, and true if its mean over time is limited.
     fn limited(&mut self, fields: &Fields<'a>) -> (Input, Option<Type>, String, bool) {
         let nothing = || (stand_in(Type::ABSOLUTE_TEMPERATURE), None, String::new(), false);
         let Some(raw) = self.require(fields, "of") else { return nothing() };
@@ -91,7 +91,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Exactly one of `below` and `above`; of the type of what is limited.
+    /// Exactly one of `below` and `above`, of the type of the limited result.
     fn bound(&mut self, fields: &Fields<'a>, ty: Option<Type>) -> (Bound, Input) {
         let bound = match [Bound::Below, Bound::Above]
             .map(|bound| fields.get(bound.field().key()).is_some())
@@ -111,7 +111,7 @@ impl<'a> Elaboration<'a> {
             [true, false] => Bound::Below,
             [false, true] => Bound::Above,
         };
-        // without the type of what is limited nothing can be said of the unit
+        // without the type of the limited result the unit cannot be checked
         let input = ty.and_then(|ty| self.input(fields, bound.field().key(), Wanted::like(ty)));
         (bound, input.unwrap_or_else(|| stand_in(ty.unwrap_or(Type::ABSOLUTE_TEMPERATURE))))
     }

@@ -1,4 +1,4 @@
-//! Every section there is. A section that is not named here is not known.
+//! Every section. A section that is not named here is unknown.
 
 use std::sync::LazyLock;
 
@@ -39,7 +39,7 @@ use crate::toml_text::TomlFields;
 use crate::uncertainty::UNCERTAINTY;
 use crate::work::Elaboration;
 
-/// The sections before and behind those of paths and sources, in the order in which they are named to people.
+/// The sections before and after those of paths and sources, in the order of messages.
 static BEFORE: [&SectionDeclaration; 13] = [
     &PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &LUBRICANT, &FAN, &NODE, &GRID,
     &CAPACITOR, &BOUNDARY, &FOSTER,
@@ -47,7 +47,7 @@ static BEFORE: [&SectionDeclaration; 13] = [
 static BEHIND: [&SectionDeclaration; 8] =
     [&GEARBOX, &CONTROL, &IMPORT, &LIMIT, &TEMPLATE, &USE, &RUN, &UNCERTAINTY];
 
-/// The studies that there are: where a netlist keeps those of a section, and the type of one.
+/// The studies: the field of a netlist with those of a section, and the type of one.
 macro_rules! studies {
     ($($(#[$words:meta])* $field:ident: $study:ty,)*) => {
         const STUDIES: &[&SectionDeclaration] = &[$(<$study as Study>::SECTION),*];
@@ -88,21 +88,21 @@ macro_rules! studies {
 studies! {
     /// Load cases, in file order.
     cases: CaseStudy,
-    /// What to size, in file order.
+    /// Sizes to find, in file order.
     sizes: SizeStudy,
     /// The instruments of records, in file order.
     sensors: Sensor,
-    /// What to find from records, in file order.
+    /// Parameters to estimate from records, in file order.
     fits: FitStudy,
-    /// Courses to infer from records, in file order.
+    /// Time histories to estimate from records, in file order.
     infers: InferStudy,
-    /// Which measurements to plan, in file order.
+    /// Measurements to plan, in file order.
     plans: PlanStudy,
-    /// Over what to sweep, in file order.
+    /// Sweeps, in file order.
     sweeps: SweepStudy,
 }
 
-/// What the format has for later: nothing.
+/// Sections that the format reserves for later: none.
 static LATER: [&SectionDeclaration; 0] = [];
 
 static FORMAT: LazyLock<NetlistFormat> = LazyLock::new(|| {

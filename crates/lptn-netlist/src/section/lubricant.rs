@@ -62,7 +62,7 @@ pub(crate) const LUBRICANT: SectionDeclaration = SectionDeclaration {
 const VISCOSITY: Type = Type::of(Dimension::KINEMATIC_VISCOSITY);
 const DENSITY: Type = Type::of(Dimension::DENSITY);
 
-/// The endings of what a lubricant gives.
+/// The endings of the properties of a lubricant.
 const PROPERTIES: [&str; 2] = ["nu", "density"];
 
 /// Viscosities in m^2/s that ASTM D341 covers.
@@ -72,7 +72,7 @@ const COVERED: [f64; 2] = [2e-6, 20.0];
 const HOTTEST: f64 = 773.15;
 const COLDEST: f64 = 173.15;
 
-/// Where the density is given.
+/// Temperature in K of the given density.
 const OF_DENSITY: f64 = ZERO_CELSIUS + 15.0;
 
 impl<'a> Elaboration<'a> {
@@ -134,7 +134,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// A quantity that depends on nothing.
+    /// A constant quantity.
     pub(super) fn constant_at(
         &mut self,
         fields: &Fields<'a>,
@@ -251,8 +251,8 @@ impl<'a> Elaboration<'a> {
         Table1::new(x, y, Interpolation::Linear, Outside::Error).ok().map(Some)
     }
 
-    /// The lubricant that an element names, and the node or boundary whose temperature it has: the
-    /// first that is heated unless said.
+    /// The lubricant that an element names, and the node or boundary whose temperature it has;
+    /// default: the first that is heated.
     pub(crate) fn oil(&mut self, fields: &Fields<'a>, heated: Option<End>) -> Option<Oil> {
         let (name, raw) = self.word(fields, "lubricant")?;
         let at = match fields.get("at") {
@@ -292,7 +292,7 @@ impl<'a> Elaboration<'a> {
         Some(program.into())
     }
 
-    /// Takes in a lubricant of the library whose functions an expression calls.
+    /// Adds a lubricant of the library whose functions an expression calls.
     pub(crate) fn learn_lubricants(&mut self, expression: &Expression, at: &Span) {
         for (call, _) in expression.calls() {
             if let Some((name, property)) = call.rsplit_once('.')
@@ -303,7 +303,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Whether there is a lubricant of this name; one of the library is given to the builder.
+    /// True if there is a lubricant of this name; one of the library is given to the builder.
     fn knows_lubricant(&mut self, name: &str, at: &Span) -> bool {
         self.used.insert((LUBRICANT.name, name.to_owned()));
         if self.builder.has_table(&format!("{name}.nu")) {

@@ -90,8 +90,8 @@ impl<'a> Elaboration<'a> {
         self.known.insert(entry.key.clone(), Known { id, density, cp, k });
     }
 
-    /// The capacity of a node or capacitor: `C`, or `material` with `mass` or `volume`; `None`
-    /// where neither is.
+    /// The capacity of a node or capacitor: `C`, or `material` with `mass` or `volume`; `None` if
+    /// neither is given.
     pub(crate) fn capacity(&mut self, fields: &Fields<'a>) -> Option<Input> {
         let ty = Type::of(Dimension::CAPACITY);
         let lump = ["material", "mass", "volume"].into_iter().find(|key| fields.get(key).is_some());
@@ -110,7 +110,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Notes where a capacity and what it is made of stand.
+    /// Notes the places of a capacity and of the material that gives it.
     pub(crate) fn map_capacity(&mut self, item: Item, fields: &Fields<'a>) {
         for field in [Field::Mass, Field::Volume, Field::Material, Field::Capacity] {
             if let Some(raw) = fields.get(field.key()) {
@@ -216,7 +216,7 @@ impl<'a> Elaboration<'a> {
 
     /// The materials and fluids of the file that nothing uses.
     pub(crate) fn unused_substances(&self) -> Vec<Diagnostic> {
-        // a file of materials is there to be chosen from
+        // a file of materials is a selection to choose from
         let main = self.raw.top.span.file;
         let named = [
             (&MATERIAL, "netlist::unused_material"),

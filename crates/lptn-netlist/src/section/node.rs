@@ -12,7 +12,7 @@ use crate::section::default::Initial;
 use crate::section::keys::{CAPACITY, MASS, MATERIAL_OF, VOLUME};
 use crate::work::{Elaboration, stand_in};
 
-/// Where a body starts.
+/// The initial temperature of a body.
 pub(super) const START: KeyDeclaration =
     key("T0", ABSOLUTE, "temperature at the start", "\"25 degC\"").or("`T0` of `[default]`");
 
@@ -103,7 +103,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// Whether it is declared massless; `None` if that cannot be read.
+    /// True if it is declared massless; `None` if that cannot be read.
     fn massless(&mut self, fields: &Fields<'_>) -> Option<bool> {
         Some(self.yes_or_no(fields, "massless")?.unwrap_or(false))
     }

@@ -70,14 +70,14 @@ impl<'a> Elaboration<'a> {
         self.complete(fields, law, read, None)
     }
 
-    /// That keys mean nothing where no word chooses a law that takes them.
+    /// Refuses keys that have no effect unless a word chooses a law that takes them.
     fn refuse_named(&mut self, fields: &Fields<'a>, path: &PathSection, selector: &str) {
         let named = path.values.iter().filter(|value| !value.plain).map(|value| value.field.key);
         let keys: Vec<&str> = ["fluid"].into_iter().chain(named).collect();
         self.refuse_keys(fields, &keys, &format!("has no effect without `{selector}`"));
     }
 
-    /// The law that a word chooses; fields of others mean nothing beside it.
+    /// The law that a word chooses; fields of other laws have no effect with it.
     fn selected(
         &mut self,
         fields: &Fields<'a>,
@@ -86,7 +86,7 @@ impl<'a> Elaboration<'a> {
     ) -> Option<Formula> {
         let mut words: Vec<(&str, Formula)> =
             path.kind.laws().map(|law| (law.declaration().name, law)).collect();
-        // of laws with one word the one that takes what is given
+        // of laws with one word, the one that takes the given keys
         let useless = |law: Formula| {
             path.values().filter(|key| fields.has(key) && law.field(key).is_none()).count()
         };
@@ -123,7 +123,7 @@ impl<'a> Elaboration<'a> {
         Some(law)
     }
 
-    /// A lubricant that says nothing, and a place of none.
+    /// Reports a lubricant without effect, and a place without a lubricant.
     fn check_oil(&mut self, fields: &Fields<'a>, (kind, law): (Kind, Formula), what: &str) {
         if !kind.is_source() {
             return;
@@ -142,8 +142,8 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// The values as far as they are given, of a law that is known if a word chose it; stand-ins for
-    /// those that are wrong.
+    /// The given values, of a law that is known if a word chose it; stand-ins for those that are
+    /// wrong.
     fn read(
         &mut self,
         fields: &Fields<'a>,
@@ -209,7 +209,7 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// A value of one of several types: which it is chooses the law.
+    /// A value of one of several types, which chooses the law.
     fn of_types(
         &mut self,
         place: Place<'_>,
@@ -247,7 +247,7 @@ impl<'a> Elaboration<'a> {
         self.builder.conductivity(known.id)
     }
 
-    /// Whether a word is nearly one that may stand in the place of a field, which is told.
+    /// True if a word is similar to one that may replace a number in a field; this is reported.
     fn misspelt(&mut self, fields: &Fields<'a>, field: &FieldDeclaration, raw: &RawValue) -> bool {
         let RawKind::String { text, .. } = &raw.kind else { return false };
         let text = text.as_str();
@@ -262,7 +262,7 @@ impl<'a> Elaboration<'a> {
         true
     }
 
-    /// What a word stands for, of the lubricant.
+    /// The meaning of a word in a field of the lubricant.
     fn meant_by(
         &mut self,
         fields: &Fields<'a>,
@@ -285,7 +285,7 @@ impl<'a> Elaboration<'a> {
         Some(expression.compile(&scope, Some(field.ty)).ok()?.into())
     }
 
-    /// A law with all its values, defaults in place of those that may be left out.
+    /// A law with all its values, and defaults for those that may be left out.
     fn complete(
         &mut self,
         fields: &Fields<'a>,
@@ -311,7 +311,7 @@ impl<'a> Elaboration<'a> {
         })
     }
 
-    /// A field that this law needs beside those that chose it.
+    /// Reports a field that this law needs in addition to those that chose it.
     fn lacks(
         &mut self,
         fields: &Fields<'a>,
@@ -327,13 +327,13 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-/// The word that stands in the place of a field, with the expression that it means.
+/// The word instead of a number in a field, with the expression that it means.
 fn word_of(fields: &Fields<'_>, field: &FieldDeclaration) -> Option<(&'static str, &'static str)> {
     let RawKind::String { text, .. } = &fields.get(field.key)?.kind else { return None };
     field.words.iter().find(|(word, _)| word == text).copied()
 }
 
-/// That a field of the law that a word chooses is missing.
+/// Error for a missing field of the law that a word chooses.
 fn law_without(
     fields: &Fields<'_>,
     field: &FieldDeclaration,

@@ -1,4 +1,4 @@
-//! Which law of a path its values choose, and what is wrong where they choose none.
+//! The law of a path that its values choose, and errors if they choose none.
 
 use lptn_data::Diagnostic;
 use lptn_laws::{FieldDeclaration, Formula, Kind};
@@ -8,21 +8,21 @@ use lptn_units::Type;
 use crate::fields::Fields;
 use crate::raw::RawValue;
 
-/// What stands in the place of a field: nothing, a value, or as many as a list has.
+/// A field with its values: none, one, or those of a list.
 pub(super) type Read = (&'static FieldDeclaration, Vec<Input>);
 
-/// The least and the largest number of values that laws of a kind take of a key that they take.
+/// The least and the largest number of values of a key in laws of a kind that take it.
 pub(super) fn counts(kind: Kind, key: &str) -> [usize; 2] {
     let counts = || kind.laws().map(|law| count(law, key)).filter(|count| *count > 0);
     [counts().min().unwrap_or(1), counts().max().unwrap_or(1)]
 }
 
-/// How many values a law takes of a key.
+/// Number of values of a key in a law.
 pub(super) fn count(law: Formula, key: &str) -> usize {
     law.declaration().fields.iter().filter(|field| field.key == key).count()
 }
 
-/// The types that a key has in the laws of a kind, where it chooses the law by its unit.
+/// The types of a key in the laws of a kind, if its unit chooses the law.
 pub(super) fn types(kind: Kind, key: &str) -> Vec<(Type, Formula)> {
     let mut types: Vec<(Type, Formula)> = Vec::new();
     for law in kind.laws() {
@@ -41,7 +41,7 @@ pub(super) fn with_article(name: &str) -> String {
     format!("{article} {name}")
 }
 
-/// The law of a group that takes as many values of these types.
+/// The law of a group that takes these numbers and types of values.
 pub(super) fn of_values(laws: &[Formula], read: &[Read]) -> Option<Formula> {
     let fits = |law: &&Formula| {
         read.iter().filter(|(_, values)| !values.is_empty()).all(|(field, values)| {
@@ -63,7 +63,7 @@ pub(super) fn written(law: Formula) -> String {
     all.join(" with ")
 }
 
-/// A key of which every law of its kind takes a list, with one value or with too many or too few.
+/// Error for a wrong number of values of a key that takes a list in every law of its kind.
 pub(super) fn not_a_list(
     fields: &Fields<'_>,
     (field, most): (&FieldDeclaration, usize),

@@ -10,7 +10,7 @@ use crate::format::{KeyDeclaration, Role, SectionDeclaration, Takes, shaped, tex
 use crate::section::keys::{AT, FLUID_OF, LUBRICANT_OF, MATERIAL_OF};
 use crate::section::path_law::{count, counts, types};
 
-/// A kind of path or source with what follows from its declaration, found once and not for every path.
+/// A kind of path or source with the consequences of its declaration, found once for all paths.
 pub(crate) struct PathSection {
     pub(crate) section: SectionDeclaration,
     pub(crate) kind: Kind,
@@ -34,24 +34,24 @@ impl PathSection {
 /// A value of a path.
 pub(crate) struct PathValue {
     pub(crate) field: &'static FieldDeclaration,
-    /// How many of them a list has at least and at most; of one no list is needed.
+    /// Least and largest number of values in a list; a single one needs no list.
     counts: [usize; 2],
-    /// The types of which it may be, where its unit chooses the law.
+    /// The permitted types, if its unit chooses the law.
     pub(super) types: Vec<(Type, Formula)>,
-    /// What expressions in it may name: the ends of a path, or the node of a source.
+    /// The context of expressions in it: the ends of a path, or the node of a source.
     pub(super) context: Context,
-    /// Whether a law takes it that no name chooses.
+    /// True if it belongs to a law that needs no name to choose it.
     pub(super) plain: bool,
 }
 
 impl PathValue {
-    /// How many values it has at least and at most, in the law that a word chose.
+    /// Least and largest number of its values, in the law that a word chose.
     pub(super) fn counts(&self, law: Option<Formula>) -> [usize; 2] {
         law.map_or(self.counts, |law| [count(law, self.field.key); 2])
     }
 }
 
-/// The sections of paths and of sources, in the order in which their columns stand.
+/// The sections of paths and of sources, in the order of their columns.
 pub(crate) static PATHS: LazyLock<Vec<PathSection>> =
     LazyLock::new(|| Kind::ALL.iter().map(|kind| path_section(*kind)).collect());
 
@@ -78,8 +78,8 @@ fn path_section(kind: Kind) -> PathSection {
     PathSection { section, kind, groups: groups(kind), values }
 }
 
-/// The ends or the nodes that are heated, then its fields, with what they are a property of before
-/// them, `fluid` before a flow, and the key that chooses a law behind what all laws take.
+/// The ends or the heated nodes, then its fields. Substances come before their properties, `fluid`
+/// before a flow, and the key that chooses a law after the keys of all laws.
 fn keys(kind: Kind, values: &[PathValue]) -> Vec<KeyDeclaration> {
     let mut keys = if kind.is_source() { vec![INTO] } else { ENDS.into() };
     let first = kind.laws_named(true).next().map_or("", |law| law.declaration().name);
@@ -116,7 +116,7 @@ fn keys(kind: Kind, values: &[PathValue]) -> Vec<KeyDeclaration> {
     keys
 }
 
-/// A value of a law; several in a list where a law of the kind takes as many.
+/// A value of a law; several in a list if a law of the kind takes several.
 fn key_of(value: &PathValue) -> KeyDeclaration {
     let field = value.field;
     let (unit, scale) = field.unit();
@@ -137,12 +137,12 @@ fn key_of(value: &PathValue) -> KeyDeclaration {
     shaped(field.key, said, takes, field.meaning, field.example).or(default.leak())
 }
 
-/// What a section says lasts as long as the program.
+/// Makes a declaration last as long as the program.
 fn leak(takes: Takes) -> &'static Takes {
     Box::leak(Box::new(takes))
 }
 
-/// What flows in a stream.
+/// The fluid of a stream.
 const STREAMS: KeyDeclaration = text(
     "fluid",
     "name of a fluid",

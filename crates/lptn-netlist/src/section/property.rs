@@ -1,6 +1,6 @@
 //! Properties of materials and fluids: constant, an expression in `T`, or a table over it.
 //!
-//! A field of a law may be a property of a material, a fluid or a lubricant. It is named in place
+//! A field of a law may be a property of a material, a fluid or a lubricant, which is named instead
 //! of a value and evaluated at the temperature that the law defines. Properties of lubricants are
 //! calls of tables (`NAME.nu`), so that the network needs no notion of oils.
 
@@ -12,7 +12,7 @@ use crate::place::{Place, Wanted};
 use crate::raw::RawKind;
 use crate::work::{Elaboration, stand_in};
 
-/// What a change of phase takes: all of them or none.
+/// The keys of a change of phase: all of them or none.
 const MELTING: [&str; 3] = ["solidus", "liquidus", "latent_heat"];
 
 impl<'a> Elaboration<'a> {
@@ -50,7 +50,7 @@ impl<'a> Elaboration<'a> {
         self.input(fields, key, wanted)
     }
 
-    /// How a material melts.
+    /// The melting of a material.
     pub(crate) fn melting(&mut self, fields: &Fields<'a>) -> Option<Melting<Input>> {
         let given = MELTING.iter().filter(|key| fields.get(key).is_some()).count();
         if given == 0 {

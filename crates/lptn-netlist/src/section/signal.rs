@@ -1,4 +1,4 @@
-//! `[signal]`: courses over time.
+//! `[signal]`: time histories.
 
 use lptn_data::{Diagnostic, PlacedNumbers};
 use lptn_network::{AfterEnd, Course, Field, Item, Join};
@@ -62,7 +62,7 @@ const TIME: Type = Type::of(Dimension::TIME);
 const JOINS: [(&str, Join); 3] =
     [("linear", Join::Linear), ("previous", Join::Previous), ("pchip", Join::Pchip)];
 
-/// What follows the last point, by its word; the period of a repetition stands in a key of its own.
+/// The continuation after the last point, by its word; the key `period` is separate.
 #[derive(Clone, Copy, PartialEq)]
 enum After {
     Error,
@@ -112,7 +112,7 @@ impl<'a> Elaboration<'a> {
         self.map.value(item, Field::Value, &entry.value);
     }
 
-    /// The type of a signal, the unit it is given in, and its course, from points.
+    /// The type of a signal, the unit of its values, and its time history, from points.
     fn course(&mut self, fields: &Fields<'a>) -> Option<(Type, Option<Unit>, Course)> {
         let join = self.choice(fields, "interp", &JOINS);
         let after = self.choice(fields, "after_end", &AFTER);
@@ -223,7 +223,7 @@ fn open_round(
     )))
 }
 
-/// The distance of two points, where nine of ten, and the last two, are as far apart.
+/// The usual distance of two points, if nine of ten distances, and the last one, are equal to it.
 fn usual_step(times: &[f64]) -> Option<f64> {
     let steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let mut sorted = steps.clone();

@@ -27,7 +27,7 @@ impl<'a> Elaboration<'a> {
         let heated = self.heated(&fields);
         let first = heated.as_ref().and_then(|(into, _)| into.first().map(|(end, _)| *end));
         fields.oil = self.oil(&fields, first);
-        // a stand-in where the law is wrong, so that the nodes still count
+        // a stand-in if the law is wrong, so that the nodes still count
         let law = self.path(&fields, of);
         let formula = law.as_ref().map(|law| law.formula());
         self.names.learn_results(&entry.key, of.kind, formula);
@@ -116,7 +116,7 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-/// `into = ["a", "b"]`, which does not say how much each gets.
+/// Error for `into = ["a", "b"]`, which lacks the shares.
 fn list_of_nodes(fields: &Fields<'_>, raw: &RawValue, items: &[RawValue]) -> Diagnostic {
     let words = format!(
         "{} must be the name of a node or a table of shares, got a list",

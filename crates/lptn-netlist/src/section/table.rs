@@ -88,7 +88,7 @@ pub(super) const OUTSIDE: [(&str, Outside); 2] =
     [("error", Outside::Error), ("hold", Outside::Hold)];
 
 impl<'a> Elaboration<'a> {
-    /// Gives all tables to the builder; they hold numbers only, so everything else may use them.
+    /// Gives all tables to the builder; they contain only numbers, so everything else may use them.
     pub(crate) fn tables(&mut self) {
         for entry in self.elements(TABLE.name) {
             match self.table(entry) {
@@ -234,7 +234,7 @@ impl Scope for OfTemperature<'_> {
     }
 }
 
-/// The units that all of them are given in; none where one is not known.
+/// The units in which all of them are given; none if one is unknown.
 pub(super) fn units<const N: usize>(points: [&PlacedNumbers; N]) -> Vec<Unit> {
     let of = |points: &PlacedNumbers| match points.ty.is_scalar() && points.unit.is_none() {
         true => Unit::parse("1").ok(),

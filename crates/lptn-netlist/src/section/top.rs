@@ -1,4 +1,4 @@
-//! The top level: `format`, the title, and which sections there are.
+//! The top level: `format`, the title, and the sections.
 
 use lptn_data::{Diagnostic, Span, list};
 use lptn_units::suggest;
@@ -29,7 +29,7 @@ impl Elaboration<'_> {
                 }
                 self.problems.extend(problem);
             } else if entry.key == "include" {
-                // what it names is in already, or the text is broken elsewhere
+                // its files are included already, or the text is broken elsewhere
             } else if TOP_KEYS.contains(&entry.key.as_str()) {
                 self.words(entry);
             } else {
@@ -80,7 +80,7 @@ fn check_section(entry: &RawEntry) -> Option<Diagnostic> {
     }
 }
 
-/// What sections are called elsewhere.
+/// Other names of sections.
 const OTHER_NAMES: [(&str, &str); 16] = [
     ("resistance", "resistor"),
     ("resistances", "resistor"),

@@ -12,13 +12,13 @@ use crate::netlist::Netlist;
 use crate::raw::{RawKind, RawValue};
 use crate::work::Elaboration;
 
-/// The column of the names of the parts, which has to be there.
+/// The column of the names of the parts, which is required.
 const PART: &str = "part";
 
-/// What the text of `--parts` is called in diagnostics.
+/// Name of the text of `--parts` in diagnostics.
 const PARTS: &str = "--parts";
 
-/// Columns that are for people.
+/// Columns for readers.
 const FOR_PEOPLE: [&str; 4] = ["maker", "source", "note", "url"];
 
 /// Parts to choose from.
@@ -26,7 +26,7 @@ const FOR_PEOPLE: [&str; 4] = ["maker", "source", "note", "url"];
 pub struct Catalogue {
     /// The file, as the netlist names it.
     pub csv: String,
-    /// Where it is named.
+    /// The place of its name.
     pub span: Span,
     /// The names of the parts, in file order; at least one, none twice.
     pub parts: Vec<String>,
@@ -39,20 +39,20 @@ pub struct Catalogue {
 pub struct CatalogueColumn {
     /// The name of the parameter.
     pub name: String,
-    /// In which the file gives it.
+    /// The unit in which the file gives it.
     pub unit: Unit,
     /// The value of each part in SI units.
     pub values: Vec<f64>,
-    /// Where the header of the column stands.
+    /// The place of the header of the column.
     pub span: Span,
 }
 
-/// What a parameter is that a column is named after; the problem where there is none, unless it was
-/// told before.
+/// The type of the parameter that a column is named after; the problem if there is none, unless it
+/// was reported before.
 type TypeOf<'a> = dyn FnMut(&str, &Span) -> Result<Type, Option<Diagnostic>> + 'a;
 
 impl Catalogue {
-    /// Reads the file that stands at a place.
+    /// Reads the file that a place names.
     fn read(
         csv: &str,
         (text, span): (&CsvText, &Span),
@@ -99,7 +99,7 @@ impl Catalogue {
         Ok(Self { csv: csv.to_owned(), span: span.clone(), parts, columns })
     }
 
-    /// What `--set` takes for a part, by its position.
+    /// The assignments for `--set` that choose a part, by its position.
     pub fn assignments(&self, part: usize) -> Vec<String> {
         let text = |column: &CatalogueColumn| {
             let (value, ty) = (column.values[part], column.unit.ty);
@@ -119,7 +119,7 @@ impl Netlist {
     /// parameters.
     ///
     /// # Errors
-    /// [`Rejected`] with everything that is wrong with the table.
+    /// [`Rejected`] with every error of the table.
     pub fn parts(&self, name: &str, bytes: &[u8]) -> Result<Catalogue, Rejected> {
         let mut files = self.files.clone();
         let option = files.add(PARTS, name);
@@ -138,7 +138,7 @@ impl Netlist {
     }
 }
 
-/// A column that is named after none of these parameters.
+/// Error for a column that is not named after one of these parameters.
 fn no_parameter<'n>(
     (name, place): (&str, &Span),
     known: impl Iterator<Item = &'n str>,
@@ -156,7 +156,7 @@ fn no_parameter<'n>(
 }
 
 impl<'a> Elaboration<'a> {
-    /// The catalogues of a study; `None` if something is wrong with one, which is then reported.
+    /// The catalogues of a study; `None` if one is wrong, which is then reported.
     pub(super) fn catalogues(&mut self, fields: &Fields<'a>) -> Option<Vec<Catalogue>> {
         let Some(raw) = fields.get("catalogue") else { return Some(Vec::new()) };
         let is_text = |item: &RawValue| matches!(item.kind, RawKind::String { .. });
@@ -202,7 +202,7 @@ impl<'a> Elaboration<'a> {
         Err(Some(problem.also(named, "read here")))
     }
 
-    /// Two catalogues cannot set one parameter.
+    /// Refuses two catalogues that set one parameter.
     fn set_once(&mut self, fields: &Fields<'a>, all: &[Catalogue]) -> Option<()> {
         let mut known: Vec<&CatalogueColumn> = Vec::new();
         for column in all.iter().flat_map(|catalogue| &catalogue.columns) {

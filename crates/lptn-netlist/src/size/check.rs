@@ -1,4 +1,4 @@
-//! What is wrong with the numbers of a size.
+//! Errors in the numbers of a size.
 
 use lptn_data::Diagnostic;
 use lptn_network::{Network, Value};
@@ -6,7 +6,7 @@ use lptn_network::{Network, Value};
 use crate::size::{SizeRange, SizeStudy};
 
 impl SizeStudy {
-    /// What is wrong with a range.
+    /// The error of a range.
     pub(super) fn check_range(&self, network: &Network, range: &SizeRange) -> Option<Diagnostic> {
         let mut scope = network.evaluation();
         let (from, to) = (range.from.at(&mut scope), range.to.at(&mut scope));
@@ -26,7 +26,7 @@ impl SizeStudy {
         Some(problem.at(range.span.clone(), ""))
     }
 
-    /// A parameter that is sought has to be one that changes, or to follow from one.
+    /// Checks that an optimised parameter is varied, or follows from one that is.
     pub(super) fn check_objective(&self, network: &Network) -> Option<Diagnostic> {
         let sought = &self.objective.text;
         let id = network.parameter(sought).ok()?;

@@ -1,4 +1,4 @@
-//! `[size.NAME]`: a parameter to size, and what has to be kept.
+//! `[size.NAME]`: a parameter to size, and its requirements.
 
 mod catalogue;
 mod check;
@@ -109,7 +109,7 @@ pub(crate) const VARY: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-/// Which of several values that keep every requirement is the best.
+/// The better of several values that meet every requirement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Goal {
     /// The least one.
@@ -118,14 +118,14 @@ pub enum Goal {
     Maximise,
 }
 
-/// What the best design has least or most of.
+/// The objective of a size.
 #[derive(Clone, Debug)]
 pub struct Objective {
-    /// As it is written: `G_fan`, `P_fan + 2 [W/kg] * m`.
+    /// Its text: `G_fan`, `P_fan + 2 [W/kg] * m`.
     pub text: String,
-    /// The value; it reads parameters, and results where `of_results` says so.
+    /// The value; it reads parameters, and results if `of_results` is true.
     pub value: Value,
-    /// Whether it reads temperatures or heat flows, those of the steady state.
+    /// True if it reads temperatures or heat flows, those of the steady state.
     pub of_results: bool,
     /// Its type.
     pub ty: Type,
@@ -141,11 +141,11 @@ pub struct SizeRange {
     pub name: String,
     from: Value,
     to: Value,
-    /// Where it is named.
+    /// The place of its name.
     pub span: Span,
 }
 
-/// In which results requirements have to be kept.
+/// The results in which requirements have to be met.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Over {
     /// In steady state.
@@ -153,12 +153,12 @@ pub enum Over {
     Steady,
     /// At every moment of the `[run]`.
     Run,
-    /// At every moment of the cycle to which the network settles.
+    /// At every moment of the periodic steady state.
     Periodic,
 }
 
 impl Over {
-    /// The words for them, the usual one first.
+    /// The words for them, the default first.
     pub const WORDS: [(&str, Self); 3] =
         [("steady", Self::Steady), ("run", Self::Run), ("periodic", Self::Periodic)];
 
@@ -168,31 +168,30 @@ impl Over {
     }
 }
 
-/// Something that has to be kept: one expression is not to exceed another.
+/// A requirement: one expression may not exceed another.
 #[derive(Clone, Debug)]
 pub struct Requirement {
-    /// As it was written, for example `steel.T <= 80 [degC]`.
+    /// Its text, for example `steel.T <= 80 [degC]`.
     pub text: String,
     /// The type of both sides.
     pub ty: Type,
     low: Value,
     high: Value,
-    /// Whether the means over time of both sides are compared, and not their values at every moment.
+    /// True if means over time are compared instead of values at every moment.
     of_mean: bool,
 }
 
 impl Requirement {
-    /// How far it is from being broken where `scope` stands: positive while it is kept, in SI
-    /// units, a difference in K for temperatures. `scope` needs the temperatures, see
-    /// [`Evaluation::set_temperatures`].
+    /// Its margin at the state of `scope`: positive while it is met, in SI units, a difference in K
+    /// for temperatures. `scope` needs the temperatures, see [`Evaluation::set_temperatures`].
     ///
     /// # Errors
-    /// What the evaluation of a side reports.
+    /// The error of the evaluation of a side.
     pub fn margin(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
         Ok(self.high.at(scope)? - self.low.at(scope)?)
     }
 
-    /// Whether it compares means over time, and not values at every moment.
+    /// True if it compares means over time instead of values at every moment.
     pub fn is_of_mean(&self) -> bool {
         self.of_mean
     }
@@ -223,31 +222,30 @@ impl Requirement {
 pub struct SizeStudy {
     /// Its name.
     pub name: String,
-    /// What the best design has least or most of.
+    /// The quantity that is minimised or maximised.
     pub objective: Objective,
-    /// Which of them.
+    /// Minimum or maximum.
     pub goal: Goal,
-    /// What has to be kept; at least one.
+    /// Its requirements; at least one.
     pub requirements: Vec<Requirement>,
-    /// In which results.
+    /// The results in which they are checked.
     pub over: Over,
-    /// The period of the cycle, where it is given.
+    /// The period of the cycle, if given.
     pub(crate) period: Option<Setting>,
-    /// How likely requirements have to be kept, where it is given.
+    /// The required probability of meeting the requirements, if given.
     pub(crate) probability: Option<Setting>,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
-    /// The parameters whose values are sought; where there are catalogues, for each choice of parts.
+    /// The parameters to be sized; with catalogues, for each choice of parts.
     pub varied: Vec<SizeRange>,
-    /// The load cases in each of which everything has to be kept; `None` for all that there are.
+    /// The load cases that each have to meet all requirements; `None` for all cases.
     pub cases: Option<Vec<String>>,
-    /// What is chosen from: of each one part.
+    /// The catalogues; one part is chosen from each.
     pub catalogues: Vec<Catalogue>,
 }
 
 impl SizeStudy {
-    /// The parameter of which the least or largest value is sought, where nothing else is varied or
-    /// chosen.
+    /// The parameter that is minimised or maximised, if nothing else is varied or chosen.
     pub fn single(&self) -> Option<&SizeRange> {
         match self.varied.as_slice() {
             [one] if self.catalogues.is_empty() && one.name == self.objective.text => Some(one),
@@ -259,7 +257,7 @@ impl SizeStudy {
     /// `network`.
     ///
     /// # Errors
-    /// What the evaluation of an end reports.
+    /// The error of the evaluation of an end.
     pub fn ranges(&self, network: &Network) -> Result<Vec<RangeOf>, EvalError> {
         let mut scope = network.evaluation();
         let known =
@@ -269,20 +267,20 @@ impl SizeStudy {
             .collect()
     }
 
-    /// The period of the settled cycle in s for the parameters of `network`; `None` where it is that
-    /// of the repeated signals.
+    /// The period of the cycle in s for the parameters of `network`; `None` if it is that of the
+    /// repeated signals.
     ///
     /// # Errors
-    /// What its evaluation reports.
+    /// The error of its evaluation.
     pub fn period(&self, network: &Network) -> Result<Option<f64>, EvalError> {
         let mut scope = network.evaluation();
         self.period.as_ref().map(|period| period.value.at(&mut scope)).transpose()
     }
 
-    /// How likely each requirement has to be kept; `None` where `±` does not count.
+    /// The required probability of meeting each requirement; `None` if `±` does not count.
     ///
     /// # Errors
-    /// What its evaluation reports.
+    /// The error of its evaluation.
     pub fn probability(&self, network: &Network) -> Result<Option<f64>, EvalError> {
         let mut scope = network.evaluation();
         self.probability.as_ref().map(|setting| setting.value.at(&mut scope)).transpose()

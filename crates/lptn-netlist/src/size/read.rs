@@ -47,7 +47,7 @@ impl<'a> Elaboration<'a> {
         })
     }
 
-    /// What `vary` gives, the catalogues, or both.
+    /// The parameters of `vary`, the catalogues, or both.
     fn varied_or_chosen(
         &mut self,
         fields: &Fields<'a>,
@@ -74,7 +74,7 @@ impl<'a> Elaboration<'a> {
         Some((varied, catalogues))
     }
 
-    /// The results in which it has to be kept, and the period of a cycle where one is given.
+    /// The results in which requirements are checked, and the period of a cycle if given.
     fn over(&mut self, fields: &Fields<'a>) -> Option<(Over, Option<Setting>)> {
         let over = self.choice(fields, "over", &Over::WORDS)?;
         if over == Over::Run && self.raw.top.get(RUN.name).is_none() {
@@ -97,7 +97,7 @@ impl<'a> Elaboration<'a> {
         Some((over, self.optional_setting(fields, "period")?))
     }
 
-    /// What is sought, and in which direction; results have one value in steady state only.
+    /// The direction and the objective; results have one value in steady state only.
     fn goal(&mut self, fields: &Fields<'a>, steady: bool) -> Option<(Goal, Objective)> {
         let (goal, key) = match (fields.get("minimise"), fields.get("maximise")) {
             (Some(_), None) => (Goal::Minimise, "minimise"),
@@ -142,8 +142,8 @@ impl<'a> Elaboration<'a> {
         Some((goal, Objective { text: text.to_owned(), value, of_results, ty }))
     }
 
-    /// Whether an expression names a result, `NAME.T` or `NAME.Q`, and not only parameters of parts,
-    /// whose names have a point too.
+    /// True if an expression names a result, `NAME.T` or `NAME.Q`, not only parameters of parts,
+    /// whose names contain a point, too.
     fn reads_results(&self, expression: &Expression) -> bool {
         let names = expression.names();
         names.iter().any(|(name, _)| name.contains('.') && !self.names.is_parameter(name))
@@ -201,8 +201,8 @@ impl<'a> Elaboration<'a> {
         Some(Requirement { text: expression.text().trim().to_owned(), ty, low, high, of_mean })
     }
 
-    /// What the means over time of both sides are taken of, and whether they are means: beside a
-    /// mean stands another one, or what does not change.
+    /// The arguments of both sides if they are means over time, and true if they are. A mean may be
+    /// compared with another one, or with a constant.
     fn means(
         &mut self,
         place: Place<'_>,

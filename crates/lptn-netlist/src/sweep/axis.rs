@@ -13,15 +13,15 @@ use crate::sweep::declaration::{AXIS, SCALES};
 use crate::sweep::{SweepAxis, SweepMethod};
 use crate::work::Elaboration;
 
-/// The values of a parameter before they are evaluated: `--set` may change what they use.
+/// The values of a parameter before they are evaluated: `--set` may change their parameters.
 #[derive(Clone, Debug)]
 pub(crate) enum AxisValues {
     /// From one value to another.
     Range {
         ends: [Value; 2],
-        /// How many values, both ends included; 0 where samples are taken from it.
+        /// Number of values, both ends included; 0 if samples are taken from it.
         points: u64,
-        /// Whether they are apart by the same ratio.
+        /// True if their ratios are equal.
         log: bool,
         span: Span,
     },
@@ -126,7 +126,7 @@ impl<'a> Elaboration<'a> {
         Some(AxisValues::Range { ends, points: points?, log: log?, span: entry.value.span.clone() })
     }
 
-    /// How many values a range has: `points`, or one more than `steps`.
+    /// Number of values of a range: `points`, or one more than `steps`.
     fn axis_points(&mut self, range: &Fields<'a>, method: SweepMethod) -> Option<u64> {
         let keys = ["points", "steps"].into_iter().filter(|key| range.get(key).is_some());
         let given: Vec<&str> = keys.collect();
@@ -154,7 +154,7 @@ impl<'a> Elaboration<'a> {
         Some(if *key == "points" { number } else { number + 1 })
     }
 
-    /// A whole number of at least so much.
+    /// A whole number of at least `least`.
     pub(super) fn whole(&mut self, fields: &Fields<'a>, key: &str, least: u64) -> Option<u64> {
         let raw = fields.get(key)?;
         let RawKind::Integer(text) = &raw.kind else {

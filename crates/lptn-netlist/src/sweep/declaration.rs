@@ -5,7 +5,7 @@ use crate::format::{
 };
 use crate::sweep::{SweepMethod, SweepOver};
 
-/// How far values are apart: whether by the same ratio.
+/// Spacing of values; true for equal ratios.
 pub(super) const SCALES: [(&str, bool); 2] = [("linear", false), ("log", true)];
 
 pub(crate) const SWEEP: SectionDeclaration = SectionDeclaration {

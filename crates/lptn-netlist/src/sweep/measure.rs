@@ -1,4 +1,4 @@
-//! What a sweep reports of a candidate: a functional of the results.
+//! A report of a sweep about a candidate: a functional of the results.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::raw::RawEntry;
 use crate::sweep::SweepOver;
 use crate::work::Elaboration;
 
-/// What is taken of a quantity over a run or a cycle.
+/// A functional of a quantity over a run or a cycle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Functional {
     /// The quantity in steady state, or one that depends on parameters alone.
@@ -26,16 +26,16 @@ pub enum Functional {
     Mean,
     /// Its integral over time.
     Integral,
-    /// For how long it is above a level.
+    /// Time for which it is above a level.
     TimeOver,
-    /// For how long it is below a level.
+    /// Time for which it is below a level.
     TimeUnder,
-    /// The life of an insulation or a lubricant at this temperature, by the law of Arrhenius.
+    /// Life of an insulation or a lubricant at this temperature, by the law of Arrhenius.
     Life,
 }
 
 impl Functional {
-    /// Those that are called, each with how it is written.
+    /// The functionals with arguments, each with an example.
     pub const CALLED: [(&str, Self, &str); 8] = [
         ("last", Self::Last, "last(ring.T)"),
         ("max", Self::Max, "max(ring.T)"),
@@ -47,7 +47,7 @@ impl Functional {
         ("life", Self::Life, "life(ring.T, 20000 [h], 105 [degC], 1 [eV])"),
     ];
 
-    /// How many arguments it takes.
+    /// Number of its arguments.
     fn arity(self) -> usize {
         match self {
             Self::TimeOver | Self::TimeUnder => 2,
@@ -56,7 +56,7 @@ impl Functional {
         }
     }
 
-    /// The one of this name; `max(a, b)` is a function of two values and none of a run.
+    /// The one of this name; `max(a, b)` is a function of two values, not a functional of a run.
     fn find(name: &str, arguments: usize) -> Option<(Self, &'static str)> {
         let found = Self::CALLED.into_iter().find(|(known, ..)| *known == name);
         let of_values = matches!(name, "max" | "min" | "mean") && arguments > 1;
@@ -64,29 +64,29 @@ impl Functional {
     }
 }
 
-/// Something that is reported of every candidate.
+/// A report about every candidate.
 #[derive(Clone, Debug)]
 pub struct Measure {
     /// Its name, that of its column.
     pub name: String,
-    /// As it was written.
+    /// Its text.
     pub text: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
-    /// What is taken.
+    /// Its functional.
     pub functional: Functional,
-    /// What it is taken of: for a time above or below a level the distance from it, for a life the
-    /// rate of ageing over that at the reference.
+    /// The argument of the functional. For a time above or below a level: the distance from it. For
+    /// a life: the rate of ageing over that at the reference.
     pub of: Value,
     /// The type of that.
     pub of_ty: Type,
-    /// The type of what is reported.
+    /// The type of the report.
     pub ty: Type,
     /// The life at the reference, in s.
     pub life: Option<Value>,
 }
 
-/// What a measure is made of.
+/// The parts of a measure.
 struct Taken {
     functional: Functional,
     of: (Value, Type),
@@ -238,8 +238,8 @@ impl<'a> Elaboration<'a> {
         }
     }
 
-    /// The life at a changing temperature: what ages at the rate `exp(-Ea / (k T))` (S. Arrhenius,
-    /// Z. phys. Chem. 4 (1889) 226) lasts as long as the mean rate says.
+    /// The life at a changing temperature. Ageing has the rate `exp(-Ea / (k T))` (S. Arrhenius, Z.
+    /// phys. Chem. 4 (1889) 226), and its mean determines the life.
     fn life(&mut self, place: Place<'_>, of: &Expression, rest: &[Expression]) -> Option<Taken> {
         let [life, reference, energy] = rest else { return None };
         let (point, time) = (Type::ABSOLUTE_TEMPERATURE, Type::of(Dimension::TIME));

@@ -1,4 +1,4 @@
-//! `[sweep.NAME]`: many candidates, and what is reported of each.
+//! `[sweep.NAME]`: many candidates, and the reports about each.
 
 mod axis;
 mod declaration;
@@ -22,7 +22,7 @@ pub use crate::size::Over as SweepOver;
 pub use measure::{Functional, Measure};
 pub use plan::{AxisNumbers, MOST_CASES, SweepPlan};
 
-/// How the candidates of a sweep are chosen.
+/// The choice of the candidates of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SweepMethod {
     /// Every combination of the values of all axes, the last axis fastest.
@@ -31,7 +31,7 @@ pub enum SweepMethod {
     List,
     /// The rows of a file.
     Csv,
-    /// Samples of which each axis has one in each of as many cells.
+    /// Latin hypercube: each axis is cut into as many cells as there are samples, one in each.
     LatinHypercube,
     /// Points of a scrambled Sobol sequence.
     Sobol,
@@ -52,7 +52,7 @@ impl SweepMethod {
         Self::WORDS.into_iter().find(|(_, method)| *method == self).map_or("", |(word, _)| word)
     }
 
-    /// Whether the candidates are sampled from ranges.
+    /// True if the candidates are sampled from ranges.
     pub fn is_sampled(self) -> bool {
         matches!(self, Self::LatinHypercube | Self::Sobol)
     }
@@ -63,7 +63,7 @@ impl SweepMethod {
 pub struct SweepAxis {
     /// The parameter.
     pub name: String,
-    /// Where it is named.
+    /// The place of its name.
     pub span: Span,
     values: AxisValues,
 }
@@ -73,23 +73,23 @@ pub struct SweepAxis {
 pub struct SweepStudy {
     /// Its name.
     pub name: String,
-    /// Where it stands.
+    /// Its place.
     pub span: Span,
-    /// How the candidates are chosen.
+    /// The choice of the candidates.
     pub method: SweepMethod,
     /// The parameters that differ between them; at least one.
     pub axes: Vec<SweepAxis>,
-    /// How many candidates are sampled; 0 where they are not.
+    /// Number of sampled candidates; 0 if they are not sampled.
     pub samples: u64,
     /// The seed of the samples.
     pub seed: u32,
-    /// Which results are reported.
+    /// The results that are reported.
     pub over: SweepOver,
-    /// The length of the cycle, where it is given.
+    /// The length of the cycle, if given.
     pub period: Option<Value>,
-    /// What is reported; at least one.
+    /// The reports; at least one.
     pub reports: Vec<Measure>,
-    /// The places of two reports among them: candidates that none betters in both are told.
+    /// The positions of two reports: the Pareto-optimal candidates in both are listed.
     pub front: Option<[usize; 2]>,
     /// The file of the candidates as it was written, and its place.
     file: Option<(String, Span)>,

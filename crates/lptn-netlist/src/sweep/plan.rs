@@ -14,7 +14,7 @@ use crate::sweep::{SweepAxis, SweepMethod, SweepStudy};
 /// are about 100 GB.
 pub const MOST_CASES: u64 = 1_000_000_000;
 
-/// The points that the directions of the Sobol sequence are known for, and its dimensions.
+/// The largest number of points and of dimensions of the Sobol sequence.
 const MOST_SOBOL: u64 = 1 << 16;
 const MOST_AXES: usize = 256;
 
@@ -27,9 +27,9 @@ pub enum AxisNumbers {
         from: f64,
         /// The last value.
         to: f64,
-        /// How many values of a grid or a list, both ends included.
+        /// Number of values of a grid or a list, both ends included.
         points: u64,
-        /// Whether they are apart by the same ratio.
+        /// True if their ratios are equal.
         log: bool,
     },
     /// These.
@@ -37,7 +37,7 @@ pub enum AxisNumbers {
 }
 
 impl AxisNumbers {
-    /// How many values there are; 0 where samples are taken.
+    /// Number of values; 0 if samples are taken.
     pub fn count(&self) -> u64 {
         match self {
             Self::Range { points, .. } => *points,
@@ -73,13 +73,13 @@ impl AxisNumbers {
 pub struct SweepPlan {
     /// The parameters with their values, in the order of the axes.
     pub axes: Vec<(ParameterId, AxisNumbers)>,
-    /// How the candidates are chosen.
+    /// The choice of the candidates.
     pub method: SweepMethod,
     /// The seed of the samples.
     pub seed: u32,
-    /// How many candidates there are.
+    /// Number of candidates.
     pub cases: u64,
-    /// The length of the cycle in s, where it is given.
+    /// The length of the cycle in s, if given.
     pub period: Option<f64>,
 }
 
@@ -87,7 +87,7 @@ impl SweepStudy {
     /// Its numbers, for the parameters of `network`.
     ///
     /// # Errors
-    /// What is wrong with them: an empty or infinite range, lists of different lengths, more than
+    /// Its errors: an empty or infinite range, lists of different lengths, more than
     /// [`MOST_CASES`].
     pub fn plan(&self, network: &Network) -> Result<SweepPlan, Vec<Diagnostic>> {
         let mut check = Check { study: self, scope: network.evaluation(), problems: Vec::new() };
@@ -122,7 +122,7 @@ impl SweepStudy {
     }
 }
 
-/// Evaluates and collects what is wrong.
+/// Evaluates numbers and collects their errors.
 struct Check<'a> {
     study: &'a SweepStudy,
     scope: Evaluation,
@@ -194,7 +194,7 @@ impl Check<'_> {
         period
     }
 
-    /// How many candidates the axes make.
+    /// Number of candidates that the axes make.
     fn cases(&mut self, axes: &[AxisNumbers]) -> u64 {
         let study = self.study;
         let product = |product: f64, axis: &AxisNumbers| product * axis.count() as f64;

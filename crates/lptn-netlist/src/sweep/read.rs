@@ -55,7 +55,7 @@ impl<'a> Elaboration<'a> {
         })
     }
 
-    /// How many samples, and their seed.
+    /// Number of samples, and their seed.
     fn sampling(&mut self, fields: &Fields<'a>, method: SweepMethod) -> Option<(u64, u32)> {
         if !method.is_sampled() {
             let why = format!("is for samples, and `{}` takes none", method.word());
@@ -149,7 +149,7 @@ impl<'a> Elaboration<'a> {
         None
     }
 
-    /// A report and a parameter would be two columns of one name.
+    /// Refuses a report with the name of a parameter: two columns would have one name.
     fn report_of_axis(&mut self, reports: &Option<Vec<Measure>>, axes: &[SweepAxis]) {
         for measure in reports.iter().flatten() {
             let Some(axis) = axes.iter().find(|axis| axis.name == measure.name) else { continue };

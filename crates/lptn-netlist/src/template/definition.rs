@@ -1,4 +1,4 @@
-//! `[template.NAME]`: what a part consists of, before it is used.
+//! `[template.NAME]`: the contents of a part, before it is used.
 
 use lptn_data::{Diagnostic, nearest};
 use lptn_network::is_name;
@@ -13,7 +13,7 @@ use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 
 const PORT: &str = "port";
 
-/// A parameter of a template without a value of its own: `R = { unit = "K/W" }`.
+/// A parameter of a template without a value: `R = { unit = "K/W" }`.
 pub(super) const OPEN_PARAMETER: SectionDeclaration = SectionDeclaration {
     name: "param",
     keys: &[text("unit", "unit", "the unit of the values that it is set to", "\"K/W\"").needed()],
@@ -25,7 +25,7 @@ pub(super) const OPEN_PARAMETER: SectionDeclaration = SectionDeclaration {
     ..SectionDeclaration::NEW
 };
 
-/// A template, checked as far as it can be without being used.
+/// A template, checked as far as possible without its uses.
 #[derive(Debug)]
 pub(super) struct Template<'r> {
     /// Its line.
@@ -35,9 +35,9 @@ pub(super) struct Template<'r> {
     pub(super) ports: Vec<(&'r str, &'r RawValue)>,
     /// Its sections of elements, in order.
     pub(super) sections: Vec<(&'r RawEntry, &'r RawTable)>,
-    /// What it uses itself.
+    /// The templates that it uses.
     pub(super) uses: &'r [RawEntry],
-    /// Whether something about it is wrong: then it cannot be used.
+    /// True if it has an error: then it cannot be used.
     pub(super) broken: bool,
 }
 
@@ -45,9 +45,9 @@ pub(super) struct Template<'r> {
 #[derive(Debug)]
 pub(super) struct Parameter<'r> {
     pub(super) entry: &'r RawEntry,
-    /// Whether it has a value of its own.
+    /// True if it has a value.
     pub(super) default: bool,
-    /// Its type, where that is written: that of its value, or of its unit.
+    /// Its type, if written: that of its value, or of its unit.
     pub(super) ty: Option<Type>,
 }
 
@@ -60,7 +60,7 @@ impl<'r> Template<'r> {
         self.parameters.iter().find(|parameter| parameter.entry.key == name)
     }
 
-    /// Reads a template and reports what is wrong with it.
+    /// Reads a template and reports its errors.
     pub(super) fn read(
         entry: &'r RawEntry,
         format: &NetlistFormat,
@@ -125,7 +125,7 @@ impl<'r> Template<'r> {
         }
     }
 
-    /// `m = "0.2 kg"` with a value of its own; `R = { unit = "K/W" }` has to be set.
+    /// `m = "0.2 kg"` has a value; `R = { unit = "K/W" }` has to be set.
     fn read_parameter(
         &self,
         entry: &'r RawEntry,
@@ -158,7 +158,7 @@ impl<'r> Template<'r> {
         Some(Parameter { entry, default: true, ty })
     }
 
-    /// What is wrong with the names inside.
+    /// Errors of the names inside.
     fn names(&self) -> Vec<Diagnostic> {
         let parameters = self.parameters.iter().map(|parameter| ("parameter", parameter.entry));
         let uses = self.uses.iter().map(|entry| (USE.name, entry));

@@ -1,4 +1,4 @@
-//! What is said about names inside a template.
+//! Errors about names inside a template.
 
 use lptn_data::Diagnostic;
 use lptn_network::is_name;
@@ -7,7 +7,7 @@ use super::structure::Structure;
 use crate::names::base;
 use crate::place::Place;
 
-/// How a template comes to know something around it.
+/// Help for a template that needs a name around it.
 pub(crate) fn by_port(name: &str) -> String {
     let port = name.rsplit('.').next().filter(|port| is_name(port)).unwrap_or("port");
     format!(
@@ -22,7 +22,7 @@ pub(crate) fn outside(place: Place<'_>, name: &str, template: &str) -> Diagnosti
     Diagnostic::error("netlist::outside_template", message).help(by_port(base(name)))
 }
 
-/// What is to be pasted into a template has the names of the template.
+/// Shortens the help for a text in a template to the names of the template.
 pub(crate) fn in_own_words(
     structure: &Structure,
     place: Place<'_>,

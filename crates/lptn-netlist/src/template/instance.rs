@@ -12,23 +12,23 @@ use crate::names::ValueKind;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::template::USE;
 
-/// Where instances are made: below this name, in the text of this instance.
+/// The surroundings of instances: prefix of their names, and instance of their text.
 struct Around {
     prefix: String,
     copy: CopyId,
 }
 
-/// Puts the elements of instances behind those of the file.
+/// Adds the elements of instances after those of the file.
 pub(super) struct Maker<'r, 'w> {
     files: &'w mut Files,
     format: &'w NetlistFormat,
     templates: &'r [Template<'r>],
-    /// How many instances one of each template makes.
+    /// Number of instances that one instance of each template makes.
     sizes: &'w [usize],
     raw: &'w mut RawNetlist,
     /// The sections of the netlist by name.
     sections: HashMap<String, usize>,
-    /// What is inside each template, once it is used.
+    /// The position of the names inside each template, once it is used.
     insides: HashMap<usize, usize>,
     structure: Structure,
     problems: Vec<Diagnostic>,
@@ -68,7 +68,7 @@ impl<'r, 'w> Maker<'r, 'w> {
         uses.iter().for_each(|entry| self.make(entry, &around));
     }
 
-    /// What was made, what is wrong, and which templates were named.
+    /// The instances, the errors, and the templates that were named.
     pub(super) fn finish(self) -> (Structure, Vec<Diagnostic>, HashSet<usize>) {
         let templates = self.templates.iter().enumerate();
         let broken =
@@ -152,7 +152,7 @@ impl<'r, 'w> Maker<'r, 'w> {
         position
     }
 
-    /// What each port of an instance stands for.
+    /// The full name of the target of each port of an instance.
     fn ports(&mut self, (plan, number): (&Plan<'_>, usize), line: usize) -> Vec<String> {
         let mut targets = Vec::new();
         for (port, _) in &plan.template.ports {
@@ -203,7 +203,7 @@ impl<'r, 'w> Maker<'r, 'w> {
         self.push((&section.key, &section.key_span), entry);
     }
 
-    /// Adds an entry to a section, behind those that are there.
+    /// Adds an entry to a section, after the existing ones.
     fn push(&mut self, (section, at): (&str, &Span), entry: RawEntry) {
         let entries = &mut self.raw.top.entries;
         let position = *self.sections.entry(section.to_owned()).or_insert_with(|| {

@@ -1,9 +1,9 @@
 //! Templates: parts that are written once and used several times.
 //!
-//! The work is done on what is written, before anything is read: each instance becomes elements of
-//! its own, with full names (`planet[2].gear`), and values as they stand in the template. A place
-//! knows for which instance it is read, and that decides what a name there means
-//! ([`Structure::meaning`]); so no section has to know of templates.
+//! Templates are expanded in the raw tree, before values are read. Each instance becomes separate
+//! elements with full names (`planet[2].gear`) and the values of the template. A place knows its
+//! instance, which determines the meaning of names there ([`Structure::meaning`]). So no section
+//! has to know of templates.
 //!
 //! An error that occurs in every instance is reported once.
 
@@ -33,7 +33,7 @@ pub(crate) use inside::{by_port, in_own_words, outside};
 pub(crate) use structure::Structure;
 pub(crate) use wrong_path::wrong_path;
 
-/// `[template.NAME]`; what it holds is read by itself.
+/// `[template.NAME]`; its contents are read separately.
 pub(crate) const TEMPLATE: SectionDeclaration = SectionDeclaration {
     name: "template",
     sentence: "A part that is written once: its elements are below `[template.NAME.node]` and so \
@@ -105,7 +105,7 @@ pub(crate) struct Expanded {
     pub(crate) problems: Vec<Diagnostic>,
 }
 
-/// Puts elements in the place of every use.
+/// Replaces every use by elements.
 pub(crate) fn expand(files: &mut Files, mut raw: RawNetlist, format: &NetlistFormat) -> Expanded {
     let (main, mut problems) = (raw.top.span.file, Vec::new());
     let (written, uses) = (raw.take(TEMPLATE.name), raw.take(USE.name));
@@ -120,14 +120,14 @@ pub(crate) fn expand(files: &mut Files, mut raw: RawNetlist, format: &NetlistFor
     problems
         .extend(unused(&templates, &used).filter(|d| d.place().is_some_and(|at| at.file == main)));
     if any_error(&problems) {
-        // what is odd may follow from what is wrong
+        // warnings may follow from errors
         problems.retain(|problem| problem.severity == Severity::Error);
     }
     Expanded { raw, structure: Arc::new(structure), problems }
 }
 
-/// A file of templates that is included is there to be chosen from; in its own file a template is
-/// for use.
+/// Warns about unused templates. A file of templates that is included is a selection to choose
+/// from.
 fn unused<'t>(
     templates: &'t [Template<'t>],
     used: &HashSet<usize>,

@@ -1,22 +1,22 @@
-//! Templates that hold each other.
+//! Templates that contain each other.
 
 use super::definition::Template;
 use lptn_data::Diagnostic;
 
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 
-/// A part inside a part inside a part: more are a mistake.
+/// Greatest depth of parts inside parts.
 const DEEPEST: usize = 32;
 
-/// How large templates are when all that they use is in them.
+/// The sizes of templates with everything that they use.
 struct Extent {
-    /// How many instances one instance makes, itself included.
+    /// Number of instances that one instance makes, itself included.
     instances: Vec<usize>,
     depth: Vec<usize>,
 }
 
-/// Reports every circle of templates once, and marks its members as broken; for the others it says
-/// how many instances one of each makes, itself included.
+/// Reports every circle of templates once, and marks its members as broken. Returns the number of
+/// instances that one of each other template makes, itself included.
 pub(super) fn check(templates: &mut [Template<'_>], problems: &mut Vec<Diagnostic>) -> Vec<usize> {
     let edges: Vec<Vec<Edge<'_>>> =
         templates.iter().map(|template| used_by(template.uses, templates)).collect();
@@ -69,7 +69,7 @@ pub(super) fn check(templates: &mut [Template<'_>], problems: &mut Vec<Diagnosti
 }
 
 impl Extent {
-    /// Notes what a template holds once that is known of all it uses.
+    /// Adds the sizes of everything that a template uses, once they are known.
     fn close(&mut self, at: usize, edges: &[Edge<'_>]) {
         for edge in edges {
             let inner = self.instances[edge.used].saturating_mul(edge.count);
@@ -105,7 +105,7 @@ fn used_by<'r>(uses: &'r [RawEntry], templates: &[Template<'_>]) -> Vec<Edge<'r>
     named.collect()
 }
 
-/// The count of a use, 1 where it cannot be read.
+/// The count of a use, 1 if it cannot be read.
 pub(super) fn count(line: &RawTable) -> usize {
     match line.get("count").map(|field| &field.value.kind) {
         Some(RawKind::Integer(number)) => number.replace('_', "").parse().unwrap_or(1),

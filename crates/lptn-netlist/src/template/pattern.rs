@@ -10,8 +10,7 @@ use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 
 const STAR: &str = "[*]";
 
-/// Puts one limit for each instance in the place of a limit of all, and the instances in the place
-/// of a pattern that is heated.
+/// Replaces a limit of all instances by one for each, and a heated pattern by its instances.
 pub(super) fn expand(raw: &mut RawNetlist, structure: &Structure) -> Vec<Diagnostic> {
     let mut work = Patterns { structure, problems: Vec::new() };
     for section in &mut raw.top.entries {
@@ -68,7 +67,7 @@ impl Patterns<'_> {
         each.collect()
     }
 
-    /// `into = "planet[*].gear"` shares the heat equally; `false` if something is wrong with it.
+    /// `into = "planet[*].gear"` shares the heat equally; `false` after an error.
     fn source(&mut self, entry: &mut RawEntry) -> bool {
         let before = self.problems.len();
         let RawKind::Table(fields) = &mut entry.value.kind else { return true };
@@ -160,7 +159,7 @@ fn field<'e>(entry: &'e RawEntry, key: &str) -> Option<&'e RawValue> {
     }
 }
 
-/// The text of a string that holds a pattern.
+/// The text of a string that contains a pattern.
 fn starred(value: &RawValue) -> Option<&str> {
     match &value.kind {
         RawKind::String { text, .. } if text.contains(STAR) => Some(text),
@@ -168,7 +167,7 @@ fn starred(value: &RawValue) -> Option<&str> {
     }
 }
 
-/// A pattern with numbers in the place of its stars.
+/// A pattern with numbers instead of its stars.
 fn fill(pattern: &str, indices: &[usize]) -> String {
     let mut text = pattern.to_owned();
     for index in indices {

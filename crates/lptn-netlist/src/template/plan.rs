@@ -1,4 +1,4 @@
-//! `[use.NAME]`: which template, how often, connected to what and with which parameters.
+//! `[use.NAME]`: template, count, connections and parameters.
 
 use lptn_data::{Diagnostic, list, nearest};
 
@@ -7,29 +7,28 @@ use super::definition::{Parameter, Template};
 use crate::fields::{Fields, Owner, wrong_shape};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 
-/// So many instances a netlist may have, nested ones included; more are a mistake.
+/// Most instances of a netlist, nested ones included.
 pub(super) const MOST_INSTANCES: usize = 1_000_000;
 
-/// What a use says, checked against its template.
+/// The contents of a use, checked against its template.
 #[derive(Debug)]
 pub(super) struct Plan<'r> {
     pub(super) template: &'r Template<'r>,
     /// The position of the template.
     pub(super) position: usize,
     pub(super) count: Option<usize>,
-    /// For each port what it is connected to: one value, or one for each instance.
+    /// For each port its connection: one value, or one for each instance.
     pub(super) connect: Vec<(&'r str, Vec<RawValue>)>,
     /// The parameters that are set, in the same way.
     pub(super) set: Vec<(&'r Parameter<'r>, Vec<RawValue>)>,
 }
 
-/// The value of one of several instances; a single one holds for all.
+/// The value of one of several instances; a single value applies to all.
 pub(super) fn of_instance(values: &[RawValue], number: usize) -> Option<&RawValue> {
     if values.len() == 1 { values.first() } else { values.get(number) }
 }
 
-/// Reads the line of a use; `None` if something is wrong, which is then reported, or if its
-/// template is broken.
+/// Reads the line of a use; `None` after an error, which is reported, or if its template is broken.
 pub(super) fn plan<'r>(
     templates: &'r [Template<'r>],
     entry: &RawEntry,
@@ -240,7 +239,7 @@ fn example(name: &str) -> String {
     )
 }
 
-/// A port or parameter that a template does not have; `give` is how it could be given one.
+/// Error for a port or parameter that a template does not have; `give` shows how to add it.
 fn unknown(
     (template, entry): (&Template<'_>, &RawEntry),
     (what, known): (&str, &[&str]),

@@ -1,4 +1,4 @@
-//! What templates made of a netlist: which instances there are, and what names mean inside them.
+//! The result of the templates of a netlist: its instances, and the meaning of names inside them.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -10,7 +10,7 @@ use crate::raw::{RawEntry, RawValue};
 /// The instances of a netlist.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Structure {
-    /// What is inside each template that is used.
+    /// The names inside each template that is used.
     pub(super) insides: Vec<Inside>,
     /// The instances, by [`CopyId`].
     pub(super) instances: Vec<Instance>,
@@ -19,9 +19,9 @@ pub(crate) struct Structure {
     /// The lines of the uses that connect ports.
     pub(super) lines: Vec<RawEntry>,
     pub(super) connections: Vec<Connection>,
-    /// The types of parameters of instances that are set, and where a type is written.
+    /// The types of parameters of instances that are set, and the places of the types.
     pub(super) types: HashMap<String, (Type, Span)>,
-    /// Uses that could not be read: what they would have made is missing.
+    /// Uses that could not be read: their elements are missing.
     pub(super) lost: Vec<String>,
 }
 
@@ -41,14 +41,14 @@ pub(super) struct Instance {
     pub(super) path: String,
     /// Its template, as a position in [`Structure::insides`].
     pub(super) inside: usize,
-    /// What each port stands for.
+    /// The full name of the target of each port.
     pub(super) ports: Vec<String>,
 }
 
 /// A `[use.NAME]`.
 #[derive(Clone, Debug)]
 pub(super) struct Used {
-    /// How many instances; `None` for one without index.
+    /// Number of instances; `None` for one without index.
     pub(super) count: Option<usize>,
     pub(super) span: Span,
 }
@@ -60,7 +60,7 @@ pub(crate) struct Connection {
     line: usize,
     pub(crate) port: String,
     pub(crate) value: RawValue,
-    /// What is meant, in full.
+    /// Its full name.
     pub(crate) target: String,
 }
 
@@ -81,8 +81,7 @@ impl Structure {
         Some((instance, self.insides.get(instance.inside)?))
     }
 
-    /// What a name means that is written at `place`, if that is inside a template and the name
-    /// belongs to it.
+    /// The full name of a name at `place`, if that is inside a template and the name belongs to it.
     pub(crate) fn meaning(&self, place: &Span, name: &str) -> Option<String> {
         let (instance, inside) = self.instance(place.copy)?;
         let first = root(name);
@@ -92,18 +91,18 @@ impl Structure {
         inside.own.contains(first).then(|| format!("{}.{name}", instance.path))
     }
 
-    /// What a name means at `place`.
+    /// The full name of a name at `place`.
     pub(crate) fn resolve(&self, place: &Span, name: &str) -> String {
         self.meaning(place, name).unwrap_or_else(|| name.to_owned())
     }
 
-    /// What a name means at `place`; `None` for one in a template that is none of its own.
+    /// The full name of a name at `place`; `None` for a foreign name in a template.
     pub(crate) fn inside(&self, place: &Span, name: &str) -> Option<String> {
         let own = || self.template_at(place).is_none().then(|| name.to_owned());
         self.meaning(place, name).or_else(own)
     }
 
-    /// The template that a place stands in.
+    /// The template that contains a place.
     pub(crate) fn template_at(&self, place: &Span) -> Option<&str> {
         self.instance(place.copy).map(|(_, inside)| inside.template.as_str())
     }
@@ -122,7 +121,8 @@ impl Structure {
         names
     }
 
-    /// Whether what is meant by `full` belongs to the instance at `place`, or is one of its ports.
+    /// True if `full` names a part of the instance at `place`, or of the target of one of its
+    /// ports.
     pub(crate) fn belongs(&self, place: &Span, full: &str) -> bool {
         let under = |whole: &str| {
             full.strip_prefix(whole)
@@ -133,7 +133,7 @@ impl Structure {
         })
     }
 
-    /// Whether a path is part of a use that could not be read.
+    /// True if a path is part of a use that could not be read.
     pub(crate) fn is_lost(&self, path: &str) -> bool {
         self.lost.iter().any(|lost| {
             path.strip_prefix(lost.as_str())
@@ -141,7 +141,7 @@ impl Structure {
         })
     }
 
-    /// Whether a use could not be read.
+    /// True if a use could not be read.
     pub(crate) fn has_lost(&self) -> bool {
         !self.lost.is_empty()
     }
@@ -153,12 +153,12 @@ impl Structure {
             .filter_map(|connection| Some((self.lines.get(connection.line)?, connection)))
     }
 
-    /// The type that a parameter of an instance has to have, and where that is written.
+    /// The required type of a parameter of an instance, and the place of that type.
     pub(crate) fn type_of(&self, parameter: &str) -> Option<&(Type, Span)> {
         self.types.get(parameter)
     }
 
-    /// The use of this full name: how many instances it makes.
+    /// The number of instances of the use of this full name.
     pub(super) fn count(&self, name: &str) -> Option<Option<usize>> {
         self.uses.get(name).map(|used| used.count)
     }

@@ -3,19 +3,19 @@
 use super::structure::Structure;
 use lptn_data::{Diagnostic, Span};
 
-/// What is wrong with the indices of a path.
+/// The error in the indices of a path.
 #[derive(Debug)]
 pub(crate) struct WrongPath {
-    /// What is wrong, after "names `planet[9].gear`, but".
+    /// The error, after "names `planet[9].gear`, but".
     pub(crate) why: String,
-    /// What to write.
+    /// The correction.
     pub(crate) help: String,
-    /// Where the instances are made.
+    /// The place that makes the instances.
     pub(crate) made: Span,
 }
 
 impl Structure {
-    /// Why a path leads nowhere, if an index of an instance is to blame.
+    /// The error of a path, if an index of an instance is wrong.
     pub(crate) fn wrong_path(&self, path: &str) -> Option<WrongPath> {
         let mut before = String::new();
         for part in path.split('.') {
@@ -61,7 +61,7 @@ impl Structure {
     }
 }
 
-/// `words` names a path at `place` that is wrong in this way.
+/// Error for a wrong path, which `words` names at `place`.
 pub(crate) fn wrong_path((words, path): (&str, &str), place: Span, wrong: WrongPath) -> Diagnostic {
     let message = format!("{words} names `{path}`, but {}", wrong.why);
     let problem = Diagnostic::error("netlist::no_instance", message).at(place, "");

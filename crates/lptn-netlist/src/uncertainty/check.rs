@@ -1,4 +1,4 @@
-//! Whether what is known of parameters together fits the network.
+//! Checks that the joint knowledge of parameters fits the network.
 
 use lptn_data::{Diagnostic, Span};
 use lptn_network::{Network, Parameters};
@@ -8,8 +8,7 @@ use super::file::Found;
 use super::{UncertaintyPlan, WrittenCorrelation};
 use crate::posterior::{Believed, PosteriorQuantity, problem};
 
-/// What is known of parameters together: what is written goes to `parameters`, a posterior has to
-/// fit the network.
+/// The posterior, which has to fit the network; written correlations go to `parameters`.
 pub(crate) fn known(
     plan: &UncertaintyPlan,
     network: &Network,
@@ -26,7 +25,7 @@ pub(crate) fn known(
     if problems.is_empty() { Ok(believed) } else { Err(problems) }
 }
 
-/// What is wrong with it.
+/// The errors of the correlations and the posterior.
 pub(crate) fn check(
     plan: &UncertaintyPlan,
     network: &Network,
@@ -96,7 +95,7 @@ fn fits(believed: &Believed, plan: &UncertaintyPlan, network: &Network) -> Vec<D
     problems
 }
 
-/// A quantity that is no parameter here, or one of another kind.
+/// Error for a quantity that is not a parameter here, or one of another kind.
 fn one(
     quantity: &PosteriorQuantity,
     network: &Network,
@@ -129,12 +128,12 @@ fn one(
     Some(problem("posterior::unit", words, place, named).help(help))
 }
 
-/// Whether numbers in this unit are those of SI, points of temperature in K.
+/// True if numbers in this unit are those of SI, points of temperature in K.
 fn is_si(unit: &Unit) -> bool {
     (unit.scale - 1.0).abs() < f64::EPSILON && unit.offset.abs() < f64::EPSILON
 }
 
-/// That the correlations of all that is uncertain cannot be.
+/// Error for impossible correlations of the uncertain parameters.
 pub(crate) fn joint(
     plan: &UncertaintyPlan,
     network: &Network,

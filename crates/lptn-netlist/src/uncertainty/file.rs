@@ -1,4 +1,4 @@
-//! The file of a posterior: found, read, and what of it counts.
+//! The file of a posterior, and the parameters that are taken from it.
 
 use std::path::Path;
 
@@ -49,7 +49,7 @@ pub(crate) fn load(files: &mut Files, raw: &RawNetlist, loader: Option<&mut Load
 }
 
 impl Believed {
-    /// With what the netlist takes of it.
+    /// The same with the parameters that the netlist takes.
     pub(crate) fn taken(mut self, key: Option<&PosteriorKey>) -> Self {
         let only = key.and_then(|key| key.only.as_ref());
         self.only = only.map(|only| only.iter().map(|(name, _)| name.clone()).collect());

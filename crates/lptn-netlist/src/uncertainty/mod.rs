@@ -1,4 +1,4 @@
-//! `[uncertainty]`: what is known of parameters together, written or found by a fit.
+//! `[uncertainty]`: joint knowledge of parameters, written or from a fit.
 
 mod check;
 mod file;
@@ -48,7 +48,7 @@ pub(crate) const UNCERTAINTY: SectionDeclaration = SectionDeclaration {
 pub(crate) struct PosteriorKey {
     /// Its path as it is written.
     pub(crate) path: String,
-    /// Where that stands.
+    /// The place of the path.
     pub(crate) span: Span,
     /// The parameters that are taken; all unless named.
     pub(crate) only: Option<Vec<(String, Span)>>,
@@ -70,7 +70,7 @@ pub(crate) struct UncertaintyPlan {
 }
 
 impl UncertaintyPlan {
-    /// Says it of the parameters of a network.
+    /// Puts the correlations into `parameters`.
     pub(crate) fn correlate(&self, network: &Network, parameters: &mut Parameters) {
         for written in &self.correlations {
             let [a, b] = [0, 1].map(|i: usize| network.parameter(&written.between[i]));
@@ -80,7 +80,7 @@ impl UncertaintyPlan {
         }
     }
 
-    /// Its fields as they are written; `path` says how the text names a file.
+    /// Its fields as they are written; `path` names files for the text.
     pub(crate) fn fields(&self, path: &dyn Fn(&Span, &str) -> String) -> TomlFields {
         let mut fields = TomlFields::default();
         if let Some(key) = &self.posterior {

@@ -70,8 +70,7 @@ impl<'a> Elaboration<'a> {
         Some(PosteriorKey { path: path.to_owned(), span: raw.span.clone(), only })
     }
 
-    /// The parameters that are taken; nothing inside where all are, nothing at all where the list
-    /// is wrong.
+    /// The parameters that are taken; `Some(None)` for all, `None` if the list is wrong.
     #[expect(clippy::option_option, reason = "left out is not wrong")]
     fn only(&mut self, fields: &Fields<'a>) -> Option<Option<Vec<(String, lptn_data::Span)>>> {
         let Some(listed) = self.listed_if_any(fields, ("only", "a list of names"))? else {
