@@ -9,9 +9,9 @@ pub const MOST_CURVES: usize = 12;
 /// Name of the axis of temperatures.
 pub const TEMPERATURE: &str = "temperature";
 
-/// The columns of a table over its first one, and the number of columns left out. Each unit has a
-/// panel, in order of appearance. Names of temperatures lose their end `.T`. A panel shows at most
-/// [`MOST_CURVES`]: those that reach highest.
+/// Panels of the columns of a table over its first one, and the number of columns left out.
+/// Each unit has a panel, in order of appearance. Names of temperatures lose their end `.T`. A
+/// panel shows at most [`MOST_CURVES`] columns: those that reach highest.
 pub fn panels(table: &Table) -> (Vec<Panel>, usize) {
     let Some((first, others)) = table.columns().split_first() else {
         return (Vec::new(), 0);

@@ -50,7 +50,7 @@ impl<W: Write> JsonWriter<W> {
     /// Writes a table as `columns`, each with name and unit, and `rows` of plain numbers.
     /// Columns of words come first, with `null` as unit.
     ///
-    /// Errors of the stream.
+    /// # Errors
     /// Errors of the stream.
     pub fn table(&mut self, table: &Table) -> io::Result<()> {
         self.key("columns")?;

@@ -179,9 +179,9 @@ impl TextTable {
         Self { columns }
     }
 
-    /// The lines of the table, the heading first if any column has one. If they are wider than
-    /// `look`, optional columns are left out from the right, then spare ones. Then long names are
-    /// shortened in the middle, the longest first.
+    /// The lines of the table, the heading first if any column has one.
+    /// If they are too wide, optional columns are left out from the right, then spare ones. Then
+    /// long names are shortened in the middle, the longest first.
     pub fn lines(mut self, look: Look) -> Vec<String> {
         while self.width() > look.width {
             let Some(last) = self.columns.iter().rposition(|column| column.optional) else { break };

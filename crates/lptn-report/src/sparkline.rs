@@ -2,9 +2,9 @@
 
 const LEVELS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
-/// A curve over time as `width` characters, from its lowest to its highest value. The first and
-/// last character are the ends. A curve that varies by less than `least` is flat: its share of the
-/// way is of `least`. A curve without finite values is blank.
+/// A curve over time as `width` characters, from its lowest to its highest value.
+/// The first and the last character show its ends. A curve that varies by less than `least` is
+/// flat. A curve without finite values is blank.
 pub fn sparkline(times: &[f64], values: &[f64], width: usize, least: f64) -> String {
     let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
         return " ".repeat(width);
