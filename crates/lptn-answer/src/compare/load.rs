@@ -31,14 +31,14 @@ pub fn too_many(option: &str) -> Failure {
     Failure::refused("compare::too_many", message, "give fewer values, or compare in several steps")
 }
 
-/// A candidate's file, and its netlist or what is wrong with it.
+/// A candidate's file, and its netlist or the problems in it.
 #[derive(Debug)]
 pub struct Loaded {
-    /// The file, and what tells the variant from others.
+    /// The file and the label of the variant.
     pub file: String,
-    /// The netlist with what was set in it.
+    /// The netlist with its assignments.
     pub input: Result<Input, Failure>,
-    /// For each `--set` whether this candidate has the parameter.
+    /// For each `--set`, true if this candidate has the parameter.
     has: Vec<bool>,
 }
 
