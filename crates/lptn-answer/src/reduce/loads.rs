@@ -1,4 +1,4 @@
-//! A few nodes in place of one, and the largest error over every load.
+//! A few nodes instead of one, and the largest error over every load.
 
 use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::scale;
 
-/// Most nodes that are tried where a limit is to be kept.
+/// Most nodes that are tried to keep a limit.
 const MOST: usize = 20;
 
 /// Errors over every load at the port: all powers between 0 and the largest, in any order.
@@ -22,7 +22,7 @@ const MOST: usize = 20;
 pub struct Loads {
     /// The largest power in W.
     pub power: f64,
-    /// Whether the question gave it.
+    /// True if the question gave it.
     given: bool,
     /// The largest error over every load that is allowed, if one is given.
     pub limit: Option<Limit>,
