@@ -1,4 +1,4 @@
-//! Netlists that are written: each is read again, and compared, before anybody gets it.
+//! Netlists that are written: each is read again and compared before it is used.
 
 use std::path::Path;
 
@@ -33,7 +33,7 @@ pub fn proven(
 /// A netlist that is no longer read, and a text that reads as another network.
 pub fn with_numbers(input: &Input, numbers: &[(ParameterId, String)]) -> Result<String, Failure> {
     let (netlist, place) = (&input.netlist, Path::new(&input.text.name));
-    // what was set on the command line is not in the file
+    // values set on the command line are not in the file
     let original = parse_file(place, &input.text.bytes)?;
     let mut parameters = original.network.overrides();
     let mut written = Vec::with_capacity(numbers.len());
@@ -104,7 +104,7 @@ pub fn can_be_written(
     Err(Failure::at(Exit::Input, netlist.files.clone(), problem))
 }
 
-/// A file that is replaced would not be protected by its permissions.
+/// True if a file is read-only: replacing it would ignore its permissions.
 fn is_protected(file: &str) -> bool {
     std::fs::metadata(file).is_ok_and(|metadata| metadata.permissions().readonly())
 }

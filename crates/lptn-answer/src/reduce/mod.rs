@@ -1,4 +1,4 @@
-//! One node, or a few, in place of a network, and their errors.
+//! One node, or a few, instead of a network, and their errors.
 
 mod figure;
 mod keep;
@@ -40,7 +40,7 @@ use crate::written;
 use near::Near;
 use refused::{failed, no_port, no_run};
 
-/// The question for one node, or a few, in place of a network that is seen from one of its nodes.
+/// Asks for one node, or a few, instead of a network that is seen from one of its nodes.
 #[derive(Clone, Debug)]
 pub struct ReduceQuestion {
     /// The node that the network is seen from. The question needs it.
@@ -51,13 +51,13 @@ pub struct ReduceQuestion {
     pub error: Option<String>,
     /// The largest power of these loads, `250W`; `None` for the largest that the port sees.
     pub power: Option<String>,
-    /// How many nodes; `None` for one, or for as few as keep `error`.
+    /// Number of nodes; `None` for one, or for the fewest that keep `error`.
     pub nodes: Option<usize>,
     /// The error by which a definition of `C_eq` is recommended.
     pub judge: Judge,
     /// The definition of `C_eq` to use; `None` for the recommended one.
     pub definition: Option<Definition>,
-    /// Whether one exponential is fitted to the run, to say what heat it implies.
+    /// True if one exponential is fitted to the run, to give the heat that it implies.
     pub bias: bool,
     /// The time over which `least_squares` fits, `20s`; `None` for five of the slowest time
     /// constants.
@@ -101,7 +101,7 @@ pub struct ReduceAnswer {
     pub loads: Loads,
     /// The heat that one exponential through the run implies, if that was asked for.
     pub bias: Option<Result<Bias, FitError>>,
-    /// The state near which it stands for the network.
+    /// The state near which the reduction is valid.
     near: Option<Near>,
     /// The unit of temperatures.
     pub unit: Unit,
@@ -244,8 +244,8 @@ impl ReduceAnswer {
         Some((judge, error, dynamics.collapses(pair)))
     }
 
-    /// The network of the nodes as a netlist that is going to stand at `place`, or beside that of
-    /// the whole network. It was read again and compared.
+    /// The network of the nodes as a netlist at `place`, or in the folder of the whole network.
+    /// It was read again and compared.
     ///
     /// # Errors
     /// A network that cannot be written, and one near a state.
@@ -283,7 +283,7 @@ impl ReduceAnswer {
         text
     }
 
-    /// That the error is larger than what is allowed: "too large: with C_eq by sum the error
+    /// Message if the error is larger than allowed: "too large: with C_eq by sum the error
     /// reaches 1.2 K (8 %), and 5% is allowed". `None` if it is not, or if nothing is judged.
     pub fn too_large(&self) -> Option<String> {
         if let Some(kept) = self.loads.kept() {
@@ -304,7 +304,7 @@ impl ReduceAnswer {
         Some(format!("too large: with {with} the error reaches {size}, and {limit} is allowed"))
     }
 
-    /// How many nodes are judged and written.
+    /// Number of nodes that are judged and written.
     pub fn count(&self) -> usize {
         self.loads.nodes.as_ref().map_or(1, Nodes::count)
     }
@@ -317,7 +317,7 @@ impl ReduceAnswer {
         }
     }
 
-    /// Whether it stands for the network near a state only.
+    /// True if the reduction is valid near a state only.
     pub fn is_near_a_state(&self) -> bool {
         self.near.is_some()
     }

@@ -21,7 +21,7 @@ use crate::written::{can_be_written, with_numbers};
 /// Digits that are tried, the fewest first.
 const DIGITS: std::ops::RangeInclusive<usize> = 6..=17;
 
-/// Refuses before anything is computed what could not be written afterwards.
+/// Refuses a parameter that could not be written, before anything is computed.
 pub(super) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Failure> {
     can_be_written(input, parameter, ["size::write", "size::write_shared"])
 }
@@ -87,7 +87,7 @@ fn proven(answer: &Sized) -> Option<String> {
     })
 }
 
-/// Whether a netlist stays inside the ranges of a study and keeps everything.
+/// True if a netlist stays inside the ranges of a study and keeps everything.
 fn keeps(name: &str, netlist: &Netlist) -> Option<bool> {
     let study = netlist.studies.sizes.iter().find(|study| study.name == name)?;
     let within = |&(id, (from, to)): &(ParameterId, (f64, f64))| {

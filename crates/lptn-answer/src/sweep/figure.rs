@@ -13,7 +13,7 @@ const WIDE: f64 = 10.0;
 
 impl SweepAnswer {
     /// One parameter: every report over it, a panel for each unit. Several: every report over the
-    /// first one as dots, one for each candidate, so that the front of what is possible is seen.
+    /// first one, with one dot per candidate, so that the Pareto front is visible.
     pub(super) fn figure(&self) -> Figure {
         let rows: Vec<&Row> =
             self.tally.points.iter().filter(|row| row.failed.is_empty()).collect();

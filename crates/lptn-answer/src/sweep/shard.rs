@@ -9,12 +9,12 @@ use std::str::FromStr;
 pub struct Shard {
     /// Its number, from 1.
     pub k: u64,
-    /// How many parts there are.
+    /// Number of parts.
     pub n: u64,
 }
 
 impl Shard {
-    /// The cases of this part of so many, counted from 0.
+    /// The cases of this part, out of `cases`, counted from 0.
     pub fn range(self, cases: u64) -> Range<u64> {
         let at = |k: u64| {
             let place = u128::from(cases) * u128::from(k) / u128::from(self.n);

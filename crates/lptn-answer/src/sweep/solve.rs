@@ -22,7 +22,7 @@ const STEADY: u64 = 16;
 struct Chunk {
     text: Vec<u8>,
     tally: Tally,
-    /// Whether an interruption ended it before its last row.
+    /// True if an interruption ended it before its last row.
     interrupted: bool,
 }
 
