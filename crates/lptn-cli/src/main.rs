@@ -34,9 +34,9 @@ use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use verbs::Verb;
 
-/// As much memory as this is kept for the next use when it is given back, by glibc: what was freed
-/// last is the least that it hands back to the system from then on. A page that a run asks for anew
-/// costs as much as a thousand operations.
+/// Bytes of freed memory that glibc keeps for the next use: the size of a freed block becomes the
+/// least that it returns to the system. A page that a run requests again costs as much as a
+/// thousand operations.
 const KEPT: usize = 4 << 20;
 
 fn main() -> ExitCode {

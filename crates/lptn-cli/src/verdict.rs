@@ -1,4 +1,4 @@
-//! What broken limits do to the exit code.
+//! Effect of broken limits on the exit code.
 
 use lptn_answer::limits::{Judgement, Verdict};
 
