@@ -8,11 +8,11 @@ use lptn_units::Class;
 pub enum Exit {
     /// Done.
     Done = 0,
-    /// Done, and the answer is no; the last line says which. For `check`: the file could be read
-    /// and has errors.
+    /// Done, and the answer is no; the last line says which.
+    /// For `check`: the file could be read and has errors.
     No = 1,
-    /// The input is wrong: usage, a missing file, TOML that cannot be read; for every verb but
-    /// `check` any error of the netlist. The number is the one that clap uses for usage.
+    /// The input is wrong: usage, a missing file, unreadable TOML, a netlist with errors.
+    /// For `check` errors of the netlist are [`Self::No`]. clap uses this number for usage.
     Input = 2,
     /// The numbers or the writing of results failed. Computed results are kept and marked.
     Failed = 3,

@@ -30,9 +30,9 @@ fn family(name: &str) -> Option<(String, String)> {
     (!indices.is_empty()).then(|| (whole + rest, indices))
 }
 
-/// Rows of items by name and kind. With `fold`, a large family is one row in the place of its first
-/// member, with the item of the largest `worst`. Items of different kinds belong to different
-/// families.
+/// Rows of items by name and kind.
+/// With `fold`, a large family is one row at its first member, with the item of the largest
+/// `worst`. Items of different kinds belong to different families.
 pub fn folded<T>(
     items: Vec<T>,
     fold: bool,

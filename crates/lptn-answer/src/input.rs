@@ -96,7 +96,7 @@ pub struct Input {
     pub text: Given,
     /// The netlist, with the values that were set.
     pub netlist: Netlist,
-    /// Everything that was set in it, by the load case and then by itself.
+    /// Everything that was set in it: by the load case, then separately.
     pub set: Vec<String>,
     /// The words of the command that asked, for reports; empty if a program asked.
     pub command: Vec<String>,
@@ -165,8 +165,8 @@ impl Input {
         Ok(self)
     }
 
-    /// Reads a netlist and sets values in it: those of a fit, of a load case, of assignments, in
-    /// this order.
+    /// Reads a netlist and sets values in it.
+    /// They are those of a fit, of a load case, and of assignments, in this order.
     ///
     /// # Errors
     /// All problems of the netlist or of the values.
@@ -333,7 +333,7 @@ pub fn parse(text: &Given) -> Result<Netlist, Rejected> {
     }
 }
 
-/// A word for the shell, in quotes where it needs them.
+/// A word for the shell, in quotes if it needs them.
 pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_-./+,:@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
@@ -388,7 +388,7 @@ pub fn quantity(option: &str, text: &str, ty: Type) -> Result<Quantity, Failure>
     parse_quantity(text, Some(ty)).map_err(|error| wrong_unit(option, text, &error))
 }
 
-/// The value in SI units of a quantity that an option gives, which has to be more than zero.
+/// The value in SI units of a quantity that an option gives, which must be above zero.
 pub fn positive(
     option: &str,
     text: &str,

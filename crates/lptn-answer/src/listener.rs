@@ -8,8 +8,8 @@ use lptn_solve::{Proceed, Progress};
 
 /// Hears of progress, and may interrupt.
 pub trait Listener: Sync {
-    /// Doubts as soon as they are known: before a long computation, or if it then fails. The answer,
-    /// if there is one, has them too. Their places are in `files`.
+    /// Doubts as soon as they are known: before a long computation, or if it then fails.
+    /// The answer, if there is one, has them too. Their places are in `files`.
     fn warn(&self, _files: &Files, _doubts: &[Diagnostic]) {}
 
     /// Something worth knowing that is not a doubt.
@@ -45,7 +45,7 @@ pub trait Listener: Sync {
     /// A part of the work took this long, in s.
     fn took(&self, _part: &'static str, _seconds: f64) {}
 
-    /// One of several runs has come this far, which may go on at the same time; `stage` names it.
+    /// One of several runs at the same time has come this far; `stage` names it.
     fn stage(&self, _stage: &dyn Display, progress: Progress) -> Proceed {
         self.progress(progress)
     }

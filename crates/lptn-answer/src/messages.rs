@@ -8,9 +8,9 @@ use serde_json::{Value, json};
 
 use crate::exit::Exit;
 
-/// A diagnostic as an object. Lines and columns count from 1, columns in characters; the end is
-/// after the
-/// last character. `fix` is the text to write and the text that it replaces, if the help has one.
+/// A diagnostic as an object.
+/// Lines and columns count from 1, columns in characters; the end is after the last character.
+/// `fix` is the text to write and the text that it replaces, if the help has one.
 pub fn json(files: &Files, diagnostic: &Diagnostic) -> Value {
     let places: Vec<Value> = diagnostic.labels.iter().map(|label| place(files, label)).collect();
     json!({

@@ -130,7 +130,7 @@ pub fn claim(network: &Network, found: &[OutOfRange]) -> Claim {
     Claim::checked(false, format!("a law left its range, see the messages: {first}{more}"))
 }
 
-/// For each path and group that was outside
+/// For each path and group that was outside its range, an object
 /// `{ path, law, group, meaning, from, to, value, at, stretches }`, times in s. A loss has `source`
 /// instead of `path`. Nothing if none was outside. A range without an end has none.
 pub fn members(network: &Network, found: &[OutOfRange], run: bool) -> Option<Vec<Value>> {

@@ -8,8 +8,8 @@ use lptn_solve::Beyond;
 
 use crate::ranges;
 
-/// Doubts in the numbers of an answer: implausible values, laws outside their ranges, results
-/// that change faster than steps resolve. `run`: over time.
+/// Doubts in the numbers of an answer; `run` means over time.
+/// Implausible values, laws outside their ranges, results that change faster than steps resolve.
 pub fn doubts(netlist: &Netlist, trust: &Trust, run: bool) -> Vec<Diagnostic> {
     let beyond = trust.beyond.iter().map(|beyond| warning(netlist, beyond));
     let outside = ranges::warnings(netlist, &trust.out_of_range, run);

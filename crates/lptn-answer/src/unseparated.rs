@@ -153,8 +153,8 @@ impl Named<'_> {
         }
     }
 
-    /// Size of an unknown for relative changes, in SI units; 100 K for temperatures and offsets,
-    /// whose zero is arbitrary.
+    /// Size of an unknown for relative changes, in SI units.
+    /// It is 100 K for temperatures and offsets, whose zero is arbitrary.
     fn size(&self, i: usize) -> f64 {
         const KELVIN: f64 = 100.0;
         let value = self.values[i].abs();

@@ -26,8 +26,8 @@ pub fn proven(
     prove(&text, place, network, span).map(|_| text).map_err(|error| mistake(&error))
 }
 
-/// The text of the netlist with other numbers for some parameters. A parameter that is not written
-/// as a number keeps its text.
+/// The text of the netlist with other numbers for some parameters.
+/// A parameter that is not written as a number keeps its text.
 ///
 /// # Errors
 /// A netlist that is no longer read, and a text that reads as another network.
@@ -63,8 +63,8 @@ fn mistake(error: &WrittenError) -> Failure {
     Failure::new(Exit::Failed, problem.help(help))
 }
 
-/// Refuses a parameter whose number could not be written. `code` is that of the problem, `shared`
-/// that of a number which several instances share.
+/// Refuses a parameter whose number could not be written.
+/// `code` is that of the problem, `shared` that of a number which several instances share.
 ///
 /// # Errors
 /// A netlist from stdin, a protected or included file, and a value that is not a number.

@@ -40,7 +40,7 @@ pub(crate) struct Console {
     printed: AtomicBool,
     /// Commands to type next.
     next: Mutex<Vec<String>>,
-    /// Warnings that were said, as texts.
+    /// Warnings that were printed, as texts.
     said: Mutex<Vec<String>>,
     pub(crate) phases: Phases,
 }
@@ -80,8 +80,8 @@ impl Console {
         Ok(self.conclude(page, format))
     }
 
-    /// Reports the doubts in an answer that were not said while it was computed, and writes it in a
-    /// format.
+    /// Writes an answer in a format, after its doubts.
+    /// Doubts that were printed while it was computed are not repeated.
     pub(crate) fn answer(&self, answer: &dyn Answer, format: Format) -> Result<Exit, Failure> {
         let mut doubts = answer.doubts();
         let said = self.said.lock().unwrap_or_else(PoisonError::into_inner).clone();
@@ -264,7 +264,7 @@ impl Console {
         self.refusal.iter().for_each(|refusal| refusal.say(files, diagnostics));
     }
 
-    /// Answers a program that asked for JSON and got no result, so that it always finds one object.
+    /// Answers a program that requested JSON and got no result, so that it always finds one object.
     pub(crate) fn answer_failure(&self, exit: Exit) {
         let Some(refusal) = &self.refusal else { return };
         if exit != Exit::Done && !self.printed.load(Ordering::Relaxed) {

@@ -12,8 +12,8 @@ use crate::console::Console;
 use crate::interrupt::Interrupt;
 use crate::progress::{ProgressLine, ProgressOfAll};
 
-/// A console that listens for Ctrl-C once something begins that may be interrupted; before that
-/// Ctrl-C ends the program.
+/// A console that listens for Ctrl-C once something begins that may be interrupted.
+/// Before that Ctrl-C ends the program.
 #[derive(Debug)]
 pub(crate) struct Listening<'a> {
     console: &'a Console,

@@ -9,9 +9,9 @@ use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::quoted;
 
-/// Does the work of the command. A panic in it, or in a thread that it waits for, becomes a
-/// failure.
-/// Unfinished files are dropped on the way: temporary files go, the results of earlier runs stay.
+/// Does the work of the command, and turns a panic into a failure.
+/// The panic may be in a thread that it waits for. Unfinished files are dropped: temporary files
+/// go, the results of earlier runs stay.
 pub(crate) fn caught(work: impl FnOnce() -> Result<Exit, Failure>) -> Result<Exit, Failure> {
     let first: Arc<Mutex<Option<String>>> = Arc::default();
     let noted = Arc::clone(&first);

@@ -40,8 +40,8 @@ impl ProgressLine {
         self.show(|| format!("{which}: {}", run(progress)));
     }
 
-    /// Shows how many of several things are done, how fast they come, and how long the rest will
-    /// take. `before` were there when it began, at `begun`.
+    /// Shows how many of several things are done, how fast they come, and the remaining time.
+    /// `before` of them existed when it began, at `begun`.
     pub(crate) fn update_count(
         &mut self,
         (done, of, noun): (u64, u64, &str),
@@ -93,7 +93,7 @@ fn share(Progress { start, time, stop }: Progress) -> f64 {
     (time - start) / (stop - start)
 }
 
-/// Progress of several runs that go on at the same time.
+/// Progress of several simultaneous runs.
 #[derive(Debug)]
 pub(crate) struct ProgressOfAll {
     /// The line, and the part of each run that is done.

@@ -19,7 +19,7 @@ pub(crate) fn write(rows: &Rows<'_>, out: &mut dyn io::Write) -> io::Result<()> 
     }
 }
 
-/// Writes a table as CSV: one header, `time [s]`, `steel.T [degC]`, …, then one line per row.
+/// Writes a table as CSV: a header such as `time [s],steel.T [degC]`, then one line per row.
 /// Columns of words come first and have no unit. Every number reads back as the same `f64`.
 ///
 /// # Errors

@@ -15,9 +15,9 @@ pub fn shortened(name: &str, room: usize) -> String {
     format!("{start}..{end}")
 }
 
-/// The part in which names differ, between word boundaries. That of `runs/1000rpm.csv` and
-/// `runs/7000rpm.csv` is `1000rpm` and `7000rpm`. Returns the names themselves if a part would be
-/// empty or all are equal.
+/// The parts in which names differ, between word boundaries.
+/// Those of `runs/1000rpm.csv` and `runs/7000rpm.csv` are `1000rpm` and `7000rpm`. Returns the
+/// names themselves if a part would be empty or all are equal.
 pub fn differing(names: &[String]) -> Vec<String> {
     let Some(first) = names.first() else { return Vec::new() };
     let is_border = |c: char| !c.is_alphanumeric();

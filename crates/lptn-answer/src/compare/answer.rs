@@ -43,8 +43,7 @@ impl Answer for CompareAnswer {
         self.gathered.doubts.clone()
     }
 
-    /// Exit of the comparison: an interruption counts before unread input, that before a failure,
-    /// and that before a broken limit.
+    /// Exit of the comparison: interrupted, else not read, else failed, else a broken limit.
     fn exit(&self) -> Exit {
         if self.ends.contains(&Exit::Interrupted) {
             Exit::Interrupted

@@ -30,8 +30,8 @@ pub(super) fn look(input: &Input, found: &mut Candidate, file: &str) -> Option<D
     }
 }
 
-/// Columns of uncertainty, none if nothing is uncertain: one standard deviation of peak and
-/// margins, probability of a broken limit, and excess of the peak over the first candidate.
+/// Columns of uncertainty, none if nothing is uncertain.
+/// Deviations of peak and margins, probability of a broken limit, peak over that of the first.
 pub(super) fn columns(rows: &[CompareRow], names: &[String]) -> Vec<Column> {
     let Some(first) = rows.iter().position(|row| row.scatter().is_some()) else {
         return Vec::new();

@@ -67,8 +67,8 @@ pub fn load(file: &Path, variant: &Variant, belief: &Belief<'_>) -> Loaded {
     Loaded { file: name, input: outcome.map(|()| input).map_err(Failure::from), has }
 }
 
-/// A `--set` that no candidate can use is a mistake, unless a candidate that could not be read may
-/// be meant.
+/// Refuses a `--set` that no candidate can use.
+/// It is accepted if it may be meant for a candidate that could not be read.
 ///
 /// # Errors
 /// An assignment that fits no candidate.
@@ -91,8 +91,8 @@ pub fn used(set: &[String], loaded: &[Loaded]) -> Result<(), Failure> {
     Err(Failure::new(Exit::Input, problem))
 }
 
-/// A posterior that no candidate can use is a mistake, unless a candidate that could not be read may
-/// be meant.
+/// Refuses a posterior that no candidate can use.
+/// It is accepted if it may be meant for a candidate that could not be read.
 pub(super) fn believed(args: &CompareQuestion, loaded: &[Loaded]) -> Result<(), Failure> {
     let Some(file) = &args.posterior else { return Ok(()) };
     let idle = |one: &Loaded| one.input.as_ref().is_ok_and(|i| i.netlist.posterior().is_none());

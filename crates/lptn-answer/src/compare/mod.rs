@@ -29,8 +29,8 @@ pub use variants::{Variant, of_sets};
 pub struct CompareQuestion {
     /// Netlists.
     pub files: Vec<PathBuf>,
-    /// Assignments for the candidates that have the parameter. Several values in one, such as
-    /// `R=1K/W,2K/W`, make one candidate each.
+    /// Assignments for the candidates that have the parameter.
+    /// Several values in one, such as `R=1K/W,2K/W`, make one candidate each.
     pub set: Vec<String>,
     /// The posterior of a fit to take values from.
     pub posterior: Option<PathBuf>,

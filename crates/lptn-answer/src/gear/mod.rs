@@ -63,8 +63,8 @@ impl GearQuestion {
     /// Asks a netlist.
     ///
     /// # Errors
-    /// A gearbox that does not exist, a text that is not a quantity, too many points, and gears or
-    /// temperatures that cannot be computed.
+    /// A gearbox that does not exist, a text that is not a quantity, and too many points.
+    /// Gears or temperatures that cannot be computed.
     pub fn ask(&self, input: Arc<Input>) -> Result<GearAnswer, Failure> {
         let first = first(&input, self.gearbox.as_deref())?;
         let task = task(&input, first);

@@ -87,9 +87,8 @@ impl GearAnswer {
         table.into()
     }
 
-    /// Heats of parts, marked if a formula is outside its range, their sum, the output as a share
-    /// of
-    /// the input, and the warmest node.
+    /// Heats of parts, their sum, the output as a share of the input, and the warmest node.
+    /// A heat is marked if a formula is outside its range.
     fn heats(&self, block: &Block, states: &[(f64, GearState)]) -> Vec<Row> {
         let mut rows: Vec<Row> = parts(states)
             .map(|(at, name)| {

@@ -32,8 +32,8 @@ pub struct GraphQuestion {
     pub sankey: bool,
     /// True if each grid, instance and family is one box; `None` for true if there are many nodes.
     pub group: Option<bool>,
-    /// The layer of a grid that is drawn, by number or place: `z=3`, `z=5 mm`; `None` for the
-    /// network, or the whole grid.
+    /// The layer of a grid that is drawn, by number or place: `z=3`, `z=5 mm`.
+    /// `None` for the network, or the whole grid.
     pub slice: Option<String>,
     /// The grid; `None` for the only one.
     pub grid: Option<String>,
@@ -119,7 +119,7 @@ impl GraphAnswer {
 }
 
 impl Asked<'_> {
-    /// The time that is asked for, else the steady state.
+    /// The state at the requested time, else the steady state.
     fn state(&mut self) -> Result<Snapshot, Failure> {
         let (state, doubts) = match &self.question.state {
             Drawn::At(text) => at(text, self.input, self.listener)?,

@@ -23,12 +23,12 @@ const REAL: f64 = 1e-9;
 /// An impedance as elements.
 #[derive(Clone, Debug)]
 pub struct Chain {
-    /// Resistance in K/W and time constant in s of each term, fastest first; between two places
-    /// resistances may be negative.
+    /// Resistance in K/W and time constant in s of each term, fastest first.
+    /// Between two places resistances may be negative.
     pub terms: Vec<(f64, f64)>,
     /// Part of the rise that comes at once, in K/W.
     pub direct: f64,
-    /// The ladder, if that was asked for.
+    /// The ladder, if that was requested.
     pub ladder: Option<Cauer>,
     /// Number of terms of the whole response.
     pub all: usize,

@@ -29,15 +29,15 @@ use crate::operating_point::{self, OperatingPoint};
 /// Asks for the response of a node to heat or to the temperature of a boundary.
 #[derive(Clone, Debug, Default)]
 pub struct ImpedanceQuestion {
-    /// The input: the name of a node or source for heat, of a boundary for its temperature. The
-    /// question needs it.
+    /// The input: the name of a node or source for heat, of a boundary for its temperature.
+    /// The question needs it.
     pub port: Option<String>,
     /// The node that responds; `None` for the port, or for the node that it heats.
     pub to: Option<String>,
     /// Input and form of the response.
     pub form: Form,
-    /// The state near which a network that is not linear is taken for a linear one, `steady` or a
-    /// time of its run; `None` for a network that is linear.
+    /// The state at which a nonlinear network is linearised, `steady` or a time of its run.
+    /// `None` for a network that is linear.
     pub at: Option<String>,
     /// True if a netlist of the answer is to be written.
     /// A form that has none is then refused before anything is computed.
@@ -94,8 +94,8 @@ impl ImpedanceQuestion {
     /// Asks a netlist.
     ///
     /// # Errors
-    /// A port or node that does not exist, a question that does not fit the netlist, and a network
-    /// that is not linear or has no answer.
+    /// A port or node that does not exist, and a question that does not fit the netlist.
+    /// A network that is not linear or has no answer.
     pub fn ask(
         &self,
         input: Arc<Input>,

@@ -24,8 +24,8 @@ pub(super) struct Posed<'a> {
 }
 
 impl Posed<'_> {
-    /// The answer, given that to a step as far as it is known; `shares` are those of their periods
-    /// that pulses take.
+    /// The answer, from that to a step if it is known.
+    /// `shares` are the parts of their periods that pulses take.
     pub(super) fn answer(
         &self,
         step: Result<StepAnswer, ResponseError>,

@@ -73,8 +73,8 @@ impl Following {
         Ok(Self { study, lines, follower, shown, first: true })
     }
 
-    /// Takes the next line of the record, with or without its line break; `None` if it answers no
-    /// row.
+    /// Takes the next line of the record, with or without its line break.
+    /// `None` if it answers no row.
     ///
     /// # Errors
     /// A line that cannot be read, and a run that fails.

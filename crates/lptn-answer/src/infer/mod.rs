@@ -68,7 +68,7 @@ impl InferQuestion {
         self.begin(input, listener)?.compute(listener)
     }
 
-    /// Reads the study, before anything is computed.
+    /// Reads the study in advance.
     ///
     /// # Errors
     /// A study that does not exist, and one that does not fit its network.
@@ -86,8 +86,8 @@ impl InferQuestion {
     /// Begins to follow a record whose rows come one by one.
     ///
     /// # Errors
-    /// A study that does not exist or does not fit its network, and one that does not give the
-    /// change of a signal or the scatter of a column.
+    /// A study that does not exist or does not fit its network.
+    /// One that does not give the change of a signal or the scatter of a column.
     pub fn follow(&self, input: Arc<Input>, listener: &dyn Listener) -> Result<Following, Failure> {
         let study = self.study(&input)?;
         let own = input.netlist.warnings.iter().filter(|warning| follow::counts(&study, warning));

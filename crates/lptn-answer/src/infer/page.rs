@@ -352,8 +352,8 @@ impl InferAnswer {
     /// Text that says if the record shows a change.
     fn changes(&self, j: usize) -> String {
         /// Twice the logarithm of a ratio of likelihoods that chance exceeds in 5 of 100 records,
-        /// where nothing changes: half of them are 0 (S. G. Self, K.-Y. Liang, J. Am. Stat. Assoc.
-        /// 82 (1987) 605).
+        /// if nothing changes: half of them are 0 (S. G. Self, K.-Y. Liang, J. Am. Stat. Assoc. 82
+        /// (1987) 605).
         const CHANCE: f64 = 2.706;
         let name = &self.task.sought[j].name;
         let ratio = 2.0 * (self.found.log_likelihood - self.found.courses[j].still.1);

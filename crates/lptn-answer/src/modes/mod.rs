@@ -24,8 +24,8 @@ const OF_MORE: usize = 10;
 pub struct ModesQuestion {
     /// Number of modes, the slowest first; `None` for all of up to 20, or 10.
     pub count: Option<usize>,
-    /// The state near which a network that is not linear has these modes, `steady` or a time of
-    /// its run; `None` for a network that is linear.
+    /// The state at which a nonlinear network has these modes, `steady` or a time of its run.
+    /// `None` for a network that is linear.
     pub at: Option<String>,
 }
 

@@ -9,8 +9,8 @@ use super::source::Source;
 /// Height of the panel of residuals.
 const RESIDUALS: f64 = 0.4;
 
-/// One figure of all sources. If there are several runs, a curve is named by its run. A panel with
-/// measured and computed values of the same name has their differences below it.
+/// One figure of all sources. If there are several runs, a curve is named by its run.
+/// A panel with measured and computed values of the same name has their differences below it.
 pub fn overlay(sources: Vec<Source>) -> Figure {
     let runs = sources.iter().filter(|source| !source.measured).count();
     let several = sources.len() > 1;

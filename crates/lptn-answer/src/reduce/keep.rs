@@ -50,11 +50,11 @@ pub struct KeptAnswer {
     pub(super) input: Arc<Input>,
     pub(super) question: KeepQuestion,
     system: ThermalSystem,
-    /// Names of the nodes asked for, each once.
+    /// Names of the requested nodes, each once.
     pub names: Vec<String>,
     /// The reduced network.
     pub kept: Kept,
-    /// Its errors at the nodes asked for.
+    /// Its errors at the requested nodes.
     pub errors: KeptErrors,
     /// The same number of modes instead of the nodes.
     pub projected: Projected,
@@ -179,8 +179,8 @@ fn largest(
     Ok(if most > 0.0 { most } else { 1.0 })
 }
 
-/// True if every node asked for is within the limit, over the run or over every load.
-/// A limit in K says nothing about loads that no one asked for.
+/// True if every requested node is within the limit, over the run or over every load.
+/// A limit in K says nothing about loads that no one requested.
 fn within(errors: &KeptErrors, allowed: Allowed, (every, power): (bool, f64)) -> bool {
     let loads = |(error, rise): &(f64, f64)| error * power <= allowed.of(rise * power);
     match &errors.run {
@@ -271,8 +271,8 @@ impl KeptAnswer {
         written::proven(text, place.unwrap_or(Path::new(&self.input.text.name)), &network, run)
     }
 
-    /// Rows of CSV that give all temperatures by the kept ones. A row for each node has the
-    /// shares of kept nodes and boundaries, and the rise for each source in K/W.
+    /// Rows of CSV that give all temperatures by the kept ones.
+    /// A row per node has the shares of kept nodes and boundaries, and the rise per source in K/W.
     ///
     /// # Errors
     /// Weights that cannot be computed.
@@ -297,8 +297,8 @@ impl KeptAnswer {
         Ok(rows)
     }
 
-    /// Message if the error is larger than allowed: "too large: 2 nodes do not keep `a` and `b`:
-    /// they are 8 % (1.2 K) wrong, and 5% is allowed".
+    /// Message if the error is larger than allowed:
+    /// "too large: 2 nodes do not keep `a` and `b`: they are 8 % (1.2 K) wrong, and 5% is allowed".
     pub fn too_large(&self) -> Option<String> {
         let (verdict, limit) = (self.verdict(), &self.limit.text);
         (!self.holds()).then(|| format!("too large: {verdict}, and {limit} is allowed"))

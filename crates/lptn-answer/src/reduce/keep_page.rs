@@ -134,7 +134,7 @@ impl KeptAnswer {
             .into()
     }
 
-    /// The modes that replace the network as well, at the nodes asked for.
+    /// The modes that replace the network as well, at the requested nodes.
     fn projected_json(&self) -> Value {
         let network = &self.input.netlist.network;
         let asked = &self.kept.nodes[..self.kept.asked];

@@ -26,8 +26,8 @@ pub struct Loads {
     given: bool,
     /// The largest error over every load that is allowed, if one is given.
     pub limit: Option<Limit>,
-    /// The nodes that are judged and written; `None` if no number of them keeps the limit, or no
-    /// load can be judged.
+    /// The nodes that are judged and written.
+    /// `None` if no number of them keeps the limit, or no load can be judged.
     pub nodes: Option<Nodes>,
     /// Numbers of nodes that were not enough.
     pub short: Vec<Nodes>,

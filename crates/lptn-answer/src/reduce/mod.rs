@@ -59,11 +59,11 @@ pub struct ReduceQuestion {
     pub definition: Option<Definition>,
     /// True if one exponential is fitted to the run, to give the heat that it implies.
     pub bias: bool,
-    /// The time over which `least_squares` fits, `20s`; `None` for five of the slowest time
-    /// constants.
+    /// The time over which `least_squares` fits, `20s`.
+    /// `None` for five of the slowest time constants.
     pub window: Option<String>,
-    /// The state near which a network that is not linear is reduced, `steady` or a time of its
-    /// run; `None` for the whole network.
+    /// The state at which a nonlinear network is reduced, `steady` or a time of its run.
+    /// `None` for the whole network.
     pub at: Option<String>,
     /// The unit of temperatures; `None` for that of the netlist.
     pub temperature_unit: Option<String>,
@@ -99,7 +99,7 @@ pub struct ReduceAnswer {
     pub reduction: Reduction,
     /// Errors over every load, and the nodes that are judged and written.
     pub loads: Loads,
-    /// The heat that one exponential through the run implies, if that was asked for.
+    /// The heat that one exponential through the run implies, if it was requested.
     pub bias: Option<Result<Bias, FitError>>,
     /// The state near which the reduction is valid.
     near: Option<Near>,
@@ -188,7 +188,7 @@ impl ReduceQuestion {
         options.into_iter().filter(|(asks, _)| *asks).map(|(_, option)| option)
     }
 
-    /// One exponential through the run, if that is asked for.
+    /// One exponential through the run, if that is requested.
     fn fitted(
         &self,
         system: &ThermalSystem,
@@ -223,7 +223,7 @@ impl ReduceAnswer {
         &self.port
     }
 
-    /// The pair that is judged and written: the one asked for, else the recommended one.
+    /// The pair that is judged and written: the requested one, else the recommended one.
     pub fn pair(&self) -> Option<&Pair> {
         let dynamics = self.reduction.dynamics.as_ref()?;
         let asked = self.loads.nodes.as_ref().and_then(|nodes| nodes.definition);
@@ -231,8 +231,8 @@ impl ReduceAnswer {
         Some(asked.unwrap_or(dynamics.best()))
     }
 
-    /// The error that is judged, and whether it is within the limit. A limit in K does not judge
-    /// the error of a step: `None`.
+    /// The error that is judged, and whether it is within the limit.
+    /// That is `None` for the error of a step, which a limit in K does not judge.
     pub fn judged(&self) -> Option<(Judge, Deviation, Option<bool>)> {
         let dynamics = self.reduction.dynamics.as_ref()?;
         if let Some((judge, error)) = self.loads.error {
@@ -283,8 +283,8 @@ impl ReduceAnswer {
         text
     }
 
-    /// Message if the error is larger than allowed: "too large: with C_eq by sum the error
-    /// reaches 1.2 K (8 %), and 5% is allowed". `None` if it is not, or if nothing is judged.
+    /// Message if the error is larger than allowed; `None` if it is not, or if nothing is judged.
+    /// "too large: with C_eq by sum the error reaches 1.2 K (8 %), and 5% is allowed".
     pub fn too_large(&self) -> Option<String> {
         if let Some(kept) = self.loads.kept() {
             return (!kept).then(|| format!("too large: {}", self.verdict()));

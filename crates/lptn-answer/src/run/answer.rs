@@ -39,7 +39,7 @@ pub struct RunAnswer {
     pub failure: Option<Diagnostic>,
     /// Duration of the integration in s.
     pub wall_time: f64,
-    /// The uncertainty of the results, if it was asked for.
+    /// The uncertainty of the results, if it was requested.
     pub uncertainty: Option<Result<Study, Failure>>,
     /// The selected columns, in the unit that is shown.
     pub table: Table,
@@ -134,7 +134,7 @@ impl RunAnswer {
         network.parameters().iter().zip(network.parameter_ids()).map(record).collect()
     }
 
-    /// The uncertainty of the results, if it was asked for and is known.
+    /// The uncertainty of the results, if it was requested and is known.
     pub fn uncertainty(&self) -> Option<&Study> {
         self.uncertainty.as_ref()?.as_ref().ok()
     }
@@ -165,8 +165,8 @@ impl RunAnswer {
         }
     }
 
-    /// Doubts that no table shows: gaps in reports, implausible values, laws outside their ranges,
-    /// nodes that are not lumps.
+    /// Doubts that no table shows.
+    /// Gaps in reports, implausible values, laws outside their ranges, nodes that are not lumps.
     pub fn found(&self) -> Vec<Diagnostic> {
         let netlist = &self.task.input.netlist;
         let certain = self.uncertainty().map_or_else(Vec::new, |_| elsewhere(netlist));
@@ -180,7 +180,7 @@ impl RunAnswer {
         bound::doubts(&self.solution)
     }
 
-    /// The rows with their times in the unit that was asked for.
+    /// The rows with their times in the requested unit.
     pub fn shown_table(&self) -> Cow<'_, Table> {
         match self.task.clock.0 {
             None => Cow::Borrowed(&self.table),

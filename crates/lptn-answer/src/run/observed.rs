@@ -51,9 +51,9 @@ fn switches_nothing(error: &TransientError) -> bool {
 /// Most nodes that are watched if families make few rows of them.
 const MOST_WATCHED: usize = 500;
 
-/// The nodes that a table shows: the selected ones in the order of the file, by default all but
-/// the cells of grids. Too many are reduced to the hottest in steady state, hottest first, or to
-/// the first ones without a steady state.
+/// The nodes that a table shows.
+/// They are the selected ones in the order of the file, by default all but the cells of grids. Of
+/// too many the hottest in steady state are left, hottest first, or without one the first.
 pub fn shown(
     network: &Network,
     selection: Option<&Selection>,

@@ -1,4 +1,4 @@
-//! A run that was asked for, checked before anything is computed.
+//! A requested run, checked in advance.
 
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ pub struct RunQuestion {
     pub report: bool,
     /// Amount of detail in a table.
     pub detail: Detail,
-    /// The uncertainty of the results, if it is asked for.
+    /// The uncertainty of the results, if it is requested.
     pub uncertainty: Option<UncertaintyQuestion>,
 }
 
@@ -93,7 +93,7 @@ pub struct RunTask {
     pub report: bool,
     /// Amount of detail in a table.
     pub detail: Detail,
-    /// The uncertainty that is asked for.
+    /// The uncertainty that is requested.
     pub uncertainty: Option<UncertaintyQuestion>,
 }
 

@@ -119,9 +119,9 @@ impl Chosen {
         margin.map_or_else(|| NOTHING.to_owned(), |margin| self.kept().margin(i, *margin))
     }
 
-    /// The choices that people see: the last failing ones with a better objective, the answer, and
-    /// the first working ones after it. If something is sized for each choice, no failing one is
-    /// better: the closest ones are at the end.
+    /// The choices that people see.
+    /// The last failing ones with a better objective, the answer, the first working ones after it.
+    /// If something is sized for each choice, the failing ones that come closest are last.
     fn shown(&self) -> Vec<&Choice> {
         let judged = &self.choices.judged;
         let Some(best) = self.choices.best else { return self.nearest() };
@@ -315,8 +315,8 @@ impl Page for Chosen {
         text
     }
 
-    /// A row for each choice that was judged, the best first: parts, values in the units of the
-    /// files, margins in SI units.
+    /// A row for each choice that was judged, the best first.
+    /// It has parts, values in the units of the files, and margins in SI units.
     fn rows(&self) -> Rows<'_> {
         let mut table = Table::of(&self.choices.judged);
         for (k, catalogue) in self.catalogues().iter().enumerate() {

@@ -93,8 +93,8 @@ impl Kept {
         ))
     }
 
-    /// The result of each requirement: its margin, the time of that with `times`,
-    /// and if it binds.
+    /// The result of each requirement: its margin, with `times` the time of that, and a word:
+    /// broken, binds or kept.
     pub(super) fn table(
         &self,
         (judged, times): (&Judged, bool),

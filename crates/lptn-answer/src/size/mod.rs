@@ -56,8 +56,7 @@ enum Found {
 }
 
 impl SizeQuestion {
-    /// Asks a netlist. The listener hears its doubts before anything is computed, for that may
-    /// take a while.
+    /// Asks a netlist. The listener hears its doubts in advance.
     ///
     /// # Errors
     /// A study that does not exist, a question that does not fit the netlist, and a network that

@@ -1,4 +1,4 @@
-//! When requirements have to be kept: in steady state, over a run, in the settled cycle.
+//! Moments at which requirements are kept: in steady state, over a run, in the settled cycle.
 
 use lptn_netlist::{Netlist, Over, SizeStudy};
 use lptn_network::{Network, RunSettings};

@@ -48,8 +48,8 @@ fn no_number(which: &str, keep: &str) -> Failure {
     Failure::new(Exit::Failed, Diagnostic::error("size::write", message))
 }
 
-/// The netlist with several values in SI units, with as few digits as keep everything. Values of
-/// parts are exact.
+/// The netlist with several values in SI units, with as few digits as keep everything.
+/// Values of parts are exact.
 pub(super) fn of_all(
     Asked { input, study, .. }: &Asked,
     values: &[(ParameterId, f64)],
@@ -72,8 +72,8 @@ pub(super) fn of_all(
     Ok(Written { text, values: count(values.len(), "parameter") })
 }
 
-/// The number with the fewest digits whose netlist, read again from its text, keeps every
-/// requirement.
+/// The number with the fewest digits that keeps every requirement.
+/// Its netlist is read again from its text.
 fn proven(answer: &Sized) -> Option<String> {
     let netlist = &answer.asked.input.netlist;
     let written = netlist.written_number(answer.parameter)?;

@@ -7,8 +7,8 @@ use lptn_report::{duration, significant};
 use lptn_solve::{Others, SteadyState};
 use lptn_units::Unit;
 
-/// Warning that inputs change with time, with the effect on limits and a verb that solves every
-/// time. `file` is the name of the netlist as it was typed.
+/// Warning that inputs change with time, with its effect on limits and a better verb.
+/// `file` is the name of the netlist as it was typed.
 pub fn inputs_vary(
     (netlist, file): (&Netlist, Option<&str>),
     steady: &SteadyState,

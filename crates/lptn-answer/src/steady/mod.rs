@@ -63,7 +63,7 @@ pub struct SteadyAnswer {
     pub unit: Unit,
     /// Results of the limits, in the order of the netlist.
     pub limits: Vec<LimitResult>,
-    /// The heat balance that was asked for.
+    /// The heat balance that was requested.
     pub balance: Option<Balance>,
     /// True if no columns were selected.
     pub all: bool,

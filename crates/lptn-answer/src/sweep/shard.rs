@@ -28,7 +28,7 @@ impl Shard {
         format!("part-{}-of-{}", self.k, self.n)
     }
 
-    /// The part whose folder is called this.
+    /// The part of the folder with this name.
     pub fn of_folder(name: &str) -> Option<Self> {
         let (k, n) = name.strip_prefix("part-")?.split_once("-of-")?;
         let shard = format!("{k}/{n}").parse().ok()?;

@@ -25,8 +25,8 @@ const NOTHING: &str = "not verified: there is nothing to compare";
 pub struct VerifyQuestion {
     /// The tolerance to verify next to a hundredth of it, `1e-7K`; `None` for that of the run.
     pub tolerance: Option<String>,
-    /// The state near which the linear network is compared with the full one, `steady` or a time
-    /// of its run; `None` for the run.
+    /// The state near which the linear network is compared with the full one, `steady` or a time.
+    /// `None` for the run.
     pub at: Option<String>,
 }
 
@@ -41,12 +41,12 @@ enum Compared {
 }
 
 impl VerifyQuestion {
-    /// Asks a netlist; `None` if the listener interrupted a run. The listener hears doubts before
-    /// anything is compared, for that may take a while.
+    /// Asks a netlist; `None` if the listener interrupted a run.
+    /// The listener hears doubts in advance, because comparing may take a while.
     ///
     /// # Errors
-    /// A netlist without a run, a question that does not fit it, a state that cannot be computed
-    /// or disturbed, and a run that fails.
+    /// A netlist without a run, and a question that does not fit it.
+    /// A state that cannot be computed or disturbed, and a run that fails.
     pub fn ask(
         &self,
         input: Arc<Input>,

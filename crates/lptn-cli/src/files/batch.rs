@@ -70,8 +70,8 @@ impl<'a> Batch<'a> {
         &self.written
     }
 
-    /// Puts every file into its place, and removes those of `ours`, the names that runs of this
-    /// kind write, that this one did not: they are of an earlier run.
+    /// Puts every file into its place, and removes files of an earlier run.
+    /// These are the names in `ours`, which runs of this kind write, without those of this run.
     pub(crate) fn commit(mut self, ours: &[&str]) -> Result<(), Failure> {
         let rename: Vec<String> = self.written.iter().map(|file| file.name.clone()).collect();
         let is_over = |name: &&&str| {

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use super::names::LOCK;
 
-/// The folder belongs to this process until this is dropped or the process ends, however it does:
-/// the lock is one of the system and not the file, so that none is ever left over.
+/// The folder belongs to this process until this is dropped or the process ends.
+/// The lock is one of the system and not the file, so none is ever left over.
 #[derive(Debug)]
 pub(super) struct Lock {
     path: PathBuf,
@@ -114,8 +114,8 @@ mod tests {
         drop(Lock::take(&place.0, Duration::ZERO).unwrap());
     }
 
-    /// Threads that take and give back: at no time do two have it, although its file comes and
-    /// goes.
+    /// Threads that take the folder and give it back: at no time do two have it.
+    /// Its file comes and goes.
     #[test]
     fn the_file_that_comes_and_goes_is_no_way_around_it() {
         let place = Place::new();

@@ -32,7 +32,7 @@ pub(crate) struct Folder {
 }
 
 impl Folder {
-    /// Makes the folder of results and takes it for this process, before anything is computed.
+    /// Makes the folder of results and takes it for this process, in advance.
     /// The commit of a killed process is completed there, and its temporary files are removed.
     pub(crate) fn prepare(path: PathBuf) -> Result<Self, Failure> {
         Self::take(path, Duration::ZERO)
@@ -66,8 +66,8 @@ impl Folder {
     }
 }
 
-/// Removes the unfinished files of killed processes. Only the process with the lock writes there,
-/// so every file under a temporary name belongs to a process that has ended.
+/// Removes the unfinished files of killed processes.
+/// Only the process with the lock writes there, so temporary files belong to ended processes.
 fn sweep(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in entries.filter(|entry| entry.file_name().to_str().is_some_and(names::is_temporary))
@@ -93,7 +93,7 @@ fn refused(code: &'static str, message: String) -> Failure {
     Failure::refused(code, message, help)
 }
 
-/// When and where results were written, for their manifest; they took this long, in s.
+/// Time and place of the writing of results, for their manifest; they took `wall_time` in s.
 pub(crate) fn environment(wall_time: f64, phases: &[(&str, f64)]) -> Environment {
     let phase =
         |(name, seconds): &(&str, f64)| ((*name).to_owned(), SiValue::new(*seconds, "s").json());

@@ -67,8 +67,8 @@ pub(super) fn temporary(name: &str, process: u32) -> String {
     format!(".{name}.{process}.tmp")
 }
 
-/// True if this program gives this name to an unfinished file: a result, the record of results,
-/// a netlist, a picture.
+/// True if this program gives an unfinished file this name.
+/// The file may be a result, the record of results, a netlist or a picture.
 pub(super) fn is_temporary(name: &str) -> bool {
     let parts = name
         .strip_prefix('.')

@@ -39,8 +39,8 @@ fn called(path: &'static str) -> &'static str {
     path.rsplit("::").next().unwrap_or("").trim()
 }
 
-/// Lists each verb with its options, its function, the condition for a page of it, and the name
-/// and condition of its picture.
+/// Lists each verb with its options and its function.
+/// Conditions say if it has a page and a picture; a picture has a name.
 macro_rules! verbs {
     ($(
         $(#[$attribute:meta])*

@@ -104,7 +104,7 @@ impl FitCompareQuestion {
         self.begin(netlists, listener)?.compute(listener)
     }
 
-    /// Reads the studies, before anything is computed.
+    /// Reads the studies in advance.
     ///
     /// # Errors
     /// A study that does not exist, and one that does not fit its network.
@@ -236,10 +236,9 @@ impl FitCompareAnswer {
         answer
     }
 
-    /// Doubts of one candidate: those of its fit and of its held-out predictions. A worse candidate
-    /// is
-    /// expected to miss the records, so such doubts are left out. Slow drift is left out because
-    /// the width of the intervals shows it.
+    /// Doubts of one candidate: those of its fit and of its held-out predictions.
+    /// Misfits of a worse candidate are left out: they are expected. So is slow drift: the width of
+    /// the intervals shows it.
     fn doubts_of(&self, i: usize) -> Vec<Diagnostic> {
         let name = &self.candidates[i].name;
         let named = |doubt: Diagnostic| Diagnostic {

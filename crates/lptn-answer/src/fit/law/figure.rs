@@ -51,8 +51,8 @@ impl<'a> OverSpeed<'a> {
         (0..=POINTS).map(at).collect()
     }
 
-    /// Adds measured values at speeds in rad/s, in SI units, with standard errors if those are
-    /// known.
+    /// Adds measured values at speeds in rad/s, in SI units.
+    /// Standard errors are added if they are known.
     pub(super) fn measured(
         &mut self,
         (name, place): (&str, usize),
@@ -68,9 +68,8 @@ impl<'a> OverSpeed<'a> {
         self.put(dots.looks(Look::Dots), place);
     }
 
-    /// Adds a law of the speed. At a speed in rad/s `of` gives its value and half the width of its
-    /// band,
-    /// in SI units; the half width is NaN if it is not known.
+    /// Adds a law: `of` gives its value and half the width of its band at a speed in rad/s.
+    /// Both are in SI units; the half width is NaN if it is not known.
     fn law(&mut self, name: &str, (look, place): (Look, usize), of: impl Fn(f64) -> (f64, f64)) {
         let values: Vec<(f64, (f64, f64))> =
             self.speeds().into_iter().map(|speed| (speed, of(speed))).collect();
@@ -206,7 +205,7 @@ impl FitLawAnswer {
 }
 
 impl StatedLawsAnswer {
-    /// The three laws, with the time constant that rise and power need and the power that rise and
+    /// The three laws, the time constant that rise and power need, and the power that rise and
     /// time constant imply.
     pub(super) fn pictures(&self) -> Vec<Figure> {
         let capacity = self.found.capacity;

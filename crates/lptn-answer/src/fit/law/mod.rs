@@ -140,7 +140,7 @@ impl FitLawQuestion {
         Err(no_posterior("--posterior writes the coefficients of one law", help))
     }
 
-    /// The standard laws, and those that were asked for.
+    /// The standard laws, and those that were requested.
     fn laws_to_fit(&self, data: &Data) -> Result<Vec<LossLaw>, Failure> {
         let starts: Result<Vec<Start>, Failure> =
             self.starts.iter().map(|text| start(text)).collect();

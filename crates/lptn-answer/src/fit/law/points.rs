@@ -40,9 +40,8 @@ fn is_error(name: &str) -> bool {
     ERRORS.iter().any(|ending| name.ends_with(ending))
 }
 
-/// True if a column has this dimension. A difference of temperatures in K counts too, which a
-/// record
-/// takes as absolute.
+/// True if a column has this dimension.
+/// A difference of temperatures may be in K, which a record takes as absolute.
 fn holds(column: &RecordColumn, wanted: Dimension) -> bool {
     let ty = column.unit.ty;
     let difference = wanted == Dimension::TEMPERATURE && ty.absolute && column.unit.offset == 0.0;

@@ -13,12 +13,12 @@ use crate::words::spaced;
 /// Digits of values from which a search continues.
 const DIGITS: usize = 8;
 
-/// A fit that was interrupted: no result, but perhaps values to go on from.
+/// A fit that was interrupted: no result, but perhaps values to continue from.
 #[derive(Debug)]
 pub struct InterruptedFit {
     input: Arc<Input>,
     stage: FitStage,
-    /// The study that was asked for by its name.
+    /// The study that was requested by its name.
     study: Option<String>,
     /// Name, value and unit of each parameter; `None` if no run came to its end.
     best: Option<Vec<[String; 3]>>,

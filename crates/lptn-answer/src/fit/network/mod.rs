@@ -50,7 +50,7 @@ pub struct FitNetworkQuestion {
 pub struct FitOfNetwork {
     input: Arc<Input>,
     study: FitStudy,
-    /// The study that was asked for by its name.
+    /// The study that was requested by its name.
     named: Option<String>,
     task: NetworkFitTask,
 }
@@ -117,7 +117,7 @@ impl FitNetworkQuestion {
         }
     }
 
-    /// Reads the study, before anything is computed.
+    /// Reads the study in advance.
     ///
     /// # Errors
     /// A study that does not exist, and one that does not fit its network.
@@ -229,15 +229,15 @@ impl FitNetworkAnswer {
         self.fit.identifiability.as_ref().is_some_and(|known| known.is_whole())
     }
 
-    /// The values with their covariance, for studies that go on from them; `None` if a value is not
-    /// determined.
+    /// The values with their covariance, for further studies.
+    /// `None` if a value is not determined.
     pub fn posterior(&self) -> Option<Posterior> {
         let called = (self.input.text.stem.as_str(), self.study.name.as_str());
         self.fit.posterior(&self.task, called, &self.names)
     }
 
-    /// The number of each parameter that the netlist writes as a number, in its unit there, and the
-    /// place of the parameter among the estimated quantities.
+    /// The numbers of parameters that the netlist writes as numbers, in their units there.
+    /// Each has the index of the parameter among the estimated quantities.
     pub fn numbers(&self) -> Vec<(usize, ParameterId, String)> {
         let number = |i: usize| {
             let parameter = self.task.parameters[i].parameter;

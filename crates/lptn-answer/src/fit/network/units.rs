@@ -38,8 +38,8 @@ impl FitNetworkAnswer {
     }
 }
 
-/// The SI unit that the misfits of all columns have in common; 1 if they are divided by standard
-/// deviations.
+/// The SI unit that the misfits of all columns have in common.
+/// It is 1 if they are divided by standard deviations.
 pub(in crate::fit) fn common(task: &NetworkFitTask) -> String {
     task.unit().unwrap_or(Type::SCALAR).dimension.si_unit()
 }

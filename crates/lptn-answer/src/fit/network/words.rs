@@ -186,8 +186,8 @@ fn off_prior(answer: &FitNetworkAnswer, i: usize) -> Option<Diagnostic> {
     })
 }
 
-/// The columns that the model misses by far more than their values scatter: each once, with the
-/// record in which it is worst.
+/// The columns that the model misses by far more than their values scatter.
+/// Each is named once, with the record in which it is worst.
 fn misfits(answer: &FitNetworkAnswer) -> Vec<Diagnostic> {
     let name = |column: &ColumnMisfit| &answer.task.runs[column.run].columns[column.column].name;
     let off = |column: &ColumnMisfit| column.sigma.map_or(0.0, |sigma| column.rms / sigma);

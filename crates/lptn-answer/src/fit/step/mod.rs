@@ -138,7 +138,7 @@ impl FitStepQuestion {
 }
 
 impl FitStepAnswer {
-    /// Heat, resistance and capacity with their covariance, for studies that go on from them;
+    /// Heat, resistance and capacity with their covariance, for further studies.
     /// `None` unless there is one column.
     pub fn posterior(&self) -> Option<Posterior> {
         let [column] = self.columns.as_slice() else { return None };

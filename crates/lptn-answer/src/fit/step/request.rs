@@ -16,8 +16,8 @@ pub(super) struct Request {
     /// Name of the record in diagnostics and results.
     pub(super) name: String,
     pub(super) record: Record,
-    /// The first time of the record in s before `--from` cut it; `None` where that part cannot be
-    /// read.
+    /// The first time of the record in s before `--from` cut it.
+    /// `None` if that part cannot be read.
     pub(super) begin: Option<f64>,
     pub(super) files: Files,
     /// The columns to fit, by position.
@@ -158,8 +158,8 @@ fn reference(text: &str, (record, files): (&Record, &Files)) -> Result<Reference
     }
 }
 
-/// The columns to fit: those that are named, or all temperatures that change, without the one that
-/// dT is counted from.
+/// The columns to fit: the named ones, or all temperatures that change.
+/// The column that dT is counted from is not fitted.
 fn columns(question: &FitStepQuestion, record: &Record, reference: &Reference) -> Vec<usize> {
     let is_asked = |i: usize| question.columns.contains(&record.columns[i].name);
     let changes = |i: usize| {

@@ -13,7 +13,7 @@ use super::Study;
 use crate::scale;
 use crate::words::difference;
 
-/// The rows of `uncertainty.csv`: the time, then for each node its temperature as in `result.csv`,
+/// The rows of `uncertainty.csv`: the time, and for each node its temperature as in `result.csv`,
 /// one standard deviation and the band of 95 %.
 pub(crate) fn bands(network: &Network, found: &Uncertainty, unit: &Unit) -> Table {
     let rows: Vec<usize> = (0..found.times.len()).collect();

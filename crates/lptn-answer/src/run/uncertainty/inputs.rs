@@ -87,8 +87,8 @@ pub(super) fn shares(found: &Uncertainty) -> Option<String> {
     })
 }
 
-/// Parameters that are not normal and make most of a result, whose band straight lines take to be
-/// normal.
+/// Parameters that are not normal and make most of a result.
+/// Straight lines take the band of that result to be normal.
 pub(super) fn far_from_normal(network: &Network, found: &Uncertainty) -> Option<String> {
     let shaped = |input: &Uncertain| input.distribution == Distribution::Rectangle;
     let rules = |i: usize| {

@@ -27,7 +27,7 @@ pub enum Method {
     Sobol,
 }
 
-/// The uncertainty that is asked for.
+/// The uncertainty that is requested.
 #[derive(Clone, Debug)]
 pub struct UncertaintyQuestion {
     /// The method.

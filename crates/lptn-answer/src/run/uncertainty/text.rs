@@ -125,9 +125,9 @@ fn sampled(found: &Uncertainty) -> usize {
     }
 }
 
-/// A probability in percent, with its standard error if it was sampled. For none or all of
-/// the samples it is the 95 % bound (1 - 0.05^(1/n), the rule of three: J. A. Hanley, A.
-/// Lippman-Hand, JAMA 249 (1983) 1743).
+/// A probability in percent, with its standard error if it was sampled.
+/// For none or all of the samples it is the 95 % bound (1 - 0.05^(1/n), the rule of three: J. A.
+/// Hanley, A. Lippman-Hand, JAMA 249 (1983) 1743).
 fn probability(of: Estimate, samples: usize) -> String {
     let percent = |share: f64| fixed(100.0 * share, if share >= 0.1 { 0 } else { 1 });
     if of.error.is_some() && samples > 0 && (of.value <= 0.0 || of.value >= 1.0) {

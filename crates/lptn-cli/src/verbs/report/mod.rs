@@ -1,8 +1,7 @@
 //! `lptn report`: the page of a run that has been made.
 //!
-//! The run is repeated as its manifest says, and must give the same bytes. If its files have
-//! changed,
-//! the page shows the content of the folder, and says so.
+//! The run is repeated as its manifest says, and must give the same bytes.
+//! If its files have changed, the page shows the content of the folder, and says so.
 
 mod args;
 

@@ -1,5 +1,5 @@
-//! The file of a sweep while it grows: rows are there as soon as they are known, and a process that
-//! was killed leaves whole rows and at most one that is torn.
+//! The file of a sweep while it grows: rows are written as soon as they are known.
+//! A process that is killed leaves whole rows and at most one partial one.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Seek as _, SeekFrom, Write as _};
@@ -145,8 +145,8 @@ impl Growing {
         self.file.write_all(rows).map_err(|error| cannot_write(&self.path, &error))
     }
 
-    /// Puts the file in its place, with its manifest. If the process is killed on the way, all rows
-    /// are still under the unfinished name, or in place.
+    /// Puts the file in its place, with its manifest.
+    /// If the process is killed on the way, all rows are under the unfinished name, or in place.
     pub(crate) fn finish(
         self,
         folder: &Folder,

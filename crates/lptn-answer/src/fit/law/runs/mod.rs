@@ -93,8 +93,8 @@ impl FitOfRuns {
     }
 }
 
-/// Fits the columns. A column without an exponential, such as a bed that hardly warms, is left out
-/// with a warning, unless it was named or is the first.
+/// Fits the columns. One without an exponential, such as a bed that hardly warms, is left out.
+/// That gives a warning; a column that was named, or the first one, is not left out.
 fn study(
     folder: &Folder,
     (mut settings, question): (RunsSettings, &FitLawQuestion),
