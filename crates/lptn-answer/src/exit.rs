@@ -12,7 +12,7 @@ pub enum Exit {
     /// For `check`: the file could be read and has errors.
     No = 1,
     /// The input is wrong: usage, a missing file, unreadable TOML, a netlist with errors.
-    /// For `check` errors of the netlist are [`Self::No`]. clap uses this number for usage.
+    /// For `check` errors of the netlist are [`Exit::No`]. clap uses this number for usage.
     Input = 2,
     /// The numbers or the writing of results failed. Computed results are kept and marked.
     Failed = 3,

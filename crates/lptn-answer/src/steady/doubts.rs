@@ -7,7 +7,7 @@ use lptn_report::{duration, significant};
 use lptn_solve::{Others, SteadyState};
 use lptn_units::Unit;
 
-/// Warning that inputs change with time, with its effect on limits and a better verb.
+/// Warning that inputs change with time: its effect on limits, and a verb for all times.
 /// `file` is the name of the netlist as it was typed.
 pub fn inputs_vary(
     (netlist, file): (&Netlist, Option<&str>),

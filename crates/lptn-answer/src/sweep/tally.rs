@@ -1,4 +1,4 @@
-//! Summary of all rows, of bounded size.
+//! Summary of all rows, however many there are.
 
 use std::collections::BTreeMap;
 

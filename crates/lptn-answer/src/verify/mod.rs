@@ -25,7 +25,7 @@ const NOTHING: &str = "not verified: there is nothing to compare";
 pub struct VerifyQuestion {
     /// The tolerance to verify next to a hundredth of it, `1e-7K`; `None` for that of the run.
     pub tolerance: Option<String>,
-    /// The state near which the linear network is compared with the full one, `steady` or a time.
+    /// The state at which linear and full network are compared, `steady` or a time of its run.
     /// `None` for the run.
     pub at: Option<String>,
 }
