@@ -1,4 +1,4 @@
-//! What every report says of a netlist: its network, its parameters, and what it was read from.
+//! Parts of every report on a netlist: its network, its parameters, and its sources.
 
 use lptn_graph::{Grouping, View, diagram};
 use lptn_netlist::Netlist;
@@ -13,29 +13,28 @@ use crate::input::{Input, quoted};
 use crate::ranges;
 use crate::words::{count, difference, spaced, unverified};
 
-/// How an answer changes with a parameter.
+/// Sensitivity of an answer to each parameter.
 pub struct Sensitivities {
-    /// What changes: `steel at 25 min`.
+    /// Quantity that changes: `steel at 25 min`.
     pub of: String,
-    /// In K for one percent more of each parameter, for 1 K more of a temperature; `None` where
-    /// that is not known.
+    /// Change in K per 1 % of each parameter, or per 1 K of a temperature; `None` if not known.
     pub values: Vec<Option<f64>>,
 }
 
-/// What a verb knows of a network beside its answer.
+/// Additions of a verb to the report on a network.
 #[derive(Default)]
 pub struct Known<'a> {
-    /// How it trusts its answer.
+    /// Claims on how far its answer can be trusted.
     pub claims: Vec<Claim>,
     /// The network at instants, each under a heading.
     pub states: Vec<(String, Snapshot)>,
-    /// The scale of temperatures, where that is not the one of the netlist.
+    /// Unit of temperatures if it is not that of the netlist.
     pub unit: Option<&'a Unit>,
     /// The change of the answer by each parameter.
     pub sensitivities: Option<Sensitivities>,
 }
 
-/// What is known of a network beside the answer of a verb.
+/// Report on a network: drawings, parameters, sources and claims.
 pub fn about(input: &Input, known: Known<'_>) -> Report {
     let unit = known.unit.unwrap_or(&input.netlist.temperature_unit);
     let states =
@@ -60,7 +59,7 @@ pub fn hashes(netlist: &Netlist) -> Vec<FileHash> {
     netlist.inputs().map(hash).collect()
 }
 
-/// Whether the network is linear.
+/// Claim on the linearity of the network.
 fn linearity(input: &Input) -> Claim {
     let network = &input.netlist.network;
     let constant = network.node_ids().all(|id| network.enthalpy(id).is_none());
@@ -72,14 +71,14 @@ fn linearity(input: &Input) -> Claim {
     })
 }
 
-/// Whether every law stayed where it is known: elsewhere there is no result.
+/// Claims on the laws: if they stayed within their ranges, and which are unverified.
 pub fn laws(network: &Network, outside: &[OutOfRange]) -> Vec<Claim> {
     let mut claims = vec![ranges::claim(network, outside)];
     claims.extend(unverified(network).map(Claim::open));
     claims
 }
 
-/// Whether nodes are lumps.
+/// Claim on the Biot numbers of the nodes.
 pub fn lumps(lumping: &Lumping) -> Claim {
     let (thick, slow) = (lumping.too_thick().len(), lumping.too_slow().len());
     let checked = lumping.checks.iter().filter(|check| check.biot.is_ok()).count();
@@ -100,7 +99,7 @@ fn are(nodes: usize) -> String {
     if nodes == 1 { "1 node is".into() } else { format!("{nodes} nodes are") }
 }
 
-/// The manifest of a run but for what changes from run to run.
+/// The manifest of a run without the members that change from run to run.
 pub fn manifest(mut value: Value) -> Option<Section> {
     let members = value.as_object_mut()?;
     for key in ["environment", "results"] {
@@ -111,7 +110,7 @@ pub fn manifest(mut value: Value) -> Option<Section> {
     Some(Section::of("Manifest", Piece::Verbatim(text)).folded())
 }
 
-/// JSON with a line for each member, and on one line what holds no further objects.
+/// JSON with one line per member; a value that contains no further objects is on one line.
 fn lines(value: &Value, depth: usize, out: &mut String) {
     let Some(members) = value.as_object().filter(|all| all.values().any(is_deep)) else {
         return *out += &value.to_string();
@@ -196,7 +195,7 @@ fn parameters(input: &Input, sensitivities: Option<&Sensitivities>) -> Option<Se
     Some(Section::of("Parameters", Piece::Text(text)))
 }
 
-/// What the file says of a parameter, with the comment behind it: what was set stands in the value.
+/// The value of a parameter as the file states it, with the comment after it.
 fn written(input: &Input, id: ParameterId) -> String {
     let netlist = &input.netlist;
     let Some(span) = netlist.source_map.get(Item::Parameter(id), Field::Value) else {
@@ -212,7 +211,7 @@ fn written(input: &Input, id: ParameterId) -> String {
     }
 }
 
-/// What is known of an answer that is not about a netlist.
+/// Report on an answer that is not about a netlist.
 pub fn of_command(files: &[FileHash], command: &[String]) -> Report {
     Report { sections: vec![made_from(files, command)], ..Report::default() }
 }

@@ -1,4 +1,4 @@
-//! What every answer has.
+//! Interface of every answer.
 
 use lptn_netlist::{Diagnostic, Files};
 use lptn_report::{Format, Look, Page, write};

@@ -68,8 +68,8 @@ fn unknown(network: &Network, name: &str, found: Option<Item>) -> Failure {
     Failure::at(Exit::Input, files, problem.help(help))
 }
 
-/// A line of the table: a term by its name and what it joins, or the sum of all; power in W, heat
-/// in J.
+/// A line of the table: a term with its name and its other end, or the sum of all.
+/// Power in W, heat in J.
 struct Line {
     name: String,
     other: String,
@@ -77,7 +77,7 @@ struct Line {
     heat: f64,
 }
 
-/// A column of amounts in one unit, and one of their shares of what is turned over.
+/// Adds a column of amounts in one unit, and one of their percentages of `turned_over`.
 fn amounts<'a>(
     table: TextTableOf<'a, Line>,
     (when, unit, turned_over): (String, &str, f64),
@@ -136,7 +136,7 @@ pub fn section(
     );
 }
 
-/// What the sum of all paths and sources is.
+/// Name of the sum of all paths and sources.
 fn rest(balance: &Balance, steady: bool) -> &'static str {
     match balance.of {
         End::Node(_) if steady => "sum",
@@ -145,7 +145,7 @@ fn rest(balance: &Balance, steady: bool) -> &'static str {
     }
 }
 
-/// What the ledger leaves open, where it can be seen in the table.
+/// Residual of the balance in J if it exceeds 1e-4 of the heat turned over.
 fn open(balance: &Balance) -> Option<f64> {
     let residual = balance.heat()? - balance.stored?;
     (residual.abs() > 1e-4 * balance.heat_turned_over()?).then_some(residual)

@@ -1,4 +1,4 @@
-//! Which fit a netlist takes the values of its parameters from.
+//! The fit from which a netlist takes its parameter values.
 
 use std::path::Path;
 
@@ -6,21 +6,21 @@ use lptn_netlist::{Netlist, Taken, similar_file};
 
 use crate::failure::Failure;
 
-/// Which fit the values of parameters are taken from.
+/// Fit from which the values of parameters are taken.
 #[derive(Debug)]
 pub enum Belief<'a> {
     /// The one whose posterior the netlist names, if it names one.
     Named,
-    /// The one that wrote this file; the netlist has to have all of its parameters.
+    /// The one that wrote this file; the netlist must have all of its parameters.
     File(&'a Path),
-    /// The same where a netlist need not have them all, or any.
+    /// The same, but the netlist may lack some or all of them.
     Shared(&'a Path),
     /// None.
     None,
 }
 
 impl<'a> Belief<'a> {
-    /// That of the command line, else that of the netlist.
+    /// The fit of the command line if there is one, else that of the netlist.
     pub fn of(file: Option<&'a Path>) -> Self {
         file.map_or(Self::Named, Self::File)
     }

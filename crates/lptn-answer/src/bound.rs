@@ -51,7 +51,7 @@ pub fn not_bounded(network: &Network, why: Option<&Unbounded>) -> Option<String>
     Some(format!("error not bounded by the tolerance: it adds up, because {why}"))
 }
 
-/// A bound so wide that the books would close on nonsense too.
+/// Message if the bound of the energy balance is too wide to prove anything.
 pub fn weak_ledger(solution: &Solution) -> Option<String> {
     const PROOF: f64 = 1e-2;
     let ledger = solution.ledger();

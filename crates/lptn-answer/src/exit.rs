@@ -2,22 +2,22 @@
 
 use lptn_units::Class;
 
-/// How a command ended.
+/// Exit code of a command.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Exit {
     /// Done.
     Done = 0,
-    /// Done, and the answer is no; the last line says which. For `check`: the file could be read
-    /// and has errors.
+    /// Done, and the answer is no; the last line says which.
+    /// For `check`: the file could be read and has errors.
     No = 1,
-    /// The input is wrong: usage, a missing file, TOML that cannot be read; for every verb but
-    /// `check` any error of the netlist. The number is the one that clap uses for usage.
+    /// The input is wrong: usage, a missing file, unreadable TOML, a netlist with errors.
+    /// For `check` errors of the netlist are [`Exit::No`]. clap uses this number for usage.
     Input = 2,
-    /// The numbers or the writing of results failed; what was computed is kept and marked.
+    /// The numbers or the writing of results failed. Computed results are kept and marked.
     Failed = 3,
-    /// Ctrl-C: 128 plus the number of the signal, as shells count. What was computed is kept and
-    /// marked.
+    /// Ctrl-C: 128 plus the number of the signal, as shells count.
+    /// Computed results are kept and marked.
     Interrupted = 130,
 }
 

@@ -1,4 +1,4 @@
-//! Why a command ended early.
+//! Reason why a command ended early.
 
 use std::{fmt, io};
 
@@ -7,10 +7,10 @@ use lptn_units::{Class, Help, Problem};
 
 use crate::exit::Exit;
 
-/// What is printed, and the exit code.
+/// Problems to print, and the exit code.
 #[derive(Clone, Debug)]
 pub struct Failure {
-    /// How the command ends.
+    /// Exit code of the command.
     pub exit: Exit,
     /// The files that places are in.
     pub files: Files,
@@ -29,7 +29,7 @@ impl Failure {
         Self::new(Exit::Input, Diagnostic::error(code, message).help(help))
     }
 
-    /// What is wrong, in its own words, about no file.
+    /// A problem in its own words, about no file.
     pub fn of(problem: &dyn Problem) -> Self {
         Self::new(problem.class().into(), told(problem))
     }
@@ -39,7 +39,7 @@ impl Failure {
         Self::refused("input::cannot_read", format!("cannot read {name}: {}", reason(error)), help)
     }
 
-    /// The same with another help, where one is about something else.
+    /// The same failure with another help text.
     pub fn with_help(mut self, help: &str) -> Self {
         self.diagnostics.iter_mut().for_each(|problem| problem.help = Some(help.into()));
         self

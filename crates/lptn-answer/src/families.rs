@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use lptn_report::TextTableOf;
 
-/// Families of so many members or more are shown as one row.
+/// Least number of members of a family that is shown as one row.
 const MORE_MEMBERS: usize = 5;
 
 /// A row of a table: an item, or the worst of a family.
@@ -14,7 +14,7 @@ pub struct Row<T> {
     pub item: T,
     /// The name of the item, or that of the family: `row[*].base`.
     pub name: String,
-    /// Which member of how many it is: `[7] of 24`; empty for an item by itself.
+    /// Index of the member and their number: `[7] of 24`; empty for a single item.
     pub member: String,
 }
 
@@ -30,9 +30,9 @@ fn family(name: &str) -> Option<(String, String)> {
     (!indices.is_empty()).then(|| (whole + rest, indices))
 }
 
-/// The rows of items by name and kind. Where they are to `fold`, those of a large family are one
-/// row, in the place of the first, with the item of which `worst` is largest; items of different
-/// kinds are of different families.
+/// Rows of items by name and kind.
+/// With `fold`, a large family is one row at its first member, with the item of the largest
+/// `worst`. Items of different kinds belong to different families.
 pub fn folded<T>(
     items: Vec<T>,
     fold: bool,
@@ -67,7 +67,7 @@ pub fn folded<T>(
     rows
 }
 
-/// Adds the column of members below a title that says which one is shown, where a row has any.
+/// Adds the column of members if a row has any, under a title that says which one is shown.
 pub fn members<'a, T>(
     table: TextTableOf<'a, Row<T>>,
     rows: &[Row<T>],

@@ -5,8 +5,8 @@ use lptn_network::{Field, Item};
 use lptn_report::significant;
 use lptn_solve::Table;
 
-/// A warning for each report with a row in which its expression has no value, with the first such
-/// time.
+/// A warning for each report whose expression has no value in some row.
+/// It gives the first such time.
 pub fn gaps(netlist: &Netlist, table: &Table) -> Vec<Diagnostic> {
     let network = &netlist.network;
     let times = table.columns().first().map_or(&[][..], |time| &time.values);

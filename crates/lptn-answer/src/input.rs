@@ -21,17 +21,17 @@ use crate::words::{counts, unverified, unverified_names};
 /// The file of rows in a folder of results.
 pub const RESULT: &str = "result.csv";
 
-/// What a netlist from stdin is called.
+/// Name of a netlist from stdin.
 const STDIN: &str = "<stdin>";
 
-/// The bytes of a netlist and what they are called.
+/// The bytes of a netlist and their names.
 #[derive(Debug)]
 pub struct Given {
     /// The text as it was read.
     pub bytes: Vec<u8>,
-    /// What diagnostics and the manifest call it.
+    /// Name in diagnostics and in the manifest.
     pub name: String,
-    /// What its results are called: the file's name without its ending.
+    /// Name of its results: the file's name without its extension.
     pub stem: String,
 }
 
@@ -58,7 +58,7 @@ pub fn read(file: &Path) -> Result<Given, Failure> {
     let bytes = match lptn_netlist::read_bytes(file) {
         Ok(bytes) => bytes,
         Err(ReadError::Io { error, .. }) => {
-            // what is there but cannot be read is not misspelt
+            // a file that exists but cannot be read is not misspelt
             let missing = error.kind() == ErrorKind::NotFound;
             return Err(Failure::cannot_read(
                 &name,
@@ -77,7 +77,7 @@ fn similar(file: &Path) -> Option<String> {
     similar_file(file).map(|near| format!("did you mean {}?", near.display()))
 }
 
-/// A netlist of the folder that is given in the place of one.
+/// Help if a folder is given instead of a netlist: its results, or a netlist in it.
 fn example(folder: &Path) -> Option<String> {
     if folder.join(RESULT).is_file() {
         let folder = quoted(&folder.display().to_string());
@@ -96,7 +96,7 @@ pub struct Input {
     pub text: Given,
     /// The netlist, with the values that were set.
     pub netlist: Netlist,
-    /// Everything that was set in it, by the load case and then by itself.
+    /// Everything that was set in it: by the load case, then separately.
     pub set: Vec<String>,
     /// The words of the command that asked, for reports; empty if a program asked.
     pub command: Vec<String>,
@@ -149,7 +149,7 @@ impl Input {
     /// Reads a netlist as it is.
     ///
     /// # Errors
-    /// Everything that is wrong with it.
+    /// All problems of the netlist.
     pub fn read(file: impl AsRef<Path>) -> Result<Self, Failure> {
         Self::open(file.as_ref(), &Belief::Named, (None, &[]))
     }
@@ -165,11 +165,11 @@ impl Input {
         Ok(self)
     }
 
-    /// Reads a netlist and sets values in it: those of a fit, of a load case, of assignments, in
-    /// this order.
+    /// Reads a netlist and sets values in it.
+    /// They are those of a fit, of a load case, and of assignments, in this order.
     ///
     /// # Errors
-    /// Everything that is wrong with the netlist or with what is set.
+    /// All problems of the netlist or of the values.
     pub fn open(
         file: &Path,
         belief: &Belief<'_>,
@@ -180,7 +180,7 @@ impl Input {
         belief.take(&mut netlist)?;
         let set = apply(&mut netlist, &text, (case, assignments))?;
         if let Some(case) = case {
-            // beside the results of the others
+            // next to the results of the other cases
             text.stem = folder_name(format!("{}_{case}", text.stem).replace(['/', '\\'], "_"));
         }
         Ok(Self { text, netlist, set, command: Vec::new() })
@@ -199,12 +199,12 @@ impl Input {
         Ok(())
     }
 
-    /// What the network is called: its title, else the name of its file.
+    /// Name of the network: its title, else the name of its file.
     pub fn title(&self) -> String {
         self.netlist.network.title().map_or_else(|| self.text.stem.clone(), plain)
     }
 
-    /// How a text about the network begins: its title, and what it consists of.
+    /// Begins a text about the network: its title, and the numbers of its parts.
     pub fn begun(&self) -> Text {
         let mut text = Text::titled(self.title());
         text.line(counts(&self.netlist.network));
@@ -214,14 +214,14 @@ impl Input {
         text
     }
 
-    /// How the object of a result begins.
+    /// Begins the object of a result.
     pub fn head(&self, json: &mut Json<'_>, more: &[Diagnostic]) -> std::io::Result<()> {
         let warnings = [self.netlist.warnings.as_slice(), more].concat();
         messages::head(json, Some(&self.text.stem), (&self.netlist.files, &warnings))?;
         json.optional("unverified_constants", unverified_names(&self.netlist.network))
     }
 
-    /// Where the node of this name stands.
+    /// The place of the node of this name.
     pub fn node_place(&self, name: &str) -> Option<Span> {
         let node = self.netlist.network.node(name).ok()?;
         self.netlist.source_map.name(Item::Node(node))
@@ -240,18 +240,18 @@ impl Input {
         written.or_else(|| Unit::parse(&ty.usual_unit()).ok()).unwrap_or_else(|| si(ty))
     }
 
-    /// Where an input stands that has no value.
+    /// The place of an input that has no value.
     pub fn place_of(&self, error: &InputError) -> Option<Span> {
         let map = &self.netlist.source_map;
         map.get(error.item, error.field).or_else(|| map.name(error.item))
     }
 
-    /// What is wrong with the netlist, at its place.
+    /// A failure of the netlist at its place.
     pub fn failure(&self, problem: &dyn Problem, place: Option<Span>) -> Failure {
         self.refused(problem.class().into(), told(problem).at(place, ""))
     }
 
-    /// The same in words of the command line.
+    /// The same for a diagnostic with its own exit code.
     pub fn refused(&self, exit: Exit, problem: Diagnostic) -> Failure {
         Failure::at(exit, self.netlist.files.clone(), problem)
     }
@@ -268,13 +268,13 @@ impl Input {
     }
 }
 
-/// The studies of one kind, and how it is told that the one that is wanted cannot be found.
+/// The studies of one kind, and the messages if the wanted one cannot be found.
 pub struct Studies {
     /// The word of their sections, `size` of `[size.fan]`.
     pub section: &'static str,
-    /// The codes where there is none, and where several can be meant.
+    /// The codes if there is none, and if several can be meant.
     pub codes: [&'static str; 2],
-    /// What such a study asks, for the message.
+    /// The question of such a study, for the message.
     pub question: &'static str,
     /// A section to paste.
     pub example: &'static str,
@@ -325,7 +325,7 @@ impl Studies {
 /// The netlist of a text.
 ///
 /// # Errors
-/// Everything that is wrong with it.
+/// All problems of the netlist.
 pub fn parse(text: &Given) -> Result<Netlist, Rejected> {
     match text.name.as_str() {
         STDIN => parse_bytes(STDIN, &text.bytes),
@@ -333,7 +333,7 @@ pub fn parse(text: &Given) -> Result<Netlist, Rejected> {
     }
 }
 
-/// A word for the shell, in quotes where it needs them.
+/// A word for the shell, in quotes if it needs them.
 pub fn quoted(word: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_-./+,:@%".contains(c);
     if !word.is_empty() && word.chars().all(plain) {
@@ -388,7 +388,7 @@ pub fn quantity(option: &str, text: &str, ty: Type) -> Result<Quantity, Failure>
     parse_quantity(text, Some(ty)).map_err(|error| wrong_unit(option, text, &error))
 }
 
-/// The value in SI units of a quantity that an option gives, which has to be more than zero.
+/// The value in SI units of a quantity that an option gives, which must be above zero.
 pub fn positive(
     option: &str,
     text: &str,

@@ -7,8 +7,8 @@
 //! written as a text, CSV, JSON, a figure or a part of a report. If there is no answer,
 //! [`failure::Failure`] has the problems.
 //!
-//! A doubt is a [`Diagnostic`](lptn_netlist::Diagnostic) of severity warning with its code, its
-//! sentence, its place in the netlist and what to do. Clients print what this crate gives.
+//! A doubt is a [`Diagnostic`](lptn_netlist::Diagnostic) of severity warning with its code,
+//! sentence, place in the netlist, and help. Clients print the texts of this crate.
 
 pub mod about;
 pub mod answer;

@@ -25,8 +25,8 @@ pub fn broken_node<'a>(found: &LimitResult, network: &'a Network) -> Option<&'a 
     (found.broken_at.is_some() && known).then_some(node)
 }
 
-/// Its name, and what has to be the same in a family: whether it is judged, of which severity and
-/// of which kind of quantity.
+/// Its name, and properties that a family must share:
+/// judged or not, severity, side of the bound, and kind of quantity.
 fn family(found: &LimitResult, limit: &Limit) -> (String, u8) {
     let bits = [
         found.is_open(),
@@ -45,7 +45,7 @@ fn standing(found: &LimitResult) -> Standing {
     }
 }
 
-/// All limits of a netlist with what became of them.
+/// All limits of a netlist with their results.
 #[derive(Clone, Copy, Debug)]
 pub struct Judgement<'a> {
     /// The netlist.
@@ -54,12 +54,12 @@ pub struct Judgement<'a> {
     pub unit: &'a Unit,
     /// The unit of times.
     pub clock: Clock,
-    /// What became of them, in the order of the network.
+    /// The results, in the order of the network.
     pub limits: &'a [LimitResult],
 }
 
-/// A section with a line for each limit, and for each large family where they are to `fold`;
-/// nothing without limits.
+/// A section with a line for each limit, or with `fold` for each large family.
+/// Nothing without limits.
 pub fn section(text: &mut Text, judgement: &Judgement<'_>, fold: bool) {
     let Judgement { netlist: Netlist { network, .. }, unit, clock, limits } = *judgement;
     if limits.is_empty() {
@@ -94,8 +94,8 @@ fn bounded(network: &Network, id: LimitId, unit: &Unit) -> String {
     format!("{} {bound}", limit.bound.field().key())
 }
 
-/// Marks the limits in the panels that show what they are of: temperatures, and columns by name.
-/// Gives how many are of something that no panel shows.
+/// Marks the limits in the panels of their quantities: temperatures, and columns by name.
+/// Returns the number of limits without such a panel.
 pub fn mark(panels: &mut [Panel], network: &Network, unit: &Unit) -> usize {
     let mut left_out = 0;
     for id in network.limit_ids() {
@@ -116,7 +116,7 @@ pub fn mark(panels: &mut [Panel], network: &Network, unit: &Unit) -> usize {
     left_out
 }
 
-/// Which limits were broken, by how much and when: rows may miss it.
+/// Broken limits with their excess and its time: rows may miss it.
 pub fn broken(network: &Network, limits: &[LimitResult], unit: &Unit) -> Vec<String> {
     let said = |judged: &LimitResult| {
         let limit = &network.limits()[judged.limit.index()];
@@ -127,7 +127,7 @@ pub fn broken(network: &Network, limits: &[LimitResult], unit: &Unit) -> Vec<Str
     limits.iter().filter(|judged| judged.is_broken()).map(said).collect()
 }
 
-/// Whether limits are kept, for a report.
+/// Claims for a report on broken, kept and unjudged limits.
 pub fn claims(network: &Network, limits: &[LimitResult], unit: &Unit) -> Vec<Claim> {
     let open = limits.iter().filter(|judged| judged.is_open()).count();
     let broken = broken(network, limits, unit);
@@ -140,7 +140,7 @@ pub fn claims(network: &Network, limits: &[LimitResult], unit: &Unit) -> Vec<Cla
     claims
 }
 
-/// What the quantity has to stay below or above, in SI units.
+/// The bound of a limit, in SI units.
 fn bound(network: &Network, limit: &Limit) -> f64 {
     // it is constant and was evaluated when the network was built
     limit.value.at(&mut network.evaluation()).unwrap_or(f64::NAN)
@@ -172,9 +172,9 @@ fn number(value: f64, ty: Type, unit: &Unit) -> String {
 }
 
 /// Members by the limit's name:
-/// `{ of, below or above, worst, margin, worst_at, broken_at, severity, kept }`, in the results and
-/// in the manifest, temperatures in `unit`. `worst` is the value of `of` where the margin is least;
-/// where a limit is not judged `worst`, `margin` and `kept` are null. Nothing without limits.
+/// `{ of, below or above, worst, margin, worst_at, broken_at, severity, kept }`, temperatures in
+/// `unit`. `worst` is the value of `of` at the least margin. If a limit is not judged, `worst`,
+/// `margin` and `kept` are null. Nothing without limits.
 pub fn members(
     network: &Network,
     limits: &[LimitResult],
@@ -215,7 +215,7 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    /// Of all limits.
+    /// The verdict on all limits.
     pub fn of(judgement: &Judgement<'_>) -> Self {
         let Judgement { netlist, limits, .. } = *judgement;
         let severity = |found: &LimitResult| netlist.network.limits()[found.limit.index()].severity;
@@ -229,7 +229,7 @@ impl Verdict {
         }
     }
 
-    /// Whether every limit of severity error that was judged is kept.
+    /// True if every limit of severity error that was judged is kept.
     pub fn holds(&self) -> bool {
         self.broken.is_empty()
     }

@@ -1,4 +1,4 @@
-//! Whoever asked, while the answer is computed.
+//! The listener of a question while its answer is computed.
 
 use std::fmt::Display;
 use std::time::Instant;
@@ -6,10 +6,10 @@ use std::time::Instant;
 use lptn_netlist::{Diagnostic, Files};
 use lptn_solve::{Proceed, Progress};
 
-/// Hears of progress, and says whether to go on.
+/// Hears of progress, and may interrupt.
 pub trait Listener: Sync {
-    /// Doubts as soon as they are known: before a long computation, or if it then fails. The answer,
-    /// if there is one, has them too. Their places are in `files`.
+    /// Doubts as soon as they are known: before a long computation, or if it then fails.
+    /// The answer, if there is one, has them too. Their places are in `files`.
     fn warn(&self, _files: &Files, _doubts: &[Diagnostic]) {}
 
     /// Something worth knowing that is not a doubt.
@@ -18,17 +18,17 @@ pub trait Listener: Sync {
     /// Something begins that may be interrupted.
     fn begin(&self) {}
 
-    /// Whether to go on. [`Proceed::Interrupt`] ends what is computed; finished parts are kept.
+    /// Returns whether to continue. [`Proceed::Interrupt`] ends the work; finished parts are kept.
     fn proceed(&self) -> Proceed {
         Proceed::Continue
     }
 
-    /// A run has come this far; returns whether to go on.
+    /// A run has come this far; returns whether to continue.
     fn progress(&self, _progress: Progress) -> Proceed {
         self.proceed()
     }
 
-    /// One of several runs has come this far; returns whether to go on.
+    /// One of several runs has come this far; returns whether to continue.
     fn progress_of(&self, _which: Which, _progress: Progress) -> Proceed {
         self.proceed()
     }
@@ -45,7 +45,7 @@ pub trait Listener: Sync {
     /// A part of the work took this long, in s.
     fn took(&self, _part: &'static str, _seconds: f64) {}
 
-    /// One of several runs has come this far, which may go on at the same time; `stage` names it.
+    /// One of several runs at the same time has come this far; `stage` names it.
     fn stage(&self, _stage: &dyn Display, progress: Progress) -> Proceed {
         self.progress(progress)
     }
@@ -56,13 +56,13 @@ pub trait Listener: Sync {
 pub struct Which {
     /// Its number, from 0.
     pub number: usize,
-    /// How many there are.
+    /// The number of all of them.
     pub all: usize,
-    /// What they are, in the plural.
+    /// The noun for them, in the plural.
     pub noun: &'static str,
 }
 
-/// Nobody: everything goes to its end, and doubts are in the answers alone.
+/// Ignores everything: work goes to its end, and only answers have doubts.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Nobody;
 

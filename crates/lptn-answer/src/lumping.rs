@@ -1,4 +1,4 @@
-//! Whether nodes are lumps, in words: Biot numbers, diffusion times, and what was not checked.
+//! Biot numbers, diffusion times, and skipped checks of nodes, in words.
 
 use lptn_netlist::{Diagnostic, Netlist};
 use lptn_network::{Field, Item, Network, NodeId};
@@ -9,18 +9,18 @@ use serde_json::{Map, Value, json};
 
 use crate::words::count;
 
-/// How much a result tells.
+/// Amount of detail in a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Detail {
-    /// What was asked, as scripts and logs read it.
+    /// The answer, for scripts and logs.
     Brief,
-    /// Also what was not checked, for those who look on.
+    /// Also the skipped checks, for people at a terminal.
     Usual,
     /// Everything that is known.
     Verbose,
 }
 
-/// So many nodes are warned of one by one, the worst of them.
+/// Most nodes with separate warnings, the worst of them.
 const MOST_WARNINGS: usize = 5;
 
 const SOURCE: &str =
@@ -88,8 +88,8 @@ fn at(netlist: &Netlist, check: &LumpCheck, warning: Diagnostic) -> Diagnostic {
         .help("make it several nodes with [conduction] between them; L_char is volume over surface")
 }
 
-/// A few lines below a result: the largest numbers, and what was not checked. Where nothing was,
-/// only those who look on are told.
+/// Adds a few lines below a result: the largest numbers and the skipped checks.
+/// If nothing was checked, [`Detail::Brief`] adds none.
 pub fn lines(
     text: &mut Text,
     network: &Network,
@@ -121,7 +121,7 @@ pub fn lines(
     }
 }
 
-/// How many nodes were not checked, by reason.
+/// Number of nodes that were not checked, by reason.
 fn not_checked(lumping: &Lumping) -> Vec<String> {
     let mut reasons: Vec<(String, usize)> =
         vec![("no L_char".into(), lumping.without_length.len())];

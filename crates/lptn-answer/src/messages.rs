@@ -8,8 +8,9 @@ use serde_json::{Value, json};
 
 use crate::exit::Exit;
 
-/// A diagnostic as an object: lines and columns count from 1, columns in characters; the end is behind
-/// the last character. `fix` is what to write, and in place of what, where the help proposes that.
+/// A diagnostic as an object.
+/// Lines and columns count from 1, columns in characters; the end is after the last character.
+/// `fix` is the text to write and the text that it replaces, if the help has one.
 pub fn json(files: &Files, diagnostic: &Diagnostic) -> Value {
     let places: Vec<Value> = diagnostic.labels.iter().map(|label| place(files, label)).collect();
     json!({
@@ -26,8 +27,8 @@ pub fn json(files: &Files, diagnostic: &Diagnostic) -> Value {
     })
 }
 
-/// The text that a help proposes by `did you mean ..?`, and the place whose text it replaces: the
-/// whole string or heading where the text comes with its quotes or brackets.
+/// The text that a help proposes by `did you mean ..?`, and the place whose text it replaces.
+/// If the text has its quotes or brackets, that is the whole string or heading.
 fn fix(files: &Files, diagnostic: &Diagnostic) -> Option<Value> {
     let meant = diagnostic.help.as_deref()?.strip_prefix("did you mean ")?.strip_suffix('?')?;
     let meant = within(meant, "`", "`").unwrap_or(meant);
@@ -38,7 +39,7 @@ fn fix(files: &Files, diagnostic: &Diagnostic) -> Option<Value> {
     let (text, Range { start, end }) = (files.text(span.file), span.range.clone());
     let (before, after) = (text.get(..start)?, text.get(end..)?);
     let is_string = |text: &str| within(text, "\"", "\"").is_some();
-    // of `key = "word"` the word is proposed
+    // the word is proposed for `key = "word"`
     let value = meant.split_once(" = ").map(|(_, value)| value);
     let value = value.filter(|value| is_string(value) && is_string(files.at(span)));
     let meant = value.unwrap_or(meant);
@@ -58,7 +59,7 @@ fn fix(files: &Files, diagnostic: &Diagnostic) -> Option<Value> {
     Some(json!({ "text": text, "place": place(files, &label) }))
 }
 
-/// What stands between two marks.
+/// The text between two marks.
 fn within<'a>(text: &'a str, open: &str, close: &str) -> Option<&'a str> {
     text.strip_prefix(open)?.strip_suffix(close)
 }
@@ -79,8 +80,7 @@ fn place(files: &Files, label: &Label) -> Value {
     })
 }
 
-/// How the object of a result begins: the version of its format, the network that it is about, and
-/// its warnings.
+/// Begins the object of a result: the version of its format, its network, and its warnings.
 pub fn head(
     json: &mut Json<'_>,
     network: Option<&str>,
@@ -91,7 +91,7 @@ pub fn head(
     json.member("warnings", &list(files, warnings))
 }
 
-/// That a command failed, and why, in its object.
+/// Writes the failure of a command and its reasons into its object.
 pub fn failed<W: std::io::Write>(
     json: &mut JsonWriter<W>,
     exit: Exit,

@@ -1,4 +1,4 @@
-//! The state of a network that is looked at: where it settles, or a time of its run.
+//! An evaluated state of a network: the steady state, or a time of its run.
 
 use lptn_analysis::RunAnalysis;
 use lptn_netlist::{Diagnostic, RunSettings, Span};
@@ -18,7 +18,7 @@ use crate::refused::{no_run, steady_failed, time_of_run};
 use crate::run::observed;
 use crate::steady::{adiabatic, inputs_vary, others};
 
-/// A state of a network, and how it is called.
+/// A state of a network and its name.
 #[derive(Debug)]
 pub struct OperatingPoint {
     /// Temperatures and heat flows.
@@ -49,8 +49,8 @@ impl OperatingPoint {
         &self.name
     }
 
-    /// Passes on what came of a question about this state. If that is an error, the listener hears
-    /// the doubts in the state.
+    /// Passes on the result of a question about this state.
+    /// If that is an error, the listener hears the doubts in the state.
     ///
     /// # Errors
     /// The error that is passed on.
@@ -62,8 +62,8 @@ impl OperatingPoint {
         found.inspect_err(|_| listener.warn(&input.netlist.files, &self.doubts))
     }
 
-    /// That a linear network stands for another, and how far it was tried; `None` where the network
-    /// is linear itself.
+    /// Notes on the linearised network and its error.
+    /// `tried` is `None` if the network is linear itself.
     pub fn notes(&self, tried: Option<Tried>) -> Vec<String> {
         let Some(Tried { disturbance, heat, share }) = tried else {
             return vec!["the network is linear: it is the same near every state".to_owned()];
@@ -95,7 +95,7 @@ impl OperatingPoint {
     }
 }
 
-/// Where the file makes a network not linear.
+/// The place in the file that makes a network nonlinear.
 pub fn place(input: &Input, error: &LinearisedError) -> Option<Span> {
     match error {
         LinearisedError::NotLinear { item, .. } => input.netlist.source_map.name(*item),
@@ -149,7 +149,7 @@ pub fn at(
     Ok((found, bound::doubts(&solution)))
 }
 
-/// A run that did not reach its stop, or whose books do not close, is not drawn.
+/// Refuses a run that did not reach its stop or whose energy balance does not close.
 fn check(input: &Input, solution: &Solution, broken: Option<Diagnostic>) -> Result<(), Failure> {
     if let Some(problem) = broken {
         return Err(input.refused(Exit::Failed, problem));

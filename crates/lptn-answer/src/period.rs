@@ -1,4 +1,4 @@
-//! How long a cycle is.
+//! Length of a cycle.
 
 use lptn_netlist::Diagnostic;
 use lptn_network::Item;
@@ -19,8 +19,8 @@ pub fn of_cycle(input: &Input, given: Option<&str>) -> Result<f64, Failure> {
 const HELPS: [&str; 2] =
     ["give the time after which all inputs repeat: --period \"10 min\"", "leave --periodic out"];
 
-/// The period of the repeated signals in s. What to do where it is not known, and where nothing
-/// changes.
+/// The period of the repeated signals in s.
+/// The texts help if it is not known, and if nothing changes.
 pub fn of_signals(input: &Input, [unknown, constant]: [&'static str; 2]) -> Result<f64, Failure> {
     let network = &input.netlist.network;
     let problem = match network.repeat_period() {

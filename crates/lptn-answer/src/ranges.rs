@@ -21,7 +21,7 @@ struct Left<'a> {
 }
 
 impl Left<'_> {
-    /// Whose and which: those of one law are told together.
+    /// Law and group: those of one law are reported together.
     fn law(&self, network: &Network) -> (&'static str, &'static str) {
         (name_of_law(network, self.worst.item), self.worst.group.meaning)
     }
@@ -35,7 +35,7 @@ fn name_of_law(network: &Network, item: Item) -> &'static str {
     network.law(item).map_or("", |law| law.formula().declaration().name)
 }
 
-/// How many times outside its range a value is.
+/// Factor by which a value is outside its range.
 fn times_outside(of: &OutOfRange) -> f64 {
     let Group { from, to, .. } = *of.group;
     if of.value < from { from / of.value } else { of.value / to }
@@ -61,7 +61,7 @@ fn range(group: &Group) -> String {
     }
 }
 
-/// A warning for each law and group that was outside, with the path where that lasted longest.
+/// A warning for each law and group that was outside, with the path that was outside longest.
 pub fn warnings(netlist: &Netlist, found: &[OutOfRange], run: bool) -> Vec<Diagnostic> {
     let network = &netlist.network;
     let mut left = gathered(found);
@@ -110,7 +110,7 @@ fn when(stretches: &[OutOfRange]) -> String {
     format!("in {} stretches {span}, {} in all", stretches.len(), duration(all, 3))
 }
 
-/// Whether every law stayed where it is known, for a report.
+/// Claim for a report that every law stayed in its range, or which did not.
 pub fn claim(network: &Network, found: &[OutOfRange]) -> Claim {
     let rest = "no fluid or capacity left its range, nor a table without `outside`";
     if network.ranged().is_empty() {
@@ -130,9 +130,9 @@ pub fn claim(network: &Network, found: &[OutOfRange]) -> Claim {
     Claim::checked(false, format!("a law left its range, see the messages: {first}{more}"))
 }
 
-/// For each path and group that was outside
-/// `{ path, law, group, meaning, from, to, value, at, stretches }`, times in s, of a loss `source`
-/// in place of `path`; nothing where none was. A range without an end has none.
+/// For each path and group that was outside its range, an object
+/// `{ path, law, group, meaning, from, to, value, at, stretches }`, times in s. A loss has `source`
+/// instead of `path`. Nothing if none was outside. A range without an end has none.
 pub fn members(network: &Network, found: &[OutOfRange], run: bool) -> Option<Vec<Value>> {
     let one = |left: &Left<'_>| {
         let OutOfRange { item, group, value, at, .. } = *left.worst;

@@ -18,7 +18,7 @@ pub fn unanswered(input: &Input, error: &RunError) -> Failure {
     }
 }
 
-/// What broke a run off, with the place of the input that did.
+/// The problem that broke a run off, at the place of the input that caused it.
 pub fn explain(input: &Input, error: &TransientError) -> Diagnostic {
     let map = &input.netlist.source_map;
     let place = error.place();
@@ -27,12 +27,12 @@ pub fn explain(input: &Input, error: &TransientError) -> Diagnostic {
     told(error).at(place, "").also(other_threshold(input, error), "off")
 }
 
-/// A run that cannot be begun, or that no part is shown of.
+/// A run that cannot start, or of which nothing is shown.
 pub fn run_failed(input: &Input, error: &TransientError) -> Failure {
     input.refused(error.class().into(), explain(input, error))
 }
 
-/// Of thresholds that crossed over: the one that is not said to be at fault.
+/// The other of two thresholds that crossed: the error names one.
 fn other_threshold(input: &Input, error: &TransientError) -> Option<Span> {
     let InputError { item, problem: InputProblem::ThresholdsCrossed { .. }, .. } = error.input()?
     else {
@@ -43,7 +43,7 @@ fn other_threshold(input: &Input, error: &TransientError) -> Option<Span> {
     input.netlist.source_map.get(*item, thermostat.acts.fields()[1])
 }
 
-/// That a netlist has no `[run]`.
+/// Failure of a netlist without a `[run]`.
 pub fn no_run(input: &Input) -> Failure {
     Failure::refused(
         "run::no_run",

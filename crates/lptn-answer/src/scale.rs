@@ -1,5 +1,5 @@
-//! Temperatures for programs: one unit in the whole object, the one that is shown. All else is in
-//! SI.
+//! Temperatures for programs: the whole object has one unit, the one that is shown.
+//! All else is in SI.
 
 use std::borrow::Cow;
 
@@ -14,8 +14,8 @@ pub fn kelvin() -> Unit {
     Unit { text: "K".into(), scale: 1.0, offset: 0.0, ty: Type::ABSOLUTE_TEMPERATURE }
 }
 
-/// A value of SI with its unit: a temperature in `unit`, a difference of temperatures in K or degR
-/// as it goes with that.
+/// A value of SI with its unit: a temperature in `unit`, all else in SI.
+/// A difference of temperatures is in K or degR, as belongs to `unit`.
 pub fn scalar(si: f64, ty: Type, unit: &Unit) -> Value {
     let (value, unit) = in_unit(si, ty, unit);
     json!({ "value": value, "unit": unit })

@@ -1,4 +1,4 @@
-//! `--select`: which columns are kept.
+//! `--select`: the columns that are kept.
 
 use lptn_netlist::{Diagnostic, Files, Netlist, Span};
 use lptn_network::Item;
@@ -31,7 +31,7 @@ fn chosen(netlist: &Netlist, patterns: &[String], in_file: bool) -> Result<Selec
         .map_err(|unmatched| no_match(netlist, &unmatched, in_file))
 }
 
-/// What is left out where nothing is selected.
+/// Note on the columns that are left out by default.
 pub fn hidden(netlist: &Netlist) -> Option<String> {
     let (network, map) = (&netlist.network, &netlist.source_map);
     let imported = |item: &Item| map.is_imported(*item);

@@ -1,4 +1,4 @@
-//! That a study takes parameters as exact of which the netlist says how far they may be off.
+//! Warnings that a study takes parameters as exact although the netlist gives them a `±`.
 
 use lptn_fit::network::design::{Design, DesignTask};
 use lptn_fit::network::{MeasuredRun, Moved, NetworkFit, NetworkFitTask, Off};
@@ -10,20 +10,19 @@ use crate::input::Input;
 use crate::unseparated::{Named, joined};
 use crate::words::{difference, spaced};
 
-/// What moves nothing by this part of an error, or of what an error may be, is not worth a word: the
-/// two together are half a percent larger.
+/// Least effect that is reported, as a share of an error or of an allowed error.
+/// A smaller one makes the two together at most half a percent larger.
 const MATTERS: f64 = 0.1;
 
-/// A held parameter whose `±` matters.
+/// A fixed parameter whose `±` matters.
 struct Matters<'o> {
     off: &'o Off,
-    /// The unknown that it moves furthest: its place, by how much, and over the error that this is
-    /// held beside.
+    /// The unknown that it moves furthest: its index, the change, and the change over its error.
     most: Option<(usize, f64, f64)>,
 }
 
 impl<'o> Matters<'o> {
-    /// `errors` are those of the unknowns; where none of them is known, what rows feel counts.
+    /// `errors` are those of the unknowns; if none of them is known, the effect on rows counts.
     fn of((off, moved): (&'o Off, &Moved), errors: &dyn Fn(usize) -> Option<f64>) -> Option<Self> {
         let one = |i: usize| {
             let by = moved.by[i]?.abs();
@@ -34,7 +33,7 @@ impl<'o> Matters<'o> {
         (size > MATTERS).then_some(Self { off, most })
     }
 
-    /// Of all; where a run failed nothing tells which of them matter, so each does.
+    /// Those that matter; all if a run failed, because nothing then excludes any.
     fn among(
         off: &'o [Off],
         moved: Option<&[Moved]>,
@@ -47,7 +46,7 @@ impl<'o> Matters<'o> {
     }
 }
 
-/// Of a fit.
+/// Warning for a fit.
 pub fn of_fit(
     (input, study): (&Input, &FitStudy),
     (task, fit): (&NetworkFitTask, &NetworkFit),
@@ -63,7 +62,7 @@ pub fn of_fit(
     Some(warning.at(study.span.clone(), "").help(counted(study, &names(input, &found))))
 }
 
-/// How a fit counts what is known of these parameters.
+/// Help to include the uncertainty of these parameters in a fit.
 fn counted(study: &FitStudy, names: &[&str]) -> String {
     let sets = |name: &&&str| study.records.iter().any(|record| record.sets(name));
     let set: Vec<String> = names.iter().filter(sets).map(|name| format!("`{name}`")).collect();
@@ -87,7 +86,7 @@ fn counted(study: &FitStudy, names: &[&str]) -> String {
     format!("let the fit include it: {line}; an exact value has no `±`")
 }
 
-/// Of a fit beside a posterior that every other verb takes: what it holds at another value.
+/// Warning for a fit whose fixed values differ from the posterior that every other verb takes.
 pub fn beside_posterior(
     input: &Input,
     (study, task, fit): (&FitStudy, &NetworkFitTask, &NetworkFit),
@@ -103,7 +102,7 @@ pub fn beside_posterior(
         }
         let away = quantity.value - network.parameter_value(parameter);
         let most = away.hypot(quantity.spread.map_or(0.0, |spread| spread.sigma));
-        // what is set goes before a posterior
+        // set values take precedence over a posterior
         let of = |run: &MeasuredRun| run.parameters.value(parameter).map_or(most, |_| 0.0);
         off.push(Off { parameter, by: task.runs.iter().map(of).collect() });
         values.push(quantity.value);
@@ -137,7 +136,7 @@ pub fn beside_posterior(
     Some(warning.at(study.span.clone(), "").help(help))
 }
 
-/// Of a plan.
+/// Warning for a plan.
 pub fn of_plan(
     (input, study): (&Input, &PlanStudy),
     (task, design): (&DesignTask, &Design),

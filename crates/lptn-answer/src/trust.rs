@@ -1,4 +1,4 @@
-//! Results that nothing real has, and laws where they are not known, in words.
+//! Implausible results, and laws outside their ranges, in words.
 
 use lptn_analysis::{Trust, Unresolved};
 use lptn_netlist::{Diagnostic, Netlist};
@@ -8,8 +8,8 @@ use lptn_solve::Beyond;
 
 use crate::ranges;
 
-/// Doubts in the numbers of an answer: what is beyond sense, laws outside their ranges, results
-/// that change faster than steps are looked at. `run`: over time.
+/// Doubts in the numbers of an answer; `run` means over time.
+/// Implausible values, laws outside their ranges, results that change faster than steps resolve.
 pub fn doubts(netlist: &Netlist, trust: &Trust, run: bool) -> Vec<Diagnostic> {
     let beyond = trust.beyond.iter().map(|beyond| warning(netlist, beyond));
     let outside = ranges::warnings(netlist, &trust.out_of_range, run);

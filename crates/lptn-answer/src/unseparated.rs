@@ -1,4 +1,4 @@
-//! What is sought by its names, and what is said of what cannot be told apart.
+//! Estimated quantities by name, and texts on those that cannot be distinguished.
 
 use lptn_fit::network::{Combination, CombinationKind, Unknown, Unseparated};
 use lptn_report::significant;
@@ -6,10 +6,10 @@ use lptn_units::{Rational, Type, Unit};
 
 use crate::input::Input;
 
-/// Digits of a value that nothing says the accuracy of.
+/// Digits of a value of unknown accuracy.
 const DIGITS: usize = 5;
 
-/// What is sought, as it is called and shown.
+/// Estimated quantities with their names and units.
 pub struct Named<'a> {
     /// The estimated quantities.
     pub unknowns: &'a [Unknown],
@@ -21,8 +21,8 @@ pub struct Named<'a> {
     pub values: Vec<f64>,
 }
 
-/// What each is called, with the name of the record that it alone concerns, and in which unit it is
-/// shown.
+/// Names and units of unknowns.
+/// An unknown of one record has the name of the record in its own.
 pub fn names_and_units(
     input: &Input,
     unknowns: &[Unknown],
@@ -82,7 +82,7 @@ impl Named<'_> {
         }
     }
 
-    /// The type of a combination; `None` if its exponents cannot be held.
+    /// The type of a combination; `None` if its exponents cannot be represented.
     pub fn type_of(&self, combination: &Combination) -> Option<Type> {
         let own = |i: usize| self.unknowns[i].ty;
         if combination.kind == CombinationKind::Sum {
@@ -113,7 +113,7 @@ impl Named<'_> {
         }
     }
 
-    /// What is determined of parameters that cannot be told apart, and what would help.
+    /// Text on parameters that cannot be distinguished: determined combinations, and remedies.
     pub fn unseparated(&self, group: &Unseparated) -> String {
         let example = group.parameters.last().map_or("", |&i| &self.names[i]);
         let fix = match group.missing {
@@ -153,8 +153,8 @@ impl Named<'_> {
         }
     }
 
-    /// What counts as the size of an unknown beside a change of it, in SI units: the zero of a
-    /// temperature or of an offset says nothing.
+    /// Size of an unknown for relative changes, in SI units.
+    /// It is 100 K for temperatures and offsets, whose zero is arbitrary.
     fn size(&self, i: usize) -> f64 {
         const KELVIN: f64 = 100.0;
         let value = self.values[i].abs();

@@ -34,7 +34,7 @@ pub fn counts(network: &Network) -> String {
     parts.join(", ")
 }
 
-/// Of too many rows those of which this is largest, the largest first; how many there were.
+/// Keeps the largest of too many rows, the largest first. Returns their number before.
 pub fn largest<T>(rows: &mut Vec<T>, size: impl Fn(&T) -> f64) -> usize {
     let all = rows.len();
     if all > MOST_NODES {
@@ -44,8 +44,8 @@ pub fn largest<T>(rows: &mut Vec<T>, size: impl Fn(&T) -> f64) -> usize {
     all
 }
 
-/// A section with a table of some of `all` rows, and how to see the others; nothing where there are
-/// none.
+/// A section with a table of some of `all` rows, and how to see the others.
+/// Nothing if there are none.
 pub fn some_of(text: &mut Text, table: impl Into<TextTable>, (all, how): (usize, &str)) {
     let table = table.into();
     let shown = table.rows();
@@ -63,7 +63,7 @@ pub fn symbol(unit: &str) -> &str {
     if unit == "1" { "-" } else { unit }
 }
 
-/// A unit behind its number, with the blank before it; nothing for a plain number.
+/// A unit after its number, with a blank before it; nothing for a plain number.
 pub fn spaced(unit: &str) -> String {
     if unit == "1" { String::new() } else { format!(" {unit}") }
 }
@@ -73,7 +73,7 @@ pub fn difference(unit: &Unit) -> &'static str {
     if (unit.scale - 1.0).abs() < 1e-12 { "K" } else { "degR" }
 }
 
-/// Which elements have laws whose constants were not read in their source.
+/// Elements with laws whose constants were not read in their source.
 pub fn unverified(network: &Network) -> Option<String> {
     unverified_names(network)
         .map(|names| format!("unverified constants: {}", list_of(&names, "elements")))

@@ -1,4 +1,4 @@
-//! Netlists that are written: each is read again, and compared, before anybody gets it.
+//! Netlists that are written: each is read again and compared before it is used.
 
 use std::path::Path;
 
@@ -26,14 +26,14 @@ pub fn proven(
     prove(&text, place, network, span).map(|_| text).map_err(|error| mistake(&error))
 }
 
-/// The text of the netlist with other numbers for some parameters. A parameter that is not written
-/// as a number keeps its text.
+/// The text of the netlist with other numbers for some parameters.
+/// A parameter that is not written as a number keeps its text.
 ///
 /// # Errors
 /// A netlist that is no longer read, and a text that reads as another network.
 pub fn with_numbers(input: &Input, numbers: &[(ParameterId, String)]) -> Result<String, Failure> {
     let (netlist, place) = (&input.netlist, Path::new(&input.text.name));
-    // what was set on the command line is not in the file
+    // values set on the command line are not in the file
     let original = parse_file(place, &input.text.bytes)?;
     let mut parameters = original.network.overrides();
     let mut written = Vec::with_capacity(numbers.len());
@@ -63,8 +63,8 @@ fn mistake(error: &WrittenError) -> Failure {
     Failure::new(Exit::Failed, problem.help(help))
 }
 
-/// Refuses a parameter whose number could not be written. `code` is that of the problem, `shared`
-/// that of a number which several instances share.
+/// Refuses a parameter whose number could not be written.
+/// `code` is that of the problem, `shared` that of a number which several instances share.
 ///
 /// # Errors
 /// A netlist from stdin, a protected or included file, and a value that is not a number.
@@ -104,7 +104,7 @@ pub fn can_be_written(
     Err(Failure::at(Exit::Input, netlist.files.clone(), problem))
 }
 
-/// A file that is replaced would not be protected by its permissions.
+/// True if a file is read-only: replacing it would ignore its permissions.
 fn is_protected(file: &str) -> bool {
     std::fs::metadata(file).is_ok_and(|metadata| metadata.permissions().readonly())
 }

@@ -15,11 +15,11 @@ use crate::verbs::{Verb, groups};
 use lptn_answer::exit::Exit;
 use lptn_answer::input::quoted;
 
-/// Longer lines are hard to read, however wide the terminal is.
+/// Widest help in columns: longer lines are hard to read, however wide the terminal is.
 const WIDEST_HELP: usize = 100;
 
-/// The parser, with help as wide as the terminal. Its help lists the verbs by purpose, in place of
-/// clap's list of all.
+/// The parser, with help as wide as the terminal.
+/// Its help lists the verbs by purpose instead of clap's list of all.
 pub(crate) fn command() -> clap::Command {
     let width = terminal_width().min(WIDEST_HELP);
     let mut command = Args::command().term_width(width);
@@ -31,7 +31,7 @@ pub(crate) fn command() -> clap::Command {
     command.override_usage("lptn [OPTIONS] [COMMAND]")
 }
 
-/// What the command line asks for.
+/// Parses the command line.
 pub(crate) fn parsed() -> Result<Args, clap::Error> {
     match of_first_word() {
         Some(matches) => Args::from_arg_matches(&matches),
@@ -39,8 +39,8 @@ pub(crate) fn parsed() -> Result<Args, clap::Error> {
     }
 }
 
-/// The same by a parser of one verb: to build those of all takes as long as a small run. `None`
-/// where the first word is none, and where something is wrong or help is asked for.
+/// The same by a parser of one verb: building all takes as long as a small run.
+/// `None` if the first word is not a verb, if something is wrong, or if help is requested.
 fn of_first_word() -> Option<ArgMatches> {
     let verb = std::env::args_os().nth(1)?.into_string().ok()?;
     let parser = Always::augment_args(Command::new("lptn"));
@@ -70,7 +70,7 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
         Some(problem) => console.report(&Files::new(), &[problem]),
         None if !error.use_stderr() => error.exit(),
         None => {
-            // if stderr is closed there is nobody to tell
+            // if stderr is closed, no one can read it
             drop(error.print());
             console.note_down(&Files::new(), &[wrong_usage(&error.render().to_string())]);
         }
@@ -79,7 +79,7 @@ pub(crate) fn refuse(error: &clap::Error) -> Exit {
     Exit::Input
 }
 
-/// What the parser says of a command line, which people get as it is.
+/// The parser's message on a command line as a diagnostic; people get it unchanged.
 fn wrong_usage(text: &str) -> Diagnostic {
     let mut parts = text.trim_end().split("\n\n").map(|part| {
         let lines: Vec<&str> = part.lines().map(str::trim).collect();
@@ -102,7 +102,7 @@ fn page_without_sign(error: &clap::Error) -> Option<Diagnostic> {
     is_page.then(|| problem.help(format!("write --report={}", quoted(word))))
 }
 
-/// An option that the verb does not have, and that is not near to one of its own.
+/// An unknown option of the verb that resembles none of its options.
 fn no_such_option(error: &clap::Error) -> Option<Diagnostic> {
     let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else {
         return None;
@@ -193,7 +193,7 @@ fn is_netlist(word: &str) -> bool {
     Path::new(word).extension().is_some_and(|ending| ending == "toml")
 }
 
-/// The name of a file in the place of a verb.
+/// The name of a file instead of a verb.
 fn file_as_verb(word: &str) -> Option<Diagnostic> {
     let ending = Path::new(word).extension()?.to_str()?.to_lowercase();
     let within = verb_words().into_iter().next().filter(|verb| verb == "fit");
@@ -206,7 +206,7 @@ fn file_as_verb(word: &str) -> Option<Diagnostic> {
     Some(verb_is_due(word, is, verb))
 }
 
-/// Something that is there in the place of a verb.
+/// An existing path instead of a verb.
 fn path_as_verb(word: &str) -> Option<Diagnostic> {
     let found = std::fs::metadata(word).ok()?;
     let (is, verb) = if found.is_dir() { ("folder", "report") } else { ("file", "run") };

@@ -1,5 +1,5 @@
-//! Completion of the names that stand in the netlist of the command line, for shells that ask the
-//! program itself: `source <(COMPLETE=bash lptn)`.
+//! Completion of the names in the netlist of the command line, for shells that ask the program
+//! itself: `source <(COMPLETE=bash lptn)`.
 
 use std::path::PathBuf;
 
@@ -13,12 +13,12 @@ use crate::input::Load as _;
 use crate::options::Source;
 use lptn_answer::input::Input;
 
-/// Answers a shell that asks for completions, and ends the program then.
+/// Answers a shell that asks for completions, and then ends the program.
 pub(crate) fn answer_shell(command: fn() -> Command) {
     CompleteEnv::with_factory(move || with_names(command())).complete();
 }
 
-/// The same command, of which some options know what they take.
+/// The same command with completion of the names that its options take.
 fn with_names(command: Command) -> Command {
     let is = |verb: &str| command.get_name() == verb;
     let (materials, sweep, plan) = (is("materials"), is("sweep"), is("plan"));

@@ -1,4 +1,4 @@
-//! Where text goes: results to stdout, everything else to stderr.
+//! Output of text: results to stdout, everything else to stderr.
 
 use std::io::{self, BufWriter, ErrorKind, IsTerminal as _, Write};
 use std::path::{Path, PathBuf};
@@ -28,19 +28,19 @@ pub(crate) struct Console {
     pub(crate) verbose: bool,
     styled_results: bool,
     styled_messages: bool,
-    /// Whether somebody reads the messages as they come.
+    /// True if a person reads the messages as they come.
     watched: bool,
     pub(crate) detail: Detail,
     pub(crate) plot: Option<Drawing>,
     drawn: AtomicBool,
     reporting: Option<Reporting>,
-    /// What a program is told if there is no result; only where JSON was asked for.
+    /// Answer to a program if there is no result; only if JSON was requested.
     refusal: Option<Refusal>,
-    /// Whether something was printed.
+    /// True if something was printed.
     printed: AtomicBool,
     /// Commands to type next.
     next: Mutex<Vec<String>>,
-    /// Warnings that were said, as texts.
+    /// Warnings that were printed, as texts.
     said: Mutex<Vec<String>>,
     pub(crate) phases: Phases,
 }
@@ -74,14 +74,14 @@ impl Console {
         }
     }
 
-    /// Writes a result in a format, and says its answer beside it.
+    /// Writes a result in a format, and reports if its answer is no.
     pub(crate) fn show(&self, page: &dyn Page, format: Format) -> Result<Exit, Failure> {
         self.page(page, format)?;
         Ok(self.conclude(page, format))
     }
 
-    /// Reports the doubts in an answer that were not said while it was computed, and writes it in a
-    /// format.
+    /// Writes an answer in a format, after its doubts.
+    /// Doubts that were printed while it was computed are not repeated.
     pub(crate) fn answer(&self, answer: &dyn Answer, format: Format) -> Result<Exit, Failure> {
         let mut doubts = answer.doubts();
         let said = self.said.lock().unwrap_or_else(PoisonError::into_inner).clone();
@@ -90,7 +90,7 @@ impl Console {
         self.show(answer, format)
     }
 
-    /// Writes a result in a format, and draws it where that was asked.
+    /// Writes a result in a format, and draws it if that was requested.
     pub(crate) fn page(&self, page: &dyn Page, format: Format) -> Result<(), Failure> {
         if self.plot == Some(Drawing::Terminal) && format != Format::Table {
             return Err(drawing::not_here());
@@ -103,24 +103,24 @@ impl Console {
         self.plot.as_ref().map_or(Ok(()), |drawing| self.draw(&page.figures(), drawing))
     }
 
-    /// Adds to the report that was asked for.
+    /// Adds to the report that was requested.
     pub(crate) fn add_report(&self, report: Report) {
         if let Some(reporting) = &self.reporting {
             reporting.add(report);
         }
     }
 
-    /// Whether a report was asked for.
+    /// True if a report was requested.
     pub(crate) fn reports(&self) -> bool {
         self.reporting.is_some()
     }
 
-    /// The folder of the results, which the report goes into unless it has a place of its own.
+    /// The folder of the results, to which the report goes unless it has its own file.
     pub(crate) fn results_in(&self, folder: &Path) {
         self.reporting.iter().for_each(|reporting| reporting.beside(folder));
     }
 
-    /// Writes the report that was asked for. Where the verb failed it may have nothing to say.
+    /// Writes the report that was requested. A verb that failed may have none.
     pub(crate) fn write_report(&self, verb: &str, known: bool) -> Result<(), Failure> {
         let Some(reporting) = &self.reporting else { return Ok(()) };
         match reporting.finish(verb)? {
@@ -131,7 +131,7 @@ impl Console {
         Ok(())
     }
 
-    /// How results look.
+    /// Look of results.
     pub(crate) fn look(&self) -> Look {
         Look { styled: self.styled_results, width: drawing::terminal_width() }
     }
@@ -145,8 +145,8 @@ impl Console {
         Ok(())
     }
 
-    /// The exit code that belongs to an answer. Where that is no, the text says so; beside other
-    /// formats it is said here.
+    /// The exit code of an answer. If the answer is no, a table says so itself.
+    /// For other formats it is reported here.
     pub(crate) fn conclude(&self, page: &dyn Page, format: Format) -> Exit {
         let Some(no) = page.no() else { return Exit::Done };
         if format != Format::Table {
@@ -160,7 +160,7 @@ impl Console {
         self.write(|out| out.write_all(text.as_bytes())).map(|()| Exit::Done)
     }
 
-    /// Writes a result. A reader that went away (`| head`) has what it wanted.
+    /// Writes a result. A reader that went away (`| head`) is not an error.
     pub(crate) fn write(
         &self,
         result: impl FnOnce(&mut BufWriter<io::StdoutLock<'static>>) -> io::Result<()>,
@@ -168,7 +168,7 @@ impl Console {
         self.stream(result).map(|_| ())
     }
 
-    /// The same for a part of a result that may go on forever: whether anybody still reads.
+    /// The same for a part of an endless result; true if it is still read.
     pub(crate) fn stream(
         &self,
         result: impl FnOnce(&mut BufWriter<io::StdoutLock<'static>>) -> io::Result<()>,
@@ -184,53 +184,53 @@ impl Console {
         }
     }
 
-    /// Whether a picture that was asked for is due still.
+    /// True if a requested picture was not drawn yet.
     pub(crate) fn owes_a_picture(&self) -> bool {
         self.plot.is_some() && !self.drawn.load(Ordering::Relaxed)
     }
 
-    /// Something worth knowing beside the result; left out when quiet.
+    /// Prints a note next to the result; left out when quiet.
     pub(crate) fn note(&self, text: &str) {
         if !self.quiet {
             self.message(text);
         }
     }
 
-    /// A command to type next, for those who look on; left out in scripts and logs unless verbose.
-    /// It is the last that is said.
+    /// Keeps a command to type next, for people at a terminal; it is printed last.
+    /// Scripts and logs get it only when verbose.
     pub(crate) fn next(&self, command: &str) {
         if self.watched || self.verbose {
             self.next.lock().unwrap_or_else(PoisonError::into_inner).push(command.to_owned());
         }
     }
 
-    /// Says how long the parts of the command took; only when verbose.
+    /// Prints the durations of the parts of the command; only when verbose.
     pub(crate) fn say_times(&self) {
         if self.verbose && !self.phases.seconds().is_empty() {
             self.note(&self.phases.text());
         }
     }
 
-    /// Says what to type next.
+    /// Prints the commands to type next.
     pub(crate) fn say_next(&self) {
         let commands = self.next.lock().unwrap_or_else(PoisonError::into_inner);
         commands.iter().for_each(|command| self.note(&format!("next   {command}")));
     }
 
-    /// Where the first of some problems is explained, for those who look on.
+    /// Prints how to explain the first of some problems, for people at a terminal.
     pub(crate) fn offer_explanation(&self, diagnostics: &[Diagnostic]) {
         if let Some(first) = diagnostics.first().filter(|_| self.watched) {
             self.note(&format!("\nexplain  lptn explain {}", first.code));
         }
     }
 
-    /// Something that has to be said. If stderr is closed there is nobody to tell.
+    /// Prints a message. If stderr is closed, it is lost.
     pub(crate) fn message(&self, text: &str) {
         let newline = if text.ends_with('\n') { "" } else { "\n" };
         drop(io::stderr().write_all(format!("{text}{newline}").as_bytes()));
     }
 
-    /// Diagnostics as messages.
+    /// Prints diagnostics as messages.
     pub(crate) fn report(&self, files: &Files, diagnostics: &[Diagnostic]) {
         let texts: Vec<String> = diagnostics
             .iter()
@@ -242,7 +242,7 @@ impl Console {
         }
     }
 
-    /// Warnings beside a result.
+    /// Prints warnings next to a result.
     pub(crate) fn warn(&self, files: &Files, warnings: &[Diagnostic]) {
         if self.quiet {
             self.note_down(files, warnings);
@@ -251,24 +251,24 @@ impl Console {
         }
     }
 
-    /// Warnings before there is a result, which does not say them again.
+    /// Prints warnings before there is a result, which does not repeat them.
     pub(crate) fn warn_early(&self, files: &Files, warnings: &[Diagnostic]) {
         let said = warnings.iter().map(|warning| render(files, warning, false));
         self.said.lock().unwrap_or_else(PoisonError::into_inner).extend(said);
         self.warn(files, warnings);
     }
 
-    /// Keeps what was said for the report, and for a program that gets no result.
+    /// Keeps diagnostics for the report, and for a program that gets no result.
     pub(crate) fn note_down(&self, files: &Files, diagnostics: &[Diagnostic]) {
         self.reporting.iter().for_each(|reporting| reporting.say(files, diagnostics));
         self.refusal.iter().for_each(|refusal| refusal.say(files, diagnostics));
     }
 
-    /// Answers a program that asked for JSON and got no result, so that it always finds one object.
+    /// Answers a program that requested JSON and got no result, so that it always finds one object.
     pub(crate) fn answer_failure(&self, exit: Exit) {
         let Some(refusal) = &self.refusal else { return };
         if exit != Exit::Done && !self.printed.load(Ordering::Relaxed) {
-            // where stdout cannot be written to there is nobody to tell
+            // if stdout cannot be written to, the object is lost
             drop(self.write(|out| out.write_all(&refusal.object(exit)?)));
         }
     }

@@ -19,7 +19,7 @@ pub(crate) fn render(files: &Files, diagnostic: &Diagnostic, styled: bool) -> St
         if files.text(file).len() < LONG {
             group = group.element(snippet(files, (0, files.text(file)), &labels));
         } else {
-            // the renderer looks at every line it is given
+            // the renderer processes every line it is given
             group = group
                 .elements(labels.iter().map(|label| snippet(files, line(files, label), &[*label])));
         }
@@ -43,7 +43,7 @@ fn files_of(diagnostic: &Diagnostic) -> Vec<FileId> {
     found
 }
 
-/// Of texts longer than this, in bytes, only the lines with labels are shown.
+/// Texts longer than this, in bytes, are shown only by the lines with labels.
 const LONG: usize = 200_000;
 
 /// The line in which a label begins, and its first byte.

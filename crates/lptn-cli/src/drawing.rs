@@ -1,4 +1,4 @@
-//! Where a picture goes, and how wide a terminal is.
+//! Destination of a picture, and width of a terminal.
 
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -9,7 +9,7 @@ use lptn_report::{Picture, WIDTH};
 use crate::files;
 use lptn_answer::failure::Failure;
 
-/// Where a picture goes.
+/// Destination of a picture.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Drawing {
     /// To the terminal, in characters.
@@ -55,7 +55,7 @@ impl Drawing {
     }
 }
 
-/// A chart would stand between numbers that a program reads.
+/// Failure: a chart would be between numbers that a program reads.
 pub(crate) fn not_here() -> Failure {
     let message = "`--plot -` draws below a table, but another format is requested";
     Failure::refused(
@@ -75,7 +75,7 @@ pub(crate) fn nothing(drawn: &[&str]) -> Failure {
     Failure::refused("plot::nothing", "there is no picture of this answer", help)
 }
 
-/// Columns of the terminal that results go to; of anything else those of [`WIDTH`].
+/// Columns of the terminal that results go to; [`WIDTH`] if they go elsewhere.
 pub(crate) fn terminal_width() -> usize {
     let told = std::env::var("COLUMNS").ok().and_then(|text| text.parse().ok());
     told.or_else(asked).filter(|columns| *columns >= 20).unwrap_or(WIDTH)

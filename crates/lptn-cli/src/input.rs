@@ -7,9 +7,9 @@ use lptn_answer::input::Input;
 use crate::files;
 use crate::options::{Source, Times};
 
-/// Reads what a command line names.
+/// Reads the netlist of a command line.
 pub(crate) trait Load: Sized {
-    /// Reads the netlist, or reports everything that is wrong with it.
+    /// Reads the netlist, or reports all its problems.
     fn load(source: &Source) -> Result<Self, Failure>;
 
     /// Reads the netlist with values that a fit found: the load case and `--set` go before them.

@@ -5,14 +5,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use lptn_solve::Proceed;
 
-/// Whether Ctrl-C was pressed since this was made. Pressed once more, it ends the program at once.
+/// State of Ctrl-C since this was made. A second press ends the program at once.
 #[derive(Debug)]
 pub(crate) struct Interrupt {
     pressed: Arc<AtomicBool>,
 }
 
 impl Interrupt {
-    /// Begins to listen. Where that is not possible Ctrl-C ends the program as it always does.
+    /// Begins to listen. If that is not possible, Ctrl-C ends the program as usual.
     pub(crate) fn listen() -> Self {
         use signal_hook::consts::SIGINT;
         let pressed = Arc::new(AtomicBool::new(false));
@@ -27,7 +27,7 @@ impl Interrupt {
         self.pressed.load(Ordering::Relaxed)
     }
 
-    /// What a run is to do.
+    /// The order to a run: continue or interrupt.
     pub(crate) fn control(&self) -> Proceed {
         if self.pressed() { Proceed::Interrupt } else { Proceed::Continue }
     }

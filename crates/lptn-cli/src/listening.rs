@@ -12,14 +12,14 @@ use crate::console::Console;
 use crate::interrupt::Interrupt;
 use crate::progress::{ProgressLine, ProgressOfAll};
 
-/// A console that listens for Ctrl-C once something begins that may be interrupted; before that
-/// Ctrl-C ends the program.
+/// A console that listens for Ctrl-C once something begins that may be interrupted.
+/// Before that Ctrl-C ends the program.
 #[derive(Debug)]
 pub(crate) struct Listening<'a> {
     console: &'a Console,
     interrupt: OnceLock<Interrupt>,
     line: Mutex<ProgressLine>,
-    /// How far several runs are, once one of them reports.
+    /// Progress of several runs, once one of them reports.
     several: OnceLock<ProgressOfAll>,
     begun: Instant,
 }
@@ -43,7 +43,7 @@ impl Listening<'_> {
         self.several.get_or_init(|| ProgressOfAll::new(self.console.quiet, all, noun))
     }
 
-    /// Shows how far it is, unless another thread does, and says whether to go on.
+    /// Shows the progress, unless another thread does, and returns whether to continue.
     fn shown(&self, update: impl FnOnce(&mut ProgressLine)) -> Proceed {
         if let Ok(mut line) = self.line.try_lock() {
             update(&mut line);

@@ -1,9 +1,9 @@
 //! The command `lptn`.
 //!
-//! Each verb is a folder of [`verbs`]. Results go to stdout, everything else to stderr; every
-//! failure is a [`lptn_netlist::Diagnostic`] with a stable code, shown the way rustc shows its own,
-//! and ends with one of the codes of [`Exit`]. A fault of the program itself is one of them too:
-//! see [`panic_net`].
+//! Each verb is a folder of [`verbs`]. Results go to stdout, everything else to stderr. Every
+//! failure is a [`lptn_netlist::Diagnostic`] with a stable code, in the style of rustc, and ends
+//! with one of the codes of [`Exit`]. A fault of the program itself is one of them too: see
+//! [`panic_net`].
 
 mod args;
 mod command;
@@ -34,9 +34,9 @@ use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use verbs::Verb;
 
-/// As much memory as this is kept for the next use when it is given back, by glibc: what was freed
-/// last is the least that it hands back to the system from then on. A page that a run asks for anew
-/// costs as much as a thousand operations.
+/// Bytes of freed memory that glibc keeps instead of returning them to the system.
+/// Freeing a block of this size sets that limit. A page that a run requests again costs as much as
+/// a thousand operations.
 const KEPT: usize = 4 << 20;
 
 fn main() -> ExitCode {

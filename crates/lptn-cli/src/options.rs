@@ -9,7 +9,7 @@ use lptn_report::{Format, TimeUnit};
 use crate::drawing::Drawing;
 use crate::reporting::page_name;
 
-/// The help of every command: examples, then what it does, then its options.
+/// The help of every command: examples, its purpose, then its options.
 pub(crate) const TEMPLATE: &str = "\
 {before-help}{about-with-newline}
 {usage-heading} {usage}
@@ -132,7 +132,7 @@ pub(crate) struct Shown {
     pub(crate) scale: Scale,
 }
 
-/// A choice of a library by its name there, so that the names stand in one place.
+/// A choice of a library by its name there, so that the names are in one place.
 pub(crate) fn one_of<T: Copy + Send + Sync + 'static>(
     all: &'static [T],
     key: fn(T) -> &'static str,

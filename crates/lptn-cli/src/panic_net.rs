@@ -1,4 +1,4 @@
-//! What happens where the program itself is at fault.
+//! Faults of the program itself.
 
 use std::panic::{AssertUnwindSafe, PanicHookInfo, catch_unwind, set_hook, take_hook};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -9,15 +9,15 @@ use lptn_answer::exit::Exit;
 use lptn_answer::failure::Failure;
 use lptn_answer::input::quoted;
 
-/// Does the work of the command; a panic in it, or in a thread that it waits for, is a failure like
-/// others. On the way up what is half written is dropped: temporary files go, the results of
-/// earlier runs stay.
+/// Does the work of the command, and turns a panic into a failure.
+/// The panic may be in a thread that it waits for. Unfinished files are dropped: temporary files
+/// go, the results of earlier runs stay.
 pub(crate) fn caught(work: impl FnOnce() -> Result<Exit, Failure>) -> Result<Exit, Failure> {
     let first: Arc<Mutex<Option<String>>> = Arc::default();
     let noted = Arc::clone(&first);
     let usual = take_hook();
     set_hook(Box::new(move |panic| {
-        // the first one is the cause; that a thread has panicked is what follows from it
+        // the first panic is the cause; that of a waiting thread follows from it
         noted
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
@@ -47,7 +47,7 @@ fn described(panic: &PanicHookInfo<'_>) -> String {
     panic.location().map_or_else(|| what.to_owned(), |place| format!("{what}, at {place}"))
 }
 
-/// What is told to the user, with what those who mend it have to know.
+/// The message to the user, with the facts that developers need.
 fn fault(what: &str, arguments: impl Iterator<Item = std::ffi::OsString>) -> Diagnostic {
     let message = format!("lptn has stopped because of a fault in lptn, not in your input: {what}");
     let words: Vec<String> = arguments.map(|word| quoted(&word.to_string_lossy())).collect();
@@ -68,7 +68,7 @@ mod tests {
     use crate::files::tests::Place;
     use lptn_answer::exit::Exit;
 
-    /// One test, for a hook belongs to the whole process.
+    /// One test, because a hook belongs to the whole process.
     #[test]
     fn a_panic_is_a_failure_that_leaves_old_results_whole() {
         let place = Place::new();

@@ -1,4 +1,4 @@
-//! How long the parts of a command took.
+//! Durations of the parts of a command.
 
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
@@ -27,7 +27,7 @@ impl Phases {
         }
     }
 
-    /// What is known so far, in s.
+    /// The times so far, in s.
     pub(crate) fn seconds(&self) -> Vec<(&'static str, f64)> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }

@@ -1,4 +1,4 @@
-//! How far a long run is, on a terminal.
+//! Progress of a long run, on a terminal.
 
 use std::fmt::Display;
 use std::io::{IsTerminal as _, Write as _};
@@ -40,8 +40,8 @@ impl ProgressLine {
         self.show(|| format!("{which}: {}", run(progress)));
     }
 
-    /// Shows how many of several things are done, how fast they come, and how long the rest will
-    /// take. `before` were there when it began, at `begun`.
+    /// Shows how many of several things are done, how fast they come, and the remaining time.
+    /// `before` of them existed when it began, at `begun`.
     pub(crate) fn update_count(
         &mut self,
         (done, of, noun): (u64, u64, &str),
@@ -70,7 +70,7 @@ impl ProgressLine {
         self.overwrite(&format!("{:<WIDTH$}", text()));
     }
 
-    /// Leaves the line empty for what comes next.
+    /// Clears the line for the next output.
     pub(crate) fn clear(&mut self) {
         if self.shown {
             self.overwrite(&" ".repeat(WIDTH));
@@ -93,13 +93,13 @@ fn share(Progress { start, time, stop }: Progress) -> f64 {
     (time - start) / (stop - start)
 }
 
-/// How far several runs are that go on at the same time.
+/// Progress of several simultaneous runs.
 #[derive(Debug)]
 pub(crate) struct ProgressOfAll {
     /// The line, and the part of each run that is done.
     state: Mutex<(ProgressLine, Vec<f64>)>,
     wanted: bool,
-    /// What they are, in the plural.
+    /// The noun for them, in the plural.
     noun: &'static str,
 }
 
@@ -110,7 +110,7 @@ impl ProgressOfAll {
         Self { state: Mutex::new((line, vec![0.0; runs])), wanted, noun }
     }
 
-    /// One run is so far. It never waits for another one: the next step says more.
+    /// Takes the progress of one run. It never waits for another one: the next step says more.
     pub(crate) fn update(&self, run: usize, progress: Progress) {
         if !self.wanted {
             return;
@@ -129,7 +129,7 @@ impl ProgressOfAll {
         line.show(|| how_far(parts, self.noun));
     }
 
-    /// Leaves the line empty for what comes next.
+    /// Clears the line for the next output.
     pub(crate) fn clear(&self) {
         self.state.lock().unwrap_or_else(PoisonError::into_inner).0.clear();
     }

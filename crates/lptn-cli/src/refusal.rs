@@ -1,4 +1,4 @@
-//! What programs get where a command fails: one object on stdout, as where it does not.
+//! Answer to programs if a command fails: one object on stdout, as for a result.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -9,7 +9,7 @@ use serde_json::Value;
 use lptn_answer::exit::Exit;
 use lptn_answer::messages;
 
-/// What was said beside a result that is printed as JSON, errors and warnings apart.
+/// Diagnostics next to a result that is printed as JSON, errors and warnings separately.
 ///
 /// stderr has the same in words: logs keep it, and a program that reads only stdout loses nothing.
 #[derive(Debug, Default)]
@@ -18,13 +18,13 @@ pub(crate) struct Refusal {
 }
 
 impl Refusal {
-    /// One to fill where JSON was asked for.
+    /// One to fill if JSON was requested.
     pub(crate) fn wanted() -> Option<Self> {
         let words = std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned());
         is_json(&words.collect::<Vec<_>>()).then(Self::default)
     }
 
-    /// Takes note of what was said.
+    /// Keeps diagnostics.
     pub(crate) fn say(&self, files: &Files, diagnostics: &[Diagnostic]) {
         let mut said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
         for diagnostic in diagnostics {
@@ -33,7 +33,7 @@ impl Refusal {
         }
     }
 
-    /// The object in place of a result.
+    /// The object instead of a result.
     pub(crate) fn object(&self, exit: Exit) -> std::io::Result<Vec<u8>> {
         let [mut errors, warnings] =
             std::mem::take(&mut *self.said.lock().unwrap_or_else(PoisonError::into_inner));
@@ -49,8 +49,8 @@ impl Refusal {
     }
 }
 
-/// Whether the words of a command ask for JSON. They are looked at themselves, for one that cannot
-/// be understood is answered in JSON too.
+/// True if the words of a command ask for JSON.
+/// They are searched directly, because a command that cannot be parsed is answered in JSON too.
 fn is_json(words: &[String]) -> bool {
     let options = words.split(|word| word == "--").next().unwrap_or_default();
     options.iter().any(|word| word == "--format=json")

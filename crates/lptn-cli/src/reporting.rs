@@ -11,13 +11,13 @@ use crate::files;
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::{Failure, reason};
 
-/// What to do where a report cannot be written.
+/// Help if a report cannot be written.
 const ELSEWHERE: &str = "name another file: --report=FILE.html";
 
-/// A report that was asked for, as far as it is known.
+/// A report that was requested, as far as it is known.
 #[derive(Debug, Default)]
 pub(crate) struct Reporting {
-    /// The file; without one it stands among the results.
+    /// The file; without one it is among the results.
     file: Option<PathBuf>,
     known: Mutex<Known>,
 }
@@ -44,7 +44,7 @@ impl Reporting {
         self.known().folder = Some(folder.to_owned());
     }
 
-    /// Adds what another report says.
+    /// Adds the content of another report.
     pub(crate) fn add(&self, report: Report) {
         match &mut self.known().report {
             Some(first) => {
@@ -55,21 +55,21 @@ impl Reporting {
         }
     }
 
-    /// Takes note of what was said beside the result.
+    /// Keeps the diagnostics next to the result.
     pub(crate) fn say(&self, files: &Files, diagnostics: &[Diagnostic]) {
         let said = diagnostics.iter().map(|diagnostic| render(files, diagnostic, false));
         self.known().messages.extend(said);
     }
 
-    /// Writes the report of a verb, and gives the file's name; `None` where there is nothing to
-    /// report.
+    /// Writes the report of a verb, and returns the file's name.
+    /// `None` if there is nothing to report.
     pub(crate) fn finish(&self, verb: &str) -> Result<Option<String>, Failure> {
         let mut known = self.known();
         let Some(mut report) = known.report.take() else { return Ok(None) };
         let messages = std::mem::take(&mut known.messages);
         if !messages.is_empty() {
             let section = Section::of("Messages", Piece::Verbatim(messages.join("\n\n")));
-            // what was said of the result stands before what it was made from
+            // messages on the result come before its sources
             let place = report.sections.iter().position(|section| section.folded);
             report.sections.insert(place.unwrap_or(report.sections.len()), section);
         }
@@ -90,7 +90,7 @@ impl Reporting {
     }
 }
 
-/// The same place, whose folder is made where it is missing: a verb may write nothing else.
+/// The same place, whose folder is made if it is missing: a verb may write nothing else.
 fn beside_results(file: PathBuf) -> Result<PathBuf, Failure> {
     let folder = file.parent().unwrap_or(Path::new("."));
     let cannot = |error: std::io::Error| {
@@ -102,7 +102,7 @@ fn beside_results(file: PathBuf) -> Result<PathBuf, Failure> {
     Ok(file)
 }
 
-/// Reads the name of a report. Whatever else stands at a place would be lost.
+/// Reads the name of a report. Only HTML is accepted, so that no other file is overwritten.
 pub(crate) fn page_name(text: &str) -> Result<PathBuf, String> {
     let file = PathBuf::from(text);
     let ending = file.extension().map(|ending| ending.to_ascii_lowercase());

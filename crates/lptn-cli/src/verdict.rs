@@ -1,13 +1,13 @@
-//! What broken limits do to the exit code.
+//! Effect of broken limits on the exit code.
 
 use lptn_answer::limits::{Judgement, Verdict};
 
 use crate::console::Console;
 use lptn_answer::exit::Exit;
 
-/// Says which limits are broken and gives the exit code. Those that make it 1 are said last, and
-/// with `--quiet` too; those of severity warning are warnings, which `--quiet` leaves out: the
-/// table, JSON and the manifest have them.
+/// Prints the broken limits and returns the exit code. Those that make it 1 come last.
+/// With `--quiet` they are printed too, but those of severity warning are not. The table, JSON and
+/// the manifest have them all.
 pub(crate) fn conclude(judgement: &Judgement<'_>, console: &Console) -> Exit {
     let verdict = Verdict::of(judgement);
     console.warn(&judgement.netlist.files, &verdict.warnings);

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 /// Width of a picture in CSS pixels.
 const WIDTH: f64 = 760.0;
 
-/// Writes a figure; its curves can be zoomed into unless an axis has names instead of values.
+/// Writes a figure. Its curves can be zoomed if no axis has names and all lines go to the right.
 pub(crate) fn write(out: &mut String, figure: &Figure) {
     let still = Figure { title: String::new(), note: String::new(), panels: figure.panels.clone() };
     let picture = svg::write(&scene(&[still], WIDTH));
@@ -18,7 +18,7 @@ pub(crate) fn write(out: &mut String, figure: &Figure) {
         *out += &format!("<h2>{}</h2>\n", escaped(&figure.title));
     }
     if figure.panels.iter().all(is_zoomable) {
-        // the end of a script is the only thing that could end it
+        // only the end tag of a script could end it
         let values = values(figure).to_string().replace('<', "\\u003c");
         *out += &format!("<script type=\"application/json\">{values}</script>\n");
         *out += "<div class=\"live\"></div>\n";
@@ -30,7 +30,7 @@ pub(crate) fn write(out: &mut String, figure: &Figure) {
     *out += "</figure>\n";
 }
 
-/// Whether places on both axes are values, and lines go to the right.
+/// True if both axes have values and all lines go to the right.
 fn is_zoomable(panel: &Panel) -> bool {
     let has_names = |axis: &Axis| matches!(axis.scale, Scale::Names(_));
     !has_names(&panel.x)
@@ -46,7 +46,7 @@ fn is_sorted(curve: &Curve) -> bool {
     curve.points.is_sorted_by(|a, b| a.0 <= b.0)
 }
 
-/// The figure as the script reads it. Curves over the same places share them.
+/// The figure as data for the script. Curves with the same x values share one list of them.
 fn values(figure: &Figure) -> Value {
     let mut places: Vec<Vec<f64>> = Vec::new();
     let panels: Vec<Value> =
@@ -81,8 +81,8 @@ fn axis(axis: &Axis, (low, high): (f64, f64)) -> Value {
     json!({"name": axis.name, "unit": printed(unit), "scale": scale, "range": [low, high]})
 }
 
-/// Values that are not finite interrupt a curve: JSON has `null` for them. Points without a place
-/// of their own on the axis are left out.
+/// A curve as data. It is interrupted at values that are not finite, which JSON has as `null`.
+/// Points that the x axis cannot show are left out.
 fn of_curve((curve, at): (&Curve, usize), across: &Axis, places: &mut Vec<Vec<f64>>) -> Value {
     let mut order: Vec<usize> =
         (0..curve.points.len()).filter(|&i| across.scale.shows(curve.points[i].0)).collect();

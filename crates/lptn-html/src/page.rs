@@ -8,10 +8,10 @@ use crate::{chart, policy, style, text};
 /// The charts, from uPlot by Leon Sorokin (MIT licence, `assets/uPlot.LICENSE`).
 pub(crate) const UPLOT: &str = include_str!("../assets/uPlot.iife.min.js");
 
-/// What this page does with them.
+/// Script of this page, which uses the charts.
 pub(crate) const SCRIPT: &str = include_str!("../assets/page.js");
 
-/// A report as one HTML file.
+/// Writes a report as one HTML file.
 pub fn write(report: &Report) -> String {
     let mut out = head(&report.title);
     out += &format!("<header><h1>{}</h1>{BUTTON}</header>\n", escaped(&report.title));
@@ -21,7 +21,7 @@ pub fn write(report: &Report) -> String {
     out
 }
 
-/// To which part of its size a drawing is made smaller to fit the page.
+/// Smallest scale at which a drawing is shown to fit the page.
 const SMALLEST: f64 = 0.8;
 
 const BUTTON: &str = "<button id=\"theme\" type=\"button\" hidden>light or dark</button>";
@@ -71,7 +71,7 @@ fn piece(out: &mut String, piece: &Piece) {
         Piece::Figure(figure) => chart::write(out, figure),
         Piece::Drawing(scene, caption) => {
             let (drawing, caption) = (svg::write(scene), escaped(caption));
-            // on a narrow screen it is scrolled rather than made too small to read
+            // on a narrow screen it scrolls: smaller, it would be illegible
             let least = (SMALLEST * scene.size.0).round();
             *out += "<figure class=\"drawing\">\n<div>";
             *out += &drawing.replacen("<svg ", &format!("<svg style=\"min-width:{least}px\" "), 1);

@@ -1,6 +1,6 @@
-//! What the page may do: run its own two scripts, and nothing else.
+//! Policy of the page: it runs its own two scripts and nothing else.
 
-/// The hashes of the scripts as `Content-Security-Policy` writes them; a test holds them.
+/// Hashes of the scripts as `Content-Security-Policy` writes them; a test checks them.
 const SCRIPTS: [&str; 2] = [
     "sha256-RAis6RoYtIiJmBceEi2mW5qyhxHDDxmmpZFJHFqCyvE=",
     "sha256-jpQYCBWC1Sxcj0sgc7cvXEKZna7U9FvuRQ0o0WUu9ck=",
@@ -42,7 +42,7 @@ mod tests {
         assert_eq!(found, ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg=="]);
     }
 
-    /// A browser refuses a script whose hash is another one.
+    /// A browser refuses a script whose hash differs.
     #[test]
     fn the_scripts_are_those_that_the_policy_names() {
         let hash = |script: &str| format!("sha256-{}", base64(&Sha256::digest(script.as_bytes())));

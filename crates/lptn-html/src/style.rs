@@ -1,4 +1,4 @@
-//! How the page looks, with the colours of the pictures in both themes.
+//! The look of the page, with the colours of the pictures in both themes.
 
 use lptn_plot::{Ink, Theme};
 
@@ -6,7 +6,7 @@ const UPLOT: &str = include_str!("../assets/uPlot.min.css");
 
 const PAGE: &str = include_str!("../assets/page.css");
 
-/// The style sheet. What is printed is always on white paper.
+/// The style sheet. Both themes are for screens: print is always light.
 pub(crate) fn sheet() -> String {
     let (light, dark) = (colours(Theme::Light), colours(Theme::Dark));
     let mut sheet = format!(

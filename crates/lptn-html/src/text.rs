@@ -3,7 +3,7 @@
 use lptn_plot::svg::escaped;
 use lptn_report::{Align, Block, Column, Standing, Text, TextTable};
 
-/// Cells of so many bytes stay in one line.
+/// Cells of at most this many bytes stay on one line.
 const SHORT: usize = 16;
 
 /// Writes a text, a paragraph for each of its lines.
@@ -31,7 +31,7 @@ fn block(out: &mut String, block: &Block) {
     }
 }
 
-/// The class of what stands so.
+/// CSS class of a standing.
 pub(crate) fn class_of(standing: Standing) -> &'static str {
     match standing {
         Standing::Holds => "holds",
@@ -40,7 +40,7 @@ pub(crate) fn class_of(standing: Standing) -> &'static str {
     }
 }
 
-/// Whether a text is a small curve of blocks.
+/// True if a text is a sparkline of block characters.
 fn is_spark(text: &str) -> bool {
     !text.is_empty() && text.chars().all(|c| ('\u{2581}'..='\u{2588}').contains(&c))
 }

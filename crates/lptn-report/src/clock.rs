@@ -31,7 +31,7 @@ impl TimeUnit {
     }
 }
 
-/// How times are shown: all in one unit, or each in that which suits it.
+/// Unit of shown times: one for all, or `None` for a suitable one for each.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Clock(pub Option<TimeUnit>);
 

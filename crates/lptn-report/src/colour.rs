@@ -1,16 +1,16 @@
-//! The colours of a terminal. Nothing is said by a colour alone.
+//! The colours of a terminal. No information is in a colour alone.
 
 use crate::standing::Standing;
 
-/// Columns of a terminal that tables are made for.
+/// Width of a terminal in columns for which tables are made.
 pub const WIDTH: usize = 80;
 
-/// How texts look on what they are written to.
+/// Look of texts on their output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Look {
-    /// Whether titles and verdicts are in colours.
+    /// True if titles and verdicts are in colours.
     pub styled: bool,
-    /// Letters that fit into a line.
+    /// Columns of a line.
     pub width: usize,
 }
 
@@ -23,7 +23,7 @@ impl Look {
         self.paint("1", text)
     }
 
-    /// A text that says how something stands.
+    /// A text in the colour of a standing.
     pub(crate) fn standing(self, standing: Standing, text: &str) -> String {
         match standing {
             Standing::Holds => self.paint("32", text),

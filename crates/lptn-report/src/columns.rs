@@ -3,15 +3,15 @@
 use lptn_plot::figure::{Axis, Curve, Panel};
 use lptn_solve::{Column, Table};
 
-/// More curves than this cannot be told apart in one panel.
+/// Most curves that can be distinguished in one panel.
 pub const MOST_CURVES: usize = 12;
 
-/// What the axis of temperatures is called.
+/// Name of the axis of temperatures.
 pub const TEMPERATURE: &str = "temperature";
 
-/// The columns of a table over its first one: a panel for each unit, in the order in which they
-/// come, temperatures with the end `.T` of their names left out. Of too many columns in one panel
-/// those that reach highest stay; the second value says how many were left out.
+/// Panels of the columns of a table over its first one, and the number of columns left out.
+/// Each unit has a panel, in order of appearance. Names of temperatures lose their end `.T`. A
+/// panel shows at most [`MOST_CURVES`] columns: those that reach highest.
 pub fn panels(table: &Table) -> (Vec<Panel>, usize) {
     let Some((first, others)) = table.columns().split_first() else {
         return (Vec::new(), 0);
@@ -38,7 +38,7 @@ pub fn panels(table: &Table) -> (Vec<Panel>, usize) {
     (panels, left_out)
 }
 
-/// What the axis of a column is called.
+/// Quantity of a column, which names its axis.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Quantity {
     Temperature,
@@ -75,13 +75,13 @@ fn across(column: &Column) -> Axis {
     Axis::linear(&column.name, &column.unit)
 }
 
-/// The curve of a column, by the name of its node where it is a temperature.
+/// The curve of a column. A temperature has the name of its node.
 fn curve(first: &Column, column: &Column) -> Curve {
     let name = column.name.strip_suffix(".T").unwrap_or(&column.name);
     Curve::line(name, first.values.iter().copied().zip(column.values.iter().copied()).collect())
 }
 
-/// Adds a curve; one that lies on another takes its name along.
+/// Adds a curve. If it equals another, both become one with both names.
 fn add(curves: &mut Vec<Curve>, curve: Curve) {
     match curves.iter_mut().find(|other| other.points == curve.points) {
         Some(other) => other.name += &format!(", {}", curve.name),
@@ -89,7 +89,7 @@ fn add(curves: &mut Vec<Curve>, curve: Curve) {
     }
 }
 
-/// Those that reach highest, in the order of the table.
+/// The columns that reach highest, in the order of the table.
 fn highest<'a>(columns: &[&'a Column]) -> Vec<&'a Column> {
     let peak = |column: &Column| {
         let finite = column.values.iter().copied().filter(|value| value.is_finite());

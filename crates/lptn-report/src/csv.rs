@@ -8,7 +8,7 @@ use lptn_solve::{Column, Table};
 use crate::number::Shortest;
 use crate::page::Rows;
 
-/// How many bytes are handed on at once.
+/// Size in bytes from which text is passed on.
 const CHUNK: usize = 1 << 13;
 
 /// Writes the rows of a page.
@@ -19,11 +19,11 @@ pub(crate) fn write(rows: &Rows<'_>, out: &mut dyn io::Write) -> io::Result<()> 
     }
 }
 
-/// Writes a table as CSV: one header, `time [s]`, `steel.T [degC]` and so on, columns of words
-/// without a unit first, then one line a row. Every number reads back as the same `f64`.
+/// Writes a table as CSV: a header such as `time [s],steel.T [degC]`, then one line per row.
+/// Columns of words come first and have no unit. Every number reads back as the same `f64`.
 ///
 /// # Errors
-/// What `out` reports.
+/// Errors of `out`.
 pub fn write_csv(table: &Table, out: impl io::Write) -> io::Result<()> {
     let mut lines = Lines::new(out);
     table.labels().iter().for_each(|label| lines.word(&label.name));
@@ -37,10 +37,10 @@ pub fn write_csv(table: &Table, out: impl io::Write) -> io::Result<()> {
     lines.finish()
 }
 
-/// Writes rows of texts, the heading first; all of one length.
+/// Writes rows of texts, the heading first; all have the same length.
 ///
 /// # Errors
-/// What the writer reports.
+/// Errors of the writer.
 pub fn write_rows(rows: &[Vec<String>], out: impl io::Write) -> io::Result<()> {
     let mut lines = Lines::new(out);
     for row in rows {
@@ -54,7 +54,7 @@ pub fn write_rows(rows: &[Vec<String>], out: impl io::Write) -> io::Result<()> {
 #[derive(Default)]
 pub struct CsvLines {
     text: Vec<u8>,
-    /// Where the present line begins in `text`.
+    /// Index in `text` of the start of the present line.
     begin: usize,
     number: Shortest,
 }
@@ -98,7 +98,7 @@ impl CsvLines {
         self.text.push(b',');
     }
 
-    /// Ends the line; one without any character would be no row to a reader.
+    /// Ends the line. An empty one becomes `""`: a reader would not count it as a row.
     pub fn end(&mut self) {
         self.text.pop();
         if self.text.len() == self.begin {
@@ -114,7 +114,7 @@ impl CsvLines {
     }
 }
 
-/// Lines of cells on their way to a stream.
+/// Lines of cells that are written to a stream.
 struct Lines<W> {
     out: W,
     lines: CsvLines,
@@ -134,7 +134,7 @@ impl<W: io::Write> Lines<W> {
         self.lines.number(value);
     }
 
-    /// Ends the line, and hands on what there is where it is much.
+    /// Ends the line, and passes the text on once it reaches `CHUNK`.
     fn end(&mut self) -> io::Result<()> {
         self.lines.end();
         if self.lines.text.len() >= CHUNK {
@@ -151,7 +151,7 @@ impl<W: io::Write> Lines<W> {
     }
 }
 
-/// A text as a cell: in quotes where it holds what ends a cell or a line.
+/// A text as a cell: in quotes if it contains a comma, a quote or a line break.
 fn quoted(text: &str) -> Cow<'_, str> {
     if text.contains([',', '"', '\n', '\r']) {
         return format!("\"{}\"", text.replace('"', "\"\"")).into();

@@ -8,7 +8,7 @@ use crate::page::Page;
 use crate::{csv, text};
 
 lptn_units::words! {
-/// How a result is written.
+/// Format of a written result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Format {
     /// Text for a terminal of 80 columns.
@@ -25,7 +25,7 @@ pub fn key;
 /// Writes a page in a format.
 ///
 /// # Errors
-/// What the stream reports.
+/// Errors of the stream.
 pub fn write(page: &dyn Page, format: Format, look: Look, out: &mut dyn Write) -> io::Result<()> {
     match format {
         Format::Table => text::write(&page.text(), look, out),
@@ -65,7 +65,7 @@ mod tests {
         }
     }
 
-    /// A format that is not in the list would never be written.
+    /// A format that is missing from the list would never be written.
     #[test]
     fn every_format_has_a_name_and_a_writer() {
         let written = Format::ALL.map(|format| {

@@ -1,4 +1,4 @@
-//! The energy ledger as a sentence.
+//! The energy balance as a sentence.
 
 use crate::number::{decimals, fixed, prefix};
 
@@ -7,18 +7,18 @@ use crate::number::{decimals, fixed, prefix};
 pub struct Flow {
     /// Its name.
     pub name: String,
-    /// The heat; negative if it was taken out.
+    /// The heat in J; negative if it was taken out.
     pub heat: f64,
 }
 
-/// More terms on one side than this are summed up.
+/// Most terms on one side with their own names; smaller ones are summed up.
 const MOST_TERMS: usize = 5;
 
-/// Where the heat came from and where it went, in pieces that belong on one line each:
+/// The energy balance in pieces, each of which stays on one line:
 /// `in 330.9 kJ`, `= stored 147.8`, `+ bed 128.2`, `+ air 54.9 kJ`.
 ///
-/// Every term is positive: what a boundary gave stands on the left, what a node lost too.
-/// `turned_over` is the heat that moved at all; terms that vanish beside it are left out.
+/// Every term is positive: heat that a boundary gave or a node lost is on the left.
+/// `turned_over` is the total heat exchanged in J; terms below 1e-9 of it are left out.
 pub fn balance(flows: &[Flow], stored: f64, turned_over: f64) -> Vec<String> {
     let floor = 1e-9 * turned_over;
     let mut left: Vec<(&str, f64)> = terms(flows.iter().map(|f| (f.name.as_str(), f.heat)), floor);

@@ -1,8 +1,8 @@
 //! Results as JSON: one object whose members are written one after the other.
 //!
 //! With `--format json` stdout contains one object in every case. A failure is an object too, with
-//! code, place and help of each problem; stderr repeats it for people. The temperatures of an
-//! object are in one unit, the one that is shown.
+//! code, place and help of each problem; stderr repeats it for people. All temperatures of an
+//! object are in the unit that is shown.
 
 use std::io::{self, Write};
 
@@ -15,9 +15,9 @@ use crate::number::Shortest;
 /// The object of a page that is being written.
 pub type Json<'a> = JsonWriter<&'a mut dyn Write>;
 
-/// Writes one JSON object, a member at a time; rows of a table never stand in memory as text.
+/// Writes one JSON object, a member at a time. Rows of a table are never all in memory as text.
 ///
-/// Numbers read back as the same `f64`; what is not a number is `null`.
+/// Numbers read back as the same `f64`; those that are not finite are `null`.
 pub struct JsonWriter<W: Write> {
     out: W,
     empty: bool,
@@ -32,7 +32,7 @@ impl<W: Write> JsonWriter<W> {
     /// Writes a member.
     ///
     /// # Errors
-    /// What the stream reports.
+    /// Errors of the stream.
     pub fn member(&mut self, name: &str, value: &(impl Serialize + ?Sized)) -> io::Result<()> {
         self.key(name)?;
         // a line break inside a string is escaped, so every one here is layout
@@ -42,16 +42,16 @@ impl<W: Write> JsonWriter<W> {
     /// Writes a member if there is one.
     ///
     /// # Errors
-    /// What the stream reports.
+    /// Errors of the stream.
     pub fn optional(&mut self, name: &str, value: Option<impl Serialize>) -> io::Result<()> {
         value.map_or(Ok(()), |value| self.member(name, &value))
     }
 
-    /// Writes a table as `columns`, each with name and unit, and `rows` of plain numbers; columns
-    /// of words come first and have `null` for a unit.
+    /// Writes a table as `columns`, each with name and unit, and `rows` of plain numbers.
+    /// Columns of words come first, with `null` as unit.
     ///
     /// # Errors
-    /// What the stream reports.
+    /// Errors of the stream.
     pub fn table(&mut self, table: &Table) -> io::Result<()> {
         self.key("columns")?;
         let labels = table.labels().iter().map(|label| (label.name.as_str(), None));
@@ -77,11 +77,11 @@ impl<W: Write> JsonWriter<W> {
         })
     }
 
-    /// Writes a list whose items are texts of JSON already, one a line: it may be longer than the
-    /// memory.
+    /// Writes a list whose items are JSON text already, one per line.
+    /// The list may be larger than the memory.
     ///
     /// # Errors
-    /// What the items or the stream report.
+    /// Errors of the items or the stream.
     pub fn texts(
         &mut self,
         name: &str,
@@ -91,10 +91,10 @@ impl<W: Write> JsonWriter<W> {
         self.lines(items, |out, item| out.write_all(item?.as_bytes()))
     }
 
-    /// Ends the object and hands the stream back, flushed.
+    /// Ends the object, flushes the stream and returns it.
     ///
     /// # Errors
-    /// What the stream reports.
+    /// Errors of the stream.
     pub fn finish(mut self) -> io::Result<W> {
         self.out.write_all(if self.empty { b"{}\n" } else { b"\n}\n" })?;
         self.out.flush()?;

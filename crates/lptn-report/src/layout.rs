@@ -10,10 +10,10 @@ use crate::standing::Standing;
 
 const GAP: &str = "  ";
 
-/// The least width to which names are shortened.
+/// Least width to which names are shortened, in columns.
 const LEAST_NAME: usize = 12;
 
-/// On which side the texts of a column stand.
+/// Alignment of the texts of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
     /// Words.
@@ -27,18 +27,18 @@ pub enum Align {
 pub struct Column {
     /// Its heading.
     pub title: String,
-    /// Its texts, one a row.
+    /// Its texts, one per row.
     pub cells: Vec<String>,
-    /// Their side.
+    /// Their alignment.
     pub align: Align,
-    /// Whether the column may be left out where the table is too wide.
+    /// True if the column may be left out when the table is too wide.
     pub optional: bool,
-    /// Whether the column may be left out where not even short names make the table fit.
+    /// True if the column may be left out when even short names do not make the table fit.
     pub spare: bool,
-    /// Whether its texts may be shortened in the middle where the table is too wide: never so for
-    /// numbers.
+    /// True if its texts may be shortened in the middle when the table is too wide.
+    /// Never set for numbers.
     pub names: bool,
-    /// How what each text says stands, one a row; empty where the texts are no verdicts.
+    /// Standing of each text, one per row; empty if the texts are not verdicts.
     pub standing: Vec<Standing>,
 }
 
@@ -49,15 +49,15 @@ impl Column {
         Self { title, cells, align, optional: false, spare: false, names: false, standing }
     }
 
-    /// The same column, left out where the table is too wide.
+    /// The same column, left out when the table is too wide.
     #[must_use]
     pub fn optional(mut self) -> Self {
         self.optional = true;
         self
     }
 
-    /// The same column with texts that may be shortened in the middle, as those of the first column
-    /// always may.
+    /// The same column with texts that may be shortened in the middle.
+    /// Those of the first column always may.
     #[must_use]
     pub fn names(mut self) -> Self {
         self.names = true;
@@ -70,7 +70,7 @@ impl Column {
             |names: &[String]| names.iter().map(|name| shortened(name, room)).collect::<Vec<_>>();
         let kept = |names: &[String]| names.iter().collect::<BTreeSet<_>>().len();
         let shorter = short(&self.cells);
-        // names that differ in their middle only would be one name
+        // names that differ only in their middle would become the same
         let lost = kept(&shorter) < kept(&self.cells);
         self.cells = if lost { short(&differing(&self.cells)) } else { shorter };
     }
@@ -80,13 +80,13 @@ impl Column {
     }
 }
 
-/// A table for reading: plain text without lines, the first column of names.
+/// A table for reading: plain text without lines. The first column contains names.
 #[derive(Clone, Debug, Default)]
 pub struct TextTable {
     columns: Vec<Column>,
 }
 
-/// A table under way, with one row for each item of a list.
+/// A table that is being built, with one row for each item of a list.
 #[derive(Clone, Debug)]
 pub struct TextTableOf<'a, T> {
     items: &'a [T],
@@ -125,7 +125,7 @@ impl<'a, T> TextTableOf<'a, T> {
         self
     }
 
-    /// Lets the last column be left out where the table is too wide.
+    /// Lets the last column be left out when the table is too wide.
     #[must_use]
     pub fn optional(mut self) -> Self {
         if let Some(last) = self.columns.last_mut() {
@@ -134,7 +134,7 @@ impl<'a, T> TextTableOf<'a, T> {
         self
     }
 
-    /// Lets the last column be left out where not even short names make the table fit.
+    /// Lets the last column be left out when even short names do not make the table fit.
     #[must_use]
     pub fn spare(mut self) -> Self {
         if let Some(last) = self.columns.last_mut() {
@@ -143,7 +143,7 @@ impl<'a, T> TextTableOf<'a, T> {
         self
     }
 
-    /// Says how the texts of the last column stand.
+    /// Gives the standing of each text of the last column.
     #[must_use]
     pub fn judged(mut self, standing: impl FnMut(&'a T) -> Standing) -> Self {
         if let Some(last) = self.columns.last_mut() {
@@ -174,14 +174,14 @@ impl TextTable {
         TextTableOf { items, columns: Vec::new() }
     }
 
-    /// A table of columns with equally many cells.
+    /// A table of columns with the same number of cells.
     pub fn new(columns: Vec<Column>) -> Self {
         Self { columns }
     }
 
-    /// The lines of the table, the heading first, unless no column has one. Where they would be
-    /// longer than the width, optional columns are left out from the right, and then long names
-    /// shortened in the middle, the longest first.
+    /// The lines of the table, the heading first if any column has one.
+    /// If they are too wide, optional columns are left out from the right, then spare ones. Then
+    /// long names are shortened in the middle, the longest first.
     pub fn lines(mut self, look: Look) -> Vec<String> {
         while self.width() > look.width {
             let Some(last) = self.columns.iter().rposition(|column| column.optional) else { break };
@@ -200,7 +200,7 @@ impl TextTable {
         heading.into_iter().chain((0..self.rows()).map(|row| self.line(Some(row), look))).collect()
     }
 
-    /// Letters that a line takes where every name is as short as it may be.
+    /// Width of a line in columns when every name is as short as it may be.
     fn least_width(&self) -> usize {
         let names = self.columns.iter().filter(|column| column.names);
         self.width() - names.map(|c| c.width().saturating_sub(LEAST_NAME)).sum::<usize>()
@@ -231,13 +231,13 @@ impl TextTable {
         self.columns.first().map_or(0, |column| column.cells.len())
     }
 
-    /// Letters that a line of the table takes where nothing is left out or shortened.
+    /// Width of a line in columns when nothing is left out or shortened.
     pub fn width(&self) -> usize {
         let gaps = GAP.len() * self.columns.len().saturating_sub(1);
         self.columns.iter().map(Column::width).sum::<usize>() + gaps
     }
 
-    /// A row, or the heading. Colours count for no width.
+    /// A row, or the heading for `None`. Colours do not count as width.
     fn line(&self, row: Option<usize>, look: Look) -> String {
         let mut line = String::new();
         let mut due = 0;
@@ -262,8 +262,8 @@ impl TextTable {
     }
 }
 
-/// As many tables as it takes to show every column, each behind the first one and with as many as
-/// still fit.
+/// Tables that together show every column.
+/// Each begins with `first` and takes as many columns as fit.
 pub fn stacked(
     first: &Column,
     columns: Vec<Column>,
@@ -283,8 +283,8 @@ pub fn stacked(
     tables
 }
 
-/// Pieces of a sentence behind a label, wrapped between pieces where they would be longer than
-/// `width`; further lines stand under the first piece.
+/// A label and pieces of a sentence, wrapped between pieces at `width` columns.
+/// Further lines begin below the first piece.
 pub fn labelled(label: &str, pieces: &[String], width: usize) -> Vec<String> {
     let indent = " ".repeat(label.width());
     let mut lines = vec![label.to_owned()];

@@ -1,11 +1,10 @@
-//! What a result looks like: terminal tables with sparklines, CSV, JSON, pictures.
+//! Output of results: terminal tables with sparklines, CSV, JSON, pictures.
 //!
-//! A command's answer is a [`Page`]: it gives a [`Text`] for reading, rows and an object for
-//! programs and figures for looking at, and a format is one file that writes what it asks a page
-//! for. A [`Report`] is all of a page as a document. Nothing here solves anything, prints anything
-//! or knows where the text goes. In files every number is the shortest
-//! text that reads back as the same `f64`; in tables for reading, numbers are rounded and say their
-//! unit.
+//! A command's answer is a [`Page`]. It gives a [`Text`] for reading, rows and an object for
+//! programs, and figures. A format is one file, which asks the page only for the part that it
+//! writes. A [`Report`] is all of a page as a document. Nothing here solves or prints anything, or
+//! knows the destination of the text. In files every number is the shortest text that reads back as
+//! the same `f64`. In tables for reading, numbers are rounded and have their unit.
 
 mod clock;
 mod colour;

@@ -1,8 +1,8 @@
-//! Names that have to be short, and texts that have to be harmless.
+//! Names that must be short, and texts that must be harmless.
 
 use unicode_width::UnicodeWidthStr;
 
-/// A name of at most `room` letters, `planetary_..ring_17`: the ends of names tell them apart.
+/// A name of at most `room` columns, `planetary_..ring_17`: the ends of names distinguish them.
 pub fn shortened(name: &str, room: usize) -> String {
     let letters: Vec<char> = name.chars().collect();
     if name.width() <= room {
@@ -15,9 +15,9 @@ pub fn shortened(name: &str, room: usize) -> String {
     format!("{start}..{end}")
 }
 
-/// The part of each name in which the names differ, from one border of words to another: `1000rpm`
-/// and `7000rpm` of `runs/1000rpm.csv` and `runs/7000rpm.csv`. The names themselves where a part
-/// would be empty, or all are the same.
+/// The parts in which names differ, between word boundaries.
+/// Those of `runs/1000rpm.csv` and `runs/7000rpm.csv` are `1000rpm` and `7000rpm`. Returns the
+/// names themselves if a part would be empty or all are equal.
 pub fn differing(names: &[String]) -> Vec<String> {
     let Some(first) = names.first() else { return Vec::new() };
     let is_border = |c: char| !c.is_alphanumeric();

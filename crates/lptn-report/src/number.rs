@@ -12,18 +12,18 @@ impl Shortest {
         Self::default()
     }
 
-    /// The text of `value`; `NaN`, `inf` and `-inf` for what is not a number.
+    /// The text of `value`; `NaN`, `inf` and `-inf` if it is not finite.
     pub fn text(&mut self, value: f64) -> &str {
         let text = self.buffer.format(value);
         text.strip_suffix(".0").unwrap_or(text)
     }
 }
 
-/// From here on digits before the point mean nothing to a reader.
+/// From this size on, digits before the point mean nothing to a reader.
 const HUGE: f64 = 1e12;
 
-/// `value` with `decimals` digits after the point, never `-0.0`; with an exponent where that would
-/// be long.
+/// `value` with `decimals` digits after the point, never `-0.0`.
+/// From 1e12 on it has an exponent.
 pub fn fixed(value: f64, decimals: usize) -> String {
     if value.abs() >= HUGE {
         return significant(value, 4);
@@ -46,8 +46,8 @@ pub fn decimals(span: f64, digits: i32, least: usize) -> usize {
     usize::try_from(digits - 1 - exponent).unwrap_or(0).clamp(least, 9.max(least))
 }
 
-/// `value` rounded to `digits` significant digits, without trailing zeros; with an exponent below
-/// 1e-3 and from 1e6 on.
+/// `value` rounded to `digits` significant digits, without trailing zeros.
+/// It has an exponent below 1e-3 and from 1e6 on.
 pub fn significant(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return Shortest::new().text(value).to_owned();
@@ -70,8 +70,8 @@ pub fn prefix(largest: f64) -> (f64, &'static str) {
     if size > 0.0 && size.is_finite() { found.unwrap_or((1e-6, "u")) } else { (1.0, "") }
 }
 
-/// A time in the unit that suits it, `25 min`, `39.5 min`, `2.5 h`, with up to `digits` significant
-/// digits.
+/// A time in s as text in a suitable unit: `25 min`, `39.5 min`, `2.5 h`.
+/// It has up to `digits` significant digits.
 pub fn duration(seconds: f64, digits: usize) -> String {
     const UNITS: [(f64, f64, &str); 6] = [
         (172_800.0, 86_400.0, "d"),

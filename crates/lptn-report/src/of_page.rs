@@ -4,7 +4,7 @@ use crate::page::Page;
 use crate::report::{Claim, Piece, Report, Section};
 use crate::text::{Block, Text};
 
-/// A page as a report, with all that it has for one besides.
+/// A page as a report, with all that it adds for one.
 pub fn report_of(page: &dyn Page) -> Report {
     let (title, text) = titled(&page.text());
     let mut report = Report { title, ..page.more() };
@@ -20,7 +20,7 @@ pub fn report_of(page: &dyn Page) -> Report {
     report.sections.splice(0..0, own);
     report
 }
-/// A text without its title, and that.
+/// The title of a text, and the text without it.
 fn titled(text: &Text) -> (String, Text) {
     let mut title = String::new();
     let mut rest = Text::new();

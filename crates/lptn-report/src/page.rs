@@ -1,4 +1,4 @@
-//! What a command has to say.
+//! The answer of a command.
 //!
 //! A page is queried, not filled. The result of a command implements `Page`, and each format asks
 //! only for the part that it writes. Large objects are not made for a terminal, and rows are
@@ -14,13 +14,13 @@ use crate::json::Json;
 use crate::report::Report;
 use crate::text::Text;
 
-/// What a command has to say, for readers and for programs. Each format asks only for what it
-/// writes.
+/// The answer of a command, for readers and for programs.
+/// Each format asks only for the part that it writes.
 pub trait Page {
     /// For reading: title, tables, notes, verdict.
     fn text(&self) -> Text;
 
-    /// For spreadsheets and plots: rows of exact numbers. There are none unless this is given.
+    /// For spreadsheets and plots: rows of exact numbers. Default: none.
     fn rows(&self) -> Rows<'_> {
         Rows::Words(Vec::new())
     }
@@ -28,22 +28,22 @@ pub trait Page {
     /// For programs: the members of one object, in their order.
     ///
     /// # Errors
-    /// What the stream reports.
+    /// Errors of the stream.
     fn json(&self, json: &mut Json<'_>) -> io::Result<()>;
 
-    /// For looking at: what `--plot` draws. There is nothing unless this is given.
+    /// For looking at: the figures that `--plot` draws. Default: none.
     fn figures(&self) -> Vec<Figure> {
         Vec::new()
     }
 
-    /// What a report shows besides: how far the result can be trusted, and further sections. Its
-    /// title is that of the text.
+    /// Additions for a report: claims of how far the result can be trusted, and further sections.
+    /// The title of the report is that of the text.
     fn more(&self) -> Report {
         Report::default()
     }
 
-    /// Why the answer is no, where the question has one: the text ends with it, and other formats
-    /// have it said beside them.
+    /// Reason why the answer is no, if it is.
+    /// The text ends with it; other formats report it separately.
     fn no(&self) -> Option<String> {
         None
     }
@@ -81,7 +81,7 @@ impl<T: PageOf> Page for T {
     }
 }
 
-/// What has nothing for programs.
+/// A text has nothing for programs.
 impl Page for Text {
     fn text(&self) -> Text {
         self.clone()
@@ -96,7 +96,7 @@ impl Page for Text {
 pub enum Rows<'a> {
     /// Columns of numbers with units.
     Table(Cow<'a, Table>),
-    /// Rows of texts, the heading first; all of one length.
+    /// Rows of texts, the heading first; all have the same length.
     Words(Vec<Vec<String>>),
 }
 

@@ -2,7 +2,7 @@
 
 use lptn_plot::{Figure, PngError, chart, png, svg, terminal};
 
-/// How figures are drawn.
+/// Format of a drawn figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Picture {
     /// Lines that stay sharp at any size.
@@ -16,11 +16,11 @@ pub enum Picture {
 /// Width of a picture in CSS pixels: that of a page's text.
 const WIDTH: f64 = 760.0;
 
-/// Pixels of a PNG for one of them: 192 to the inch.
+/// Pixels of a PNG per CSS pixel: 192 per inch.
 const SCALE: f64 = 2.0;
 
 impl Picture {
-    /// The format that the end of a file's name asks for.
+    /// The format that belongs to the extension of a file's name.
     pub fn of_name(name: &str) -> Option<Self> {
         match name.rsplit_once('.')?.1.to_ascii_lowercase().as_str() {
             "svg" => Some(Self::Svg),
@@ -29,8 +29,8 @@ impl Picture {
         }
     }
 
-    /// Draws figures below each other; characters are `columns` wide, with colours if they are
-    /// `styled`.
+    /// Draws figures below each other.
+    /// Characters are `columns` wide, with colours if they are `styled`.
     ///
     /// # Errors
     /// [`PngError`]

@@ -8,23 +8,23 @@ use lptn_plot::{Figure, Scene};
 use crate::standing::Standing;
 use crate::text::Text;
 
-/// What a document says of a result: first how far it can be trusted, then what it is.
+/// A result as a document: how far it can be trusted, then its sections.
 #[derive(Clone, Debug, Default)]
 pub struct Report {
-    /// What files about it are called.
+    /// Name of its files.
     pub name: String,
-    /// What it is about.
+    /// Its subject.
     pub title: String,
-    /// What is known of its trustworthiness.
+    /// Claims on its trustworthiness.
     pub claims: Vec<Claim>,
-    /// What it shows, in order.
+    /// Its parts, in order.
     pub sections: Vec<Section>,
 }
 
-/// A sentence on whether a result can be believed.
+/// A sentence on how far a result can be trusted.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Claim {
-    /// How it stands.
+    /// Its standing.
     pub standing: Standing,
     /// The sentence.
     pub text: String,
@@ -35,9 +35,9 @@ pub struct Claim {
 pub struct Section {
     /// The heading; empty for none.
     pub title: String,
-    /// What stands below it.
+    /// Its content.
     pub pieces: Vec<Piece>,
-    /// Whether it is folded away until somebody wants to see it.
+    /// True if it is collapsed until a reader opens it.
     pub folded: bool,
 }
 
@@ -48,7 +48,7 @@ pub enum Piece {
     Text(Text),
     /// Curves.
     Figure(Figure),
-    /// A drawing, with what is to be known of it below.
+    /// A drawing and its caption.
     Drawing(Scene, String),
     /// A text whose lines stay as they are.
     Verbatim(String),
@@ -60,7 +60,7 @@ impl Section {
         Self { title: title.into(), pieces: vec![piece], folded: false }
     }
 
-    /// The same, folded away.
+    /// The same section, collapsed.
     #[must_use]
     pub fn folded(self) -> Self {
         Self { folded: true, ..self }
@@ -68,13 +68,13 @@ impl Section {
 }
 
 impl Claim {
-    /// A claim that holds or not.
+    /// A claim that was checked and holds or fails.
     pub fn checked(holds: bool, text: impl Into<String>) -> Self {
         let standing = if holds { Standing::Holds } else { Standing::Fails };
         Self { standing, text: text.into() }
     }
 
-    /// A claim that nothing was checked of.
+    /// A claim that was not checked.
     pub fn open(text: impl Into<String>) -> Self {
         Self { standing: Standing::Open, text: text.into() }
     }

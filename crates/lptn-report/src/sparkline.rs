@@ -2,9 +2,9 @@
 
 const LEVELS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
-/// `width` characters for a curve over time, from its lowest to its highest value; the first and
-/// the last stand for the ends. A curve that varies by less than `least` is drawn as flat. A curve
-/// without a number in it is blank.
+/// A curve over time as `width` characters, from its lowest to its highest value.
+/// The first and the last character show its ends. A curve that varies by less than `least` is
+/// flat. A curve without finite values is blank.
 pub fn sparkline(times: &[f64], values: &[f64], width: usize, least: f64) -> String {
     let (Some(&first), Some(&last)) = (times.first(), times.last()) else {
         return " ".repeat(width);
@@ -21,7 +21,7 @@ pub fn sparkline(times: &[f64], values: &[f64], width: usize, least: f64) -> Str
     (0..width).map(cell).collect()
 }
 
-/// The character for a share of the way from lowest to highest.
+/// The character for a fraction of the way from lowest to highest.
 fn level(share: f64) -> char {
     if !share.is_finite() {
         return ' ';

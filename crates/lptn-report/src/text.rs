@@ -6,7 +6,7 @@ use crate::colour::Look;
 use crate::layout::{TextTable, labelled};
 use crate::standing::Standing;
 
-/// What a person reads of a result, from the title to the verdict.
+/// A result for a person, from the title to the verdict.
 #[derive(Clone, Debug, Default)]
 pub struct Text {
     sections: Vec<Vec<Block>>,
@@ -15,15 +15,15 @@ pub struct Text {
 /// A part of a section.
 #[derive(Clone, Debug)]
 pub enum Block {
-    /// What the result is about.
+    /// Subject of the result.
     Title(String),
     /// A line as it is.
     Line(String),
-    /// A line that says how something stands.
+    /// A line that shows a standing.
     Marked(Standing, String),
     /// A table.
     Table(TextTable),
-    /// A label, and what stands behind it, in pieces that are not broken.
+    /// A label and the pieces after it, which are not broken.
     Labelled(String, Vec<String>),
 }
 
@@ -33,12 +33,12 @@ impl Text {
         Self::default()
     }
 
-    /// A text with a title; what is added before a section is begun stands directly below it.
+    /// A text with a title. Blocks added before the first section follow directly below it.
     pub fn titled(title: impl Into<String>) -> Self {
         Self { sections: vec![vec![Block::Title(title.into())]] }
     }
 
-    /// Begins a section: an empty line stands before it, unless it stays empty.
+    /// Begins a section, with an empty line before it. A section that stays empty is not shown.
     pub fn section(&mut self) -> &mut Self {
         self.sections.push(Vec::new());
         self
@@ -60,7 +60,7 @@ impl Text {
         self.add(Block::Line(line.into()))
     }
 
-    /// Adds a line that says how something stands.
+    /// Adds a line that shows a standing.
     pub fn marked(&mut self, standing: Standing, line: impl Into<String>) -> &mut Self {
         self.add(Block::Marked(standing, line.into()))
     }
@@ -78,13 +78,13 @@ impl Text {
         self.add(Block::Table(table.into()))
     }
 
-    /// Adds a sentence behind a label, such as `note: `, wrapped between words; further lines stand
-    /// under its first word.
+    /// Adds a sentence after a label such as `note: `, wrapped between words.
+    /// Further lines begin below its first word.
     pub fn sentence(&mut self, label: &str, text: &str) -> &mut Self {
         self.labelled(label, words(text))
     }
 
-    /// Adds sentences, each behind `note: `.
+    /// Adds sentences, each after `note: `.
     pub fn notes<S: AsRef<str>>(&mut self, notes: impl IntoIterator<Item = S>) -> &mut Self {
         for note in notes {
             self.sentence("note: ", note.as_ref());
@@ -92,8 +92,8 @@ impl Text {
         self
     }
 
-    /// Ends a page: a section of notes, each after its label in a column of this width, and one of
-    /// the verdict.
+    /// Ends a page with a section of notes and one of the verdict.
+    /// The label of each note is padded to `width`.
     pub fn conclude<'a>(
         &mut self,
         width: usize,
@@ -121,7 +121,7 @@ impl Text {
         self
     }
 
-    /// The sections that hold something.
+    /// Sections that are not empty.
     pub fn sections(&self) -> impl Iterator<Item = &[Block]> {
         self.sections.iter().map(Vec::as_slice).filter(|section| !section.is_empty())
     }
@@ -132,7 +132,7 @@ pub fn words(text: &str) -> Vec<String> {
     text.split(' ').map(str::to_owned).collect()
 }
 
-/// Sentences are not wider than this, however wide the terminal is: longer lines are hard to read.
+/// Widest sentence in columns, however wide the terminal is: longer lines are hard to read.
 const WIDEST_SENTENCE: usize = 100;
 
 /// Writes a text for a terminal.

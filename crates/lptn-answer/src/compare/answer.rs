@@ -43,8 +43,7 @@ impl Answer for CompareAnswer {
         self.gathered.doubts.clone()
     }
 
-    /// How the comparison ends: an interruption goes before what could not be read, that before what
-    /// failed, and that before a broken limit.
+    /// Exit of the comparison: interrupted, else not read, else failed, else a broken limit.
     fn exit(&self) -> Exit {
         if self.ends.contains(&Exit::Interrupted) {
             Exit::Interrupted
@@ -129,7 +128,7 @@ impl CompareAnswer {
     }
 }
 
-/// Without a run a candidate is looked at once: what comes later is not seen.
+/// Warns if inputs vary without a run: only their values at 0 s are used.
 fn inputs_vary(netlist: &Netlist, name: &str) -> Option<Diagnostic> {
     let network = &netlist.network;
     let judged: Vec<_> =
@@ -146,7 +145,7 @@ fn inputs_vary(netlist: &Netlist, name: &str) -> Option<Diagnostic> {
     })
 }
 
-/// Why a candidate whose signals repeat themselves has no settled cycle.
+/// Reason why a candidate with repeating signals has no settled cycle.
 fn unsettled(file: &str, found: &Candidate) -> Option<Diagnostic> {
     let reason = found.settled.as_ref()?.as_ref().err()?;
     let message = format!("{file}: the column `settled` is empty: {reason}");

@@ -1,4 +1,4 @@
-//! How sure a comparison is: what the `±` of parameters do to peaks, margins and their order.
+//! Uncertainty of a comparison: effect of the `±` of parameters on peaks, margins and their order.
 
 use lptn_netlist::Diagnostic;
 use lptn_report::{Align, Column, decimals, fixed, significant};
@@ -7,10 +7,10 @@ use lptn_study::{Candidate, CompareRow, Scatter};
 use crate::input::Input;
 use crate::words::spaced;
 
-/// What is not known or does not exist.
+/// Cell of a value that is not known or does not exist.
 const NOTHING: &str = "-";
 
-/// Looks at how sure the results of a candidate are; what keeps it from being known is a warning.
+/// Computes the uncertainty of a candidate's results; returns a warning if that is impossible.
 pub(super) fn look(input: &Input, found: &mut Candidate, file: &str) -> Option<Diagnostic> {
     let warning = |code, why: &str| {
         let message = format!("{file}: the uncertainty of the results is not known: {why}");
@@ -30,8 +30,8 @@ pub(super) fn look(input: &Input, found: &mut Candidate, file: &str) -> Option<D
     }
 }
 
-/// One standard deviation of peak and margins, the probability that a limit is broken, and by how
-/// much the peak is above that of the first candidate; none where nothing is uncertain.
+/// Columns of uncertainty, none if nothing is uncertain.
+/// Deviations of peak and margins, probability of a broken limit, peak over that of the first.
 pub(super) fn columns(rows: &[CompareRow], names: &[String]) -> Vec<Column> {
     let Some(first) = rows.iter().position(|row| row.scatter().is_some()) else {
         return Vec::new();

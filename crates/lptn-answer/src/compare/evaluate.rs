@@ -1,4 +1,4 @@
-//! What becomes of the candidates of a comparison.
+//! Evaluation of the candidates of a comparison.
 
 use lptn_assembly::ThermalSystem;
 use lptn_netlist::Diagnostic;
@@ -10,7 +10,7 @@ use super::load::Loaded;
 use crate::failure::Failure;
 use crate::listener::{Listener, Which};
 
-/// Why a candidate has no results, as far as it was not already known when it was read.
+/// Reason why a candidate has no results; `NotRead` if reading it failed already.
 pub(super) enum NoResult {
     NotRead,
     Failure(Failure),
@@ -55,7 +55,7 @@ fn evaluate(
     })
 }
 
-/// How sure every candidate is, as far as that can be known.
+/// Uncertainty of every candidate, as far as it can be computed.
 pub(super) fn doubtful(
     loaded: &[Loaded],
     done: &mut [Result<Candidate, NoResult>],

@@ -1,4 +1,4 @@
-//! A comparison as a picture: how hot the candidates get, and what is left to their limits.
+//! A comparison as a picture: hottest temperatures of the candidates, and margins to their limits.
 
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Moment, Panel};

@@ -31,14 +31,14 @@ pub fn too_many(option: &str) -> Failure {
     Failure::refused("compare::too_many", message, "give fewer values, or compare in several steps")
 }
 
-/// A candidate's file, and its netlist or what is wrong with it.
+/// A candidate's file, and its netlist or the problems in it.
 #[derive(Debug)]
 pub struct Loaded {
-    /// The file, and what tells the variant from others.
+    /// The file and the label of the variant.
     pub file: String,
-    /// The netlist with what was set in it.
+    /// The netlist with its assignments.
     pub input: Result<Input, Failure>,
-    /// For each `--set` whether this candidate has the parameter.
+    /// For each `--set`, true if this candidate has the parameter.
     has: Vec<bool>,
 }
 
@@ -67,8 +67,8 @@ pub fn load(file: &Path, variant: &Variant, belief: &Belief<'_>) -> Loaded {
     Loaded { file: name, input: outcome.map(|()| input).map_err(Failure::from), has }
 }
 
-/// A `--set` that no candidate can use is a mistake, unless a candidate that could not be read may
-/// be meant.
+/// Refuses a `--set` that no candidate can use.
+/// It is accepted if it may be meant for a candidate that could not be read.
 ///
 /// # Errors
 /// An assignment that fits no candidate.
@@ -91,8 +91,8 @@ pub fn used(set: &[String], loaded: &[Loaded]) -> Result<(), Failure> {
     Err(Failure::new(Exit::Input, problem))
 }
 
-/// A posterior that no candidate can use is a mistake, unless a candidate that could not be read may
-/// be meant.
+/// Refuses a posterior that no candidate can use.
+/// It is accepted if it may be meant for a candidate that could not be read.
 pub(super) fn believed(args: &CompareQuestion, loaded: &[Loaded]) -> Result<(), Failure> {
     let Some(file) = &args.posterior else { return Ok(()) };
     let idle = |one: &Loaded| one.input.as_ref().is_ok_and(|i| i.netlist.posterior().is_none());

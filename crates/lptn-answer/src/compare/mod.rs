@@ -24,23 +24,23 @@ pub use answer::CompareAnswer;
 pub use load::{Loaded, load, too_many, used};
 pub use variants::{Variant, of_sets};
 
-/// Candidates, and over what they are compared.
+/// Candidates and settings of a comparison.
 #[derive(Clone, Debug)]
 pub struct CompareQuestion {
     /// Netlists.
     pub files: Vec<PathBuf>,
-    /// Assignments for the candidates that have the parameter; several values in one, such as
-    /// `R=1K/W,2K/W`, make a candidate each.
+    /// Assignments for the candidates that have the parameter.
+    /// Several values in one, such as `R=1K/W,2K/W`, make one candidate each.
     pub set: Vec<String>,
     /// The posterior of a fit to take values from.
     pub posterior: Option<PathBuf>,
-    /// Whether the uncertainty of peaks, margins and their order is computed.
+    /// True if the uncertainty of peaks, margins and their order is computed.
     pub uncertainty: bool,
     /// Tables of parts, each of which makes a candidate.
     pub parts: Vec<PathBuf>,
-    /// Whether every netlist is taken in each of its load cases.
+    /// True if every netlist is taken in each of its load cases.
     pub cases: bool,
-    /// Whether settled cycles are compared in place of runs.
+    /// True if settled cycles are compared instead of runs.
     pub periodic: bool,
     /// The order of the candidates.
     pub sort: SortKey,

@@ -20,7 +20,7 @@ use crate::messages;
 use crate::scale;
 use crate::words::{count, spaced};
 
-/// What is not known or does not exist.
+/// Cell of a value that is not known or does not exist.
 const NOTHING: &str = "-";
 
 impl CompareAnswer {
@@ -89,8 +89,8 @@ fn only_file(rows: &[CompareRow]) -> Option<&str> {
     rows.iter().all(|row| row.file.starts_with(first)).then(|| &rows[0].file[..length])
 }
 
-/// The names of the candidates: what tells variants of one file apart, else their files without folder
-/// and ending, unless two would be the same.
+/// Names of the candidates. Variants of one file have their labels, other files their stems.
+/// If two stems are equal, the whole file name is used.
 pub(super) fn names(rows: &[CompareRow]) -> Vec<String> {
     if let Some(file) = only_file(rows) {
         let label = |row: &CompareRow| plain(&row.file[file.len() + 2..row.file.len() - 1]);
@@ -164,7 +164,7 @@ pub(super) fn settled(candidate: &Candidate) -> Option<f64> {
     Some(candidate.settled.as_ref()?.as_ref().ok()?.peak?.temperature)
 }
 
-/// What a text says of a candidate that was evaluated.
+/// Text of a candidate that was evaluated, else [`NOTHING`].
 fn cell<'a>(text: impl Fn(&'a Candidate) -> Option<String>) -> impl Fn(&'a CompareRow) -> String {
     move |row| row.candidate().and_then(&text).unwrap_or_else(|| NOTHING.into())
 }
@@ -189,7 +189,7 @@ fn margins<'a>(rows: &'a [CompareRow], limit: &OfRow<'a>) -> Vec<Column> {
     CompareRow::limit_names(rows).iter().map(column).collect()
 }
 
-/// The same over the settled cycle; none where no candidate has one beside its run.
+/// The same over the settled cycle; none if no candidate has both a run and a cycle.
 fn settled_margins(rows: &[CompareRow]) -> Vec<Column> {
     let of_run = |row: &CompareRow| row.candidate().is_some_and(|c| c.heat.over == HeatOver::Run);
     match rows.iter().any(|row| row.settled().is_some() && of_run(row)) {
@@ -214,8 +214,8 @@ fn margin(limit: &CandidateLimit) -> String {
     }
 }
 
-/// In which results heat is looked at: those of the candidates, which differ only where some have a
-/// run and others have none.
+/// Title of amounts of heat: over the run if any candidate has one, else over the cycle.
+/// In steady state it is the heat flow out.
 fn heat_over(rows: &[CompareRow]) -> &'static str {
     let all = || rows.iter().filter_map(CompareRow::candidate).map(|c| c.heat.over);
     match (all().any(|over| over == HeatOver::Run), all().any(|over| over == HeatOver::Cycle)) {
@@ -225,7 +225,7 @@ fn heat_over(rows: &[CompareRow]) -> &'static str {
     }
 }
 
-/// All heat that leaves or is stored, what is stored of it, and the share of each boundary.
+/// Columns: all heat that leaves or is stored, the stored part, and the share of each boundary.
 fn heat(rows: &[CompareRow]) -> Vec<Column> {
     let column = |title: &str, cell: &dyn Fn(&Candidate) -> Option<String>| {
         let cell = |row: &CompareRow| row.candidate().and_then(cell);
@@ -262,8 +262,7 @@ fn percent(share: f64) -> String {
     format!("{} %", fixed(100.0 * share, 1))
 }
 
-/// As many tables as it takes to show every column within the width; a row with nothing in it is
-/// left out.
+/// Tables that together show every column within the width, without empty rows.
 fn tables(title: &str, rows: &[CompareRow], mut columns: Vec<Column>) -> Vec<TextTable> {
     let mut first = Column::new(title, Align::Left, names(rows));
     let kept: Vec<bool> = (0..rows.len())
@@ -279,8 +278,7 @@ fn tables(title: &str, rows: &[CompareRow], mut columns: Vec<Column>) -> Vec<Tex
     stacked(&first, columns, |table| table.width() <= WIDTH)
 }
 
-/// One sentence: what was not finished, else what could not be read, else what failed, else which
-/// limits are broken.
+/// One sentence: unfinished candidates, else unread ones, else failed ones, else broken limits.
 fn sentence(comparison: &CompareAnswer) -> String {
     let names = names(&comparison.rows);
     let of = |wanted: Exit| {

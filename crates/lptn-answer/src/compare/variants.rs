@@ -10,20 +10,20 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::Input;
 
-/// More variants of one netlist than these are a sweep and no comparison.
+/// Most variants of one netlist; more are a matter for a sweep.
 pub(super) const MOST: usize = 1000;
 
-/// What is changed in a netlist.
+/// Changes to a netlist.
 #[derive(Clone, Debug, Default)]
 pub struct Variant {
     pub(super) case: Option<String>,
     pub(super) set: Vec<String>,
-    /// What tells it from the others: `hot, R=1K/W`; empty where there are no others.
+    /// Label that distinguishes it: `hot, R=1K/W`; empty if there are no others.
     pub(super) label: String,
 }
 
-/// Every combination of the values in lists, the last list changing fastest; `None` where there are
-/// too many.
+/// Every combination of the values in lists, the last list changing fastest.
+/// `None` if there are too many.
 pub fn of_sets(set: &[String]) -> Option<Vec<Variant>> {
     let mut all = vec![Variant::default()];
     for text in set {
@@ -47,11 +47,11 @@ pub fn of_sets(set: &[String]) -> Option<Vec<Variant>> {
     Some(all)
 }
 
-/// One part of each table with every variant, the parts of the last table changing fastest; nothing is
-/// changed for a netlist that cannot be read. `None` where there are too many.
+/// One part of each table with every variant, the parts of the last table changing fastest.
+/// A netlist that cannot be read stays unchanged. `None` if there are too many.
 ///
 /// # Errors
-/// What is wrong with a table, for this netlist.
+/// Problems of a table for this netlist.
 pub(super) fn with_parts(
     file: &Path,
     tables: &[PathBuf],
@@ -81,12 +81,12 @@ pub(super) fn with_parts(
 }
 
 impl Variant {
-    /// What tells it from the others, such as `hot, R=1K/W`; empty if there are no others.
+    /// Label that distinguishes it, such as `hot, R=1K/W`; empty if there are no others.
     pub fn label(&self) -> &str {
         &self.label
     }
 
-    /// With the values of a part, after those that are set before.
+    /// The same variant with the values of a part, after those already set.
     fn of_part(&self, table: &Catalogue, part: usize) -> Self {
         let set = self.set.iter().cloned().chain(table.assignments(part)).collect();
         let label = joined(&self.label, &table.parts[part]);
@@ -94,8 +94,8 @@ impl Variant {
     }
 }
 
-/// The variants of a netlist in each of its load cases; as they are for one without cases, or one
-/// that cannot be read.
+/// The variants of a netlist in each of its load cases.
+/// They are unchanged if it has none or cannot be read.
 pub(super) fn in_cases(file: &Path, variants: &[Variant]) -> Vec<Variant> {
     let names: Vec<String> = Input::open(file, &Belief::Named, (None, &[])).map_or_else(
         |_| Vec::new(),

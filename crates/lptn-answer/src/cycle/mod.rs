@@ -30,7 +30,7 @@ use crate::{balance, period, scale, select, trust};
 /// The name of the window over the cycle.
 const CYCLE: &str = "cycle";
 
-/// A row is written at least so often in a cycle.
+/// Least number of rows per cycle.
 const LEAST_ROWS: f64 = 20.0;
 
 /// The settled cycle of a netlist.
@@ -48,9 +48,9 @@ pub struct CycleQuestion {
     pub balance: Option<String>,
     /// The format that will be read.
     pub format: Format,
-    /// Whether a report is wanted.
+    /// True if a report is wanted.
     pub report: bool,
-    /// How much a table shows.
+    /// Amount of detail in a table.
     pub detail: Detail,
 }
 
@@ -63,7 +63,7 @@ pub struct CycleTask(RunTask);
 pub struct CycleAnswer {
     /// One period of it as a run.
     pub run: RunAnswer,
-    /// How it was found.
+    /// Result of the search.
     pub found: Periodic,
 }
 
@@ -203,7 +203,7 @@ impl Answer for CycleAnswer {
 }
 
 impl CycleAnswer {
-    /// What was seen of the columns over the cycle.
+    /// Means and extremes of the columns over the cycle.
     fn cycle(&self) -> Option<&WindowSeen> {
         self.found.solution.windows().first()
     }

@@ -89,7 +89,7 @@ impl Page for CycleAnswer {
     }
 }
 
-/// The name of a column without what goes without saying.
+/// The name of a column without the end `.T`.
 fn named((column, _): &Row<'_>) -> (String, u8) {
     (column.name.strip_suffix(".T").unwrap_or(&column.name).to_owned(), 0)
 }
@@ -99,7 +99,7 @@ fn temperature_section(text: &mut Text, view: &CycleAnswer, rows: Vec<Row<'_>>) 
     let swing = |c: &ColumnSeen| c.max.0 - c.min.0;
     let span = rows.iter().map(|(c, _)| swing(c)).fold(0.0, f64::max);
     let digits = decimals(span / unit.scale, 3, 1);
-    // what the tolerance cannot tell from rest is none
+    // a swing of up to 10 tolerances counts as zero
     let clear =
         |swing: f64| if swing > 10.0 * view.run.task.settings.tolerance { swing } else { 0.0 };
     let kelvin = |value: f64| fixed(unit.from_si(value), digits);
@@ -119,7 +119,7 @@ fn temperature_section(text: &mut Text, view: &CycleAnswer, rows: Vec<Row<'_>>) 
     some_of(text, table, (all, "the hottest first; --select 'NAME.T' shows others"));
 }
 
-/// When the largest value is there; nothing for a constant.
+/// Time of the largest value; `-` for a constant.
 fn at(column: &ColumnSeen) -> String {
     if column.max.0 > column.min.0 { duration(column.max.1, 3) } else { "-".into() }
 }
@@ -152,7 +152,7 @@ fn other_section(text: &mut Text, view: &CycleAnswer, rows: &[Row<'_>]) {
     some_of(text, table, (rows.len(), ""));
 }
 
-/// How the cycle was found, and how far it is to be believed.
+/// Method of the search, and the accuracy of the cycle.
 fn found_section(text: &mut Text, view: &CycleAnswer) {
     let found = &view.found;
     let kelvin = |value: f64| format!("{} K", significant(value, 2));

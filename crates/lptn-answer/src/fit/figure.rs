@@ -1,4 +1,4 @@
-//! What the pictures of the fits have in common.
+//! Parts that the pictures of the fits have in common.
 
 use lptn_plot::figure::{Axis, Panel};
 

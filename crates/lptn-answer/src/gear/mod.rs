@@ -18,10 +18,10 @@ use crate::failure::{Failure, told};
 use crate::input::{self, Input, Studies};
 use crate::ranges;
 
-/// More points than anybody reads are a mistake.
+/// Most points of a question: no one reads more.
 const MOST_POINTS: usize = 1000;
 
-/// The speeds at which gears are looked at unless said: fifths of the one that they have.
+/// Default speeds at which gears are evaluated, as shares of their own speed.
 const FIFTHS: [f64; 5] = [0.2, 0.4, 0.6, 0.8, 1.0];
 
 const GEARBOXES: Studies = Studies {
@@ -41,7 +41,7 @@ pub struct GearQuestion {
     pub speeds: Vec<String>,
     /// Torques on the input, `10 N m`; none for its own.
     pub torques: Vec<String>,
-    /// Temperatures at which all nodes are held, `40degC`; none for where they settle.
+    /// Temperatures at which all nodes are fixed, `40degC`; none for the steady state.
     pub temperatures: Vec<String>,
     /// The unit of temperatures; `None` for that of the netlist.
     pub temperature_unit: Option<String>,
@@ -63,8 +63,8 @@ impl GearQuestion {
     /// Asks a netlist.
     ///
     /// # Errors
-    /// A gearbox that does not exist, a text that is not a quantity, too many points, and gears or
-    /// temperatures that cannot be computed.
+    /// A gearbox that does not exist, a text that is not a quantity, and too many points.
+    /// Gears or temperatures that cannot be computed.
     pub fn ask(&self, input: Arc<Input>) -> Result<GearAnswer, Failure> {
         let first = first(&input, self.gearbox.as_deref())?;
         let task = task(&input, first);
@@ -135,7 +135,7 @@ fn task(input: &Input, first: usize) -> GearTask<'_> {
 /// One load and state of the oil over speeds.
 #[derive(Debug)]
 pub struct Block {
-    /// The temperature of all nodes in K, where it is held.
+    /// The temperature of all nodes in K, if it is fixed.
     pub temperature: Option<f64>,
     /// Speeds of the input in rad/s with the state of the gears.
     pub states: Vec<(f64, GearState)>,
@@ -177,7 +177,7 @@ impl GearAnswer {
         self.blocks.iter().flat_map(|b| b.states.iter().map(move |(speed, s)| (b, *speed, s)))
     }
 
-    /// What was outside its range at any point, part by part.
+    /// Values that were outside their range at any point, part by part.
     fn outside(&self) -> Vec<OutOfRange> {
         let Some((_, _, first)) = self.states().next() else { return Vec::new() };
         let time = self.task().time;

@@ -1,4 +1,4 @@
-//! What gears do as a page.
+//! Gears as a page.
 
 use std::io;
 
@@ -17,7 +17,7 @@ use crate::ranges;
 type Cell = (String, Option<f64>);
 
 impl GearAnswer {
-    /// What a stage is: `planetary, ring held, 18/42/102 teeth, 3 planets, ratio 6.667`.
+    /// Text on a stage: `planetary, ring held, 18/42/102 teeth, 3 planets, ratio 6.667`.
     fn stage(&self, gearbox: &Gearbox) -> String {
         let network = &self.input.netlist.network;
         let teeth = |member: &Member| {
@@ -50,7 +50,7 @@ impl GearAnswer {
         ratio.is_finite().then_some(ratio)
     }
 
-    /// At which load and temperatures a block is.
+    /// Text on the load and the temperatures of a block.
     pub(super) fn said(&self, block: &Block) -> String {
         let mut torques = block.states.iter().map(|(_, state)| state.torque(&self.task()));
         let first = torques.next().flatten();

@@ -10,7 +10,7 @@ use super::{Block, GearAnswer};
 /// Digits of heats and torques.
 const DIGITS: usize = 4;
 
-/// Speeds that stand side by side.
+/// Most speeds next to each other.
 const ACROSS: usize = 5;
 
 /// A speed in rpm.
@@ -59,7 +59,7 @@ impl GearAnswer {
         table.left("", |m| role(m.stage, m.member)).into()
     }
 
-    /// Tables over the speeds of a block, so many side by side: heats, and both exponents.
+    /// Tables over the speeds of a block, [`ACROSS`] in each: heats, and both exponents.
     pub(super) fn over_speed(&self, block: &Block) -> Vec<TextTable> {
         let mut tables = Vec::new();
         for states in block.states.chunks(ACROSS) {
@@ -87,8 +87,8 @@ impl GearAnswer {
         table.into()
     }
 
-    /// Heats of parts, marked where a formula is outside its range, their sum, what comes out of
-    /// what goes in, and the warmest node.
+    /// Heats of parts, their sum, the output as a share of the input, and the warmest node.
+    /// A heat is marked if a formula is outside its range.
     fn heats(&self, block: &Block, states: &[(f64, GearState)]) -> Vec<Row> {
         let mut rows: Vec<Row> = parts(states)
             .map(|(at, name)| {
@@ -152,7 +152,7 @@ fn exponents(states: &[(f64, GearState)], of: impl Fn(&PartLoss) -> Option<f64>)
     rows
 }
 
-/// The exponent of a sum is that of its terms, each by its part of it.
+/// The exponent of a sum is the mean of those of its terms, weighted by their shares.
 pub(super) fn of_all(state: &GearState, of: impl Fn(&PartLoss) -> Option<f64>) -> Option<f64> {
     let loss = state.loss();
     let terms = state.losses.iter().filter(|part| part.heat > 0.0);

@@ -12,13 +12,13 @@ use crate::exit::Exit;
 use crate::failure::{Failure, told};
 use crate::input::{Input, wrong_unit};
 
-/// What is written of a grid.
+/// The file of a grid.
 pub(super) fn written(asked: &mut Asked<'_>) -> Result<Parts, Failure> {
     let (question, input) = (asked.question, asked.input);
     let (kind, id) = (question.kind, grid(input, question.grid.as_deref())?);
     let network = &input.netlist.network;
     let name = &network.grids()[id.index()].name;
-    // what is asked for is looked at before anything is computed
+    // the question is checked before anything is computed
     let shape = GridField::of(network, id, None);
     let cut = match &question.slice {
         Some(text) => Some(shape.cut(text).map_err(|error| no_slice(text, &error))?),
@@ -43,7 +43,7 @@ pub(super) fn written(asked: &mut Asked<'_>) -> Result<Parts, Failure> {
     Ok((bytes, name, None))
 }
 
-/// A line a cell: its name, the place of its middle, its temperature.
+/// One line per cell: its name, the place of its middle, its temperature.
 fn csv(field: &GridField, unit: &Unit) -> String {
     let mut number = Shortest::new();
     let mut out = format!("cell,x [m],y [m],z [m],T [{}]\n", unit.text);

@@ -1,8 +1,8 @@
-//! What a drawing is written as.
+//! Formats of a drawing.
 
 use std::path::Path;
 
-/// What a drawing is written as.
+/// Format of a drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Kind {
     /// A picture of lines.
@@ -16,7 +16,7 @@ pub enum Kind {
     Mermaid,
     /// A whole grid for ParaView.
     Vtk,
-    /// A whole grid, a line a cell.
+    /// A whole grid, one line per cell.
     Csv,
 }
 
@@ -35,17 +35,17 @@ impl Kind {
         if self == Self::Mermaid { "mmd" } else { self.key() }
     }
 
-    /// Whether it is of a grid only.
+    /// True if it is of a grid only.
     pub fn is_of_grid(self) -> bool {
         matches!(self, Self::Vtk | Self::Csv)
     }
 
-    /// Whether it is text that other programs are given through a pipe.
+    /// True if it is text that is piped into other programs.
     pub fn is_piped(self) -> bool {
         matches!(self, Self::Dot | Self::Mermaid | Self::Csv)
     }
 
-    /// That of a file by its ending.
+    /// The kind that belongs to the extension of a file.
     pub fn of_ending(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
         match ending.as_str() {

@@ -18,22 +18,22 @@ use crate::input::{self, Input};
 use crate::listener::Listener;
 use crate::operating_point::{at, steady};
 
-/// Pixels of a PNG for one of the drawing: 192 an inch.
+/// Pixels of a PNG per pixel of the drawing: 192 per inch.
 const SCALE: f64 = 2.0;
 
 /// The question for a drawing of a network, of its heat flows, or of the temperatures in a grid.
 #[derive(Clone, Debug, Default)]
 pub struct GraphQuestion {
-    /// What it is written as.
+    /// Format of the file.
     pub kind: Kind,
     /// The temperatures and heat flows on it.
     pub state: Drawn,
-    /// Whether heat flows are bands of their width.
+    /// True if heat flows are bands of their width.
     pub sankey: bool,
-    /// Whether each grid, instance and family is one box; `None` for yes if there are many nodes.
+    /// True if each grid, instance and family is one box; `None` for true if there are many nodes.
     pub group: Option<bool>,
-    /// The layer of a grid that is drawn, by number or place: `z=3`, `z=5 mm`; `None` for the
-    /// network, or the whole grid.
+    /// The layer of a grid that is drawn, by number or place: `z=3`, `z=5 mm`.
+    /// `None` for the network, or the whole grid.
     pub slice: Option<String>,
     /// The grid; `None` for the only one.
     pub grid: Option<String>,
@@ -41,7 +41,7 @@ pub struct GraphQuestion {
     pub temperature_unit: Option<String>,
 }
 
-/// Which temperatures and heat flows are drawn.
+/// Temperatures and heat flows that are drawn.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Drawn {
     /// None on the network; those of the steady state in grids and on bands.
@@ -61,13 +61,13 @@ pub struct GraphAnswer {
     pub bytes: Vec<u8>,
     /// Its usual name: `graph.svg`.
     pub name: String,
-    /// The groups that stand as one box, and how to have it otherwise.
+    /// Note on the groups that are one box each, and on the option against it.
     pub note: Option<String>,
     /// Doubts in the temperatures.
     doubts: Vec<Diagnostic>,
 }
 
-/// What is drawn, and in which unit.
+/// The question with its netlist and unit.
 struct Asked<'a> {
     question: &'a GraphQuestion,
     input: &'a Input,
@@ -76,7 +76,7 @@ struct Asked<'a> {
     doubts: Vec<Diagnostic>,
 }
 
-/// A file, its usual name, and what stands as one box.
+/// A file, its usual name, and a note on groups.
 type Parts = (Vec<u8>, String, Option<String>);
 
 impl GraphQuestion {
@@ -95,12 +95,12 @@ impl GraphQuestion {
         Ok(GraphAnswer { input, bytes, name, note, doubts })
     }
 
-    /// Whether a grid is drawn and not the network.
+    /// True if a grid is drawn instead of the network.
     pub fn is_of_grid(&self) -> bool {
         self.slice.is_some() || self.grid.is_some() || self.kind.is_of_grid()
     }
 
-    /// Whether temperatures and heat flows are drawn on the network.
+    /// True if temperatures and heat flows are drawn on the network.
     pub fn shows_state(&self) -> bool {
         self.sankey || self.state != Drawn::Usual
     }
@@ -119,7 +119,7 @@ impl GraphAnswer {
 }
 
 impl Asked<'_> {
-    /// The time that is asked for, else the steady state.
+    /// The state at the requested time, else the steady state.
     fn state(&mut self) -> Result<Snapshot, Failure> {
         let (state, doubts) = match &self.question.state {
             Drawn::At(text) => at(text, self.input, self.listener)?,
@@ -133,7 +133,7 @@ impl Asked<'_> {
         Ok(state)
     }
 
-    /// What is written of the network.
+    /// The file of the network.
     fn network(&mut self) -> Result<Parts, Failure> {
         let diagram = self.diagram()?;
         let (kind, sankey) = (self.question.kind, self.question.sankey);
@@ -176,7 +176,7 @@ fn picture(kind: Kind, scene: &Scene) -> Result<Vec<u8>, Failure> {
     png::write(scene, SCALE).map_err(|error| Failure::of(&error))
 }
 
-/// What stands as one box, and how to have it otherwise.
+/// Note on the groups that are one box each, and on the option against it.
 fn grouped(diagram: &Diagram, asked: bool) -> String {
     const SHOWN: usize = 6;
     let mut words: Vec<&str> = diagram.grouped.iter().take(SHOWN).map(String::as_str).collect();

@@ -11,7 +11,7 @@ use crate::input::Input;
 /// Terms below this share of the largest are rounding.
 const VISIBLE: f64 = 1e-9;
 
-/// So many terms are shown as they are; of more, as few as keep [`LIMIT`].
+/// Most terms that are shown as they are; of more, as few as keep [`LIMIT`].
 const SHOWN: usize = 12;
 
 /// The error over every load of the terms that are chosen, as a share of the settled rise.
@@ -23,28 +23,28 @@ const REAL: f64 = 1e-9;
 /// An impedance as elements.
 #[derive(Clone, Debug)]
 pub struct Chain {
-    /// Resistance in K/W and time constant in s of each term, fastest first; between two places
-    /// resistances may be negative.
+    /// Resistance in K/W and time constant in s of each term, fastest first.
+    /// Between two places resistances may be negative.
     pub terms: Vec<(f64, f64)>,
-    /// What comes at once in K/W.
+    /// Part of the rise that comes at once, in K/W.
     pub direct: f64,
-    /// The ladder, if that was asked for.
+    /// The ladder, if that was requested.
     pub ladder: Option<Cauer>,
-    /// How many terms there are.
+    /// Number of terms of the whole response.
     pub all: usize,
-    /// The largest error over every load in K/W, where there are fewer.
+    /// The largest error over every load in K/W, if there are fewer terms.
     pub error: Option<f64>,
 }
 
-/// What stands between a place that is heated and its own rise, as far as it is known.
+/// Step response of a place, as far as it is known.
 pub(super) struct Spectrum {
     pub(super) step: StepResponse,
-    /// Whether the place that answers is the one that is heated.
+    /// True if the place that responds is the heated one.
     own: bool,
 }
 
 impl Spectrum {
-    /// Of the modes at a node.
+    /// The response of the modes at a node.
     pub(super) fn of(answer: &StepAnswer, (node, own): (usize, bool)) -> Result<Self, Failure> {
         let terms: Vec<_> = answer.terms(node).collect();
         let size = |(_, weight): &(_, lptn_solve::Complex)| weight.norm();
@@ -65,7 +65,7 @@ impl Spectrum {
         Ok(Self { step: StepResponse { resistance, direct, terms, residual: 0.0 }, own })
     }
 
-    /// Of a large network of constants, by Lanczos iteration.
+    /// The response of a large network of constants, by Lanczos iteration.
     pub(super) fn of_large(
         input: &Input,
         system: &ThermalSystem,
@@ -77,7 +77,7 @@ impl Spectrum {
         Ok(Self { step: step.ok_or_else(at_once)?, own: true })
     }
 
-    /// As an R-tau table of so many terms, or as a ladder too.
+    /// An R-tau table of `count` terms, with a ladder if that is wanted.
     pub(super) fn chain(&self, count: Option<usize>, ladder: bool) -> Result<Chain, Failure> {
         if self.step.terms.is_empty() {
             return Err(at_once());
@@ -104,7 +104,7 @@ impl Spectrum {
         Nodes::of(&self.step, count).ok_or_else(|| too_close(count))
     }
 
-    /// As few as keep the limit.
+    /// The fewest terms that keep [`LIMIT`].
     fn enough(&self, all: usize) -> Result<Nodes, Failure> {
         let limit = LIMIT * self.step.resistance;
         let (found, _) = Nodes::enough(&self.step, &[], (limit, all));

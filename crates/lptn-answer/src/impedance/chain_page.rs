@@ -1,4 +1,4 @@
-//! How an R-tau table and a ladder are shown.
+//! Output of an R-tau table and a ladder.
 
 use std::io;
 
@@ -91,7 +91,7 @@ impl ImpedanceAnswer {
         table.done()
     }
 
-    /// What comes at once, where something does.
+    /// Note on the part of the rise that comes at once, if there is one.
     pub(super) fn chain_note(&self, chain: &Chain) -> Option<String> {
         let direct = significant(chain.direct, 5);
         (chain.direct > 0.0)
@@ -124,7 +124,7 @@ impl ImpedanceAnswer {
         };
         let axis = Axis::log("heat capacity up to there", "J/K");
         let mut panel = Panel::new(Axis::linear("resistance from the port", "K/W"), axis);
-        // the capacity of a rung stands in front of its resistance
+        // the capacity of a rung comes before its resistance
         let steps = |rung: &Rung| {
             let before = rung.resistances - rung.resistance;
             [(before, rung.capacities), (rung.resistances, rung.capacities)]

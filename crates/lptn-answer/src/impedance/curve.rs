@@ -1,15 +1,15 @@
-//! The answer of one node to a step, from whatever knows it.
+//! The response of one node to a step, from all modes or from a port.
 
 use lptn_reduce::StepResponse;
 use lptn_solve::StepAnswer;
 
 use super::chain::Spectrum;
 
-/// The answer of one node.
+/// The response of one node.
 pub(super) enum Curve<'a> {
-    /// Of all modes; the number of the node.
+    /// From all modes; the index of the node.
     Modes(&'a StepAnswer, usize),
-    /// Of those that a port sees.
+    /// From the modes that a port sees.
     Port(&'a StepResponse),
 }
 
@@ -38,7 +38,7 @@ impl Curve<'_> {
         }
     }
 
-    /// As [`StepAnswer::pulse`].
+    /// See [`StepAnswer::pulse`].
     pub(super) fn pulse(&self, length: f64, share: f64) -> f64 {
         match self {
             Self::Modes(answer, node) => answer.pulse(*node, length, share),

@@ -1,4 +1,4 @@
-//! Lists of times, frequencies and shares, and those that stand in for them.
+//! Lists of times, frequencies and shares, and their defaults.
 
 use std::f64::consts::TAU;
 
@@ -18,7 +18,7 @@ fn time(word: &str) -> Result<f64, Failure> {
     Ok(input::positive("--time", word, what)?.value)
 }
 
-/// Angular frequencies in rad/s; 0 is the answer that stays.
+/// Angular frequencies in rad/s; 0 is the steady response.
 pub(super) fn omegas(text: &str) -> Result<Vec<f64>, Failure> {
     ascending("--omega", text, text.split(',').map(|word| omega(word.trim())).collect())
 }

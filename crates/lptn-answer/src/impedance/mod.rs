@@ -1,4 +1,4 @@
-//! How a node answers heat or the temperature of a boundary: after a step, to pulses, by frequency.
+//! Response of a node to heat or a boundary temperature: after a step, to pulses, by frequency.
 
 mod chain;
 mod chain_page;
@@ -26,25 +26,25 @@ use crate::input::{Input, quoted};
 use crate::listener::Listener;
 use crate::operating_point::{self, OperatingPoint};
 
-/// The question how a node answers heat, or the temperature of a boundary.
+/// Asks for the response of a node to heat or to the temperature of a boundary.
 #[derive(Clone, Debug, Default)]
 pub struct ImpedanceQuestion {
-    /// The input: the name of a node or source for heat, of a boundary for its temperature. The
-    /// question needs it.
+    /// The input: the name of a node or source for heat, of a boundary for its temperature.
+    /// The question needs it.
     pub port: Option<String>,
-    /// The node that answers; `None` for the port, or what it heats.
+    /// The node that responds; `None` for the port, or for the node that it heats.
     pub to: Option<String>,
-    /// To what it answers, and in which form.
+    /// Input and form of the response.
     pub form: Form,
-    /// The state near which a network that is not linear is taken for a linear one, `steady` or a
-    /// time of its run; `None` for a network that is linear.
+    /// The state at which a nonlinear network is linearised, `steady` or a time of its run.
+    /// `None` for a network that is linear.
     pub at: Option<String>,
-    /// Whether a netlist of the answer is to be written. A form that has none is then refused
-    /// before anything is computed.
+    /// True if a netlist of the answer is to be written.
+    /// A form that has none is then refused before anything is computed.
     pub writes: bool,
 }
 
-/// To what a node answers, and in which form.
+/// Input and form of a response.
 #[derive(Clone, Debug)]
 pub enum Form {
     /// To a step, at times after it.
@@ -58,9 +58,9 @@ pub enum Form {
     Swing(Option<String>),
     /// To a step, as elements.
     Chain {
-        /// How many terms; `None` for as many as matter.
+        /// Number of terms; `None` for as many as matter.
         count: Option<usize>,
-        /// As a ladder of capacities and resistances; else as a sum of exponentials.
+        /// True for a ladder of capacities and resistances, false for a sum of exponentials.
         ladder: bool,
     },
 }
@@ -76,9 +76,9 @@ impl Default for Form {
 pub struct ImpedanceAnswer {
     input: Arc<Input>,
     question: ImpedanceQuestion,
-    /// What is put in.
+    /// Name of the input.
     name: String,
-    /// The node that answers.
+    /// Name of the node that responds.
     to: String,
     drive: Drive,
     /// The answer of the node.
@@ -94,8 +94,8 @@ impl ImpedanceQuestion {
     /// Asks a netlist.
     ///
     /// # Errors
-    /// A port or node that does not exist, a question that does not fit the netlist, and a network
-    /// that is not linear or has no answer.
+    /// A port or node that does not exist, and a question that does not fit the netlist.
+    /// A network that is not linear or has no answer.
     pub fn ask(
         &self,
         input: Arc<Input>,
@@ -126,7 +126,7 @@ impl ImpedanceQuestion {
         Ok(ImpedanceAnswer { input, question, name, to, drive, found, shares, point, tried })
     }
 
-    /// What the node does, and how far the linear network was tried.
+    /// The response of the node, and the check of the linear network.
     fn found(
         &self,
         (input, system, state): (&Input, &ThermalSystem, Option<&Snapshot>),
@@ -143,7 +143,7 @@ impl ImpedanceQuestion {
         Ok((posed.answer(step, shares)?, tried))
     }
 
-    /// The node that answers: the one that is named, else the port itself, or what a source heats.
+    /// The node that responds: the named one, else the port itself or the node that a source heats.
     fn to(&self, input: &Input, (drive, name): (Drive, &str)) -> Result<NodeId, Failure> {
         let network = &input.netlist.network;
         if let Some(name) = &self.to {
@@ -186,8 +186,7 @@ impl Answer for ImpedanceAnswer {
 }
 
 impl ImpedanceAnswer {
-    /// That times or frequencies are listed in another order than they were given in, or without
-    /// repetitions.
+    /// Note that times or frequencies are sorted, or listed without repetitions.
     pub fn reordered(&self) -> Option<String> {
         lists::reordered(&self.question.form)
     }
@@ -210,7 +209,7 @@ pub enum Found {
     },
     /// To a swing.
     Swing(Vec<Swung>),
-    /// As elements.
+    /// A chain of elements.
     Chain(Chain),
 }
 
@@ -242,7 +241,7 @@ fn drive(network: &Network, name: &str) -> Result<Drive, ReduceError> {
     }
 }
 
-/// Whether a node is what is heated.
+/// True if a node is the heated one.
 fn is_at(network: &Network, drive: Drive, to: NodeId) -> bool {
     match drive {
         Drive::Node(node) => node == to,

@@ -5,12 +5,12 @@ use lptn_network::is_name;
 use super::chain::Chain;
 use super::{Found, ImpedanceAnswer};
 
-/// Where the impedance ends.
+/// Name of the boundary at the end of the impedance.
 const END: &str = "reference";
 
 impl ImpedanceAnswer {
-    /// The table or the ladder as a netlist that runs, with 1 W into the port, whose rise is then
-    /// the impedance; `None` where the answer is neither.
+    /// The table or the ladder as a netlist that runs; `None` if the answer is neither.
+    /// It puts 1 W into the port, whose rise is then the impedance.
     pub fn netlist(&self) -> Option<String> {
         let Found::Chain(chain) = &self.found else { return None };
         Some(self.of_chain(chain))

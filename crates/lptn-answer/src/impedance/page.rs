@@ -1,4 +1,4 @@
-//! How an answer is shown.
+//! An impedance as a page.
 
 use std::io;
 

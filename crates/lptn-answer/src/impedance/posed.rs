@@ -1,4 +1,4 @@
-//! An impedance that is asked for of a network that is linear, or taken for that.
+//! An impedance of a network that is linear or taken for linear.
 
 use lptn_network::NodeId;
 use lptn_solve::{Drive, FrequencyResponse, Linearised, ModesError, ResponseError, StepAnswer};
@@ -9,11 +9,11 @@ use super::{Form, Found, ImpedanceQuestion, Stepped, Swung, failed, is_at, lists
 use crate::failure::Failure;
 use crate::input::Input;
 
-/// Shares of the time constants up to which the answer is shown, and from which on.
+/// Range that is shown, in shortest and longest time constants.
 const BEFORE: f64 = 0.1;
 const AFTER: f64 = 5.0;
 
-/// What is asked of a network that is linear, or taken for that.
+/// Question to a network that is linear or taken for linear.
 pub(super) struct Posed<'a> {
     pub(super) question: &'a ImpedanceQuestion,
     pub(super) input: &'a Input,
@@ -24,8 +24,8 @@ pub(super) struct Posed<'a> {
 }
 
 impl Posed<'_> {
-    /// The answer, given that to a step as far as it is known; `shares` are those of their periods
-    /// that pulses take.
+    /// The answer, from that to a step if it is known.
+    /// `shares` are the parts of their periods that pulses take.
     pub(super) fn answer(
         &self,
         step: Result<StepAnswer, ResponseError>,
@@ -43,7 +43,7 @@ impl Posed<'_> {
         }
     }
 
-    /// Whether the node that answers is what is heated.
+    /// True if the node that responds is the heated one.
     fn is_own(&self) -> bool {
         is_at(&self.input.netlist.network, self.drive, self.to)
     }
@@ -62,7 +62,7 @@ impl Posed<'_> {
         }
     }
 
-    /// What the port of a large network sees, without all of its modes.
+    /// The response of the port of a large network, without all of its modes.
     fn of_port(&self, shares: &[f64]) -> Result<Found, Failure> {
         let spectrum = Spectrum::of_large(self.input, self.linear.system(), self.to)?;
         match self.question.form {
@@ -105,7 +105,7 @@ impl Posed<'_> {
     }
 }
 
-/// Whether there are too many modes to have all of them.
+/// True if there are too many modes to compute all of them.
 fn is_large(error: &ResponseError) -> bool {
     matches!(error, ResponseError::Modes(ModesError::TooLarge { .. }))
 }

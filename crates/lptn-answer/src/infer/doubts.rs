@@ -1,4 +1,4 @@
-//! What is to be said about an inference beside its bands.
+//! Warnings about an inference in addition to its bands.
 
 use lptn_fit::infer::{Drift, InferredColumn, Start};
 use lptn_netlist::{Diagnostic, Observed};
@@ -6,13 +6,13 @@ use lptn_report::{duration, significant};
 
 use super::InferAnswer;
 
-/// A surprise of so many standard deviations is not chance.
+/// Surprise in standard deviations that is not chance.
 const FAR: f64 = 5.0;
 
-/// Readings that scatter so many times as far as was expected.
+/// Scatter of readings that is reported, over the expected one.
 const WIDE: f64 = 1.3;
 
-/// Neighbours that correlate by less make bands narrower than they should be by a tenth at most.
+/// Correlation of neighbours below which bands are too narrow by a tenth at most.
 const ALIKE: f64 = 0.08;
 
 pub(super) fn of(answer: &InferAnswer) -> Vec<Diagnostic> {
@@ -73,7 +73,7 @@ fn is_wide(column: &InferredColumn) -> bool {
     column.rms > WIDE
 }
 
-/// Whether neighbours are off together, and not by chance.
+/// True if neighbours are correlated, and not by chance.
 fn is_alike(column: &InferredColumn) -> bool {
     column.neighbours * (column.readings as f64).sqrt() > FAR && column.neighbours > ALIKE
 }

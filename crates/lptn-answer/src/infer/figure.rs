@@ -1,5 +1,5 @@
-//! An inference as a picture: each course with its band, and what was measured beside what the
-//! network comes to.
+//! An inference as a picture: each estimated time history with its band,
+//! and measured next to computed temperatures.
 
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Panel};
@@ -43,7 +43,7 @@ impl InferAnswer {
             let curve = Curve::line(name, points.collect()).within(ends.collect());
             panel.curves.push(curve.as_place(place));
         }
-        // a difference of two temperatures is none
+        // a difference of two temperatures is left out
         let columns = self.task.run.columns.iter().enumerate().take(MOST_CURVES);
         for (i, column) in columns.filter(|(_, column)| column.ty.absolute) {
             let times = self.task.run.times.iter().copied();

@@ -1,4 +1,4 @@
-//! Rows of a record that come one by one: each is answered at once.
+//! Rows of a record that arrive one by one and are answered at once.
 
 use std::sync::Arc;
 
@@ -14,11 +14,10 @@ use crate::input::Input;
 use crate::listener::Listener;
 use crate::words::difference;
 
-/// What the record is called.
+/// Name of the record.
 const STDIN: &str = "<stdin>";
 
-/// Whether a warning about the netlist counts: nothing is read of the rows of the record that it
-/// names.
+/// True if a warning counts: rows of the record that the netlist names are not read.
 pub(super) fn counts(study: &InferStudy, warning: &Diagnostic) -> bool {
     let file = study.reads.records.first().map(|own| own.record.file);
     warning.place().map(|place| place.file) != file
@@ -31,16 +30,16 @@ pub struct Following {
     lines: RecordLines,
     follower: Follower,
     shown: Shown,
-    /// Whether nothing was answered yet.
+    /// True if nothing was answered yet.
     first: bool,
 }
 
 /// Rows that were answered.
 #[derive(Debug)]
 pub struct FollowedRows {
-    /// Each row with its courses, their bands, temperatures and surprises.
+    /// Each row with its estimates, their bands, temperatures and surprises.
     pub table: Table,
-    /// Whether they are the first.
+    /// True if they are the first.
     pub first: bool,
 }
 
@@ -74,8 +73,8 @@ impl Following {
         Ok(Self { study, lines, follower, shown, first: true })
     }
 
-    /// Takes the next line of the record, with or without its line break; `None` if it answers no
-    /// row.
+    /// Takes the next line of the record, with or without its line break.
+    /// `None` if it answers no row.
     ///
     /// # Errors
     /// A line that cannot be read, and a run that fails.
@@ -98,7 +97,7 @@ impl Following {
         Ok(Some(FollowedRows { table: self.shown.table(&answers), first }))
     }
 
-    /// Ends it, where no more rows come.
+    /// Ends the record when no more rows come.
     ///
     /// # Errors
     /// A record without rows, a last line that cannot be read, and too few rows for an answer.
@@ -122,23 +121,23 @@ fn of_study(study: &InferStudy, row: &RecordRow) -> Row {
     Row { time: row.time, values: values.to_vec(), signals: signals.to_vec() }
 }
 
-/// How answers are shown.
+/// Names and units of answers.
 #[derive(Debug)]
 struct Shown {
     input: Arc<Input>,
     names: Vec<String>,
     units: Vec<Unit>,
-    /// The name of each column, and whether it measures a temperature and no difference of some.
+    /// The name of each column, and true if it measures a temperature, not a difference.
     columns: Vec<(String, bool)>,
-    /// Whether readings may be left out.
+    /// True if readings may be left out.
     drops: bool,
 }
 
 impl Shown {
-    /// Warnings of readings that nobody would expect. If there is one row, it stands in this line.
+    /// Warnings of unexpected readings. If there is one row, its line is named.
     fn unexpected(&self, answers: &[Followed], line: usize) -> Vec<Diagnostic> {
         let told = |row: &Followed, own: &Unexpected| {
-            // the first in a row tells of all that are taken in
+            // the first in a row reports for all that are accepted
             let say = own.left_out || own.in_a_row == 1 || own.in_a_row == 4 && self.drops;
             let line = if answers.len() == 1 { format!(", line {line}") } else { String::new() };
             say.then(|| self.warning(row.time, own, &line))

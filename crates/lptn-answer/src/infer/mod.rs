@@ -1,4 +1,4 @@
-//! Courses of heats, flows and film coefficients over time, from a record.
+//! Time histories of heats, flows and heat transfer coefficients, from a record.
 
 mod doubts;
 mod figure;
@@ -20,10 +20,10 @@ use crate::listener::Listener;
 
 pub use follow::{FollowedRows, Following};
 
-/// Which courses signals of a network had while a record was measured.
+/// Asks for the time histories of signals while a record was measured.
 #[derive(Clone, Debug, Default)]
 pub struct InferQuestion {
-    /// Which `[infer.NAME]`; `None` for the only one.
+    /// Name of the `[infer.NAME]`; `None` for the only one.
     pub study: Option<String>,
 }
 
@@ -35,16 +35,16 @@ pub struct InferenceOfRecord {
     task: InferTask,
 }
 
-/// Courses with their bands, and the temperatures that go with them.
+/// Time histories with their bands, and the temperatures that go with them.
 #[derive(Debug)]
 pub struct InferAnswer {
     input: Arc<Input>,
     study: InferStudy,
     /// The signals that were inferred, and the record.
     pub task: InferTask,
-    /// The courses, in SI units.
+    /// The time histories, in SI units.
     pub found: Inferred,
-    /// The unit in which each course is shown.
+    /// The unit in which each signal is shown.
     pub units: Vec<Unit>,
     doubts: Vec<Diagnostic>,
 }
@@ -68,7 +68,7 @@ impl InferQuestion {
         self.begin(input, listener)?.compute(listener)
     }
 
-    /// Reads the study, before anything is computed.
+    /// Reads the study in advance.
     ///
     /// # Errors
     /// A study that does not exist, and one that does not fit its network.
@@ -86,8 +86,8 @@ impl InferQuestion {
     /// Begins to follow a record whose rows come one by one.
     ///
     /// # Errors
-    /// A study that does not exist or does not fit its network, and one that leaves open how much a
-    /// course changes or how far a column scatters.
+    /// A study that does not exist or does not fit its network.
+    /// One that does not give the change of a signal or the scatter of a column.
     pub fn follow(&self, input: Arc<Input>, listener: &dyn Listener) -> Result<Following, Failure> {
         let study = self.study(&input)?;
         let own = input.netlist.warnings.iter().filter(|warning| follow::counts(&study, warning));
@@ -105,7 +105,7 @@ impl InferenceOfRecord {
     /// Computes it.
     ///
     /// # Errors
-    /// A run that fails, a course that the record does not feel, and an interruption.
+    /// A run that fails, a signal without effect on the record, and an interruption.
     pub fn compute(self, listener: &dyn Listener) -> Result<InferAnswer, Failure> {
         let Self { input, study, task } = self;
         let found = inferred(&task, &|step| listener.progress(step))
@@ -146,7 +146,7 @@ fn failed(input: &Input, study: &InferStudy, error: &InferError) -> Failure {
     input.failure(error, Some(span.unwrap_or(&study.span).clone()))
 }
 
-/// The unit of a signal: that of temperatures where it is one, else its own.
+/// The unit of a signal: that of temperatures if it is one, else its own.
 fn unit_of(input: &Input, sought: &Sought) -> Unit {
     let signals = input.netlist.network.signals();
     let Some(signal) = signals.iter().find(|signal| signal.name == sought.name) else {
@@ -167,12 +167,12 @@ impl InferAnswer {
         &self.input
     }
 
-    /// A value of a course in the unit in which it is shown.
+    /// A value of a signal in the unit in which it is shown.
     fn shown(&self, course: usize, si: f64) -> f64 {
         self.units[course].from_si(si)
     }
 
-    /// A difference of two.
+    /// A difference of two values of a signal in its unit.
     fn shown_difference(&self, course: usize, si: f64) -> f64 {
         si / self.units[course].scale
     }

@@ -23,7 +23,7 @@ const LINE: usize = 80;
 const TIME: usize = 9;
 const END: usize = 8;
 
-/// A walk is told by what it changes in so many s.
+/// A random walk is reported by its change in this time in s.
 const MINUTE: f64 = 60.0;
 
 impl Page for InferAnswer {
@@ -114,7 +114,7 @@ impl InferAnswer {
         self.found.courses.iter().all(|course| course.determined)
     }
 
-    /// Every moment: courses with the ends of their bands, temperatures with their deviations.
+    /// Every moment: signals with the ends of their bands, temperatures with their deviations.
     pub fn table(&self) -> Table {
         let rows: Vec<usize> = (0..self.found.times.len()).collect();
         let mut table = Table::of(&rows);
@@ -171,7 +171,7 @@ impl InferAnswer {
         table.into()
     }
 
-    /// When courses jump, and by how much.
+    /// Times and sizes of the jumps of signals.
     fn jumps(&self) -> TextTable {
         let by = |jump: &InferredJump| {
             let (value, error) = match self.task.sought[jump.course].positive {
@@ -197,13 +197,13 @@ impl InferAnswer {
             .into()
     }
 
-    /// The unit of a difference of values of a course.
+    /// The unit of a difference of values of a signal.
     fn difference_unit(&self, j: usize) -> &str {
         let unit = &self.units[j];
         if unit.ty.absolute { difference(unit) } else { symbol(&unit.text) }
     }
 
-    /// Of each course the mean, and what it is at the end.
+    /// Mean of each signal, and its value at the end.
     fn means(&self) -> TextTable {
         let all: Vec<usize> = (0..self.task.sought.len()).collect();
         let course = |j: usize| &self.found.courses[j];
@@ -224,7 +224,7 @@ impl InferAnswer {
             .into()
     }
 
-    /// The last value, with half of what its band is wide in standard deviations.
+    /// The last value, with the standard deviation that belongs to the width of its band.
     pub(super) fn at_end(&self, j: usize) -> Known {
         let band = &self.found.courses[j].band;
         let last = band[band.len() - 1];
@@ -253,7 +253,7 @@ impl InferAnswer {
             .into()
     }
 
-    /// The parameters with a `±`, with what was known of them and what is.
+    /// The parameters with a `±`, with their values before and after.
     pub(super) fn uncertain(&self) -> Vec<(String, lptn_units::Unit, Known, Known)> {
         let network = &self.input.netlist.network;
         let all = self.task.uncertain.iter().zip(&self.found.parameters);
@@ -323,7 +323,7 @@ impl InferAnswer {
         notes
     }
 
-    /// How much a course walks.
+    /// Text on the drift of a signal.
     fn smoothness(&self, j: usize) -> String {
         let (sought, course) = (&self.task.sought[j], &self.found.courses[j]);
         let shown = |coordinate: f64| match sought.positive {
@@ -349,11 +349,11 @@ impl InferAnswer {
         }
     }
 
-    /// Whether the record says that anything changes.
+    /// Text that says if the record shows a change.
     fn changes(&self, j: usize) -> String {
         /// Twice the logarithm of a ratio of likelihoods that chance exceeds in 5 of 100 records,
-        /// where nothing changes: half of them are 0 (S. G. Self, K.-Y. Liang, J. Am. Stat. Assoc.
-        /// 82 (1987) 605).
+        /// if nothing changes: half of them are 0 (S. G. Self, K.-Y. Liang, J. Am. Stat. Assoc. 82
+        /// (1987) 605).
         const CHANCE: f64 = 2.706;
         let name = &self.task.sought[j].name;
         let ratio = 2.0 * (self.found.log_likelihood - self.found.courses[j].still.1);

@@ -1,4 +1,4 @@
-//! Modes as a picture: how much each node takes part in each.
+//! Modes as a picture: participation of each node in each mode.
 
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Look, Panel};
@@ -23,7 +23,7 @@ impl ModesAnswer {
         panel.curves = shown
             .into_iter()
             .map(|node| {
-                // the fastest mode stands to the left
+                // the fastest mode is on the left
                 let points = modes.iter().rev();
                 let points = points.map(|mode| (mode.tau(), 100.0 * mode.participation[node]));
                 Curve::line(&nodes[node].name, points.collect()).looks(Look::Stems)

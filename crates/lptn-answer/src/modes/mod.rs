@@ -1,4 +1,4 @@
-//! The time constants of a network, and who takes part in each.
+//! The time constants of a network, and the nodes that take part in each.
 
 mod figure;
 mod page;
@@ -15,17 +15,17 @@ use crate::input::Input;
 use crate::listener::Listener;
 use crate::operating_point::{OperatingPoint, place};
 
-/// Modes that are shown unless said: all of up to so many, else the slowest so many.
+/// Default number of modes: all up to the first number, else the second, the slowest.
 const ALL_UP_TO: usize = 20;
 const OF_MORE: usize = 10;
 
 /// The question for the time constants of a network.
 #[derive(Clone, Debug, Default)]
 pub struct ModesQuestion {
-    /// How many, the slowest first; `None` for all of up to 20, or 10.
+    /// Number of modes, the slowest first; `None` for all of up to 20, or 10.
     pub count: Option<usize>,
-    /// The state near which a network that is not linear has these modes, `steady` or a time of
-    /// its run; `None` for a network that is linear.
+    /// The state at which a nonlinear network has these modes, `steady` or a time of its run.
+    /// `None` for a network that is linear.
     pub at: Option<String>,
 }
 
@@ -35,7 +35,7 @@ pub struct ModesAnswer {
     input: Arc<Input>,
     /// The slowest first.
     pub modes: Modes,
-    /// How many modes there are in all.
+    /// Number of modes in all.
     pub all: usize,
     /// The state whose small disturbances have these modes.
     point: Option<OperatingPoint>,
@@ -63,7 +63,7 @@ impl ModesQuestion {
     }
 }
 
-/// With the place of what makes a network not linear.
+/// A failure at the place that makes the network nonlinear.
 fn failed(input: &Input, error: &ModesError) -> Failure {
     let place = match error {
         ModesError::Linearised(error) => place(input, error),

@@ -13,18 +13,18 @@ use super::ModesAnswer;
 use crate::about::{self, Known};
 use crate::words::{MOST_NODES, count};
 
-/// Modes whose shapes stand side by side.
+/// Most modes whose shapes are next to each other.
 const MOST_SHAPES: usize = 6;
 
 /// Nodes named for each mode.
 const PARTNERS: usize = 3;
 
-/// Letters for them together and for a name, beside the other columns.
+/// Letters for all of them and for one name, next to the other columns.
 const PARTNERS_WIDTH: usize = 58;
 const PARTNER_WIDTH: usize = 44;
 
 impl ModesAnswer {
-    /// A line a mode: its time constant, and the nodes that take most part in it.
+    /// One line per mode: its time constant, and the nodes that take most part in it.
     fn overview(&self) -> TextTable {
         let modes: Vec<(usize, &Mode)> = (1..).zip(self.modes.modes()).collect();
         let mut table = TextTable::of(&modes)
@@ -62,7 +62,7 @@ impl ModesAnswer {
         text
     }
 
-    /// A line a node: its temperature in each of the slowest modes.
+    /// One line per node: its temperature in each of the slowest modes.
     fn shapes(&self) -> TextTable {
         let nodes: Vec<(usize, &Node)> =
             self.network().nodes().iter().take(MOST_NODES).enumerate().collect();
@@ -73,7 +73,7 @@ impl ModesAnswer {
         table.into()
     }
 
-    /// What the tables cannot say.
+    /// Notes on everything that the tables leave out.
     fn notes(&self) -> Vec<String> {
         let mut notes = self.findings();
         let (modes, nodes) = (self.modes.modes().len(), self.network().nodes().len());
@@ -87,7 +87,7 @@ impl ModesAnswer {
         notes
     }
 
-    /// What is worth knowing about the modes themselves.
+    /// Notes on the modes themselves.
     fn findings(&self) -> Vec<String> {
         let lasting = self.modes.modes().iter().filter(|mode| mode.rate == 0.0).count();
         let mut notes = Vec::new();
@@ -107,7 +107,7 @@ impl ModesAnswer {
         if self.modes.modes().iter().any(|mode| mode.rate < 0.0) {
             notes.push("a mode that grows: the network leaves this state by itself".to_owned());
         }
-        // conductances that switch are refused: what is left are sources and boundaries
+        // conductances that switch are refused, so these are sources and boundaries
         if let Some(kind) = EventKind::switching(self.network()).next() {
             let name = kind.name(self.network());
             notes.push(format!(

@@ -1,5 +1,4 @@
-//! A plan as a picture: how errors fall over the time that is measured, with more sensors, and by
-//! which run.
+//! A plan as a picture: errors over the measured time, over more sensors, and by run.
 
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Level, Look, Moment, Panel};
@@ -10,10 +9,10 @@ use super::PlanAnswer;
 /// Runs that are drawn, at most.
 const MOST_RUNS: usize = 12;
 
-/// Letters of a name beside its dots.
+/// Letters of a name next to its dots.
 const NAME: usize = 24;
 
-/// Errors so many times what is wanted, or the least there is, are not drawn.
+/// Errors above this multiple of the wanted one, or of the least one, are not drawn.
 const FAR: f64 = 100.0;
 
 const ERROR: &str = "error / wanted error";
@@ -54,7 +53,7 @@ impl PlanAnswer {
             let points = self.design.curve.iter();
             let points = points.map(|(seconds, errors)| (*seconds, self.ratio(known, errors)));
             let all: Vec<(f64, f64)> = points.collect();
-            // the first samples tell next to nothing
+            // the first samples determine next to nothing
             let least = all.iter().map(|point| point.1).fold(1.0, f64::min);
             all.into_iter().filter(|point| point.1 < FAR * least).collect()
         });

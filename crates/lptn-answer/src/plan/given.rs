@@ -1,4 +1,4 @@
-//! What the fits say of themselves whose records are there already.
+//! Doubts in fits whose records exist already.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use lptn_netlist::Diagnostic;
 use crate::fit::network::{FitNetworkAnswer, doubts as of_fit, verdict};
 use crate::input::Input;
 
-/// What is doubtful of them, each with the name of its fit.
+/// Doubts in them, each with the name of its fit.
 pub(super) fn doubts(input: &Arc<Input>, task: &DesignTask) -> Vec<Diagnostic> {
     task.given_fits.iter().flat_map(|given| of_one(input, given)).collect()
 }
@@ -18,7 +18,7 @@ fn of_one(input: &Arc<Input>, given: &GivenFit) -> Vec<Diagnostic> {
     let Some(study) = fits.iter().find(|fit| fit.name == given.name) else { return Vec::new() };
     let of = (Arc::clone(input), study.clone());
     let answer = FitNetworkAnswer::new(of, given.task.clone(), given.fit.clone());
-    // what the fit holds, the plan may look for
+    // the plan may estimate values that the fit keeps fixed
     let own =
         |doubt: &Diagnostic| !matches!(doubt.code, "fit::taken_as_exact" | "fit::other_posterior");
     let named = |words: &str| format!("fit `{}`, whose records are there: {words}", given.name);

@@ -1,4 +1,4 @@
-//! How to measure, so that parameters of a network are known to a given error.
+//! Measurements that determine parameters of a network to a given error.
 
 mod figure;
 mod given;
@@ -21,10 +21,10 @@ use crate::listener::Listener;
 use crate::taken;
 use crate::unseparated::{Named, names_and_units};
 
-/// Which sensors, which runs, and for how long.
+/// Asks for the sensors, the runs and their duration.
 #[derive(Clone, Debug, Default)]
 pub struct PlanQuestion {
-    /// Which `[plan.NAME]`; `None` for the only one.
+    /// Name of the `[plan.NAME]`; `None` for the only one.
     pub study: Option<String>,
 }
 
@@ -33,7 +33,7 @@ pub struct PlanQuestion {
 pub struct PlanAnswer {
     input: Arc<Input>,
     study: PlanStudy,
-    /// The sensors and runs that there could be, and the parameters that shall be known.
+    /// The possible sensors and runs, and the parameters that must be known.
     pub task: DesignTask,
     /// The measurement, with standard errors in SI units.
     pub design: Design,
@@ -120,7 +120,7 @@ impl PlanAnswer {
         Named { unknowns, names: &self.names, units: &self.units, values }
     }
 
-    /// Those of the fits whose records are there, and that parameters are taken as exact.
+    /// Doubts in the fits whose records exist, and in parameters that are taken as exact.
     fn found_doubts(&self) -> Vec<Diagnostic> {
         let (of, found) = ((&*self.input, &self.study), (&self.task, &self.design));
         let exact = taken::of_plan(of, found, &self.named());

@@ -19,7 +19,7 @@ use crate::words::{count, symbol};
 /// Runs that are shown, at most.
 const MOST_RUNS: usize = 12;
 
-/// Letters of a list of places beside the other columns.
+/// Letters of a list of places next to the other columns.
 const PLACES: usize = 24;
 
 impl Page for PlanAnswer {
@@ -160,7 +160,7 @@ fn next(answer: &PlanAnswer) -> TextTable {
     table.into()
 }
 
-/// What is known after the plan, of parameters and of sensors that it has.
+/// Errors after the plan, of parameters and of sensors that it has.
 fn unknowns(answer: &PlanAnswer) -> TextTable {
     let plan = answer.design.plan.as_ref();
     let (places, errors) =
@@ -205,7 +205,7 @@ impl PlanAnswer {
         table.done()
     }
 
-    /// Standard errors in SI units: `null` where nothing determines one.
+    /// Standard errors in SI units: `null` if nothing determines one.
     fn errors_of(&self, errors: &[f64], of: Option<&[usize]>) -> Value {
         let all: Vec<usize> = match of {
             Some(places) => self.concerned(places),

@@ -7,7 +7,7 @@ use super::PlanAnswer;
 use crate::unseparated::joined;
 use crate::words::{spaced, symbol};
 
-/// What stands where nothing is.
+/// Cell without a value.
 pub(super) const NOTHING: &str = "-";
 
 impl PlanAnswer {
@@ -16,7 +16,7 @@ impl PlanAnswer {
         si / self.units[i].scale
     }
 
-    /// "1.2 %" of the value, or "0.3 K" where its zero says nothing.
+    /// "1.2 %" of the value, or "0.3 K" if its zero is arbitrary.
     pub(super) fn part(&self, i: usize, si: f64) -> String {
         if !si.is_finite() {
             return NOTHING.to_owned();
@@ -32,13 +32,13 @@ impl PlanAnswer {
         format!("{}{}", significant(self.error(i, si), 2), spaced(symbol(&self.units[i].text)))
     }
 
-    /// Its size, where an error can be a part of it.
+    /// Its size, if an error can be a share of it.
     fn value_of(&self, i: usize) -> Option<f64> {
         let value = self.task.values[i].abs();
         (value > 0.0 && !self.task.unknowns[i].is_shift()).then_some(value)
     }
 
-    /// What shall be known of the first few.
+    /// The first few requirements.
     pub(super) fn few_known(&self) -> &[Known] {
         const MOST: usize = 3;
         &self.task.known[..self.task.known.len().min(MOST)]
@@ -53,7 +53,7 @@ impl PlanAnswer {
         &self.task.runs[run].name
     }
 
-    /// How long a run of so many samples is.
+    /// Duration of a run with this number of samples.
     pub(super) fn lasts(&self, samples: usize) -> String {
         duration(self.task.lasts(samples), 3)
     }
@@ -74,7 +74,7 @@ impl PlanAnswer {
         parts.iter().map(part).collect::<Vec<_>>().join(", then ")
     }
 
-    /// The unknowns that sensors at these places have to do with.
+    /// The unknowns that sensors at these places concern.
     pub(super) fn concerned(&self, places: &[usize]) -> Vec<usize> {
         let unknowns = &self.task.unknowns;
         (0..unknowns.len()).filter(|&i| self.task.concerns(&unknowns[i], places)).collect()
@@ -88,12 +88,12 @@ impl PlanAnswer {
         joined(&self.task.known.iter().map(one).collect::<Vec<_>>())
     }
 
-    /// What an unknown shall be known to.
+    /// The required error of an unknown.
     pub(super) fn target(&self, i: usize) -> Option<f64> {
         self.task.known.iter().find(|known| known.unknown == i).map(|known| known.error)
     }
 
-    /// Whether anything costs anything.
+    /// True if anything has a cost or the budget is finite.
     pub(super) fn has_costs(&self) -> bool {
         let task = &self.task;
         let places = task.places.iter().map(|place| place.cost);
@@ -102,7 +102,7 @@ impl PlanAnswer {
     }
 }
 
-/// A cost, or what a cell shows of it.
+/// A cost as text.
 pub(super) fn cost(value: f64) -> String {
     significant(value, 4)
 }

@@ -1,4 +1,4 @@
-//! What a plan says in words.
+//! Sentences of a plan.
 
 use lptn_fit::network::design::{DesignPlan, GivenFit, MOST_LEGS, Never};
 use lptn_report::significant;
@@ -47,7 +47,7 @@ pub(super) fn notes(answer: &PlanAnswer) -> Vec<(&'static str, String)> {
     notes
 }
 
-/// That columns of records which are there are off together, which a plan does not count.
+/// Note that columns of existing records share noise, which a plan does not count.
 fn shared(answer: &PlanAnswer) -> Option<String> {
     let of_fit = |given: &GivenFit| {
         let sizes = given.fit.shared_noise.iter().map(|shared| shared.correlation.abs());
@@ -64,7 +64,7 @@ fn shared(answer: &PlanAnswer) -> Option<String> {
     ))
 }
 
-/// What is hardly known: far from the values a network answers otherwise.
+/// Note on values that are hardly known: far from them a network responds differently.
 fn rough(answer: &PlanAnswer) -> Option<String> {
     const PART: f64 = 0.5;
     let plan = answer.design.plan.as_ref()?;
@@ -84,7 +84,7 @@ fn rough(answer: &PlanAnswer) -> Option<String> {
     (!all.is_empty()).then(|| format!("{} {are}, {why}", joined(&names)))
 }
 
-/// What a fit of the record takes as `sigma`, where sensors drift.
+/// The `sigma` for a fit of the record, if sensors drift.
 fn weights(answer: &PlanAnswer) -> Option<String> {
     let places = &answer.design.plan.as_ref()?.places;
     let drifting = places.iter().map(|&place| &answer.task.places[place]);
@@ -107,13 +107,13 @@ fn costs(answer: &PlanAnswer, plan: &DesignPlan) -> String {
     format!("{all}{of}: sensors {}, runs {runs}", cost(sensors))
 }
 
-/// Whether something that shall be known is not determined by any run with all sensors.
+/// True if some required value is not determined by any run with all sensors.
 fn is_lost(answer: &PlanAnswer, never: &Never) -> bool {
     let unknowns = &answer.task.unknowns;
     answer.task.known.iter().any(|known| !never.determines(&unknowns[known.unknown]))
 }
 
-/// What cannot be told apart, and what would help.
+/// Text on values that no run determines or distinguishes.
 fn lost(answer: &PlanAnswer, never: &Never) -> String {
     let (names, units) =
         names_and_units(&answer.input, &never.unknowns, &answer.task.record_names());
@@ -127,7 +127,7 @@ fn lost(answer: &PlanAnswer, never: &Never) -> String {
     parts.join("; ")
 }
 
-/// The last line: what to do, or why it does not help.
+/// The last line: the advice, or the reason why nothing helps.
 pub(super) fn verdict(answer: &PlanAnswer) -> String {
     if let Some(never) = answer.design.never.as_ref().filter(|never| is_lost(answer, never)) {
         return format!(
@@ -150,14 +150,14 @@ pub(super) fn verdict(answer: &PlanAnswer) -> String {
     format!("not reached: {}", short(answer, plan))
 }
 
-/// "alpha to 0.98 %", of what shall be known.
+/// "alpha to 0.98 %", for each required value.
 fn told(answer: &PlanAnswer, plan: &DesignPlan) -> String {
     let known = answer.task.known.iter().map(|known| known.unknown);
     let one = |i: usize| format!("{} to {}", answer.names[i], answer.part(i, plan.errors[i]));
     joined(&known.map(one).collect::<Vec<_>>())
 }
 
-/// Of what is not reached why, and what would help.
+/// Reasons why required errors are not reached, and remedies.
 fn short(answer: &PlanAnswer, plan: &DesignPlan) -> String {
     let known = answer.task.known.iter();
     let missed = known.filter(|known| plan.errors[known.unknown] > known.error);

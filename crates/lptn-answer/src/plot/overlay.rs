@@ -9,8 +9,8 @@ use super::source::Source;
 /// Height of the panel of residuals.
 const RESIDUALS: f64 = 0.4;
 
-/// One figure of all sources. Where there are several runs, a curve is named by its run; below a
-/// panel that has measured and computed values of the same name stand their differences.
+/// One figure of all sources. If there are several runs, a curve is named by its run.
+/// A panel with measured and computed values of the same name has their differences below it.
 pub fn overlay(sources: Vec<Source>) -> Figure {
     let runs = sources.iter().filter(|source| !source.measured).count();
     let several = sources.len() > 1;
@@ -54,7 +54,7 @@ fn named_apart(mut sources: Vec<Source>) -> Vec<Source> {
     sources
 }
 
-/// Names the curves by what they are of.
+/// Puts the name of the source before those of the curves.
 fn rename(figure: &mut Figure, source: &str) {
     if source.is_empty() {
         return;
@@ -68,7 +68,7 @@ fn is_same(a: &Panel, b: &Panel) -> bool {
     a.x == b.x && a.y == b.y
 }
 
-/// Puts what a panel shows into the one of the same axes, or below them all.
+/// Adds a panel to the one with the same axes, or below them all.
 fn join(panels: &mut Vec<Panel>, panel: Panel) {
     match panels.iter_mut().find(|other| is_same(other, &panel)) {
         Some(other) => {
@@ -95,14 +95,14 @@ fn add(curves: &mut Vec<Curve>, curve: Curve) {
     }
 }
 
-/// The same curve as it was computed, and its place.
+/// The computed curve of the same name, and its place.
 fn computed_of<'a>(name: &str, panel: &Panel, computed: &'a [Panel]) -> Option<(usize, &'a Curve)> {
     let here = computed.iter().find(|other| is_same(other, panel))?;
     let bare = name.rsplit(": ").next().unwrap_or(name);
     here.curves.iter().enumerate().find(|(_, curve)| curve.name == bare)
 }
 
-/// What was measured has the ink of what was computed.
+/// Gives measured curves the ink of the computed ones.
 fn matched(panel: &Panel, computed: &[Panel]) -> Panel {
     let mut panel = panel.clone();
     let places: Vec<Option<usize>> = panel

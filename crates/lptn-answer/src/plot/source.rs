@@ -13,7 +13,7 @@ use crate::failure::Failure;
 use crate::input::{self, RESULT, quoted};
 use crate::run::{RunAnswer, figure};
 
-/// The events among the results of a run, and what made them.
+/// The files of events and of the manifest among the results of a run.
 const EVENTS: &str = "events.csv";
 const MANIFEST: &str = "manifest.json";
 
@@ -31,9 +31,9 @@ pub struct Columns {
 pub struct Source {
     /// Its name next to others.
     pub name: String,
-    /// Its file or folder: two of one name are told apart by it.
+    /// Its file or folder, which distinguishes two of one name.
     pub path: PathBuf,
-    /// Whether it was measured.
+    /// True if it was measured.
     pub measured: bool,
     /// Its curves.
     pub figure: Figure,
@@ -83,12 +83,12 @@ impl Source {
     }
 }
 
-/// Whether a path is a record: a CSV file.
+/// True if a path is a record: a CSV file.
 pub fn is_record(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"))
 }
 
-/// Whether a path is neither results nor a record.
+/// True if a path is neither results nor a record.
 pub fn is_netlist(path: &Path) -> bool {
     !path.is_dir() && !is_record(path)
 }
@@ -104,7 +104,7 @@ fn no_result(path: &Path) -> Failure {
     Failure::refused("plot::no_result", message, help)
 }
 
-/// That results are not those of their manifest: one that was cut off reads as another.
+/// Warning that results differ from their manifest: a file that was cut off reads as another.
 fn not_as_written(folder: &Path, result: &Path) -> Option<Diagnostic> {
     let manifest = std::fs::read_to_string(folder.join(MANIFEST)).unwrap_or_default();
     let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap_or_default();
@@ -177,8 +177,8 @@ fn no_column(name: &str, record: &Record) -> Failure {
     )
 }
 
-/// What a run has written of its events; nothing where that cannot be read, since a picture does
-/// not depend on it.
+/// The events that a run has written; a picture does not depend on them.
+/// There are none if they cannot be read or are too many.
 fn events(path: &Path) -> Vec<Moment> {
     let Ok(text) = std::fs::read_to_string(path) else { return Vec::new() };
     let rows: Vec<Vec<&str>> = text.lines().skip(1).map(|line| line.split(',').collect()).collect();

@@ -1,4 +1,4 @@
-//! Which values a temperature answers most: what to change first.
+//! Ranking of values by their effect on a temperature.
 
 mod figure;
 mod page;
@@ -19,28 +19,28 @@ use crate::listener::Listener;
 use crate::operating_point;
 use crate::refused::{no_run, run_failed, steady_failed};
 
-/// Which temperature of a node is ranked.
+/// Temperature of a node that is ranked.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Over {
-    /// That of the steady state.
+    /// The one of the steady state.
     #[default]
     Steady,
     /// The highest of the run.
     Run,
 }
 
-/// Which values a temperature answers most.
+/// Asks which values affect a temperature most.
 #[derive(Clone, Debug, Default)]
 pub struct RankQuestion {
-    /// The node whose temperature answers; `None` for the hottest.
+    /// The node of the temperature; `None` for the hottest.
     pub node: Option<String>,
-    /// Which temperature of it.
+    /// The temperature of it that is ranked.
     pub over: Over,
     /// The unit of temperatures; `None` for that of the netlist.
     pub temperature_unit: Option<String>,
 }
 
-/// A ranking, and in which unit its temperatures are shown.
+/// A ranking, and the unit of its temperatures.
 #[derive(Debug)]
 pub struct RankAnswer {
     input: Arc<Input>,
@@ -103,7 +103,7 @@ fn node(input: &Input, name: &str) -> Result<NodeId, Failure> {
     input.netlist.network.node(name).map_err(|error| input.failure(&error, None))
 }
 
-/// With the place of what has no slope.
+/// A failure at the place of the value without a slope.
 fn failed(input: &Input, error: &RankError) -> Failure {
     match error {
         RankError::Steady(error) => steady_failed(input, error),
@@ -117,7 +117,7 @@ fn failed(input: &Input, error: &RankError) -> Failure {
 }
 
 impl RankAnswer {
-    /// The name of the node that answers.
+    /// The name of the node whose temperature is ranked.
     fn node(&self) -> &str {
         &self.input.netlist.network.nodes()[self.ranking.node.index()].name
     }

@@ -13,7 +13,7 @@ use super::RankAnswer;
 use crate::about::{self, Known};
 use crate::words::{MOST_NODES, some_of, spaced};
 
-/// Letters of a name beside the other columns.
+/// Letters of a name next to the other columns.
 const NAME_WIDTH: usize = 30;
 
 /// A feedback below this is not worth a sentence.
@@ -43,7 +43,7 @@ impl RankAnswer {
             .into()
     }
 
-    /// How far the network is from running away.
+    /// Text on the distance of the network from thermal runaway.
     fn comes_back(&self) -> Option<String> {
         let network = &self.input.netlist.network;
         let feedback = self.ranking.feedback.as_ref().filter(|f| f.gain > WEAK)?;

@@ -1,4 +1,4 @@
-//! Several nodes with paths between them, in place of a network.
+//! Several nodes with paths between them, instead of a network.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -24,19 +24,19 @@ use crate::failure::Failure;
 use crate::input::{self, Input};
 use crate::written;
 
-/// Most nodes that are tried where nobody says how many.
+/// Most nodes that are tried by default.
 const MOST: usize = 20;
 
-/// The question for some nodes, with paths between them, in place of a network.
+/// Asks for some nodes, with paths between them, instead of a network.
 #[derive(Clone, Debug)]
 pub struct KeepQuestion {
     /// The nodes to keep, at least one; a name counts once.
     pub keep: Vec<String>,
-    /// How many nodes stand for the network; `None` for as few as keep the limit.
+    /// Number of nodes that replace the network; `None` for the fewest that keep the limit.
     pub nodes: Option<usize>,
     /// The largest error of the run that is allowed: `0.5K`, `2%`.
     pub max_error: String,
-    /// The largest error over every load that is allowed in its place.
+    /// The largest error over every load that is allowed instead.
     pub error: Option<String>,
     /// The largest power of these loads, `250W`; `None` for the largest that a node sees.
     pub power: Option<String>,
@@ -50,13 +50,13 @@ pub struct KeptAnswer {
     pub(super) input: Arc<Input>,
     pub(super) question: KeepQuestion,
     system: ThermalSystem,
-    /// Names of the nodes asked for, each once.
+    /// Names of the requested nodes, each once.
     pub names: Vec<String>,
     /// The reduced network.
     pub kept: Kept,
-    /// Its errors at the nodes asked for.
+    /// Its errors at the requested nodes.
     pub errors: KeptErrors,
-    /// As many modes in place of the nodes.
+    /// The same number of modes instead of the nodes.
     pub projected: Projected,
     /// The largest power of the loads in W.
     pub power: f64,
@@ -139,7 +139,7 @@ impl KeepQuestion {
         }
     }
 
-    /// So many nodes, or the smallest number that keeps the limit, or the last that was tried.
+    /// The wanted number of nodes, or the least that keeps the limit, or the last that was tried.
     fn found(
         &self,
         (system, power): (&ThermalSystem, f64),
@@ -179,8 +179,8 @@ fn largest(
     Ok(if most > 0.0 { most } else { 1.0 })
 }
 
-/// Whether every node asked for is within the limit: over every load, or over the run where there
-/// is one. A limit in K says nothing of loads that nobody asked about.
+/// True if every requested node is within the limit, over the run or over every load.
+/// A limit in K says nothing about loads that no one requested.
 fn within(errors: &KeptErrors, allowed: Allowed, (every, power): (bool, f64)) -> bool {
     let loads = |(error, rise): &(f64, f64)| error * power <= allowed.of(rise * power);
     match &errors.run {
@@ -204,13 +204,13 @@ impl Answer for KeptAnswer {
 }
 
 impl KeptAnswer {
-    /// Whether the limit is kept.
+    /// True if the limit is kept.
     pub fn holds(&self) -> bool {
         let every = (self.question.error.is_some(), self.power);
         within(&self.errors, self.limit.allowed, every)
     }
 
-    /// Whether the error of the run is judged; else that over every load is.
+    /// True if the error of the run is judged, false if that over every load is.
     pub(super) fn judges_run(&self) -> bool {
         self.errors.run.is_some() && self.question.error.is_none()
     }
@@ -248,8 +248,8 @@ impl KeptAnswer {
         }
     }
 
-    /// The reduced network as a netlist that is going to stand at `place`, or beside that of the
-    /// whole network. It was read again and compared.
+    /// The reduced network as a netlist at `place`, or in the folder of the whole network.
+    /// It was read again and compared.
     ///
     /// # Errors
     /// A network that cannot be written.
@@ -271,8 +271,8 @@ impl KeptAnswer {
         written::proven(text, place.unwrap_or(Path::new(&self.input.text.name)), &network, run)
     }
 
-    /// How all temperatures follow from the kept ones, in rows of CSV. A row for each node has the
-    /// shares of kept nodes and boundaries, and the rise for each source in K/W.
+    /// Rows of CSV that give all temperatures by the kept ones.
+    /// A row per node has the shares of kept nodes and boundaries, and the rise per source in K/W.
     ///
     /// # Errors
     /// Weights that cannot be computed.
@@ -297,8 +297,8 @@ impl KeptAnswer {
         Ok(rows)
     }
 
-    /// That the error is larger than what is allowed: "too large: 2 nodes do not keep `a` and `b`:
-    /// they are 8 % (1.2 K) wrong, and 5% is allowed". `None` where it is not.
+    /// Message if the error is larger than allowed:
+    /// "too large: 2 nodes do not keep `a` and `b`: they are 8 % (1.2 K) wrong, and 5% is allowed".
     pub fn too_large(&self) -> Option<String> {
         let (verdict, limit) = (self.verdict(), &self.limit.text);
         (!self.holds()).then(|| format!("too large: {verdict}, and {limit} is allowed"))

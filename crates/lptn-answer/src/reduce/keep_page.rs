@@ -15,7 +15,7 @@ use crate::about::{self, Known};
 use crate::scale;
 use crate::words::count;
 
-/// So many conductances are shown.
+/// Most conductances that are shown.
 const MOST_LINKS: usize = 12;
 
 /// A node of the reduced network.
@@ -134,7 +134,7 @@ impl KeptAnswer {
             .into()
     }
 
-    /// The modes that stand for the network as well, at the nodes asked for.
+    /// The modes that replace the network as well, at the requested nodes.
     fn projected_json(&self) -> Value {
         let network = &self.input.netlist.network;
         let asked = &self.kept.nodes[..self.kept.asked];

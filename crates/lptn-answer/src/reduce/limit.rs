@@ -11,7 +11,7 @@ use crate::input;
 pub struct Limit {
     /// In K, or as a share of the rise.
     pub allowed: Allowed,
-    /// As it was written: `0.5K`, `2%`.
+    /// The limit as it was written: `0.5K`, `2%`.
     pub text: String,
 }
 

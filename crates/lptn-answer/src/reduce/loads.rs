@@ -1,4 +1,4 @@
-//! A few nodes in place of one, and the largest error over every load.
+//! A few nodes instead of one, and the largest error over every load.
 
 use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
@@ -14,7 +14,7 @@ use crate::failure::Failure;
 use crate::input;
 use crate::scale;
 
-/// Most nodes that are tried where a limit is to be kept.
+/// Most nodes that are tried to keep a limit.
 const MOST: usize = 20;
 
 /// Errors over every load at the port: all powers between 0 and the largest, in any order.
@@ -22,25 +22,25 @@ const MOST: usize = 20;
 pub struct Loads {
     /// The largest power in W.
     pub power: f64,
-    /// Whether the question gave it.
+    /// True if the question gave it.
     given: bool,
     /// The largest error over every load that is allowed, if one is given.
     pub limit: Option<Limit>,
-    /// The nodes that are judged and written; `None` if no number of them keeps the limit, or no
-    /// load can be judged.
+    /// The nodes that are judged and written.
+    /// `None` if no number of them keeps the limit, or no load can be judged.
     pub nodes: Option<Nodes>,
     /// Numbers of nodes that were not enough.
     pub short: Vec<Nodes>,
-    /// Their error of the run or of a step, where they are more than one node.
+    /// Their error of the run or of a step, if they are more than one node.
     pub error: Option<(Judge, Deviation)>,
-    /// The smallest number of nodes that keeps the limit where one node does not, with its error.
+    /// The smallest number of nodes that keeps the limit if one node does not, with its error.
     pub more: Option<(Nodes, Judge, Deviation)>,
 }
 
 /// The question, and the equations of the network.
 type Asked<'a> = (&'a ReduceQuestion, &'a ThermalSystem);
 
-/// The run that is compared, if one is, and the largest error of it that is allowed.
+/// The run that is compared, if there is one, and its largest allowed error.
 type Judging<'a> = (Option<&'a RunAnalysis>, Allowed);
 
 impl Loads {
@@ -122,7 +122,7 @@ impl Loads {
         nodes.worst.most() * self.power
     }
 
-    /// Whether the limit over every load is kept; `None` without one.
+    /// True if the limit over every load is kept; `None` without one.
     pub fn kept(&self) -> Option<bool> {
         self.limit.as_ref().map(|_| self.nodes.is_some())
     }
@@ -169,7 +169,7 @@ impl Loads {
 }
 
 impl ReduceAnswer {
-    /// What is said of every load.
+    /// Text on the errors over every load.
     pub(super) fn loads_text(&self) -> Text {
         let mut text = Text::new();
         let loads = &self.loads;
@@ -269,12 +269,12 @@ fn lengths((stretches, end): &(Vec<Stretch>, f64)) -> String {
     }
 }
 
-/// Whether what no load exceeds is rounding.
+/// True if the largest error over every load is rounding.
 fn exact(nodes: &Nodes) -> bool {
     nodes.worst.most() <= 1e-9 * nodes.ladder.resistance()
 }
 
-/// The largest heat at the port over the run, or at its start; 1 W where there is none.
+/// The largest heat at the port over the run, or at its start; 1 W if there is none.
 fn largest(
     (system, run): (&ThermalSystem, Option<&RunAnalysis>),
     reduction: &Reduction,

@@ -1,4 +1,4 @@
-//! One node, or a few, in place of a network, and their errors.
+//! One node, or a few, instead of a network, and their errors.
 
 mod figure;
 mod keep;
@@ -40,7 +40,7 @@ use crate::written;
 use near::Near;
 use refused::{failed, no_port, no_run};
 
-/// The question for one node, or a few, in place of a network that is seen from one of its nodes.
+/// Asks for one node, or a few, instead of a network that is seen from one of its nodes.
 #[derive(Clone, Debug)]
 pub struct ReduceQuestion {
     /// The node that the network is seen from. The question needs it.
@@ -51,19 +51,19 @@ pub struct ReduceQuestion {
     pub error: Option<String>,
     /// The largest power of these loads, `250W`; `None` for the largest that the port sees.
     pub power: Option<String>,
-    /// How many nodes; `None` for one, or for as few as keep `error`.
+    /// Number of nodes; `None` for one, or for the fewest that keep `error`.
     pub nodes: Option<usize>,
     /// The error by which a definition of `C_eq` is recommended.
     pub judge: Judge,
     /// The definition of `C_eq` to use; `None` for the recommended one.
     pub definition: Option<Definition>,
-    /// Whether one exponential is fitted to the run, to say what heat it implies.
+    /// True if one exponential is fitted to the run, to give the heat that it implies.
     pub bias: bool,
-    /// The time over which `least_squares` fits, `20s`; `None` for five of the slowest time
-    /// constants.
+    /// The time over which `least_squares` fits, `20s`.
+    /// `None` for five of the slowest time constants.
     pub window: Option<String>,
-    /// The state near which a network that is not linear is reduced, `steady` or a time of its
-    /// run; `None` for the whole network.
+    /// The state at which a nonlinear network is reduced, `steady` or a time of its run.
+    /// `None` for the whole network.
     pub at: Option<String>,
     /// The unit of temperatures; `None` for that of the netlist.
     pub temperature_unit: Option<String>,
@@ -99,9 +99,9 @@ pub struct ReduceAnswer {
     pub reduction: Reduction,
     /// Errors over every load, and the nodes that are judged and written.
     pub loads: Loads,
-    /// The heat that one exponential through the run implies, if that was asked for.
+    /// The heat that one exponential through the run implies, if it was requested.
     pub bias: Option<Result<Bias, FitError>>,
-    /// The state near which it stands for the network.
+    /// The state near which the reduction is valid.
     near: Option<Near>,
     /// The unit of temperatures.
     pub unit: Unit,
@@ -188,7 +188,7 @@ impl ReduceQuestion {
         options.into_iter().filter(|(asks, _)| *asks).map(|(_, option)| option)
     }
 
-    /// One exponential through the run, if that is asked for.
+    /// One exponential through the run, if that is requested.
     fn fitted(
         &self,
         system: &ThermalSystem,
@@ -223,7 +223,7 @@ impl ReduceAnswer {
         &self.port
     }
 
-    /// The pair that is judged and written: the one asked for, else the recommended one.
+    /// The pair that is judged and written: the requested one, else the recommended one.
     pub fn pair(&self) -> Option<&Pair> {
         let dynamics = self.reduction.dynamics.as_ref()?;
         let asked = self.loads.nodes.as_ref().and_then(|nodes| nodes.definition);
@@ -231,8 +231,8 @@ impl ReduceAnswer {
         Some(asked.unwrap_or(dynamics.best()))
     }
 
-    /// The error that is judged, and whether it is within the limit. A limit in K does not judge
-    /// the error of a step: `None`.
+    /// The error that is judged, and whether it is within the limit.
+    /// That is `None` for the error of a step, which a limit in K does not judge.
     pub fn judged(&self) -> Option<(Judge, Deviation, Option<bool>)> {
         let dynamics = self.reduction.dynamics.as_ref()?;
         if let Some((judge, error)) = self.loads.error {
@@ -244,8 +244,8 @@ impl ReduceAnswer {
         Some((judge, error, dynamics.collapses(pair)))
     }
 
-    /// The network of the nodes as a netlist that is going to stand at `place`, or beside that of
-    /// the whole network. It was read again and compared.
+    /// The network of the nodes as a netlist at `place`, or in the folder of the whole network.
+    /// It was read again and compared.
     ///
     /// # Errors
     /// A network that cannot be written, and one near a state.
@@ -283,8 +283,8 @@ impl ReduceAnswer {
         text
     }
 
-    /// That the error is larger than what is allowed: "too large: with C_eq by sum the error
-    /// reaches 1.2 K (8 %), and 5% is allowed". `None` if it is not, or if nothing is judged.
+    /// Message if the error is larger than allowed; `None` if it is not, or if nothing is judged.
+    /// "too large: with C_eq by sum the error reaches 1.2 K (8 %), and 5% is allowed".
     pub fn too_large(&self) -> Option<String> {
         if let Some(kept) = self.loads.kept() {
             return (!kept).then(|| format!("too large: {}", self.verdict()));
@@ -304,7 +304,7 @@ impl ReduceAnswer {
         Some(format!("too large: with {with} the error reaches {size}, and {limit} is allowed"))
     }
 
-    /// How many nodes are judged and written.
+    /// Number of nodes that are judged and written.
     pub fn count(&self) -> usize {
         self.loads.nodes.as_ref().map_or(1, Nodes::count)
     }
@@ -317,7 +317,7 @@ impl ReduceAnswer {
         }
     }
 
-    /// Whether it stands for the network near a state only.
+    /// True if the reduction is valid near a state only.
     pub fn is_near_a_state(&self) -> bool {
         self.near.is_some()
     }

@@ -12,7 +12,7 @@ use crate::input::Input;
 use crate::listener::Listener;
 use crate::operating_point::OperatingPoint;
 
-/// The state, and how far the linear network was tried from it.
+/// The state, and the check of the linear network near it.
 #[derive(Debug)]
 pub(super) struct Near {
     point: OperatingPoint,
@@ -30,7 +30,7 @@ impl Near {
         Ok(Self { point, tried: None })
     }
 
-    /// The reduction near it; the disturbance that is tried is what heat at the port makes.
+    /// The reduction near it. The disturbance for the check is the response to heat at the port.
     pub(super) fn reduce(
         &mut self,
         (system, port): (&ThermalSystem, NodeId),
@@ -44,7 +44,7 @@ impl Near {
         Ok(reduction)
     }
 
-    /// As [`OperatingPoint::passed`].
+    /// See [`OperatingPoint::passed`].
     pub(super) fn passed<T>(
         &self,
         found: Result<T, Failure>,
@@ -63,7 +63,7 @@ impl Near {
         &self.point.doubts
     }
 
-    /// How far it was tried.
+    /// Notes on the linearised network and its error.
     pub(super) fn notes(&self) -> Vec<String> {
         self.point.notes(self.tried)
     }

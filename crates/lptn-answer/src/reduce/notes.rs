@@ -1,4 +1,4 @@
-//! What has to be known beside the numbers of a reduction.
+//! Notes on a reduction in addition to its numbers.
 
 use lptn_reduce::{Definition, Dynamics, LeastSquaresWindow};
 use lptn_report::{duration, significant};
@@ -7,7 +7,7 @@ use super::ReduceAnswer;
 use crate::words::count;
 
 impl ReduceAnswer {
-    /// What has to be known beside the numbers.
+    /// Notes in addition to the numbers.
     pub(super) fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         if self.near.is_some() {
@@ -59,7 +59,7 @@ impl ReduceAnswer {
         short.into_iter().chain(self.notes().iter().map(|note| format!("note: {note}"))).collect()
     }
 
-    /// What is said of controls.
+    /// Note on controls.
     fn switched(&self) -> Option<String> {
         let network = &self.input.netlist.network;
         let stands = |id: lptn_network::ControlId| {
@@ -78,7 +78,7 @@ impl ReduceAnswer {
         })
     }
 
-    /// What is said of nodes that the port does not feel.
+    /// Note on nodes that heat from the port does not reach.
     fn apart(&self) -> Option<String> {
         let response = &self.reduction.norton.response;
         let reached = response.iter().filter(|rise| **rise > 0.0).count();
@@ -92,7 +92,7 @@ impl ReduceAnswer {
         })
     }
 
-    /// What is said of heat that does not go in at the port.
+    /// Note on heat that does not enter at the port.
     fn elsewhere(&self) -> Option<String> {
         let network = &self.input.netlist.network;
         let norton = &self.reduction.norton;
@@ -108,7 +108,7 @@ impl ReduceAnswer {
         })
     }
 
-    /// What is said of a run that ends before the network has settled.
+    /// Note on a run that is shorter than the slowest time constant.
     pub(super) fn short(&self, dynamics: &Dynamics) -> Option<String> {
         dynamics.tolerance?;
         let run = self.input.netlist.run.as_ref()?;
@@ -122,7 +122,7 @@ impl ReduceAnswer {
         })
     }
 
-    /// What is said of a port that leaps.
+    /// Note on a port whose rise jumps.
     fn at_once(&self, dynamics: &Dynamics) -> Option<String> {
         let step = dynamics.step.as_ref()?;
         let nearest = dynamics.pair(Definition::LeastSquares)?;
@@ -136,7 +136,7 @@ impl ReduceAnswer {
     }
 }
 
-/// What least squares fits.
+/// Note on the window of the least-squares fit.
 fn fitted(window: LeastSquaresWindow, dynamics: &Dynamics, near: bool) -> String {
     let length = duration(window.length(), 4);
     let fits = format!("least_squares fits the response to a step over {length}");
@@ -153,7 +153,7 @@ fn fitted(window: LeastSquaresWindow, dynamics: &Dynamics, near: bool) -> String
     }
 }
 
-/// What is said of modes that are too fast to be known.
+/// Note on modes that are too fast to be resolved.
 fn unresolved(dynamics: &Dynamics) -> Option<String> {
     let step = dynamics.step.as_ref()?;
     (step.residual > 1e-6 * step.resistance).then(|| {

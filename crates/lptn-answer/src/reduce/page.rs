@@ -73,7 +73,7 @@ impl Page for ReduceAnswer {
 }
 
 impl ReduceAnswer {
-    /// What the port sees in steady state.
+    /// Table of the equivalent that the port sees in steady state.
     fn equivalent(&self) -> TextTable {
         let network = &self.input.netlist.network;
         let (norton, inputs) = (&self.reduction.norton, &self.reduction.inputs);
@@ -111,7 +111,7 @@ impl ReduceAnswer {
             .into()
     }
 
-    /// Which pair to use, and why.
+    /// The recommended pair, and the reason.
     fn advice(&self, dynamics: &Dynamics) -> String {
         let pair = dynamics.best();
         let why = match (dynamics.recommended.by, pair.run, pair.step, dynamics.rise) {
@@ -192,7 +192,7 @@ fn signed(value: f64) -> String {
     if value > 0.0 { format!("+{text}") } else { text }
 }
 
-/// With its sign, also where it is positive.
+/// With its sign, also if it is positive.
 fn plus(value: f64, digits: usize) -> String {
     let text = fixed(value, digits);
     if value > 0.0 { format!("+{text}") } else { text }

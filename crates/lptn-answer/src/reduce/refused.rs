@@ -8,10 +8,10 @@ use crate::failure::{Failure, told};
 use crate::input::{Input, quoted};
 use crate::operating_point::place;
 
-/// So many nodes are named where none was.
+/// Most nodes that are named if no port is given.
 const MOST_NAMES: usize = 8;
 
-/// That an option is about the run, and the netlist has none.
+/// Failure of an option about the run, if the netlist has none.
 pub(super) fn no_run(input: &Input, option: &str) -> Failure {
     let message = format!("{} has no [run], which {option} is about", input.text.name);
     Failure::refused(
@@ -21,8 +21,7 @@ pub(super) fn no_run(input: &Input, option: &str) -> Failure {
     )
 }
 
-/// That nobody said from which node the network is seen: the first that a source heats is the
-/// likely one.
+/// Failure if no port is named. The first node that a source heats is the likely one.
 pub(super) fn no_port(input: &Input) -> Failure {
     let network = &input.netlist.network;
     let heated = network.sources().first().and_then(|source| source.into.first());
@@ -49,7 +48,7 @@ pub fn not_near_a_state(option: &str) -> Failure {
     Failure::refused("reduce::near", message, help)
 }
 
-/// What is wrong, with its place in the file or on the command line.
+/// A failure with its place in the file or on the command line.
 pub(super) fn failed(input: &Input, port: &str, error: &ReduceError) -> Failure {
     let network = &input.netlist.network;
     let at = match error {

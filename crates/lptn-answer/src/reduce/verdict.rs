@@ -1,4 +1,4 @@
-//! Whether one node, or a few, may stand for the network: the first line of the page.
+//! Verdict on one node, or a few, instead of the network: the first line of the page.
 
 use lptn_reduce::{Deviation, Judge};
 use lptn_report::{Standing, Text, duration, significant};
@@ -131,7 +131,7 @@ fn size(judge: Judge, error: &Deviation) -> (String, String) {
     (percent(error), of)
 }
 
-/// Whether what is left is rounding, or less than the runs that are compared know.
+/// True if the error is below 1e-8 of the rise, or nothing rises.
 fn is_exact(error: &Deviation) -> bool {
     error.relative.is_none_or(|relative| relative < 1e-8)
 }

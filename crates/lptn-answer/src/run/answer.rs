@@ -27,19 +27,19 @@ use crate::{about, bound, gaps, lumping, ranges, scale, trust};
 /// A run, as far as it came.
 #[derive(Debug)]
 pub struct RunAnswer {
-    /// What was asked.
+    /// The checked question.
     pub task: RunTask,
     /// The steady state of the same inputs.
     pub steady: Result<SteadyState, NoSteady>,
     /// Temperatures, heat flows, energy balance, and how far they can be trusted.
     pub solution: Trusted<Solution>,
-    /// How far its nodes are lumps.
+    /// Biot numbers and diffusion times of its nodes.
     pub lumping: Lumping,
     /// Why the run broke off.
     pub failure: Option<Diagnostic>,
-    /// How long the integration took, in s.
+    /// Duration of the integration in s.
     pub wall_time: f64,
-    /// The uncertainty of the results, if it was asked for.
+    /// The uncertainty of the results, if it was requested.
     pub uncertainty: Option<Result<Study, Failure>>,
     /// The selected columns, in the unit that is shown.
     pub table: Table,
@@ -65,8 +65,8 @@ impl Answer for RunAnswer {
 }
 
 impl RunAnswer {
-    /// What made the result: versions, inputs, parameters, counters, energy balance, limits.
-    /// `results` are the files written, `environment` is the only part that changes from run to run.
+    /// Record of the result: versions, inputs, parameters, counters, energy balance, limits.
+    /// `results` are the files written, only `environment` changes from run to run.
     pub fn manifest(&self, results: Vec<FileHash>, environment: Environment) -> Manifest {
         let settings = &self.task.settings;
         Manifest {
@@ -134,17 +134,17 @@ impl RunAnswer {
         network.parameters().iter().zip(network.parameter_ids()).map(record).collect()
     }
 
-    /// The uncertainty of the results, if it was asked for and is known.
+    /// The uncertainty of the results, if it was requested and is known.
     pub fn uncertainty(&self) -> Option<&Study> {
         self.uncertainty.as_ref()?.as_ref().ok()
     }
 
-    /// What became of the limits, in the order of the netlist.
+    /// Results of the limits, in the order of the netlist.
     pub fn limits(&self) -> Vec<LimitResult> {
         self.solution.limits().iter().map(LimitResult::of_run).collect()
     }
 
-    /// Where laws were not known.
+    /// Laws outside their ranges.
     pub(crate) fn out_of_range(&self) -> Option<Vec<Value>> {
         ranges::members(self.solution.network(), self.solution.out_of_range(), true)
     }
@@ -165,8 +165,8 @@ impl RunAnswer {
         }
     }
 
-    /// Doubts that no table shows: gaps in reports, values beyond sense, laws outside their ranges,
-    /// nodes that are not lumps.
+    /// Doubts that no table shows.
+    /// Gaps in reports, implausible values, laws outside their ranges, nodes that are not lumps.
     pub fn found(&self) -> Vec<Diagnostic> {
         let netlist = &self.task.input.netlist;
         let certain = self.uncertainty().map_or_else(Vec::new, |_| elsewhere(netlist));
@@ -180,7 +180,7 @@ impl RunAnswer {
         bound::doubts(&self.solution)
     }
 
-    /// The rows with their times in the unit that was asked for.
+    /// The rows with their times in the requested unit.
     pub fn shown_table(&self) -> Cow<'_, Table> {
         match self.task.clock.0 {
             None => Cow::Borrowed(&self.table),
@@ -212,7 +212,7 @@ impl RunAnswer {
         Verdict::of(&self.judgement(&self.limits()))
     }
 
-    /// Whether large families are shown as one row.
+    /// True if large families are shown as one row.
     pub(crate) fn folds(&self) -> bool {
         !self.task.chosen && self.task.detail < Detail::Verbose
     }
@@ -227,7 +227,7 @@ impl RunAnswer {
         reached.then(next).flatten()
     }
 
-    /// Why this is not a whole result, where it is not.
+    /// The failure, if this is not a whole result.
     pub fn failed(&self) -> Option<Failure> {
         let at = |exit, problem| Failure::at(exit, self.task.input.netlist.files.clone(), problem);
         if let Some(problem) = &self.failure {

@@ -1,4 +1,4 @@
-//! Events of a run: `events.csv`, JSON, and what a reader wants to know of controls.
+//! Events of a run: `events.csv`, JSON, and the use of controls.
 
 use lptn_network::{ControlId, Network};
 use lptn_report::{Clock, Shortest, Text, TextTable, fixed};
@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 
 use crate::words::MOST_NODES;
 
-/// As many events are shown.
+/// Most events that are shown.
 const SHOWN: usize = 6;
 
 /// The rows of `events.csv`.
@@ -39,16 +39,16 @@ pub(super) fn json(solution: &Solution) -> Value {
     solution.events().iter().map(one).collect()
 }
 
-/// How a control fared between the start and the end that was reached.
+/// Use of a control between the start and the end that was reached.
 struct Use {
     name: String,
     starts: usize,
     stops: usize,
     /// Mean time in s from one start to the next; `None` unless there are two.
     period: Option<f64>,
-    /// Part of the time that it was on; `None` where no time passed.
+    /// Part of the time that it was on; `None` if no time passed.
     duty: Option<f64>,
-    /// Whether it is on at the end.
+    /// True if it is on at the end.
     on: bool,
 }
 
@@ -78,8 +78,8 @@ impl Use {
     }
 }
 
-/// A section with a line for each control and the first events, from `start` on; nothing where
-/// nothing can switch.
+/// A section with a line for each control and the first events, from `start` on.
+/// Nothing if nothing can switch.
 pub(super) fn section(
     text: &mut Text,
     solution: &Solution,

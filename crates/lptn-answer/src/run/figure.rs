@@ -1,4 +1,4 @@
-//! A run as a picture: its columns over time, with limits, events and how sure it is.
+//! A run as a picture: its columns over time, with limits, events and uncertainty.
 
 use lptn_network::Network;
 use lptn_plot::Figure;
@@ -28,7 +28,7 @@ impl RunAnswer {
         Figure { title, note: self.note((left_out, undrawn), moments.is_empty()), panels }
     }
 
-    /// What is not shown.
+    /// Note on parts that are not shown.
     fn note(&self, (left_out, undrawn): (usize, usize), no_moments: bool) -> String {
         let mut notes = Vec::new();
         if left_out > 0 {
@@ -56,7 +56,7 @@ impl RunAnswer {
         notes.join("; ")
     }
 
-    /// Bands around the temperatures, where they are known.
+    /// Draws bands around the temperatures, if they are known.
     fn spread(&self, panel: &mut Panel) {
         let Some(study) = self.uncertainty().filter(|_| panel.y.name == TEMPERATURE) else {
             return;
@@ -75,7 +75,7 @@ impl RunAnswer {
     }
 }
 
-/// What switched and which limits were broken, unless it is too much to be told apart.
+/// Switches and broken limits, unless there are more than [`MOST_EVENTS`].
 fn moments(network: &Network, events: &[Event]) -> Vec<Moment> {
     if events.len() > MOST_EVENTS {
         return Vec::new();
@@ -87,7 +87,7 @@ fn moments(network: &Network, events: &[Event]) -> Vec<Moment> {
     events.iter().map(moment).collect()
 }
 
-/// What an event of this kind did.
+/// Word for the effect of an event of this kind.
 pub fn what(kind: &str, after: bool) -> &'static str {
     match (kind, after) {
         ("limit", _) => "broken",

@@ -1,4 +1,4 @@
-//! A command to try next, made of what the netlist holds.
+//! A command to try next, made from the netlist.
 
 use lptn_netlist::Netlist;
 use lptn_network::{Network, ParameterId, Value};
@@ -7,8 +7,8 @@ use lptn_units::{Dimension, Type};
 
 use crate::input::{Input, quoted};
 
-/// What a user of `lptn run` may want to know next: what heats the node that gets too hot; else the
-/// same with a fifth more heat, or five degrees warmer; else the steady state.
+/// The command to try after `lptn run`: the balance of the node that gets too hot.
+/// Otherwise the same run with a fifth more heat or five degrees warmer, else the steady state.
 pub(super) fn after_run(input: &Input, has_steady: bool, hot: Option<&str>) -> Option<String> {
     let file = input.typed()?;
     if let Some(node) = hot.filter(|_| has_steady) {
@@ -38,8 +38,8 @@ fn what_if(netlist: &Netlist) -> Option<String> {
         .or_else(|| changed(Type::ABSOLUTE_TEMPERATURE, |kelvin| (kelvin - 273.15 + 5.0, "degC")))
 }
 
-/// Whether a parameter is a constant of this type that can be changed by itself: a heat that
-/// conductances are made from as well would change the network with it.
+/// True if a parameter is a constant of this type that can be changed separately.
+/// A heat from which conductances are also made would change the network with it.
 fn is_constant(network: &Network, id: ParameterId, wanted: Type) -> bool {
     let parameter = &network.parameters()[id.index()];
     parameter.ty == wanted
@@ -48,13 +48,13 @@ fn is_constant(network: &Network, id: ParameterId, wanted: Type) -> bool {
         && (wanted.absolute || (network.parameter_value(id) > 0.0 && !shapes(network, id)))
 }
 
-/// Whether a limit depends on a parameter: another limit is no other network.
+/// True if a limit depends on a parameter: another limit does not make another network.
 fn limits(network: &Network, id: ParameterId) -> bool {
     let own = network.parameter_slot(id);
     network.limits().iter().any(|limit| limit.value.slots().contains(&own))
 }
 
-/// Whether other parameters or conductors depend on a parameter.
+/// True if other parameters or conductors depend on a parameter.
 fn shapes(network: &Network, id: ParameterId) -> bool {
     let own = network.parameter_slot(id);
     let uses = |value: &Value| value.slots().contains(&own);

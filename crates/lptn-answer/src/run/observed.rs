@@ -13,8 +13,8 @@ use crate::listener::Listener;
 use crate::refused::{explain, run_failed, unanswered};
 use crate::words::MOST_NODES;
 
-/// What is kept for these columns. Whether nodes with a length are lumps is judged in every row
-/// where heat flows are asked for, which takes all temperatures.
+/// Nodes to record for these columns. Heat flows need all of them if any node has a length:
+/// its Biot number is then checked in every row.
 pub fn record(network: &Network, selection: &Selection) -> RecordedNodes {
     let is_lump = |id| network.length(id).is_some();
     if selection.has_heat() && network.node_ids().any(is_lump) {
@@ -48,12 +48,12 @@ fn switches_nothing(error: &TransientError) -> bool {
     matches!(error, TransientError::Stopped { reason: StopReason::NothingSwitches, .. })
 }
 
-/// So many nodes are watched where families make few rows of them.
+/// Most nodes that are watched if families make few rows of them.
 const MOST_WATCHED: usize = 500;
 
-/// The nodes that a table shows: those selected, in the order of the file; unless any is, all but
-/// the cells of grids. Of too many the hottest in steady state, hottest first; where there is none,
-/// the first ones.
+/// The nodes that a table shows.
+/// They are the selected ones in the order of the file, by default all but the cells of grids. Of
+/// too many the hottest in steady state are left, hottest first, or without one the first.
 pub fn shown(
     network: &Network,
     selection: Option<&Selection>,

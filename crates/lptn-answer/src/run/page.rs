@@ -49,7 +49,7 @@ impl Page for RunAnswer {
         let uncertain = |study| uncertainty::text::notes(network, study, &self.task.unit);
         text.section().notes(self.uncertainty().into_iter().flat_map(uncertain));
         text.notes(notes(self, &nodes)).section();
-        // where a run breaks off, the integrals and the state are not those of one time
+        // if a run breaks off, the integrals and the state are not those of one time
         if !matches!(self.solution.end(), RunStatus::Failed(_)) {
             heat_over(&mut text, &self.solution, (span.1 - span.0, self.task.clock));
             if let Some(of) = self.solution.balance() {
@@ -102,8 +102,8 @@ impl Page for RunAnswer {
     }
 }
 
-/// Takes in the rows, since a network without state is not watched between them; and a peak that
-/// the tolerance cannot tell from the start or from the end is there.
+/// Includes the rows, since a network without state is not watched between them.
+/// A peak within 10 tolerances of the start or the end is taken to be there.
 fn include_rows(of: &RunAnswer, node: &mut NodeSummary) {
     let values = of.solution.temperature(node.node).unwrap_or_default();
     node.end = values
@@ -133,7 +133,7 @@ fn temperatures(of: &RunAnswer, nodes: &[NodeSummary]) -> TextTable {
     let temperatures =
         nodes.iter().flat_map(|n| [Some(n.start), Some(n.end), Some(n.peak.0), n.steady]);
     let (low, high) = range(temperatures.flatten());
-    // what the tolerance cannot tell from rest takes no decimals
+    // a span of up to 10 tolerances takes no decimals
     let span = Some(high - low).filter(|span| *span > 10.0 * settings.tolerance).unwrap_or(0.0);
     let digits = decimals(span / unit.scale, 3, 1);
     let number = |kelvin: f64| fixed(unit.from_si(kelvin), digits);
@@ -158,8 +158,8 @@ fn temperatures(of: &RunAnswer, nodes: &[NodeSummary]) -> TextTable {
         .into()
 }
 
-/// What is not a temperature of a node: every report, the values of grids, and the other columns
-/// that were asked for by name.
+/// Columns other than temperatures of nodes: every report, the values of grids, and columns
+/// that were requested by name.
 fn columns(of: &RunAnswer, text: &mut Text) {
     let network = of.solution.network();
     let is_report = |name: &str| network.reports().iter().any(|report| report.name == name);
@@ -212,7 +212,7 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
 }
 
-/// What the table cannot say.
+/// Notes on everything that the table leaves out.
 fn notes(of: &RunAnswer, nodes: &[NodeSummary]) -> Vec<String> {
     let mut notes: Vec<String> = Vec::new();
     let network = of.solution.network();
@@ -247,7 +247,7 @@ fn notes(of: &RunAnswer, nodes: &[NodeSummary]) -> Vec<String> {
     notes
 }
 
-/// The record ends before some node has come near its steady state.
+/// Note that the run ends before some node is near its steady state.
 fn short_record(nodes: &[NodeSummary]) -> Option<String> {
     let short = nodes.iter().filter(|n| n.time_to_95.is_none()).filter_map(NodeSummary::reached);
     let (least, most) = range(short);
@@ -266,7 +266,7 @@ fn over(length: f64, clock: Clock) -> String {
     format!("heat over {}:", clock.text(length, 4))
 }
 
-/// The heat of a run of this length in s, and how far the books close.
+/// The heat of a run of this length in s, and the residual of its energy balance.
 pub(crate) fn heat_over(text: &mut Text, solution: &Solution, (length, clock): (f64, Clock)) {
     let (network, ledger) = (solution.network(), solution.ledger());
     let sources = network.sources().iter().map(|s| s.name()).zip(&ledger.sources);
@@ -274,7 +274,7 @@ pub(crate) fn heat_over(text: &mut Text, solution: &Solution, (length, clock): (
         network.boundaries().iter().map(|b| Cow::from(&b.name)).zip(&ledger.boundaries);
     let flow = |(name, &heat): (Cow<'_, str>, &f64)| Flow { name: name.into_owned(), heat };
     let mut flows: Vec<Flow> = sources.chain(boundaries).map(flow).collect();
-    // one stream hands on what another brings: only all of them together say something
+    // streams pass heat to each other: only their sum is meaningful
     flows.push(Flow { name: "streams".into(), heat: ledger.streams.iter().sum() });
     let pieces = lptn_report::balance(&flows, ledger.stored.iter().sum(), ledger.turned_over);
     let over = over(length, clock);
@@ -292,7 +292,7 @@ pub(crate) fn heat_over(text: &mut Text, solution: &Solution, (length, clock): (
     text.sentence(&format!("{:width$}", "balance:"), &balance);
 }
 
-/// Who computed the temperatures, to what; with `-v` what it took. Nobody where nothing stores heat.
+/// Method and tolerance of the solver, with `-v` its counters; none if nothing stores heat.
 fn solver(of: &RunAnswer) -> Vec<String> {
     let method = match of.solution.method() {
         Some(Method::OneStep) => "one-step method",

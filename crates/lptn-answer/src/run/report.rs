@@ -1,4 +1,4 @@
-//! What the report of a run says besides: how far it can be trusted, and where the heat goes.
+//! Additions to the report of a run: how far it can be trusted, and its heat flows.
 
 use lptn_analysis::RunAnalysis;
 use lptn_network::{NodeId, ParameterId};
@@ -15,8 +15,8 @@ use crate::limits;
 const MOST_TANGENTS: usize = 2000;
 
 impl RunAnswer {
-    /// The sections of a report and its claims. What a parameter does is that of a run from the
-    /// start of the network: of a settled cycle it would be wrong.
+    /// The sections of a report and its claims.
+    /// Sensitivities hold for a run from the start of the network, not for a settled cycle.
     pub(crate) fn report(&self, from_start: bool) -> Report {
         let known = Known {
             claims: self.claims(),
@@ -30,7 +30,7 @@ impl RunAnswer {
         report
     }
 
-    /// The network at the times that were asked for, else at the end, and where it settles.
+    /// The network at the requested times, else at the end, and in steady state.
     fn states(&self) -> Vec<(String, Snapshot)> {
         let times = self.solution.times();
         let at = |time: &f64| self.solution.row_at(*time);
@@ -80,8 +80,8 @@ impl RunAnswer {
         claims
     }
 
-    /// How the hottest node changes with each parameter: its end, or its peak where something
-    /// switches, since then what is at one time depends on when that happened.
+    /// Sensitivity of the hottest node to each parameter, at its end.
+    /// If something switches, it is that of the peak: at its end the time of the switch matters.
     fn sensitivities(&self) -> Option<Sensitivities> {
         let (network, settings) = (self.solution.network(), &self.task.settings);
         let ids: Vec<ParameterId> = network.parameter_ids().collect();

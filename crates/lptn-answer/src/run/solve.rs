@@ -1,4 +1,4 @@
-//! Runs that were asked for.
+//! Requested runs.
 
 use std::sync::Arc;
 use std::time::Instant;
@@ -20,8 +20,8 @@ use crate::listener::{Listener, timed};
 use crate::refused::run_failed;
 
 impl RunQuestion {
-    /// Asks a netlist. A run that ends early is an answer with a failure: see
-    /// [`RunAnswer::failed`].
+    /// Asks a netlist.
+    /// A run that ends early is an answer with a failure: see [`RunAnswer::failed`].
     ///
     /// # Errors
     /// A question that does not fit the netlist, and a run that cannot start.

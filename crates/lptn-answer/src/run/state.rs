@@ -41,7 +41,7 @@ fn controls(solution: &Solution) -> Vec<StateControl<'_>> {
         .collect()
 }
 
-/// Where the temperatures at the start come from, if not from the netlist.
+/// Source of the temperatures at the start, if it is not the netlist.
 pub(super) fn origin(input: &Input) -> Option<String> {
     let state = input.netlist.initial()?;
     Some(format!("starts from {}, the state at {}", state.file, duration(state.time, 4)))

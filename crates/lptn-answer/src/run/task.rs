@@ -1,4 +1,4 @@
-//! A run that was asked for, checked before anything is computed.
+//! A requested run, checked in advance.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use crate::lumping::Detail;
 use crate::refused::{no_run, time_of_run};
 use crate::{balance, select};
 
-/// A run of a netlist, and what is shown of it.
+/// A run of a netlist, and the parts of it that are shown.
 #[derive(Clone, Debug)]
 pub struct RunQuestion {
     /// The tolerance, such as `1e-7K`; `None` for that of the netlist.
@@ -32,11 +32,11 @@ pub struct RunQuestion {
     pub at: Vec<String>,
     /// The format that will be read: a table needs peaks and the steady state, rows do not.
     pub format: Format,
-    /// Whether a report is wanted: it needs every node and the steady state.
+    /// True if a report is wanted: it needs every node and the steady state.
     pub report: bool,
-    /// How much a table shows.
+    /// Amount of detail in a table.
     pub detail: Detail,
-    /// The uncertainty of the results, if it is asked for.
+    /// The uncertainty of the results, if it is requested.
     pub uncertainty: Option<UncertaintyQuestion>,
 }
 
@@ -60,7 +60,7 @@ impl Default for RunQuestion {
 /// Why there is no steady state to show.
 #[derive(Debug)]
 pub enum NoSteady {
-    /// Nobody asks for it.
+    /// It was not requested.
     NotShown,
     /// The inputs change with time.
     Inputs,
@@ -77,7 +77,7 @@ pub struct RunTask {
     pub settings: RunSettings,
     /// The columns.
     pub selection: Selection,
-    /// Whether columns were asked for by name.
+    /// True if columns were requested by name.
     pub chosen: bool,
     /// The unit of temperatures.
     pub unit: Unit,
@@ -89,11 +89,11 @@ pub struct RunTask {
     pub balance: Option<End>,
     /// Times in s at which the report draws the network.
     pub at: Vec<f64>,
-    /// Whether a report is wanted.
+    /// True if a report is wanted.
     pub report: bool,
-    /// How much a table shows.
+    /// Amount of detail in a table.
     pub detail: Detail,
-    /// The uncertainty that is asked for.
+    /// The uncertainty that is requested.
     pub uncertainty: Option<UncertaintyQuestion>,
 }
 

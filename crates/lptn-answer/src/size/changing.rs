@@ -1,4 +1,4 @@
-//! Why a network whose inputs change with time is not sized, and what to write instead.
+//! Refusal to size a network whose inputs change with time, and what to write instead.
 
 use lptn_netlist::{Diagnostic, SizeStudy};
 use lptn_network::{Changing, Course, Item, Network, SignalId, list_of};
@@ -51,7 +51,7 @@ fn place(input: &Input, change: &Changing) -> Option<lptn_netlist::Span> {
     }
 }
 
-/// How the inputs become constant.
+/// Help to make the inputs constant.
 fn constant(network: &Network, changing: &[Changing]) -> String {
     let signal = changing.iter().find_map(|change| change.signal);
     match signal.and_then(|id| largest(network, id)) {
@@ -69,7 +69,7 @@ fn constant(network: &Network, changing: &[Changing]) -> String {
     }
 }
 
-/// The line that gives a signal of points its largest value for ever.
+/// The line that gives a signal of points its largest value at all times.
 fn largest(network: &Network, id: SignalId) -> Option<String> {
     let signal = &network.signals()[id.index()];
     let values = match &signal.course {

@@ -19,13 +19,13 @@ use crate::failure::Failure;
 use crate::listener::Listener;
 use crate::words::{count, unverified};
 
-/// What is not known.
+/// Cell of an unknown value.
 const NOTHING: &str = "-";
 
 /// The name of a part that is left out.
 const NO_PART: &str = "none";
 
-/// Rows of the table for people: what is cheaper and fails, and what is dearer and works.
+/// Rows of the table for people: cheaper choices that fail, and dearer ones that work.
 const MOST_CHEAPER: usize = 12;
 const MOST_DEARER: usize = 4;
 
@@ -56,7 +56,7 @@ pub(super) fn choose(
     Ok(Chosen { asked, choices, ids, scale })
 }
 
-/// What came of choosing parts.
+/// Result of choosing parts.
 #[derive(Debug)]
 pub(super) struct Chosen {
     pub(super) asked: Asked,
@@ -90,7 +90,7 @@ impl Chosen {
         self.choices.best.map(|best| &self.choices.judged[best])
     }
 
-    /// "HS-120 with F80"; a part called `none` is not told beside others.
+    /// "HS-120 with F80"; a part called `none` is left out next to others.
     fn parts(&self, choice: &Choice) -> String {
         let names = || {
             let parts = self.catalogues().iter().zip(&choice.parts);
@@ -107,8 +107,8 @@ impl Chosen {
         }
     }
 
-    /// The requirement that is broken by most, in shares of the largest margin that it has anywhere;
-    /// where all are kept the one that comes closest.
+    /// The requirement that is broken by most, in shares of its largest margin.
+    /// If all are kept, it is the closest one.
     fn worst(&self, choice: &Choice) -> usize {
         let shares = choice.margins().iter().zip(&self.scale).map(|(m, scale)| m / scale);
         shares.enumerate().min_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(i, _)| i)
@@ -119,9 +119,9 @@ impl Chosen {
         margin.map_or_else(|| NOTHING.to_owned(), |margin| self.kept().margin(i, *margin))
     }
 
-    /// Those that are shown to people: the last that are better by what is sought and fail, the
-    /// answer, and the first behind it that work. Where something is sized for each choice none that
-    /// fails is better: those that come closest stand last.
+    /// The choices that people see.
+    /// The last failing ones with a better objective, the answer, the first working ones after it.
+    /// If something is sized for each choice, the failing ones that come closest are last.
     fn shown(&self) -> Vec<&Choice> {
         let judged = &self.choices.judged;
         let Some(best) = self.choices.best else { return self.nearest() };
@@ -134,7 +134,7 @@ impl Chosen {
         }
     }
 
-    /// Of those that do not keep everything the ones that come closest.
+    /// The choices that break a requirement, the closest first.
     fn nearest(&self) -> Vec<&Choice> {
         let broken = self.choices.judged.iter().filter(|choice| !choice.keeps());
         let mut nearest: Vec<&Choice> = broken.collect();
@@ -185,7 +185,7 @@ impl Chosen {
         table.left("", |choice| self.word(choice)).judged(judged).into()
     }
 
-    /// What came of a choice in a word, or the code of the error of one that could not be judged.
+    /// Result of a choice in a word, or the code of the error if it could not be judged.
     fn word(&self, choice: &Choice) -> String {
         match (&choice.judged, self.best()) {
             (Err(error), _) => error.code().to_owned(),
@@ -315,8 +315,8 @@ impl Page for Chosen {
         text
     }
 
-    /// A row for each choice that was judged, the best first: parts, values in the units of the
-    /// files, margins in SI units.
+    /// A row for each choice that was judged, the best first.
+    /// It has parts, values in the units of the files, and margins in SI units.
     fn rows(&self) -> Rows<'_> {
         let mut table = Table::of(&self.choices.judged);
         for (k, catalogue) in self.catalogues().iter().enumerate() {

@@ -1,4 +1,4 @@
-//! What a cooling has to do, without a netlist.
+//! Requirements on a cooling, without a netlist.
 
 use std::io;
 
@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::input::quantity;
 use crate::messages;
 
-/// How much a coolant warms unless said otherwise.
+/// Default temperature rise of a coolant.
 const USUAL_RISE: &str = "10 K";
 
 /// The question for the resistance and the flow of a cooling. Quantities are text with units.
@@ -27,7 +27,7 @@ pub struct CoolingQuestion {
     pub limit: String,
     /// Temperature of the surroundings: `35 degC`.
     pub ambient: String,
-    /// How much a coolant warms on its way; `None` for 10 K.
+    /// Temperature rise of a coolant on its way; `None` for 10 K.
     pub rise: Option<String>,
     /// The words of the command that asked, for reports; empty if a program asked.
     pub command: Vec<String>,
@@ -74,7 +74,7 @@ pub struct CoolingAnswer {
     pub task: CoolingTask,
     /// The largest resistance, and the temperature difference over it.
     pub cooling: Cooling,
-    /// Properties and flow; the flow is `None` where the coolant would leave warmer than the limit.
+    /// Properties and flow; the flow is `None` if the coolant would leave warmer than the limit.
     air: Option<(Coolant, Option<CoolantFlow>)>,
     oil: Option<(Coolant, Option<CoolantFlow>)>,
     files: Files,
@@ -98,7 +98,7 @@ impl CoolingAnswer {
         )
     }
 
-    /// Name, value in SI units, unit; NaN for what there is not.
+    /// Name, value in SI units, unit; NaN for missing values.
     fn values(&self) -> [(&'static str, f64, &'static str); 6] {
         let resistance = if self.feasible() { self.cooling.resistance } else { f64::NAN };
         let flow = |of: Option<(Coolant, Option<CoolantFlow>)>| of.and_then(|(_, flow)| flow);
@@ -206,7 +206,7 @@ fn flow(of: Option<(Coolant, Option<CoolantFlow>)>) -> String {
 }
 
 fn properties(of: Option<(Coolant, Option<CoolantFlow>)>) -> String {
-    // of no use where there is no flow
+    // of no use without a flow
     of.filter(|(_, flow)| flow.is_some()).map_or(String::new(), |(coolant, _)| {
         let (cp, rho) = (significant(coolant.specific_heat, 4), significant(coolant.density, 4));
         format!("{cp} J/(kg K), {rho} kg/m^3")

@@ -1,4 +1,4 @@
-//! Sizing as a picture: what is left to every requirement over the range.
+//! Sizing as a picture: margins of every requirement over the range.
 
 use lptn_plot::Figure;
 use lptn_plot::figure::{Axis, Curve, Level, Look, Moment, Panel};
@@ -19,7 +19,7 @@ impl Sized {
         figure(&self.asked, (&|| self.across(), marked), |i| self.curve(i))
     }
 
-    /// The axis of the parameter; by logarithms where the range was looked at so.
+    /// The axis of the parameter; logarithmic if its values span more than [`WIDE`].
     fn across(&self) -> Axis {
         let values = self.sizing.looked_at.iter().map(|trial| self.unit.from_si(trial.value));
         let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(l, h), v| (l.min(v), h.max(v)));
@@ -41,7 +41,7 @@ impl Sized {
     }
 }
 
-/// What designs leave of every requirement over what is sought; the answer is marked.
+/// Margins of designs over the objective; the answer is marked.
 pub(super) fn designs(asked: &Asked, all: &[&Design], answer: Option<&Design>) -> Figure {
     let objective = &asked.study.objective;
     let across = || Axis::linear(&objective.text, objective.ty.dimension.si_unit());

@@ -1,4 +1,4 @@
-//! What has to be kept: every requirement, in every load case.
+//! Requirements to keep, in every load case.
 
 use lptn_netlist::{Netlist, Requirement, SizeStudy};
 use lptn_report::{Standing, TextTable, duration, plain, significant};
@@ -28,7 +28,7 @@ impl Kept {
         (0..self.requirements.len() * self.cases.len().max(1)).collect()
     }
 
-    /// The cases by name; none where the network is taken as it is.
+    /// The cases by name; none if the network is taken as it is.
     pub(super) fn cases(&self) -> &[String] {
         &self.cases
     }
@@ -52,7 +52,7 @@ impl Kept {
         self.requirement(i).ty.dimension.si_unit()
     }
 
-    /// As members of an object: what came of each.
+    /// The result of each requirement as an object.
     pub(super) fn members(&self, judged: &Judged) -> Vec<Value> {
         let one = |i: usize| {
             let at = judged.worst_at[i].map(|at| SiValue::new(at, "s"));
@@ -75,7 +75,7 @@ impl Kept {
         self.all().into_iter().map(one).collect()
     }
 
-    /// How margins scatter, and what the first order leaves out, where a probability is asked for.
+    /// Scatter of margins, and the error of the first order, if a probability is required.
     pub(super) fn doubt(&self, judged: &Judged) -> Option<String> {
         let most = |list: &[f64]| {
             let sizes = list.iter().enumerate().map(|(i, value)| (i, value.abs()));
@@ -93,8 +93,8 @@ impl Kept {
         ))
     }
 
-    /// What came of each: its margin, when that is least where `times` are shown, and whether it
-    /// binds.
+    /// The result of each requirement: its margin, with `times` the time of that, and a word:
+    /// broken, binds or kept.
     pub(super) fn table(
         &self,
         (judged, times): (&Judged, bool),

@@ -32,15 +32,15 @@ use crate::failure::{Failure, told};
 use crate::input::{Input, Studies};
 use crate::listener::Listener;
 
-/// The question for values of parameters, or for parts, that keep what a `[size.NAME]` requires.
+/// Asks for values of parameters, or for parts, that keep the requirements of a `[size.NAME]`.
 #[derive(Clone, Debug, Default)]
 pub struct SizeQuestion {
-    /// Which `[size.NAME]`; `None` for the only one.
+    /// Name of the `[size.NAME]`; `None` for the only one.
     pub name: Option<String>,
-    /// How many threads work; `None` for all of the machine. The answer is the same.
+    /// Number of threads; `None` for all of the machine. The answer is the same.
     pub threads: Option<usize>,
-    /// Whether the values are to be written into the netlist. Values that cannot be written are
-    /// then refused before anything is computed.
+    /// True if the values are to be written into the netlist.
+    /// Values that cannot be written are then refused in advance.
     pub writes: bool,
 }
 
@@ -56,8 +56,7 @@ enum Found {
 }
 
 impl SizeQuestion {
-    /// Asks a netlist. The listener hears its doubts before anything is computed, for that may
-    /// take a while.
+    /// Asks a netlist. The listener hears its doubts in advance.
     ///
     /// # Errors
     /// A study that does not exist, a question that does not fit the netlist, and a network that
@@ -85,7 +84,7 @@ impl SizeQuestion {
     }
 }
 
-/// What is asked.
+/// The question with its netlist.
 #[derive(Debug)]
 struct Asked {
     input: Arc<Input>,
@@ -94,7 +93,7 @@ struct Asked {
 }
 
 impl Asked {
-    /// Answers a question about what has to be kept.
+    /// Answers a question about the requirements.
     fn demand<T>(
         &self,
         listener: &dyn Listener,
@@ -133,7 +132,7 @@ fn parameter(input: &Input, study: &SizeStudy, name: &str) -> Result<ParameterId
     })
 }
 
-/// What a study seeks.
+/// The aim of a study.
 fn aim(study: &SizeStudy) -> Aim<'_> {
     let objective = &study.objective;
     Aim { value: &objective.value, goal: study.goal, of_results: objective.of_results }
@@ -175,7 +174,7 @@ impl SizeAnswer {
         }
     }
 
-    /// The name of the study, where the netlist has several.
+    /// The name of the study, if the netlist has several.
     pub fn one_of_several(&self) -> Option<&str> {
         let Asked { input, study, .. } = self.asked();
         (input.netlist.studies.sizes.len() > 1).then_some(study.name.as_str())
@@ -185,7 +184,7 @@ impl SizeAnswer {
     /// `None` if no values do.
     ///
     /// # Errors
-    /// A netlist that cannot be written, or that no digits make keep what is required.
+    /// A netlist that cannot be written, or that breaks a requirement with any number of digits.
     pub fn written(&self) -> Result<Option<Written>, Failure> {
         if self.no().is_some() {
             return Ok(None);

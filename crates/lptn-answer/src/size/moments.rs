@@ -1,4 +1,4 @@
-//! When requirements have to be kept: in steady state, over a run, in the settled cycle.
+//! Moments at which requirements are kept: in steady state, over a run, in the settled cycle.
 
 use lptn_netlist::{Netlist, Over, SizeStudy};
 use lptn_network::{Network, RunSettings};
@@ -10,13 +10,13 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::period;
 
-/// What to do where the period of a cycle is not known, and where nothing changes.
+/// Help if the period of a cycle is not known, and if nothing changes.
 const HELPS: [&str; 2] = [
     "give the time after which all inputs repeat: `period = \"10 min\"`",
     "write `over = \"steady\"`",
 ];
 
-/// Refuses a settled cycle whose period nobody knows.
+/// Refuses a settled cycle of unknown period.
 pub(super) fn check_period(input: &Input, study: &SizeStudy) -> Result<(), Failure> {
     let given = study.period(&input.netlist.network).is_ok_and(|period| period.is_some());
     if study.over == Over::Periodic && !given {
@@ -25,7 +25,7 @@ pub(super) fn check_period(input: &Input, study: &SizeStudy) -> Result<(), Failu
     Ok(())
 }
 
-/// Answers a question about what a study demands of a network.
+/// Answers a question about the demands of a study on a network.
 pub(super) fn demanded<T>(
     (netlist, study): (&Netlist, &SizeStudy),
     watcher: &Watcher<'_>,

@@ -1,4 +1,4 @@
-//! What came of sizing a parameter, as a page; words that all pages of sizes share.
+//! A sized parameter as a page, and words that all pages of sizes share.
 
 use std::io;
 
@@ -22,7 +22,7 @@ use crate::words::{spaced, unverified};
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;
 
-/// Digits of an edge, which stands beside a value that is near to it.
+/// Digits of an edge, which is next to a value near to it.
 const EDGE_DIGITS: usize = 8;
 
 impl Page for Sized {
@@ -99,7 +99,7 @@ impl Page for Sized {
     }
 }
 
-/// When it has to be kept: over which moments, and in which load cases.
+/// Text on the moments and the load cases in which requirements must be kept.
 pub(super) fn when(text: &mut Text, netlist: &Netlist, (study, kept): (&SizeStudy, &Kept)) {
     if let Some(over) = over(netlist, study) {
         text.sentence("", &over);
@@ -136,7 +136,7 @@ fn over(netlist: &Netlist, study: &SizeStudy) -> Option<String> {
     Some(format!("{when} the {what}{lasts}"))
 }
 
-/// What a network was solved for, in the plural.
+/// Noun for the solutions of a network, in the plural.
 pub(super) fn solved(over: Over) -> &'static str {
     match over {
         Over::Steady => "steady states",
@@ -152,7 +152,7 @@ pub(super) fn goal(goal: Goal) -> &'static str {
     }
 }
 
-/// What is sought as people read it.
+/// The objective as text.
 pub(super) fn sought(asked: &Asked, si: f64) -> String {
     let ty = asked.study.objective.ty;
     let degrees = input::temperature_unit(None, &asked.input.netlist).ok().filter(|_| ty.absolute);
@@ -167,7 +167,7 @@ pub(super) fn quantity(name: &str, si: f64, unit: &Unit) -> String {
     format!("{name} = {}{}", significant(unit.from_si(si), DIGITS), spaced(&unit.text))
 }
 
-/// The value, rounded so that what is shown keeps the requirements.
+/// The value, rounded so that the shown number keeps the requirements.
 fn value(answer: &Sized) -> String {
     let value = answer.unit.from_si(answer.sizing.trial.value);
     let shown = if matches!(answer.sizing.verdict, Verdict::Bound | Verdict::Edge) {
@@ -178,7 +178,7 @@ fn value(answer: &Sized) -> String {
     format!("{} = {shown}{}", answer.name, spaced(&answer.unit.text))
 }
 
-/// `value` with so many digits, rounded up or down.
+/// `value` with this number of digits, rounded up or down.
 pub(super) fn rounded(value: f64, digits: usize, up: bool) -> f64 {
     let text = |x: f64| format!("{x:.*e}", digits.saturating_sub(1));
     let read = |text: &str| text.parse::<f64>().unwrap_or(value);
@@ -200,7 +200,7 @@ fn requirements(answer: &Sized) -> TextTable {
     kept.table((&sizing.trial.judged, study.over != Over::Steady), binds)
 }
 
-/// What the table cannot say, each with its label.
+/// Notes on everything that the table leaves out, each with its label.
 fn notes(answer: &Sized) -> Vec<(&'static str, String)> {
     let (study, sizing) = (&answer.asked.study, &answer.sizing);
     let name = answer.name.as_str();
@@ -239,7 +239,7 @@ fn notes(answer: &Sized) -> Vec<(&'static str, String)> {
     notes
 }
 
-/// Where the network goes elsewhere, and what that does to the requirements.
+/// Text on the edge beyond which another steady state is reached, and the requirement that breaks.
 fn edge(answer: &Sized) -> Option<String> {
     let edge = answer.sizing.edge.as_ref()?;
     let value = significant(answer.unit.from_si(edge.value), EDGE_DIGITS);
@@ -292,11 +292,11 @@ pub(super) fn verdict(answer: &Sized) -> String {
     }
 }
 
-/// Whether the value stands at an end of the range.
+/// The end of the range at which the value is.
 fn end(answer: &Sized) -> Option<&'static str> {
     let (from, to) = answer.range;
     let value = answer.sizing.trial.value;
-    // in a range over decades the least end is near only for values of its own size
+    // in a range over decades only values of its size are near the least end
     let size = |end: f64| if end == 0.0 { to - from } else { end.abs().min(to - from) };
     let near = |end: f64| (value - end).abs() <= 1e-6 * size(end);
     match (near(from), near(to)) {

@@ -1,4 +1,4 @@
-//! Several parameters, and what is sought of them.
+//! Several parameters, and their objective.
 
 use std::io;
 
@@ -21,7 +21,7 @@ use crate::words::unverified;
 /// Digits of a value that is shown.
 const DIGITS: usize = 6;
 
-/// A value nearer to an end of its range than this share of it stands there.
+/// Relative distance from an end of its range within which a value is at the end.
 const AT_END: f64 = 1e-6;
 
 pub(super) fn size(
@@ -38,7 +38,7 @@ pub(super) fn size(
     Ok(Sized { asked, found, ranges, units })
 }
 
-/// What came of sizing several parameters.
+/// Result of sizing several parameters.
 #[derive(Debug)]
 pub(super) struct Sized {
     pub(super) asked: Asked,
@@ -151,7 +151,7 @@ impl Page for Sized {
         text
     }
 
-    /// One row: the values in their units, what is sought and the margins in SI units.
+    /// One row: the values in their units, the objective and the margins in SI units.
     fn rows(&self) -> Rows<'_> {
         let mut table = Table::of(&[()]);
         for (i, unit) in self.units.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! One parameter, of which the least or the largest value is sought.
+//! One parameter, as small or as large as possible.
 
 use lptn_netlist::Requirement;
 use lptn_network::ParameterId;
@@ -9,7 +9,7 @@ use super::{Asked, parameter};
 use crate::failure::Failure;
 use crate::listener::Listener;
 
-/// What came of sizing a parameter.
+/// Result of sizing a parameter.
 #[derive(Debug)]
 pub(super) struct Sized {
     pub(super) asked: Asked,

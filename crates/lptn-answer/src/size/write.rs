@@ -21,7 +21,7 @@ use crate::written::{can_be_written, with_numbers};
 /// Digits that are tried, the fewest first.
 const DIGITS: std::ops::RangeInclusive<usize> = 6..=17;
 
-/// Refuses before anything is computed what could not be written afterwards.
+/// Refuses a parameter that could not be written, before anything is computed.
 pub(super) fn possible(input: &Input, parameter: ParameterId) -> Result<(), Failure> {
     can_be_written(input, parameter, ["size::write", "size::write_shared"])
 }
@@ -48,8 +48,8 @@ fn no_number(which: &str, keep: &str) -> Failure {
     Failure::new(Exit::Failed, Diagnostic::error("size::write", message))
 }
 
-/// The netlist with several values in SI units, with as few digits as keep everything. Values of
-/// parts are exact.
+/// The netlist with several values in SI units, with as few digits as keep everything.
+/// Values of parts are exact.
 pub(super) fn of_all(
     Asked { input, study, .. }: &Asked,
     values: &[(ParameterId, f64)],
@@ -72,8 +72,8 @@ pub(super) fn of_all(
     Ok(Written { text, values: count(values.len(), "parameter") })
 }
 
-/// The number with the fewest digits whose netlist, read again from its text, keeps every
-/// requirement.
+/// The number with the fewest digits that keeps every requirement.
+/// Its netlist is read again from its text.
 fn proven(answer: &Sized) -> Option<String> {
     let netlist = &answer.asked.input.netlist;
     let written = netlist.written_number(answer.parameter)?;
@@ -87,7 +87,7 @@ fn proven(answer: &Sized) -> Option<String> {
     })
 }
 
-/// Whether a netlist stays inside the ranges of a study and keeps everything.
+/// True if a netlist stays inside the ranges of a study and keeps everything.
 fn keeps(name: &str, netlist: &Netlist) -> Option<bool> {
     let study = netlist.studies.sizes.iter().find(|study| study.name == name)?;
     let within = |&(id, (from, to)): &(ParameterId, (f64, f64))| {

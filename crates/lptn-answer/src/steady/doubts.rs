@@ -1,4 +1,4 @@
-//! What to know before a steady state is believed.
+//! Warnings to know before a steady state is believed.
 
 use lptn_analysis::LimitResult;
 use lptn_netlist::{Diagnostic, Netlist};
@@ -7,8 +7,8 @@ use lptn_report::{duration, significant};
 use lptn_solve::{Others, SteadyState};
 use lptn_units::Unit;
 
-/// That inputs change with time, what that means for the limits, and which verb looks at every
-/// time; `file` is the name of the netlist as it was typed.
+/// Warning that inputs change with time: its effect on limits, and a verb for all times.
+/// `file` is the name of the netlist as it was typed.
 pub fn inputs_vary(
     (netlist, file): (&Netlist, Option<&str>),
     steady: &SteadyState,
@@ -41,7 +41,7 @@ pub fn inputs_vary(
     Some(Diagnostic::warning("steady::inputs_vary", message))
 }
 
-/// The verb that looks at every time.
+/// The verb that solves every time.
 fn instead(netlist: &Netlist, file: Option<&str>) -> Option<String> {
     let file = file.unwrap_or("FILE");
     if matches!(netlist.network.repeat_period(), Ok(Some(_))) {
@@ -62,8 +62,8 @@ pub fn adiabatic(network: &Network, steady: &SteadyState) -> Option<Diagnostic> 
     (!names.is_empty()).then(|| Diagnostic::warning("steady::energy", message))
 }
 
-/// That the start decides where the network comes to rest, where that is known or cannot be
-/// excluded.
+/// Warning that the start decides which steady state is reached.
+/// It is given if that is known or cannot be excluded.
 pub fn others(network: &Network, steady: &SteadyState, unit: &Unit) -> Option<Diagnostic> {
     let warn = |code, message: String| Some(Diagnostic::warning(code, message));
     match &steady.others {

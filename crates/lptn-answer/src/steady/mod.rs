@@ -23,7 +23,7 @@ use crate::{balance, select, trust};
 
 pub use doubts::{adiabatic, inputs_vary, others};
 
-/// The temperatures at which a network settles.
+/// Asks for the steady state of a network.
 #[derive(Clone, Debug)]
 pub struct SteadyQuestion {
     /// Patterns of the columns, such as `*.T`; empty for all.
@@ -34,7 +34,7 @@ pub struct SteadyQuestion {
     pub balance: Option<String>,
     /// The format that will be read.
     pub format: Format,
-    /// How much a table shows.
+    /// Amount of detail in a table.
     pub detail: Detail,
 }
 
@@ -61,13 +61,13 @@ pub struct SteadyAnswer {
     pub table: Table,
     /// The unit of temperatures.
     pub unit: Unit,
-    /// What became of the limits, in the order of the netlist.
+    /// Results of the limits, in the order of the netlist.
     pub limits: Vec<LimitResult>,
-    /// The heat balance that was asked for.
+    /// The heat balance that was requested.
     pub balance: Option<Balance>,
-    /// Whether nothing was selected.
+    /// True if no columns were selected.
     pub all: bool,
-    /// Whether large families are one row.
+    /// True if large families are one row.
     fold: bool,
 }
 

@@ -19,8 +19,8 @@ use crate::{families, ranges, scale};
 
 use super::SteadyAnswer;
 
-/// Rises in K and heats in W below this are what rounding left over: no unit and no decimals are
-/// chosen to show them.
+/// Rises in K and heats in W below this are rounding.
+/// No unit and no decimals are chosen to show them.
 const NOISE: f64 = 1e-9;
 
 /// A temperature or heat flow with its value. Names are made for those that are shown.
@@ -48,7 +48,7 @@ impl Row {
         }
     }
 
-    /// Its name, and what has to be the same in a family.
+    /// Its name, and the kind that a family must share.
     fn family(self, network: &Network) -> (String, u8) {
         let kind = match self.of {
             Of::Item(Item::Node(_)) => 0,
@@ -61,7 +61,7 @@ impl Row {
         (self.label(network), kind)
     }
 
-    /// Its name; `T`, `Q` and `P` go without saying.
+    /// Its name without `T`, `Q` and `P`.
     fn label(self, network: &Network) -> String {
         match self.of {
             Of::Item(item) => network.name_of(item).into_owned(),
@@ -156,7 +156,7 @@ impl SteadyAnswer {
         sources.chain(paths).chain(joints).chain(boundaries).collect()
     }
 
-    /// Temperatures with their rise over the coldest boundary, hottest first where there are many.
+    /// Temperatures with their rise over the coldest boundary, hottest first if there are many.
     fn nodes(&self, rows: Vec<Row>, text: &mut Text) {
         let network = &self.input.netlist.network;
         let coldest = coldest(network, &self.steady).unwrap_or_default();
@@ -206,7 +206,7 @@ impl SteadyAnswer {
         }
     }
 
-    /// What a report says besides.
+    /// Claims and sections of a report.
     fn report(&self) -> Report {
         let (network, unit) = (&self.input.netlist.network, &self.unit);
         let (imbalance, moved) = (self.steady.imbalance(), self.steady.turned_over());
@@ -230,7 +230,7 @@ impl Page for SteadyAnswer {
         let kept: HashSet<&str> =
             self.table.columns().iter().map(|column| column.name.as_str()).collect();
         let keep = |row: &Row| self.all || kept.contains(row.column(network).as_str());
-        // cells and their paths are shown where they are asked for
+        // cells and their paths are shown on request
         let inside = !self.all && !network.grids().is_empty();
         self.nodes(self.temperatures(inside).into_iter().filter(keep).collect(), &mut text);
         self.heat_flows(self.flows(inside).into_iter().filter(keep).collect(), &mut text);

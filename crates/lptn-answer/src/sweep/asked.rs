@@ -1,4 +1,4 @@
-//! What is swept: the study with its columns, and what determines its rows.
+//! The question of a sweep: its study, its columns, and the settings that determine its rows.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -29,7 +29,7 @@ const STUDIES: Studies = Studies {
               points = 10 } }\nreport = { T = \"steel.T\" }",
 };
 
-/// A column of numbers: how it is called, and the unit of its cells.
+/// A column of numbers: its name and the unit of its cells.
 #[derive(Clone, Debug)]
 pub struct Column {
     /// Its name.
@@ -69,7 +69,7 @@ pub struct SweepAsked {
     pub shard: Option<Shard>,
     /// The cases that are solved, counted from 0.
     pub range: Range<u64>,
-    /// Whether a column counts laws outside the ranges in which they are known.
+    /// True if a column counts laws outside their ranges.
     pub ranged: bool,
 }
 
@@ -130,7 +130,7 @@ impl SweepAsked {
         self.task.cases().parameters().len()
     }
 
-    /// The folder of the files: that of the part, where it is one.
+    /// The folder of the files: that of the part, if it is one.
     pub fn folder(&self, output: Option<PathBuf>) -> PathBuf {
         let whole = output.unwrap_or_else(|| folder(&self.input, self.study()));
         self.shard.map_or(whole.clone(), |shard| whole.join(shard.folder()))
@@ -198,7 +198,7 @@ impl SweepAsked {
         about::hashes(&self.input.netlist)
     }
 
-    /// What the manifest says of the sweep.
+    /// Record of the sweep for the manifest.
     pub fn record(&self) -> Value {
         let (study, plan) = (self.study(), self.task.cases().plan());
         json!({

@@ -12,8 +12,8 @@ use super::tally::MOST_POINTS;
 const WIDE: f64 = 10.0;
 
 impl SweepAnswer {
-    /// One parameter: every report over it, a panel for each unit. Several: every report over the
-    /// first one as dots, one for each candidate, so that the front of what is possible is seen.
+    /// One parameter: every report over it, a panel for each unit.
+    /// Several: every report over the first one as dots, so that the Pareto front is visible.
     pub(super) fn figure(&self) -> Figure {
         let rows: Vec<&Row> =
             self.tally.points.iter().filter(|row| row.failed.is_empty()).collect();

@@ -2,10 +2,10 @@
 
 use super::row::Row;
 
-/// Those of the rows so far, by the first report upwards, the second falling; of equals the first.
+/// The front of the rows so far, first report rising and second falling; of equal rows the first.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Front {
-    /// The places of the two reports among the numbers of a row; `None` where nothing is asked.
+    /// The places of the two reports among the numbers of a row; `None` without a question.
     places: Option<[usize; 2]>,
     rows: Vec<Row>,
 }
@@ -55,8 +55,7 @@ impl Front {
 mod tests {
     use super::{Front, Row};
 
-    /// Whatever the order, and in however many parts, the front is what a comparison of every pair
-    /// says.
+    /// In any order and any number of parts, the front equals that of a comparison of every pair.
     #[test]
     fn a_front_is_what_no_other_betters() {
         let mut state = 1_u64;

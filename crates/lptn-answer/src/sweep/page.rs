@@ -20,13 +20,13 @@ use crate::words::{MOST_NODES, count, some_of, spaced};
 /// Digits of a value that is shown.
 const DIGITS: usize = 5;
 
-/// So many parameters are shown; the file has all.
+/// Most parameters that are shown; the file has all.
 const MOST_AXES: usize = 12;
 
-/// So many candidates are listed one by one.
+/// Most candidates that are listed one by one.
 const FEW: u64 = 20;
 
-/// Where the rows are.
+/// Place of the rows.
 #[derive(Debug)]
 pub enum Rows {
     /// In a file.
@@ -38,11 +38,11 @@ pub enum Rows {
 /// A sweep that is done.
 #[derive(Debug)]
 pub struct SweepAnswer {
-    /// What was asked.
+    /// The question.
     pub asked: SweepAsked,
     /// Extremes, failures and the front.
     pub tally: Tally,
-    /// Where the rows are.
+    /// Place of the rows.
     pub rows: Rows,
 }
 
@@ -70,7 +70,7 @@ impl SweepAnswer {
         &self.asked.columns[self.asked.axes()..]
     }
 
-    /// What the sweep is, in one sentence.
+    /// The sweep in one sentence.
     fn sentence(&self) -> String {
         let study = self.asked.study();
         let names: Vec<&str> = self.axes().iter().map(|axis| axis.name.as_str()).collect();
@@ -145,7 +145,7 @@ impl SweepAnswer {
         table.into()
     }
 
-    /// Every candidate, where there are few.
+    /// Every candidate, if there are few.
     fn list(&self) -> TextTable {
         let rows = &self.tally.points;
         let number = |row: &Row, place: usize| match row.numbers[place] {

@@ -5,7 +5,7 @@
 pub struct Row {
     /// The case, counted from 0.
     pub case: u64,
-    /// Axes, then reports, in the units that are shown; NaN for what is not known.
+    /// Axes, then reports, in the units that are shown; NaN for unknown values.
     pub numbers: Vec<f64>,
     /// Laws outside the ranges in which they are known.
     pub outside: u64,

@@ -9,12 +9,12 @@ use std::str::FromStr;
 pub struct Shard {
     /// Its number, from 1.
     pub k: u64,
-    /// How many parts there are.
+    /// Number of parts.
     pub n: u64,
 }
 
 impl Shard {
-    /// The cases of this part of so many, counted from 0.
+    /// The cases of this part, out of `cases`, counted from 0.
     pub fn range(self, cases: u64) -> Range<u64> {
         let at = |k: u64| {
             let place = u128::from(cases) * u128::from(k) / u128::from(self.n);
@@ -28,7 +28,7 @@ impl Shard {
         format!("part-{}-of-{}", self.k, self.n)
     }
 
-    /// The part whose folder is called this.
+    /// The part of the folder with this name.
     pub fn of_folder(name: &str) -> Option<Self> {
         let (k, n) = name.strip_prefix("part-")?.split_once("-of-")?;
         let shard = format!("{k}/{n}").parse().ok()?;

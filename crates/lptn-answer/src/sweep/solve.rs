@@ -1,4 +1,4 @@
-//! Solves the candidates, several at a time, and hands on their rows in order.
+//! Solves the candidates, several at a time, and passes on their rows in order.
 
 use std::ops::{ControlFlow, Range};
 
@@ -13,8 +13,8 @@ use super::tally::Tally;
 use crate::failure::Failure;
 use crate::listener::Listener;
 
-/// Rows that a thread solves at a time: of small linear networks, and of steady states. Those of
-/// other runs are handed on one by one.
+/// Rows that a thread solves at a time: of small linear networks, and of steady states.
+/// Those of other runs are passed on one by one.
 const LINEAR: u64 = 1024;
 const STEADY: u64 = 16;
 
@@ -22,7 +22,7 @@ const STEADY: u64 = 16;
 struct Chunk {
     text: Vec<u8>,
     tally: Tally,
-    /// Whether an interruption ended it before its last row.
+    /// True if an interruption ended it before its last row.
     interrupted: bool,
 }
 
@@ -30,8 +30,8 @@ struct Chunk {
 pub type Sink<'a> = dyn FnMut(&[u8]) -> Result<(), Failure> + 'a;
 
 impl SweepAsked {
-    /// Solves the cases from `from` on and hands their rows to `sink`, in order; true if an
-    /// interruption ended it early.
+    /// Solves the cases from `from` on and passes their rows to `sink`, in order.
+    /// True if an interruption ended it early.
     ///
     /// # Errors
     /// The first error of `sink`.

@@ -1,4 +1,4 @@
-//! What is kept of all rows, however many there are.
+//! Summary of all rows, however many there are.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ pub(super) struct Span {
     pub(super) largest: Option<Row>,
 }
 
-/// How many there were, and the first of them.
+/// Number of rows of a kind, and the first of them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Count {
     pub(super) count: u64,
@@ -31,11 +31,11 @@ impl Count {
     }
 }
 
-/// What is kept of the rows so far.
+/// Summary of the rows so far.
 #[derive(Clone, Debug)]
 pub struct Tally {
     axes: usize,
-    /// Every so manieth row is kept.
+    /// One row out of this many is kept.
     stride: u64,
     /// Rows so far.
     pub rows: u64,
@@ -47,7 +47,7 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Of so many axes and reports, of two of which the front is asked for.
+    /// An empty summary for these axes and reports, with a front of two reports if wanted.
     pub(super) fn new(
         (axes, reports): (usize, usize),
         front: Option<[usize; 2]>,
@@ -92,7 +92,7 @@ impl Tally {
         }
     }
 
-    /// Takes in what was kept of the rows that follow.
+    /// Adds the summary of the rows that follow.
     pub(super) fn append(&mut self, later: Self) {
         self.rows += later.rows;
         self.points.extend(later.points);
@@ -131,7 +131,7 @@ impl Tally {
         }
     }
 
-    /// How many have failed.
+    /// Number of failed rows.
     pub fn lost(&self) -> u64 {
         self.failed.values().map(|count| count.count).sum()
     }

@@ -1,4 +1,4 @@
-//! Runs of a network beside its exact solution.
+//! Runs of a network compared with its exact solution.
 
 mod near;
 mod run;
@@ -15,18 +15,18 @@ use crate::listener::Listener;
 use near::NearAnswer;
 use run::RunAnswer;
 
-/// Letters of a node's name beside the other columns.
+/// Letters of a node's name next to the other columns.
 const NODE_WIDTH: usize = 22;
 
 const NOTHING: &str = "not verified: there is nothing to compare";
 
-/// The question whether runs of a network agree with its exact solution.
+/// Asks if runs of a network agree with its exact solution.
 #[derive(Clone, Debug, Default)]
 pub struct VerifyQuestion {
-    /// The tolerance to verify beside a hundredth of it, `1e-7K`; `None` for that of the run.
+    /// The tolerance to verify next to a hundredth of it, `1e-7K`; `None` for that of the run.
     pub tolerance: Option<String>,
-    /// The state near which the linear network is compared with the full one, `steady` or a time
-    /// of its run; `None` for the run.
+    /// The state at which linear and full network are compared, `steady` or a time of its run.
+    /// `None` for the run.
     pub at: Option<String>,
 }
 
@@ -41,12 +41,12 @@ enum Compared {
 }
 
 impl VerifyQuestion {
-    /// Asks a netlist; `None` if the listener interrupted a run. The listener hears doubts before
-    /// anything is compared, for that may take a while.
+    /// Asks a netlist; `None` if the listener interrupted a run.
+    /// The listener hears doubts in advance, because comparing may take a while.
     ///
     /// # Errors
-    /// A netlist without a run, a question that does not fit it, a state that cannot be computed
-    /// or disturbed, and a run that fails.
+    /// A netlist without a run, and a question that does not fit it.
+    /// A state that cannot be computed or disturbed, and a run that fails.
     pub fn ask(
         &self,
         input: Arc<Input>,
@@ -68,7 +68,7 @@ impl VerifyAnswer {
         }
     }
 
-    /// Whether it was compared with an exact solution; else a run was with a finer one.
+    /// True if the reference is an exact solution, false if it is a finer run.
     pub fn is_independent(&self) -> bool {
         match &self.0 {
             Compared::Run(run) => run.is_independent(),

@@ -1,4 +1,4 @@
-//! The linear network near a state beside the full one.
+//! The linear network near a state, compared with the full one.
 
 use std::io;
 use std::sync::Arc;
@@ -19,7 +19,7 @@ use crate::listener::Listener;
 use crate::operating_point::{OperatingPoint, place};
 use crate::words::count;
 
-/// With the place of what makes the state one that cannot be disturbed.
+/// A failure at the place that keeps the state from being disturbed.
 fn failed(input: &Input, error: &NearError) -> Failure {
     let place = match error {
         NearError::Linearised(error) => place(input, error),
@@ -29,7 +29,7 @@ fn failed(input: &Input, error: &NearError) -> Failure {
     input.failure(error, place)
 }
 
-/// A linear network near a state, and what it is compared with.
+/// A linear network near a state, and its comparison.
 #[derive(Debug)]
 pub(super) struct NearAnswer {
     pub(super) input: Arc<Input>,
@@ -168,7 +168,7 @@ fn word(shape: DisturbanceShape) -> &'static str {
     }
 }
 
-/// What comes before the size: by how much nodes are warmer at first, or colder.
+/// Words before the size by which nodes are warmer or colder at first.
 fn shape(disturbance: &Disturbance) -> &'static str {
     match disturbance.shape {
         DisturbanceShape::Even => "all by",

@@ -1,4 +1,4 @@
-//! A run beside an exact solution, or beside a finer run.
+//! A run compared with an exact solution or with a finer run.
 
 use std::io;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use crate::listener::Listener;
 use crate::refused::{no_run, unanswered};
 use crate::words::count;
 
-/// A run and what it is compared with.
+/// A run and its comparison.
 #[derive(Debug)]
 pub(super) struct RunAnswer {
     pub(super) input: Arc<Input>,
@@ -66,7 +66,7 @@ impl RunAnswer {
             .into()
     }
 
-    /// What the runs are compared with.
+    /// Text on the reference of the runs.
     fn reference(&self) -> String {
         match &self.verification.reference {
             Reference::Exact { states, carried, quadrature_error, own_error } => {
@@ -182,7 +182,7 @@ impl Page for RunAnswer {
     }
 }
 
-/// How many modes an exact solution has, and how many nodes go by the exponential of a matrix.
+/// Number of modes of an exact solution, and of nodes solved by the exponential of a matrix.
 fn parts(states: usize, carried: usize) -> String {
     let exponential = format!("{} by matrix exponential", count(carried, "node"));
     match (states - carried, carried) {

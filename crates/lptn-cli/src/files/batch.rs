@@ -14,11 +14,11 @@ use super::{Folder, manifest};
 use lptn_answer::exit::Exit;
 use lptn_answer::failure::{Failure, reason};
 
-/// Files under temporary names, until all of them are whole and take their places together. Dropped
-/// before that, by an error or a panic, they are removed and what was there stays.
+/// Files under temporary names, until all of them are whole and take their places together.
+/// If this is dropped before, by an error or a panic, they are removed and the old files stay.
 pub(crate) struct Batch<'a> {
     folder: &'a Folder,
-    /// Of every file that was begun.
+    /// Temporary names of every file that was begun.
     temporaries: Vec<PathBuf>,
     written: Vec<FileHash>,
     decided: bool,
@@ -29,7 +29,7 @@ impl<'a> Batch<'a> {
         Self { folder, temporaries: Vec::new(), written: Vec::new(), decided: false }
     }
 
-    /// Writes one file. It gets the owner and the permissions of the one whose place it is to take.
+    /// Writes one file. It gets the owner and the permissions of the one that it replaces.
     pub(crate) fn write(
         &mut self,
         name: &str,
@@ -65,13 +65,13 @@ impl<'a> Batch<'a> {
         self.write(MANIFEST, |out| out.write_all(format!("{text:#}\n").as_bytes()))
     }
 
-    /// What is written so far.
+    /// The files that are written so far.
     pub(crate) fn written(&self) -> &[FileHash] {
         &self.written
     }
 
-    /// Puts every file into its place, and removes those of `ours`, the names that runs of this
-    /// kind write, that this one did not: they are of an earlier run.
+    /// Puts every file into its place, and removes files of an earlier run.
+    /// These are the names in `ours`, which runs of this kind write, without those of this run.
     pub(crate) fn commit(mut self, ours: &[&str]) -> Result<(), Failure> {
         let rename: Vec<String> = self.written.iter().map(|file| file.name.clone()).collect();
         let is_over = |name: &&&str| {
@@ -80,7 +80,7 @@ impl<'a> Batch<'a> {
         let remove = ours.iter().filter(is_over).map(|name| (*name).to_owned()).collect();
         let commit = Commit { process: std::process::id(), rename, remove };
         let outcome = commit.carry_out(&self.folder.path);
-        // what is decided is left for the next process to finish
+        // a commit that is decided is left for the next process to finish
         self.decided = outcome.is_ok() || self.folder.path.join(COMMIT).exists();
         outcome.map_err(|error| self.cannot_write("", &error))
     }
@@ -102,8 +102,7 @@ impl Drop for Batch<'_> {
     }
 }
 
-/// Gives a new file the owner and permissions of the one whose place it takes, before anything is
-/// in it.
+/// Gives a new file the owner and permissions of the one that it replaces, before it is written.
 fn like(old: &Path, new: &Path) -> io::Result<()> {
     let Ok(old) = fs::metadata(old) else { return Ok(()) };
     #[cfg(unix)]

@@ -1,13 +1,13 @@
-//! From results under temporary names to results in their places: a step that no end of the process
-//! halves.
+//! Puts results under temporary names into their places, all of them or none, even if the process
+//! ends on the way.
 //!
-//! Every file replaces the old one by a rename, so none is ever half. But several renames are
-//! several moments, and a process that is killed between two of them would leave new results beside
-//! old ones. So what is to be renamed and removed is written down first, under a name that itself
-//! appears by a rename: before that moment the old results stand and the new ones are waste, after
-//! it the new ones are decided, and the next process that writes into the folder does what is left.
-//! Until then the record lies there to be seen, and the manifest, which is renamed last, names
-//! hashes that are not those of the new files.
+//! Every file replaces the old one by a rename, so none is ever half written. But several renames
+//! are several moments: a process that is killed between two of them would leave new results next
+//! to old ones. So the files to rename and to remove are recorded first, under a name that itself
+//! appears by a rename. Before that moment the old results are valid and the new ones are waste.
+//! After it the new ones are valid, and the next process that writes into the folder completes the
+//! commit. Until then the record is visible, and the manifest, which is renamed last, names hashes
+//! that are not those of the new files.
 //!
 //! An exchange of folders would need `unsafe` and would move the user's own files as well. Nothing
 //! is synced: this protects against the end of a process, not against a loss of power. The lock
@@ -21,19 +21,19 @@ use serde_json::{Value, json};
 
 use super::names::{COMMIT, is_result, temporary};
 
-/// What is to be done.
+/// Renames and removals that are to be done.
 #[derive(Debug, PartialEq)]
 pub(super) struct Commit {
-    /// Whose temporary names they are.
+    /// The process in the temporary names.
     pub(super) process: u32,
     /// The files that take their places, in this order.
     pub(super) rename: Vec<String>,
-    /// What an earlier run left that this one has not.
+    /// Files of an earlier run that this one does not have.
     pub(super) remove: Vec<String>,
 }
 
 impl Commit {
-    /// Does it; from its first step on it will be done, if not by this process then by the next.
+    /// Does it. From its first step on it will be completed, by this process or by the next.
     pub(super) fn carry_out(&self, folder: &Path) -> io::Result<()> {
         if self.rename.len() + self.remove.len() == 1 {
             return self.apply(folder);
@@ -47,8 +47,8 @@ impl Commit {
         fs::remove_file(folder.join(COMMIT))
     }
 
-    /// Does what a process left that was killed on the way. What cannot be done now cannot be done
-    /// later either.
+    /// Completes the commit of a process that was killed on the way.
+    /// A step that fails now would fail later too.
     pub(super) fn finish(folder: &Path) {
         let place = folder.join(COMMIT);
         let Ok(text) = fs::read_to_string(&place) else { return };
@@ -61,7 +61,7 @@ impl Commit {
         drop(fs::remove_file(place));
     }
 
-    /// Renames and removes; the first trouble does not keep back the rest.
+    /// Renames and removes; the first error does not stop the rest.
     fn apply(&self, folder: &Path) -> io::Result<()> {
         let rename = |name: &String| {
             fs::rename(folder.join(temporary(name, self.process)), folder.join(name))
@@ -77,7 +77,7 @@ impl Commit {
         json!({ "format": 1, "process": process, "rename": rename, "remove": remove })
     }
 
-    /// The record; `None` if it is not one, or if it names what is not a result.
+    /// The record; `None` if it is not one, or if it names a file that is not a result.
     fn read(record: &Value) -> Option<Self> {
         let names = |key: &str| -> Option<Vec<String>> {
             let name =
@@ -117,7 +117,7 @@ mod tests {
         assert_eq!((place.read(MANIFEST), place.read(RESULT)), ("new".into(), "new".into()));
     }
 
-    /// Nobody gets this program to move or to remove other files by laying a record into a folder.
+    /// A record that someone puts into a folder cannot move or remove other files.
     #[test]
     fn records_of_other_files_are_not_followed() {
         let place = Place::new();

@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use super::names::LOCK;
 
-/// The folder belongs to this process until this is dropped or the process ends, however it does:
-/// the lock is one of the system and not the file, so that none is ever left over.
+/// The folder belongs to this process until this is dropped or the process ends.
+/// The lock is one of the system and not the file, so none is ever left over.
 #[derive(Debug)]
 pub(super) struct Lock {
     path: PathBuf,
@@ -19,17 +19,16 @@ pub(super) struct Lock {
 /// Why a folder cannot be had.
 #[derive(Debug)]
 pub(super) enum NotLocked {
-    /// A process writes there; its number where that is known.
+    /// A process writes there; its number if that is known.
     Busy(Option<u32>),
     Io(io::Error),
 }
 
-/// Between two looks at a folder that another process holds for a moment.
+/// Time between two attempts to lock a folder that another process uses for a moment.
 const PAUSE: Duration = Duration::from_millis(20);
 
 impl Lock {
-    /// Takes the folder; where another process has it, after asking again for as long as
-    /// `patience`.
+    /// Takes the folder. If another process has it, tries again for as long as `patience`.
     pub(super) fn take(folder: &Path, patience: Duration) -> Result<Self, NotLocked> {
         let begun = Instant::now();
         loop {
@@ -42,7 +41,7 @@ impl Lock {
         }
     }
 
-    /// `None` where the file was removed between opening and locking, by the process that had it.
+    /// `None` if the file was removed between opening and locking, by the process that had it.
     fn try_take(path: PathBuf) -> Result<Option<Self>, NotLocked> {
         let options =
             OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
@@ -78,7 +77,7 @@ fn owner(file: &mut File) -> Option<u32> {
     text.parse().ok()
 }
 
-/// Whether an open file is the one that stands at a path.
+/// True if an open file is the one at a path.
 fn is_at(file: &File, path: &Path) -> bool {
     #[cfg(unix)]
     {
@@ -115,8 +114,8 @@ mod tests {
         drop(Lock::take(&place.0, Duration::ZERO).unwrap());
     }
 
-    /// Threads that take and give back: at no time do two have it, although its file comes and
-    /// goes.
+    /// Threads that take the folder and give it back: at no time do two have it.
+    /// Its file comes and goes.
     #[test]
     fn the_file_that_comes_and_goes_is_no_way_around_it() {
         let place = Place::new();

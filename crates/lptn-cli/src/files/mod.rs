@@ -21,7 +21,7 @@ use lptn_answer::exit::Exit;
 use lptn_answer::failure::{Failure, reason};
 pub(crate) use lptn_answer::folder::of_folder;
 
-/// How long one who only replaces a file waits for another one who does.
+/// Longest wait of a process that replaces one file, for another one that does.
 const MOMENT: Duration = Duration::from_secs(2);
 
 /// A folder that files go to, which belongs to this process.
@@ -32,8 +32,8 @@ pub(crate) struct Folder {
 }
 
 impl Folder {
-    /// Makes the folder of results and takes it for this process, before anything is computed; what
-    /// a process that was killed left undone there is done, and what it left over is removed.
+    /// Makes the folder of results and takes it for this process, in advance.
+    /// The commit of a killed process is completed there, and its temporary files are removed.
     pub(crate) fn prepare(path: PathBuf) -> Result<Self, Failure> {
         Self::take(path, Duration::ZERO)
     }
@@ -66,8 +66,8 @@ impl Folder {
     }
 }
 
-/// Removes what processes that were killed did not finish. Only one that holds the folder writes
-/// there, so every file under a temporary name is of a process that is no more.
+/// Removes the unfinished files of killed processes.
+/// Only the process with the lock writes there, so temporary files belong to ended processes.
 fn sweep(folder: &Path) {
     let entries = fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in entries.filter(|entry| entry.file_name().to_str().is_some_and(names::is_temporary))
@@ -93,7 +93,7 @@ fn refused(code: &'static str, message: String) -> Failure {
     Failure::refused(code, message, help)
 }
 
-/// When and where results were written, for their manifest; they took this long, in s.
+/// Time and place of the writing of results, for their manifest; they took `wall_time` in s.
 pub(crate) fn environment(wall_time: f64, phases: &[(&str, f64)]) -> Environment {
     let phase =
         |(name, seconds): &(&str, f64)| ((*name).to_owned(), SiValue::new(*seconds, "s").json());
@@ -123,7 +123,7 @@ pub(crate) fn arguments() -> Vec<String> {
     std::env::args_os().skip(1).map(|word| word.to_string_lossy().into_owned()).collect()
 }
 
-/// Puts a file in the place of what stands there, if anything does, at once and whole.
+/// Writes a file at once and whole, and replaces one that exists.
 pub(crate) fn replace(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let cannot = |why: &str| {
         let message = format!("cannot write {}: {why}", file.display());
@@ -144,7 +144,7 @@ pub(crate) fn replace(file: &Path, bytes: &[u8]) -> Result<(), Failure> {
     files.commit(&[])
 }
 
-/// Where a file stands or is going to. A link stays a link: what it leads to is written.
+/// The place of a file that exists or is new. A link stays a link: its target is written.
 fn place_of(file: &Path) -> io::Result<PathBuf> {
     match fs::canonicalize(file) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => {
@@ -156,8 +156,8 @@ fn place_of(file: &Path) -> io::Result<PathBuf> {
     }
 }
 
-/// Writes a file that is not there yet, whole or not at all; `exists` is the code where it is
-/// there.
+/// Writes a file that does not exist yet, whole or not at all.
+/// `exists` is the code of the failure if it does.
 pub(crate) fn write_new(path: &Path, text: &str, exists: &'static str) -> Result<(), Failure> {
     link_new(path, text).map_err(|error| {
         let path = path.display();
@@ -176,7 +176,7 @@ pub(crate) fn write_new(path: &Path, text: &str, exists: &'static str) -> Result
     })
 }
 
-/// Takes a file away that would be taken for a result; whether there was one.
+/// Removes a file that would be taken for a result; true if there was one.
 pub(crate) fn take_away(path: &Path) -> Result<bool, Failure> {
     match fs::remove_file(path) {
         Ok(()) => Ok(true),
@@ -193,7 +193,7 @@ fn link_new(path: &Path, text: &str) -> io::Result<()> {
     drop(fs::remove_file(&temporary));
     match linked {
         Ok(()) => Ok(()),
-        // a full disk; or a file system without links, where the file has to grow in its place
+        // a full disk, or a file system without links: there the file grows in its place
         Err(_) => File::create_new(path).and_then(|mut file| {
             io::Write::write_all(&mut file, text.as_bytes())
                 .inspect_err(|_| drop(fs::remove_file(path)))
@@ -281,7 +281,7 @@ pub(crate) mod tests {
         assert_eq!((place.files(), place.read(RESULT)), (vec![RESULT.to_owned()], "old".into()));
     }
 
-    /// A folder stands where a result belongs: seen before the first file takes its place.
+    /// A folder is at the place of a result: noticed before the first file takes its place.
     #[test]
     fn a_place_that_cannot_be_taken_keeps_all_back() {
         let place = Place::new();

@@ -22,14 +22,14 @@ pub(crate) const POSTERIOR: &str = "posterior.json";
 pub(crate) const SWEEP: &str = "sweep.csv";
 pub(crate) const MANIFEST: &str = "manifest.json";
 
-/// The rows of a sweep as far as it has come, and what they belong to.
+/// The unfinished rows of a sweep, and the sweep that they belong to.
 pub(crate) const UNFINISHED: &str = "sweep.csv.part";
 pub(crate) const BEGUN: &str = "sweep.json";
 
 /// The record of results that are whole and about to take their places.
 pub(super) const COMMIT: &str = ".commit.json";
 
-/// The file whose lock says that somebody writes here.
+/// The file whose lock shows that a process writes here.
 pub(super) const LOCK: &str = ".lptn.lock";
 
 const RESULTS: [&str; 22] = [
@@ -57,18 +57,18 @@ const RESULTS: [&str; 22] = [
     MANIFEST,
 ];
 
-/// Whether a file of this name may be one of results.
+/// True if a file of this name may be one of results.
 pub(super) fn is_result(name: &str) -> bool {
     RESULTS.contains(&name)
 }
 
-/// What a file is called until it is whole.
+/// Name of a file until it is whole.
 pub(super) fn temporary(name: &str, process: u32) -> String {
     format!(".{name}.{process}.tmp")
 }
 
-/// Whether this program calls a file so that is not whole yet: a result, the record of results, a
-/// netlist, a picture.
+/// True if this program gives an unfinished file this name.
+/// The file may be a result, the record of results, a netlist or a picture.
 pub(super) fn is_temporary(name: &str) -> bool {
     let parts = name
         .strip_prefix('.')

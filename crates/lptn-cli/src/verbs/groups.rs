@@ -16,7 +16,7 @@ pub(crate) const GROUPS: &[(&str, &[&str])] = &[
     ("Set up", &["setup"]),
 ];
 
-/// Columns in front of what a verb does.
+/// Columns before the description of a verb.
 const INDENT: usize = 15;
 
 /// The verbs of a command under their headings, in lines of at most `width` columns.

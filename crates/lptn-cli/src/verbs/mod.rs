@@ -39,15 +39,15 @@ fn called(path: &'static str) -> &'static str {
     path.rsplit("::").next().unwrap_or("").trim()
 }
 
-/// Names each verb with its options, what does it, as what its answer is drawn and whether it is,
-/// and whether there is a page of it.
+/// Lists each verb with its options and its function.
+/// Conditions say if it has a page and a picture; a picture has a name.
 macro_rules! verbs {
     ($(
         $(#[$attribute:meta])*
         $Verb:ident($($args:ident)::*) => $($does:ident)::*,
         page $paged:expr, drawn $words:literal $drawn:expr;
     )*) => {
-        /// How verbs are called whose answer has a picture.
+        /// Verbs whose answer has a picture.
         pub(crate) const DRAWN: &[&str] = &[$($words),*];
 
         /// What is to be done.
@@ -57,7 +57,7 @@ macro_rules! verbs {
         }
 
         impl Verb {
-            /// Where the report goes that it is there to write.
+            /// File of the report, for the verb that writes only that.
             pub(crate) fn report(&self) -> Option<Option<PathBuf>> {
                 match self {
                     Self::Report(args) => Some(args.output.clone()),
@@ -65,14 +65,14 @@ macro_rules! verbs {
                 }
             }
 
-            /// What it is called on the command line.
+            /// Its name on the command line.
             pub(crate) fn name(&self) -> &'static str {
                 match self {
                     $(Self::$Verb(_) => called(stringify!($($does)::*)),)*
                 }
             }
 
-            /// The parser of the verb that is called this.
+            /// The parser of the verb of this name.
             pub(crate) fn parser(name: &str) -> Option<Command> {
                 let parsers: &[(&'static str, fn(Command) -> Command)] =
                     &[$((called(stringify!($($does)::*)), <$($args)::* as Args>::augment_args)),*];
@@ -80,7 +80,7 @@ macro_rules! verbs {
                 Some(parser(Command::new(*name)))
             }
 
-            /// Whether `--plot` has something to draw.
+            /// True if `--plot` has something to draw.
             pub(crate) fn is_drawn(&self) -> bool {
                 match self {
                     $(Self::$Verb(args) => {
@@ -90,7 +90,7 @@ macro_rules! verbs {
                 }
             }
 
-            /// Whether `--report` has something to write.
+            /// True if `--report` has something to write.
             pub(crate) fn is_reported(&self) -> bool {
                 match self {
                     $(Self::$Verb(args) => {

@@ -1,5 +1,5 @@
-//! What `lptn fit compare` draws: what each candidate misses of a record that it has not seen, and
-//! how much of each.
+//! Pictures of `lptn fit compare`: residuals of each candidate in a held-out record,
+//! and the errors of all held-out records.
 
 use lptn_fit::choice::{Held, Judged};
 use lptn_plot::Figure;
@@ -13,7 +13,7 @@ use crate::words::count;
 /// Columns that are drawn, at most.
 const MOST_COLUMNS: usize = 3;
 
-/// Letters of a name beside its dots.
+/// Letters of a name next to its dots.
 const NAME: usize = 24;
 
 impl FitCompareAnswer {
@@ -30,7 +30,7 @@ impl FitCompareAnswer {
         Figure { title: count(self.candidates.len(), "candidate"), note, panels }
     }
 
-    /// The record in which the candidates differ most in what they miss.
+    /// The record in which the held-out errors of the candidates differ most.
     fn drawn(&self) -> usize {
         let of = |i: usize, part: usize| self.judged(i).unseen[part].over_sigma;
         let parts = self.judged(self.choice.best).unseen.len();
@@ -42,7 +42,7 @@ impl FitCompareAnswer {
         (0..parts).rev().max_by(|a, b| spread(a).total_cmp(&spread(b))).unwrap_or(0)
     }
 
-    /// Measured less foretold, of one column of one record.
+    /// Measured minus predicted values of one column of one record.
     fn missed(&self, order: &[usize], (record, column): (usize, usize)) -> Panel {
         let run = &self.judged(self.choice.best).task.runs[record];
         let name = format!("{}: measured \u{2212} predicted", run.columns[column].name);

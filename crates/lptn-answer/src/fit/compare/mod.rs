@@ -1,4 +1,4 @@
-//! Which of several networks records speak for.
+//! Choice between several networks by records.
 
 mod figure;
 mod page;
@@ -22,34 +22,34 @@ use crate::gathered::Gathered;
 use crate::input::Input;
 use crate::listener::Listener;
 
-/// Which of several networks records speak for, by records that they have not seen.
+/// Asks which of several networks predicts held-out records best.
 #[derive(Clone, Debug, Default)]
 pub struct FitCompareQuestion {
-    /// The `[fit.NAME]` that are taken of each netlist; none for all.
+    /// The `[fit.NAME]` that are taken from each netlist; none for all.
     pub fits: Vec<String>,
-    /// How many searches begin elsewhere between the bounds; `None` for the number of each study.
+    /// Number of searches from other starts between the bounds; `None` for that of each study.
     pub starts: Option<usize>,
-    /// How many runs are computed at once; `None` for as many as the machine can.
+    /// Number of runs computed at once; `None` for as many as the machine can.
     pub threads: Option<usize>,
 }
 
 /// A netlist whose fits are candidates.
 ///
-/// It has the values of its own: another fit may have counted the same records.
+/// It keeps its own values: another fit may have counted the same records.
 #[derive(Clone, Debug)]
 pub struct CandidateNetlist {
     /// Its file, which candidates are named after.
     pub path: PathBuf,
-    /// What tells it from the other netlists of the same file, `n=2`; empty for the only one.
+    /// Label that distinguishes it from netlists of the same file, `n=2`; empty for the only one.
     pub label: String,
     /// The netlist.
     pub input: Arc<Input>,
 }
 
-/// A network that may be the one: a `[fit.NAME]` of a netlist.
+/// A candidate network: a `[fit.NAME]` of a netlist.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// What tells it from the others.
+    /// Name that distinguishes it from the others.
     pub name: String,
     /// The netlist.
     pub input: Arc<Input>,
@@ -66,12 +66,12 @@ pub struct FitComparison {
     threads: usize,
 }
 
-/// What records say of networks.
+/// Networks compared by their predictions of records.
 #[derive(Debug)]
 pub struct FitCompareAnswer {
     /// The networks.
     pub candidates: Vec<Candidate>,
-    /// How they fare, in the order of `candidates`.
+    /// The judgement of each, in the order of `candidates`.
     pub choice: Choice,
     /// The fit of each candidate to all records.
     pub fits: Vec<FitNetworkAnswer>,
@@ -104,7 +104,7 @@ impl FitCompareQuestion {
         self.begin(netlists, listener)?.compute(listener)
     }
 
-    /// Reads the studies, before anything is computed.
+    /// Reads the studies in advance.
     ///
     /// # Errors
     /// A study that does not exist, and one that does not fit its network.
@@ -175,7 +175,7 @@ impl FitComparison {
     }
 }
 
-/// What tells the candidates from each other: file, fit and what is set, each where it differs.
+/// Names of the candidates: file, fit and settings, each if it differs.
 fn names(found: &[(&CandidateNetlist, &FitStudy)]) -> Vec<String> {
     let stem = |path: &Path| {
         path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned())
@@ -207,7 +207,7 @@ fn names(found: &[(&CandidateNetlist, &FitStudy)]) -> Vec<String> {
     found.iter().map(name).collect()
 }
 
-/// What is wrong, at the fit that is at fault.
+/// A failure at the fit that caused it.
 fn failed(candidates: &[Candidate], error: &ChoiceError) -> Failure {
     let one = error.contender().and_then(|name| candidates.iter().find(|one| one.name == name));
     match one {
@@ -236,9 +236,9 @@ impl FitCompareAnswer {
         answer
     }
 
-    /// Of one candidate: those of its fit, and those of what it says of unseen records. That one
-    /// which is worse misses the records, each in its own way, is the question itself. That
-    /// intervals count slow drift is seen by their width.
+    /// Doubts of one candidate: those of its fit and of its held-out predictions.
+    /// Misfits of a worse candidate are left out: they are expected. So is slow drift: the width of
+    /// the intervals shows it.
     fn doubts_of(&self, i: usize) -> Vec<Diagnostic> {
         let name = &self.candidates[i].name;
         let named = |doubt: Diagnostic| Diagnostic {

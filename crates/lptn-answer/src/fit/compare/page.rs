@@ -17,7 +17,7 @@ use crate::fit::network::{common, parameter, values};
 use crate::messages;
 use crate::words::count;
 
-/// What does not exist.
+/// Cell of a value that does not exist.
 const NOTHING: &str = "-";
 
 impl Page for FitCompareAnswer {
@@ -110,7 +110,7 @@ fn overview(answer: &FitCompareAnswer, order: &[usize]) -> TextTable {
     table.left("", |&i| standing(answer, i).0).judged(|&i| standing(answer, i).1).into()
 }
 
-/// What becomes of a candidate, in a word.
+/// Verdict on a candidate in a word.
 fn standing(answer: &FitCompareAnswer, i: usize) -> (&'static str, Standing) {
     let told = answer.choice.rivals().is_empty();
     match (i == answer.choice.best, told) {
@@ -125,7 +125,7 @@ fn standing(answer: &FitCompareAnswer, i: usize) -> (&'static str, Standing) {
 }
 
 fn whiteness(answer: &FitCompareAnswer, order: &[usize]) -> Option<TextTable> {
-    /// So many columns stand beside each other.
+    /// Most columns next to each other.
     const MOST: usize = 5;
     let columns = &answer.judged(order[0]).task.runs.first()?.columns;
     let known = |column: usize| answer.judged(order[0]).whiteness.get(column)?.as_ref();
@@ -191,7 +191,7 @@ impl FitCompareAnswer {
         table.done()
     }
 
-    /// A row for each record that a candidate has not seen.
+    /// A row for each held-out record of each candidate.
     pub fn unseen(&self) -> Table {
         let rows: Vec<(usize, usize)> = self
             .order()

@@ -9,7 +9,7 @@ use super::FitCompareAnswer;
 const LEAST: f64 = 0.02;
 
 impl FitCompareAnswer {
-    /// The candidates, the best first and then by how far behind they are.
+    /// Indices of the candidates: the best first, the others by their ratio to its held-out error.
     pub(super) fn order(&self) -> Vec<usize> {
         let behind = |i: usize| self.judged(i).behind.map_or(0.0, |behind| behind.ratio);
         let mut order: Vec<usize> = (0..self.candidates.len()).collect();
@@ -24,7 +24,7 @@ impl FitCompareAnswer {
         &self.choice.contenders[i]
     }
 
-    /// The unit of what all candidates miss: that of all columns, else standard deviations.
+    /// Unit of the held-out errors: that of all columns, else standard deviations.
     pub(super) fn unit(&self) -> String {
         let unit = self.choice.contenders[0].task.unit();
         unit.map_or_else(|| "sigma".to_owned(), |ty| ty.dimension.si_unit())
@@ -34,7 +34,7 @@ impl FitCompareAnswer {
         &self.candidates[i].name
     }
 
-    /// By how much its criterion is above the least.
+    /// Difference between its AICc and the lowest one.
     pub(super) fn above(&self, i: usize) -> Option<f64> {
         let all = self.choice.contenders.iter().filter_map(|one| one.likely.aicc);
         Some(self.judged(i).likely.aicc? - all.fold(f64::INFINITY, f64::min))
@@ -45,7 +45,7 @@ impl FitCompareAnswer {
     }
 }
 
-/// "1.86 to 2.26", with as many digits as its width has a use for.
+/// "1.86 to 2.26", with digits that suit its width.
 pub(super) fn interval((low, high): (f64, f64)) -> String {
     if high > 1e3 * low {
         return format!("{} to {}", significant(low, 2), significant(high, 2));

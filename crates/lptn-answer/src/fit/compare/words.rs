@@ -1,4 +1,4 @@
-//! What a comparison of fits says in words.
+//! Sentences of a comparison of fits.
 
 use lptn_fit::choice::{Behind, Held, MARGIN, UnseenRecord};
 use lptn_netlist::Diagnostic;
@@ -8,7 +8,7 @@ use super::FitCompareAnswer;
 use super::shown::{interval, ratio};
 use crate::words::count;
 
-/// What two runs of the same network may differ by, in K (or another SI unit).
+/// Largest difference between two equal runs, in K (or another SI unit).
 const SAME: f64 = 1e-5;
 
 /// "each of the 5 records in its turn".
@@ -39,14 +39,14 @@ pub(super) fn records(answer: &FitCompareAnswer) -> usize {
     answer.choice.contenders.first().map_or(0, |one| one.task.runs.len())
 }
 
-/// How far behind, "2.05 times (1.86 to 2.26)".
+/// Ratio of held-out errors, "2.05 times (1.86 to 2.26)".
 fn times(behind: &Behind) -> String {
     let within =
         behind.interval.map_or(String::new(), |ends| format!(" (95 % {})", interval(ends)));
     format!("{} times{within}", ratio(behind.ratio, behind.interval))
 }
 
-/// The last line: for which candidate the records speak.
+/// The last line: the candidate that the records favour.
 pub(super) fn verdict(answer: &FitCompareAnswer) -> String {
     let rivals = answer.choice.rivals();
     match rivals.is_empty() {
@@ -87,13 +87,13 @@ fn open(answer: &FitCompareAnswer, rivals: &[usize]) -> String {
     text + &what_would(answer, rivals[0])
 }
 
-/// The most unknowns of any that is not told apart.
+/// Largest number of unknowns of the best candidate and its rivals.
 fn most(answer: &FitCompareAnswer, rivals: &[usize]) -> usize {
     let all = rivals.iter().chain([&answer.choice.best]);
     all.map(|&i| answer.judged(i).likely.unknowns).max().unwrap_or(0)
 }
 
-/// Why one candidate is not told from the best.
+/// Reason why a rival cannot be distinguished from the best.
 fn why(answer: &FitCompareAnswer, rival: usize) -> String {
     let (judged, best) = (answer.judged(rival), answer.judged(answer.choice.best));
     let Some(behind) = &judged.behind else { return String::new() };
@@ -110,7 +110,7 @@ fn why(answer: &FitCompareAnswer, rival: usize) -> String {
     }
 }
 
-/// What would tell the two apart.
+/// Text on data that would distinguish the two.
 fn what_would(answer: &FitCompareAnswer, rival: usize) -> String {
     let judged = answer.judged(rival);
     let mut text = String::new();
@@ -134,7 +134,7 @@ fn what_would(answer: &FitCompareAnswer, rival: usize) -> String {
     text + ". `lptn plan` finds a more informative run"
 }
 
-/// What is doubtful of how a candidate says what it has not seen.
+/// Doubts in a candidate's fit and in its held-out predictions.
 pub(super) fn doubts(answer: &FitCompareAnswer, i: usize) -> Vec<Diagnostic> {
     let (one, judged) = (&answer.candidates[i], answer.judged(i));
     let within = |is: &dyn Fn(&UnseenRecord) -> bool| {
@@ -171,7 +171,7 @@ pub(super) fn doubts(answer: &FitCompareAnswer, i: usize) -> Vec<Diagnostic> {
     doubts.into_iter().map(|doubt| doubt.at(one.study.span.clone(), "")).collect()
 }
 
-/// Of a candidate that is likelier, but foretells worse.
+/// Note on a candidate that fits better but predicts worse.
 pub(super) fn likelier(answer: &FitCompareAnswer) -> Option<String> {
     let other = answer.choice.likeliest_instead()?;
     let below = answer.above(answer.choice.best)?;

@@ -1,4 +1,4 @@
-//! What `lptn fit law` draws, in the form of the paper's Figures 7, 8 and 9: rise, time constant
+//! Pictures of `lptn fit law`, in the form of the paper's Figures 7, 8 and 9: rise, time constant
 //! and power over the speed.
 
 use lptn_fit::law::{Consistency, LawFit, LawOf, StatedLaw};
@@ -14,10 +14,10 @@ use super::shown::{SpeedUnit, with_error};
 /// Points of a curve that is drawn.
 const POINTS: u32 = 120;
 
-/// Laws beside the best that are drawn, at most.
+/// Most laws drawn in addition to the best.
 const MOST_RIVALS: usize = 4;
 
-/// What the axis upwards has, and what it is divided by.
+/// Name, unit and divisor (from SI) of the upward axis.
 fn upward(of: LawOf) -> (&'static str, &'static str, f64) {
     match of {
         LawOf::Rise => ("temperature rise", "K", 1.0),
@@ -26,7 +26,7 @@ fn upward(of: LawOf) -> (&'static str, &'static str, f64) {
     }
 }
 
-/// A quantity over the speed, as it grows.
+/// A figure of a quantity over the speed, which is being built.
 pub(super) struct OverSpeed<'a> {
     unit: &'a SpeedUnit,
     of: LawOf,
@@ -51,8 +51,8 @@ impl<'a> OverSpeed<'a> {
         (0..=POINTS).map(at).collect()
     }
 
-    /// What was measured at speeds in rad/s, in SI units, with standard errors where those are
-    /// known.
+    /// Adds measured values at speeds in rad/s, in SI units.
+    /// Standard errors are added if they are known.
     pub(super) fn measured(
         &mut self,
         (name, place): (&str, usize),
@@ -68,8 +68,8 @@ impl<'a> OverSpeed<'a> {
         self.put(dots.looks(Look::Dots), place);
     }
 
-    /// A law of the speed: its value at speeds in rad/s and, where it is known, half the width of
-    /// the band around it, in SI units.
+    /// Adds a law: `of` gives its value and half the width of its band at a speed in rad/s.
+    /// Both are in SI units; the half width is NaN if it is not known.
     fn law(&mut self, name: &str, (look, place): (Look, usize), of: impl Fn(f64) -> (f64, f64)) {
         let values: Vec<(f64, (f64, f64))> =
             self.speeds().into_iter().map(|speed| (speed, of(speed))).collect();
@@ -122,12 +122,12 @@ pub(super) fn time_laws(over: &mut OverSpeed<'_>, place: usize, found: &Consiste
     format!("dashed: omega^n with n = {}", with_error(n.value, n.standard_error))
 }
 
-/// A constant with what one value scatters by, in s.
+/// A constant with the scatter of one value, in s.
 pub(super) fn mean(over: &mut OverSpeed<'_>, (name, place): (&str, usize), of: (f64, f64)) {
     over.law(&format!("mean of {name}"), (Look::Line, place), |_| of);
 }
 
-/// The law that is best, with its band, and those that the points do not tell from it.
+/// The best law with its band, and the laws that the points cannot distinguish from it.
 pub(super) fn power_laws(over: &mut OverSpeed<'_>, answer: &FitLawAnswer) -> Vec<String> {
     let study = &answer.study;
     let mut notes = vec![study.verdict()];
@@ -176,7 +176,7 @@ fn put_law(
 }
 
 impl FitLawAnswer {
-    /// Rise and time constant, where the file has them, and power.
+    /// Figures of rise and time constant, if the file has them, and of power.
     pub(super) fn pictures(&self) -> Vec<Figure> {
         let (data, speeds) = (&self.data, self.data.points.speed());
         let range = ends(speeds);
@@ -205,7 +205,7 @@ impl FitLawAnswer {
 }
 
 impl StatedLawsAnswer {
-    /// The three laws, with the time constant that rise and power need and the power that rise and
+    /// The three laws, the time constant that rise and power need, and the power that rise and
     /// time constant imply.
     pub(super) fn pictures(&self) -> Vec<Figure> {
         let capacity = self.found.capacity;

@@ -1,5 +1,5 @@
-//! Whether laws of rise, time constant and power can be true together: as text, as JSON, and the
-//! question without points.
+//! Consistency of laws of rise, time constant and power: as text, as JSON, and as a question
+//! without points.
 
 use std::io;
 
@@ -18,7 +18,7 @@ use crate::answer::Answer;
 use crate::failure::Failure;
 use crate::input::quantity;
 
-/// Whether three laws of the speed can be true together.
+/// Asks if three laws of the speed can be true together.
 #[derive(Clone, Debug, Default)]
 pub struct StatedLawsQuestion {
     /// The law of the temperature rise: `0.0084 ± 0.0011 K/rpm`, or an expression in `omega`.
@@ -27,17 +27,17 @@ pub struct StatedLawsQuestion {
     pub time_constant: String,
     /// The law of the power: `87 ± 15 uW/rpm^(5/3)`.
     pub power: String,
-    /// The speeds that it is about: `1000 rpm to 7000 rpm`.
+    /// Range of speeds to compare: `1000 rpm to 7000 rpm`.
     pub over: String,
     /// The heat capacity, `2659 J/K ± 5 %`; `None` for one that is not known.
     pub capacity: Option<String>,
 }
 
-/// Three laws and how they go together.
+/// Three laws and their consistency.
 #[derive(Debug)]
 pub struct StatedLawsAnswer {
     pub(super) laws: [StatedLaw; 3],
-    /// How rise, time constant and power go together.
+    /// Consistency of rise, time constant and power.
     pub found: Consistency,
     pub(super) unit: SpeedUnit,
     files: Files,
@@ -131,7 +131,7 @@ fn range(text: &str) -> Result<(f64, f64), Failure> {
     Ok((speed(low)?, speed(high)?))
 }
 
-/// What the comparison shows, in sections; the last of them is the verdict.
+/// Adds the comparison in sections, of which the last is the verdict.
 pub(super) fn sections(text: &mut Text, found: &Consistency, unit: &SpeedUnit) {
     text.section().table(at_speeds(found, unit));
     let implied = with_error(found.implied.value, found.implied.standard_error);
@@ -220,7 +220,7 @@ pub(super) fn verdict(found: &Consistency, unit: &SpeedUnit) -> String {
     "dT, t_RC and P agree: P = C dT / t_RC is true at all speeds, within their errors".to_owned()
 }
 
-/// A relative standard error from which on a ratio tells nothing.
+/// Relative standard error from which a ratio is meaningless.
 const TOO_ROUGH: f64 = 0.5;
 
 /// A power of the speed in a sentence: `omega^(-0.67)`, `omega`.

@@ -26,7 +26,7 @@ use points::Data;
 pub use laws::{StatedLawsAnswer, StatedLawsQuestion};
 pub use runs::{FitOfRuns, FitRunsAnswer};
 
-/// Which law of the speed a power follows: of points of a sheet, or of a folder of records.
+/// Asks which law of the speed a power follows, by points of a sheet or by a folder of records.
 #[derive(Clone, Debug, Default)]
 pub struct FitLawQuestion {
     /// The column of the speed; `None` for the only rotation.
@@ -37,15 +37,15 @@ pub struct FitLawQuestion {
     pub rise: Option<String>,
     /// The column of the time constant; `None` for the only time.
     pub time_constant: Option<String>,
-    /// Laws to fit beside the standard ones; names that are not columns are coefficients.
+    /// Laws to fit in addition to the standard ones; names that are not columns are coefficients.
     pub laws: Vec<String>,
     /// Values from which the search for coefficients begins: `a = 20 mW/rpm`.
     pub starts: Vec<String>,
-    /// Whether every point has the same weight, whatever its standard error.
+    /// True if every point has the same weight, whatever its standard error.
     pub unweighted: bool,
     /// The heat capacity, `2659 J/K ± 5 %`; a folder of records needs it.
     pub capacity: Option<String>,
-    /// Whether the posterior is wanted, which there is of one law of points.
+    /// True if the posterior is wanted, which exists for one law of points.
     pub posterior: bool,
     /// The columns of records to fit, the first gives the power; none for all temperatures.
     pub columns: Vec<String>,
@@ -64,7 +64,7 @@ pub struct FitLawAnswer {
     data: Data,
     /// The laws.
     pub study: LawStudy,
-    /// How rise, time constant and power go together; `None` if that is not known of the points.
+    /// Consistency of rise, time constant and power; `None` if the points do not determine it.
     pub consistency: Option<Consistency>,
     command: Vec<String>,
 }
@@ -91,7 +91,7 @@ impl FitLawQuestion {
     /// Asks a sheet of points.
     ///
     /// # Errors
-    /// What is wrong with the question or with the sheet.
+    /// Problems of the question or of the sheet.
     pub fn ask(&self, points: &Path, listener: &dyn Listener) -> Result<FitLawAnswer, Failure> {
         let capacity = capacity(self.capacity.as_deref())?;
         self.has_posterior()?;
@@ -105,7 +105,7 @@ impl FitLawQuestion {
     /// Asks a folder of records.
     ///
     /// # Errors
-    /// What is wrong with the question or with a record.
+    /// Problems of the question or of a record.
     pub fn ask_records(
         &self,
         folder: &Path,
@@ -114,7 +114,7 @@ impl FitLawQuestion {
         self.begin(folder)?.compute(listener)
     }
 
-    /// Looks at the question, before a folder is read.
+    /// Checks the question before a folder is read.
     ///
     /// # Errors
     /// A missing heat capacity, and a posterior.
@@ -130,7 +130,7 @@ impl FitLawQuestion {
         FitOfRuns::new(self, folder, capacity)
     }
 
-    /// Refuses before anything is computed a posterior that there could not be.
+    /// Refuses a posterior that cannot exist, before anything is computed.
     fn has_posterior(&self) -> Result<(), Failure> {
         if !self.posterior || self.laws.len() == 1 {
             return Ok(());
@@ -140,7 +140,7 @@ impl FitLawQuestion {
         Err(no_posterior("--posterior writes the coefficients of one law", help))
     }
 
-    /// The standard laws, and those that were asked for.
+    /// The standard laws, and those that were requested.
     fn laws_to_fit(&self, data: &Data) -> Result<Vec<LossLaw>, Failure> {
         let starts: Result<Vec<Start>, Failure> =
             self.starts.iter().map(|text| start(text)).collect();
@@ -170,8 +170,8 @@ fn no_posterior(message: &str, help: &str) -> Failure {
 }
 
 impl FitLawAnswer {
-    /// The coefficients of the law that was asked for with their covariance, for studies that go on
-    /// from them; `None` if nothing tells their errors.
+    /// The coefficients of the requested law with their covariance, for further studies.
+    /// `None` if their errors are not known.
     pub fn posterior(&self) -> Option<Posterior> {
         let own = |law: &&LawFit| matches!(law.law, LossLaw::Written(_));
         let law = self.study.candidates.iter().find(own)?;
@@ -180,7 +180,7 @@ impl FitLawAnswer {
         law.posterior(&stem.unwrap_or_default(), &law.law.to_string())
     }
 
-    /// Which law of the question has no coefficients although there are points enough, and why.
+    /// The requested law without coefficients despite enough points, and the reason.
     pub fn not_fitted(&self) -> Option<String> {
         let written = |c: &&LawFit| matches!(c.law, LossLaw::Written(_)) && c.fitted().is_none();
         let failed = |c: &&LawFit| !matches!(c.outcome, Outcome::TooFew { .. });

@@ -46,7 +46,7 @@ impl Page for FitLawAnswer {
         text
     }
 
-    /// One row a coefficient, best law first; what there is not is NaN.
+    /// One row per coefficient, best law first; missing values are NaN.
     fn rows(&self) -> Rows<'_> {
         let mut rows: Vec<Row<'_>> = Vec::new();
         for candidate in &self.study.candidates {
@@ -207,7 +207,7 @@ fn numbers(study: &LawStudy, candidate: &LawFit, fit: &Fitted) -> [String; 4] {
     [digits(fit.rmse), left_out, fixed(fit.squares, 1), behind]
 }
 
-/// What the columns mean, as far as these points make it worth saying.
+/// Notes that explain the columns, as far as these points need them.
 fn notes(study: &LawStudy, text: &mut Text) {
     text.sentence(
         "rmse      ",
@@ -266,7 +266,7 @@ fn intervals(answer: &FitLawAnswer, text: &mut Text) {
     }
 }
 
-/// How the coefficients of the best law depend on each other.
+/// Correlations between the coefficients of the best law.
 fn correlation(study: &LawStudy, text: &mut Text) {
     let Some((best, fit)) = study.best().and_then(|best| Some((best, best.fitted()?))) else {
         return;
@@ -284,7 +284,7 @@ fn correlation(study: &LawStudy, text: &mut Text) {
     text.sentence("correlated", &format!(" {}", pieces.join(" ")));
 }
 
-/// What is usually claimed of the three, against what was fitted.
+/// Usual claims about the three, against the fitted exponents.
 fn claims(found: &Consistency) -> TextTable {
     type Claim = (&'static str, Exponent, f64, &'static str);
     let claims: [Claim; 4] = [

@@ -1,4 +1,4 @@
-//! The points of a sheet: which column is what.
+//! The points of a sheet, and the roles of its columns.
 
 use std::path::Path;
 
@@ -20,10 +20,10 @@ pub(super) struct Data {
     pub(super) points: Points,
     pub(super) unit: SpeedUnit,
     pub(super) power_name: String,
-    /// Rises in K and time constants in s, where the file has both.
+    /// Rises in K and time constants in s, if the file has both.
     pub(super) rise: Option<Vec<f64>>,
     pub(super) time_constant: Option<Vec<f64>>,
-    /// Standard errors of rise, time constant and power, where the file has all of them.
+    /// Standard errors of rise, time constant and power, if the file has all of them.
     pub(super) errors: Option<[Vec<f64>; 3]>,
 }
 
@@ -40,8 +40,8 @@ fn is_error(name: &str) -> bool {
     ERRORS.iter().any(|ending| name.ends_with(ending))
 }
 
-/// Whether a column holds this; a difference of temperatures is one in K, which a record takes for
-/// absolute.
+/// True if a column has this dimension.
+/// A difference of temperatures may be in K, which a record takes as absolute.
 fn holds(column: &RecordColumn, wanted: Dimension) -> bool {
     let ty = column.unit.ty;
     let difference = wanted == Dimension::TEMPERATURE && ty.absolute && column.unit.offset == 0.0;
@@ -80,7 +80,7 @@ impl<'a> Lookup<'a> {
         Err(self.refused(Diagnostic::error("record::unit", message).at(column.span.clone(), "")))
     }
 
-    /// The column that an option names, or the only one that holds this.
+    /// The column that an option names, or the only one of this dimension.
     fn needed(
         &self,
         (option, name): (&str, Option<&str>),

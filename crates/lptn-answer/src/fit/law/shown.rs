@@ -41,8 +41,8 @@ impl SpeedUnit {
         if unit.is_empty() { number } else { format!("{number} {unit}") }
     }
 
-    /// A unit for a value: its size in SI and its text; `W` and the unit of the speed, where the
-    /// dimension is made of these.
+    /// A unit for a value: its size in SI and its text.
+    /// It is made of `W` and the unit of the speed if the dimension allows it.
     pub(super) fn unit(&self, value: f64, of: Dimension) -> (f64, String) {
         let [_, mass, .., angle] = of.exponents();
         let parts = Dimension::ANGULAR_VELOCITY.checked_pow(angle);
@@ -74,7 +74,7 @@ impl SpeedUnit {
     }
 }
 
-/// How likely chance alone is: `p = 0.42`.
+/// Probability of chance alone as text: `p = 0.42`.
 pub(super) fn chance(probability: f64) -> String {
     match probability {
         p if p < 1e-4 => "p < 0.0001".to_owned(),

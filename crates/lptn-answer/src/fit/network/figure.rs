@@ -1,5 +1,4 @@
-//! What `lptn fit network` draws: every record over what the fitted network computes, and what that
-//! misses.
+//! Pictures of `lptn fit network`: every record with the fitted network, and the residuals.
 
 use lptn_fit::network::{ColumnMisfit, MeasuredColumn, MeasuredRun};
 use lptn_plot::Figure;
@@ -11,7 +10,7 @@ use super::FitNetworkAnswer;
 use super::units::Shown;
 use crate::fit::figure::differences;
 
-/// More records than this are not drawn.
+/// Most records that are drawn.
 const MOST_RECORDS: usize = 12;
 
 impl FitNetworkAnswer {
@@ -27,7 +26,7 @@ impl FitNetworkAnswer {
         figures
     }
 
-    /// Two panels for each kind of thing that was measured: values, and what is missed of them.
+    /// Two panels for each measured type: values and residuals.
     fn picture(&self, i: usize, run: &MeasuredRun) -> Figure {
         let all: Vec<&ColumnMisfit> = self.fit.columns.iter().filter(|m| m.run == i).collect();
         let chosen = worst(&all);
@@ -44,7 +43,7 @@ impl FitNetworkAnswer {
             for (place, misfit) in chosen.iter().enumerate().filter(|(_, m)| of(m).ty == ty) {
                 let drawn = Drawn { times: &run.times, of: of(misfit), shown: &shown, place };
                 panel.curves.extend(drawn.curves(misfit));
-                // columns that are known as well share a band
+                // columns with the same accuracy share a band
                 if let Some(sigma) = misfit.sigma.filter(|sigma| !bands.contains(sigma)) {
                     missed.curves.push(drawn.band(sigma));
                     bands.push(sigma);
@@ -107,7 +106,7 @@ impl Drawn<'_> {
         Curve::line(&self.of.name, points).as_place(self.place)
     }
 
-    /// What the network computes at the times of the record, and what was measured.
+    /// The computed and the measured values at the times of the record.
     fn curves(&self, misfit: &ColumnMisfit) -> [Curve; 2] {
         let shown = |values: &[f64]| -> Vec<f64> {
             values.iter().map(|si| self.shown.unit.from_si(*si)).collect()
@@ -122,7 +121,7 @@ impl Drawn<'_> {
         self.curve(missed).looks(Look::Dots)
     }
 
-    /// What the noise leads to expect of nearly all residuals.
+    /// The band around zero that the noise lets nearly all residuals stay in.
     fn band(&self, sigma: f64) -> Curve {
         let ends = [self.times.first(), self.times.last()].into_iter().flatten();
         let two = 2.0 * sigma / self.shown.unit.scale;

@@ -1,4 +1,4 @@
-//! What is kept of a fit of a network that was interrupted.
+//! The values that remain of an interrupted fit of a network.
 
 use std::sync::Arc;
 
@@ -10,15 +10,15 @@ use crate::failure::Failure;
 use crate::input::{Input, quoted};
 use crate::words::spaced;
 
-/// Digits with which a search goes on from where it was.
+/// Digits of values from which a search continues.
 const DIGITS: usize = 8;
 
-/// A fit that was interrupted: no result, but perhaps values to go on from.
+/// A fit that was interrupted: no result, but perhaps values to continue from.
 #[derive(Debug)]
 pub struct InterruptedFit {
     input: Arc<Input>,
     stage: FitStage,
-    /// The study that was asked for by its name.
+    /// The study that was requested by its name.
     study: Option<String>,
     /// Name, value and unit of each parameter; `None` if no run came to its end.
     best: Option<Vec<[String; 3]>>,
@@ -49,7 +49,7 @@ impl InterruptedFit {
         Some(text)
     }
 
-    /// Where it was interrupted, and the command that goes on from the best values.
+    /// The stage of the interruption, and the command that continues from the best values.
     pub fn message(&self) -> String {
         let stage = self.stage;
         let Some(values) = &self.best else {
@@ -70,7 +70,7 @@ impl InterruptedFit {
         message
     }
 
-    /// That there is no answer.
+    /// The failure of a fit without an answer.
     pub fn failure(self) -> Failure {
         let error = NetworkFitError::Interrupted { stage: self.stage, best: self.values };
         self.input.failure(&error, None)

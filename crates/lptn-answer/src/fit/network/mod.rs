@@ -34,14 +34,14 @@ use crate::unseparated::{Named, names_and_units};
 /// Digits that are written into a netlist: a tenth of a standard error never is beyond them.
 const DIGITS: usize = 9;
 
-/// Which parameters of a network describe records of it.
+/// Asks which parameters of a network describe its records.
 ///
-/// Ask it of a netlist with the values of its own: another fit may have counted the same records.
+/// Ask a netlist with its own values: another fit may have counted the same records.
 #[derive(Clone, Debug, Default)]
 pub struct FitNetworkQuestion {
-    /// Which `[fit.NAME]`; `None` for the only one.
+    /// Name of the `[fit.NAME]`; `None` for the only one.
     pub study: Option<String>,
-    /// How many searches begin elsewhere between the bounds; `None` for the number of the study.
+    /// Number of searches from other starts between the bounds; `None` for that of the study.
     pub starts: Option<usize>,
 }
 
@@ -50,12 +50,12 @@ pub struct FitNetworkQuestion {
 pub struct FitOfNetwork {
     input: Arc<Input>,
     study: FitStudy,
-    /// The study that was asked for by its name.
+    /// The study that was requested by its name.
     named: Option<String>,
     task: NetworkFitTask,
 }
 
-/// How a fit ended.
+/// Outcome of a fit.
 #[derive(Debug)]
 pub enum FitNetworkEnd {
     /// It found values.
@@ -69,7 +69,7 @@ pub enum FitNetworkEnd {
 pub struct FitNetworkAnswer {
     pub(super) input: Arc<Input>,
     study: FitStudy,
-    /// What was fitted to what.
+    /// The parameters and records of the fit.
     pub task: NetworkFitTask,
     /// The estimated quantities: parameters, then values of sensors.
     pub unknowns: Vec<Unknown>,
@@ -117,7 +117,7 @@ impl FitNetworkQuestion {
         }
     }
 
-    /// Reads the study, before anything is computed.
+    /// Reads the study in advance.
     ///
     /// # Errors
     /// A study that does not exist, and one that does not fit its network.
@@ -224,20 +224,20 @@ impl FitNetworkAnswer {
         &self.input
     }
 
-    /// Whether every parameter is determined.
+    /// True if every parameter is determined.
     pub fn is_whole(&self) -> bool {
         self.fit.identifiability.as_ref().is_some_and(|known| known.is_whole())
     }
 
-    /// The values with their covariance, for studies that go on from them; `None` if a value is not
-    /// determined.
+    /// The values with their covariance, for further studies.
+    /// `None` if a value is not determined.
     pub fn posterior(&self) -> Option<Posterior> {
         let called = (self.input.text.stem.as_str(), self.study.name.as_str());
         self.fit.posterior(&self.task, called, &self.names)
     }
 
-    /// The number of each parameter that the netlist writes as a number, in its unit there, and the
-    /// place of the parameter among the estimated quantities.
+    /// The numbers of parameters that the netlist writes as numbers, in their units there.
+    /// Each has the index of the parameter among the estimated quantities.
     pub fn numbers(&self) -> Vec<(usize, ParameterId, String)> {
         let number = |i: usize| {
             let parameter = self.task.parameters[i].parameter;
@@ -249,7 +249,7 @@ impl FitNetworkAnswer {
         (0..self.task.parameters.len()).filter_map(number).collect()
     }
 
-    /// What was sought, by its names.
+    /// The estimated quantities with their names.
     fn named(&self) -> Named<'_> {
         let values = self.fit.parameters.iter().map(|parameter| parameter.value).collect();
         Named { unknowns: &self.unknowns, names: &self.names, units: &self.units, values }
@@ -259,12 +259,12 @@ impl FitNetworkAnswer {
         &self.names[i]
     }
 
-    /// Places of the parameters of the network among what was sought, and of the values of sensors.
+    /// Indices of network parameters among the estimated quantities, and indices of sensor values.
     fn sought(&self) -> (Vec<usize>, Vec<usize>) {
         (0..self.unknowns.len()).partition(|&i| self.unknowns[i].parameter().is_some())
     }
 
-    /// Where it stands what is sought.
+    /// Place of an estimated quantity in the netlist.
     fn place(&self, i: usize) -> &Span {
         let sensors = &self.input.netlist.studies.sensors;
         let sensor = self.unknowns[i].sensor().and_then(|sensor| sensors.get(sensor));

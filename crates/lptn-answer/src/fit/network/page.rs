@@ -135,7 +135,7 @@ impl Page for FitNetworkAnswer {
 /// Digits of a value without a standard error.
 const DIGITS: usize = 6;
 
-/// A value with as many digits as its standard error has a use for: two of the error's own.
+/// A value and its standard error with two digits of the error.
 fn with_error(value: f64, error: Option<f64>) -> (String, String) {
     match error {
         Some(error) if error > 0.0 && error.is_finite() => {
@@ -163,7 +163,7 @@ fn cells(answer: &FitNetworkAnswer, i: usize) -> (String, String) {
     with_error(answer.shown(i, parameter.value), error)
 }
 
-/// Half the width of the 95 % interval; the interval where that is not even.
+/// Half the width of the 95 % interval; the interval itself if it is not symmetric.
 fn half_width(answer: &FitNetworkAnswer, i: usize) -> String {
     if let Some(profile) = answer.fit.parameters[i].profile {
         return one_sided(answer, i, profile);
@@ -183,7 +183,7 @@ fn one_sided(answer: &FitNetworkAnswer, i: usize, profile: Profile) -> String {
     }
 }
 
-/// What became of it, where that is worth a word.
+/// State of a parameter, unless it is `free`.
 fn remark(answer: &FitNetworkAnswer, i: usize) -> &'static str {
     Some(state(answer, i)).filter(|state| *state != "free").unwrap_or_default()
 }
@@ -379,8 +379,8 @@ fn columns(answer: &FitNetworkAnswer) -> Value {
     answer.fit.columns.iter().map(column).collect()
 }
 
-/// What the records do not determine: parameters that nothing depends on, then those that cannot be
-/// told apart.
+/// Parameters that the records do not determine: first those that no column depends on,
+/// then those that cannot be distinguished.
 fn unidentified(answer: &FitNetworkAnswer) -> Value {
     let Some(known) = &answer.fit.identifiability else { return Value::Null };
     let unfelt = known

@@ -1,4 +1,4 @@
-//! What was measured beside what the fitted network computes.
+//! Measured values next to those of the fitted network.
 
 use lptn_solve::Table;
 use lptn_units::Type;
@@ -6,7 +6,7 @@ use lptn_units::Type;
 use super::FitNetworkAnswer;
 use super::units::Shown;
 
-/// A value of a record: which column of which, and its row.
+/// A value of a record with its column and time.
 struct Sample<'a> {
     record: &'a str,
     column: &'a str,
@@ -19,9 +19,9 @@ struct Sample<'a> {
 }
 
 impl FitNetworkAnswer {
-    /// A row for each value, by record and column. Temperatures are in the unit of the netlist; if
-    /// not all columns are temperatures, the unit of each value stands beside it. A residual is
-    /// positive if more was measured than the network computes.
+    /// A row for each value, by record and column. Temperatures are in the unit of the netlist.
+    /// If not all columns are temperatures, each value has its unit. A residual is positive if the
+    /// measured value is larger than the computed one.
     pub fn residuals(&self) -> Table {
         let temperature = &self.input.netlist.temperature_unit;
         let samples = self.fit.columns.iter().flat_map(|m| {
@@ -36,7 +36,7 @@ impl FitNetworkAnswer {
                 computed,
                 shown: Shown::of(column.ty, temperature),
             };
-            // gaps of the record are no values
+            // gaps of the record are not values
             values.map(sample).filter(|sample| sample.measured.is_finite()).collect::<Vec<_>>()
         });
         let samples: Vec<Sample<'_>> = samples.collect();

@@ -7,7 +7,7 @@ use serde_json::{Value, json};
 
 use super::FitNetworkAnswer;
 
-/// That columns of a record are off together, for the records in which chance does not explain it.
+/// Note on the records whose columns have correlated noise that chance does not explain.
 pub(super) fn text(answer: &FitNetworkAnswer) -> Option<String> {
     let runs = &answer.task.runs;
     let records: Vec<String> = runs.iter().map(|run| run.name.clone()).collect();

@@ -6,8 +6,7 @@ use lptn_units::{Type, Unit};
 use super::FitNetworkAnswer;
 use crate::words::difference;
 
-/// How values of one type are shown: temperatures in the unit of the netlist, what else is measured
-/// in SI units.
+/// Unit in which values of one type are shown: that of the netlist for temperatures, else SI.
 #[derive(Clone, Debug)]
 pub(super) struct Shown {
     pub(super) unit: Unit,
@@ -28,7 +27,7 @@ impl Shown {
 }
 
 impl FitNetworkAnswer {
-    /// What a misfit is one of.
+    /// The column that a misfit belongs to.
     pub(super) fn column(&self, misfit: &ColumnMisfit) -> &MeasuredColumn {
         &self.task.runs[misfit.run].columns[misfit.column]
     }
@@ -39,8 +38,8 @@ impl FitNetworkAnswer {
     }
 }
 
-/// The SI unit that the misfits of all columns have in common; 1 where they count over their
-/// standard deviations.
+/// The SI unit that the misfits of all columns have in common.
+/// It is 1 if they are divided by standard deviations.
 pub(in crate::fit) fn common(task: &NetworkFitTask) -> String {
     task.unit().unwrap_or(Type::SCALAR).dimension.si_unit()
 }

@@ -1,4 +1,4 @@
-//! What a fit of a network says in words.
+//! Sentences of a fit of a network.
 
 use lptn_fit::least_squares::{Side, Stop};
 use lptn_fit::network::{
@@ -13,10 +13,10 @@ use super::units::common;
 use crate::taken;
 use crate::words::count as number;
 
-/// Digits of a value that nothing says the accuracy of.
+/// Digits of a value of unknown accuracy.
 const DIGITS: usize = 5;
 
-/// What became of a parameter, in a word.
+/// State of a parameter in a word.
 pub(super) fn state(answer: &FitNetworkAnswer, i: usize) -> &'static str {
     let known = answer.fit.identifiability.as_ref();
     match answer.fit.parameters[i].on_bound {
@@ -28,7 +28,7 @@ pub(super) fn state(answer: &FitNetworkAnswer, i: usize) -> &'static str {
     }
 }
 
-/// What helps a search that did not converge.
+/// Help for a search that did not converge.
 pub(super) fn unfound(task: &NetworkFitTask, (stop, fit): (Stop, &NetworkFit)) -> String {
     let part = |fitted: &FittedParameter| (fitted.value / fitted.start).abs();
     let ends = task.unknowns().into_iter().zip(fit.parameters.iter().map(part));
@@ -98,7 +98,7 @@ pub(crate) fn doubts(answer: &FitNetworkAnswer) -> Vec<Diagnostic> {
     doubts
 }
 
-/// That an instrument, as far as the records say, follows at once.
+/// Doubt that an instrument has a lag: the records show none.
 fn no_lag(answer: &FitNetworkAnswer, i: usize) -> Diagnostic {
     let name = answer.name(i);
     let message = format!(
@@ -109,10 +109,10 @@ fn no_lag(answer: &FitNetworkAnswer, i: usize) -> Diagnostic {
     doubt.help("leave `lag` out of the sensor, or give its value from a separate test")
 }
 
-/// An interval of more standard errors to each side is worth a word: many values have two.
+/// Wider intervals, in standard errors to each side, are reported: many values have two.
 const WIDE: f64 = 2.5;
 
-/// That drift as slow as the record is in the intervals, where that makes one much wider.
+/// Doubt if drift as slow as the record makes an interval much wider.
 fn drifting(answer: &FitNetworkAnswer) -> Option<Diagnostic> {
     let name = |column: &ColumnMisfit| &answer.task.runs[column.run].columns[column.column].name;
     let drifting = answer.fit.columns.iter().filter(|column| column.slow_drift);
@@ -139,7 +139,7 @@ fn drifting(answer: &FitNetworkAnswer) -> Option<Diagnostic> {
     (!names.is_empty() && ratio > WIDE).then_some(doubt)
 }
 
-/// That something changes from record to record which the network holds fixed.
+/// Doubt if a parameter that is constant in the network differs from record to record.
 fn differing(answer: &FitNetworkAnswer) -> Option<Diagnostic> {
     let between = |i: usize| Some((i, answer.fit.parameters[i].between.filter(|b| b.differ)?));
     let all: Vec<_> = (0..answer.fit.parameters.len()).filter_map(between).collect();
@@ -165,7 +165,7 @@ fn differing(answer: &FitNetworkAnswer) -> Option<Diagnostic> {
     ))
 }
 
-/// A value that contradicts what is known of it beforehand, which is its own value.
+/// Doubt if a value contradicts its prior, which is its start value.
 fn off_prior(answer: &FitNetworkAnswer, i: usize) -> Option<Diagnostic> {
     let (fitted, prior) = (&answer.fit.parameters[i], answer.unknowns[i].prior?);
     let off = (fitted.value - fitted.start).abs() / prior;
@@ -186,8 +186,8 @@ fn off_prior(answer: &FitNetworkAnswer, i: usize) -> Option<Diagnostic> {
     })
 }
 
-/// The columns that the model misses by far more than their values scatter: each once, with the
-/// record in which it is worst.
+/// The columns that the model misses by far more than their values scatter.
+/// Each is named once, with the record in which it is worst.
 fn misfits(answer: &FitNetworkAnswer) -> Vec<Diagnostic> {
     let name = |column: &ColumnMisfit| &answer.task.runs[column.run].columns[column.column].name;
     let off = |column: &ColumnMisfit| column.sigma.map_or(0.0, |sigma| column.rms / sigma);
@@ -250,12 +250,12 @@ pub(super) fn combination(answer: &FitNetworkAnswer, combination: &Combination) 
     answer.named().combination(combination)
 }
 
-/// The type of a combination; `None` if its exponents cannot be held.
+/// The type of a combination; `None` if its exponents cannot be represented.
 pub(super) fn type_of(answer: &FitNetworkAnswer, combination: &Combination) -> Option<Type> {
     answer.named().type_of(combination)
 }
 
-/// The last line: what the fit determined.
+/// The last line: which parameters the fit determined.
 pub(crate) fn verdict(answer: &FitNetworkAnswer) -> String {
     let Some(known) = &answer.fit.identifiability else {
         return "it is not known which parameters the records determine: derivatives are not \
@@ -295,8 +295,7 @@ pub(super) fn sought(answer: &FitNetworkAnswer) -> String {
     }
 }
 
-/// What there is to say of errors where the records have no value beyond those that the parameters
-/// take up.
+/// Text on errors if the records have no values left to estimate them from.
 fn unchecked(answer: &FitNetworkAnswer) -> &'static str {
     match (answer.fit.left_over, &answer.fit.covariance) {
         (0, Some(_)) => "; no values are left to estimate errors from, so they follow from `sigma`",

@@ -1,4 +1,4 @@
-//! What is to be said about a fit beside its numbers.
+//! Warnings about a fit in addition to its numbers.
 
 use lptn_fit::step::{LONG_ENOUGH, StepError, StepFit, TwoExponentials};
 use lptn_netlist::{Diagnostic, RecordColumn};
@@ -42,7 +42,7 @@ pub(super) fn of(request: &Request, column: &StepColumn) -> Vec<Diagnostic> {
             with a step of five deviations of slow noise";
         warnings.push(at(Diagnostic::warning("fit::coarse", message)).help(help));
     }
-    // where the noise that is seen is slow itself, its own interval is hardly wider
+    // if the visible noise is slow itself, its interval is hardly wider
     if fit.noise.drifts() && fit.tau.half_width > WIDE * fit.tau.standard_error {
         warnings.push(at(drifting(name, fit)));
     }
@@ -60,10 +60,10 @@ pub(super) fn of(request: &Request, column: &StepColumn) -> Vec<Diagnostic> {
     warnings
 }
 
-/// An interval of more standard errors to each side is worth a word: many samples have two.
+/// Wider intervals, in standard errors to each side, are reported: many samples have two.
 const WIDE: f64 = 2.5;
 
-/// That a drift as slow as the record is in the intervals.
+/// Warning that the intervals include a drift as slow as the record.
 fn drifting(name: &str, fit: &StepFit) -> Diagnostic {
     let message = format!(
         "column `{name}`: the data cannot exclude a drift as slow as the record; the 95 % interval \
@@ -75,7 +75,7 @@ fn drifting(name: &str, fit: &StepFit) -> Diagnostic {
     Diagnostic::warning("fit::slow_drift", message).help(help)
 }
 
-/// That the end of the curve is not in the record.
+/// Warning that the end of the curve is not in the record.
 fn short(name: &str, fit: &StepFit) -> Diagnostic {
     let lengths = significant(fit.time_constants(), 3);
     let several = if lengths == "1" { "" } else { "s" };
@@ -92,7 +92,7 @@ fn short(name: &str, fit: &StepFit) -> Diagnostic {
     Diagnostic::warning("fit::short", message).help(help)
 }
 
-/// That dT is counted from where the record is cut.
+/// Warning that dT is counted from the cut of the record.
 fn cut(request: &Request, column: &StepColumn) -> Option<Diagnostic> {
     if request.reference != Reference::Initial || !request.is_cut() {
         return None;
@@ -110,8 +110,7 @@ fn cut(request: &Request, column: &StepColumn) -> Option<Diagnostic> {
     Some(Diagnostic::warning("fit::cut", message).help(help))
 }
 
-/// That a power is negative by more than its noise: no part of a gearbox takes heat out of the
-/// world.
+/// Warning that a power is negative by more than its 95 % interval: dissipation never is.
 fn cooling(request: &Request, column: &StepColumn) -> Option<Diagnostic> {
     let (name, fit, power) = (&column.column.name, &column.fit, &column.power.power);
     if request.capacity.is_none() || power.value + power.half_width >= 0.0 {
@@ -154,10 +153,10 @@ fn second(name: &str, two: &TwoExponentials, request: &Request) -> Diagnostic {
     ))
 }
 
-/// A column that has come no further than this part of its whole change stands still.
+/// Share of its whole change within which a column counts as constant.
 const STILL: f64 = 0.02;
 
-/// That the step begins after the record.
+/// Warning that the step begins after the record.
 fn late(name: &str, start: f64) -> Diagnostic {
     let from = significant(start, 6);
     let message = format!("column `{name}` is constant until {from} s, but one exponential is not");
@@ -165,8 +164,8 @@ fn late(name: &str, start: f64) -> Diagnostic {
     Diagnostic::warning("fit::late_start", message).help(help)
 }
 
-/// When in s a column begins to change that stood still for more than a tenth of its time constant:
-/// from the start on an exponential would have left `STILL` of its change behind after 0.02 tau.
+/// Time in s until which a column is constant, if that is more than a tenth of its time constant.
+/// An exponential would have completed `STILL` of its change after 0.02 tau.
 fn stands_still(times: &[f64], values: &[f64], tau: f64) -> Option<f64> {
     let known = || times.iter().zip(values).filter(|(_, value)| !value.is_nan());
     let (start, first) = known().next()?;
@@ -176,7 +175,7 @@ fn stands_still(times: &[f64], values: &[f64], tau: f64) -> Option<f64> {
     (count >= 3 && end - start > 0.1 * tau).then_some(*end)
 }
 
-/// When in s a column turns back by more than a third of its range: it heats, and then it cools.
+/// Time in s at which a column turns back by more than a third of its range: it heats, then cools.
 fn turns(times: &[f64], values: &[f64]) -> Option<f64> {
     let known: Vec<(f64, f64)> = times
         .iter()

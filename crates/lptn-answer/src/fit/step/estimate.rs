@@ -19,9 +19,8 @@ pub(super) fn to_error(value: f64, error: f64) -> String {
         .map_or_else(|| significant(value, DIGITS), |decimals| fixed(value, decimals))
 }
 
-/// Decimals that show two digits of an error; `None` for one that is 0 or not known, or so small
-/// that it is rounding: of the number, or of the record that it comes from, which has fewer than
-/// ten digits.
+/// Decimals that show two digits of an error; `None` if it is 0, not known, or rounding.
+/// Rounding is that of the number, or of its record, which has fewer than ten digits.
 fn decimals(value: f64, error: f64) -> Option<usize> {
     if !(error.is_finite() && error > 1e-9 && error > 1e-8 * value.abs()) {
         return None;

@@ -1,4 +1,4 @@
-//! What `lptn fit step` draws: every column over time with its exponential, and what that misses.
+//! Picture of `lptn fit step`: every column with its exponential over time, and the residuals.
 
 use lptn_fit::step::{Estimated, StepFit};
 use lptn_netlist::RecordColumn;
@@ -15,11 +15,11 @@ use crate::words::difference;
 /// Points of a curve that is drawn.
 const POINTS: u32 = 240;
 
-/// T_f is drawn where it is at most so many times as far from the record as the record is high.
+/// Largest distance of T_f from the end of the record that is drawn, in heights of the record.
 const FAR: f64 = 1.5;
 
 impl FitStepAnswer {
-    /// The record over time, the exponentials through it, and what they miss.
+    /// The record over time, the exponentials through it, and their residuals.
     pub(super) fn figure(&self) -> Figure {
         let unit = &self.request.unit;
         let mut panel = Panel::new(Axis::time(), Axis::linear(TEMPERATURE, &*unit.text));
@@ -106,7 +106,7 @@ impl Drawn<'_> {
         Curve::line(name, (0..=POINTS).map(point).collect()).as_place(self.place)
     }
 
-    /// The exponential, a second one where it is asked for, T_f, and what was measured.
+    /// The exponential, a second one if it is offered, T_f, and the measured values.
     fn curves(&self) -> Vec<Curve> {
         let (fit, unit) = (self.fit(), self.unit());
         let mut curves = vec![self.curve(self.name(), |t| unit.from_si(fit.at(t)))];
@@ -128,13 +128,13 @@ impl Drawn<'_> {
         curves
     }
 
-    /// Whether T_f can be shown without making the record flat.
+    /// True if T_f can be shown without making the record flat.
     fn is_near(&self) -> bool {
         let fit = self.fit();
         fit.beyond.abs() <= FAR * (fit.at(fit.length) - fit.initial.value).abs()
     }
 
-    /// What the exponential misses, and where a second one says that this lies.
+    /// The residuals of the exponential, and the difference of a second one to it.
     fn residuals(&self) -> Vec<Curve> {
         let (first, _) = self.ends();
         let fit = self.fit();

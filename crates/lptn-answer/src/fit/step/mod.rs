@@ -19,8 +19,8 @@ use crate::listener::Listener;
 use model::Model;
 use request::{Reference, Request};
 
-/// Which exponential each temperature of a record follows, and the heat and the resistance that
-/// follow from a heat capacity.
+/// Asks which exponential each temperature of a record follows.
+/// A heat capacity adds the heat and the resistance.
 #[derive(Clone, Debug, Default)]
 pub struct FitStepQuestion {
     /// The columns to fit; none for all temperatures that change.
@@ -31,7 +31,7 @@ pub struct FitStepQuestion {
     pub from: Option<String>,
     /// Rows after this time are left out.
     pub to: Option<String>,
-    /// Whether values far outside of those before and behind them are left out.
+    /// True if values far from those before and after them are left out.
     pub drop_outliers: bool,
     /// The heat capacity, `2659 J/K ± 5 %`; `None` for no heat and no resistance.
     pub capacity: Option<String>,
@@ -43,7 +43,7 @@ pub struct FitStepQuestion {
     pub model: Option<PathBuf>,
     /// The node of the model that the thermocouple is on.
     pub port: Option<String>,
-    /// Whether the posterior is wanted, which there is of one column only.
+    /// True if the posterior is wanted, which exists for one column only.
     pub posterior: bool,
     /// The unit of temperatures; `None` for degC.
     pub temperature_unit: Option<String>,
@@ -57,9 +57,9 @@ pub struct FitStepAnswer {
     request: Request,
     /// The columns that have a fit, in order.
     pub columns: Vec<StepColumn>,
-    /// The names of those that have none, with the code of the reason.
+    /// The names of columns that have none, with the code of the reason.
     pub without: Vec<(String, &'static str)>,
-    /// Why these have none.
+    /// Reasons why these have none.
     pub problems: Vec<Diagnostic>,
     model: Option<Model>,
     doubts: Vec<Diagnostic>,
@@ -96,7 +96,7 @@ impl FitStepQuestion {
     /// Asks a file of a record; `-` is stdin.
     ///
     /// # Errors
-    /// What is wrong with the question, the record or the model; and that no column has a fit.
+    /// Problems of the question, the record or the model, and no column with a fit.
     pub fn ask(&self, record: &Path, listener: &dyn Listener) -> Result<FitStepAnswer, Failure> {
         let request = Request::read(self, record)?;
         if self.posterior && request.columns.len() != 1 {
@@ -138,7 +138,7 @@ impl FitStepQuestion {
 }
 
 impl FitStepAnswer {
-    /// Heat, resistance and capacity with their covariance, for studies that go on from them;
+    /// Heat, resistance and capacity with their covariance, for further studies.
     /// `None` unless there is one column.
     pub fn posterior(&self) -> Option<Posterior> {
         let [column] = self.columns.as_slice() else { return None };

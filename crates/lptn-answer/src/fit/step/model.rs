@@ -1,4 +1,4 @@
-//! What the method gets wrong of a network that is known.
+//! Bias of the method for a network that is known.
 
 use std::path::Path;
 
@@ -24,8 +24,8 @@ pub(super) struct Model {
 }
 
 impl Model {
-    /// The same fit on the network's own answer at the times of the record; `None` where no network
-    /// is named.
+    /// The same fit on the network's own answer at the times of the record.
+    /// `None` if no network is named.
     pub(super) fn read(
         question: &FitStepQuestion,
         request: &Request,

@@ -115,14 +115,14 @@ impl Page for FitStepAnswer {
     }
 }
 
-/// Of a file in a sentence.
+/// Longest name of a file in a sentence.
 const LONGEST_NAME: usize = 40;
 
-/// A heading, and what stands below it for each column of the record.
+/// A heading and its cell for each column of the record.
 type Cells<'c> = (String, &'c dyn Fn(&StepColumn) -> String);
 
-/// A table with a row for each column of the record: several below each other where one were too
-/// wide.
+/// Adds a table with a row for each column of the record.
+/// It becomes several below each other if it would be too wide.
 fn table(answer: &FitStepAnswer, text: &mut Text, cells: &[Cells<'_>]) {
     let column = |title: &str, align, cell: &dyn Fn(&StepColumn) -> String| {
         TextColumn::new(title, align, answer.columns.iter().map(cell).collect())
@@ -154,7 +154,7 @@ fn fits(answer: &FitStepAnswer, text: &mut Text) {
     );
 }
 
-/// How sure the numbers are.
+/// Adds the intervals of the numbers.
 fn intervals(answer: &FitStepAnswer, text: &mut Text) {
     let unit = &answer.request.unit;
     let range = |t: &Estimated, of: &dyn Fn(f64) -> f64| {
@@ -179,7 +179,7 @@ fn intervals(answer: &FitStepAnswer, text: &mut Text) {
     text.line("± is one standard error; n samples count as n_eff independent ones");
 }
 
-/// dT, and with a capacity what follows from it.
+/// Adds dT and, with a capacity, the numbers that follow from it.
 fn rises(answer: &FitStepAnswer, text: &mut Text) {
     text.sentence("", &reference(answer));
     if let Some(capacity) = &answer.request.capacity {
@@ -189,7 +189,7 @@ fn rises(answer: &FitStepAnswer, text: &mut Text) {
             &format!("R_eq = t_RC / C and P_disp = dT / R_eq with C = {capacity} J/K"),
         );
     }
-    // one row for each number whose errors stand apart
+    // one row for each number with separate errors
     let mut rows: Vec<(String, &str, &Parted)> = Vec::new();
     for column in &answer.columns {
         let power = &column.power;
@@ -209,7 +209,7 @@ fn rises(answer: &FitStepAnswer, text: &mut Text) {
     );
 }
 
-/// The smaller of the two errors that is there: it says how many digits mean something.
+/// The smaller error of those that exist, which gives the number of digits.
 fn least(part: &Parted) -> f64 {
     if part.systematic > 0.0 { part.random.min(part.systematic) } else { part.random }
 }
@@ -218,7 +218,7 @@ fn error(error: f64) -> String {
     to_error(error, error)
 }
 
-/// From where dT is counted.
+/// Text on the zero of dT.
 fn reference(answer: &FitStepAnswer) -> String {
     let request = &answer.request;
     let shown = |kelvin: f64, error: f64| {
@@ -241,7 +241,7 @@ fn reference(answer: &FitStepAnswer) -> String {
     format!("dT = T_f less {of} (--reference); {class}")
 }
 
-/// What the method itself gets wrong.
+/// Adds the bias of the method itself.
 fn bias(answer: &FitStepAnswer, text: &mut Text) {
     let Some(model) = &answer.model else {
         text.sentence(
@@ -295,7 +295,7 @@ fn scalar(value: f64, unit: &str) -> SiValue {
     SiValue::new(value, unit)
 }
 
-/// What a number is, and the unit of temperatures.
+/// Type of a number, and the unit of temperatures.
 type Of<'a> = (Type, &'a Unit);
 
 fn estimated(number: &Estimated, (ty, unit): Of<'_>) -> Value {

@@ -1,4 +1,4 @@
-//! A record, and what is to be made of it.
+//! A record and the settings of its fit.
 
 use std::path::Path;
 
@@ -10,14 +10,14 @@ use crate::exit::Exit;
 use crate::failure::Failure;
 use crate::input::{self, wrong_unit};
 
-/// A record with what is to be made of it.
+/// A record and the settings of its fit.
 #[derive(Debug)]
 pub(super) struct Request {
-    /// What diagnostics and results call the record.
+    /// Name of the record in diagnostics and results.
     pub(super) name: String,
     pub(super) record: Record,
-    /// The first time of the record in s before `--from` cut it; `None` where that part cannot be
-    /// read.
+    /// The first time of the record in s before `--from` cut it.
+    /// `None` if that part cannot be read.
     pub(super) begin: Option<f64>,
     pub(super) files: Files,
     /// The columns to fit, by position.
@@ -30,7 +30,7 @@ pub(super) struct Request {
     pub(super) unit: Unit,
 }
 
-/// From where dT is counted.
+/// Zero from which dT is counted.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Reference {
     /// The temperature at the start of each column.
@@ -42,7 +42,7 @@ pub(super) enum Reference {
 }
 
 impl Request {
-    /// Whether rows before the first that is fitted were left out.
+    /// True if rows before the first fitted one were left out.
     pub(super) fn is_cut(&self) -> bool {
         self.begin.is_none_or(|begin| self.record.time.first().is_some_and(|&first| begin < first))
     }
@@ -97,7 +97,7 @@ fn temperature_unit(text: Option<&str>) -> Result<Unit, Failure> {
     input::scale_of("--temperature-unit", text.unwrap_or("degC"))
 }
 
-/// What to read: everything, or the columns that are named and the one that dT is counted from.
+/// The query of a record: all columns, or the named ones and the one that dT is counted from.
 fn query(question: &FitStepQuestion) -> Result<RecordQuery, Failure> {
     let temperature =
         |name: &str| RecordName { ty: Some(Type::ABSOLUTE_TEMPERATURE), ..RecordName::new(name) };
@@ -123,7 +123,7 @@ fn query(question: &FitStepQuestion) -> Result<RecordQuery, Failure> {
     })
 }
 
-/// Whether the text of `--reference` is neither the word nor a temperature.
+/// True if the text of `--reference` is neither `initial` nor a temperature.
 fn names_a_column(text: &str) -> bool {
     text != "initial" && parse_quantity(text, Some(Type::ABSOLUTE_TEMPERATURE)).is_err()
 }
@@ -139,7 +139,7 @@ fn reference(text: &str, (record, files): (&Record, &Files)) -> Result<Reference
     }
     match parse_quantity(text, Some(Type::ABSOLUTE_TEMPERATURE)) {
         Ok(quantity) => Ok(Reference::Value(quantity.value)),
-        // what begins with a digit was meant as a temperature
+        // a text that begins with a digit was meant as a temperature
         Err(error)
             if text.trim_start_matches(['+', '-']).starts_with(|c: char| c.is_ascii_digit()) =>
         {
@@ -158,8 +158,8 @@ fn reference(text: &str, (record, files): (&Record, &Files)) -> Result<Reference
     }
 }
 
-/// The columns to fit: those that are named, or all temperatures that change, without the one that
-/// dT is counted from.
+/// The columns to fit: the named ones, or all temperatures that change.
+/// The column that dT is counted from is not fitted.
 fn columns(question: &FitStepQuestion, record: &Record, reference: &Reference) -> Vec<usize> {
     let is_asked = |i: usize| question.columns.contains(&record.columns[i].name);
     let changes = |i: usize| {
@@ -182,7 +182,7 @@ fn nothing(record: &Record, files: Files) -> Failure {
     let problem = Diagnostic::error("fit::no_column", message);
     let problem = problem.at(record.columns.first().map(|column| column.span.clone()), "");
     let problem = problem.help("the unit of a temperature is `[degC]`, `[K]` or `[degF]`");
-    // that a column does not change is what was found out about it
+    // the warnings name the columns that do not change
     let diagnostics = record.warnings.iter().cloned().chain([problem]).collect();
     Failure { exit: Exit::Input, files, diagnostics }
 }

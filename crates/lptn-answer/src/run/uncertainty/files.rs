@@ -13,7 +13,7 @@ use super::Study;
 use crate::scale;
 use crate::words::difference;
 
-/// The rows of `uncertainty.csv`: the time, then for each node its temperature as in `result.csv`,
+/// The rows of `uncertainty.csv`: the time, and for each node its temperature as in `result.csv`,
 /// one standard deviation and the band of 95 %.
 pub(crate) fn bands(network: &Network, found: &Uncertainty, unit: &Unit) -> Table {
     let rows: Vec<usize> = (0..found.times.len()).collect();
@@ -82,7 +82,7 @@ fn type_of(network: &Network, of: AnswerOf) -> Type {
     }
 }
 
-/// What was done: method, samples, seed, runs without a result.
+/// Method, samples, seed, and runs without a result.
 fn method(found: &Uncertainty) -> Map<String, Value> {
     let mut members = Map::new();
     let count = |n: usize| json!({ "value": n, "unit": "1" });
@@ -112,7 +112,7 @@ fn one_lost(lost: &Lost) -> Value {
     })
 }
 
-/// What was done, and what was known of the parameters.
+/// Method, and the uncertain parameters with their correlation.
 pub(crate) fn given((network, unit): (&Network, &Unit), found: &Uncertainty) -> Map<String, Value> {
     let mut members = method(found);
     members.insert("parameters".into(), parameters((network, unit), found));
@@ -148,8 +148,8 @@ fn correlation(network: &Network, found: &Uncertainty) -> Value {
     Value::Object(rows.collect())
 }
 
-/// The member `uncertainty` of the results: method, parameters, and by the name of the column or
-/// limit what was found.
+/// The member `uncertainty` of the results: method, parameters, and results by the name
+/// of the column or limit.
 pub(crate) fn json(network: &Network, study: &Study, unit: &Unit) -> Value {
     let found = &study.found;
     let mut members = given((network, unit), found);

@@ -1,4 +1,4 @@
-//! What is known of the parameters, in words.
+//! Prior knowledge of the parameters, in words.
 
 use lptn_network::Network;
 use lptn_report::{fixed, significant};
@@ -24,7 +24,7 @@ pub(super) fn counted(found: &Uncertainty) -> String {
     }
 }
 
-/// Which parameters are not normal, and which are correlated most.
+/// The parameters that are not normal, and those that are correlated most.
 pub(super) fn described(network: &Network, found: &Uncertainty) -> Vec<(&'static str, String)> {
     let mut lines = Vec::new();
     for (label, distribution) in
@@ -77,7 +77,7 @@ pub(super) fn deviation(network: &Network, found: &Uncertainty, input: usize) ->
     format!("{} %", significant(100.0 * (input.deviation / input.value).abs(), 2))
 }
 
-/// What a share is where parameters are correlated.
+/// Note on shares of correlated parameters.
 pub(super) fn shares(found: &Uncertainty) -> Option<String> {
     found.inputs.are_correlated().then(|| {
         "parameters are correlated, so no share of the variance belongs to one alone: a share is \
@@ -87,8 +87,8 @@ pub(super) fn shares(found: &Uncertainty) -> Option<String> {
     })
 }
 
-/// Parameters that are not normal and make most of a result, whose band straight lines take to be
-/// normal.
+/// Parameters that are not normal and make most of a result.
+/// Straight lines take the band of that result to be normal.
 pub(super) fn far_from_normal(network: &Network, found: &Uncertainty) -> Option<String> {
     let shaped = |input: &Uncertain| input.distribution == Distribution::Rectangle;
     let rules = |i: usize| {

@@ -18,7 +18,7 @@ use crate::failure::Failure;
 use crate::input::Input;
 use crate::listener::Listener;
 
-/// How the `±` of parameters are carried to the results.
+/// Method that carries the `±` of parameters to the results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// By the slopes of the results.
@@ -27,7 +27,7 @@ pub enum Method {
     Sobol,
 }
 
-/// The uncertainty that is asked for.
+/// The uncertainty that is requested.
 #[derive(Clone, Debug)]
 pub struct UncertaintyQuestion {
     /// The method.
@@ -40,15 +40,15 @@ pub struct UncertaintyQuestion {
     pub threads: Option<usize>,
 }
 
-/// Base points unless said: enough for a standard error of a few percent of a band's width.
+/// Default base points: enough for a standard error of a few percent of a band's width.
 const SAMPLES: u32 = 512;
 
 const SEED: u32 = 1;
 
-/// A band of less than so many tolerances of the run is that of the solver.
+/// Width of a band, in tolerances of the run, below which it is that of the solver.
 const WIDTHS: f64 = 100.0;
 
-/// Refuses before anything is run what cannot be answered.
+/// Refuses a question that cannot be answered, before anything is run.
 pub(super) fn check(asked: Option<&UncertaintyQuestion>, input: &Input) -> Result<(), Failure> {
     if asked.is_none() {
         return Ok(());
@@ -76,7 +76,7 @@ pub(super) fn elsewhere(netlist: &Netlist) -> Vec<Diagnostic> {
 pub struct Study {
     /// Bands of temperatures and margins, and the ranking of parameters.
     pub found: Uncertainty,
-    /// Where the linear bands differ from sampled ones, or why there are none.
+    /// Differences of the linear bands from sampled ones, or the reason why there are none.
     pub linear: Option<Result<Vec<Discrepancy>, String>>,
 }
 

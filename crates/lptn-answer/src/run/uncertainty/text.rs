@@ -18,10 +18,10 @@ const MOST_RANKED: usize = 12;
 /// A parameter with less of the variance is not named.
 const LEAST_SHARE: f64 = 0.0005;
 
-/// Results whose rankings stand side by side.
+/// Most results whose rankings are next to each other.
 const MOST_RANKINGS: usize = 3;
 
-/// A section with the bands, one with the limits and one with what matters.
+/// A section with the bands, one with the limits and one with the ranking.
 pub(crate) fn sections(text: &mut Text, network: &Network, (study, unit): (&Study, &Unit)) {
     let found = &study.found;
     text.section().sentence("uncertainty: ", &heading(found));
@@ -61,7 +61,7 @@ fn temperatures(text: &mut Text, network: &Network, (found, unit): (&Uncertainty
     let end = duration(found.times.last().copied().unwrap_or(0.0), 4);
     columns.extend(band(&ends, &end, (unit, digits)));
     let peak = band(&peaks, "peak", (unit, digits));
-    // of a network that only warms the peak is the end
+    // in a network that only warms, the peak is at the end
     let same = peak.iter().zip(&columns[1..]).all(|(peak, end)| peak.cells == end.cells);
     if !same {
         columns.extend(peak);
@@ -115,7 +115,7 @@ fn margins(text: &mut Text, network: &Network, found: &Uncertainty) {
     text.table(table);
 }
 
-/// How many samples there are; 0 where nothing is sampled.
+/// Number of samples with a result; 0 if nothing is sampled.
 fn sampled(found: &Uncertainty) -> usize {
     match &found.method {
         UncertaintyMethod::Linear { .. } => 0,
@@ -125,9 +125,9 @@ fn sampled(found: &Uncertainty) -> usize {
     }
 }
 
-/// A probability in percent, with its standard error where it was sampled; of none or all of the
-/// samples the bound that holds at 95 % (1 - 0.05^(1/n), the rule of three: J. A. Hanley, A.
-/// Lippman-Hand, JAMA 249 (1983) 1743).
+/// A probability in percent, with its standard error if it was sampled.
+/// For none or all of the samples it is the 95 % bound (1 - 0.05^(1/n), the rule of three: J. A.
+/// Hanley, A. Lippman-Hand, JAMA 249 (1983) 1743).
 fn probability(of: Estimate, samples: usize) -> String {
     let percent = |share: f64| fixed(100.0 * share, if share >= 0.1 { 0 } else { 1 });
     if of.error.is_some() && samples > 0 && (of.value <= 0.0 || of.value >= 1.0) {
@@ -143,7 +143,7 @@ fn probability(of: Estimate, samples: usize) -> String {
     }
     match of.error {
         Some(error) => format!("{} ± {} %", percent(of.value), significant(100.0 * error, 2)),
-        // nobody knows the far end of a distribution
+        // the far end of a distribution is not known
         None if of.value > 0.0 && of.value < 1e-5 => "< 0.001 %".into(),
         None if of.value > 0.0 && of.value < 5e-4 => {
             format!("{} %", significant(100.0 * of.value, 2))
@@ -152,8 +152,8 @@ fn probability(of: Estimate, samples: usize) -> String {
     }
 }
 
-/// What matters for the ends of as many nodes as fit, for the margins where no temperature is asked
-/// for.
+/// The ranking for the ends of as many nodes as fit.
+/// If no temperature is requested, it is for the margins.
 fn ranking(text: &mut Text, network: &Network, found: &Uncertainty) {
     let ends: Vec<&Answer> =
         found.answers.iter().filter(|answer| matches!(answer.of, AnswerOf::End(_))).collect();
@@ -221,7 +221,7 @@ fn side_by_side(
     (table.into(), left_out(found, answers, others))
 }
 
-/// What the parameters that are not named have of the variance.
+/// Share of the variance of the parameters that are not named.
 fn left_out(found: &Uncertainty, answers: &[&Answer], others: &[usize]) -> Option<String> {
     if others.is_empty() {
         return None;
@@ -248,7 +248,7 @@ fn percent(share: f64) -> String {
     format!("{} %", fixed(100.0 * share, 1))
 }
 
-/// Relative standard deviations from which on a straight line is doubted.
+/// Relative standard deviation from which a straight line is doubted.
 const WIDE: f64 = 0.35;
 
 /// Parameters that may be far from their value, or of the other sign.
@@ -269,7 +269,7 @@ fn wide<'a>(network: &'a Network, found: &'a Uncertainty) -> impl Iterator<Item 
     })
 }
 
-/// What the tables cannot say.
+/// Notes on everything that the tables leave out.
 pub(crate) fn notes(network: &Network, study: &Study, unit: &Unit) -> Vec<String> {
     let found = &study.found;
     let lost = match &found.method {

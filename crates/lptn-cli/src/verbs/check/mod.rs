@@ -41,7 +41,7 @@ pub(crate) fn check(args: &CheckArgs, console: &Console) -> Result<Exit, Failure
     Ok(finding.exit())
 }
 
-/// Writes the network as a flat netlist; what is wrong with it goes to stderr.
+/// Writes the network as a flat netlist; its problems go to stderr.
 fn expand(text: &Given, source: &Source, console: &Console) -> Result<Exit, Failure> {
     let mut netlist = input::parse(text).map_err(|rejected| Failure {
         exit: if rejected.syntax { Exit::Input } else { Exit::No },
@@ -56,32 +56,32 @@ fn expand(text: &Given, source: &Source, console: &Console) -> Result<Exit, Fail
     console.print(&proven(flat, Path::new(&text.name), &netlist.network, netlist.run.as_ref())?)
 }
 
-/// How far the nodes are lumps at the start; `None` where the start cannot be had, which a run
-/// says.
+/// Biot numbers and diffusion times at the start.
+/// `None` if the start cannot be computed, which a run reports.
 fn lumped(netlist: &Netlist, system: &ThermalSystem) -> Option<Lumping> {
     let run = netlist.run.as_ref();
     let start = run.map_or(0.0, |run| run.start);
     Lumping::at_start(system, start, run.map(|run| run.stop)).ok()
 }
 
-/// What was found in a netlist.
+/// Content and problems of a netlist.
 struct Finding {
     files: Files,
     diagnostics: Vec<Diagnostic>,
-    /// What the network consists of, if it is one.
+    /// The numbers of its parts, if it is a network.
     counts: Option<String>,
     /// The network, if it is one.
     network: Option<Network>,
-    /// How far its nodes are lumps.
+    /// Biot numbers and diffusion times of its nodes.
     lumping: Option<Lumping>,
     syntax: bool,
-    /// Whether it says how long it runs.
+    /// True if it has a run.
     has_run: bool,
 }
 
 impl Finding {
     /// # Errors
-    /// What is wrong with `--set` or `--case`: that is not a property of the netlist.
+    /// Problems of `--set` or `--case`: they are not a property of the netlist.
     fn of(text: &Given, source: &Source) -> Result<Self, Failure> {
         let mut netlist = match input::parse(text) {
             Ok(netlist) => netlist,
@@ -118,7 +118,7 @@ impl Finding {
         Ok(Self { files, diagnostics, counts, network, lumping, syntax: false, has_run })
     }
 
-    /// How far its time constants are apart; a large network takes a while to tell.
+    /// Range of its time constants; it takes a while for a large network.
     fn stiffness(&self) -> Option<Stiff> {
         Stiff::of(self.network.as_ref()?)
     }
@@ -145,7 +145,7 @@ impl Finding {
     }
 }
 
-/// What was found, and how it is shown.
+/// A finding and its display.
 struct View<'a> {
     finding: &'a Finding,
     text: &'a Given,

@@ -44,7 +44,7 @@ pub(crate) fn compare(args: &CompareArgs, console: &Console) -> Result<Exit, Fai
     Ok(answer.exit())
 }
 
-/// Doubts, and what is wrong with the candidates that have no results.
+/// Reports doubts, and the problems of candidates without results.
 fn report(answer: &CompareAnswer, console: &Console) {
     console.warn(answer.files(), &answer.doubts());
     // the last line names those that were interrupted

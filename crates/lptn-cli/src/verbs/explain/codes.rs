@@ -1,7 +1,7 @@
-//! What is known of each code: the pages of `docs/codes`, which are a part of the program.
+//! Descriptions of the codes: the pages of `docs/codes`, which are a part of the program.
 
-/// The pages. A code stands in a heading `## area::problem`, several that mean the same beside each
-/// other; the first paragraph below it says it in a line.
+/// The pages. A code is in a heading `## area::problem`, codes of the same meaning in one heading.
+/// The first paragraph below it is the summary in one line.
 const PAGES: [&str; 7] = [
     include_str!("../../../../../docs/codes/netlist.md"),
     include_str!("../../../../../docs/codes/network.md"),
@@ -12,7 +12,7 @@ const PAGES: [&str; 7] = [
     include_str!("../../../../../docs/codes/command.md"),
 ];
 
-/// A code and what stands below its heading.
+/// A code and the text below its heading.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Code {
     pub(crate) code: &'static str,
@@ -23,11 +23,11 @@ pub(crate) struct Code {
 pub(crate) enum Part {
     /// A paragraph on one line.
     Paragraph(String),
-    /// A wrong file and the mended one.
+    /// A wrong file and the corrected one.
     Example(Example),
 }
 
-/// A block ` ```diff `: lines of both files, of the wrong one (`-`) and of the mended one (`+`).
+/// A block ` ```diff `: lines of both files, of the wrong one (`-`) and of the corrected one (`+`).
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Example {
     /// The verb that shows it, with its options.
@@ -36,17 +36,17 @@ pub(crate) struct Example {
 }
 
 impl Code {
-    /// What stands before `::`.
+    /// The part before `::`.
     pub(crate) fn area(&self) -> &'static str {
         self.code.split("::").next().unwrap_or_default()
     }
 
-    /// What stands behind it.
+    /// The part after `::`.
     pub(crate) fn problem(&self) -> &'static str {
         self.code.rsplit("::").next().unwrap_or_default()
     }
 
-    /// It in one line.
+    /// Its summary in one line.
     pub(crate) fn summary(&self) -> &str {
         self.paragraphs().next().unwrap_or_default()
     }
@@ -78,12 +78,12 @@ impl Example {
         lines.map(|line| format!("{}\n", line.get(1..).unwrap_or_default())).collect()
     }
 
-    /// Whether it is a record, and no netlist.
+    /// True if it is a record, not a netlist.
     pub(crate) fn is_record(&self) -> bool {
         self.verb.starts_with("fit step")
     }
 
-    /// Whether it is an addition to a small network; one with a `format` stands alone.
+    /// True if it is an addition to a small network; one with a `format` is complete.
     pub(crate) fn is_fragment(&self) -> bool {
         !self.is_record() && !self.file('-').starts_with("format")
     }

@@ -1,4 +1,4 @@
-//! How codes are shown.
+//! Codes as a page.
 
 use std::io;
 
@@ -11,10 +11,10 @@ use super::codes::{Code, Part};
 const FRAGMENT: &str = "The lines belong to a network with a node `base_node`, a boundary \
     `base_air` and a resistor of 1 K/W between them.";
 
-/// The codes that were asked for.
+/// The codes that were requested.
 pub(super) struct Explained {
     pub(super) codes: Vec<Code>,
-    /// Whether by name.
+    /// True if they were requested by name.
     pub(super) named: bool,
 }
 

@@ -1,4 +1,4 @@
-//! `lptn fit`: what records of measured temperatures tell. Each of its verbs is a module.
+//! `lptn fit`: estimates from measured records. Each of its verbs is a module.
 
 mod args;
 mod compare;

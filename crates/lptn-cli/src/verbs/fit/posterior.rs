@@ -8,7 +8,7 @@ use crate::console::Console;
 use crate::files;
 use lptn_answer::failure::Failure;
 
-/// Puts what a fit found in the place of what stands there.
+/// Writes the posterior of a fit, and replaces a file that exists.
 pub(crate) fn write(posterior: &Posterior, file: &Path, console: &Console) -> Result<(), Failure> {
     let mut text = Vec::new();
     // into memory, which does not fail

@@ -52,7 +52,7 @@ pub(crate) struct GraphArgs {
 }
 
 impl GraphArgs {
-    /// What can be nothing but a picture, and the option that asks for it.
+    /// Output that can only be a picture, and the option that asks for it.
     pub(super) fn only_a_picture(&self) -> Option<[&'static str; 2]> {
         match (&self.field.slice, self.sankey) {
             (Some(_), _) => Some(["a slice", "--slice"]),

@@ -28,7 +28,7 @@ pub(crate) fn graph(args: &GraphArgs, console: &Console) -> Result<Exit, Failure
     let (kind, place) = place::wanted(args.format, args.output.as_deref(), only)?;
     let question = args.question(kind);
     let input = Arc::new(Input::load(&args.source)?);
-    // doubts are said as they come up
+    // doubts are printed as they come up
     let answer = question.ask(Arc::clone(&input), &console.listening())?;
     answer.note.iter().for_each(|note| console.note(note));
     output::put(&answer.bytes, (&place, &answer.name), &input, console)?;

@@ -1,4 +1,4 @@
-//! Where a picture goes: a file, whole or not at all, or stdout.
+//! Destination of a picture: a file, whole or not at all, or stdout.
 
 use std::fs;
 use std::path::PathBuf;
@@ -9,7 +9,7 @@ use crate::files;
 use lptn_answer::failure::{Failure, reason};
 use lptn_answer::input::Input;
 
-/// Puts the bytes where they are wanted, and says where; among the results they have a usual name.
+/// Writes the bytes to their place, and reports it; among the results they have a usual name.
 pub(super) fn put(
     bytes: &[u8],
     (place, name): (&Place, &str),

@@ -1,4 +1,4 @@
-//! What a drawing is written as, and where it goes.
+//! Format and destination of a drawing.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,7 @@ use lptn_answer::failure::Failure;
 use lptn_answer::graph::Kind;
 use lptn_netlist::Diagnostic;
 
-/// Where it goes.
+/// Destination of a drawing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Place {
     Stdout,
@@ -16,8 +16,8 @@ pub(super) enum Place {
     Results,
 }
 
-/// What is written and where, by `--format` and `-o`; `only` says what can be nothing but a picture,
-/// and by which option it is asked for.
+/// Format and destination by `--format` and `-o`.
+/// `only` is an output that can only be a picture, and the option that asks for it.
 pub(super) fn wanted(
     format: Option<Kind>,
     output: Option<&Path>,

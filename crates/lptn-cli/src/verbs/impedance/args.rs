@@ -56,7 +56,7 @@ pub(crate) struct ImpedanceArgs {
 }
 
 impl ImpedanceArgs {
-    /// To what the node answers, and in which form.
+    /// Input and form of the response.
     pub(super) fn form(&self) -> Form {
         match (self.foster, self.cauer, &self.omega) {
             (Some(count), ..) => Form::Chain { count, ladder: false },

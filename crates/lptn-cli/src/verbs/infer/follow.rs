@@ -10,7 +10,7 @@ use lptn_report::Format;
 use super::InferArgs;
 use crate::console::Console;
 
-/// Says at once what rows that come cannot be given as.
+/// Refuses, in advance, output that rows cannot be given as.
 pub(super) fn possible(args: &InferArgs, console: &Console) -> Result<(), Failure> {
     let asked = match args.printed.format {
         Format::Json => "--format json",

@@ -8,7 +8,7 @@ use lptn_report::{Format, write_csv};
 use crate::files::Folder;
 use crate::files::names::{INFER, INFERRED, MANIFEST};
 
-/// What is written.
+/// Names of the files.
 pub(super) const NAMES: [&str; 3] = [INFERRED, INFER, MANIFEST];
 
 pub(super) fn write(answer: &InferAnswer, folder: &Folder, wall_time: f64) -> Result<(), Failure> {

@@ -53,12 +53,12 @@ fn number(value: Option<f64>) -> String {
     value.map_or("-".into(), |value| significant(value, DIGITS))
 }
 
-/// The records that were asked for.
+/// The records that were requested.
 struct Found {
     materials: Records,
     fluids: Records,
     lubricants: Vec<LibraryLubricant>,
-    /// Whether by name.
+    /// True if they were requested by name.
     named: bool,
 }
 
@@ -170,7 +170,7 @@ fn rows(found: &Found) -> Vec<Vec<String>> {
         let words = [r.name.clone(), kind.to_owned()];
         words.into_iter().chain(numbers).chain([r.title.clone(), r.source.clone()]).collect()
     };
-    // the viscosities stand in the words, so that the columns stay
+    // the viscosities are in the title, so that the columns stay the same
     let oil = |oil: &LibraryLubricant| {
         let [nu_40, nu_100] = oil.viscosity.map(|nu| significant(nu * 1e6, 4));
         let title =

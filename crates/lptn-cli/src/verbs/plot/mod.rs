@@ -44,7 +44,7 @@ pub(crate) fn plot(args: &PlotArgs, console: &Console) -> Result<Exit, Failure> 
     Ok(exit)
 }
 
-/// Refuses what only a run could do.
+/// Refuses options that only a run could use.
 fn nothing_to_run(args: &PlotArgs) -> Result<(), Failure> {
     let times = &args.times;
     let given = [

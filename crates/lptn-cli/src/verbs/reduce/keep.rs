@@ -62,7 +62,7 @@ fn listed(text: &str) -> Vec<String> {
     names.map(str::to_owned).collect()
 }
 
-/// That a recovery was asked for without nodes to recover from.
+/// Failure of a recovery without nodes to recover from.
 pub(super) fn recovers_nothing() -> Failure {
     Failure::refused(
         "reduce::nodes",

@@ -77,13 +77,13 @@ impl ReduceArgs {
         self.write.is_some().then_some("--write").or(toml.then_some("--format toml"))
     }
 
-    /// Writes the netlist where that is asked for.
+    /// Writes the netlist if that is requested.
     fn write(&self, netlist: &Netlist<'_>) -> Result<(), Failure> {
         let Some(path) = &self.write else { return Ok(()) };
         files::write_new(path, &netlist(Some(path))?, "reduce::exists")
     }
 
-    /// Prints an answer or its netlist; beside rows of CSV what these do not say.
+    /// Prints an answer or its netlist, and next to rows of CSV the notes that they leave out.
     fn print(
         &self,
         console: &Console,
@@ -118,7 +118,7 @@ fn next(answer: &ReduceAnswer, input: &Input, console: &Console) {
     }
 }
 
-/// How a netlist takes the file of a load.
+/// Text that shows how a netlist uses the file of a load.
 fn signal_of(path: &Path) -> String {
     format!(
         "in a netlist: worst = {{ csv = \"{}\", time = \"t\", value = \"P\", interp = \"previous\", \

@@ -1,7 +1,7 @@
 //! `lptn report`: the page of a run that has been made.
 //!
-//! The run is made once more as its manifest says, and has to give the same bytes. Where its files
-//! are no longer what they were, the page shows what is in the folder, and says so.
+//! The run is repeated as its manifest says, and must give the same bytes.
+//! If its files have changed, the page shows the content of the folder, and says so.
 
 mod args;
 
@@ -77,8 +77,8 @@ fn changed(manifest: &Value) -> Option<String> {
     })
 }
 
-/// Makes a run again, adds it to the report, and tells whether its bytes are the same; or why it is
-/// no run.
+/// Repeats a run, adds it to the report, and returns true if its bytes are the same.
+/// The inner error is the reason why it is not a run.
 fn again(
     manifest: &Value,
     folder: &Path,

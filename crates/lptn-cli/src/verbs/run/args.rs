@@ -48,7 +48,7 @@ pub(crate) struct RunArgs {
 }
 
 impl RunArgs {
-    /// The question; `console` tells how much is shown, and whether a report is wanted.
+    /// The question; `console` gives the detail, and says if a report is wanted.
     pub(crate) fn question(&self, console: &Console) -> RunQuestion {
         RunQuestion {
             tolerance: self.tolerance.clone(),

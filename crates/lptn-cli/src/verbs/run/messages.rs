@@ -1,4 +1,4 @@
-//! What is said of a run on stderr, and its exit code.
+//! Messages on a run on stderr, and its exit code.
 
 use lptn_answer::exit::Exit;
 use lptn_answer::input::quoted;
@@ -12,7 +12,7 @@ use crate::files::Folder;
 use crate::files::names::{EVENTS, MANIFEST, RESULT, STATE};
 use crate::verdict;
 
-/// What is worth knowing beside the result.
+/// Prints notes and warnings next to the result.
 pub(crate) fn beside(answer: &RunAnswer, folder: Option<&Folder>, console: &Console) {
     if let Some(folder) = folder {
         wrote(answer, folder, console);
@@ -69,7 +69,7 @@ pub(crate) fn conclude(answer: &RunAnswer, files: bool, console: &Console) -> Ex
     verdict::conclude(&answer.judgement(&answer.limits()), console)
 }
 
-/// What the integrator did.
+/// Counters of the integrator.
 fn work(solution: &Solution) -> Vec<String> {
     let done = solution.statistics();
     let repeated = done.error_test_failures + done.newton_failures;

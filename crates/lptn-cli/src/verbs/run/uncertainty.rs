@@ -34,7 +34,7 @@ pub(crate) enum Method {
 }
 
 impl UncertaintyArgs {
-    /// The uncertainty that is asked for.
+    /// The uncertainty that is requested.
     pub(crate) fn question(&self) -> Option<UncertaintyQuestion> {
         let method = match self.uncertainty? {
             Method::Linear => uncertainty::Method::Linear,

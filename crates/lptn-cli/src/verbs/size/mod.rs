@@ -48,7 +48,7 @@ fn of_netlist(args: &SizeArgs, file: &Path, console: &Console) -> Result<Exit, F
     let input = Input::load_from(&source, &Belief::of(args.posterior.as_deref()))?;
     let ask = || question.ask(Arc::new(input), &console.listening());
     let answer = console.phases.timed("size", ask)?;
-    // the doubts of the netlist, which are all, were said before it was sized
+    // the doubts of the netlist, which are all, were printed before it was sized
     console.show(&answer, args.printed.format)?;
     let typed = quoted(&file.display().to_string());
     if answer.exit() != Exit::Done {

@@ -38,7 +38,7 @@ pub(crate) fn steady(args: &SteadyArgs, console: &Console) -> Result<Exit, Failu
     Ok(verdict::conclude(&answer.judgement(), console))
 }
 
-/// What is worth knowing beside the result.
+/// Prints notes and warnings next to the result.
 fn beside(answer: &SteadyAnswer, format: Format, console: &Console) {
     let netlist = &answer.input.netlist;
     if format == Format::Table {

@@ -1,5 +1,5 @@
-//! The file of a sweep while it grows: rows are there as soon as they are known, and a process that
-//! was killed leaves whole rows and at most one that is torn.
+//! The file of a sweep while it grows: rows are written as soon as they are known.
+//! A process that is killed leaves whole rows and at most one partial one.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Seek as _, SeekFrom, Write as _};
@@ -21,7 +21,7 @@ pub(crate) struct Growing {
     file: Hashing<File>,
 }
 
-/// What there is of a sweep in a folder.
+/// The part of a sweep that exists in a folder.
 pub(crate) enum Found {
     /// Nothing: it begins.
     Nothing,
@@ -32,7 +32,7 @@ pub(crate) enum Found {
 }
 
 impl Found {
-    /// What the folder holds of this sweep.
+    /// The part of this sweep that the folder contains.
     pub(crate) fn of(folder: &Folder, asked: &SweepAsked, resume: bool) -> Result<Self, Failure> {
         let (part, whole) = (folder.path().join(UNFINISHED), folder.path().join(SWEEP));
         if part.exists() {
@@ -96,8 +96,8 @@ impl Growing {
         Ok(growing)
     }
 
-    /// Goes on behind the last whole row, which `tally` takes in with all before it; the number of
-    /// the case that comes next.
+    /// Continues after the last whole row, and returns the number of the next case.
+    /// `tally` takes in all rows up to there.
     pub(crate) fn go_on(
         folder: &Folder,
         asked: &SweepAsked,
@@ -133,7 +133,7 @@ impl Growing {
         Ok((growing, next))
     }
 
-    /// Cuts off what is behind so many bytes.
+    /// Cuts off everything after this many bytes.
     fn cut(&mut self, length: u64) -> Result<(), Failure> {
         let file = self.file.inner();
         let cut = file.set_len(length).and_then(|()| file.seek(SeekFrom::Start(length)));
@@ -145,8 +145,8 @@ impl Growing {
         self.file.write_all(rows).map_err(|error| cannot_write(&self.path, &error))
     }
 
-    /// Puts the file in its place, with its manifest. One who is killed on the way finds all rows
-    /// still under the name of those that are unfinished, or in place.
+    /// Puts the file in its place, with its manifest.
+    /// If the process is killed on the way, all rows are under the unfinished name, or in place.
     pub(crate) fn finish(
         self,
         folder: &Folder,

@@ -20,7 +20,7 @@ use lptn_answer::sweep::{Lines, Shard};
 /// A part that is whole.
 struct Part {
     folder: PathBuf,
-    /// What its manifest says of the sweep.
+    /// The sweep as its manifest describes it.
     sweep: Value,
     /// The hash of its rows, as the manifest has it.
     sha256: String,
@@ -105,7 +105,7 @@ impl Part {
     }
 }
 
-/// Whether all parts are of one sweep: the same inputs, parameters and version.
+/// Refuses parts of different sweeps: inputs, parameters and version must agree.
 fn one_sweep(parts: &[Part]) -> Result<(), Failure> {
     let known = &parts[0];
     let other = parts.iter().find(|part| part.sweep["identity"] != known.sweep["identity"]);
@@ -119,7 +119,7 @@ fn one_sweep(parts: &[Part]) -> Result<(), Failure> {
     Err(Failure::refused("sweep::mixed_parts", message, "compute all parts from the same inputs"))
 }
 
-/// Whether the parts are all cases, each once; how many.
+/// Refuses missing and double cases; returns the number of all cases.
 fn without_gaps(parts: &[Part]) -> Result<u64, Failure> {
     let cases = parts[0].number("cases");
     let mut next = 1;
@@ -154,7 +154,7 @@ fn without_gaps(parts: &[Part]) -> Result<u64, Failure> {
     }
 }
 
-/// Whether the rows of a part are those that its manifest was written for.
+/// Refuses rows that differ from those of the manifest.
 fn unchanged(part: &Part) -> Result<(), Failure> {
     let path = part.folder.join(SWEEP);
     let cannot = |error: io::Error| Failure::cannot_read(path.display(), &error, None);
@@ -174,7 +174,7 @@ fn unchanged(part: &Part) -> Result<(), Failure> {
     Err(Failure::refused("sweep::part_changed", message, "remove the part and compute it again"))
 }
 
-/// Writes the rows of all parts below one heading; the hash of the file.
+/// Writes the rows of all parts below one heading; returns the hash of the file.
 fn join(folder: &Folder, parts: &[Part]) -> Result<String, Failure> {
     let mut batch = folder.batch();
     let mut failure = None;

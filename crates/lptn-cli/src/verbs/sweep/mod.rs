@@ -65,7 +65,7 @@ fn candidates(args: &SweepArgs, console: &Console) -> Result<Exit, Failure> {
     show(args, &SweepAnswer { asked, tally, rows }, folder.as_ref(), console)
 }
 
-/// Rows and what is kept of them, and whether Ctrl-C ended the sweep.
+/// Summary of the rows and the rows, and true if Ctrl-C ended the sweep.
 type Outcome = ((Tally, Rows), bool);
 
 fn into_folder(
@@ -155,7 +155,7 @@ fn show(
     Ok(answer.exit())
 }
 
-/// Draws what was asked for beside rows that are written by themselves.
+/// Draws the requested pictures next to rows that are written separately.
 fn pictures(answer: &SweepAnswer, console: &Console) -> Result<(), Failure> {
     if console.reports() {
         console.add_report(lptn_report::report_of(answer));

@@ -20,13 +20,13 @@ pub(crate) fn plan(args: &PlanArgs, console: &Console) -> Result<Exit, Failure> 
     console.print(&if args.slurm { job.slurm() } else { job.hyperqueue() })
 }
 
-/// What both kinds of script say.
+/// Values that both kinds of script use.
 struct Job {
     name: String,
     cases: u64,
     shards: u64,
     cores: u64,
-    /// The command of a part, but for which one it is.
+    /// The command of a part, without its number.
     sweep: String,
     merge: String,
     folder: String,
@@ -51,8 +51,8 @@ impl Job {
         Self { name: name.clone(), cases, shards, cores: args.cores, sweep, merge, folder }
     }
 
-    /// A job array, to be sent with `sbatch`; what has failed or was killed goes on when the same
-    /// script is sent again.
+    /// A job array, to be sent with `sbatch`.
+    /// Parts that failed or were killed continue when the same script is sent again.
     fn slurm(&self) -> String {
         let Self { name, cases, shards, cores, sweep, merge, folder } = self;
         format!(

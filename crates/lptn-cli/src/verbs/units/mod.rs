@@ -27,7 +27,7 @@ pub(crate) fn units(args: &UnitsArgs, console: &Console) -> Result<Exit, Failure
     console.show(&text, Format::Table)
 }
 
-/// The value in SI, what it is, and the value in other units.
+/// The value in SI, its quantity, and the value in other units.
 fn describe(given: &str, quantity: &Quantity) -> Text {
     let ty = quantity.ty;
     let si_unit = ty.dimension.si_unit();
@@ -76,7 +76,7 @@ fn separated(texts: Vec<String>) -> Vec<String> {
         .collect()
 }
 
-/// A temperature in K is the one quantity whose meaning depends on where it stands.
+/// Note on a temperature in K, the only quantity whose meaning depends on its place.
 fn note(text: &str, ty: Type) -> Option<&'static str> {
     let kelvin = ty == Type::of(Dimension::TEMPERATURE) && text.trim().ends_with('K');
     kelvin.then_some("as `T` or `T0` of a netlist this is an absolute temperature")

@@ -17,7 +17,7 @@ use crate::input::Load as _;
 pub(crate) fn verify(args: &VerifyArgs, console: &Console) -> Result<Exit, Failure> {
     let question = VerifyQuestion { tolerance: args.tolerance.clone(), at: args.at.at.clone() };
     let input = Arc::new(Input::load(&args.source)?);
-    // doubts are said before anything is compared
+    // doubts are printed before anything is compared
     let Some(answer) = question.ask(Arc::clone(&input), &console.listening())? else {
         console.message("interrupted: nothing is verified");
         return Ok(Exit::Interrupted);

@@ -1,4 +1,4 @@
-//! The pictures of `lptn fit law FOLDER`: what the files of the paper's Figures 7, 8 and 9 hold.
+//! The pictures of `lptn fit law FOLDER`: the content of the paper's Figures 7, 8 and 9.
 
 use lptn_fit::law::{LawOf, RunFit};
 use lptn_plot::Figure;

@@ -160,14 +160,14 @@ fn speed(path: &Path, (record, files): (&Record, &Files), speeds: &Speeds) -> Re
     }
 }
 
-/// Speeds in rad/s, as they are told.
+/// Speeds in rad/s as a text in rpm.
 fn in_rpm(speeds: &[f64]) -> String {
     let unit = SpeedUnit::rpm().0;
     let all = speeds.iter().map(|s| format!("{} rpm", significant(unit.from_si(*s), 6)));
     all.collect::<Vec<String>>().join(", ")
 }
 
-/// Whether a comment means to say the speed: `omega = 50 Hz`.
+/// True if a comment gives the speed: `omega = 50 Hz`.
 fn is_speed(comment: &str) -> bool {
     let name = comment.split_once(['=', ':']).map(|(name, _)| name.trim());
     name.is_some_and(|name| ["omega", "speed"].contains(&name))

@@ -38,7 +38,7 @@ impl Of {
         of.unwrap_or(Dimension::NONE).si_unit()
     }
 
-    /// The unit that a reader gets, and by what SI is divided for it.
+    /// Unit for the reader, and the divisor that converts SI to it.
     fn shown(self, speed: &SpeedUnit) -> (String, f64) {
         match self {
             Self::Rise => (speed.per("K"), speed.0.scale.recip()),
@@ -55,7 +55,7 @@ impl Of {
     }
 }
 
-/// Puts the lines of all columns, and their differences; nothing where there is no interval.
+/// Adds the lines of all columns and their differences; nothing if there is no interval.
 pub(super) fn put(found: &FitRunsAnswer, text: &mut Text) {
     let (study, speed) = (&found.study, &found.answer.data.unit);
     if study.lines.iter().all(|lines| lines.time_constant.is_none()) {
@@ -102,7 +102,7 @@ fn differ(difference: &ColumnDifference, speed: &SpeedUnit) -> String {
     format!("{} less {}: {}", difference.of, difference.less, parts.join(", "))
 }
 
-/// That a line through the origin is none of this column's.
+/// Sentence for a column whose line does not go through the origin.
 fn refuted(lines: &ColumnLines) -> Option<String> {
     let (exponent, found) = lines.exponent.filter(|(_, found)| found.probability < SIGNIFICANT)?;
     let n = with_error(exponent.value, exponent.standard_error);
@@ -157,10 +157,10 @@ pub(super) fn json(found: &FitRunsAnswer) -> Value {
     json!({ "columns": columns, "differences": differences })
 }
 
-/// A column, what is taken from it, a quantity, and what was found of it.
+/// A column, the column subtracted from it, a quantity, and its estimate.
 type Row<'a> = (&'a str, &'a str, Of, Estimate);
 
-/// One row a number.
+/// One row per number.
 pub(super) fn sheet(found: &FitRunsAnswer) -> Table {
     let mut rows: Vec<Row<'_>> = Vec::new();
     let mut put = |of, less, quantity, found: Option<Estimate>| {

@@ -78,7 +78,7 @@ impl FitOfRuns {
     /// Reads the folder and computes.
     ///
     /// # Errors
-    /// What is wrong with a record, with its speed, or with the question.
+    /// Problems of a record, of its speed, or of the question.
     pub fn compute(self, listener: &dyn Listener) -> Result<FitRunsAnswer, Failure> {
         let Self { question, folder: path, capacity } = self;
         let folder = folder::read(&path)?;
@@ -93,8 +93,8 @@ impl FitOfRuns {
     }
 }
 
-/// Fits the columns. One that nobody asked for by name and that has no exponential, such as a bed
-/// that hardly warms, is left out with a warning.
+/// Fits the columns. One without an exponential, such as a bed that hardly warms, is left out.
+/// That gives a warning; a column that was named, or the first one, is not left out.
 fn study(
     folder: &Folder,
     (mut settings, question): (RunsSettings, &FitLawQuestion),
@@ -226,7 +226,7 @@ impl FitRunsAnswer {
         self.study.columns.first().map_or(&[], |column| &column.fits)
     }
 
-    /// What dT is counted from.
+    /// Zero from which dT is counted.
     fn zero(&self) -> String {
         let settings = self.study.settings();
         let zero = match &settings.reference {
@@ -255,7 +255,7 @@ impl FitRunsAnswer {
             .into()
     }
 
-    /// What a reader should know of the fits.
+    /// Notes on the fits.
     fn notes(&self, text: &mut Text) {
         for column in &self.study.columns {
             let (mean, scatter) = self.study.time_constant(column);
@@ -290,7 +290,7 @@ impl FitRunsAnswer {
         );
     }
 
-    /// Random and systematic error of the best law's coefficients, apart.
+    /// Random and systematic errors of the best law's coefficients, separately.
     fn errors(&self, text: &mut Text) {
         let Some((best, fit)) = self.best() else { return };
         let Some(systematic) = self.study.systematic(best) else { return };

@@ -1,4 +1,4 @@
-//! What was found of each run: the tables of the paper's Figures 7, 8 and 9, and the same as JSON.
+//! Results of each run: the tables of the paper's Figures 7, 8 and 9, and the same as JSON.
 
 use std::io;
 
@@ -63,7 +63,7 @@ impl FitRunsAnswer {
     }
 }
 
-/// A table of runs and their speeds, for other columns: one value a run.
+/// A table of runs and their speeds, for other columns: one value per run.
 fn table<'a>(found: &FitRunsAnswer, rows: &'a [usize]) -> TableOf<'a, usize> {
     let (unit, runs) = (&found.answer.data.unit, &found.study.runs);
     let mut table = Table::of(rows);

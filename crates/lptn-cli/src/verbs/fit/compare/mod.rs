@@ -48,8 +48,8 @@ pub(crate) fn compare(args: &FitCompareArgs, console: &Console) -> Result<Exit, 
     Ok(exit)
 }
 
-/// Every file with every variant of it, or what is wrong with the first that cannot be read. A fit
-/// begins with what its netlist itself says: what another one found may count the same records.
+/// Every file with every variant of it, or the problems of the first that cannot be read.
+/// A fit begins with the netlist's own values: those of another fit may count the same records.
 fn loaded(args: &FitCompareArgs) -> Result<Vec<CandidateNetlist>, Failure> {
     let variants: Vec<Variant> = of_sets(&args.set).ok_or_else(|| too_many("--set"))?;
     let files = listed(&args.files)?;

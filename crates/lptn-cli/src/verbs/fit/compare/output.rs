@@ -1,4 +1,4 @@
-//! The files of `lptn fit compare -o DIR`: the candidates, what each misses of what it has not seen,
+//! The files of `lptn fit compare -o DIR`: the candidates, their errors on held-out records,
 //! the answer, and their manifest.
 
 use lptn_answer::failure::Failure;
@@ -8,7 +8,7 @@ use lptn_report::{Format, write_csv};
 use crate::files::Folder;
 use crate::files::names::{CANDIDATES, CHOICE, MANIFEST, UNSEEN};
 
-/// What is written.
+/// Names of the files.
 pub(super) const NAMES: [&str; 4] = [CANDIDATES, UNSEEN, CHOICE, MANIFEST];
 
 pub(super) fn write(

@@ -83,7 +83,7 @@ fn question(args: &LawArgs) -> FitLawQuestion {
     }
 }
 
-/// Where the results of a folder of records go.
+/// Folder for the results of a folder of records.
 fn target(path: &Path, args: &LawArgs) -> PathBuf {
     let whole = path.canonicalize();
     let name = whole.as_deref().unwrap_or(path).file_name();
@@ -104,7 +104,7 @@ fn write_posterior(answer: &FitLawAnswer, file: &Path, console: &Console) -> Res
         return posterior::write(&posterior, file, console);
     }
     let why = "no posterior is written: the errors of the coefficients are not known";
-    // what stands there would be taken for that of this law
+    // an existing file would be taken for the posterior of this law
     match files::take_away(file)? {
         true => console.message(&format!("{why}; {} is taken away", file.display())),
         false => console.message(why),

@@ -8,7 +8,7 @@ use lptn_report::{Format, write_csv};
 use crate::files::Folder;
 use crate::files::names::{LAWS, MANIFEST, POWER, RISE, SLOPES, TIME_CONSTANT};
 
-/// What is written.
+/// Names of the files.
 pub(super) const NAMES: [&str; 6] = [RISE, TIME_CONSTANT, POWER, SLOPES, LAWS, MANIFEST];
 
 pub(super) fn write(found: &FitRunsAnswer, folder: &Folder, wall_time: f64) -> Result<(), Failure> {

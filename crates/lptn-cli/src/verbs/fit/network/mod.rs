@@ -24,8 +24,7 @@ use crate::options::Source;
 
 pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Failure> {
     let source = Source { set: args.set.clone(), ..Source::of(args.file.clone()) };
-    // a fit begins with what the netlist itself says: what another one found counts the same
-    // records, perhaps
+    // a fit begins with the netlist's own values: those of another fit may count the same records
     let input = Arc::new(Input::load_from(&source, &Belief::None)?);
     let starts = args.starts.map(usize::from);
     let question = FitNetworkQuestion { study: args.name.clone(), starts };
@@ -68,7 +67,7 @@ pub(crate) fn network(args: &NetworkArgs, console: &Console) -> Result<Exit, Fai
     Ok(exit)
 }
 
-/// Shows the best values so far, and how to go on from them.
+/// Shows the best values so far, and how to continue from them.
 fn interrupted(
     fit: &InterruptedFit,
     args: &NetworkArgs,

@@ -1,5 +1,5 @@
-//! The files of `lptn fit network -o DIR`: what was measured beside what the fitted network
-//! computes, the answer, what studies go on from, and their manifest.
+//! The files of `lptn fit network -o DIR`: measured and computed values, the answer, the posterior
+//! for further studies, and their manifest.
 
 use lptn_answer::about;
 use lptn_answer::failure::Failure;
@@ -9,10 +9,10 @@ use lptn_report::{Format, write_csv};
 use crate::files::Folder;
 use crate::files::names::{FIT, MANIFEST, POSTERIOR, RESIDUALS};
 
-/// What may be written.
+/// Names of the files, of which the posterior may be missing.
 const NAMES: [&str; 4] = [RESIDUALS, FIT, POSTERIOR, MANIFEST];
 
-/// Writes the files, and says which: there is a posterior only where every value is determined.
+/// Writes the files and returns their names. The posterior needs every value to be determined.
 pub(super) fn write(
     answer: &FitNetworkAnswer,
     folder: &Folder,

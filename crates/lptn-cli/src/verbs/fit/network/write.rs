@@ -11,7 +11,7 @@ use lptn_network::ParameterId;
 use crate::console::Console;
 use crate::written::{can_be_written, put, with_numbers};
 
-/// Refuses before anything is computed what could not be written afterwards.
+/// Refuses a parameter that could not be written, before anything is computed.
 pub(super) fn possible(input: &Input, fit: &FitOfNetwork) -> Result<(), Failure> {
     let codes = ["fit::write", "fit::write_shared"];
     fit.varied().try_for_each(|parameter| can_be_written(input, parameter, codes))
