@@ -91,7 +91,7 @@ impl Evaluation {
         }
     }
 
-    /// The value of a signal in SI units where this stands; NaN where it has none.
+    /// The value of a signal in SI units at the present time; NaN if it has none.
     pub fn signal(&self, id: SignalId) -> f64 {
         self.slots[self.layout.signal(id) as usize]
     }
@@ -131,7 +131,7 @@ impl Evaluation {
         self.slots[slot as usize]
     }
 
-    /// Why a signal has no value where this stands.
+    /// Why a signal has no value at the present time.
     pub(crate) fn failure(&self) -> Option<(SignalId, InputProblem)> {
         self.failure.clone()
     }
@@ -177,10 +177,10 @@ impl Evaluation {
 }
 
 impl Value {
-    /// The value where `scope` stands, in SI units.
+    /// The value at the state of `scope`, in SI units.
     ///
     /// # Errors
-    /// What the expression's evaluation reports, such as a negative base under a non-integer
+    /// The error of the expression's evaluation, such as a negative base under a non-integer
     /// exponent.
     pub fn at(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
         let (slots, stack) = scope.plain();

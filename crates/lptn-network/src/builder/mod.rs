@@ -98,7 +98,7 @@ impl NetworkBuilder {
         self.add_node(name, None, None, true)
     }
 
-    /// Adds a node as a netlist may write it; [`NetworkBuilder::build`] says what is missing.
+    /// Adds a node as a netlist may write it; [`NetworkBuilder::build`] reports missing values.
     pub fn add_node(
         &mut self,
         name: &str,
@@ -229,7 +229,7 @@ impl NetworkBuilder {
         NetworkScope::new(&self.parts, context)
     }
 
-    /// Compiles an expression for this place over what was added so far.
+    /// Compiles an expression for this place over everything added so far.
     ///
     /// # Errors
     /// Every problem of the text: syntax, unknown names, dimensions.

@@ -19,9 +19,9 @@ pub struct Properties {
     pub cp: Option<Input>,
     /// Thermal conductivity.
     pub k: Option<Input>,
-    /// How it melts.
+    /// Its melting, if it melts.
     pub melting: Option<Melting<Input>>,
-    /// Where the numbers come from.
+    /// Source of the numbers.
     pub source: Option<String>,
 }
 

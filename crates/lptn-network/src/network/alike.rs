@@ -37,7 +37,7 @@ enum OfAll {
     Program(Arc<Program>),
 }
 
-/// What has to agree before programs are compared: a law and the texts of its expressions.
+/// Conditions for comparing programs: the same law and texts of its expressions.
 type Key<'a> = (Formula, Vec<Option<&'a str>>);
 
 impl Network {
@@ -135,7 +135,7 @@ impl Alike {
         }
     }
 
-    /// Those from one path on; the last one stands for what is behind it.
+    /// The heats of the paths from one on; lanes after the last path repeat it.
     fn heats_of(
         &self,
         first: usize,

@@ -1,4 +1,4 @@
-//! How far a control is from switching.
+//! Distance of a control from switching.
 
 use crate::evaluation::Evaluation;
 use crate::id::{ControlId, Item};
@@ -13,7 +13,7 @@ impl Network {
         self.controls()[id.index()].thermostat.as_ref()
     }
 
-    /// How long a control stays as it is after a switch, in s.
+    /// Minimum time in s that a control keeps its state after a switch.
     pub fn min_dwell(&self, id: ControlId) -> f64 {
         self.numbers.min_dwell[id.index()]
     }
