@@ -39,8 +39,8 @@ impl Cauer {
     /// the ladder.
     ///
     /// # Errors
-    /// [`LadderError::Close`] if one differs by more than 1e-8: two time constants agree to so many
-    /// digits that their shares cannot be distinguished. [`LadderError::Range`] if the products of
+    /// [`LadderError::Close`] if one differs by more than 1e-8: two time constants are so close
+    /// that their shares cannot be distinguished. [`LadderError::Range`] if the products of
     /// resistances and capacities are too large or too small for a number.
     pub fn foster(&self) -> Result<Foster, LadderError> {
         let range = LadderError::Range { form: "Foster chain" };

@@ -24,8 +24,8 @@ pub enum LadderError {
         help "leave out rows: many time constants close together need elements of 1e300 and more, \
             which no measurement can determine",
         class Class::Numbers;
-    /// Time constants that agree to so many digits that their shares cannot be distinguished: the
-    /// chain would differ from the ladder by this part.
+    /// Time constants so close that their shares cannot be distinguished: the chain would differ
+    /// from the ladder by this part.
     Close { error: f64 } = "ladder::close",
         format!(
             "time constants of the ladder are too close to be distinguished: the Foster chain \

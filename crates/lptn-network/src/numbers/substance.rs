@@ -78,8 +78,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Checks the values of limits, which are constant; their quantities are evaluated with
-    /// results.
+    /// Checks the values of limits, which are constant; the rest is checked with results.
     pub(crate) fn check_limits(&mut self) {
         let limits = self.parts.limits.iter().enumerate().filter(|(_, limit)| !limit.compares);
         for (i, limit) in limits {
