@@ -12,8 +12,8 @@ lptn_units::errors! {
 pub enum RunError {
     /// It failed, or its energy balance does not close.
     Failed => Box<TransientError>;
-    /// The observer asked for an end at this time in s. The part of a run up to then is whole;
-    /// there is none of a cycle.
+    /// The observer ended it at this time in s. The part of a run up to then is complete; there is
+    /// none of a cycle.
     Interrupted { time: f64, part: Option<Box<Solution>> } = "run::interrupted",
         format!("the run was interrupted at {} s", format_six(*time)), class Class::Interrupted;
 }
@@ -54,8 +54,8 @@ impl From<CycleError> for AnalysisError {
 
 impl RunError {
     /// The part of a run that was computed before it ended, with the error that ended it: `None`
-    /// for one that was interrupted, and for one whose energy balance does not close, which its
-    /// ledger tells.
+    /// for one that was interrupted, and for one whose energy balance does not close, as its ledger
+    /// shows.
     ///
     /// # Errors
     /// The same error if nothing was computed.

@@ -47,7 +47,7 @@ pub(crate) struct Numbers {
 }
 
 impl Numbers {
-    /// Evaluates `parts`, with the parameters of `overrides` instead of their own values.
+    /// Evaluates `parts`, with the parameters of `overrides` replacing their own values.
     pub(crate) fn evaluate(
         parts: &Parts,
         overrides: &[Option<f64>],

@@ -1,4 +1,4 @@
-//! Where a function of one variable changes its sign.
+//! Sign change of a function of one variable.
 
 /// Most steps; bisection alone needs 52 to use up the digits of a number, Brent's method at most
 /// the square of that.
@@ -12,11 +12,10 @@ pub(crate) type Point = (f64, f64);
 /// the first at which something is broken.
 ///
 /// Brent's method: R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 4:
-/// inverse quadratic interpolation or the secant where they make progress, bisection where they do
-/// not.
+/// inverse quadratic interpolation or the secant if they make progress, else bisection.
 ///
 /// # Errors
-/// What `f` reports.
+/// The error of `f`.
 pub(crate) fn last_kept<E>(
     kept: Point,
     broken: Point,

@@ -1,4 +1,4 @@
-//! What matters: the shares of the variance, and the errors of all that is sampled.
+//! The shares of the variance, and the errors of all sampled numbers.
 
 use crate::uncertainty::answer::{Answer, AnswerOf, Contribution};
 use crate::uncertainty::estimate::{Estimate, moments, quantile};
