@@ -301,8 +301,7 @@ impl Parts {
             varying += 1;
             worst = worst.max(own.max(program.degree_in(slot)));
         }
-        // each is straight by itself, but they may be multiplied: the form of the code does not
-        // show it
+        // each is straight by itself, but the form of the code does not exclude a product
         if varying > 1 { Degree::Nonlinear } else { worst }
     }
 

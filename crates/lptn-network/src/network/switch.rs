@@ -15,8 +15,8 @@ use crate::parts::switch::Switch;
 
 impl Network {
     /// Left side minus right side of a switch, at the time of `scope` and these temperatures of all
-    /// vertices in K, and its largest change, in linear terms, when each temperature changes by 1
-    /// K.
+    /// vertices in K, and its largest change, to first order, if each temperature changes by 1 K.
+    ///
     /// # Errors
     /// [`InputError`] if a side fails or gives no number.
     pub fn switch_difference(

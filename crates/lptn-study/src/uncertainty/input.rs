@@ -120,10 +120,9 @@ impl Inputs {
     }
 }
 
-/// The parameters of `network` that are not certain, in the order of the network. `parameters` are
-/// The parameters of `network` that are not certain, in the order of the network. `parameters` are
-/// the values set instead of the given ones; a deviation given there replaces the `±` of the
-/// network.
+/// The parameters of `network` that are not certain, in the order of the network. A deviation in
+/// `parameters`, the values set instead of its own, replaces the `±` of the network.
+///
 /// # Errors
 /// [`UncertaintyError::NoDeviation`] if all are certain, [`UncertaintyError::NotDefinite`] if their
 /// correlations contradict each other.
