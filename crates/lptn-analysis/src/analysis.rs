@@ -32,7 +32,7 @@ pub enum Found {
     Steady(Trusted<SteadyState>),
     /// A run.
     Run(Trusted<Solution>),
-    /// A settled cycle.
+    /// A periodic steady state.
     Cycle(Trusted<Periodic>),
 }
 

@@ -20,7 +20,7 @@ pub enum RunError {
 }
 
 lptn_units::errors! {
-/// Errors of the search for a settled cycle.
+/// Errors of the search for a periodic steady state.
 #[derive(Debug)]
 pub enum CycleError {
     /// It does not exist or was not found.
@@ -38,7 +38,7 @@ pub enum AnalysisError {
     Steady => SteadyError;
     /// The run failed or was interrupted.
     Run => RunError;
-    /// No settled cycle exists or was found.
+    /// No periodic steady state exists or was found.
     Cycle => Box<PeriodicError>;
 }
 }

@@ -28,7 +28,7 @@ impl LimitResult {
         Self { limit, margin, worst_at: judged.then_some(worst_at), broken_at, open }
     }
 
-    /// All limits over a settled cycle, which has no first time.
+    /// All limits over a periodic steady state, which has no first time.
     pub fn of_cycle(found: &Periodic) -> Vec<Self> {
         let one = |seen| Self { broken_at: None, ..Self::of_run(seen) };
         found.solution.limits().iter().map(one).collect()

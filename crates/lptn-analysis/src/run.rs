@@ -113,8 +113,8 @@ impl RunAnalysis {
         Ok(Self(Transient { watch, ..self.0 }))
     }
 
-    /// Looks for the highest temperature of all watched nodes only: the peak of a node that is never
-    /// the hottest may be missed.
+    /// Looks for the highest temperature of all watched nodes only: the peak of a node that is
+    /// never the hottest may be missed.
     #[must_use]
     pub fn for_the_hottest(self) -> Self {
         Self(Transient { hottest_only: true, ..self.0 })
@@ -189,7 +189,7 @@ impl RunAnalysis {
         }
     }
 
-    /// Compares a run with others of smaller tolerance and with a solution in closed form, where
+    /// Compares a run with others of smaller tolerance and with a solution in closed form, if
     /// there is one; `observer` gets the tolerance too. `None` if it interrupts.
     ///
     /// # Errors

@@ -6,8 +6,8 @@
 //! than a millionth of its value nearby, the panels agree to 1e-18 of that. Panels are made when a
 //! path first needs them, from the text of the property alone.
 //!
-//! Source: G. Kirchhoff's transformation: H. S. Carslaw, J. C. Jaeger, Conduction of Heat in Solids,
-//! 2nd edition (Oxford 1959), section 1.6.
+//! Source: G. Kirchhoff's transformation: H. S. Carslaw, J. C. Jaeger, Conduction of Heat in
+//! Solids, 2nd edition (Oxford 1959), section 1.6.
 //!
 //! The mean of k(T) along a path is the difference of its integral over the temperatures of the
 //! ends. Panels are made in blocks of 64 K on first use. Candidates share the panels that read no
@@ -55,7 +55,7 @@ enum Course {
     Moving,
 }
 
-/// Panels block by block, made where they are asked for.
+/// Panels block by block, made on first use.
 #[derive(Debug)]
 struct Blocks {
     slots: Vec<f64>,
@@ -282,7 +282,7 @@ impl Block {
         Self { panels, gaps, integral }
     }
 
-    /// The panel that goes on from a temperature, `above` or below.
+    /// The panel that begins at a temperature, `above` or below it.
     fn place(&self, temperature: f64, above: bool) -> Result<Place<'_>, f64> {
         let number = match above {
             true => self.panels.partition_point(|panel| panel.to <= temperature),

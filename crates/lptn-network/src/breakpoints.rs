@@ -101,7 +101,7 @@ impl Network {
         Ok(times)
     }
 
-    /// Differences whose roots in time are where a value bends or jumps.
+    /// Differences whose roots are the times at which a value bends or jumps.
     fn differences(&self, value: &Value) -> Vec<Difference> {
         let mut differences = Vec::new();
         for program in value.programs() {
@@ -159,7 +159,7 @@ impl Network {
     }
 }
 
-/// A program with the values at which something happens, and how it goes over time.
+/// A program with the values at which something happens, and its degree in time.
 struct Difference {
     program: Program,
     knots: Vec<f64>,

@@ -54,7 +54,7 @@ impl Network {
 /// Goes from quantities to all that they depend on.
 struct Walk<'a> {
     parts: &'a Parts,
-    /// Conductors and sources at each vertex; empty until the first is asked for.
+    /// Conductors and sources at each vertex; empty until the first is needed.
     around: Vec<Vec<Element>>,
     seen: BTreeSet<Element>,
     waiting: Vec<Element>,

@@ -34,7 +34,7 @@ pub struct Curve {
 struct Held {
     /// In K over the start of every node.
     rise: f64,
-    /// Those of the element at hand, and those read by name.
+    /// Ends of the element at hand, and vertices read by name.
     ends: Option<[End; 2]>,
     named: Vec<(u32, End)>,
 }

@@ -190,7 +190,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.item(*item), format_short(*liquidus), format_short(*solidus)
         ),
         help text("exchange `solidus` and `liquidus`");
-    /// A node of which a part is said to be molten at its start, but that does not melt at just
+    /// A node with a molten part at its start that does not melt at just
     /// that temperature.
     NotMelting { node: NodeId, temperature: f64 } = "network::not_melting",
         at Some((Item::Node(*node), Field::Initial)),

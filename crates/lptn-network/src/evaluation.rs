@@ -23,10 +23,10 @@ pub struct Evaluation {
     layout: Arc<Layout>,
     slots: Vec<f64>,
     stack: Vec<f64>,
-    /// The same on dual numbers; empty until derivatives are asked for.
+    /// The same on dual numbers; empty until derivatives are needed.
     duals: Vec<Slope>,
     dual_stack: Vec<Slope>,
-    /// The same on numbers that remember their pieces; empty until these are asked for.
+    /// The same on numbers that remember their pieces; empty until these are needed.
     traced: Vec<Traced>,
     traced_stack: Vec<Traced>,
     /// The first signal that has no value at the present time.
@@ -74,7 +74,7 @@ impl Evaluation {
         }
     }
 
-    /// Sets one temperature in K or heat flow in W, for an expression that goes with it.
+    /// Sets one temperature in K or heat flow in W, for an expression that follows it.
     pub fn follow(&mut self, followed: Followed, value: f64) {
         let slot = match followed {
             Followed::Temperature(end) => Some(self.layout.temperature(end)),

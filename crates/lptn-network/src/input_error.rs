@@ -59,7 +59,7 @@ pub enum InputProblem {
     /// A quantity that cannot be negative, in SI units.
     Negative(value: f64) = INPUT, format!("is negative: {value} (SI units)"),
         help "keep it positive: `max(x, 0)` with its unit";
-    /// A property that a path takes the mean of, at a temperature in K where there is none.
+    /// A property that a path takes the mean of, at a temperature in K at which it has no value.
     NoMean { temperature: f64 } = INPUT,
         format!(
             "has no mean over the temperatures of the path: near {} degC it changes too quickly, \

@@ -7,7 +7,7 @@ use lptn_units::{Problem, suggest};
 /// A name that the network does not have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownName {
-    /// The name that was asked for.
+    /// The unknown name.
     pub name: String,
     /// The most similar name there is.
     pub suggestion: Option<String>,

@@ -180,7 +180,7 @@ impl Network {
         reader.program.turns(&way, least)
     }
 
-    /// The same for the first number that it reads, which goes between two others in K.
+    /// The same for the first number that it reads, which moves between two values in K.
     pub fn turns_between(
         &self,
         reader: &Reader,

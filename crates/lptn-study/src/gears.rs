@@ -58,7 +58,7 @@ pub struct MemberState {
 }
 
 impl MemberState {
-    /// The power that goes in by it in W, without losses; below 0 it leaves.
+    /// The power that enters by it in W, without losses; below 0 it leaves.
     pub fn power(&self) -> Option<f64> {
         Some(self.speed * self.torque?)
     }

@@ -202,8 +202,8 @@ fn with((start, stop): (f64, f64), at: f64) -> Vec<f64> {
     [start].into_iter().chain(both).chain([stop]).collect()
 }
 
-/// The parameters that are numbers and may be a little larger or smaller, for the others follow from
-/// them; and those that may not.
+/// The parameters that are numbers and may be a little larger or smaller, for the others follow
+/// from them; and those that may not.
 fn free(network: &Network) -> (Vec<ParameterId>, Vec<(ParameterId, ChangeError)>) {
     let is_number =
         |id: &ParameterId| matches!(network.parameters()[id.index()].value, Value::Constant(_));

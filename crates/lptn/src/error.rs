@@ -4,8 +4,8 @@ use std::fmt;
 
 use lptn_units::{Class, Problem};
 
-/// Any error of a call of this library: `?` makes one of every error, so that `fn main() ->
-/// Result<(), Error>` works. Its sentence, [`Problem::code`] and [`Problem::help`] are those of the
+/// Any error of a call of this library: `?` makes one of every error, so that `main` can return
+/// `Result<(), Error>`. Its sentence, [`Problem::code`] and [`Problem::help`] are those of the
 /// error; [`Error::downcast_ref`] gives the error itself.
 ///
 /// ```

@@ -24,8 +24,8 @@
 //! no second assembly from text: [`ThermalSystem::with`] takes other values of its parameters.
 //!
 //! A network comes from a TOML netlist ([`Input`], [`read`], [`parse`]) or from a
-//! [`NetworkBuilder`]. A question such as [`RunQuestion`] asks it and gives an [`Answer`]: values with
-//! units, tables, doubts, verdict, figures, in every format of the command line. A
+//! [`NetworkBuilder`]. A question such as [`RunQuestion`] asks it and gives an [`Answer`]: values
+//! with units, tables, doubts, verdict, figures, in every format of the command line. A
 //! [`RunAnalysis`] gives the numbers alone, a [`Simulation`] is stepped from outside.
 //!
 //! This crate exports everything a client needs. The crates below it (`lptn-network`, `lptn-solve`,

@@ -32,8 +32,8 @@ impl Along {
         inside.then(|| (panel.mean(ends[0], ends[1]), values()))
     }
 
-    /// Writes its integral at temperatures in K, from a temperature on that all have in common. True
-    /// if all are known and nothing between them is unknown.
+    /// Writes its integral at temperatures in K, from a temperature on that all have in common.
+    /// True if all are known and nothing between them is unknown.
     pub(crate) fn integrals(
         &self,
         temperatures: impl Iterator<Item = f64> + Clone,

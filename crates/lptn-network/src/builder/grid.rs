@@ -185,7 +185,7 @@ impl NetworkBuilder {
         (self.parts.nodes.len(), self.parts.conductors.len())
     }
 
-    /// The node of this name, as far as it was added.
+    /// The node of this name, if it was added.
     pub fn node_named(&self, name: &str) -> Option<NodeId> {
         match self.parts.item(name) {
             Some(Item::Node(id)) => Some(id),

@@ -22,7 +22,7 @@ impl NetworkBuilder {
         }
     }
 
-    /// The names of all nodes, and of all boundaries unless only nodes are asked for.
+    /// The names of all nodes, and of all boundaries unless `only_nodes`.
     pub fn end_names(&self, only_nodes: bool) -> impl Iterator<Item = &str> {
         let nodes = self.parts.nodes.iter().map(|node| node.name.as_str());
         let boundaries = self.parts.boundaries.iter().map(|boundary| boundary.name.as_str());

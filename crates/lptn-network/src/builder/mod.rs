@@ -287,7 +287,7 @@ impl NetworkBuilder {
         id
     }
 
-    /// Lets a limit that was added be kept by the mean over time of its quantity.
+    /// Applies a limit that was added to the mean over time of its quantity.
     pub fn limit_of_mean(&mut self, id: LimitId) {
         self.parts.limits[id.index()].of_mean = true;
     }

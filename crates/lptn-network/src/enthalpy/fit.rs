@@ -22,7 +22,7 @@ const PANEL: f64 = 64.0;
 /// Distance in K from its end to which a range of temperatures is followed.
 const NARROWEST: f64 = 1e-6;
 
-/// Nothing is asked above this temperature in K.
+/// The highest temperature in K at which values are needed.
 const HOTTEST: f64 = 16_384.0;
 
 /// Number of searches for a nearer edge before the capacity counts as unknown.
@@ -57,14 +57,14 @@ const FLOOR: f64 = 1e-6;
 
 /// A capacity over temperature in K.
 pub(crate) trait Capacity {
-    /// Its value; `None` where it has none.
+    /// Its value; `None` if it has none.
     fn at(&mut self, temperature: f64) -> Option<f64>;
 
     /// Bounds on it and its derivatives between two temperatures.
     fn over(&mut self, from: f64, to: f64) -> Taylor;
 }
 
-/// Why a curve cannot be had.
+/// Why there is no curve.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum NoCurve {
     /// The capacity is not known and positive at the start.

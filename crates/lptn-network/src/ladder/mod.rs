@@ -54,8 +54,8 @@
 //!
 //! # Measured
 //!
-//! Largest relative error of an element, against mpmath with 2200 digits (`tools/ladder.py`), and of
-//! a term after
+//! Largest relative error of an element, against mpmath with 2200 digits (`tools/ladder.py`), and
+//! of a term after
 //! Foster to Cauer to Foster:
 //!
 //! | poles | Cauer | by rotations (RKPW) | there and back |

@@ -5,7 +5,7 @@ use super::quotients::Quotients;
 /// Square of rounding: an `e` below this part of an eigenvalue moves it by no more than rounding.
 const NEGLIGIBLE: f64 = f64::EPSILON * f64::EPSILON;
 
-/// Most steps per eigenvalue: three to six are usual.
+/// Most steps per eigenvalue; it takes three to six as a rule.
 const MOST: usize = 60;
 
 /// The rates of a ladder in 1/s, largest first; `None` if they are not found, because the numbers

@@ -16,7 +16,7 @@ pub(super) fn pole(ladder: &Quotients, rate: f64) -> (f64, f64) {
     (rate, first.share)
 }
 
-/// An eigenvector as far as it is asked for.
+/// The part of an eigenvector that is needed.
 struct Pair {
     /// Its squared first entry, its length 1.
     share: f64,

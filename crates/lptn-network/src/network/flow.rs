@@ -1,4 +1,4 @@
-//! Heat flows of elements with their derivatives: the one place where a law meets temperatures.
+//! Heat flows of elements with their derivatives: the only place where a law meets temperatures.
 
 use lptn_laws::Carries;
 use lptn_units::{EvalError, Scalar};

@@ -131,7 +131,7 @@ impl Parts {
         for part in &self.capacitors {
             varying[part.node.index()] |= varies(&part.capacity, part.lump.as_ref());
         }
-        // one that is said to be molten has to be able to melt
+        // a node with a molten part has to be able to melt
         varying.iter_mut().zip(&self.nodes).for_each(|(varies, node)| *varies |= node.molten > 0.0);
         varying
     }
@@ -217,7 +217,7 @@ impl Parts {
             return Ok(None);
         }
         let bends = edges(cp, scope);
-        // where it is known: from 25 degC, or from the middle of its table
+        // the range in which it is known: from 25 degC, or from the middle of its table
         let middle = bends.iter().sum::<f64>() / bends.len().max(1) as f64;
         let mut curve =
             |start| Enthalpy::new(&mut Sum { parts: &[vec![cp]], scope }, start, &bends, &[]);

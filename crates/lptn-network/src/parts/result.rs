@@ -65,7 +65,7 @@ impl Limit {
         [&self.of, &self.value]
     }
 
-    /// The type of the limit's margin: like `of`, but for temperatures a difference.
+    /// The type of the limit's margin: that of `of`, a difference for temperatures.
     pub fn margin_type(&self) -> Type {
         Type { absolute: false, ..self.ty }
     }

@@ -1,8 +1,8 @@
 //! Change of the heat content of a node with a parameter, at a fixed temperature.
 //!
 //! `H(T) = integral of C from T0 to T`, so that `dH = integral of dC - C(T0) dT0`. For a constant
-//! capacity this is `dC (T - T0) - C dT0`; if a varying one is scaled as a whole by a size, `H
-//! dln(size) - C(T0) dT0`.
+//! capacity this is `dC (T - T0) - C dT0`; if a varying one is scaled as a whole by a size, it is
+//! `H dln(size) - C(T0) dT0`.
 
 use lptn_units::Scalar;
 

@@ -21,7 +21,7 @@ pub use refusal::NoTangents;
 /// Derivatives of a network's heat flows and heat contents by some of its parameters.
 ///
 /// All results are in SI units per SI unit of the parameter, in blocks, one for each parameter in
-/// the order in which they were asked for. Evaluating allocates nothing.
+/// the order in which they were requested. Evaluating allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Tangents {
     parameters: Vec<ParameterId>,

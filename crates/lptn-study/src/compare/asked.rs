@@ -1,4 +1,4 @@
-//! The run that is asked of every candidate.
+//! The run of every candidate.
 
 use lptn_analysis::RunAnalysis;
 use lptn_network::{Network, NodeId, RunSettings};

@@ -77,11 +77,11 @@ impl Candidate {
         }
     }
 
-    /// Compares a candidate over its settled cycle, although it may have a run, from which start
+    /// Compares a candidate over its periodic cycle, although it may have a run, from which start
     /// and tolerance are taken; in steady state if its inputs are constant.
     ///
     /// # Errors
-    /// [`CompareError`] if there is no settled cycle, or it was interrupted.
+    /// [`CompareError`] if there is no periodic steady state, or it was interrupted.
     pub fn settled_observed(
         system: &ThermalSystem,
         run: Option<&RunSettings>,

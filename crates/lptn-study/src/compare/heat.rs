@@ -24,7 +24,7 @@ pub enum HeatOver {
     Steady,
     /// Over the whole run.
     Run,
-    /// Over the settled cycle.
+    /// Over the periodic steady state.
     Cycle,
 }
 

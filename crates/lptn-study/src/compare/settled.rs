@@ -16,7 +16,7 @@ use crate::compare::error::CompareError;
 use crate::compare::limits::{self, CandidateLimit};
 use crate::compare::peak::{Peak, hottest, peak};
 
-/// The compared results of a settled cycle. Temperatures in K, times in s.
+/// The compared results of a periodic steady state. Temperatures in K, times in s.
 #[derive(Clone, Debug)]
 pub struct Settled {
     /// The name of the node that gets hottest in it; `None` for boundaries alone.
@@ -29,14 +29,14 @@ pub struct Settled {
     pub limits: Vec<CandidateLimit>,
 }
 
-/// A settled cycle with its answer.
+/// A periodic steady state with its answer.
 pub(crate) struct Found {
     pub(crate) settled: Settled,
     pub(crate) limits: Vec<lptn_analysis::LimitResult>,
     pub(crate) answer: Trusted<Periodic>,
 }
 
-/// A settled cycle, or why there is none; nothing if signals do not repeat themselves.
+/// A periodic steady state, or why there is none; nothing if signals do not repeat themselves.
 pub(crate) type Search = Option<Result<Found, Arc<PeriodicError>>>;
 
 impl Settled {

@@ -71,12 +71,12 @@ impl CompareRow {
         self.scatter()?.limits.get(place).copied()
     }
 
-    /// Its settled cycle, if it has one.
+    /// Its periodic steady state, if it has one.
     pub fn settled(&self) -> Option<&Settled> {
         self.candidate()?.settled.as_ref()?.as_ref().ok()
     }
 
-    /// Its result for the limit of this name over the settled cycle, if it has one.
+    /// Its result for the limit of this name in the periodic steady state.
     pub fn settled_limit(&self, name: &str) -> Option<&CandidateLimit> {
         self.settled()?.limits.iter().find(|limit| limit.name == name)
     }

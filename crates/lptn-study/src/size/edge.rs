@@ -31,8 +31,8 @@ const FURTHEST: f64 = 1e-6;
 const DISTANCES: usize = 24;
 
 impl Search<'_> {
-    /// The edge between a value that keeps everything and one that does not, if there is one and not
-    /// only a border.
+    /// The edge between a value that keeps everything and one that does not, if there is one and
+    /// not only a border.
     pub(super) fn edge(&self, kept: &Trial, broken: f64) -> Result<Option<Edge>, SizeError> {
         if (broken - kept.value).abs() > NEIGHBOURS * kept.value.abs() {
             return Ok(None);

@@ -92,7 +92,7 @@ pub enum TrialError {
     /// Its run failed.
     Run(error: Arc<TransientError>) = error.code(), format!("the run failed: {error}"),
         source error.as_ref(), help error.help(), class not_an_answer(error.class());
-    /// It has no settled cycle.
+    /// It has no periodic steady state.
     Periodic(error: Arc<PeriodicError>) = error.code(),
         format!("there is no periodic steady state: {error}"),
         source error.as_ref(), help error.help(), class not_an_answer(error.class());

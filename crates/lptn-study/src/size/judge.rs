@@ -64,7 +64,7 @@ pub enum Moments<'a> {
     Steady(f64),
     /// At every moment of the run.
     Run(&'a RunOf<'a>),
-    /// At every moment of the settled cycle that lasts from start to stop.
+    /// At every moment of the periodic steady state that lasts from start to stop.
     Periodic(&'a RunOf<'a>),
 }
 

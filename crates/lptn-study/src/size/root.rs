@@ -8,8 +8,8 @@ const MOST_STEPS: usize = 3000;
 pub(crate) type Point = (f64, f64);
 
 /// Narrows a bracket between a point where `f` is not negative and one where it is, to neighbouring
-/// numbers or to a share of their size, and gives them: the last one at which everything is kept, and
-/// the first at which something is broken.
+/// numbers or to a share of their size, and gives them: the last one at which everything is kept,
+/// and the first at which something is broken.
 ///
 /// Brent's method: R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 4:
 /// inverse quadratic interpolation or the secant if they make progress, else bisection.

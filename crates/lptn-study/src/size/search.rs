@@ -223,8 +223,8 @@ impl Search<'_> {
         Ok(Some((0, None, kept)))
     }
 
-    /// The last trial on the way from `kept` to `broken` that keeps everything; at an edge one that is
-    /// far enough from it.
+    /// The last trial on the way from `kept` to `broken` that keeps everything; at an edge one that
+    /// is far enough from it.
     fn at_border(&self, broken: &Trial, kept: &Trial) -> Result<Found, SizeError> {
         let Border { trial, beyond, first_guess } = self.border(broken, kept)?;
         let edge = self.edge(&trial, beyond)?;
@@ -253,7 +253,7 @@ impl Search<'_> {
         }
         let point = |trial: &Trial| (trial.value, self.worst(trial));
         let mut worst = |value| match self.trials.at(value) {
-            // just where two steady states end none is found
+            // no steady state is found exactly where two of them end
             Err(error) if error.is_not_found() => Ok(NOT_KEPT),
             trial => trial.map(|trial| self.worst(&trial)),
         };
@@ -284,7 +284,7 @@ impl Search<'_> {
         let by_worst = |a: &usize, b: &usize| {
             self.worst(&self.scan[*a]).total_cmp(&self.worst(&self.scan[*b]))
         };
-        // of equals the first, which is nearer to the best end
+        // the first of equal ones, which is nearer to the best end
         let best = (0..self.scan.len()).rev().max_by(by_worst).unwrap_or(0);
         let near = [best.saturating_sub(1), best, (best + 1).min(self.scan.len() - 1)];
         let [low, middle, high] = near.map(|place| self.proven(place));

@@ -236,7 +236,7 @@ impl<'a> Search<'a> {
         starts
     }
 
-    /// The last place on the way to a found one at which everything is kept, from one that keeps it.
+    /// The last place with everything kept on the way from a kept place to a found one.
     fn on_the_kept_side(&self, found: Found, anchor: Option<&Found>) -> Result<Found, SizeError> {
         let Some((from, kept)) = anchor.filter(|_| !found.1.judged.keeps()) else {
             return Ok(found);

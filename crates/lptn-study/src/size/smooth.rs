@@ -142,7 +142,7 @@ impl<E> Gradient for &Smooth<'_, E> {
     type Gradient = Vec<f64>;
 
     fn gradient(&self, x: &Vec<f64>) -> Result<Vec<f64>, Failed> {
-        // asked for at places that are accepted
+        // called at places that are accepted
         self.best.borrow_mut().clone_from(x);
         (0..x.len()).map(|i| self.slope(x, i).map(|slope| slope.0)).collect()
     }

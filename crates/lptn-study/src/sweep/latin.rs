@@ -1,8 +1,8 @@
 //! Latin hypercubes whose samples are computed one by one, in any order and without memory.
 
 /// The place of sample `index` of `count` in a permutation: A. Kensler, Correlated Multi-Jittered
-/// Sampling, Pixar Technical Memo 13-01 (2013), listing 2, whose steps are a bijection of a power of
-/// two that is walked until it comes back below `count`.
+/// Sampling, Pixar Technical Memo 13-01 (2013), listing 2, whose steps are a bijection of a power
+/// of two that is walked until it comes back below `count`.
 fn permuted(index: u32, count: u32, seed: u32) -> u32 {
     let mut mask = count - 1;
     for shift in [1, 2, 4, 8, 16] {

@@ -34,7 +34,7 @@ pub enum UncertaintyError {
     TooLarge(bytes: usize) = "uncertainty::too_large",
         format!("the temperatures of all samples at all rows need {} MB", bytes / 1_000_000),
         help "write fewer rows or samples, or fewer columns with `--select 'steel.T'`";
-    /// So few samples have a result that nothing can be said; why the others have none.
+    /// Too few samples have a result; why the others have none.
     TooFew(lost: Vec<Lost>) = "uncertainty::too_few",
         lost.iter().fold("too few samples have a result".to_owned(), |text, lost| {
             format!("{text}; {lost}")

@@ -23,7 +23,7 @@ pub enum UncertaintyMethod {
         seed: u32,
         /// All runs that were made.
         runs: usize,
-        /// Those without a result: the bands are those of the others.
+        /// Runs without a result: the bands are those of the others.
         lost: Vec<Lost>,
     },
 }

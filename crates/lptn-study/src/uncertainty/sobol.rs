@@ -2,7 +2,7 @@
 //!
 //! Correlated parameters have no Sobol index. Changing one alone leaves the distribution, and the
 //! order in which they are made independent would decide the result. Their shares are those of a
-//! plane, in both methods, and the output says so. Sampled numbers carry the error that eight
+//! plane, in both methods, and the output says so. Sampled numbers have the error that eight
 //! independent scramblings show.
 
 mod indices;

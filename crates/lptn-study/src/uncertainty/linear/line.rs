@@ -1,4 +1,4 @@
-//! A run with its sensitivities at the rows and where temperatures are highest.
+//! A run with its sensitivities at the rows and at the highest temperatures.
 
 use lptn_analysis::Trusted;
 use lptn_network::{NodeId, ParameterId};
@@ -22,8 +22,8 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// The run at its rows and at the times at which `solution` saw the nodes highest, on both sides
-    /// of those.
+    /// The run at its rows and at the times at which `solution` saw the nodes highest, on both
+    /// sides of those.
     pub(super) fn new(
         task: &UncertaintyTask<'_>,
         inputs: &'a Inputs,

@@ -18,7 +18,7 @@ pub(super) struct Regression<'a> {
 struct Plane {
     left_out: Option<usize>,
     mean: Vec<f64>,
-    /// The lower triangle of the squares and products about the mean; empty where they are not
+    /// The lower triangle of the squares and products about the mean; empty if they are not
     /// independent.
     factor: Vec<f64>,
 }
