@@ -1,4 +1,4 @@
-//! Over what a network is analysed, chosen while the program runs.
+//! The kind of analysis of a network, chosen while the program runs.
 
 use lptn_assembly::ThermalSystem;
 use lptn_solve::{Periodic, Solution, SteadyState};
@@ -9,7 +9,7 @@ use crate::steady::{steady, steady_within};
 use crate::trust::Trust;
 use crate::trusted::Trusted;
 
-/// Over what a network is analysed.
+/// A kind of analysis of a network.
 #[derive(Clone, Debug)]
 pub enum Analysis {
     /// Its steady state.
@@ -21,7 +21,7 @@ pub enum Analysis {
     },
     /// A run.
     Run(RunAnalysis),
-    /// The cycle that it settles to.
+    /// The periodic steady state.
     Cycle(RunAnalysis),
 }
 
@@ -32,7 +32,7 @@ pub enum Found {
     Steady(Trusted<SteadyState>),
     /// A run.
     Run(Trusted<Solution>),
-    /// A settled cycle.
+    /// A periodic steady state.
     Cycle(Trusted<Periodic>),
 }
 

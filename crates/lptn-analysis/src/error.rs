@@ -12,15 +12,15 @@ lptn_units::errors! {
 pub enum RunError {
     /// It failed, or its energy balance does not close.
     Failed => Box<TransientError>;
-    /// The observer asked for an end at this time in s. The part of a run up to then is whole;
-    /// there is none of a cycle.
+    /// The observer ended it at this time in s. The part of a run up to then is complete; there is
+    /// none of a cycle.
     Interrupted { time: f64, part: Option<Box<Solution>> } = "run::interrupted",
         format!("the run was interrupted at {} s", format_six(*time)), class Class::Interrupted;
 }
 }
 
 lptn_units::errors! {
-/// Errors of the search for a settled cycle.
+/// Errors of the search for a periodic steady state.
 #[derive(Debug)]
 pub enum CycleError {
     /// It does not exist or was not found.
@@ -38,7 +38,7 @@ pub enum AnalysisError {
     Steady => SteadyError;
     /// The run failed or was interrupted.
     Run => RunError;
-    /// No settled cycle exists or was found.
+    /// No periodic steady state exists or was found.
     Cycle => Box<PeriodicError>;
 }
 }
@@ -54,8 +54,8 @@ impl From<CycleError> for AnalysisError {
 
 impl RunError {
     /// The part of a run that was computed before it ended, with the error that ended it: `None`
-    /// for one that was interrupted, and for one whose energy balance does not close, which its
-    /// ledger tells.
+    /// for one that was interrupted, and for one whose energy balance does not close, as its ledger
+    /// shows.
     ///
     /// # Errors
     /// The same error if nothing was computed.

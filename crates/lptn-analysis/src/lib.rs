@@ -6,9 +6,9 @@
 //!
 //! A [`Simulation`] is stepped from outside, with inputs that its client sets between the steps.
 //!
-//! An answer exists only if its energy balance closes, its ranges of validity could be looked at
-//! and nothing interrupted it. Its rows decide nothing: peaks, limits, heats and windows are looked
-//! at between the rows.
+//! An answer exists only if its energy balance closes, its ranges of validity could be checked and
+//! nothing interrupted it. Its rows decide nothing: peaks, limits, heats and windows are evaluated
+//! between the rows.
 //!
 //! Units: SI, temperatures in K, heat positive into a node and from `from` to `to`.
 

@@ -1,34 +1,34 @@
-//! What became of limits.
+//! Results for limits.
 
 use lptn_network::{InputError, LimitId, Network};
 use lptn_solve::{LimitSeen, Periodic, SteadyState};
 
-/// What became of a limit.
+/// The result for a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LimitResult {
     /// The limit.
     pub limit: LimitId,
-    /// Its least margin in SI units, positive while it is kept; NaN if it was not judged: in a
+    /// Its least margin in SI units, positive while it is kept. NaN if it was not judged: in a
     /// steady state it depends on inputs that change with time, or it is of gears that carry no
     /// load.
     pub margin: f64,
-    /// When that was, in s; `None` in steady state and if it was not judged.
+    /// Time of that margin in s; `None` in steady state and if it was not judged.
     pub worst_at: Option<f64>,
-    /// When it was first broken, in s; `None` if it was not, and in steady state.
+    /// Time at which it was first broken, in s; `None` if it was not, and in steady state.
     pub broken_at: Option<f64>,
-    /// By how much in SI units the margin may be off besides the error of temperatures.
+    /// Error of the margin in SI units in addition to the error of temperatures.
     pub open: f64,
 }
 
 impl LimitResult {
-    /// In a run or cycle.
+    /// The result in a run or cycle.
     pub fn of_run(seen: &LimitSeen) -> Self {
         let LimitSeen { limit, margin, worst_at, broken_at, open } = *seen;
         let judged = !margin.is_nan();
         Self { limit, margin, worst_at: judged.then_some(worst_at), broken_at, open }
     }
 
-    /// All limits over a settled cycle, which has no first time.
+    /// All limits over a periodic steady state, which has no first time.
     pub fn of_cycle(found: &Periodic) -> Vec<Self> {
         let one = |seen| Self { broken_at: None, ..Self::of_run(seen) };
         found.solution.limits().iter().map(one).collect()
@@ -49,12 +49,12 @@ impl LimitResult {
         Ok(network.limit_ids().zip(margins).map(one).collect())
     }
 
-    /// Whether it is neither kept nor broken, because it was not judged.
+    /// True if it is neither kept nor broken, because it was not judged.
     pub fn is_open(&self) -> bool {
         self.margin.is_nan()
     }
 
-    /// Whether it is broken.
+    /// True if it is broken.
     pub fn is_broken(&self) -> bool {
         self.margin < 0.0
     }

@@ -11,10 +11,10 @@ use crate::error::{CycleError, RunError};
 use crate::trust::Trust;
 use crate::trusted::Trusted;
 
-/// Called after every step of a run, with its place; it may interrupt.
+/// Called after every step of a run, with its progress; it may interrupt.
 pub type Observer<'a> = dyn FnMut(Progress) -> Proceed + 'a;
 
-/// A run or a cycle to ask for: its times, and what is read of it besides limits, ranges of
+/// A run or a cycle: its times, and the results that it gives in addition to limits, ranges of
 /// validity and the energy balance.
 #[derive(Clone, Debug)]
 pub struct RunAnalysis(Transient);
@@ -25,7 +25,7 @@ impl RunAnalysis {
         Self(Transient::of(network, settings))
     }
 
-    /// A run from 0 to `stop` with the usual rows and tolerance.
+    /// A run from 0 to `stop` with the default rows and tolerance.
     pub fn until(stop: Time) -> Self {
         Self(Transient::until(stop))
     }
@@ -71,7 +71,7 @@ impl RunAnalysis {
         Self(Transient { output: OutputTimes::Every(interval.0), ..self.0 })
     }
 
-    /// With a row at each of these times in s, besides the start and the stop.
+    /// With a row at each of these times in s, in addition to the start and the stop.
     #[must_use]
     pub fn at(self, times: Vec<f64>) -> Self {
         Self(Transient { output: OutputTimes::At(times), ..self.0 })
@@ -83,7 +83,7 @@ impl RunAnalysis {
         Self(Transient { record, ..self.0 })
     }
 
-    /// Reads nothing but what every answer has.
+    /// Without results other than those that every answer has.
     #[must_use]
     pub fn bare(self) -> Self {
         let record = RecordedNodes::Nodes(Vec::new());
@@ -103,7 +103,7 @@ impl RunAnalysis {
     /// there is one: see [`Summary`].
     ///
     /// # Errors
-    /// [`Unsolved`] if a value cannot be had at the start.
+    /// [`Unsolved`] if a value cannot be evaluated at the start.
     pub fn towards(
         self,
         (system, nodes): (&ThermalSystem, &[NodeId]),
@@ -113,8 +113,8 @@ impl RunAnalysis {
         Ok(Self(Transient { watch, ..self.0 }))
     }
 
-    /// Looks for the highest temperature of all watched nodes only: the peak of a node that is never
-    /// the hottest may be missed.
+    /// Looks for the highest temperature of all watched nodes only: the peak of a node that is
+    /// never the hottest may be missed.
     #[must_use]
     pub fn for_the_hottest(self) -> Self {
         Self(Transient { hottest_only: true, ..self.0 })
@@ -149,7 +149,7 @@ impl RunAnalysis {
         answered(self.0.solve_observed(system, observer))
     }
 
-    /// Runs a network from a state at the start, with its controls as they stood there.
+    /// Runs a network from a state at the start, with its controls in their states there.
     ///
     /// # Errors
     /// As [`RunAnalysis::solve`].
@@ -189,7 +189,7 @@ impl RunAnalysis {
         }
     }
 
-    /// Compares a run with others of smaller tolerance and with a solution in closed form, where
+    /// Compares a run with others of smaller tolerance and with a solution in closed form, if
     /// there is one; `observer` gets the tolerance too. `None` if it interrupts.
     ///
     /// # Errors

@@ -12,13 +12,13 @@ use crate::simulation_error::SimulationError;
 use crate::trusted::Trusted;
 
 /// A network with its state at a time. Its client steps it, and sets parameters and signals between
-/// the steps: a controller of its own, a cosimulation.
+/// the steps: a controller, a cosimulation.
 ///
-/// It owns what it needs and can be sent to another thread. Each step is a run of its own: its
-/// error stays below ten tolerances where runs do, and its energy balance is checked.
+/// It owns its data and can be sent to another thread. Each step is a separate run: its error stays
+/// below ten tolerances if that of runs does, and its energy balance is checked.
 #[derive(Clone, Debug)]
 pub struct Simulation {
-    /// The network without what was set.
+    /// The network without the client's values.
     network: Network,
     parameters: BTreeMap<String, (ParameterId, f64)>,
     signals: BTreeMap<String, (SignalId, f64)>,
@@ -30,7 +30,7 @@ pub struct Simulation {
     temperatures: Vec<f64>,
 }
 
-/// What a client may set.
+/// An input that a client may set.
 enum Input {
     Parameter(ParameterId),
     Signal(SignalId),
@@ -41,22 +41,22 @@ enum Input {
 pub struct SavedSimulation {
     /// Time in s.
     pub time: f64,
-    /// What is carried for every state in K: see [`State::carried`].
+    /// The integrated value of every state in K: see [`State::carried`].
     pub carried: Vec<f64>,
-    /// Where massless nodes of several solutions stood in K; may be empty.
+    /// Temperatures in K of massless nodes of several solutions; may be empty.
     pub stood: Vec<f64>,
-    /// Where every control stands.
+    /// The state of every control.
     pub controls: Vec<SavedControl>,
     /// Parameters and signals that were set, in SI units.
     pub inputs: BTreeMap<String, f64>,
 }
 
-/// Where a control stands.
+/// The state of a control.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SavedControl {
-    /// Whether it is on.
+    /// True if it is on.
     pub on: bool,
-    /// When it switched last, in s; `None` if it never did.
+    /// Time of its last switch in s; `None` if it never switched.
     pub since: Option<f64>,
 }
 
@@ -83,7 +83,7 @@ impl Simulation {
         Ok(Self { temperatures, ..simulation })
     }
 
-    /// The network with what was set.
+    /// The network with the client's values.
     pub fn network(&self) -> &Network {
         self.system.network()
     }
@@ -102,8 +102,8 @@ impl Simulation {
         Ok(Temperature(self.temperatures[id.index()]))
     }
 
-    /// Sets a parameter, or holds a signal, at a value in SI units from now on. The temperatures
-    /// stay as they are, also where a heat capacity changes.
+    /// Sets a parameter, or fixes a signal, at a value in SI units from now on. The temperatures
+    /// stay as they are, also if a heat capacity changes.
     ///
     /// # Errors
     /// [`SimulationError`]; nothing is set then.
@@ -131,7 +131,7 @@ impl Simulation {
         }
     }
 
-    /// Lets a signal go its own way again, or a parameter have its own value.
+    /// Gives a signal its own time history again, or a parameter its own value.
     ///
     /// # Errors
     /// As [`Simulation::set`].
@@ -157,7 +157,7 @@ impl Simulation {
         Ok(())
     }
 
-    /// What is carried of a node that melts counts from its enthalpy at the start.
+    /// Checks that nodes that melt keep their heat content: it counts from that at the start.
     fn keeps_enthalpy(&self, system: &ThermalSystem) -> Result<(), SimulationError> {
         let (old, new) = (self.network(), system.network());
         let bits = |capacity: &f64| capacity.to_bits();
@@ -200,7 +200,7 @@ impl Simulation {
         Ok(StateRates::new(&self.system)?.at(self.time, self.state.carried())?)
     }
 
-    /// What its future depends on besides the network.
+    /// The data that its future depends on in addition to the network.
     pub fn save(&self) -> SavedSimulation {
         let control = |control: &ControlState| SavedControl {
             on: control.on,

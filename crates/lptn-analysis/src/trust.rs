@@ -1,33 +1,33 @@
-//! How far an answer can be trusted.
+//! The trust in an answer.
 
 use lptn_network::{InputError, LimitId, Network};
 use lptn_solve::{Beyond, Others, OutOfRange, Solution, SteadyState, Unbounded};
 
-/// What a reader has to know of numbers before she believes them. Nothing of it is an error: the
-/// energy balance is one, and numbers without a closed balance are never handed out.
+/// Limits on the trust in numbers that a reader has to know. None of them is an error: an energy
+/// balance that does not close is one, and its numbers are never returned.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trust {
     /// A temperature that nothing real has.
     pub beyond: Option<Beyond>,
-    /// Where and when laws were outside the ranges in which they are known.
+    /// Stretches in which laws were outside the ranges in which they are known.
     pub out_of_range: Vec<OutOfRange>,
     /// Why the tolerance does not bound the error; `None` if it does, and for steady states, which
     /// are refined to rounding.
     pub unbounded: Option<Unbounded>,
-    /// Results that change faster than steps are looked at.
+    /// Results that change faster than steps are evaluated.
     pub unresolved: Vec<Unresolved>,
-    /// What is known of other steady states with the same inputs; [`Others::None`] over time.
+    /// Knowledge of other steady states with the same inputs; [`Others::None`] over time.
     pub others: Others,
 }
 
-/// A result that changes faster than steps are looked at.
+/// A result that changes faster than steps are evaluated.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unresolved {
     /// The margin of a limit.
     Margin {
         /// The limit.
         limit: LimitId,
-        /// By how much in SI units it may be off.
+        /// Its possible error in SI units.
         by: f64,
     },
     /// The mean of a column over a window.
@@ -36,7 +36,7 @@ pub enum Unresolved {
         column: String,
         /// The name of the window.
         window: String,
-        /// The share of it by which it may be off.
+        /// Its possible error as a share of it.
         share: f64,
     },
 }

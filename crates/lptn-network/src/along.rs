@@ -2,12 +2,12 @@
 //! over the temperatures between its ends, whatever its shape.
 //!
 //! The property k is represented on panels by polynomials that agree with it to 1e-12 of its value
-//! (see [`enthalpy`](crate::enthalpy)), so that its integral is theirs in closed form. Where k is
-//! less than a millionth of what it is nearby, the panels agree to 1e-18 of that. Panels are made
-//! where a path first needs them, from the text of the property alone.
+//! (see [`enthalpy`](crate::enthalpy)), so that its integral is theirs in closed form. If k is less
+//! than a millionth of its value nearby, the panels agree to 1e-18 of that. Panels are made when a
+//! path first needs them, from the text of the property alone.
 //!
-//! Source: G. Kirchhoff's transformation: H. S. Carslaw, J. C. Jaeger, Conduction of Heat in Solids,
-//! 2nd edition (Oxford 1959), section 1.6.
+//! Source: G. Kirchhoff's transformation: H. S. Carslaw, J. C. Jaeger, Conduction of Heat in
+//! Solids, 2nd edition (Oxford 1959), section 1.6.
 //!
 //! The mean of k(T) along a path is the difference of its integral over the temperatures of the
 //! ends. Panels are made in blocks of 64 K on first use. Candidates share the panels that read no
@@ -31,10 +31,10 @@ const HOTTEST: f64 = 16_384.0;
 /// Width of a block of panels in K; below it blocks halve, down to the first.
 const BLOCK: f64 = 64.0;
 
-/// The exponent of [`BLOCK`] as a number holds it.
+/// The exponent bits of [`BLOCK`] as a floating-point number.
 const BLOCK_POWER: usize = (BLOCK.to_bits() >> 52) as usize;
 
-/// How many blocks there are below [`BLOCK`]: from 0 to 1/16 K, then to 1/8 K, and so on.
+/// Number of blocks below [`BLOCK`]: from 0 to 1/16 K, then to 1/8 K, and so on.
 const HALVED: usize = 11;
 
 /// Blocks up to [`HOTTEST`].
@@ -51,11 +51,11 @@ pub(crate) struct Along {
 enum Course {
     /// The numbers that it reads are known.
     Fixed(Blocks),
-    /// It reads what changes during a run, which is held where it stands.
+    /// It reads values that change during a run; they are taken as they are at the moment.
     Moving,
 }
 
-/// Panels block by block, made where they are asked for.
+/// Panels block by block, made on first use.
 #[derive(Debug)]
 struct Blocks {
     slots: Vec<f64>,
@@ -79,7 +79,7 @@ struct Block {
     integral: f64,
 }
 
-/// A panel and what is integrated below it.
+/// A panel and the block that contains it.
 #[derive(Clone, Copy)]
 struct Place<'a> {
     block: &'a Block,
@@ -88,8 +88,8 @@ struct Place<'a> {
 }
 
 impl Along {
-    /// Of a value that reads nothing but its own temperature and these slots, a prefix of those of
-    /// an evaluation.
+    /// The property of a value that reads nothing but its own temperature and these slots, a prefix
+    /// of the slots of an evaluation.
     pub(crate) fn fixed(value: &Value, slots: &[f64]) -> Self {
         let last = value.slots().into_iter().chain([slot::OWN]).max().unwrap_or(slot::OWN);
         let slots = slots[..=last as usize].to_vec();
@@ -97,7 +97,7 @@ impl Along {
         Self { value: value.clone(), course: Course::Fixed(Blocks { slots, made }) }
     }
 
-    /// Of a value that changes during a run by more than its own temperature.
+    /// The property of a value that changes during a run by more than its own temperature.
     pub(crate) fn moving(value: &Value) -> Self {
         Self { value: value.clone(), course: Course::Moving }
     }
@@ -107,7 +107,7 @@ impl Along {
         matches!(self.course, Course::Fixed(_))
     }
 
-    /// Its mean between two temperatures in K where the slots stand.
+    /// Its mean between two temperatures in K for these values of the slots.
     ///
     /// # Errors
     /// A temperature in K between the two at which it is not known, is negative, or changes too
@@ -120,22 +120,22 @@ impl Along {
         }
     }
 
-    /// The same where what it reads may have changed.
+    /// The same for a value that reads slots which may have changed.
     #[cold]
     fn of_slots<S: Scalar>(&self, ends: [f64; 2], slots: &[S]) -> Result<Mean, f64> {
         let [low, high] = ascending(ends)?;
         let slots = slots.iter().map(|slot| slot.value()).collect();
-        // one temperature is amid a stretch, so that there is something to look at
+        // for a single temperature a stretch around it is covered
         let wide = if low < high { [low, high] } else { [low - 0.5_f64.min(low), high + 0.5] };
         let block = Block::new(&self.value, wide, slots);
         between(ends, (block.place(low, low < high)?, block.place(high, false)?))
     }
 
-    /// By how much the mean changes with what the other slots hold, temperatures held: the
-    /// derivatives of the slots, with 0 as the value.
+    /// Change of the mean with the other slots at fixed temperatures: the derivatives of the slots,
+    /// with 0 as the value.
     ///
     /// # Errors
-    /// What the evaluation of the value reports.
+    /// The error of the evaluation of the value.
     pub(crate) fn change<S: Scalar>(
         &self,
         ends: [f64; 2],
@@ -221,7 +221,7 @@ fn sides(temperature: f64) -> [usize; 2] {
     [above.min(BLOCKS - 1), above - usize::from(meets)]
 }
 
-/// Where blocks end, in K.
+/// Ends of the blocks in K.
 static ENDS: [f64; BLOCKS + 1] = ends();
 
 const fn ends() -> [f64; BLOCKS + 1] {
@@ -269,7 +269,7 @@ fn between(ends: [f64; 2], (first, last): (Place<'_>, Place<'_>)) -> Result<Mean
 }
 
 impl Block {
-    /// The panels of a value between two temperatures, where these slots stand.
+    /// The panels of a value between two temperatures, for these values of the slots.
     fn new(value: &Value, over: [f64; 2], slots: Vec<f64>) -> Self {
         let mut text = Text { value, slots, stack: Vec::new() };
         let stops = knots(value, &mut text.slots, &mut text.stack);
@@ -282,7 +282,7 @@ impl Block {
         Self { panels, gaps, integral }
     }
 
-    /// The panel that goes on from a temperature, `above` or below.
+    /// The panel that begins at a temperature, `above` or below it.
     fn place(&self, temperature: f64, above: bool) -> Result<Place<'_>, f64> {
         let number = match above {
             true => self.panels.partition_point(|panel| panel.to <= temperature),
@@ -292,7 +292,7 @@ impl Block {
         panel.map(|panel| Place { block: self, panel, number }).ok_or(temperature)
     }
 
-    /// That there is no gap between two temperatures.
+    /// Ok if there is no gap between two temperatures.
     fn is_whole(&self, from: f64, to: f64) -> Result<(), f64> {
         let gap = self.gaps.iter().find(|gap| (from..=to).contains(*gap));
         gap.map_or(Ok(()), |gap| Err(*gap))
@@ -319,7 +319,7 @@ impl Place<'_> {
     }
 }
 
-/// A value over the temperature that is its own, where the other slots stand.
+/// A value over its own temperature, with the other slots fixed.
 struct Text<'a> {
     value: &'a Value,
     slots: Vec<f64>,

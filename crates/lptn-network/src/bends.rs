@@ -1,5 +1,5 @@
-//! Where results bend by what they read of temperatures and heat flows: inside a step, at times
-//! that nobody knows beforehand.
+//! Bends of results in the temperatures and heat flows that they read: inside a step, at times that
+//! are not known in advance.
 
 use std::sync::Arc;
 
@@ -13,8 +13,8 @@ use crate::value::Value;
 
 /// The places at which some results bend: the arguments of `abs`, the differences of the arguments
 /// of `min` and `max`, and the arguments of tables, as far as they read temperatures or heat flows.
-/// Between two times at which none of them passes one of its levels the results are smooth wherever
-/// temperatures and heat flows are. Results that are not straight in what they read may still be
+/// Between two times at which none of them passes one of its levels, the results are as smooth as
+/// the temperatures and heat flows. Results that are nonlinear in their arguments may still be
 /// narrow there; [`Bends::enclose`] bounds them.
 #[derive(Clone, Debug, Default)]
 pub struct Bends {
@@ -28,8 +28,8 @@ pub struct Bends {
 }
 
 impl Network {
-    /// Where results of these items bend: limits and reports. Times at which they bend by what they
-    /// read of the time and of signals are [`Network::result_breakpoints`].
+    /// The bends of the results of these items, limits and reports. Times at which they bend by the
+    /// time and the signals that they read are in [`Network::result_breakpoints`].
     pub fn bends(&self, items: impl IntoIterator<Item = Item>) -> Bends {
         let mut bends = Bends::default();
         for item in items {
@@ -52,27 +52,27 @@ impl Bends {
         &self.levels
     }
 
-    /// How many numbers move in results that are not straight in what they read.
+    /// Number of slots that move in nonlinear results.
     pub fn moved(&self) -> usize {
         self.moved.len()
     }
 
-    /// All slots where `scope` stands, for [`Bends::enclose`]; none where there is nothing to bound.
+    /// All slots at the state of `scope`, for [`Bends::enclose`]; empty if no result is nonlinear.
     pub fn slots(&self, scope: &mut Evaluation) -> Vec<f64> {
         if self.curved.is_empty() { Vec::new() } else { scope.plain().0.to_vec() }
     }
 
-    /// Bounds on each result that is not straight in what it reads, while the numbers that move in
-    /// it (`moved`, as many as [`Bends::moved`] and in the order of [`Bends::read`]) go a way by
-    /// one variable; the rest is as in `slots`.
+    /// Bounds on each nonlinear result while the numbers that move in it (`moved`, as many as
+    /// [`Bends::moved`] and in the order of [`Bends::read`]) go a way by one variable. The rest is
+    /// as in `slots`.
     pub fn enclose(&self, moved: &[Taylor], slots: &[f64]) -> Vec<Taylor> {
         let known = |slot: u32| self.moved.binary_search(&slot).ok().map(|place| moved[place]);
         self.curved.iter().map(|program| program.enclose_along(&known, slots)).collect()
     }
 
-    /// Adds the value of each quantity that is followed where `scope` stands, in SI units; NaN for
-    /// one that has none, as in a branch that is not taken. Then the numbers that move in results
-    /// that are not straight.
+    /// Adds the value of each followed quantity at the state of `scope`, in SI units; NaN if it has
+    /// none, as in a branch that is not taken. Then adds the numbers that move in nonlinear
+    /// results.
     pub fn read(&self, scope: &mut Evaluation, values: &mut Vec<f64>) {
         let (slots, stack) = scope.plain();
         let value = |program: &Program| program.eval(slots, stack).unwrap_or(f64::NAN);

@@ -1,4 +1,4 @@
-//! Times at which an input bends or jumps: known beforehand, so that no step crosses them.
+//! Times at which an input bends or jumps: known in advance, so that no step crosses them.
 
 use lptn_units::{Comparison, Degree, Program};
 
@@ -12,7 +12,7 @@ use crate::parts::layout::Holds;
 use crate::parts::signal::Course;
 use crate::value::Value;
 
-/// Parts of a stretch in which a curve is looked at for a place where it bends.
+/// Parts of a stretch in which a curve is searched for a bend.
 const LOOKS: u32 = 256;
 
 /// Halvings of the interval in which it does: to the rounding of the time.
@@ -21,7 +21,7 @@ const BISECTIONS: usize = 60;
 /// A stretch of time without a point of a signal inside, from and to in s.
 type Stretch = (f64, f64);
 
-/// What is evaluated over time: values, and the signals that they read.
+/// Values that are evaluated over time, and the signals that they read.
 pub(crate) struct Watched<'a> {
     pub(crate) values: Vec<&'a Value>,
     pub(crate) signals: Vec<bool>,
@@ -35,7 +35,7 @@ impl Network {
     /// A comparison goes straight between points of signals (the builder refuses others), so its
     /// two sides meet at most once there. Kinks of curves are looked for in small steps.
     ///
-    /// What has no value at some time is left to the run, which says so.
+    /// A value that is not defined at some time is left to the run, which reports it.
     ///
     /// # Errors
     /// [`InputProblem::TooManyPoints`] for a signal that is repeated beyond reason.
@@ -57,8 +57,8 @@ impl Network {
         self.times_of(&self.parts.results(items), (start, stop))
     }
 
-    /// Everything that is evaluated over time beside the inputs of the heat flows: limits, reports,
-    /// and signals that drive nothing.
+    /// Everything that is evaluated over time in addition to the inputs of the heat flows: limits,
+    /// reports, and signals that drive nothing.
     pub fn results(&self) -> Vec<Item> {
         let driving = self.parts.driving().signals;
         let idle = self.signal_ids().filter(|id| !driving[id.index()]);
@@ -76,7 +76,7 @@ impl Network {
         for value in &what.values {
             for difference in self.differences(value) {
                 for &stretch in &stretches {
-                    // what stands in a branch that is not taken may have no value there
+                    // a part in a branch that is not taken may have no value there
                     let _ = crossings(&difference, &mut scope, stretch, &mut times);
                 }
             }
@@ -101,7 +101,7 @@ impl Network {
         Ok(times)
     }
 
-    /// Differences whose roots in time are where a value bends or jumps.
+    /// Differences whose roots are the times at which a value bends or jumps.
     fn differences(&self, value: &Value) -> Vec<Difference> {
         let mut differences = Vec::new();
         for program in value.programs() {
@@ -125,7 +125,7 @@ impl Network {
         differences
     }
 
-    /// How the heat of a source goes over time between [`Network::breakpoints`], temperatures held.
+    /// Degree in time of a source's heat between [`Network::breakpoints`], at fixed temperatures.
     pub fn course_of_source(&self, id: SourceId) -> Degree {
         let source = &self.sources()[id.index()];
         let course = |value: &Value| self.course(value);
@@ -138,28 +138,28 @@ impl Network {
         }
     }
 
-    /// Whether the heat of every source and the temperature of every boundary is a straight line in
-    /// time between [`Network::breakpoints`], what switches held.
+    /// True if the heat of every source and the temperature of every boundary is a straight line in
+    /// time between [`Network::breakpoints`], with switches fixed.
     pub fn inputs_are_straight(&self) -> bool {
         let mut boundaries = self.boundaries().iter();
         boundaries.all(|boundary| self.course(&boundary.temperature) < Degree::Nonlinear)
             && self.source_ids().all(|id| self.course_of_source(id) < Degree::Nonlinear)
     }
 
-    /// Whether no input changes with time between [`Network::breakpoints`] but through
+    /// True if no input changes with time between [`Network::breakpoints`] except through
     /// temperatures.
     pub fn stands_still(&self) -> bool {
         let mut driving = self.inputs().filter(|(item, _, _)| !matches!(item, Item::Signal(_)));
         driving.all(|(_, _, value)| self.course(value) == Degree::Constant)
     }
 
-    /// How a value goes over time between [`Network::breakpoints`], temperatures held.
+    /// Degree in time of a value between [`Network::breakpoints`], at fixed temperatures.
     pub fn course(&self, value: &Value) -> Degree {
         self.parts.course(value)
     }
 }
 
-/// A program with the values at which something happens, and how it goes over time.
+/// A program with the values at which something happens, and its degree in time.
 struct Difference {
     program: Program,
     knots: Vec<f64>,
@@ -229,20 +229,20 @@ fn tidy(times: &mut Vec<f64>, start: f64, stop: f64) {
     times.dedup_by(|a, b| (*a - *b).abs() <= margin);
 }
 
-/// Times of a run from `start` to `stop` that are closer than this are one, all in s: rounding, and
-/// what no step could be taken between.
+/// Times of a run from `start` to `stop` that are closer than this are one, all in s: they differ
+/// by rounding, or by too little for a step.
 pub fn same_time(start: f64, stop: f64) -> f64 {
     (1e-12 * (stop - start)).max(64.0 * f64::EPSILON * start.abs().max(stop.abs()))
 }
 
 impl Parts {
-    /// What the heat flows depend on, and what decides when something switches.
+    /// Values that drive the heat flows or decide when something switches, and their signals.
     pub(crate) fn driving(&self) -> Watched<'_> {
         let roots = self.inputs().filter(|(item, _, _)| !matches!(item, Item::Signal(_)));
         self.watched(roots.map(|(_, _, value)| value).collect(), &[])
     }
 
-    /// What results of these items depend on: limits, reports and signals.
+    /// Values of the results of these items, limits and reports, and signals that they read.
     pub(crate) fn results(&self, items: &[Item]) -> Watched<'_> {
         let (mut values, mut signals) = (Vec::new(), Vec::new());
         for item in items {
@@ -275,7 +275,7 @@ impl Parts {
         Watched { values, signals: used }
     }
 
-    /// How a value goes over time between the points of the signals it reads; temperatures held.
+    /// Degree in time of a value between the points of the signals it reads, at fixed temperatures.
     pub(crate) fn course(&self, value: &Value) -> Degree {
         let mut factors = value.programs().into_iter().map(|program| self.course_of(program));
         let first = factors.next().unwrap_or(Degree::Constant);
@@ -301,12 +301,12 @@ impl Parts {
             varying += 1;
             worst = worst.max(own.max(program.degree_in(slot)));
         }
-        // each straight by itself, but perhaps multiplied: the form of the code does not tell
+        // each is straight by itself, but the form of the code does not exclude a product
         if varying > 1 { Degree::Nonlinear } else { worst }
     }
 
-    /// Why a comparison cannot be used: it compares a temperature, or its change is not known
-    /// beforehand.
+    /// Why a comparison cannot be used: it compares a temperature, or its change is not known in
+    /// advance.
     pub(crate) fn comparison_problem(
         &self,
         (comparison, relation): (&Program, Comparison),

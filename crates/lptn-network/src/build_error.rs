@@ -14,7 +14,7 @@ pub type BuildErrors = Problems<BuildError>;
 /// One problem: its kind, and the names that a message needs.
 #[derive(Clone, Debug)]
 pub struct BuildError {
-    /// Which of the problems it is, with its values in SI units.
+    /// The kind of problem, with its values in SI units.
     pub kind: BuildErrorKind,
     /// The name of the item it is about.
     pub name: String,
@@ -26,12 +26,12 @@ impl BuildError {
         self.kind.code()
     }
 
-    /// Where the problem is, if it is at one item: the item and its field.
+    /// The item and field of the problem, if it is at one item.
     pub fn place(&self) -> Option<(Item, Field)> {
         self.kind.place()
     }
 
-    /// What to do about it, in words that can be pasted where possible.
+    /// A remedy, in words that can be pasted if possible.
     pub fn help(&self) -> Option<String> {
         self.kind.help(&Say::new(&self.name))
     }

@@ -1,4 +1,4 @@
-//! Which inputs change with time, among those that a quantity of the results depends on.
+//! Inputs that change with time, among those that a quantity of the results depends on.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ pub struct Changing {
 }
 
 impl Changing {
-    /// What a message names: the signal, or the item that reads `t`.
+    /// The item that a message names: the signal, or the item that reads `t`.
     pub fn item(&self) -> Option<Item> {
         self.signal.map(Item::Signal).or(self.input.map(|(item, _)| item))
     }
@@ -40,7 +40,7 @@ impl Network {
     }
 
     /// The inputs that change with time and that one of these values of the results depends on,
-    /// each once. What happens beyond a boundary does not reach a node.
+    /// each once. Changes beyond a boundary do not reach a node.
     pub fn changing_inputs_of(&self, values: &[&Value]) -> Vec<Changing> {
         let mut walk = Walk::new(&self.parts);
         if walk.can_change(values) {
@@ -54,7 +54,7 @@ impl Network {
 /// Goes from quantities to all that they depend on.
 struct Walk<'a> {
     parts: &'a Parts,
-    /// Conductors and sources at each vertex; empty until the first is asked for.
+    /// Conductors and sources at each vertex; empty until the first is needed.
     around: Vec<Vec<Element>>,
     seen: BTreeSet<Element>,
     waiting: Vec<Element>,
@@ -81,7 +81,7 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Whether anything changes at all; nearly always nothing does, and no path has to be followed.
+    /// True if anything changes at all; nearly always nothing does, and no path has to be followed.
     fn can_change(&self, values: &[&Value]) -> bool {
         let inputs = self.parts.inputs().map(|(_, _, value)| value);
         inputs.chain(values.iter().copied()).any(|value| self.parts.reads(value).time)
@@ -167,7 +167,7 @@ impl<'a> Walk<'a> {
         self.take(Some((item, Field::Temperature)), &parts.boundaries[boundary].temperature);
     }
 
-    /// Takes in what a value reads.
+    /// Takes in everything that a value reads.
     fn take(&mut self, input: Option<(Item, Field)>, value: &Value) {
         for slot in value.slots() {
             match self.parts.layout.holds(slot) {
@@ -242,7 +242,7 @@ fn around(parts: &Parts) -> Vec<Vec<Element>> {
 }
 
 impl Parts {
-    /// Whether a signal is anything but one value for ever.
+    /// True if a signal has more than one value over time.
     fn signal_changes(&self, id: SignalId) -> bool {
         let differ =
             |values: &[f64]| values.windows(2).any(|pair| pair[0].to_bits() != pair[1].to_bits());

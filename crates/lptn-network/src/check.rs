@@ -7,8 +7,7 @@ use crate::id::{End, NodeId};
 use crate::parts::Parts;
 
 pub(crate) fn structure(parts: &Parts, errors: &mut Vec<BuildError>) {
-    // two boundaries with a path between them are a network: nothing is sought but the heat that
-    // passes
+    // two boundaries with a path between them are a network: only the heat that passes is computed
     if parts.nodes.is_empty() && parts.conductors.is_empty() {
         errors.push(BuildError { kind: BuildErrorKind::Empty, name: String::new() });
     }
@@ -17,7 +16,7 @@ pub(crate) fn structure(parts: &Parts, errors: &mut Vec<BuildError>) {
     islands(parts, &stores, errors);
 }
 
-/// Whether each node has a capacity of its own or of its parts.
+/// True for each node that has a capacity, given directly or by its parts.
 fn stores_heat(parts: &Parts) -> Vec<bool> {
     let mut stores: Vec<bool> = parts.nodes.iter().map(|n| n.capacity.is_some()).collect();
     for part in &parts.capacitors {

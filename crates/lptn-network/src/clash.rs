@@ -1,5 +1,5 @@
-//! Names that are taken by what stands inside something else: `plate.z1` is a face of the grid
-//! `plate`, `steel.T` the temperature of a node.
+//! Names that are taken by a part of another item: `plate.z1` is a face of the grid `plate`,
+//! `steel.T` the temperature of a node.
 
 use crate::build_error::BuildError;
 use crate::error::BuildErrorKind;
@@ -10,7 +10,7 @@ use crate::parts::Parts;
 use crate::parts::grid::{Face, GridFace};
 use crate::parts::grid_value::GridValue;
 
-/// Reports the names that two things answer to.
+/// Reports the names that mean two things.
 pub(crate) fn names(parts: &Parts, errors: &mut Vec<BuildError>) {
     if !parts.grids.is_empty() {
         for item in elements(parts).filter(|item| parts.whole(*item).is_none()) {
@@ -58,7 +58,7 @@ fn grid_around(parts: &Parts, name: &str) -> Option<Item> {
     items.find(|item| matches!(item, Item::Grid(_)))
 }
 
-/// Whether it is the one surface of a face, which is a node of the name of the face.
+/// True if it is the one surface of a face: a node with the name of the face.
 fn is_end_of_rod(parts: &Parts, item: Item) -> bool {
     let Item::Node(id) = item else { return false };
     let mut faces = parts.grids.iter().flat_map(|grid| Face::ALL.map(|face| (grid, face)));

@@ -1,5 +1,4 @@
-//! Values that curve over time, to be looked at before a run: an integrator has to see what they
-//! do.
+//! Values that curve over time, sampled before a run so that the integrator resolves them.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -15,8 +14,8 @@ use crate::parts::layout::Holds;
 use crate::slot;
 use crate::value::Value;
 
-/// Temperatures over those of the start, in K, at which a value is looked at whose course over time
-/// the temperatures themselves change.
+/// Temperatures above the start, in K, at which a value is sampled if temperatures change its time
+/// history.
 const RISES: [f64; 4] = [0.0, 10.0, 100.0, -30.0];
 
 /// The start in K of a node that has none.
@@ -30,20 +29,20 @@ pub struct Curve {
     held: Option<Held>,
 }
 
-/// Temperatures at which a value is looked at.
+/// Temperatures at which a value is sampled.
 #[derive(Clone, Debug)]
 struct Held {
     /// In K over the start of every node.
     rise: f64,
-    /// Those of the element at hand, and those read by name.
+    /// Ends of the element at hand, and vertices read by name.
     ends: Option<[End; 2]>,
     named: Vec<(u32, End)>,
 }
 
 impl Network {
-    /// The curves among the inputs of the heat flows. Of a value that reads temperatures as well
-    /// these are the largest parts that read none; where time and temperature go into a function
-    /// together, also the whole at some temperatures.
+    /// The curves among the inputs of the heat flows. If a value reads temperatures too, these are
+    /// its largest parts that read none. If time and temperature enter one function together, the
+    /// whole value at some temperatures is added.
     pub fn curves(&self) -> Vec<Curve> {
         let mut found = Found::default();
         for (item, _, value) in
@@ -70,8 +69,8 @@ impl Network {
         found.distinct()
     }
 
-    /// The value of a curve at `time` in s, comparisons as they stand at `inside` in s; `None`
-    /// where it has none.
+    /// The value of a curve at `time` in s, with comparisons as they are at `inside` in s; `None`
+    /// if it has none.
     pub fn curve_at(
         &self,
         curve: &Curve,
@@ -82,7 +81,7 @@ impl Network {
         self.curve_here(curve, scope)
     }
 
-    /// The value of a curve at the time of `scope`; `None` where it has none.
+    /// The value of a curve at the time of `scope`; `None` if it has none.
     pub fn curve_here(&self, curve: &Curve, scope: &mut Evaluation) -> Option<f64> {
         if let Some(held) = &curve.held {
             self.place_held(held, scope);
@@ -147,7 +146,7 @@ impl Network {
 #[derive(Default)]
 struct Found {
     curves: Vec<Curve>,
-    /// Where the programs are in memory: cells of a grid share one.
+    /// Addresses of the programs in memory: cells of a grid share one.
     seen: BTreeSet<usize>,
 }
 
@@ -160,7 +159,7 @@ impl Found {
         }
     }
 
-    /// Each part once, wherever it stands.
+    /// Each part once, however often it occurs.
     fn distinct(self) -> Vec<Curve> {
         let mut known = BTreeSet::new();
         let mut curves = self.curves;
@@ -173,8 +172,8 @@ impl Found {
 }
 
 impl Parts {
-    /// Adds the curves of a value. Whether it has to be looked at as a whole too: time and
-    /// temperatures go into one function.
+    /// Adds the curves of a value. Returns true if the whole value has to be sampled too, as time
+    /// and temperatures enter one function.
     fn look_for_curves(&self, value: &Value, curves: &mut Vec<Curve>) -> bool {
         let is_foreign = |slot: u32| self.slot_kind(slot) == SlotKind::Foreign;
         if !value.slots().into_iter().any(is_foreign) {
@@ -216,7 +215,7 @@ impl Parts {
     fn slot_kind(&self, slot: u32) -> SlotKind {
         match self.layout.holds(slot) {
             Holds::Time | Holds::Signal(_) => SlotKind::Varying,
-            // their truth stands still inside a segment
+            // their truth does not change inside a segment
             Holds::FrozenTime | Holds::FrozenSignal(_) | Holds::Parameter(_) => SlotKind::Fixed,
             Holds::Link
             | Holds::Own

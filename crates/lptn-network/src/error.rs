@@ -1,4 +1,4 @@
-//! What can be wrong with a network, each told once.
+//! The problems that a network can have, each reported once.
 
 use lptn_laws::Formula;
 use lptn_units::{EvalError, Type, format_short};
@@ -27,7 +27,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             (a, b) if a == b => format!("two {a}s are named `{}`", say.name),
             (a, b) => format!("the name `{}` is taken twice: by a {a} and by a {b}", say.name),
         }, help Some(unused_name(*first, say.name));
-    /// A name that stands for something inside another item, the whole, or for one of its results.
+    /// A name that means something inside another item, the whole, or one of its results.
     NameInside { item: Item, whole: Item } = "network::duplicate_name",
         at Some((*item, Field::Name)),
         says inside(say, *item, *whole),
@@ -103,8 +103,8 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
         ),
         help text("sources, conductors and limits may depend on temperatures; a capacity and a \
             property of a material may depend on their own `T`");
-    /// A comparison whose sides are not linear in `t`: the time at which it changes is not known
-    /// beforehand.
+    /// A comparison whose sides are not linear in `t`: the time at which it changes is not known in
+    /// advance.
     ComparisonNotLinear { item: Item, field: Field } = "network::comparison_not_linear",
         at Some((*item, *field)),
         says format!(
@@ -112,7 +112,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.field(*item, *field)
         ),
         help text("compare `t` itself, for example `if(t < 300 [s], 0 [W], 100 [W])`");
-    /// A comparison of a temperature where its change cannot be followed: in a property, or for
+    /// A comparison of a temperature whose change cannot be followed: in a property, or for
     /// equality.
     ComparesTemperature { item: Item, field: Field } = "network::compares_temperature",
         at Some((*item, *field)),
@@ -133,7 +133,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             [a @ Field::OnAbove, b] => format!("make `{}` higher than `{}`", a.key(), b.key()),
             [a, b] => format!("make `{}` lower than `{}`", a.key(), b.key()),
         });
-    /// A control of which nothing says when it switches.
+    /// A control without thresholds for switching.
     NoThermostat { control: ControlId } = "network::no_thermostat",
         at Some((Item::Control(*control), Field::Name)),
         says format!("the thresholds of control `{}` are not given", say.name),
@@ -154,7 +154,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.field(*item, *field), range[0], range[1], format_short(value.to_degrees())
         ),
         help text("an angle has its unit: `15 deg`");
-    /// What is counted, such as teeth, that is not a whole number of at least 1.
+    /// A count, such as of teeth, that is not a whole number of at least 1.
     NotCounted { item: Item, field: Field, value: f64 } = "network::not_counted",
         at Some((*item, *field)),
         says format!(
@@ -190,7 +190,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.item(*item), format_short(*liquidus), format_short(*solidus)
         ),
         help text("exchange `solidus` and `liquidus`");
-    /// A node of which a part is said to be molten at its start, but that does not melt at just
+    /// A node with a molten part at its start that does not melt at just
     /// that temperature.
     NotMelting { node: NodeId, temperature: f64 } = "network::not_melting",
         at Some((Item::Node(*node), Field::Initial)),
@@ -270,7 +270,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
         at Some((Item::Conductor(*conductor), Field::To)),
         says format!("{} leads from a place to itself", say.item(Item::Conductor(*conductor))),
         help text("a path leads from one node to another: name two different ends");
-    /// A source that heats a boundary, where it has no effect.
+    /// A source that heats a boundary, which has no effect.
     SourceIntoBoundary { source: SourceId } = "network::source_into_boundary",
         at Some((Item::Source(*source), Field::Into)),
         says format!("{} heats a boundary", say.item(Item::Source(*source))),

@@ -1,4 +1,4 @@
-//! What build errors call things, and the parts of their sentences.
+//! Words of build errors for items, and the parts of their sentences.
 
 use std::fmt::Display;
 
@@ -8,7 +8,7 @@ use lptn_units::{Dimension, EvalError, format_short};
 use crate::id::{Field, Item};
 use crate::typed::ZERO_CELSIUS;
 
-/// What items are called where an error is told: a netlist calls a conductor by its section.
+/// Words for items in an error: a netlist calls a conductor by its section.
 pub trait Naming {
     /// The word for an item.
     fn kind(&self, item: Item) -> &'static str {
@@ -29,18 +29,18 @@ impl Naming for Plain {}
 
 /// The words for one error.
 pub struct Say<'a> {
-    /// The name of what it is about.
+    /// The name of the item in question.
     pub name: &'a str,
     naming: &'a dyn Naming,
 }
 
 impl<'a> Say<'a> {
-    /// The words for what has this name.
+    /// The words for the item of this name.
     pub fn new(name: &'a str) -> Self {
         Self { name, naming: &Plain }
     }
 
-    /// The same, with what somebody else calls items.
+    /// The same with other words for items.
     pub fn with(name: &'a str, naming: &'a dyn Naming) -> Self {
         Self { name, naming }
     }
@@ -64,7 +64,7 @@ impl<'a> Say<'a> {
     }
 }
 
-/// What to do where a name is taken twice.
+/// Help for a name that is taken twice.
 pub(crate) fn unused_name(first: Item, name: &str) -> String {
     let kinds = match first {
         Item::Parameter(_)

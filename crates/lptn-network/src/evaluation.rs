@@ -23,10 +23,10 @@ pub struct Evaluation {
     layout: Arc<Layout>,
     slots: Vec<f64>,
     stack: Vec<f64>,
-    /// The same on dual numbers; empty until derivatives are asked for.
+    /// The same on dual numbers; empty until derivatives are needed.
     duals: Vec<Slope>,
     dual_stack: Vec<Slope>,
-    /// The same on numbers that remember their pieces; empty until these are asked for.
+    /// The same on numbers that remember their pieces; empty until these are needed.
     traced: Vec<Traced>,
     traced_stack: Vec<Traced>,
     /// The first signal that has no value at the present time.
@@ -74,7 +74,7 @@ impl Evaluation {
         }
     }
 
-    /// Sets one temperature in K or heat flow in W, for an expression that goes with it.
+    /// Sets one temperature in K or heat flow in W, for an expression that follows it.
     pub fn follow(&mut self, followed: Followed, value: f64) {
         let slot = match followed {
             Followed::Temperature(end) => Some(self.layout.temperature(end)),
@@ -91,7 +91,7 @@ impl Evaluation {
         }
     }
 
-    /// The value of a signal in SI units where this stands; NaN where it has none.
+    /// The value of a signal in SI units at the present time; NaN if it has none.
     pub fn signal(&self, id: SignalId) -> f64 {
         self.slots[self.layout.signal(id) as usize]
     }
@@ -131,7 +131,7 @@ impl Evaluation {
         self.slots[slot as usize]
     }
 
-    /// Why a signal has no value where this stands.
+    /// Why a signal has no value at the present time.
     pub(crate) fn failure(&self) -> Option<(SignalId, InputProblem)> {
         self.failure.clone()
     }
@@ -177,10 +177,10 @@ impl Evaluation {
 }
 
 impl Value {
-    /// The value where `scope` stands, in SI units.
+    /// The value at the state of `scope`, in SI units.
     ///
     /// # Errors
-    /// What the expression's evaluation reports, such as a negative base under a non-integer
+    /// The error of the expression's evaluation, such as a negative base under a non-integer
     /// exponent.
     pub fn at(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
         let (slots, stack) = scope.plain();

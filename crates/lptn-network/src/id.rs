@@ -124,7 +124,7 @@ impl From<End> for Item {
 }
 
 impl Item {
-    /// What it is, in a word.
+    /// The kind of item in one word.
     pub fn word(self) -> &'static str {
         match self {
             Self::Parameter(_) => "parameter",
@@ -168,9 +168,9 @@ pub enum Field {
     Into,
     /// `of`: the quantity that a limit bounds.
     Of,
-    /// What a limited quantity has to stay below.
+    /// Upper bound of a limited quantity.
     Below,
-    /// What a limited quantity has to stay above.
+    /// Lower bound of a limited quantity.
     Above,
     /// The material of a node or capacitor.
     Material,
@@ -194,21 +194,21 @@ pub enum Field {
     LatentHeat,
     /// Period of a signal.
     Period,
-    /// What a control feels.
+    /// Temperature that a control senses.
     Sense,
-    /// What a cooling control switches on above.
+    /// Threshold above which a cooling control switches on.
     OnAbove,
-    /// What a cooling control switches off below.
+    /// Threshold below which a cooling control switches off.
     OffBelow,
-    /// What a heating control switches on below.
+    /// Threshold below which a heating control switches on.
     OnBelow,
-    /// What a heating control switches off above.
+    /// Threshold above which a heating control switches off.
     OffAbove,
-    /// How long a control stays as it is after a switch.
+    /// Minimum time that a control keeps its state after a switch.
     MinDwell,
     /// Lengths of a grid.
     Size,
-    /// How many cells a grid has along each axis.
+    /// Number of cells of a grid along each axis.
     Cells,
     /// Characteristic length of a node.
     CharacteristicLength,

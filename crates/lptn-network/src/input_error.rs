@@ -7,7 +7,7 @@ use lptn_units::{EvalError, Problem, format_number, format_six as six_digits};
 use crate::id::{Field, Item};
 use crate::typed::ZERO_CELSIUS;
 
-/// A source or boundary whose value could not be had during a run.
+/// A source or boundary whose value could not be evaluated during a run.
 #[derive(Clone, Debug)]
 pub struct InputError {
     /// The source or boundary.
@@ -16,12 +16,12 @@ pub struct InputError {
     pub field: Field,
     /// Its name.
     pub name: String,
-    /// What went wrong.
+    /// The problem.
     pub problem: InputProblem,
 }
 
 lptn_units::errors! {
-/// Why an input has no value. Sentences begin behind the field that they are about.
+/// Why an input has no value. A sentence follows the name of its field.
 #[derive(Clone, Debug)]
 pub enum InputProblem {
     /// The expression gave an infinite number or none.
@@ -47,7 +47,7 @@ pub enum InputProblem {
         format!("is not known at {time} s: its last point is at {last} s"),
         help "write `after_end = \"hold\"` or `after_end = \"repeat\"` in the signal, or stop the \
             run there";
-    /// A signal that is repeated so often that a run would have to stop at this many points.
+    /// A signal with so short a period that a run would have to stop at this many points.
     TooManyPoints(count: f64) = INPUT,
         format!("repeats the signal so often that the run would stop at {count:.0} points"),
         help "give the signal a longer period, or use its mean instead";
@@ -59,7 +59,7 @@ pub enum InputProblem {
     /// A quantity that cannot be negative, in SI units.
     Negative(value: f64) = INPUT, format!("is negative: {value} (SI units)"),
         help "keep it positive: `max(x, 0)` with its unit";
-    /// A property that a path takes the mean of, at a temperature in K where there is none.
+    /// A property that a path takes the mean of, at a temperature in K at which it has no value.
     NoMean { temperature: f64 } = INPUT,
         format!(
             "has no mean over the temperatures of the path: near {} degC it changes too quickly, \

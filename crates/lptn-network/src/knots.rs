@@ -5,8 +5,8 @@ use lptn_units::LookupTable;
 use crate::slot;
 use crate::value::Value;
 
-/// Temperatures at which the tables in a value bend where these slots stand, as far as they are
-/// called with the bare temperature.
+/// Temperatures at which the tables in a value bend for these values of the slots, if they are
+/// called with an argument linear in temperature.
 pub(crate) fn knots(value: &Value, slots: &mut [f64], stack: &mut Vec<f64>) -> Vec<f64> {
     let mut edges = Vec::new();
     for program in value.programs() {
@@ -14,7 +14,7 @@ pub(crate) fn knots(value: &Value, slots: &mut [f64], stack: &mut Vec<f64>) -> V
             let (LookupTable::One(table), [argument]) = (&*call.table, &call.arguments[..]) else {
                 continue;
             };
-            // linear in T, so two values tell where it takes that of a knot
+            // linear in T, so two values give the temperature at which it reaches a knot
             let mut of = |t: f64| {
                 slots[slot::OWN as usize] = t;
                 argument.eval(slots, stack).ok()

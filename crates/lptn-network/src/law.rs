@@ -1,5 +1,5 @@
-//! How conductors carry heat and sources put it into nodes: a law with its values, and what it comes
-//! to on numbers or dual numbers.
+//! Laws by which conductors carry heat and sources put it into nodes, with their values, and their
+//! results on numbers or dual numbers.
 
 use std::sync::Arc;
 
@@ -13,15 +13,14 @@ use crate::input_error::InputProblem;
 use crate::slot;
 use crate::value::{Input, Value};
 
-/// How a conductor carries heat, or a source gives it: a law with one value for each of its fields.
-/// Heat flow is positive from `from` to `to`, and into the nodes of a source; that of a stream goes
-/// one way only.
+/// The law of a conductor or source, with one value for each of its fields. Heat flow is positive
+/// from `from` to `to`, and into the nodes of a source; that of a stream goes one way only.
 ///
-/// A builder takes a law of [`Input`]s, a network holds one of [`Value`]s in SI units.
+/// A builder takes a law of [`Input`]s, a network has one of [`Value`]s in SI units.
 #[derive(Clone, Debug)]
 pub struct Law<V = Value> {
     values: Values<V>,
-    /// [`NO_FLUID`] where there is none: an option is twice as large, in every conductor.
+    /// [`NO_FLUID`] if there is none: an option is twice as large, in every conductor.
     fluid: FluidId,
     formula: Formula,
 }
@@ -65,12 +64,12 @@ impl<V> Law<V> {
         Self { fluid, ..Self::new(formula, values) }
     }
 
-    /// Which law it is.
+    /// The formula of the law.
     pub fn formula(&self) -> Formula {
         self.formula
     }
 
-    /// What the value of its formula means: a conductance, an exchange area, a flow.
+    /// Meaning of the value of its formula: a conductance, an exchange area, a flow.
     pub fn carries(&self) -> Carries {
         self.formula.declaration().carries
     }
@@ -80,7 +79,7 @@ impl<V> Law<V> {
         Some(self.fluid).filter(|fluid| *fluid != NO_FLUID)
     }
 
-    /// Whether heat goes with a fluid that flows from one end to the other.
+    /// True if heat goes with a fluid that flows from one end to the other.
     pub fn is_stream(&self) -> bool {
         self.carries().is_stream()
     }
@@ -170,13 +169,13 @@ impl Law<Input> {
 }
 
 impl Law {
-    /// Whether it is a constant resistance or conductance, as nearly all of a large network are.
+    /// True if it is a constant resistance or conductance, as nearly all of a large network are.
     pub(crate) fn is_number(&self) -> bool {
         matches!(self.formula, Formula::Resistance | Formula::Conductance)
             && matches!(self.values(), [Value::Constant(_)])
     }
 
-    /// The conductance in W/K of a constant resistance or conductance that is as it should be.
+    /// The conductance in W/K of a constant resistance or conductance, if it is valid.
     pub(crate) fn number(&self) -> Option<f64> {
         let [Value::Constant(value)] = self.values() else { return None };
         let conductance = match self.formula {
@@ -187,7 +186,7 @@ impl Law {
         (conductance.is_finite() && conductance > 0.0).then_some(conductance)
     }
 
-    /// Whether it is the same law with the same values; `false` where that is not looked at.
+    /// True if it is the same law with the same values; `false` for laws that are not compared.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         let (own, others) = (self.values(), other.values());
         let comparable =
@@ -195,11 +194,11 @@ impl Law {
         comparable && own.iter().zip(others).all(|(a, b)| a.is_same(b))
     }
 
-    /// The conductance in W/K where `scope` stands; 0 for a stream.
+    /// The conductance in W/K at the state of `scope`; 0 for a stream.
     ///
     /// # Errors
-    /// What the evaluation of an expression reports; a value that its field cannot have counts as
-    /// no number.
+    /// The error of the evaluation of an expression; a value that its field cannot have counts as
+    /// not a number.
     pub fn conductance_at(&self, scope: &mut Evaluation) -> Result<f64, EvalError> {
         At::new(scope.plain()).conductance(self).map_err(|(_, problem)| match problem {
             InputProblem::Evaluation(error) => *error,
@@ -208,7 +207,7 @@ impl Law {
     }
 }
 
-/// What is wrong with a value of a field that may change during a run.
+/// The problem of a value of a field that may change during a run.
 pub(crate) fn impossible(field: &lptn_laws::FieldDeclaration, value: f64) -> Option<InputProblem> {
     const CONDUCTANCE: Type = Type::of(Dimension::CONDUCTANCE);
     const RESISTANCE: Type = Type::of(Dimension::RESISTANCE);
@@ -232,7 +231,7 @@ pub(crate) fn impossible(field: &lptn_laws::FieldDeclaration, value: f64) -> Opt
     }
 }
 
-/// As many fields as laws have that are not correlations: room for more takes time to clear.
+/// Most fields of laws that are not correlations: room for more takes time to clear.
 const FEW_FIELDS: usize = 4;
 
 /// Slots on numbers or dual numbers, with the stack that programs need.
@@ -241,12 +240,12 @@ pub(crate) struct At<'a, S> {
     pub(crate) stack: &'a mut Vec<S>,
     /// The property that a path takes the mean of; without one it is taken at the mean of the ends.
     pub(crate) along: Option<&'a Along>,
-    /// Whether the slots of more than temperatures have derivatives.
+    /// True if slots other than temperatures have derivatives too.
     pub(crate) by_parameters: bool,
 }
 
 impl<'a, S> At<'a, S> {
-    /// Where slots stand, for what takes no mean along a path.
+    /// These slots, for a law that takes no mean along a path.
     pub(crate) fn new((slots, stack): (&'a mut [S], &'a mut Vec<S>)) -> Self {
         Self { slots, stack, along: None, by_parameters: false }
     }
@@ -298,7 +297,7 @@ impl<S: Scalar> At<'_, S> {
         }
     }
 
-    /// The value of a law, where the slots stand: what it carries says what that is.
+    /// The value of a law for these slots; [`Law::carries`] gives its meaning.
     pub(crate) fn value(&mut self, law: &Law) -> Result<S, (Field, InputProblem)> {
         let of = |values: &[S], ends| law.formula.value(values, ends);
         match law.values().len() {
@@ -321,7 +320,7 @@ impl<S: Scalar> At<'_, S> {
         Ok(function(&values[..count], self.ends()))
     }
 
-    /// The heat of a law of sources in W, where the slots stand.
+    /// The heat of a law of sources in W for these slots.
     pub(crate) fn heat(&mut self, law: &Law) -> Result<S, (Field, InputProblem)> {
         let heat = match law.formula {
             Formula::Given => self.get(law, 0)?,
@@ -337,7 +336,7 @@ impl<S: Scalar> At<'_, S> {
         [self.slots[slot::FROM as usize], self.slots[slot::TO as usize]]
     }
 
-    /// The conductance of a law that is not a stream, in W/K, where the slots stand.
+    /// The conductance of a law that is not a stream, in W/K, for these slots.
     pub(crate) fn conductance(&mut self, law: &Law) -> Result<S, (Field, InputProblem)> {
         match law.carries() {
             Carries::Conductance | Carries::Radiation => {
@@ -348,7 +347,7 @@ impl<S: Scalar> At<'_, S> {
         }
     }
 
-    /// The same where the value of the law is known.
+    /// The same if the value of the law is known.
     pub(crate) fn conductance_of(&self, law: &Law, value: S) -> S {
         let [from, to] = self.ends();
         match law.carries() {
@@ -358,7 +357,7 @@ impl<S: Scalar> At<'_, S> {
     }
 }
 
-/// How a conductor carries heat, as far as it is known before a run.
+/// The heat flow of a conductor, as far as it is known before a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ConductorFlow {
     /// `q = G (T_from - T_to)` with this constant conductance in W/K.

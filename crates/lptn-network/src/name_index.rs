@@ -2,17 +2,17 @@
 
 use crate::id::Item;
 
-/// Items by the hash of their name; the names themselves stand in the items. Nothing depends on the
-/// order of its slots.
+/// Items by the hash of their name; the items have the names. Nothing depends on the order of its
+/// slots.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NameIndex {
-    /// As many as a power of two, at most two thirds of them taken.
+    /// Their number is a power of two; at most two thirds are taken.
     slots: Vec<Option<(u32, Item)>>,
     taken: usize,
 }
 
 impl NameIndex {
-    /// The item whose name this is, as `is` tells.
+    /// The item of this name for which `is` is true.
     pub(crate) fn find(&self, name: &str, is: impl Fn(Item) -> bool) -> Option<Item> {
         let hash = hash(name);
         let mut at = self.start(hash);

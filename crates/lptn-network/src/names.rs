@@ -7,7 +7,7 @@ use lptn_units::{Problem, suggest};
 /// A name that the network does not have.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownName {
-    /// The name that was asked for.
+    /// The unknown name.
     pub name: String,
     /// The most similar name there is.
     pub suggestion: Option<String>,
@@ -42,14 +42,14 @@ impl Problem for UnknownName {
     }
 }
 
-/// Whether it is a name: letters, digits and `_`, not a digit first.
+/// True if it is a name: letters, digits and `_`, not a digit first.
 pub fn is_name(text: &str) -> bool {
     let word = |c: char| c.is_ascii_alphanumeric() || c == '_';
     text.starts_with(|c: char| word(c) && !c.is_ascii_digit()) && text.chars().all(word)
 }
 
-/// Whether it is a name, or the name of what stands inside others: `planet[2].gear`, `wall[1,1,3]`.
-/// Indices are whole numbers from 1, written without spaces and without zeros before them.
+/// True if it is a name, or the name of a part of others: `planet[2].gear`, `wall[1,1,3]`. Indices
+/// are whole numbers from 1, written without spaces and without leading zeros.
 pub fn is_path(text: &str) -> bool {
     text.split('.').all(|part| match part.split_once('[') {
         None => is_name(part),

@@ -11,7 +11,7 @@ use crate::id::ParameterId;
 use crate::names::UnknownName;
 use crate::parts::Parts;
 
-/// That two parameters are off together.
+/// The correlation of two parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Correlation {
     between: [ParameterId; 2],
@@ -19,19 +19,18 @@ struct Correlation {
 }
 
 impl Correlation {
-    /// Whether it is of this parameter.
+    /// True if it is of this parameter.
     fn is_of(&self, id: ParameterId) -> bool {
         self.between.contains(&id)
     }
 }
 
-/// New values for some parameters of one network, and how well they are known; the others keep
-/// theirs.
+/// New values for some parameters of one network, and their uncertainty; the others keep theirs.
 #[derive(Clone, Debug)]
 pub struct Parameters {
     parts: Arc<Parts>,
     values: Vec<Option<f64>>,
-    /// How far a value may be off, where that was given with it.
+    /// The deviation of each value, if one was given with it.
     deviations: Vec<Option<Spread>>,
     correlations: Vec<Correlation>,
 }
@@ -74,28 +73,28 @@ impl Parameters {
         Ok(self)
     }
 
-    /// How far a parameter may be off, where that was given: by a text with `±`, or by
+    /// The deviation of a parameter, if one was given: by a text with `±`, or by
     /// [`Parameters::set_deviation`].
     pub fn deviation(&self, id: ParameterId) -> Option<Spread> {
         self.deviations[id.index()]
     }
 
-    /// Says how far a parameter may be off. What was known of it together with others is forgotten.
+    /// Sets the deviation of a parameter and deletes its correlations with others.
     pub fn set_deviation(&mut self, id: ParameterId, deviation: Spread) {
         self.deviations[id.index()] = Some(deviation);
         self.correlations.retain(|correlation| !correlation.is_of(id));
     }
 
-    /// Says how far two parameters are off together: their correlation, more than -1 and less than
-    /// 1, of a lognormal one that of its logarithm.
+    /// Sets the correlation of two parameters, more than -1 and less than 1; for a lognormal one
+    /// that of its logarithm.
     pub fn correlate(&mut self, between: [ParameterId; 2], value: f64) {
         let [a, b] = between;
         self.correlations.retain(|correlation| !(correlation.is_of(a) && correlation.is_of(b)));
         self.correlations.push(Correlation { between, value });
     }
 
-    /// The parameters that are not certain, in the order of the network: how far each may be off
-    /// was given here, or follows from its own `±`.
+    /// The uncertain parameters, in the order of the network, each with its deviation: given here,
+    /// or from its own `±`.
     pub fn uncertain(&self) -> Vec<(ParameterId, Spread)> {
         let all = self.parts.parameters.iter().zip(&self.deviations).zip(0..);
         let found = all.filter_map(|((own, given), i)| {
@@ -105,7 +104,7 @@ impl Parameters {
         found.collect()
     }
 
-    /// What is known of these parameters together.
+    /// The correlations of these parameters.
     pub fn correlations_of(&self, ids: &[ParameterId]) -> Correlations {
         let mut all = Correlations::none(ids.len());
         for Correlation { between: [a, b], value } in &self.correlations {
@@ -118,8 +117,8 @@ impl Parameters {
     }
 
     /// Sets a parameter by name to a written quantity, such as `"5000 rpm"`, whose unit is checked
-    /// as in a netlist: `"300 K"` is a difference. An expression without names will do,
-    /// `"absolute(300 [K])"`. A `±` in the text takes the place of the parameter's own, see
+    /// as in a netlist: `"300 K"` is a difference. An expression without names is accepted too,
+    /// `"absolute(300 [K])"`. A `±` in the text replaces the parameter's own, see
     /// [`Parameters::deviation`].
     ///
     /// # Errors

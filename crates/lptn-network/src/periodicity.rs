@@ -1,4 +1,4 @@
-//! Inputs that repeat themselves: with which period, and whether they really do.
+//! Inputs that repeat themselves: their period, and a check that they really repeat.
 
 use lptn_units::EvalError;
 
@@ -10,7 +10,7 @@ use crate::parts::signal::AfterEnd;
 use crate::slot;
 use crate::value::Value;
 
-/// Two signals whose periods have no multiple in common that anyone would wait for.
+/// Two signals whose periods have no reasonably small common multiple.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NoCommonPeriod {
     /// The two signals whose periods do not fit.
@@ -24,9 +24,9 @@ pub struct NoCommonPeriod {
 /// An input that is not the same one period later.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NotPeriodic {
-    /// What it belongs to.
+    /// The item that it belongs to.
     pub item: Item,
-    /// Which field.
+    /// The field of the item.
     pub field: Field,
     /// The name of the item.
     pub name: String,
@@ -34,34 +34,34 @@ pub struct NotPeriodic {
     pub time: f64,
     /// The period in s.
     pub period: f64,
-    /// Its values in SI units at that time and one period later; `None` where it has none.
+    /// Its values in SI units at that time and one period later; `None` if it has none.
     pub values: [Option<f64>; 2],
-    /// The unit of the values, where it is known.
+    /// The unit of the values, if it is known.
     pub unit: Option<String>,
 }
 
 /// The most periods of one signal in a common period.
 const MOST_PERIODS: u32 = 1000;
 
-/// How far multiples of two periods may be apart, relative.
+/// Largest relative difference between equal multiples of two periods.
 const SAME_PERIOD: f64 = 1e-9;
 
 /// Values that differ by this part of the largest are the same: times are rounded when a period is
 /// added.
 const SAME_VALUE: f64 = 1e-9;
 
-/// Looks at the inputs in a period, at least.
+/// Least number of samples of the inputs in a period.
 const LOOKS: usize = 64;
 
-/// Looks in a stretch between two breakpoints, at least.
+/// Least number of samples in a stretch between two breakpoints.
 const LEAST_LOOKS: usize = 5;
 
 /// Temperatures in K of the two ends of a path, for values that depend on them as well.
 const ENDS: [(f64, f64); 3] = [(310.0, 300.0), (350.0, 290.0), (280.0, 400.0)];
 
 impl Network {
-    /// The least time in s after which every repeated signal that is used begins anew; `None` if
-    /// none is repeated. An expression in `t` may repeat itself too, which this does not know.
+    /// The least time in s after which every repeated signal in use restarts; `None` if none is
+    /// repeated. An expression in `t` may repeat itself too, which this does not detect.
     ///
     /// # Errors
     /// [`NoCommonPeriod`] for periods that are not small multiples of a common one.
@@ -90,8 +90,8 @@ impl Network {
         })
     }
 
-    /// Looks whether every input has the same values in `start..start + period` and one period
-    /// later, times in s. Values that depend on temperatures are compared at a few of them.
+    /// Checks that every input has the same values in `start..start + period` and one period later,
+    /// times in s. Values that depend on temperatures are compared at a few of them.
     ///
     /// # Errors
     /// The first input that has not. The inner error is that of [`Network::breakpoints`].
@@ -129,7 +129,7 @@ impl Network {
         let stretch = |pair: &[f64]| {
             let (from, length) = (pair[0], pair[1] - pair[0]);
             let middle = from + 0.5 * length;
-            // the golden section: no two looks are a simple part of the stretch apart
+            // the golden section: no two samples are a simple part of the stretch apart
             let place =
                 move |k: usize| from + length * (0.618_033_988_749_895 * (k as f64 + 0.3)).fract();
             (0..count).map(move |k| (place(k), middle)).collect::<Vec<_>>()
@@ -163,8 +163,7 @@ impl Network {
     }
 }
 
-/// A value at a time, for each of [`ENDS`] where it depends on temperatures; `None` where it has
-/// none.
+/// A value at a time, for each of [`ENDS`] if it depends on temperatures; `None` if it has none.
 fn at_ends(value: &Value, scope: &mut Evaluation, (time, segment): (f64, f64)) -> Vec<Option<f64>> {
     scope.set_time(time, segment);
     let one = |(from, to): (f64, f64)| {

@@ -1,5 +1,5 @@
-//! Positions: which controls are on and which comparisons of temperatures hold, fixed between two
-//! events.
+//! Positions: the states of controls and the truth of comparisons of temperatures, fixed between
+//! two events.
 //!
 //! A control and every comparison of temperatures have a slot that contains 0 or 1 until an event
 //! changes it. The code of an expression is rewritten once, when the network is built, to read the
@@ -15,15 +15,15 @@ use crate::network::Network;
 /// The positions of everything that switches. Between two events none of them changes.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Positions {
-    /// For each control whether it is on.
+    /// True for each control that is on.
     pub controls: Vec<bool>,
-    /// For each switch whether its comparison holds.
+    /// True for each switch whose comparison is true.
     pub switches: Vec<bool>,
 }
 
 impl Network {
-    /// The positions before anything is known of temperatures: controls as their `start` says, no
-    /// comparison holds.
+    /// The positions before any temperature is known: controls as their `start` says, all
+    /// comparisons false.
     pub fn initial_positions(&self) -> Positions {
         let start = |id: ControlId| self.thermostat(id).is_some_and(|thermostat| thermostat.start);
         Positions {
@@ -32,14 +32,14 @@ impl Network {
         }
     }
 
-    /// Whether anything switches at times that are not known beforehand.
+    /// True if anything switches at times that are not known in advance.
     pub fn has_events(&self) -> bool {
         !(self.controls().is_empty() && self.switches().is_empty())
     }
 }
 
 impl Evaluation {
-    /// Sets which controls are on and which comparisons hold.
+    /// Sets the states of the controls and the truth of the comparisons.
     pub fn set_positions(&mut self, positions: &Positions) {
         let layout = Arc::clone(self.layout());
         let number = |holds: bool| f64::from(u8::from(holds));
@@ -60,7 +60,7 @@ impl Evaluation {
         Positions { controls: controls.collect(), switches: switches.collect() }
     }
 
-    /// Whether a control is on.
+    /// True if a control is on.
     pub fn is_on(&self, id: ControlId) -> bool {
         self.slot(self.layout().control(id)) != 0.0
     }

@@ -1,4 +1,4 @@
-//! Which heat flows surely go one way with temperature, from the form of their laws.
+//! Heat flows that certainly go one way with temperature, by the form of their laws.
 
 use lptn_laws::{Carries, Form};
 use lptn_units::Trend;
@@ -10,10 +10,10 @@ use crate::slot;
 use crate::value::Value;
 
 impl Network {
-    /// Whether the heat that a conductor carries is known to rise with the temperature of its first
-    /// end and to fall with that of its second, whatever the temperatures: so does that of
-    /// radiation, and of a film coefficient that rises with the magnitude of `dT`. `false` where
-    /// that is not known, and for a stream.
+    /// True if the heat of a conductor is known to rise with the temperature of its first end and
+    /// to fall with that of its second, at all temperatures. Examples are radiation, and a film
+    /// coefficient that rises with the magnitude of `dT`. `false` if this is not known, and for a
+    /// stream.
     pub fn heat_rises(&self, id: ConductorId) -> bool {
         let conductor = &self.conductors()[id.index()];
         let depends = self.parts.dependence(id);
@@ -22,14 +22,14 @@ impl Network {
         }
         let along = conductor.law.along().filter(|_| self.along(id).is_some());
         let trend = |value: &Value| match along.is_some_and(|along| std::ptr::eq(along, value)) {
-            // heat is the integral of what is not negative
+            // heat is the integral of a nonnegative property
             true => Trend::HELD,
             false => self.trend(value, &|holds, at| link(holds, at)),
         };
         let declared = conductor.law.formula().declaration();
         let mut values = conductor.law.values().iter().map(trend);
         match (declared.carries, declared.form) {
-            // a conductance is refused where it is negative
+            // a negative conductance is refused
             (Carries::Conductance, Form::Product) => {
                 values.fold(Trend::constant(1.0), Trend::times).rises && !declared.reads_ends
             }
@@ -42,7 +42,7 @@ impl Network {
         }
     }
 
-    /// Whether a source heats one node, and is known not to heat it more where that is warmer.
+    /// True if a source heats one node, and is known not to heat it more when that is warmer.
     pub fn source_falls(&self, id: SourceId) -> bool {
         let source = &self.sources()[id.index()];
         let [(node, _)] = source.into.as_slice() else { return false };
@@ -75,7 +75,7 @@ impl Network {
     }
 }
 
-/// What is known of a slot while the difference between the ends of a conductor grows.
+/// Trend of a slot while the difference between the ends of a conductor grows.
 fn link(holds: Holds, at: u32) -> Trend {
     match holds {
         Holds::Link if at == slot::DIFFERENCE => Trend::SIGNED,
@@ -83,7 +83,7 @@ fn link(holds: Holds, at: u32) -> Trend {
     }
 }
 
-/// What is known of what is not the variable itself.
+/// Trend of a slot that is not the variable itself.
 fn elsewhere(holds: Holds) -> Trend {
     match holds {
         Holds::Time

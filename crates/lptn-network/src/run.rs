@@ -1,11 +1,11 @@
-//! What a run or a fit is asked for: said in a netlist, kept by the analyses.
+//! Settings of a run or a fit: given in a netlist, used by the analyses.
 //!
 //! The settings that a netlist contains and an analysis uses (a run, its windows, the parameters of
 //! a fit) are in this crate. Neither side translates the types of the other.
 
 use crate::id::ParameterId;
 
-/// What to simulate, in SI units.
+/// The settings of a simulation, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunSettings {
     /// Time at which the run begins, in s.
@@ -14,28 +14,28 @@ pub struct RunSettings {
     pub stop: f64,
     /// When to write a row.
     pub output: OutputTimes,
-    /// Which columns to write, as patterns such as `*.T`; empty for all.
+    /// Columns to write, as patterns such as `*.T`; empty for all.
     pub select: Vec<String>,
-    /// Over which parts of it to take means and extremes, in file order.
+    /// Parts of the run over which to take means and extremes, in file order.
     pub windows: Vec<WindowSettings>,
     /// Tolerance in K.
     pub tolerance: f64,
-    /// The share of the heat turned over by which the energy balance may be off, at most; `None` for
-    /// the usual one.
+    /// Largest error of the energy balance as a share of the total heat exchanged; `None` for the
+    /// default.
     pub balance_error: Option<f64>,
-    /// How it is computed.
+    /// Its integrator.
     pub integrator: IntegratorChoice,
-    /// For each control by id how long it has been as it stands at the start, in s, from 0: `None`
-    /// if it never switched. Empty for a run that starts from no state.
+    /// For each control by id the time in s that it has been in its state at the start, from 0:
+    /// `None` if it never switched. Empty for a run that does not start from a state.
     pub held: Vec<Option<f64>>,
 }
 
 impl RunSettings {
-    /// The tolerance in K of a run that does not say.
+    /// The default tolerance of a run in K.
     pub const USUAL_TOLERANCE: f64 = 1e-5;
 
-    /// One cycle of `period` in s: from the start of `run`, with its tolerance and integrator and
-    /// from where its controls stand; rows as the usual number of intervals makes them.
+    /// One cycle of `period` in s: from the start of `run`, with its tolerance, its integrator and
+    /// the times of its controls in their states; rows at the default number of intervals.
     pub fn cycle(run: Option<&Self>, period: f64) -> Self {
         let start = run.map_or(0.0, |run| run.start);
         Self {
@@ -52,15 +52,15 @@ impl RunSettings {
     }
 }
 
-/// Which integrator computes a run.
+/// The integrator of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum IntegratorChoice {
-    /// The one-step method where it serves, else ESDIRK for inputs of many points, else CVODE.
+    /// The one-step method if it applies, else ESDIRK for inputs of many points, else CVODE.
     #[default]
     Auto,
     /// The one-step method for linear networks; refused for others.
     OneStep,
-    /// An implicit Runge-Kutta method, which needs no new start where inputs bend; refused where
+    /// An implicit Runge-Kutta method, which needs no restart when inputs bend; refused if
     /// something melts or sensitivities are followed.
     Esdirk,
     /// CVODE, which integrates every network.
@@ -68,7 +68,7 @@ pub enum IntegratorChoice {
 }
 
 impl IntegratorChoice {
-    /// The words for them, the usual one first.
+    /// The words for them, the default first.
     pub const WORDS: [(&str, Self); 4] = [
         ("auto", Self::Auto),
         ("one_step", Self::OneStep),
@@ -87,28 +87,28 @@ impl IntegratorChoice {
 pub struct WindowSettings {
     /// Its name.
     pub name: String,
-    /// When it begins, in s; not before the run.
+    /// Its start in s; not before the run.
     pub from: f64,
-    /// When it ends, in s; after `from` and not after the run.
+    /// Its end in s; after `from` and not after the run.
     pub to: f64,
 }
 
 /// A parameter that a fit varies, around its own value. All numbers are in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Varied {
-    /// Which one.
+    /// The parameter.
     pub parameter: ParameterId,
-    /// The least and the greatest value it may take; infinite where there is none.
+    /// The least and the greatest value it may take; infinite if there is no bound.
     pub bounds: (f64, f64),
-    /// One standard deviation of what is known of it beforehand, which is its own value; `None` if
-    /// nothing is.
+    /// One standard deviation of its prior, whose mean is its own value; `None` if there is no
+    /// prior.
     pub prior: Option<f64>,
 }
 
-/// When a run writes a row. Start and stop of the run always have one.
+/// Times at which a run writes a row. Start and stop of the run always have one.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OutputTimes {
-    /// Every so many seconds from the start.
+    /// At multiples of this time in s from the start.
     Every(f64),
     /// At these times in s, strictly increasing and inside the run.
     At(Vec<f64>),
@@ -117,6 +117,6 @@ pub enum OutputTimes {
 impl OutputTimes {
     /// More rows than this are refused: a mistyped unit, not a wish.
     pub const MOST_ROWS: f64 = 1e7;
-    /// Number of intervals of a run that does not say.
+    /// Default number of intervals of a run.
     pub const USUAL_INTERVALS: f64 = 300.0;
 }

@@ -1,4 +1,4 @@
-//! The names that expressions may use, by the place they stand in.
+//! The names that expressions may use, by context.
 
 use lptn_units::{Dimension, Scope, Symbol, TableSymbol, Type};
 
@@ -6,7 +6,7 @@ use crate::id::{End, Item};
 use crate::parts::Parts;
 use crate::slot;
 
-/// Where an expression stands.
+/// The context of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Context {
     /// Parameters, boundaries, signals: nothing but parameters, `t`, signals, controls and tables.
@@ -65,14 +65,14 @@ impl<'a> NetworkScope<'a> {
         Some(Symbol { slot, ty: Type::ABSOLUTE_TEMPERATURE, in_comparison: None })
     }
 
-    /// A heat flow that has a place: see [`crate::NetworkBuilder::name_heats`].
+    /// A heat flow that has a slot: see [`crate::NetworkBuilder::name_heats`].
     fn heat(self, name: &str) -> Option<Symbol> {
         let heat = self.parts.heat(name).filter(|_| self.context == Context::Result)?;
         let slot = self.parts.layout.heat(heat)?;
         Some(Symbol { slot, ty: self.parts.heat_type(heat), in_comparison: None })
     }
 
-    /// A temperature of a grid that has a place: see [`crate::NetworkBuilder::name_heats`].
+    /// A temperature of a grid that has a slot: see [`crate::NetworkBuilder::name_heats`].
     fn grid(self, name: &str) -> Option<Symbol> {
         let value = self.parts.grid_value(name).filter(|_| self.context == Context::Result)?;
         let slot = self.parts.layout.grid_value(value)?;

@@ -16,10 +16,10 @@ pub const MEAN: u32 = 4;
 pub const DIFFERENCE: u32 = 5;
 /// `T` of the node or material at hand in K.
 pub const OWN: u32 = 6;
-/// Whether it is a temperature of the path or body at hand.
+/// True if it is a temperature of the path or body at hand.
 pub(crate) fn is_of_path(slot: u32) -> bool {
     (FROM..=OWN).contains(&slot)
 }
 
-/// How many there are before the first part of a network.
+/// Number of slots before the first part of a network.
 pub(crate) const FIXED: usize = 7;

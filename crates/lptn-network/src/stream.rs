@@ -6,10 +6,10 @@ use crate::law::{At, ConductorFlow, Received};
 use crate::network::Network;
 use crate::network::flow::place;
 
-/// Where capacity rates are compared, in K.
+/// Temperature at which capacity rates are compared, in K.
 const REFERENCE: f64 = 298.15;
 
-/// What streams bring to a node and take from it, as capacity rates in W/K.
+/// Total capacity rates in W/K of the streams into a node and out of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Passing {
     /// The node that the streams pass.
@@ -21,25 +21,25 @@ pub struct Passing {
 }
 
 impl Passing {
-    /// Whether as much flows out as in, but for rounding.
+    /// True if inflow and outflow are equal except for rounding.
     pub fn is_balanced(&self) -> bool {
         (self.inflow - self.outflow).abs() <= 1e-6 * self.inflow.max(self.outflow)
     }
 }
 
-/// A path whose `from` is the outlet of a stream, and what streams bring there.
+/// A path whose `from` is the outlet of a stream, and the capacity rate that flows in there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outlet {
     /// The path.
     pub path: ConductorId,
     /// Capacity rate of its stream in W/K.
     pub rate: f64,
-    /// That of the streams that flow into `from`; 0 for a boundary, which keeps its temperature.
+    /// Capacity rate of the streams into `from`; 0 for a boundary, which keeps its temperature.
     pub inflow: f64,
 }
 
 impl Outlet {
-    /// Whether they are one stream, whose specific heat may differ somewhat between temperatures.
+    /// True if they are one stream, whose specific heat may differ somewhat between temperatures.
     pub fn is_one_stream(&self) -> bool {
         (self.rate - self.inflow).abs() <= 0.1 * self.rate.max(self.inflow)
     }
@@ -76,8 +76,8 @@ impl Network {
         Ok(outlets)
     }
 
-    /// What passes each node that a stream touches, at `time` in s and with everything at 25 degC,
-    /// so that one flow of one fluid has one capacity rate.
+    /// The streams that pass each node, at `time` in s and with everything at 25 degC, so that one
+    /// flow of one fluid has one capacity rate.
     ///
     /// # Errors
     /// [`InputError`] if a flow has no value.
@@ -122,7 +122,7 @@ impl Network {
             return Ok(rate);
         }
         self.exchange_slopes(id, scope, temperatures, slopes)?;
-        // what `to` receives by the temperature of `from` less what `from` receives by that of `to`
+        // heat to `to` per K of `from`, less heat to `from` per K of `to`
         Ok(slopes[0][1] - slopes[1][0])
     }
 }

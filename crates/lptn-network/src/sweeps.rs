@@ -1,5 +1,5 @@
-//! Values that read temperatures, to be looked at before a step carries a temperature past what
-//! they do: the twin of [`Network::curves`](crate::Network::curves).
+//! Values that read temperatures, sampled before a step carries a temperature past their bends: the
+//! twin of [`Network::curves`](crate::Network::curves).
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -18,8 +18,8 @@ use crate::parts::layout::Holds;
 use crate::slot;
 use crate::value::Value;
 
-/// An expression that drives a heat flow, or decides what switches, and reads temperatures in a way that is not a straight
-/// line.
+/// An expression that drives a heat flow, or decides when something switches, and is not linear in
+/// the temperatures that it reads.
 #[derive(Clone, Debug)]
 pub struct Reader {
     program: Arc<Program>,
@@ -47,8 +47,8 @@ impl Read {
 }
 
 impl Reader {
-    /// Which of the readers it turns like, if it reads one number of temperatures and nothing else
-    /// that changes.
+    /// Index of the group of readers that turn alike, if it reads one number of temperatures and
+    /// nothing else that changes.
     pub fn family(&self) -> Option<usize> {
         self.family
     }
@@ -58,7 +58,7 @@ impl Reader {
         self.reads[0].1.of(temperatures)
     }
 
-    /// The vertices that it reads are all among those for which this holds.
+    /// True if `holds` is true of all vertices that it reads.
     pub fn reads_only(&self, holds: impl Fn(usize) -> bool) -> bool {
         self.reads.iter().all(|(_, read)| match *read {
             Read::One(a) => holds(a),
@@ -67,7 +67,7 @@ impl Reader {
     }
 }
 
-/// Whether the form of an expression that reads one number tells that it never turns.
+/// True if the form of an expression that reads one number shows that it never turns.
 fn goes_one_way(program: &Program, reads: &[(u32, Read)]) -> bool {
     let &[(slot, read)] = reads else { return false };
     let own = match read {
@@ -79,7 +79,7 @@ fn goes_one_way(program: &Program, reads: &[(u32, Read)]) -> bool {
 }
 
 impl Network {
-    /// The expressions that drive a heat flow, or decide what switches, and may turn while temperatures go one way.
+    /// The nonlinear expressions that may turn while temperatures go one way.
     pub fn readers(&self) -> Vec<Reader> {
         let mut readers = Vec::new();
         for (item, field, value) in self.inputs() {
@@ -97,7 +97,7 @@ impl Network {
                 readers.extend(self.reader(program, dependence, end));
             }
         }
-        // what switches is to be seen too
+        // comparisons that switch are sampled too
         let comparing = self.switches().iter().filter_map(|switch| {
             self.reader(&switch.difference, self.dependence_of(switch.item)?, None)
         });
@@ -106,7 +106,7 @@ impl Network {
         readers
     }
 
-    /// Says which of them turn alike.
+    /// Groups the readers that turn alike.
     fn group(&self, readers: &mut [Reader]) {
         let mut families = BTreeMap::new();
         for reader in readers.iter_mut() {
@@ -126,7 +126,7 @@ impl Network {
         }
     }
 
-    /// `end` is that whose temperature is `T`; the mean of both otherwise.
+    /// `T` is the temperature of `end`, or without it the mean of both ends.
     fn reader(
         &self,
         program: &Arc<Program>,
@@ -164,8 +164,8 @@ impl Network {
             && reader.program.slots().iter().filter(|s| other(s)).all(|s| fixed(*s))
     }
 
-    /// Where an expression turns while the temperatures of all vertices go from one state to
-    /// another, in K: see [`Program::turns`]. Everything else that it reads is as `scope` says.
+    /// Turns of an expression while the temperatures of all vertices go from one state to another,
+    /// in K: see [`Program::turns`]. Everything else that it reads is taken from `scope`.
     pub fn turns(
         &self,
         reader: &Reader,
@@ -180,7 +180,7 @@ impl Network {
         reader.program.turns(&way, least)
     }
 
-    /// The same for the first number that it reads, which goes between two others in K.
+    /// The same for the first number that it reads, which moves between two values in K.
     pub fn turns_between(
         &self,
         reader: &Reader,
@@ -218,7 +218,7 @@ impl Network {
         let [from, to] =
             result.map_err(|failed| self.failed(Item::Conductor(id), failed, scope))?;
         let mut trace = from.trace().wrapping_add(to.trace());
-        // what a path takes the mean of bends where it does at either end
+        // the property that a path takes the mean of bends where it does at either end
         if let Some(value) = conductor.law.along().filter(|_| self.along(id).is_some()) {
             let (slots, stack) = scope.traced();
             for end in [at(0), at(1)] {

@@ -42,7 +42,7 @@ impl Value {
         }
     }
 
-    /// Whether it is the same number, or the same expression in the same memory.
+    /// True if it is the same number, or the same expression in the same memory.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         match (self, other) {
             (Self::Constant(a), Self::Constant(b)) => a.to_bits() == b.to_bits(),
@@ -52,7 +52,7 @@ impl Value {
         }
     }
 
-    /// Where it is in memory: values that share it are the same. 0 for a constant.
+    /// Its address in memory: values that share it are the same. 0 for a constant.
     pub(crate) fn address(&self) -> usize {
         match self {
             Self::Constant(_) => 0,
@@ -119,7 +119,7 @@ impl From<Program> for Input {
     }
 }
 
-/// How much of a material there is.
+/// The amount of a material.
 #[derive(Clone, Debug)]
 pub enum Size<T = Value> {
     /// By mass; in kg.
@@ -131,14 +131,14 @@ pub enum Size<T = Value> {
 /// A lump of a material, from which a capacity was computed.
 #[derive(Clone, Debug)]
 pub struct Lump {
-    /// What the lump consists of.
+    /// The material of the lump.
     pub material: MaterialId,
-    /// How much of it.
+    /// Its amount.
     pub size: Size,
 }
 
 impl Lump {
-    /// Whether it is as much of the same material.
+    /// True if it is the same amount of the same material.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         let ((own, size), (others, same)) = (self.size.field(), other.size.field());
         self.material == other.material && own == others && size.is_same(same)

@@ -1,5 +1,5 @@
-//! A linear network whose parameters change again and again: only the numbers that depend on those
-//! are evaluated anew, with the same checks.
+//! A linear network whose parameters change again and again: only the numbers that depend on them
+//! are evaluated, with the same checks.
 
 use lptn_units::Degree;
 
@@ -14,9 +14,9 @@ use lptn_laws::Range;
 
 /// A linear network of nodes with constant numbers, for one candidate after the other.
 ///
-/// There is one only for networks of constant conductances without grids, fluids and anything that
-/// switches, whose materials, limits and signals do not depend on what changes. What is refused for
-/// a candidate is left to [`Network::with`] to explain.
+/// There is one only for networks of constant conductances without grids, fluids and switches,
+/// whose materials, limits and signals do not depend on the changed parameters. If a candidate is
+/// refused, [`Network::with`] explains why.
 pub struct Variants<'a> {
     work: Work<'a>,
     network: &'a Network,
@@ -35,7 +35,7 @@ pub struct Variants<'a> {
     pub initial: Vec<f64>,
 }
 
-/// The slots of what changes.
+/// The slots that change.
 struct Touched {
     slots: Vec<bool>,
 }
@@ -47,8 +47,8 @@ impl Touched {
 }
 
 impl Network {
-    /// The candidates of this network in which these parameters differ; `None` where it is not of
-    /// the kind that can be had so.
+    /// The candidates of this network in which these parameters differ; `None` if it is not of the
+    /// required kind.
     pub fn variants(&self, changed: &[ParameterId]) -> Option<Variants<'_>> {
         let parts = &*self.parts;
         let plain = parts.grids.is_empty()
@@ -85,8 +85,8 @@ impl Network {
         })
     }
 
-    /// The parameters that change, and those that follow from them. One that is given does not
-    /// follow.
+    /// The slots of the parameters that change, and of those that follow from them. A parameter
+    /// that is given does not follow.
     fn touched(&self, changed: &[ParameterId]) -> Touched {
         let parts = &*self.parts;
         let mut touched = Touched { slots: vec![false; parts.layout.len()] };
@@ -100,13 +100,13 @@ impl Network {
         touched
     }
 
-    /// Whether a value follows from parameters that change.
+    /// True if a value follows from parameters that change.
     pub fn depends_on(&self, value: &Value, changed: &[ParameterId]) -> bool {
         self.touched(changed).by(value)
     }
 
-    /// Whether more depends on what changes than conductances, capacities, starts and the height of
-    /// inputs: substances, limits, signals, or the times at which an input bends.
+    /// True if the changed parameters affect more than conductances, capacities, starts and the
+    /// height of inputs: substances, limits, signals, or the times at which an input bends.
     fn touches_more(&self, touched: &Touched) -> bool {
         let parts = &*self.parts;
         let substances = parts.materials.iter().flat_map(|m| {
@@ -123,8 +123,8 @@ impl Network {
         values.any(|value| touched.by(value)) || self.bends_move(touched)
     }
 
-    /// Whether a time at which an input bends may follow from what changes, or a number of an input
-    /// is a slope of time.
+    /// True if a time at which an input bends may follow from the changed parameters, or if an
+    /// input that depends on time calls a table.
     fn bends_move(&self, touched: &Touched) -> bool {
         let timed = self.inputs().filter(|(_, _, value)| self.parts.reads(value).time);
         let mut programs = timed.flat_map(|(_, _, value)| value.programs());
@@ -151,7 +151,7 @@ impl Network {
         (0..parts.nodes.len()).filter(node).collect()
     }
 
-    /// The constant inputs that follow from what changes, with their ranges.
+    /// The constant inputs that follow from the changed parameters, with their ranges.
     fn touched_inputs(&self, touched: &Touched) -> Vec<(Item, Field, &Value, Range)> {
         let range = |item: Item, field: Field| match (item, field) {
             (Item::Boundary(_), _) => Some(Range::Temperature),
@@ -164,8 +164,8 @@ impl Network {
             .collect()
     }
 
-    /// Whether a value depends on one variable of the results alone, and goes with it in a straight
-    /// line: the slot's meaning.
+    /// The variable of the results that a value depends on, if it is the only one and the value is
+    /// a straight line in it.
     pub fn follows(&self, value: &Value) -> Option<Followed> {
         let programs = value.programs();
         let (Value::Expression(_), [program]) = (value, programs.as_slice()) else { return None };
@@ -194,13 +194,13 @@ impl Variants<'_> {
         self.network
     }
 
-    /// Where the candidate's expressions find their numbers.
+    /// The evaluation with the numbers of the candidate.
     pub fn scope(&mut self) -> &mut Evaluation {
         &mut self.work.scope
     }
 
-    /// Gives the parameters that change these values in SI units. `false` where
-    /// [`Network::with`] refuses them: the numbers are of no candidate then.
+    /// Sets the changed parameters to these values in SI units. `false` if [`Network::with`]
+    /// refuses them: the numbers belong to no candidate then.
     pub fn set(&mut self, values: &[f64]) -> bool {
         self.work.errors.clear();
         self.parameters(values);

@@ -1,4 +1,4 @@
-//! SHA-256 of what is read and written.
+//! SHA-256 of files that are read and written.
 
 use std::io::{self, Write};
 
@@ -26,7 +26,7 @@ impl<W: Write> Hashing<W> {
         &mut self.inner
     }
 
-    /// Hashes bytes that the stream holds already.
+    /// Hashes bytes that are already in the stream.
     pub fn holds(&mut self, bytes: &[u8]) {
         self.hash.update(bytes);
     }

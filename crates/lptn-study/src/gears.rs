@@ -1,4 +1,4 @@
-//! What a train of gears does at a speed and torque: speeds, torques, powers, and where they go.
+//! A train of gears at a speed and torque: speeds, torques, powers, and losses.
 
 use lptn_assembly::{AssemblyError, ThermalSystem};
 use lptn_laws::Group;
@@ -21,23 +21,23 @@ pub struct GearTask<'a> {
     pub time: f64,
 }
 
-/// A point at which a train is looked at.
+/// An operating point of a train.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GearPoint {
-    /// Speed of the input in rad/s; that of the network unless said.
+    /// Speed of the input in rad/s; default: that of the network.
     pub speed: Option<f64>,
-    /// Torque on the input in N m; that of the network unless said.
+    /// Torque on the input in N m; default: that of the network.
     pub torque: Option<f64>,
-    /// The temperature of all nodes in K; unless said, those of the steady state.
+    /// The temperature of all nodes in K; default: those of the steady state.
     pub temperature: Option<f64>,
 }
 
-/// What a train does at a point.
+/// The state of a train at a point.
 #[derive(Clone, Debug)]
 pub struct GearState {
     /// Every member of every stage that turns about a fixed axis, and the planets.
     pub members: Vec<MemberState>,
-    /// What each part loses, stage by stage.
+    /// The loss of each part, stage by stage.
     pub losses: Vec<PartLoss>,
     /// The temperature of every node in K.
     pub temperatures: Vec<f64>,
@@ -48,7 +48,7 @@ pub struct GearState {
 pub struct MemberState {
     /// The stage it belongs to, as a position in [`GearTask::stages`].
     pub stage: usize,
-    /// Which it is.
+    /// Its kind of member.
     pub member: Member,
     /// Its speed in rad/s; that of a planet is against the carrier.
     pub speed: f64,
@@ -58,33 +58,33 @@ pub struct MemberState {
 }
 
 impl MemberState {
-    /// The power that goes in by it in W, without losses; below 0 it leaves.
+    /// The power that enters by it in W, without losses; below 0 it leaves.
     pub fn power(&self) -> Option<f64> {
         Some(self.speed * self.torque?)
     }
 }
 
-/// What a part of a train loses.
+/// The loss of a part of a train.
 #[derive(Clone, Debug)]
 pub struct PartLoss {
     /// The part, without the index of a planet.
     pub name: String,
     /// The first of its elements, which are alike.
     pub source: SourceId,
-    /// How many there are.
+    /// Number of its elements.
     pub count: usize,
     /// Heat of all of them in W, at least 0.
     pub heat: f64,
-    /// d ln P / d ln speed while no temperature changes; `None` where nothing is lost.
+    /// d ln P / d ln speed while no temperature changes; `None` if nothing is lost.
     pub exponent: Option<f64>,
-    /// The same along steady states; `None` where temperatures are held too.
+    /// The same along steady states; `None` if temperatures are fixed too.
     pub followed: Option<f64>,
     /// Groups of its law outside their range, with their values.
     pub outside: Vec<(&'static Group, f64)>,
 }
 
 lptn_units::errors! {
-/// Why nothing can be said of a train of gears.
+/// Why a train of gears has no results.
 #[derive(Debug)]
 pub enum GearError {
     /// The network has no such numbers.
@@ -94,9 +94,9 @@ pub enum GearError {
     Assembly => AssemblyError;
     /// There is no steady state.
     Steady => SteadyError as Class::not_an_answer;
-    /// A value has none.
+    /// An input has no value.
     Input => InputError;
-    /// A torque is asked for, and the gearbox has none.
+    /// A torque is requested, and the gearbox has none.
     NoTorque(name: String) = "gear::no_torque",
         format!("gearbox `{name}` has no torque: its meshes are left out"),
         help "give it `torque`, `module`, `width`, `Ra` and `lubricant`";
@@ -123,13 +123,13 @@ impl<'a> GearTask<'a> {
         value(self.network, &self.scope(self.network), &first.of(first.input, "speed"))
     }
 
-    /// What the train does at a point.
+    /// The state of the train at a point.
     ///
     /// # Errors
-    /// [`GearError`], in particular where the losses have no steady state.
+    /// [`GearError`], in particular if the losses have no steady state.
     pub fn at(&self, point: GearPoint) -> Result<GearState, GearError> {
         let speed = point.speed.unwrap_or_else(|| self.speed());
-        // a torque of its own may follow from the speed
+        // the network's torque may depend on the speed
         let driven = |factor: f64| self.driven(speed * factor, point.torque);
         if point.torque.is_some() && !self.stages[0].loaded {
             return Err(GearError::NoTorque(self.stages[0].name.clone()));
@@ -268,7 +268,7 @@ impl<'a> GearTask<'a> {
 }
 
 impl GearState {
-    /// What is lost in all in W.
+    /// The total loss in W.
     pub fn loss(&self) -> f64 {
         self.losses.iter().map(|loss| loss.heat).sum()
     }
@@ -285,14 +285,14 @@ impl GearState {
         self.members.iter().find(|m| m.stage == 0 && m.member == input)?.power()
     }
 
-    /// What comes out over what goes in; `None` at no load, and where more is lost than goes in.
+    /// Power out over power in; `None` at no load, and if more is lost than goes in.
     pub fn efficiency(&self, task: &GearTask<'_>) -> Option<f64> {
         let (power, loss) = (self.power(task)?, self.loss());
         let efficiency = if power > 0.0 { (power - loss) / power } else { -power / (loss - power) };
         (power != 0.0 && efficiency >= 0.0).then_some(efficiency)
     }
 
-    /// The torque in N m that the losses are at the input: `None` at rest.
+    /// The drag torque in N m: the losses over the input speed; `None` at rest.
     pub fn drag(&self, task: &GearTask<'_>) -> Option<f64> {
         let input = task.stages[0].input;
         let shaft = self.members.iter().find(|m| m.stage == 0 && m.member == input)?;

@@ -1,16 +1,16 @@
-//! Studies of networks, and records of what was computed from what.
+//! Studies of networks, and records of the inputs and results of runs.
 //!
 //! [`Candidate`] is one design of a comparison, [`compare_table`] puts several side by side.
-//! [`size`](fn@size) finds the value of a parameter that keeps what is required, [`CoolingTask`]
-//! what a cooling has to do when nothing but a power and two temperatures are known.
+//! [`size`](fn@size) finds the value of a parameter that keeps the requirements, [`CoolingTask`]
+//! the cooling that is needed when only a power and two temperatures are known.
 //!
-//! [`Ranking`] says which values of a network one of its temperatures answers most.
+//! [`Ranking`] sorts the values of a network by their effect on one of its temperatures.
 //!
-//! A [`Manifest`] lies beside the results of a run and names everything that made them: the hash of
+//! A [`Manifest`] is next to the results of a run and lists everything that made them: the hash of
 //! every input, the parameters as they were resolved, versions, tolerance, counters of the solver,
-//! the energy ledger and the hash of every result. What changes from run to run, time and host,
-//! stands apart in [`Environment`]; the rest is the same to the last byte whenever the same inputs
-//! are run by the same program.
+//! the energy ledger and the hash of every result. Time and host, which change from run to run, are
+//! in [`Environment`]; the rest is the same to the last byte whenever the same inputs are run by
+//! the same program.
 
 mod compare;
 mod digest;

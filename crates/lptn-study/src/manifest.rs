@@ -1,4 +1,4 @@
-//! What made a result.
+//! The record of the inputs and results of a run.
 
 use lptn_solve::{RunStatus, Solution};
 use serde::Serialize;
@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 
 use crate::record::{LedgerRecord, SiValue, StatisticsRecord};
 
-/// Everything that a run was made from and what came of it.
+/// Everything that a run was made from, and its results.
 #[derive(Clone, Debug, Serialize)]
 pub struct Manifest {
     /// Version of this format.
@@ -29,31 +29,31 @@ pub struct Manifest {
     pub tolerance: SiValue,
     /// The integrator that computed it, by its word in `[run]`; `null` without capacities.
     pub integrator: Option<&'static str>,
-    /// How it ended.
+    /// The end of the run.
     pub end: RunEnd,
     /// Counters of the integrator.
     pub statistics: StatisticsRecord,
-    /// Where the heat went; `null` for a run that broke off.
+    /// The energy balance; `null` for a run that broke off.
     pub ledger: LedgerRecord,
-    /// What became of every limit, in the order of the netlist: `of`, `below` or `above`, `worst`
+    /// The result for every limit, in the order of the netlist: `of`, `below` or `above`, `worst`
     /// (the value with the least `margin`), `worst_at`, `broken_at`, `severity`, `kept`. Up to the
     /// time in `end`.
     pub limits: Map<String, Value>,
-    /// The elements whose law has constants that were not read in its source; only where there are
+    /// The elements whose law has constants that were not read in its source; only if there are
     /// some.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unverified_constants: Option<Vec<String>>,
-    /// Where laws were outside the ranges in which they are known: path, law, group, range, the
-    /// value furthest outside and when, the stretches; only where one was.
+    /// Laws outside the ranges in which they are known: path, law, group, range, the value furthest
+    /// outside and when, the stretches; only if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub out_of_range: Option<Vec<Value>>,
-    /// How the uncertainty of the results was found: method, seed, samples, parameters with their
-    /// standard deviations; only where it was asked for.
+    /// The method of the uncertainty of the results: method, seed, samples, parameters with their
+    /// standard deviations; only if it was requested.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub uncertainty: Option<Value>,
-    /// Every file that was written, this one apart.
+    /// Every file that was written, except this one.
     pub results: Vec<FileHash>,
-    /// What changes from run to run; nothing else does.
+    /// Data that change from run to run; nothing else does.
     pub environment: Environment,
 }
 
@@ -103,7 +103,7 @@ pub struct ParameterRecord {
     pub value: f64,
     /// The SI unit.
     pub unit: String,
-    /// The text it was set to on the command line; `None` where the netlist's own value holds.
+    /// The text it was set to on the command line; `None` if the netlist's own value applies.
     pub set: Option<String>,
 }
 
@@ -118,7 +118,7 @@ impl ParameterRecord {
     }
 }
 
-/// How a run ended.
+/// The end of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RunEnd {
     /// `reached`, `interrupted` or `failed`.
@@ -142,17 +142,17 @@ impl RunEnd {
     }
 }
 
-/// What changes from run to run.
+/// Data that change from run to run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Environment {
     /// When it was written, in UTC.
     pub written: String,
     /// The name of the machine; empty if it has none.
     pub host: String,
-    /// How long the run took.
+    /// The duration of the run.
     pub wall_time: SiValue,
-    /// How long the parts of the command took that were done by then, each a value with its unit;
-    /// only for a run.
+    /// The durations of the parts of the command that were done by then, each a value with its
+    /// unit; only for a run.
     #[serde(skip_serializing_if = "Map::is_empty")]
     pub phases: Map<String, Value>,
 }

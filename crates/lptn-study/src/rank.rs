@@ -1,4 +1,4 @@
-//! What to change first: by how much one temperature answers every value of a network.
+//! Ranking of the values of a network by their effect on one temperature: which to change first.
 
 use lptn_analysis::{RunAnalysis, RunError};
 use lptn_assembly::{ChangeError, ThermalSystem};
@@ -46,35 +46,35 @@ impl From<RunError> for RankError {
     }
 }
 
-/// How one temperature answers.
+/// The effects of values on one temperature.
 #[derive(Debug)]
 pub struct Ranking {
-    /// Whose temperature it is.
+    /// The node whose temperature it is.
     pub node: NodeId,
     /// The temperature in K: that of the steady state, or the highest of a run.
     pub temperature: f64,
     /// When it is highest in a run, in s.
     pub at: Option<f64>,
-    /// What parameters do, the most first.
+    /// Effects of parameters, the largest first.
     pub parameters: Vec<Influence>,
-    /// Why parameters are not ranked, where the network has no derivatives by them.
+    /// Why parameters are not ranked, if the network has no derivatives by them.
     pub not_ranked: Option<String>,
     /// Parameters that can be neither a little larger nor a little smaller, such as numbers of
     /// teeth, and why; they are not ranked.
     pub fixed: Vec<(ParameterId, ChangeError)>,
-    /// What values of elements and boundaries do, the most first; of steady states only.
+    /// Effects of values of elements and boundaries, the largest first; of steady states only.
     pub elements: Vec<Influence>,
-    /// How much of the heat of sources comes back as more heat, if any does.
+    /// The share of the heat of sources that comes back as more heat, if any does.
     pub feedback: Option<Feedback>,
-    /// Where heat comes back, the rate of the slowest mode in 1/s, negative where it grows: the
-    /// largest eigenvalue of the network near its steady state with its sign turned.
+    /// If heat comes back, the rate of the slowest mode in 1/s, negative if it grows: minus the
+    /// largest eigenvalue of the network near its steady state.
     pub slowest: Option<f64>,
     /// Why the sensitivities are differences of runs, if they are.
     pub differences: Option<String>,
 }
 
 impl Ranking {
-    /// Of a steady state with the inputs at `time` in s, for `node` or the hottest one.
+    /// Ranking for a steady state with the inputs at `time` in s, for `node` or the hottest one.
     ///
     /// # Errors
     /// [`RankError`]
@@ -115,11 +115,10 @@ impl Ranking {
         })
     }
 
-    /// Of the highest temperature of `node`, or of the hottest one, in a run: what parameters do to
-    /// it, followed along with the temperatures (forward sensitivities). A highest temperature
-    /// changes as the temperature does at its time, on the side where it stands if something jumps
-    /// there; `observer` is called after every step and may
-    /// interrupt.
+    /// Ranking for the highest temperature of `node`, or of the hottest one, in a run, by forward
+    /// sensitivities to parameters. A highest temperature changes as the temperature does at its
+    /// time, on its own side if something jumps there; `observer` is called after every step and
+    /// may interrupt.
     ///
     /// # Errors
     /// [`RankError`]
@@ -172,7 +171,7 @@ struct Highest {
     at: f64,
 }
 
-/// That of `node` or of the hottest one.
+/// The highest temperature of `node` or of the hottest one.
 fn highest(
     system: &ThermalSystem,
     (run, node): (&RunAnalysis, Option<NodeId>),
@@ -203,8 +202,8 @@ fn with((start, stop): (f64, f64), at: f64) -> Vec<f64> {
     [start].into_iter().chain(both).chain([stop]).collect()
 }
 
-/// The parameters that are numbers and may be a little larger or smaller, for the others follow from
-/// them; and those that may not.
+/// The parameters that are numbers and may be a little larger or smaller, for the others follow
+/// from them; and those that may not.
 fn free(network: &Network) -> (Vec<ParameterId>, Vec<(ParameterId, ChangeError)>) {
     let is_number =
         |id: &ParameterId| matches!(network.parameters()[id.index()].value, Value::Constant(_));
@@ -218,14 +217,14 @@ fn free(network: &Network) -> (Vec<ParameterId>, Vec<(ParameterId, ChangeError)>
     (free, fixed)
 }
 
-/// What does something, the most first; those that do alike stay in their order.
+/// Influences above rounding, the largest first; equal ones stay in their order.
 fn sorted(mut influences: Vec<Influence>, temperature: f64) -> Vec<Influence> {
     influences.retain(|influence| effect(influence).abs() > ROUNDING * temperature);
     influences.sort_by(|a, b| effect(b).abs().total_cmp(&effect(a).abs()));
     influences
 }
 
-/// By how much the temperature changes in K, where a value is 10 % larger, or a temperature 1 K.
+/// Change of the temperature in K if a value is 10 % larger, or a temperature 1 K higher.
 pub fn effect(influence: &Influence) -> f64 {
     influence.change * if influence.absolute { 1.0 } else { 0.1 }
 }

@@ -28,7 +28,7 @@ impl SiValue {
     }
 }
 
-/// The energy ledger of a run, every heat by the name of what gave or took it.
+/// The energy ledger of a run, every heat by the name of its giver or taker.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LedgerRecord {
     /// Heat of each source.
@@ -39,15 +39,15 @@ pub struct LedgerRecord {
     pub streams: Map<String, Value>,
     /// Heat that each node stored.
     pub stored: Map<String, Value>,
-    /// Heat turned over.
+    /// Total heat exchanged.
     pub turned_over: SiValue,
     /// Sources plus boundaries plus streams less stored.
     pub residual: SiValue,
-    /// The residual over the heat turned over; `null` where none was.
+    /// The residual over the total heat exchanged; `null` if there was none.
     pub relative_residual: Option<SiValue>,
-    /// What the relative residual may be.
+    /// The largest relative residual allowed.
     pub bound: SiValue,
-    /// Whether it is within that.
+    /// True if it is within that bound.
     pub closes: bool,
 }
 

@@ -4,9 +4,9 @@ use std::fmt;
 
 use lptn_units::{Class, Problem};
 
-/// Whatever a call of this library can fail with: `?` makes one of every error, so that
-/// `fn main() -> Result<(), Error>` does. Its sentence is that of the error, [`Problem::code`] and
-/// [`Problem::help`] are too; which error it was tells [`Error::downcast_ref`].
+/// Any error of a call of this library: `?` makes one of every error, so that `main` can return
+/// `Result<(), Error>`. Its sentence, [`Problem::code`] and [`Problem::help`] are those of the
+/// error; [`Error::downcast_ref`] gives the error itself.
 ///
 /// ```
 /// fn main() -> Result<(), lptn::Error> {
@@ -32,7 +32,7 @@ impl fmt::Display for Error {
     }
 }
 
-/// As `main` prints it: the sentence, its code and what to do about it.
+/// The error as `main` prints it: its sentence, its code and its help.
 impl fmt::Debug for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{self} [{}]", self.code())?;

@@ -24,13 +24,13 @@
 //! no second assembly from text: [`ThermalSystem::with`] takes other values of its parameters.
 //!
 //! A network comes from a TOML netlist ([`Input`], [`read`], [`parse`]) or from a
-//! [`NetworkBuilder`]. A question such as [`RunQuestion`] asks it and gives an [`Answer`]: values with
-//! units, tables, doubts, verdict, figures, in every format of the command line. A
+//! [`NetworkBuilder`]. A question such as [`RunQuestion`] asks it and gives an [`Answer`]: values
+//! with units, tables, doubts, verdict, figures, in every format of the command line. A
 //! [`RunAnalysis`] gives the numbers alone, a [`Simulation`] is stepped from outside.
 //!
-//! This crate exports what a client needs. The crates below it (`lptn-network`, `lptn-solve`, ..)
-//! export the rest; ARCHITECTURE.md lists them. All numbers are in SI units, temperatures in K, heat
-//! positive into a node and from `from` to `to`.
+//! This crate exports everything a client needs. The crates below it (`lptn-network`, `lptn-solve`,
+//! ..) export the rest; ARCHITECTURE.md lists them. All numbers are in SI units, temperatures in K,
+//! heat positive into a node and from `from` to `to`.
 
 mod error;
 

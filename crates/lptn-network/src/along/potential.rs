@@ -1,10 +1,10 @@
 //! The integral of a property over temperature, once for each end of many paths.
 //!
 //! Between two cells of a body the heat is the difference of this potential times a length
-//! (Kirchhoff's transformation). A cell has six neighbours, so that a potential of each cell takes
-//! a fraction of what a mean along each path takes, and less than an evaluation of the text of the
-//! property. It is counted from the block of the coldest end on, so that its rounding is that of
-//! the temperatures.
+//! (Kirchhoff's transformation). A cell has six neighbours, so a potential of each cell costs a
+//! fraction of a mean along each path, and less than an evaluation of the text of the property. It
+//! is counted from the block of the coldest end on, so that its rounding is that of the
+//! temperatures.
 
 use super::{Along, Block, Blocks, Course, ENDS, HOTTEST, sides};
 use crate::enthalpy::Panel;
@@ -17,8 +17,8 @@ struct Stretch<'a> {
 }
 
 impl Along {
-    /// The mean between two temperatures in K and the values at them, where that is read from one
-    /// panel; `None` where it has to be asked for by [`Along::mean`].
+    /// The mean between two temperatures in K and the values at them, if one panel covers both;
+    /// `None` if [`Along::mean`] has to compute it.
     #[inline]
     pub(crate) fn within_a_panel(&self, ends: [f64; 2]) -> Option<(f64, [f64; 2])> {
         let Course::Fixed(blocks) = &self.course else { return None };
@@ -32,8 +32,8 @@ impl Along {
         inside.then(|| (panel.mean(ends[0], ends[1]), values()))
     }
 
-    /// Writes its integral at temperatures in K, from a temperature on that all have in common. True
-    /// if all are known and nothing between them is unknown.
+    /// Writes its integral at temperatures in K, from a temperature on that all have in common.
+    /// True if all are known and nothing between them is unknown.
     pub(crate) fn integrals(
         &self,
         temperatures: impl Iterator<Item = f64> + Clone,

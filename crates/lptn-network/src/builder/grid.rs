@@ -10,13 +10,13 @@ use crate::law::Law;
 use crate::parts::grid::{Face, Grid, Inner, MOST_CELLS, Substance};
 use crate::value::{Input, Size, Value};
 
-/// What a grid is made from: see [`NetworkBuilder::grid`].
+/// The input of a grid: see [`NetworkBuilder::grid`].
 #[derive(Clone, Debug)]
 pub struct GridBlock {
     /// Its lengths along x, y and z; constant.
     pub size: [Input; 3],
-    /// How many cells there are along x, and along y and z where it is divided there too: one to
-    /// three counts of at least 1, together at most [`MOST_CELLS`].
+    /// Number of cells along x, and along y and z if it is divided there too: one to three counts
+    /// of at least 1, together at most [`MOST_CELLS`].
     pub cells: Vec<usize>,
     /// Its thermal conductivity along x, y and z; it may depend on `T`: its mean over the
     /// temperatures between two neighbours counts.
@@ -83,7 +83,7 @@ impl NetworkBuilder {
         id
     }
 
-    /// Counts that can be used in place of those given, and how many were given.
+    /// Counts that can be used instead of those given, and the number of counts given.
     fn divisions(&mut self, name: &str, grid: GridId, counts: &[usize]) -> ([usize; 3], usize) {
         if counts.is_empty() || counts.len() > 3 || counts.contains(&0) {
             self.error(name, BuildErrorKind::GridCells { grid, counts: counts.to_vec() });
@@ -180,12 +180,12 @@ impl NetworkBuilder {
         self.register(name, Item::Conductor(id));
     }
 
-    /// How many nodes and conductors there are so far.
+    /// Number of nodes and of conductors so far.
     pub fn sizes(&self) -> (usize, usize) {
         (self.parts.nodes.len(), self.parts.conductors.len())
     }
 
-    /// The node of this name, as far as it was added.
+    /// The node of this name, if it was added.
     pub fn node_named(&self, name: &str) -> Option<NodeId> {
         match self.parts.item(name) {
             Some(Item::Node(id)) => Some(id),
@@ -207,9 +207,9 @@ impl NetworkBuilder {
     }
 
     /// The massless nodes on a face of a grid, `NAME.x1[j,k]` by the indices of the cells along it,
-    /// the last one running fastest. They are made when they are first asked for, with the path
-    /// `NAME.x1.cell[j,k]` from the middle of the cell to each; what is attached to the face meets
-    /// there. None if the grid is not of this builder.
+    /// the last one running fastest. The first call makes them, with the path `NAME.x1.cell[j,k]`
+    /// from the middle of the cell to each; all paths to the face end there. None if the grid is
+    /// not of this builder.
     pub fn surfaces(&mut self, grid: GridId, face: Face) -> Vec<NodeId> {
         let Some(known) = self.parts.grids.get(grid.index()) else { return Vec::new() };
         if known.surfaces[face as usize].is_some() {
@@ -232,7 +232,7 @@ impl NetworkBuilder {
         let end =
             u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
         self.parts.grids[grid.index()].surfaces[face as usize] = Some(first);
-        // the one surface of a rod's end has the name of the face and stands for itself
+        // the one surface of a rod's end has the name of the face and is not an inner node
         if known.face_axes(face).next().is_some() {
             self.parts.inner_nodes.push(Inner { first, end, whole });
         }

@@ -1,4 +1,4 @@
-//! What a builder holds so far, by name and by number.
+//! Contents of a builder so far, by name and by number.
 
 use std::borrow::Cow;
 
@@ -7,7 +7,7 @@ use crate::id::{End, Item, NodeId};
 use crate::value::Value;
 
 impl NetworkBuilder {
-    /// What has this name among the nodes, boundaries and elements added so far; the first, if
+    /// The item of this name among the nodes, boundaries and elements added so far; the first, if
     /// several have it.
     pub fn item(&self, name: &str) -> Option<Item> {
         self.parts.item(name)
@@ -22,7 +22,7 @@ impl NetworkBuilder {
         }
     }
 
-    /// The names of all nodes, and of all boundaries unless only nodes are asked for.
+    /// The names of all nodes, and of all boundaries unless `only_nodes`.
     pub fn end_names(&self, only_nodes: bool) -> impl Iterator<Item = &str> {
         let nodes = self.parts.nodes.iter().map(|node| node.name.as_str());
         let boundaries = self.parts.boundaries.iter().map(|boundary| boundary.name.as_str());
@@ -34,12 +34,12 @@ impl NetworkBuilder {
         self.parts.name_of(item.into())
     }
 
-    /// Whether a table of this name was added.
+    /// True if a table of this name was added.
     pub fn has_table(&self, name: &str) -> bool {
         matches!(self.parts.value_names.get(name), Some(Item::Table(_)))
     }
 
-    /// Whether it is a part of a grid or of a path to a face.
+    /// True if it is a part of a grid or of a path to a face.
     pub fn is_part(&self, item: Item) -> bool {
         self.parts.whole(item).is_some()
     }
@@ -49,13 +49,13 @@ impl NetworkBuilder {
         (0..self.parts.nodes.len()).map(NodeId::from_len)
     }
 
-    /// Whether a node was added as one without capacity.
+    /// True if the node was added without capacity.
     pub fn is_massless(&self, node: NodeId) -> bool {
         self.parts.nodes[node.index()].massless
     }
 
-    /// Sets another temperature at the start of a node with capacity, in K; says where a massless
-    /// one stood.
+    /// Sets the temperature at the start in K: the start itself for a node with capacity, the first
+    /// trial for a massless one.
     pub fn start_at(&mut self, node: NodeId, temperature: crate::Temperature) {
         let start = &mut self.parts.nodes[node.index()];
         match start.massless {
@@ -64,22 +64,22 @@ impl NetworkBuilder {
         }
     }
 
-    /// How many nodes were added.
+    /// Number of nodes added so far.
     pub fn node_count(&self) -> usize {
         self.parts.nodes.len()
     }
 
-    /// How many boundaries were added.
+    /// Number of boundaries added so far.
     pub fn boundary_count(&self) -> usize {
         self.parts.boundaries.len()
     }
 
-    /// How many conductors were added.
+    /// Number of conductors added so far.
     pub fn conductor_count(&self) -> usize {
         self.parts.conductors.len()
     }
 
-    /// How many sources were added.
+    /// Number of sources added so far.
     pub fn source_count(&self) -> usize {
         self.parts.sources.len()
     }

@@ -98,7 +98,7 @@ impl NetworkBuilder {
         self.add_node(name, None, None, true)
     }
 
-    /// Adds a node as a netlist may write it; [`NetworkBuilder::build`] says what is missing.
+    /// Adds a node as a netlist may write it; [`NetworkBuilder::build`] reports missing values.
     pub fn add_node(
         &mut self,
         name: &str,
@@ -229,7 +229,7 @@ impl NetworkBuilder {
         NetworkScope::new(&self.parts, context)
     }
 
-    /// Compiles an expression for this place over what was added so far.
+    /// Compiles an expression for this place over everything added so far.
     ///
     /// # Errors
     /// Every problem of the text: syntax, unknown names, dimensions.
@@ -287,7 +287,7 @@ impl NetworkBuilder {
         id
     }
 
-    /// Lets a limit that was added be kept by the mean over time of its quantity.
+    /// Applies a limit that was added to the mean over time of its quantity.
     pub fn limit_of_mean(&mut self, id: LimitId) {
         self.parts.limits[id.index()].of_mean = true;
     }

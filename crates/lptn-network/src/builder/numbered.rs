@@ -1,4 +1,4 @@
-//! Conductors and sources by the million, which have no names of their own.
+//! Conductors and sources by the million, without names.
 
 use lptn_laws::{Formula, Kind};
 use lptn_units::{Dimension, Type};
@@ -11,7 +11,7 @@ use crate::parts::element::{Conductor, Source};
 use crate::parts::label::Label;
 use crate::value::Input;
 
-/// How far the shares of a source may be from a sum of 1.
+/// Largest difference of the sum of a source's shares from 1.
 const SHARES: f64 = 1e-9;
 
 const CONDUCTANCE: Type = Type::of(Dimension::CONDUCTANCE);
@@ -48,7 +48,7 @@ impl NetworkBuilder {
     ) -> ConductorId {
         let item = Item::Conductor(ConductorId::from_len(self.parts.conductors.len()));
         let law = match path {
-            // what nearly all of a large network are
+            // nearly all conductors of a large network
             path if is_conductance(&path) => path.map(|_, input| input.value),
             path => self.law(&label.of_conductor(), item, path),
         };

@@ -1,4 +1,4 @@
-//! Names and what is wrong with them.
+//! Names and the checks of them.
 
 use lptn_units::RESERVED;
 

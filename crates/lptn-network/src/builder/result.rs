@@ -1,4 +1,4 @@
-//! Adds reports, and gives a place to what expressions of results name.
+//! Adds reports, and gives a slot to the names in expressions of results.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use crate::scope::Context;
 use crate::value::Input;
 
 impl NetworkBuilder {
-    /// Gives a place to every heat flow (`NAME.Q`, `NAME.Q_from`, `NAME.Q_to`, `NAME.P`) and every
+    /// Gives a slot to every heat flow (`NAME.Q`, `NAME.Q_from`, `NAME.Q_to`, `NAME.P`) and every
     /// temperature of a grid (`NAME.mean`, `NAME.x1.T`) that an expression names, so that it can be
     /// compiled for [`Context::Result`].
     pub fn name_heats(&mut self, expression: &Expression) {
@@ -24,7 +24,7 @@ impl NetworkBuilder {
     }
 
     /// Compiles an expression over parameters, `t`, signals, tables, and the temperatures and heat
-    /// flows of what was added so far; see [`NetworkBuilder::post_scope`].
+    /// flows of all parts added so far; see [`NetworkBuilder::post_scope`].
     ///
     /// # Errors
     /// Every problem of the text: syntax, unknown names, dimensions.
@@ -50,7 +50,7 @@ impl NetworkBuilder {
 }
 
 impl NetworkBuilder {
-    /// Gives a place to a value of a grid (`NAME.mean`, `NAME.x1.T`) that an expression of results
+    /// Gives a slot to a value of a grid (`NAME.mean`, `NAME.x1.T`) that an expression of results
     /// names.
     pub(crate) fn name_grid_value(&mut self, name: &str) {
         if let Some(value) = self.parts.grid_value(name) {

@@ -42,7 +42,7 @@ impl NetworkBuilder {
         id
     }
 
-    /// Has a signal shown in a unit of its own; one of another dimension is left alone.
+    /// Sets the unit in which a signal is shown; a unit of another dimension is ignored.
     pub fn show_signal_in(&mut self, id: SignalId, unit: Unit) {
         Arc::make_mut(&mut self.parts.layout).show_signal_in(id, unit);
     }

@@ -19,9 +19,9 @@ pub struct Properties {
     pub cp: Option<Input>,
     /// Thermal conductivity.
     pub k: Option<Input>,
-    /// How it melts.
+    /// Its melting, if it melts.
     pub melting: Option<Melting<Input>>,
-    /// Where the numbers come from.
+    /// Source of the numbers.
     pub source: Option<String>,
 }
 
@@ -128,7 +128,7 @@ impl NetworkBuilder {
     }
 
     /// The property of a fluid for a [`Path`](crate::Path) whose law takes it; it may depend on the
-    /// temperature, which is then the mean of the ends. `None` where it is not known.
+    /// temperature, which is then the mean of the ends. `None` if it is not known.
     pub fn property_of(&self, fluid: FluidId, property: LawField) -> Option<Input> {
         let value = self.parts.fluids[fluid.index()].film_property(property.key)?.clone();
         Some(Input { value, ty: property.ty, deviation: None, lump: None })

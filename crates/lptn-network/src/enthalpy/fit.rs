@@ -1,7 +1,7 @@
-//! Polynomials on panels in place of a capacity.
+//! Polynomials on panels instead of a capacity.
 //!
-//! What a panel misses is bounded by the form of the capacity over the whole of it (see
-//! [`Taylor`]), not judged at some points: a peak between them, however narrow, is met.
+//! The error of a panel is bounded by the form of the capacity over the whole of it (see
+//! [`Taylor`]), not judged at some points. So a peak between points is found, however narrow.
 //!
 //! Compiled expressions are evaluated in interval Taylor arithmetic (`Program::enclose`). Its ninth
 //! derivative bounds the error of an interpolation, so that nothing hides between points. Rounding
@@ -16,26 +16,26 @@ use super::panel::{Panel, TERMS};
 /// Relative difference between a capacity and its polynomials.
 const ACCURACY: f64 = 1e-12;
 
-/// Width of a panel in K to begin with.
+/// Initial width of a panel in K.
 const PANEL: f64 = 64.0;
 
-/// How near to its end a range of temperatures is followed, in K.
+/// Distance in K from its end to which a range of temperatures is followed.
 const NARROWEST: f64 = 1e-6;
 
-/// Nothing is asked above this temperature in K.
+/// The highest temperature in K at which values are needed.
 const HOTTEST: f64 = 16_384.0;
 
-/// How often a nearer edge is looked for before the capacity counts as unknown.
+/// Number of searches for a nearer edge before the capacity counts as unknown.
 const EDGES: usize = 50;
 
-/// How many panels are tried in either direction; the curve ends where they are used up. One that
-/// is smooth takes some hundreds, a jump or a kink some forty more.
+/// Number of panels tried in each direction; the curve ends when they are used up. A smooth
+/// capacity takes some hundreds, a jump or a kink some forty more.
 const TRIES: usize = 100_000;
 
 /// The same for [`Known::between`].
 const BLOCK_TRIES: usize = 20_000;
 
-/// Where a panel is interpolated: the zeros of Chebyshev's polynomial of degree 9.
+/// Interpolation points of a panel: the zeros of Chebyshev's polynomial of degree 9.
 const POINTS: [f64; TERMS] = [
     -0.984_807_753_012_208,
     -0.866_025_403_784_438_7,
@@ -57,14 +57,14 @@ const FLOOR: f64 = 1e-6;
 
 /// A capacity over temperature in K.
 pub(crate) trait Capacity {
-    /// Its value; `None` where it has none.
+    /// Its value; `None` if it has none.
     fn at(&mut self, temperature: f64) -> Option<f64>;
 
     /// Bounds on it and its derivatives between two temperatures.
     fn over(&mut self, from: f64, to: f64) -> Taylor;
 }
 
-/// Why a curve cannot be had.
+/// Why there is no curve.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(crate) enum NoCurve {
     /// The capacity is not known and positive at the start.
@@ -86,13 +86,13 @@ pub(super) struct Fit<'a> {
     panels: Vec<Panel>,
     /// The least capacity that differences are judged by.
     floor: f64,
-    /// How many panels may still be tried.
+    /// Number of panels that may still be tried.
     tries: usize,
-    /// Whether the capacity has to be positive; otherwise it may vanish.
+    /// True if the capacity has to be positive; otherwise it may vanish.
     positive: bool,
 }
 
-/// The panels of a value that may vanish, and where there are none.
+/// The panels of a value that may vanish, and the gaps between them.
 pub(crate) struct Known {
     /// Ascending; their heat is not filled in.
     pub(crate) panels: Vec<Panel>,
@@ -101,9 +101,9 @@ pub(crate) struct Known {
 }
 
 impl Known {
-    /// What is known of a value between two temperatures in K: where it is neither defined and at
-    /// least 0 nor changes too quickly to be followed, is a gap. `stops` are temperatures at which
-    /// it may bend.
+    /// The known parts of a value between two temperatures in K. A temperature is in a gap if the
+    /// value is not defined or negative there, or changes too quickly to be followed. `stops` are
+    /// temperatures at which it may bend.
     pub(crate) fn between(value: &mut dyn Capacity, [from, to]: [f64; 2], stops: &[f64]) -> Self {
         let (panels, tries) = (Vec::new(), BLOCK_TRIES);
         let mut fit = Fit { capacity: value, panels, floor: 0.0, tries, positive: false };
@@ -156,7 +156,7 @@ impl<'a> Fit<'a> {
         self.capacity.at(temperature).filter(|c| c.is_finite() && least(*c))
     }
 
-    /// Covers what can be covered between two temperatures.
+    /// Covers as much as possible between two temperatures.
     fn fill(&mut self, from: f64, to: f64) {
         let before = self.panels.len();
         if self.cover(from, to).is_ok() {
@@ -189,7 +189,7 @@ impl<'a> Fit<'a> {
         }
     }
 
-    /// Covers what is left up to the first temperature at which the capacity is not defined.
+    /// Covers the rest up to the first temperature at which the capacity is not defined.
     fn last(&mut self, here: f64, mut outside: f64) {
         for _ in 0..EDGES {
             let Some(inside) = self.edge(here, outside) else { return };
@@ -241,7 +241,7 @@ impl<'a> Fit<'a> {
         if self.is_met(&capacity, &bounds, half) {
             self.panels.push(Panel::new((from, to), capacity, terms));
         } else if to - from <= 4.0 * f64::EPSILON * to {
-            // hardly a number lies between the ends: each has been looked at
+            // hardly a number lies between the ends: all have been evaluated
             let mut mean = [0.0; TERMS];
             mean[0] = values.iter().sum::<f64>() / values.len() as f64;
             self.panels.push(Panel::new((from, to), mean, 1));
@@ -252,15 +252,15 @@ impl<'a> Fit<'a> {
         Ok(())
     }
 
-    /// Whether a capacity is certainly positive on a panel and that of the polynomial: as its ninth
-    /// derivative bounds what an interpolation misses, or as it hardly changes.
+    /// True if capacity and polynomial are certainly positive on a panel and agree: the ninth
+    /// derivative bounds the error of the interpolation, or the capacity hardly changes.
     fn is_met(&self, capacity: &[f64; TERMS], bounds: &Taylor, half: f64) -> bool {
         let Some([least, most]) = bounds.range() else { return false };
         let missed = bounds.largest(TERMS) * half.powi(9) * PRODUCT;
         let swing: f64 = capacity[1..].iter().map(|c| c.abs()).sum();
         let least = least.max(capacity[0] - swing - missed);
         let enough = ACCURACY * least.max(self.floor);
-        // of a kink or jump that is left, no more than so much heat per K
+        // limit on the heat per K of a kink or jump that remains
         let hidden = (most - least) * (2.0 * half).min(1.0);
         (least > 0.0 || !self.positive) && (missed <= enough || hidden <= enough)
     }

@@ -1,8 +1,8 @@
 //! Heat content over temperature: the exact integral of a capacity that depends on temperature.
 //!
-//! A capacity C(T) is represented on panels by polynomials that agree with it to 1e-12; the heat
-//! content is their integral, so capacity, heat content and its inverse belong together to the last
-//! digit and books close.
+//! A capacity C(T) is represented on panels by polynomials that agree with it to 1e-12. The heat
+//! content is their integral, so capacity, heat content and its inverse agree to the last digit,
+//! and the energy balance closes.
 //!
 //! The state of such a node is `T0 + H / C0`, with the heat content H. The approximation of the
 //! changing capacity loses no heat, and melting at one temperature is not a special case. The
@@ -44,7 +44,7 @@ pub(crate) struct Latent {
 /// the rounding of a change of units and of a few sums, 3e-10 K at room temperature.
 const ONE_TEMPERATURE: f64 = 1e-12;
 
-/// Whether what melts between these two temperatures in K melts at one.
+/// True if a material with these solidus and liquidus temperatures in K melts at one temperature.
 pub(crate) fn is_one_temperature(solidus: f64, liquidus: f64) -> bool {
     (liquidus - solidus).abs() <= ONE_TEMPERATURE * solidus.abs().max(liquidus.abs())
 }
@@ -100,7 +100,7 @@ impl Enthalpy {
         Some(curve)
     }
 
-    /// What the panels without width at a temperature take up, by the panels.
+    /// Heat taken up by the panels without width at a temperature.
     fn latent_at(&self, temperature: f64) -> Option<f64> {
         let first = self.panels.partition_point(|panel| panel.to < temperature);
         let here = self.panels[first..].iter().take_while(|panel| panel.from <= temperature);
@@ -109,8 +109,8 @@ impl Enthalpy {
         latent.peek().is_some().then(|| latent.sum())
     }
 
-    /// How much of the latent heat that is taken up at just one temperature is taken up, from 0 to
-    /// 1; `None` for a heat content at another temperature.
+    /// Melted share, from 0 to 1, of the latent heat that is taken up at just one temperature;
+    /// `None` for a heat content at another temperature.
     pub fn melted(&self, heat: f64) -> Option<f64> {
         let temperature = self.temperature(heat)?.temperature;
         let latent = self.scale * self.latent_at(temperature)?;

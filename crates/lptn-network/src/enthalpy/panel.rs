@@ -7,7 +7,7 @@ pub(super) const TERMS: usize = 9;
 const RECIPROCALS: [f64; TERMS] =
     [1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0, 1.0 / 5.0, 1.0 / 6.0, 1.0 / 7.0, 1.0 / 8.0, 1.0 / 9.0];
 
-/// A piece of the curve. One of no width holds latent heat that is taken up at one temperature.
+/// A piece of the curve. One of no width is latent heat that is taken up at one temperature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Panel {
     pub(crate) from: f64,
@@ -18,7 +18,7 @@ pub(crate) struct Panel {
     pub(crate) rise: f64,
     /// Capacity over `x`, which runs from -1 at `from` to 1 at `to`, by powers.
     capacity: [f64; TERMS],
-    /// How many of them count.
+    /// Number of coefficients that count.
     terms: usize,
 }
 
@@ -46,7 +46,7 @@ impl Panel {
         0.5 * (self.to - self.from)
     }
 
-    /// Counted from `from`, where it loses nothing however narrow the panel is.
+    /// Counted from `from`, so that no digits are lost however narrow the panel is.
     fn x(&self, temperature: f64) -> f64 {
         if self.to > self.from { (temperature - self.from) / self.half() - 1.0 } else { -1.0 }
     }
@@ -96,8 +96,8 @@ impl Panel {
         self.half() * (self.primitive(self.x(temperature)) - self.primitive(-1.0))
     }
 
-    /// The temperature at which so much heat is taken up. The capacity is positive, so the heat
-    /// grows strictly.
+    /// The temperature at which this heat is taken up. The capacity is positive, so the heat grows
+    /// strictly.
     pub(super) fn invert(&self, heat: f64) -> f64 {
         if self.to <= self.from || heat <= 0.0 {
             return self.from;
@@ -118,8 +118,8 @@ impl Panel {
         2.0 * due / (first + (first * first + 2.0 * slope * due).max(0.0).sqrt())
     }
 
-    /// `x` at which the integral is `due`: Newton's method kept between the ends, until nothing is
-    /// missing but rounding. Also tells how many steps that took.
+    /// `x` at which the integral is `due`: Newton's method kept between the ends, until only
+    /// rounding is missing. Also returns the number of steps.
     fn newton(&self, due: f64) -> (f64, u32) {
         let first = self.primitive(-1.0);
         let rounding = f64::EPSILON * (first.abs() + due);
@@ -163,7 +163,7 @@ mod tests {
                 let due = panel.rise / panel.half() * f64::from(i) / 5000.0;
                 let (x, steps) = panel.newton(due);
                 assert!(steps <= 8, "{from} {to} {i}: {steps} steps");
-                // no more than what the last digit of the temperature tells
+                // no more than the last digit of the temperature
                 let digit = 1000.0 * f64::EPSILON * (4.0 + to / panel.half());
                 assert!(
                     (panel.primitive(x) - panel.primitive(-1.0) - due).abs() <= digit,

@@ -148,7 +148,7 @@ fn a_peak_is_never_lost_however_narrow_it_is_and_wherever() {
 
 #[test]
 fn other_narrow_changes_are_met_too() {
-    // each adds 50 above what 100 J/K take up from 300 K to 400 K
+    // each adds 50 above the heat that 100 J/K take up from 300 K to 400 K
     let heat = |text: &str| curve_of(text, &[]).heat(400.0).unwrap();
     let pi = std::f64::consts::PI;
     close(heat("100 + 0.5 * (1 + tanh((x - 350.0137) / 1e-3))"), 1e4 + 49.9863);
@@ -207,8 +207,7 @@ fn a_temperature_is_found_to_its_last_digits_in_few_steps() {
     }
 }
 
-/// A run stops where a curve may bend: at what was named, where it melts, never at the ends that
-/// were asked for.
+/// A run stops at the bends of a curve: given ones and melting, never the ends of the range.
 #[test]
 fn stops_are_the_bends_strictly_between_two_temperatures() {
     let latent = Latent::new((330.0, 330.0), 5000.0);

@@ -13,7 +13,7 @@ use super::quotients::Quotients;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Cauer {
-    /// Capacity in J/K and the resistance in K/W behind it, port first.
+    /// Capacity in J/K and the resistance in K/W after it, port first.
     pub rungs: Vec<(f64, f64)>,
     /// A resistance in front of the first capacity in K/W: 0 unless the port is massless.
     pub direct: f64,
@@ -57,8 +57,8 @@ impl Cauer {
     /// Found by integration of `Z(s)/s` along a contour around the poles (J. A. C. Weideman,
     /// Optimizing Talbot's contours for the inversion of the Laplace transform, SIAM J. Numer.
     /// Anal. 44 (2006) 2342), so the time constants need not be known and this checks a conversion
-    /// independently. The relative error is 1e-13. Where many times are asked for,
-    /// `self.foster()?.step(time)` is quicker.
+    /// independently. The relative error is 1e-13. For many times, `self.foster()?.step(time)` is
+    /// quicker.
     pub fn step(&self, time: f64) -> f64 {
         if time <= 0.0 {
             return if time < 0.0 { 0.0 } else { self.direct };
@@ -69,8 +69,8 @@ impl Cauer {
         self.direct + sum
     }
 
-    /// The continued fraction at `s` in 1/s, in K/W. `h_i = C_i Z_i` is a time: where elements
-    /// differ by hundreds of decades, squares of their own values would overflow.
+    /// The continued fraction at `s` in 1/s, in K/W. `h_i = C_i Z_i` is a time: if elements differ
+    /// by hundreds of decades, squares of the elements themselves would overflow.
     fn fraction(&self, quotients: &Quotients, s: Complex) -> Complex {
         let start = Complex::new(0.0, 0.0);
         let rungs = quotients.q.iter().zip(&quotients.e).rev();

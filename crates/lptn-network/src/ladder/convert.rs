@@ -12,8 +12,8 @@ impl Foster {
     /// to about 1e-13. It takes some n^2 divisions.
     ///
     /// # Errors
-    /// [`LadderError::Range`] if an element is beyond what a number holds, as with 200 time
-    /// constants within a factor of two.
+    /// [`LadderError::Range`] if an element is too large or too small for a number, as with 200
+    /// time constants within a factor of two.
     pub fn cauer(&self) -> Result<Cauer, LadderError> {
         let (quotients, total) = Quotients::of_terms(&self.terms);
         let rungs = quotients.ladder(total);
@@ -32,16 +32,16 @@ const DIFFERENCE: f64 = 1e-8;
 impl Cauer {
     /// The sum of exponentials with the same impedance, each time constant to about 1e-14 and each
     /// resistance to that over the relative distance to the nearest time constant. There are as
-    /// many terms as rungs, less those of far and fast rungs that have less than 1e-300 of the
-    /// weight: no number holds them.
+    /// many terms as rungs, less those of far and fast rungs whose weight is below 1e-300, too
+    /// small for a number.
     ///
     /// The steady rise and the rate at which the port begins to warm are compared with those of
     /// the ladder.
     ///
     /// # Errors
-    /// [`LadderError::Close`] if one differs by more than 1e-8: two time constants agree in so many
-    /// digits that their shares cannot be told apart. [`LadderError::Range`] if the products of
-    /// resistances and capacities are beyond what a number holds.
+    /// [`LadderError::Close`] if one differs by more than 1e-8: two time constants are so close
+    /// that their shares cannot be distinguished. [`LadderError::Range`] if the products of
+    /// resistances and capacities are too large or too small for a number.
     pub fn foster(&self) -> Result<Foster, LadderError> {
         let range = LadderError::Range { form: "Foster chain" };
         let quotients = Quotients::of_ladder(&self.rungs);
@@ -61,7 +61,7 @@ impl Cauer {
         Ok(foster)
     }
 
-    /// Whether the chain ends and begins as the ladder does.
+    /// Checks that the chain begins and ends as the ladder does.
     fn compare(&self, foster: &Foster) -> Result<(), LadderError> {
         let begins: f64 = foster.terms.iter().map(|(resistance, tau)| resistance / tau).sum();
         let ends: f64 = foster.terms.iter().map(|term| term.0).sum();

@@ -3,7 +3,7 @@
 use lptn_units::Class;
 
 lptn_units::errors! {
-/// Why a Foster chain or a Cauer ladder is none, or has no other form.
+/// Why a Foster chain or a Cauer ladder is not valid, or cannot be converted.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LadderError {
     /// A Foster chain without terms or a Cauer ladder without rungs.
@@ -18,14 +18,14 @@ pub enum LadderError {
     Direct(value: f64) = "ladder::direct",
         format!("the direct resistance must be 0 or positive, and finite, got {value}"),
         help "write 0 unless the port has no capacity itself";
-    /// Elements of the other form beyond what a number holds.
+    /// Elements of the other form that are too large or too small for a number.
     Range { form: &'static str } = "ladder::range",
         format!("elements of the {form} are too large or too small for a number"),
         help "leave out rows: many time constants close together need elements of 1e300 and more, \
             which no measurement can determine",
         class Class::Numbers;
-    /// Time constants that agree in so many digits that their shares cannot be told apart: the
-    /// chain would miss the ladder by this part.
+    /// Time constants so close that their shares cannot be distinguished: the chain would differ
+    /// from the ladder by this part.
     Close { error: f64 } = "ladder::close",
         format!(
             "time constants of the ladder are too close to be distinguished: the Foster chain \

@@ -9,7 +9,7 @@ use super::error::{self, LadderError};
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Foster {
-    /// What comes at once in K/W: 0 unless the port is massless.
+    /// Immediate rise in K for 1 W, in K/W: 0 unless the port is massless.
     pub direct: f64,
     /// Resistance in K/W and time constant in s of each term, fastest first, no time constant
     /// twice.

@@ -2,8 +2,8 @@
 //! one to the other.
 //!
 //! [`Foster`] is the sum of exponentials that data sheets print (R-tau table), [`Cauer`] the chain
-//! of capacities and resistances with the same impedance. A Cauer ladder may be joined to what
-//! follows it; a Foster chain has no inner nodes and may not. Both describe
+//! of capacities and resistances with the same impedance. A Cauer ladder may be joined to further
+//! parts; a Foster chain has no inner nodes and may not. Both describe
 //!
 //! ```text
 //! Z(s) = direct + sum over k of R_k / (1 + s tau_k)                     Foster
@@ -31,10 +31,10 @@
 //!    the stationary transform; it follows from `q'_i e'_i = q_i e_i` and
 //!    `q'_i + e'_(i-1) = q_i + e_(i-1) + d`.
 //! 2. *A pole of weight `w` comes to the origin.* The measure times `x` does not see it, and that
-//!    measure has the matrix with the factors exchanged, `R L`. So `q_i + e_i` and `q_(i+1) e_i`
-//!    stay what they were while the mean `q_1` falls to `q'_1 = q_1 W/(W + w)`. With
-//!    `f_1 = q_1 w/(W + w)`: `e'_i = e_i + f_i`, `q'_(i+1) = q_(i+1) e_i/e'_i`,
-//!    `f_(i+1) = q_(i+1) f_i/e'_i`; the new last one is `q'_(m+1) = 0`.
+//!    measure has the matrix with the factors exchanged, `R L`. So `q_i + e_i` and `q_(i+1) e_i` do
+//!    not change while the mean `q_1` falls to `q'_1 = q_1 W/(W + w)`. With `f_1 = q_1 w/(W + w)`:
+//!    `e'_i = e_i + f_i`, `q'_(i+1) = q_(i+1) e_i/e'_i`, `f_(i+1) = q_(i+1) f_i/e'_i`; the new last
+//!    one is `q'_(m+1) = 0`.
 //!
 //! At the end the origin moves to zero by the rate of the slowest. Every number is a sum, product
 //! or quotient of positive ones and no difference is taken but that of two time constants as they
@@ -47,15 +47,15 @@
 //! transform with shifts below the least (dqds), which finds each of them to a relative error of
 //! rounding times the number of rungs. The weights are the squared first entries of the
 //! eigenvectors, from the factorisation of `T - x` from both ends that meet where the entry is
-//! largest (twisted factorisation). Peeling the poles off by the inverse of the two steps above is
-//! free of subtractions but for the shift, and still useless: where the slowest mode is weak at the
-//! far end, `q_m` depends on its rate by more digits than there are (errors of 10^3 percent at
-//! 100 close poles were measured).
+//! largest (twisted factorisation). Peeling the poles off by the inverse of the two steps above has
+//! no subtractions but the shift, and is still useless: if the slowest mode is weak at the far end,
+//! `q_m` depends on its rate by more digits than there are (errors of 10^3 percent at 100 close
+//! poles were measured).
 //!
 //! # Measured
 //!
-//! Largest relative error of an element, against mpmath with 2200 digits (`tools/ladder.py`), and of
-//! a term after
+//! Largest relative error of an element, against mpmath with 2200 digits (`tools/ladder.py`), and
+//! of a term after
 //! Foster to Cauer to Foster:
 //!
 //! | poles | Cauer | by rotations (RKPW) | there and back |

@@ -8,7 +8,7 @@ pub(super) struct Quotients {
 }
 
 impl Quotients {
-    /// Those of a ladder of (capacity, resistance).
+    /// Quotients of a ladder of (capacity, resistance).
     pub(super) fn of_ladder(rungs: &[(f64, f64)]) -> Self {
         let next = rungs.iter().skip(1).map(|rung| rung.0).chain([f64::INFINITY]);
         Self {
@@ -17,8 +17,8 @@ impl Quotients {
         }
     }
 
-    /// Those of terms (resistance, time constant), fastest first and no time constant twice, with
-    /// the sum of their weights.
+    /// Quotients of terms (resistance, time constant), fastest first and no time constant twice,
+    /// with the sum of their weights.
     pub(super) fn of_terms(terms: &[(f64, f64)]) -> (Self, f64) {
         let mut quotients = Self::default();
         let (mut total, mut last) = (0.0, f64::INFINITY);

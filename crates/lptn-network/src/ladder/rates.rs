@@ -5,11 +5,11 @@ use super::quotients::Quotients;
 /// Square of rounding: an `e` below this part of an eigenvalue moves it by no more than rounding.
 const NEGLIGIBLE: f64 = f64::EPSILON * f64::EPSILON;
 
-/// Most steps per eigenvalue: three to six are usual.
+/// Most steps per eigenvalue; it takes three to six as a rule.
 const MOST: usize = 60;
 
-/// The rates of a ladder in 1/s, largest first; `None` where they are not found, because the
-/// numbers do not suffice.
+/// The rates of a ladder in 1/s, largest first; `None` if they are not found, because the numbers
+/// do not suffice.
 pub(super) fn rates(ladder: &Quotients) -> Option<Vec<f64>> {
     let mut steps = MOST * ladder.q.len();
     let mut found = Vec::with_capacity(ladder.q.len());
@@ -39,13 +39,13 @@ struct Block {
 }
 
 impl Block {
-    /// Whether the last row stands alone.
+    /// True if the last row is joined to no other.
     fn ends(&self) -> bool {
         let last = self.rest.q.len() - 1;
         last == 0 || self.rest.e[last - 1] <= NEGLIGIBLE * (self.origin + self.rest.q[last])
     }
 
-    /// Takes the rows off behind the last joint that no longer joins: there the smallest eigenvalue
+    /// Takes off the rows after the last joint that no longer joins: there the smallest eigenvalue
     /// may be that of either part.
     fn split(&mut self) -> Option<Self> {
         let joints = &self.rest.e[..self.rest.e.len() - 1];

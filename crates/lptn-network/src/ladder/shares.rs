@@ -1,4 +1,4 @@
-//! What part of the weight each rate of a ladder has: squared first entries of eigenvectors.
+//! Share of each rate of a ladder in the weight: squared first entries of eigenvectors.
 
 use super::quotients::Quotients;
 
@@ -16,18 +16,18 @@ pub(super) fn pole(ladder: &Quotients, rate: f64) -> (f64, f64) {
     (rate, first.share)
 }
 
-/// An eigenvector as far as it is asked for.
+/// The part of an eigenvector that is needed.
 struct Pair {
     /// Its squared first entry, its length 1.
     share: f64,
-    /// What its Rayleigh quotient is above the rate.
+    /// Its Rayleigh quotient less the rate.
     correction: f64,
 }
 
 impl Pair {
     /// `T - rate` is factorised from the port on, pivots `q_i + s_i`, and from the end on, pivots
-    /// `e_i + p_(i+1)`; the two meet in the row where what is left, `s_i + p_i + rate`, is
-    /// smallest, which is where the eigenvector is largest.
+    /// `e_i + p_(i+1)`. The two meet in the row with the smallest remainder, `s_i + p_i + rate`,
+    /// which is where the eigenvector is largest.
     fn at(ladder: &Quotients, rate: f64) -> Self {
         let (s, above) = from_port(ladder, rate);
         let (p, below) = from_end(ladder, rate);
@@ -76,7 +76,7 @@ fn from_end(ladder: &Quotients, rate: f64) -> (Vec<f64>, Vec<f64>) {
     (p, squares)
 }
 
-/// A pivot, or in place of zero a number that changes nothing in what it was the sum of.
+/// A pivot, or instead of zero a number too small to change the sum that it came from.
 fn not_zero(pivot: f64, part: f64) -> f64 {
     if pivot == 0.0 { part * f64::EPSILON * f64::EPSILON } else { pivot }
 }

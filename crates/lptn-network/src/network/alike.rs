@@ -1,4 +1,4 @@
-//! Paths whose laws and expressions are the same but for numbers, evaluated together.
+//! Paths whose laws and expressions are the same except for numbers, evaluated together.
 //!
 //! A template, a loop of a script or an import makes hundreds of films with one expression. An
 //! expression alone costs some hundred instructions to find its way; on lanes it does so once for
@@ -37,12 +37,12 @@ enum OfAll {
     Program(Arc<Program>),
 }
 
-/// What has to agree before programs are compared: a law and the texts of its expressions.
+/// Key of paths whose programs are compared: a law and the texts of its expressions.
 type Key<'a> = (Formula, Vec<Option<&'a str>>);
 
 impl Network {
-    /// Sorts these conductors into groups that are alike, each with its members; those that no other
-    /// one is like are groups of one, and those that cannot be evaluated together are left out.
+    /// Sorts these conductors into groups that are alike, each with its members. A conductor that no
+    /// other one is like is a group of one; those that cannot be evaluated together are left out.
     pub fn alike(
         &self,
         ids: impl IntoIterator<Item = ConductorId>,
@@ -123,7 +123,7 @@ impl Alike {
     }
 
     /// Writes the heat from the first end of each to its second in W, at the time of `scope` and
-    /// these temperatures of all vertices in K; NaN for those that have to be asked one by one,
+    /// these temperatures of all vertices in K; NaN for those that have to be evaluated one by one,
     /// because one among their neighbours has no heat.
     pub fn heats(&self, scope: &mut Evaluation, temperatures: &[f64], out: &mut Vec<f64>) {
         out.clear();
@@ -135,7 +135,7 @@ impl Alike {
         }
     }
 
-    /// Those from one path on; the last one stands for what is behind it.
+    /// The heats of the paths from one on; lanes after the last path repeat it.
     fn heats_of(
         &self,
         first: usize,

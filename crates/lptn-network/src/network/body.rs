@@ -1,5 +1,4 @@
-//! What a node is as a body: its length, its material, the surfaces through which it gives off
-//! heat.
+//! A node as a body: its length, its material, the surfaces through which it gives off heat.
 
 use crate::builder::substance::NoMaterial;
 use crate::evaluation::Evaluation;
@@ -16,7 +15,7 @@ use crate::value::Value;
 pub struct Surface {
     /// Its conductance in W/K, that of radiation at the temperatures of both ends; not negative.
     pub conductance: f64,
-    /// Its area in m^2, that of radiation times the view factor; `None` where it is not given.
+    /// Its area in m^2, that of radiation times the view factor; `None` if it is not given.
     pub area: Option<f64>,
 }
 
@@ -48,7 +47,7 @@ impl Network {
     }
 
     /// Density in kg/m^3, specific heat in J/(kg K) or conductivity in W/(m K) of a material at a
-    /// temperature in K; `None` where it is not known. `scope` is any [`Network::evaluation`].
+    /// temperature in K; `None` if it is not known. `scope` is any [`Network::evaluation`].
     pub fn property(
         &self,
         (id, field): (MaterialId, Field),
@@ -65,8 +64,8 @@ impl Network {
         self.property_of(value?, temperature, scope)
     }
 
-    /// A value that may depend on a temperature of its own, at that temperature in K, in SI units;
-    /// `None` where it is not known and positive. `scope` is any [`Network::evaluation`].
+    /// A value that may depend on its own temperature, at that temperature in K, in SI units;
+    /// `None` unless it is known and positive. `scope` is any [`Network::evaluation`].
     pub fn property_of(
         &self,
         value: &Value,

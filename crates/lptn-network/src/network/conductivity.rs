@@ -23,8 +23,8 @@ impl Network {
     }
 
     /// The heat through such a body in W between the temperatures of its ends in K, and its
-    /// derivatives by both, the second with the other sign, in W/K. `None` for any other conductor
-    /// and where this takes more than a look.
+    /// derivatives by both, the second with the other sign, in W/K. `None` for any other conductor,
+    /// and if one panel does not cover both temperatures.
     #[inline]
     pub(crate) fn conducted(&self, id: ConductorId, ends: [f64; 2]) -> Option<[f64; 3]> {
         let shape = self.shape(id)?;
@@ -46,13 +46,13 @@ impl Conductivity {
     }
 
     /// Writes its integral over temperature in W/m at some of these temperatures in K, in their
-    /// order, counted from where all of them have it in common. `false` where one of these is not
-    /// known, or something between two of them: what was written then means nothing.
+    /// order, counted from a point that all of them share. `false` if the property is unknown at
+    /// one of them or between two; `out` is meaningless then.
     pub fn integrals(&self, temperatures: &[f64], of: &[u32], out: &mut Vec<f64>) -> bool {
         self.along.integrals(of.iter().map(|&i| temperatures[i as usize]), out)
     }
 
-    /// The same for itself in W/(m K).
+    /// The same for the conductivity itself in W/(m K).
     pub fn values(&self, temperatures: &[f64], of: &[u32], out: &mut Vec<f64>) -> bool {
         self.along.values(of.iter().map(|&i| temperatures[i as usize]), out)
     }

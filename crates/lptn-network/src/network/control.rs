@@ -1,4 +1,4 @@
-//! How far a control is from switching.
+//! Distance of a control from switching.
 
 use crate::evaluation::Evaluation;
 use crate::id::{ControlId, Item};
@@ -13,7 +13,7 @@ impl Network {
         self.controls()[id.index()].thermostat.as_ref()
     }
 
-    /// How long a control stays as it is after a switch, in s.
+    /// Minimum time in s that a control keeps its state after a switch.
     pub fn min_dwell(&self, id: ControlId) -> f64 {
         self.numbers.min_dwell[id.index()]
     }
@@ -36,12 +36,12 @@ impl Network {
         Some((on - off).abs())
     }
 
-    /// How far, in K, the temperature that a control feels is beyond the threshold at which it
-    /// leaves the state that it has in the mode of `scope`: a positive number means that it has to
-    /// switch. `scope` stands at a time; `temperatures` are those of all vertices in K.
+    /// Excess in K of the temperature that a control senses over the threshold at which it leaves
+    /// the state that it has in the mode of `scope`: if positive, the control has to switch.
+    /// `scope` is set to a time; `temperatures` are those of all vertices in K.
     ///
     /// # Errors
-    /// [`InputError`] if a threshold cannot be had, or the two are crossed over.
+    /// [`InputError`] if a threshold cannot be evaluated, or the two are in the wrong order.
     pub fn control_excess(
         &self,
         id: ControlId,

@@ -1,4 +1,4 @@
-//! How heat flows of elements change with the values of their laws.
+//! Changes of the heat flows of elements with the values of their laws.
 
 use lptn_laws::Formula;
 
@@ -12,8 +12,8 @@ use crate::network::flow::{Failed, name, place};
 /// More fields than any law has.
 const MOST: usize = Formula::MOST_FIELDS;
 
-/// One value of a law, and by how much heat changes with it in W: `v dq/dv`, a hundred times the
-/// change for 1 %; for an absolute temperature `dq/dv`, in W/K.
+/// One value of a law, and the change of heat with it in W: `v dq/dv`, a hundred times the change
+/// for 1 %; for an absolute temperature `dq/dv`, in W/K.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ValueChange<H> {
     /// The value in SI units.
@@ -23,8 +23,8 @@ pub struct ValueChange<H> {
 }
 
 impl Network {
-    /// By how much the heat that the two ends of a conductor receive changes with each value of its
-    /// law, in their order, at the time of `scope` and these temperatures of all vertices in K.
+    /// Change of the heat that the two ends of a conductor receive with each value of its law, in
+    /// their order, at the time of `scope` and these temperatures of all vertices in K.
     ///
     /// # Errors
     /// As [`Network::exchange`].
@@ -57,7 +57,7 @@ impl Network {
         Ok(changes)
     }
 
-    /// The same of the heat of a source.
+    /// The same for the heat of a source.
     ///
     /// # Errors
     /// As [`Network::source_heat`].
@@ -85,8 +85,8 @@ impl Network {
         Ok(changes)
     }
 
-    /// By how much the heat that the two ends of a conductor receive changes in W/K with the
-    /// temperature of each vertex that it depends on, of every kind of conductor.
+    /// Change in W/K of the heat that the two ends of a conductor of any kind receive with the
+    /// temperature of each vertex that it depends on.
     ///
     /// # Errors
     /// As [`Network::exchange`].

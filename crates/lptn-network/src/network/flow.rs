@@ -1,4 +1,4 @@
-//! Heat flows of elements with their derivatives: the one place where a law meets temperatures.
+//! Heat flows of elements with their derivatives: the only place where a law meets temperatures.
 
 use lptn_laws::Carries;
 use lptn_units::{EvalError, Scalar};
@@ -20,11 +20,11 @@ use crate::value::Value;
 pub(crate) type Failed = (Field, InputProblem);
 
 impl Network {
-    /// How a conductor carries heat.
+    /// The heat flow of a conductor, as far as it is known before a run.
     pub fn flow(&self, id: ConductorId) -> ConductorFlow {
         let number = || self.conductors()[id.index()].law.number();
         let flow = self.numbers.flows.get(id.index()).copied();
-        // there is a number for every conductor behind those
+        // every conductor after those has a number
         flow.unwrap_or_else(|| number().map_or(ConductorFlow::Variable, ConductorFlow::Conductance))
     }
 
@@ -86,7 +86,7 @@ impl Network {
         result.map_err(|failed| self.failed(Item::Conductor(id), failed, scope))
     }
 
-    /// As [`Network::exchange`], and writes the derivatives of the two heats in W/K by each of
+    /// Heats as [`Network::exchange`]; also writes their derivatives in W/K by each of
     /// [`Network::conductor_variables`].
     ///
     /// # Errors
@@ -111,7 +111,7 @@ impl Network {
         self.slopes_by((id, dependence), scope, temperatures, slopes)
     }
 
-    /// The same of a conductor whose dependence is given, which may be of any kind.
+    /// The same for a conductor of any kind with a given dependence.
     pub(crate) fn slopes_by(
         &self,
         (id, dependence): (ConductorId, &Dependence),
@@ -162,7 +162,7 @@ impl Network {
         result.map_err(|failed| self.failed(Item::Source(id), failed, scope))
     }
 
-    /// As [`Network::source_heat`], and writes its derivatives in W/K by each of
+    /// Heat as [`Network::source_heat`]; also writes its derivatives in W/K by each of
     /// [`Network::source_variables`].
     ///
     /// # Errors
@@ -217,7 +217,7 @@ impl Network {
         name(scope.plain().0, of, &at);
     }
 
-    /// Names what failed: a signal without a value goes before what it was used for.
+    /// Names the failed item: a signal without a value goes before the item that uses it.
     pub(crate) fn failed(
         &self,
         item: Item,
@@ -233,7 +233,7 @@ impl Network {
         InputError { item, field, name: self.name_of(item).into_owned(), problem }
     }
 
-    /// Heat received by the ends, where the slots stand.
+    /// Heat received by the ends for these slots.
     pub(crate) fn received<S: Scalar>(
         &self,
         conductor: &Conductor,
@@ -245,7 +245,7 @@ impl Network {
         self.received_of((&conductor.law, value), at, from, to)
     }
 
-    /// The same where the value of the law is known.
+    /// The same if the value of the law is known.
     pub(crate) fn received_of<S: Scalar>(
         &self,
         (law, value): (&Law, S),

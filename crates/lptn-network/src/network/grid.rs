@@ -6,26 +6,26 @@ use crate::parts::grid::{Face, Terminal};
 use crate::parts::grid_value::GridValue;
 
 impl Network {
-    /// What a node or conductor is a part of: the grid of a cell, a surface node or an inner path,
-    /// the joint of a path from one cell of a face; `None` for what stands for itself.
+    /// The item that a node or conductor is a part of: the grid of a cell, a surface node or an
+    /// inner path, the joint of a path from one cell of a face; `None` for an independent item.
     pub fn whole(&self, item: Item) -> Option<Item> {
         self.parts.whole(item)
     }
 
-    /// The nodes that stand for themselves: all but cells and surfaces of grids.
+    /// The independent nodes: all but cells and surfaces of grids.
     pub fn outer_nodes(&self) -> impl Iterator<Item = NodeId> + '_ {
         self.node_ids().filter(|id| self.whole(Item::Node(*id)).is_none())
     }
 
-    /// The conductors that stand for themselves: all but those inside grids and joints.
+    /// The independent conductors: all but those inside grids and joints.
     pub fn outer_conductors(&self) -> impl Iterator<Item = ConductorId> + '_ {
         self.conductor_ids().filter(|id| self.whole(Item::Conductor(*id)).is_none())
     }
 }
 
 impl Network {
-    /// The values of grids that are worth a column: mean, minimum, maximum, and the faces that
-    /// something is attached to, but for those of a single node, which is named as the face is.
+    /// The values of grids that become columns: mean, minimum, maximum, and the faces that
+    /// something is attached to, except those of a single node, which is named as the face is.
     pub fn grid_values(&self) -> impl Iterator<Item = GridValue> + '_ {
         self.parts.grid_values().filter(|value| match value {
             GridValue::Face(at) => {
@@ -60,7 +60,7 @@ impl Network {
 }
 
 impl Network {
-    /// What a path ends at, by its name.
+    /// The name of the end of a path.
     pub fn terminal_name(&self, terminal: Terminal) -> String {
         match terminal {
             Terminal::End(end) => self.name_of(end.into()).into_owned(),

@@ -1,5 +1,5 @@
-//! What the laws of conductors and sources tell of themselves: where they are known, and results
-//! besides their heat.
+//! Information that the laws of conductors and sources give: their range of validity, and results
+//! in addition to their heat.
 
 use crate::evaluation::Evaluation;
 use lptn_laws::Formula;
@@ -22,7 +22,7 @@ impl Network {
         }
     }
 
-    /// The conductors and sources whose laws say by groups where they hold.
+    /// The conductors and sources whose laws limit their range of validity by groups.
     pub fn ranged(&self) -> Vec<Item> {
         let items = self.conductor_ids().map(Item::Conductor);
         let items = items.chain(self.source_ids().map(Item::Source));
@@ -30,8 +30,8 @@ impl Network {
         items.filter(|item| self.law(*item).is_some_and(has)).collect()
     }
 
-    /// What the groups of a conductor's or source's law are, in their order, at the time of `scope`
-    /// and these temperatures of all vertices in K; `None` for one that does not count there.
+    /// The groups of a conductor's or source's law, in their order, at the time of `scope` and
+    /// these temperatures of all vertices in K; `None` for a group that does not count there.
     ///
     /// # Errors
     /// [`InputError`] if a value fails.
@@ -44,9 +44,9 @@ impl Network {
         self.of_law(item, scope, &|vertex| temperatures[vertex], Formula::groups)
     }
 
-    /// What the law of a conductor or source tells of itself, by this key, in SI units where
-    /// `scope` stands, which needs temperatures: see [`Evaluation::set_temperatures`]. NaN where
-    /// there is no such number.
+    /// The result of this key of the law of a conductor or source, in SI units at the state of
+    /// `scope`, which needs temperatures: see [`Evaluation::set_temperatures`]. NaN if there is no
+    /// such number.
     ///
     /// # Errors
     /// [`InputError`] if one of its values fails.
@@ -59,8 +59,8 @@ impl Network {
         Ok(told.map(|(_, value)| value).filter(|value| value.is_finite()).unwrap_or(f64::NAN))
     }
 
-    /// Whether a limit can be judged where `scope` stands, which needs temperatures: not one of
-    /// results that say nothing there, such as the margin of gears without load.
+    /// True if a limit can be judged at the state of `scope`, which needs temperatures. A limit of
+    /// results without meaning there, such as the margin of gears without load, cannot.
     ///
     /// # Errors
     /// [`InputError`] if a value of a law fails.
@@ -81,13 +81,13 @@ impl Network {
         Ok(true)
     }
 
-    /// What the law of a conductor or source tells of itself besides its heat.
+    /// The results of the law of a conductor or source in addition to its heat.
     pub fn told_of(&self, item: Item) -> impl Iterator<Item = HeatOf> {
         self.parts.told_of(item)
     }
 
-    /// A function of the values of a law and of its ends, which of a source are the hottest and the
-    /// coldest of the nodes that it heats; nothing for what has no law.
+    /// A function of the values of a law and of its ends; for a source these are the hottest and
+    /// the coldest of the nodes that it heats. The default value for an item without a law.
     fn of_law<R: Default>(
         &self,
         item: Item,

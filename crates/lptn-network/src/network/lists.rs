@@ -1,4 +1,4 @@
-//! What a network consists of, list by list.
+//! The parts of a network, list by list.
 
 use lptn_units::TableSymbol;
 

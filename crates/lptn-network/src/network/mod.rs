@@ -1,4 +1,4 @@
-//! A thermal network whose invariants hold.
+//! A thermal network whose invariants are guaranteed.
 
 pub(crate) mod alike;
 pub(crate) mod body;
@@ -35,10 +35,10 @@ use lptn_units::Problems;
 
 /// A thermal network: nodes, boundaries, the paths between them and the heat put in.
 ///
-/// Holds by construction: ids are dense and of this network; names are unique; the two ends of a
-/// path differ; capacities, resistances and conductances are finite and positive; each node either
-/// has a capacity and a start temperature, or is massless; each set of connected nodes reaches a
-/// capacity or a boundary. Order is the order of addition. All numbers are in SI units,
+/// Guaranteed by construction: ids are dense and of this network; names are unique; the two ends of
+/// a path differ; capacities, resistances and conductances are finite and positive; each node
+/// either has a capacity and a start temperature, or is massless; each set of connected nodes
+/// reaches a capacity or a boundary. Order is the order of addition. All numbers are in SI units,
 /// temperatures in K.
 #[derive(Clone, Debug)]
 pub struct Network {
@@ -52,7 +52,7 @@ impl Network {
         self.parts.title.as_deref()
     }
 
-    /// What has this name among nodes, boundaries and elements.
+    /// The item of this name among nodes, boundaries and elements.
     ///
     /// # Errors
     /// [`UnknownName`] with the most similar name.
@@ -106,8 +106,8 @@ impl Network {
         self.numbers.initial[id.index()]
     }
 
-    /// Where the balance of a massless node is first tried, in K: where the node stood in the state that
-    /// a run starts from, or its own `T0`. `None` if neither is known.
+    /// First trial temperature in K for the balance of a massless node: its temperature in the
+    /// state that a run starts from, or its own `T0`. `None` if neither is known.
     pub fn begins(&self, id: NodeId) -> Option<f64> {
         let node = &self.nodes()[id.index()];
         let given = || node.initial.as_ref()?.at(&mut self.evaluation()).ok();
@@ -144,8 +144,7 @@ impl Network {
         Parameters::new(Arc::clone(&self.parts))
     }
 
-    /// The parameters that this network was given in place of its own values, to change others
-    /// beside them.
+    /// The parameters that were set for this network by [`Network::with`], to change others too.
     pub fn given(&self) -> Parameters {
         let mut parameters = self.overrides();
         for id in self.parameter_ids().filter(|id| self.numbers.given[id.index()]) {
@@ -157,7 +156,7 @@ impl Network {
     /// The same network with other parameters: nothing is parsed, and the structure is shared.
     ///
     /// # Errors
-    /// What the new numbers break, such as a resistance that is no longer positive.
+    /// The problems of the new numbers, such as a resistance that is no longer positive.
     pub fn with(&self, parameters: &Parameters) -> Result<Self, BuildErrors> {
         if !parameters.belong_to(&self.parts) {
             let name = self.title().unwrap_or_default().to_owned();
@@ -170,8 +169,8 @@ impl Network {
         Ok(Self { parts: Arc::clone(&self.parts), numbers: Arc::new(numbers) })
     }
 
-    /// The same network with further limits behind its own: what a study requires is judged as they
-    /// are, at every moment of a run. Their names are for messages; no name leads to them.
+    /// The same network with further limits after its own: the requirements of a study, judged like
+    /// limits at every moment of a run. Their names are for messages only and cannot be looked up.
     #[must_use]
     pub fn requiring(&self, limits: impl IntoIterator<Item = Limit>) -> Self {
         let mut parts = (*self.parts).clone();
@@ -179,11 +178,11 @@ impl Network {
         Self { parts: Arc::new(parts), numbers: Arc::clone(&self.numbers) }
     }
 
-    /// The same network with signals held at values in SI units, whatever their course is; the
-    /// parameters stay as they are given.
+    /// The same network with signals fixed at values in SI units, whatever their time history is.
+    /// Its parameters keep their present values.
     ///
     /// # Errors
-    /// What the new numbers break.
+    /// The problems of the new numbers.
     pub fn held(&self, signals: &[(SignalId, f64)]) -> Result<Self, BuildErrors> {
         let mut parts = (*self.parts).clone();
         let layout = Arc::make_mut(&mut parts.layout);
@@ -192,12 +191,12 @@ impl Network {
         self.of_parts(parts)
     }
 
-    /// The same network with other courses of signals and other temperatures in K at the start, as
-    /// they were measured; the parameters stay as they are given. Nodes without a capacity begin
-    /// nowhere.
+    /// The same network with other time histories of signals and other temperatures in K at the
+    /// start, as they were measured. Its parameters keep their present values. Nodes without a
+    /// capacity have no start.
     ///
     /// # Errors
-    /// What the new numbers break.
+    /// The problems of the new numbers.
     pub fn recorded(
         &self,
         signals: &[(SignalId, Course)],
@@ -212,7 +211,7 @@ impl Network {
         self.of_parts(parts)
     }
 
-    /// With the parameters that are given here.
+    /// A network of these parts with the parameters that are given here.
     fn of_parts(&self, parts: Parts) -> Result<Self, BuildErrors> {
         let given = self
             .parameter_ids()
@@ -222,7 +221,7 @@ impl Network {
         Ok(Self { parts: Arc::new(parts), numbers: Arc::new(numbers) })
     }
 
-    /// A place to evaluate this network's inputs; it stands at time 0.
+    /// An evaluation of this network's inputs at time 0.
     pub fn evaluation(&self) -> Evaluation {
         let mut scope = Evaluation::new(&self.parts.layout, &self.numbers.parameters);
         if self.has_events() {
@@ -286,12 +285,12 @@ impl Network {
         self.parts.name_of(item)
     }
 
-    /// Whether any source, boundary or conductor changes with time by itself.
+    /// True if any source, boundary or conductor changes with time by itself.
     pub fn has_time_dependent_inputs(&self) -> bool {
         self.inputs().any(|(_, _, value)| self.depends_on_time(value))
     }
 
-    /// Whether anything that is evaluated over a run depends on the time by itself: inputs, what
+    /// True if anything that is evaluated over a run depends on the time by itself: inputs,
     /// switches, limits, reports.
     pub fn reads_time(&self) -> bool {
         let limits = self.limits().iter().flat_map(|limit| limit.sides());
@@ -313,7 +312,7 @@ impl Network {
         conductors.chain(sources).collect()
     }
 
-    /// Whether a value changes with time by itself.
+    /// True if a value changes with time by itself.
     pub fn depends_on_time(&self, value: &Value) -> bool {
         self.parts.reads(value).time
     }
@@ -334,8 +333,8 @@ impl Network {
         self.parts.inputs()
     }
 
-    /// Sets of connected nodes that no path leads from to a boundary, in order; empty if the
-    /// network forgets its start. Such a set has no steady state of its own.
+    /// Sets of connected nodes without a path to a boundary, in order; empty if the network forgets
+    /// its start. Such a set by itself has no steady state.
     pub fn ungrounded(&self) -> Vec<Vec<NodeId>> {
         let parts = &*self.parts;
         let islands = Islands::of(parts);

@@ -1,4 +1,4 @@
-//! Limits and reports, where temperatures and heat flows are known.
+//! Limits and reports, once temperatures and heat flows are known.
 
 use std::sync::Arc;
 
@@ -15,9 +15,9 @@ use crate::scope::{Context, NetworkScope};
 use crate::value::Value;
 
 impl Network {
-    /// How far a limit is from being broken where `scope` stands: positive while it is kept, in SI
-    /// units of `of`, a difference in K for temperatures. `scope` needs the temperatures of the
-    /// time that is asked for, see [`Evaluation::set_temperatures`].
+    /// Distance of a limit from being broken at the state of `scope`: positive while it is kept, in
+    /// SI units of `of`, a difference in K for temperatures. `scope` needs the temperatures of the
+    /// time in question, see [`Evaluation::set_temperatures`].
     ///
     /// # Errors
     /// [`InputError`] if an expression fails or gives no number.
@@ -26,8 +26,8 @@ impl Network {
         Ok(high - low)
     }
 
-    /// The two sides of a limit where `scope` stands, in SI units: what has to be below, and what
-    /// has to be above it.
+    /// The two sides of a limit at the state of `scope`, in SI units: the one that has to be below,
+    /// and the one that has to be above it.
     ///
     /// # Errors
     /// As [`Network::limit_margin`].
@@ -58,7 +58,7 @@ impl Network {
         Err(self.failed(item, (field, problem), at))
     }
 
-    /// The result of a law that a value reads and that does not exist where `at` stands.
+    /// The result of a law that a value reads and that does not exist at the state of `at`.
     fn missing(&self, value: &Value, at: &Evaluation) -> Option<InputProblem> {
         value.slots().into_iter().find_map(|slot| match self.parts.layout.holds(slot) {
             Holds::Heat(heat) if at.slot(slot).is_nan() => {
@@ -70,7 +70,7 @@ impl Network {
     }
 
     /// The names that expressions of results may use: parameters, `t`, and `NAME.T` of every node
-    /// and boundary. What is compiled against it is evaluated in [`Network::evaluation`] after
+    /// and boundary. Evaluate programs compiled with it in [`Network::evaluation`] after
     /// [`Evaluation::set_temperatures`].
     pub fn post_scope(&self) -> NetworkScope<'_> {
         NetworkScope::new(&self.parts, Context::Result)
@@ -78,8 +78,8 @@ impl Network {
 }
 
 impl Network {
-    /// The same network with further reports, of which only the caller knows, and their ids. What
-    /// they read was compiled for this network.
+    /// The same network with further reports, known to the caller only, and their ids. Their values
+    /// were compiled for this network.
     pub fn reporting(&self, further: Vec<Report>) -> (Self, Vec<ReportId>) {
         let mut parts = (*self.parts).clone();
         let first = parts.reports.len();
@@ -88,7 +88,7 @@ impl Network {
         (Self { parts: Arc::new(parts), numbers: Arc::clone(&self.numbers) }, ids)
     }
 
-    /// The value of a report in SI units where `scope` stands, which needs temperatures and heat
+    /// The value of a report in SI units at the state of `scope`, which needs temperatures and heat
     /// flows: see [`Evaluation::set_temperatures`] and [`Evaluation::set_heats`].
     ///
     /// # Errors
@@ -112,7 +112,7 @@ impl Network {
 }
 
 impl Network {
-    /// Whether a result reads a temperature or a heat flow, and not only what is known beforehand.
+    /// True if a result reads a temperature or heat flow, and not only numbers known in advance.
     pub fn reads_results(&self, result: &Value) -> bool {
         let is_result = |slot: &u32| {
             let holds = self.parts.layout.holds(*slot);
@@ -121,8 +121,8 @@ impl Network {
         result.slots().iter().any(is_result)
     }
 
-    /// Whether a result reads temperatures of nodes, and means of grids, and nothing else, each in
-    /// the first degree at most. That is told from its code and not from its numbers: a parameter
+    /// True if a result reads temperatures of nodes, and means of grids, and nothing else, each in
+    /// the first degree at most. This follows from its code and not from its numbers: a parameter
     /// that happens to be 0 is read all the same.
     pub fn reads_node_temperatures_only(&self, result: &Value) -> bool {
         let is_node = |slot: &u32| {
@@ -144,7 +144,7 @@ impl HeatOf {
         network.parts.heat_name(self)
     }
 
-    /// Its type: power, but for what laws tell of themselves.
+    /// Its type: power, except for results that a law declares.
     pub fn ty(self, network: &Network) -> Type {
         network.parts.heat_type(self)
     }

@@ -1,4 +1,4 @@
-//! How far a comparison of temperatures is from changing.
+//! Distance of a comparison of temperatures from changing.
 //!
 //! A comparison changes only if its sides differ by a hundredth of the tolerance. Without this
 //! margin, rounding at the time of an event would decide its truth. A comparison whose two truths
@@ -15,8 +15,7 @@ use crate::parts::switch::Switch;
 
 impl Network {
     /// Left side minus right side of a switch, at the time of `scope` and these temperatures of all
-    /// vertices in K, and how much it changes, at most and in linear terms, when each temperature
-    /// changes by 1 K.
+    /// vertices in K, and its largest change, to first order, if each temperature changes by 1 K.
     ///
     /// # Errors
     /// [`InputError`] if a side fails or gives no number.

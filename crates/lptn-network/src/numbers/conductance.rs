@@ -1,4 +1,4 @@
-//! How each conductor carries heat, as far as the parameters determine it.
+//! Heat flow of each conductor, as far as the parameters determine it.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -86,7 +86,7 @@ impl Work<'_> {
         alongs
     }
 
-    /// The conductances of bodies for a mean conductivity of 1, where nothing else changes.
+    /// The conductances of bodies for a mean conductivity of 1, if nothing else changes.
     pub(crate) fn shapes(&mut self, alongs: &[Option<Arc<Along>>]) -> Vec<f64> {
         let parts = self.parts;
         let mut shapes: Vec<f64> = Vec::with_capacity(alongs.len());
@@ -117,7 +117,7 @@ impl Work<'_> {
         law.formula().value(&values, [f64::NAN; 2])
     }
 
-    /// Lengths of sources that have an order.
+    /// Checks the lengths of sources that have an order.
     pub(crate) fn check_sources(&mut self) {
         let parts = self.parts;
         for (i, source) in parts.sources.iter().enumerate() {
@@ -144,7 +144,7 @@ impl Work<'_> {
         flow * density * fluid.cp.at(&mut self.scope).unwrap_or(f64::NAN)
     }
 
-    /// Pairs of values of which one has to be smaller, where both are constant.
+    /// Checks pairs of values of which one has to be smaller, if both are constant.
     pub(crate) fn check_order(&mut self, item: Item, law: &Law) {
         for keys in law.formula().declaration().ordered {
             let [inner, outer] = keys.map(|key| {

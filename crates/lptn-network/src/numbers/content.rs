@@ -14,25 +14,24 @@ use crate::parts::Parts;
 use crate::slot;
 use crate::value::{Lump, Size, Value};
 
-/// Where the heat content of a fluid is zero, in K: 25 degC.
+/// Temperature at which the heat content of a fluid is zero, in K: 25 degC.
 const FLUID_ZERO: f64 = 298.15;
 
-/// A value at a temperature of its own, and where it may bend.
+/// A value at its own temperature in K.
 fn at(value: &Value, temperature: f64, scope: &mut Evaluation) -> Option<f64> {
     scope.set(slot::OWN, temperature);
     value.at(scope).ok()
 }
 
-/// Temperatures at which the tables in a value bend, as far as they are called with the bare
-/// temperature.
+/// Temperatures at which the tables in a value bend, if called with the temperature itself.
 fn edges(value: &Value, scope: &mut Evaluation) -> Vec<f64> {
     let (slots, stack) = scope.plain();
     knots(value, slots, stack)
 }
 
-/// What the heat contents of many nodes have in common.
+/// The shared heat contents of many nodes.
 pub(crate) struct Curves {
-    /// Those that were made, by what makes their form.
+    /// The curves that were made, by their form.
     made: BTreeMap<String, Enthalpy>,
     /// The capacitors by their node, then in their order.
     capacitors: Vec<(NodeId, usize)>,
@@ -90,8 +89,8 @@ impl Capacity for Sum<'_, '_> {
     }
 }
 
-/// What two curves have in common that are the same. Tables of different materials are called by
-/// the same text, so each counts as itself.
+/// Key that is equal for equal curves. Tables of different materials are called by the same text,
+/// so each counts as itself.
 fn form(parts: &[Vec<&Value>], latent: &[Latent]) -> String {
     let program = |program: &Arc<Program>| {
         let tables: Vec<*const LookupTable> =
@@ -132,7 +131,7 @@ impl Parts {
         for part in &self.capacitors {
             varying[part.node.index()] |= varies(&part.capacity, part.lump.as_ref());
         }
-        // one that is said to be molten has to be able to melt
+        // a node with a molten part has to be able to melt
         varying.iter_mut().zip(&self.nodes).for_each(|(varies, node)| *varies |= node.molten > 0.0);
         varying
     }
@@ -218,7 +217,7 @@ impl Parts {
             return Ok(None);
         }
         let bends = edges(cp, scope);
-        // where it is known: from 25 degC, or from the middle of its table
+        // the range in which it is known: from 25 degC, or from the middle of its table
         let middle = bends.iter().sum::<f64>() / bends.len().max(1) as f64;
         let mut curve =
             |start| Enthalpy::new(&mut Sum { parts: &[vec![cp]], scope }, start, &bends, &[]);

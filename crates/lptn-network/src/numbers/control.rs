@@ -7,8 +7,8 @@ use crate::parts::control::Thermostat;
 use lptn_laws::Range;
 
 impl Work<'_> {
-    /// How long each control stays as it is after a switch, in s. Thresholds that are constant are
-    /// compared now.
+    /// Minimum time in s that each control keeps its state after a switch. Thresholds that are
+    /// constant are compared now.
     pub(crate) fn controls(&mut self) -> Vec<f64> {
         let parts = self.parts;
         let controls = parts.controls.iter().enumerate();

@@ -1,4 +1,4 @@
-//! Checks the numbers of grids and of what ends at their faces.
+//! Checks the numbers of grids and of the paths that end at their faces.
 
 use crate::error::BuildErrorKind;
 use crate::id::{FacePathId, Field, GridId, Item};
@@ -6,8 +6,8 @@ use crate::numbers::Work;
 use crate::parts::grid::{GridFace, Substance};
 use lptn_laws::Range;
 
-/// By how much two areas may differ that are written for the same, relative: numbers are rounded to
-/// a few digits.
+/// Largest relative difference of two areas that are meant to be the same: numbers are rounded to a
+/// few digits.
 const SAME: f64 = 1e-3;
 
 fn differ(a: f64, b: f64) -> bool {
@@ -15,7 +15,7 @@ fn differ(a: f64, b: f64) -> bool {
 }
 
 impl Work<'_> {
-    /// What each cell has in common is checked once.
+    /// Checks the shared values of the cells of each grid once.
     pub(crate) fn check_grids(&mut self) {
         let parts = self.parts;
         for (i, grid) in parts.grids.iter().enumerate() {
@@ -36,8 +36,8 @@ impl Work<'_> {
         }
     }
 
-    /// What ends at a face has the area of the face, and two faces that are joined are of the same
-    /// size.
+    /// Checks that a path has the area of the face it ends at, and that two faces that are joined
+    /// are of the same size.
     pub(crate) fn check_face_paths(&mut self) {
         let parts = self.parts;
         for (i, face_path) in parts.face_paths.iter().enumerate() {

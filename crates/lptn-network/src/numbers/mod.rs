@@ -23,11 +23,11 @@ use crate::slot;
 use crate::value::Value;
 use lptn_laws::Range;
 
-/// What the parameters determine; checked to be physical.
+/// The numbers that the parameters determine; checked to be physical.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Numbers {
     pub(crate) parameters: Vec<f64>,
-    /// For each parameter whether its value was given in place of its own.
+    /// For each parameter whether another value than its own was given.
     pub(crate) given: Vec<bool>,
     pub(crate) capacity: Vec<f64>,
     pub(crate) initial: Vec<f64>,
@@ -39,15 +39,15 @@ pub(crate) struct Numbers {
     pub(crate) fluids: Vec<Option<Arc<Enthalpy>>>,
     /// The property of which each conductor takes the mean along its path, up to the last of them.
     pub(crate) along: Vec<Option<Arc<Along>>>,
-    /// For each of these its conductance in W/K for a mean of 1, in SI units, where the mean is all
-    /// that changes; else NaN.
+    /// For each of these its conductance in W/K for a mean of 1, in SI units, if only the mean
+    /// changes; else NaN.
     pub(crate) shapes: Vec<f64>,
-    /// How long each control stays as it is after a switch, in s.
+    /// Minimum time in s that each control keeps its state after a switch.
     pub(crate) min_dwell: Vec<f64>,
 }
 
 impl Numbers {
-    /// Evaluates `parts`, with the parameters of `overrides` in place of their own values.
+    /// Evaluates `parts`, with the parameters of `overrides` replacing their own values.
     pub(crate) fn evaluate(
         parts: &Parts,
         overrides: &[Option<f64>],
@@ -149,7 +149,7 @@ impl Work<'_> {
         capacity
     }
 
-    /// A capacity may depend on the temperature of its own node.
+    /// A capacity, which may depend on the temperature of its node.
     fn capacity(&mut self, item: Item, value: &Value, temperature: f64) -> f64 {
         if self.parts.reads(value).own && temperature.is_finite() {
             self.scope.set(slot::OWN, temperature);
@@ -259,7 +259,7 @@ impl Work<'_> {
         true
     }
 
-    /// Comparisons have to change at times that are known beforehand.
+    /// Checks that comparisons change at times that are known in advance.
     pub(crate) fn check_comparisons(&mut self, item: Item, field: Field, value: &Value) {
         for program in value.programs() {
             for (comparison, &relation) in program.comparisons().iter().zip(program.relations()) {

@@ -78,7 +78,7 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// The values of limits are constant; what they limit is evaluated with results.
+    /// Checks the values of limits, which are constant; the rest is checked with results.
     pub(crate) fn check_limits(&mut self) {
         let limits = self.parts.limits.iter().enumerate().filter(|(_, limit)| !limit.compares);
         for (i, limit) in limits {

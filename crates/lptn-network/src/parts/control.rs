@@ -8,30 +8,30 @@ use crate::value::Value;
 pub struct Control {
     /// Its name, unique among parameters, signals, tables, controls and reports.
     pub name: String,
-    /// What it does; `None` until [`NetworkBuilder::thermostat`](crate::NetworkBuilder::thermostat)
-    /// says so.
+    /// Its thermostat; `None` until
+    /// [`NetworkBuilder::thermostat`](crate::NetworkBuilder::thermostat) sets it.
     pub thermostat: Option<Thermostat>,
 }
 
-/// When a control switches. Both thresholds are absolute temperatures in K and may depend on time,
-/// parameters, other controls and temperatures.
+/// Switching rule of a control. Both thresholds are absolute temperatures in K and may depend on
+/// time, parameters, other controls and temperatures.
 #[derive(Clone, Debug)]
 pub struct Thermostat<T = Value> {
-    /// The node or boundary whose temperature it feels.
+    /// The node or boundary whose temperature it senses.
     pub sense: End,
-    /// Which way it acts.
+    /// Its direction: cooling or heating.
     pub acts: Acts,
     /// Beyond this it switches on.
     pub on: T,
     /// Beyond this, on the other side, it switches off.
     pub off: T,
-    /// Whether it is on at the start, where the temperature lies between the thresholds.
+    /// True if it is on at the start when the temperature lies between the thresholds.
     pub start: bool,
-    /// How long it stays as it is after a switch, in s.
+    /// Minimum time in s that it keeps its state after a switch.
     pub min_dwell: T,
 }
 
-/// Which way a thermostat acts.
+/// Direction of a thermostat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Acts {
     /// On above a temperature, off below a lower one: a fan.
@@ -49,7 +49,7 @@ impl Acts {
         }
     }
 
-    /// How far a temperature in K is beyond the threshold at which a control leaves its state.
+    /// Excess of a temperature in K over the threshold at which a control leaves its state.
     pub fn excess(self, [on, off]: [f64; 2], is_on: bool, felt: f64) -> f64 {
         match (self, is_on) {
             (Self::Cooling, false) => felt - on,
@@ -59,7 +59,7 @@ impl Acts {
         }
     }
 
-    /// Whether the threshold for on lies on its side of that for off.
+    /// True if the threshold for on lies on its side of the threshold for off.
     pub fn in_order(self, on: f64, off: f64) -> bool {
         match self {
             Self::Cooling => on > off,

@@ -1,4 +1,4 @@
-//! Nodes, boundaries and what lies between them.
+//! Nodes, boundaries and the elements between them.
 
 use std::borrow::Cow;
 use std::ops::Deref;
@@ -21,7 +21,7 @@ pub struct Parameter {
     pub ty: Type,
     /// A constant, or an expression over parameters that were added before it.
     pub value: Value,
-    /// How far it may be off, where `±` says so.
+    /// Its deviation, if it has a `±`.
     pub deviation: Option<Spread>,
 }
 
@@ -34,28 +34,27 @@ pub struct Node {
     pub capacity: Option<Value>,
     /// Its temperature at the start in K.
     pub initial: Option<Value>,
-    /// Whether it is a junction that stores nothing.
+    /// True if it is a junction that stores nothing.
     pub massless: bool,
-    /// What few nodes of a large network have, or many of them the same.
+    /// Fields that few nodes of a large network have, or that many of them share.
     body: Option<Arc<Body>>,
 }
 
-/// What is known of a node beside its capacity; [`Node`] lends the fields.
+/// The rarer fields of a node; [`Node`] dereferences to them.
 #[derive(Clone, Debug)]
 pub struct Body {
     /// The lump that its own capacity was computed from.
     pub lump: Option<Lump>,
-    /// If it melts at just that temperature: how much is molten then, from 0 to 1.
+    /// Share molten at the start, from 0 to 1, if it melts at just that temperature.
     pub molten: f64,
-    /// Its characteristic length in m, volume over surface, if it is to be checked for being a
-    /// lump.
+    /// Its characteristic length in m, volume over surface, if it is to be checked as a lump.
     pub length: Option<Value>,
-    /// If it is massless, where it stood in the state that a run starts from, in K: of several solutions of
-    /// its balance it keeps the one that is there.
+    /// For a massless node its temperature in K in the state that a run starts from: if its balance
+    /// has several solutions, it keeps that one.
     pub stood: Option<f64>,
 }
 
-/// That of a node of which no more is known.
+/// The rarer fields of a node that has none of them.
 static PLAIN: Body = Body { lump: None, molten: 0.0, length: None, stood: None };
 
 impl Deref for Node {
@@ -76,7 +75,7 @@ impl Node {
         Self { name: name.to_owned(), capacity, initial, massless, body: None }
     }
 
-    /// Of the lump that its capacity was computed from; cells of one grid are of the same.
+    /// With the lump that its capacity was computed from; cells of one grid share it.
     pub(crate) fn of_lump(mut self, lump: Lump, like: Option<&Self>) -> Self {
         let shared = like.and_then(|other| other.body.as_ref());
         let is_same = |body: &&Arc<Body>| {
@@ -93,7 +92,7 @@ impl Node {
         Arc::make_mut(self.body.get_or_insert_with(|| Arc::new(PLAIN.clone())))
     }
 
-    /// Whether its own capacity and its start are the same values as those of another node.
+    /// True if its own capacity and its start are the same values as those of another node.
     pub(crate) fn is_same(&self, other: &Self) -> bool {
         let same = |a: &Option<Value>, b: &Option<Value>| match (a, b) {
             (Some(a), Some(b)) => a.is_same(b),
@@ -137,7 +136,7 @@ pub struct Boundary {
 #[derive(Clone, Debug)]
 pub struct Conductor {
     pub(crate) label: Label,
-    /// The section it stands in.
+    /// The kind of section that contains it.
     pub kind: Kind,
     /// The end that positive heat leaves.
     pub from: End,
@@ -153,7 +152,7 @@ pub struct Source {
     pub(crate) label: Label,
     /// The nodes it heats, with the share of each; the shares sum to 1.
     pub into: Vec<(NodeId, f64)>,
-    /// The section it stands in.
+    /// The kind of section that contains it.
     pub kind: Kind,
     /// The formula of its heat in W, positive into the nodes, with one value for each field; they
     /// may depend on time and on temperatures.
@@ -161,19 +160,19 @@ pub struct Source {
 }
 
 impl Conductor {
-    /// Its name; one without a name of its own is called by its number, `import.conductor[17]`.
+    /// Its name; one without a name is called by its number, `import.conductor[17]`.
     pub fn name(&self) -> Cow<'_, str> {
         self.label.of_conductor()
     }
 }
 
 impl Source {
-    /// Its heat in W where that is given, and no law gives it.
+    /// Its heat in W if that is given, and not computed by a law.
     pub fn power(&self) -> Option<&Value> {
         self.law.values().first().filter(|_| self.law.formula() == Formula::Given)
     }
 
-    /// Its name; one without a name of its own is called by its number, `import.source[17]`.
+    /// Its name; one without a name is called by its number, `import.source[17]`.
     pub fn name(&self) -> Cow<'_, str> {
         self.label.of_source()
     }

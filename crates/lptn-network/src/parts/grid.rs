@@ -67,9 +67,9 @@ impl Face {
 pub struct Grid {
     /// Its name, which begins those of its cells, faces and inner paths.
     pub name: String,
-    /// How many cells there are along x, y and z.
+    /// Number of cells along x, y and z.
     pub cells: [usize; 3],
-    /// How many indices its cells have: the counts that were given.
+    /// Number of indices of its cells: the number of counts that were given.
     pub axes: usize,
     /// Its lengths along x, y and z in m.
     pub size: [Value; 3],
@@ -165,7 +165,7 @@ impl Grid {
     }
 }
 
-/// What the cells of a grid store heat with.
+/// The material of a grid's cells, or the properties by which they store heat.
 #[derive(Clone, Debug)]
 pub enum Substance<T = Value> {
     /// A material with density and specific heat; it may melt.
@@ -184,11 +184,11 @@ pub enum Substance<T = Value> {
 pub struct GridFace {
     /// The grid whose face it is.
     pub grid: GridId,
-    /// Which of its faces.
+    /// The face.
     pub face: Face,
 }
 
-/// What a path may end at.
+/// The end of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Terminal {
     /// A node or boundary.
@@ -226,13 +226,13 @@ impl From<GridFace> for Terminal {
 pub struct FacePath {
     /// Its name, unique among nodes, boundaries and elements.
     pub name: String,
-    /// The section it stands in.
+    /// The kind of section that contains it.
     pub kind: Kind,
     /// The end that positive heat leaves.
     pub from: Terminal,
     /// The end that positive heat enters.
     pub to: Terminal,
-    /// Its whole area in m^2, where it is given; it has to be that of the face.
+    /// Its whole area in m^2, if it is given; it has to be that of the face.
     pub area: Option<Value>,
     pub(crate) first: u32,
     pub(crate) end: u32,
@@ -240,7 +240,7 @@ pub struct FacePath {
 
 impl FacePath {
     /// Its conductors, `NAME[j,k]` by the cells of the face it starts at, else of that it ends at.
-    /// At the end of a rod, whose cell has no index there, it is one, named as the path itself.
+    /// At the end of a rod, whose cell has no index there, one conductor named as the path.
     pub fn conductors(&self) -> impl ExactSizeIterator<Item = ConductorId> + use<> {
         (self.first as usize..self.end as usize).map(ConductorId::from_len)
     }

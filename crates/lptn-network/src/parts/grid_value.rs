@@ -1,4 +1,4 @@
-//! What is shown of a grid: means and extremes of its cells, means of its faces.
+//! Temperatures of a grid in the results: means and extremes of its cells, means of its faces.
 
 use crate::id::GridId;
 use crate::parts::grid::{Grid, GridFace};
@@ -12,8 +12,8 @@ pub enum GridValue {
     Min(GridId),
     /// `NAME.max`: that of the hottest cell.
     Max(GridId),
-    /// `NAME.x1.T`: the mean over a face, of its surface where something is attached to it, else of
-    /// the cells behind it.
+    /// `NAME.x1.T`: the mean over a face, of its surface if something is attached to it, else of
+    /// the cells next to it.
     Face(GridFace),
 }
 

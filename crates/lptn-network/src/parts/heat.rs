@@ -1,19 +1,19 @@
-//! Heat flows of the results and what laws tell of themselves, by name.
+//! Heat flows of the results and results of laws, by name.
 
 use crate::id::{BoundaryId, ConductorId, FacePathId, Item, SourceId};
 
-/// A heat flow of the results in W, or what the law of a path or source tells of itself.
+/// A heat flow of the results in W, or a result of the law of a path or source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum HeatOf {
     /// `NAME.Q` of a path that is not a stream: positive from `from` to `to`.
     Conductor(ConductorId),
-    /// `NAME.Q_from` of a stream: what its first end receives.
+    /// `NAME.Q_from` of a stream: the heat that its first end receives.
     ReceivedFrom(ConductorId),
-    /// `NAME.Q_to` of a stream: what its second end receives.
+    /// `NAME.Q_to` of a stream: the heat that its second end receives.
     ReceivedTo(ConductorId),
     /// `NAME.P` of a source: positive into its nodes.
     Source(SourceId),
-    /// `NAME.Q` of a boundary: what it gives to the network.
+    /// `NAME.Q` of a boundary: the heat that it gives to the network.
     Boundary(BoundaryId),
     /// `NAME.Q` of a path that ends at a face of a grid: the sum over its conductors.
     FacePath(FacePathId),
@@ -23,7 +23,7 @@ pub enum HeatOf {
 }
 
 impl HeatOf {
-    /// What it is the heat of.
+    /// The item whose heat it is.
     pub fn item(self) -> Item {
         match self {
             Self::Conductor(id) | Self::ReceivedFrom(id) | Self::ReceivedTo(id) => {

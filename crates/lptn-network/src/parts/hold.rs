@@ -1,4 +1,4 @@
-//! Gives comparisons of temperatures a slot that holds their truth.
+//! Gives comparisons of temperatures a slot for their truth.
 
 use std::sync::Arc;
 
@@ -12,8 +12,8 @@ use crate::parts::switch::Switch;
 use crate::value::Value;
 
 impl Parts {
-    /// Whether the truth of a comparison is not known beforehand: it compares temperatures, or
-    /// something that a control changes with something that time does.
+    /// True if the truth of a comparison is not known in advance: it compares temperatures, or
+    /// something that both a control and time change.
     pub(crate) fn is_switch(&self, difference: &Program) -> bool {
         let value = Value::Expression(difference.clone().into());
         let reads = self.reads(&value);
@@ -25,8 +25,7 @@ impl Parts {
             || (controlled && self.course_of(difference) > lptn_units::Degree::Constant)
     }
 
-    /// Gives every such comparison in the values of sources and conductors a slot that holds its
-    /// truth.
+    /// Gives every such comparison in the values of sources and conductors a slot for its truth.
     pub(crate) fn hold_comparisons(&mut self) {
         let mut sources = std::mem::take(&mut self.sources);
         for (i, source) in sources.iter_mut().enumerate() {

@@ -1,15 +1,14 @@
-//! Names of conductors and sources: their own, or one that is made of their number when someone
-//! asks.
+//! Names of conductors and sources: their own, or one made of their number on request.
 
 use std::borrow::Cow;
 
-/// What conductors without a name of their own are called, before their number in brackets.
+/// Name of conductors without their own, before their number in brackets.
 pub(crate) const CONDUCTOR: &str = "import.conductor";
 
-/// What sources without a name of their own are called.
+/// Name of sources without their own.
 const SOURCE: &str = "import.source";
 
-/// A name of its own, or a number.
+/// Its own name, or a number.
 #[derive(Clone, Debug)]
 pub(crate) enum Label {
     Own(Box<str>),
@@ -48,7 +47,7 @@ pub(crate) fn parsed(name: &str) -> Option<(&str, u32)> {
     [CONDUCTOR, SOURCE].contains(&kind).then_some((kind, number))
 }
 
-/// Whether a name is one of those that are made.
+/// True if a name is made of a number.
 pub(crate) fn is_numbered(name: &str) -> bool {
     parsed(name).is_some()
 }

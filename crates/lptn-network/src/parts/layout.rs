@@ -1,4 +1,4 @@
-//! Where expressions find their numbers: one slot for each thing that a name can mean.
+//! The slots from which expressions read numbers: one for each thing that a name can mean.
 //!
 //! Slots are in the order of addition. An expression is compiled once and then reads numbers or
 //! dual numbers. Comparisons read `t` and signals in a second slot that is constant inside a
@@ -10,12 +10,12 @@ use crate::parts::heat::HeatOf;
 use crate::parts::signal::{Course, Signal};
 use crate::slot;
 
-/// What a slot holds.
+/// The content of a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Holds {
     /// `t`.
     Time,
-    /// `t` where comparisons read it.
+    /// `t` as comparisons read it.
     FrozenTime,
     /// A temperature of the conductor at hand.
     Link,
@@ -25,7 +25,7 @@ pub(crate) enum Holds {
     Parameter(ParameterId),
     /// A signal.
     Signal(SignalId),
-    /// A signal where comparisons read it.
+    /// A signal as comparisons read it.
     FrozenSignal(SignalId),
     /// The temperature of a node or boundary.
     Temperature(End),
@@ -33,13 +33,13 @@ pub(crate) enum Holds {
     Heat(HeatOf),
     /// A control: 0 or 1.
     Control(ControlId),
-    /// Whether a comparison of temperatures holds: 0 or 1.
+    /// The truth of a comparison of temperatures: 0 or 1.
     Switch(SwitchId),
     /// A temperature of a grid as a whole, in results only.
     Grid(GridValue),
 }
 
-/// What a value goes with.
+/// The variable that a value follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Followed {
     /// The temperature of a node or boundary.
@@ -119,7 +119,7 @@ impl Layout {
         }
     }
 
-    /// Gives a signal another course.
+    /// Gives a signal another time history.
     pub(crate) fn set_course(&mut self, id: SignalId, course: Course) {
         if let Some(signal) = self.signals.get_mut(id.index()) {
             signal.course = course;
@@ -199,7 +199,7 @@ impl Layout {
         &self.grid_values
     }
 
-    /// Sets the nodes that each temperature of a grid is made of, in the order of
+    /// Sets the nodes that belong to each temperature of a grid, in the order of
     /// [`Layout::grid_values`].
     pub(crate) fn set_members(&mut self, members: Vec<Vec<u32>>) {
         self.members = members;

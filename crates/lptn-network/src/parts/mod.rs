@@ -1,4 +1,4 @@
-//! What a network is made of, before any number is computed from it.
+//! The parts of a network, before any number is computed from them.
 //!
 //! Lists end after the last element that needs an entry (`flows`, `conductor_dependence`,
 //! `enthalpy`). Beyond that entry the law is its number, so a linear network has empty lists. Rare
@@ -80,9 +80,9 @@ pub(crate) struct Parts {
     pub(crate) control_dependence: Vec<Dependence>,
     /// Nodes, boundaries and elements share one name space.
     pub(crate) names: NameIndex,
-    /// The first conductor without a name of its own, and its number.
+    /// The first conductor without its own name, and its number.
     pub(crate) numbered_conductors: Option<(usize, u32)>,
-    /// The first source without a name of its own, and its number.
+    /// The first source without its own name, and its number.
     pub(crate) numbered_sources: Option<(usize, u32)>,
     pub(crate) parameter_names: HashMap<String, ParameterId>,
     /// Parameters, signals and tables share another.
@@ -90,7 +90,7 @@ pub(crate) struct Parts {
 }
 
 impl Parts {
-    /// What has this name among nodes, boundaries and elements.
+    /// The item of this name among nodes, boundaries and elements.
     pub(crate) fn item(&self, name: &str) -> Option<Item> {
         let is = |item: Item| match item {
             // found most often by far
@@ -196,8 +196,8 @@ impl Parts {
     }
 }
 
-/// Where the label with this number is; as a rule each next one has the next number after the one
-/// at `first`.
+/// Position of the label with this number. Usually each number is one more than the last, from the
+/// one at `first`.
 fn position<'a>(
     mut labels: impl ExactSizeIterator<Item = &'a Label> + Clone,
     first: Option<(usize, u32)>,

@@ -43,7 +43,7 @@ impl Parts {
         }
     }
 
-    /// What the law of a path or source declares besides its heat.
+    /// The declared results of the law of a path or source in addition to its heat.
     fn declared(&self, item: Item) -> &'static [ResultDeclaration] {
         let law = match item {
             Item::Conductor(id) => &self.conductors[id.index()].law,
@@ -53,17 +53,17 @@ impl Parts {
         law.formula().result_declarations()
     }
 
-    /// What the law of a path or source tells of itself, in the order of its declaration.
+    /// The results of the law of a path or source, in the order of its declaration.
     pub(crate) fn told_of(&self, item: Item) -> impl Iterator<Item = HeatOf> {
         self.declared(item).iter().map(move |result| HeatOf::Told(item, result.key))
     }
 
-    /// What a quantity is: power, but for what laws tell.
+    /// The type of a quantity: power, except for declared results of laws.
     pub(crate) fn heat_type(&self, heat: HeatOf) -> Type {
         self.told(heat).map_or(Type::of(Dimension::POWER), |result| result.ty)
     }
 
-    /// The declaration of what a law tells.
+    /// The declaration of a result of a law.
     pub(crate) fn told(&self, heat: HeatOf) -> Option<&'static ResultDeclaration> {
         let HeatOf::Told(item, key) = heat else { return None };
         self.declared(item).iter().find(|result| result.key == key)
@@ -127,7 +127,7 @@ impl Parts {
         self.grid_values().map(|value| self.grid_value_name(value))
     }
 
-    /// Lays down which nodes the values are made of that expressions of results name.
+    /// Sets the nodes that belong to each grid value named by expressions of results.
     pub(crate) fn settle_grid_values(&mut self) {
         let values: Vec<GridValue> =
             self.layout.grid_values().iter().map(|(value, _)| *value).collect();

@@ -1,4 +1,4 @@
-//! Finds what depends on what.
+//! Finds the dependences of values and elements.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -36,7 +36,7 @@ impl Parts {
         u32::try_from(index).expect("ids are 32 bits wide")
     }
 
-    /// What a value reads, signals that are expressions included.
+    /// The slots that a value reads, also through signals that are expressions.
     pub(crate) fn reads(&self, value: &Value) -> Reads {
         let mut reads = Reads::default();
         if let Value::Constant(_) = value {
@@ -58,7 +58,7 @@ impl Parts {
         reads
     }
 
-    /// Whether a value of an item reads a signal, through other signals too.
+    /// True if a value of an item reads a signal, through other signals too.
     pub(crate) fn uses_signal(&self, item: Item, signal: SignalId) -> bool {
         let own = self.inputs().filter(|(of, _, _)| *of == item).map(|(_, _, value)| value);
         let limit = match item {
@@ -77,7 +77,7 @@ impl Parts {
         }
     }
 
-    /// Whether the heat of a conductor is more than a constant times a difference or a stream.
+    /// True if the heat of a conductor is more than a constant times a difference or a stream.
     pub(crate) fn is_variable(&self, conductor: &Conductor) -> bool {
         if conductor.law.is_number() {
             return false;
@@ -131,8 +131,8 @@ impl Parts {
         dependence
     }
 
-    /// Which massless nodes have only constant conductances around them, so that they can be
-    /// eliminated.
+    /// For each node, true if it is massless and has only constant conductances around it, so that
+    /// it can be eliminated.
     pub(crate) fn linear_massless(&self) -> Vec<bool> {
         let mut linear: Vec<bool> = self.nodes.iter().map(|node| node.massless).collect();
         let mut touch = |vertex: u32| {
@@ -158,7 +158,7 @@ impl Parts {
         linear
     }
 
-    /// Works out once what depends on what.
+    /// Determines the dependences of all elements once.
     pub(crate) fn settle(&mut self) {
         self.hold_comparisons();
         let last = self.conductors.iter().rposition(|conductor| self.is_variable(conductor));
@@ -174,7 +174,7 @@ impl Parts {
         self.along = self.alongs();
     }
 
-    /// Whether a value is one that a path takes the mean of: it reads its own temperature.
+    /// True if a path takes the mean of this value: it reads its own temperature.
     pub(crate) fn is_along(&self, value: &Value) -> bool {
         !matches!(value, Value::Constant(_)) && value.slots().contains(&slot::OWN)
     }

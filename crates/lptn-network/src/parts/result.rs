@@ -1,4 +1,4 @@
-//! What the results have to keep, and what is reported of them.
+//! Limits of the results, and reports.
 
 use lptn_units::Type;
 
@@ -15,7 +15,7 @@ pub enum Bound {
 }
 
 impl Bound {
-    /// The field that holds the value.
+    /// The field of the value.
     pub fn field(self) -> Field {
         match self {
             Self::Below => Field::Below,
@@ -24,7 +24,7 @@ impl Bound {
     }
 }
 
-/// What a broken limit means.
+/// The consequence of a broken limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LimitSeverity {
     /// A broken limit ends with exit code 1.
@@ -45,33 +45,33 @@ pub struct Limit {
     pub ty: Type,
     /// The side on which it has to stay.
     pub bound: Bound,
-    /// What it has to stay below or above; constant for one set of parameters unless `compares`.
+    /// The bound for `of`; constant for one set of parameters unless `compares`.
     pub value: Value,
-    /// Whether `value` is a result too: what a study requires compares any two. A limit of the
-    /// builder does not.
+    /// True if `value` is a result too: a requirement of a study compares any two results. A limit
+    /// of the builder does not.
     pub compares: bool,
-    /// Whether it is the mean over time that has to be kept, and not every moment: `of` and `value`
-    /// are then what the mean is taken of.
+    /// True if the mean over time has to be kept, and not every moment: the mean is taken of `of`
+    /// and `value`.
     pub of_mean: bool,
-    /// What it means if it is broken.
+    /// The consequence if it is broken.
     pub severity: LimitSeverity,
     /// `of` as it was written.
     pub text: String,
 }
 
 impl Limit {
-    /// What is compared: the quantity, and what it has to stay below or above.
+    /// The quantity, and the value that it has to stay below or above.
     pub fn sides(&self) -> [&Value; 2] {
         [&self.of, &self.value]
     }
 
-    /// The type of the limit's margin: like `of`, but for temperatures a difference.
+    /// The type of the limit's margin: that of `of`, a difference for temperatures.
     pub fn margin_type(&self) -> Type {
         Type { absolute: false, ..self.ty }
     }
 }
 
-/// A named quantity that follows from the results: a column of its own.
+/// A named quantity that follows from the results: a separate column.
 #[derive(Clone, Debug)]
 pub struct Report {
     /// Its name, unique among parameters, signals, tables, controls and reports.

@@ -1,4 +1,4 @@
-//! Signals: named courses over time, as points or as an expression.
+//! Signals: named time histories, as points or as an expression.
 
 use lptn_units::{Interpolation, Table1, Type, Unit};
 
@@ -12,29 +12,29 @@ pub struct Signal {
     pub name: String,
     /// The type of its values.
     pub ty: Type,
-    /// How it goes over time.
+    /// Its time history.
     pub course: Course,
-    /// The unit in which it is given and shown; `None` for that of SI. Nothing is computed with it.
+    /// The unit in which it is given and shown; `None` for the SI unit. It is not used to compute.
     pub unit: Option<Unit>,
 }
 
-/// How a signal goes over time.
+/// The time history of a signal.
 #[derive(Clone, Debug)]
 pub enum Course {
     /// Points, joined by straight lines or by a monotone cubic (pchip).
     Curve {
         /// Times in s and values in SI units.
         points: Table1,
-        /// What follows the last point.
+        /// Its behaviour after the last point.
         after: AfterEnd,
     },
-    /// Points, each value held until the next: right-continuous steps.
+    /// Points; each value stays until the next: right-continuous steps.
     Steps {
         /// Times in s, strictly increasing.
         times: Vec<f64>,
         /// Values in SI units.
         values: Vec<f64>,
-        /// What follows the last point.
+        /// Its behaviour after the last point.
         after: AfterEnd,
     },
     /// An expression over `t`, parameters and the signals before this one.
@@ -44,19 +44,19 @@ pub enum Course {
 /// The most points of one signal at which a run stops.
 const MOST_POINTS: f64 = 5e6;
 
-/// What follows the last point of a signal.
+/// Behaviour of a signal after its last point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AfterEnd {
     /// The run fails there.
     Error,
     /// The last value stays.
     Hold,
-    /// It begins anew every so many s after the first point; past the last point its value is held
-    /// until then.
+    /// It restarts each time this period in s has passed since the first point; between the last
+    /// point and the restart its last value stays.
     Repeat(f64),
 }
 
-/// How the points of a signal are joined.
+/// Interpolation between the points of a signal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Join {
     /// Straight lines.
@@ -85,7 +85,7 @@ impl Course {
         }
     }
 
-    /// What follows the last point.
+    /// Its behaviour after the last point.
     pub fn after(&self) -> AfterEnd {
         match self {
             Self::Curve { after, .. } | Self::Steps { after, .. } => *after,
@@ -93,7 +93,7 @@ impl Course {
         }
     }
 
-    /// Whether it is a straight line between its points.
+    /// True if it is a straight line between its points.
     pub(crate) fn is_straight(&self) -> bool {
         match self {
             Self::Curve { points, .. } => points.interpolation() == Interpolation::Linear,
@@ -102,7 +102,7 @@ impl Course {
         }
     }
 
-    /// Whether it goes one way only between two of its points.
+    /// True if it goes one way only between two of its points.
     pub(crate) fn is_monotone(&self) -> bool {
         !matches!(self, Self::Expression(_))
     }
@@ -116,16 +116,16 @@ impl Course {
         }
     }
 
-    /// How many repetitions are over at a time. There is none before the first.
+    /// Number of completed repetitions at a time. There is none before the first point.
     fn repetition(&self, time: f64, period: f64) -> f64 {
         ((time - self.span().0) / period).floor().max(0.0)
     }
 
-    /// Adds the points that lie strictly inside `(start, stop)`. Where the signal is smooth between
-    /// its ends and only `bends` are asked for, these are the ends.
+    /// Adds the points that lie strictly inside `(start, stop)`. If the signal is smooth between
+    /// its ends and only `bends` are requested, these are the ends.
     ///
     /// # Errors
-    /// How many there would be, if that is more than [`MOST_POINTS`].
+    /// The number of points, if that is more than [`MOST_POINTS`].
     pub(crate) fn points(
         &self,
         (start, stop): (f64, f64),
@@ -156,7 +156,7 @@ impl Course {
         Ok(())
     }
 
-    /// Whether its points can be read: as many values as times, one at least, all numbers, the
+    /// True if its points can be read: as many values as times, one at least, all numbers, the
     /// times rising.
     pub(crate) fn is_sound(&self) -> bool {
         match self {
@@ -171,7 +171,7 @@ impl Course {
 }
 
 impl Signal {
-    /// Whether it has no points of its own.
+    /// True if it is an expression and has no points.
     pub(crate) fn is_expression(&self) -> bool {
         matches!(self.course, Course::Expression(_))
     }

@@ -3,10 +3,10 @@
 use crate::id::Field;
 use crate::value::Value;
 
-/// A solid with its properties, each where it is known.
+/// A solid with its properties, as far as they are known.
 #[derive(Clone, Debug)]
 pub struct Material {
-    /// Its name; materials have a name space of their own.
+    /// Its name; materials have their own name space.
     pub name: String,
     /// Density in kg/m^3.
     pub density: Option<Value>,
@@ -14,9 +14,9 @@ pub struct Material {
     pub cp: Option<Value>,
     /// Thermal conductivity in W/(m K).
     pub k: Option<Value>,
-    /// How it melts.
+    /// Its melting, if it melts.
     pub melting: Option<Melting>,
-    /// Where the numbers come from.
+    /// Source of the numbers.
     pub source: Option<String>,
 }
 
@@ -35,16 +35,16 @@ pub struct Melting<T = Value> {
 /// A fluid with its properties, constant or depending on its own temperature `T`.
 #[derive(Clone, Debug)]
 pub struct Fluid {
-    /// Its name; fluids have a name space of their own.
+    /// Its name; fluids have their own name space.
     pub name: String,
     /// Density in kg/m^3.
     pub density: Option<Value>,
     /// Specific heat capacity in J/(kg K).
     pub cp: Value,
-    /// What films take beside or, of a fluid of the library, in place of these two, as fields of
-    /// their laws; each where it is known.
+    /// Further properties that films take, as fields of their laws, as far as they are known. For a
+    /// fluid of the library they replace these two.
     pub film: Vec<(Field, Value)>,
-    /// Where the numbers come from.
+    /// Source of the numbers.
     pub source: Option<String>,
 }
 

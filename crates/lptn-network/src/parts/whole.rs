@@ -31,8 +31,8 @@ impl Parts {
         self.face_paths.iter().enumerate().filter(shared).map(|(i, _)| FacePathId::from_len(i))
     }
 
-    /// Whether a node and the one before it belong to one grid and have the same values: what holds
-    /// for one holds for the other, capacitors left aside.
+    /// True if a node and the one before it belong to one grid and have the same values: a result
+    /// for one is valid for the other, except for capacitors.
     pub(crate) fn is_like_the_last_node(&self, index: usize) -> bool {
         let whole = |i: usize| self.whole(Item::Node(NodeId::from_len(i)));
         let Some(last) = index.checked_sub(1) else { return false };
@@ -50,7 +50,7 @@ impl Parts {
             && self.conductors[last].law.is_same(&self.conductors[index].law)
     }
 
-    /// Whether no capacitor belongs to a node and to the one before it.
+    /// True if no capacitor belongs to a node or to the one before it.
     pub(crate) fn has_no_capacitors(&self, index: usize) -> bool {
         self.capacitors
             .iter()
@@ -58,7 +58,7 @@ impl Parts {
     }
 }
 
-/// Problems of parts are problems of the whole: each is told once.
+/// Reports a problem of parts as one problem of the whole.
 pub(crate) fn collapse(parts: &Parts, errors: &mut Vec<BuildError>) {
     let mut told: Vec<(Item, &'static str)> = Vec::new();
     errors.retain_mut(|error| {

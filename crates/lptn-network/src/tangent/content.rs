@@ -1,7 +1,7 @@
-//! How the heat content of a node changes with a parameter, its temperature held.
+//! Change of the heat content of a node with a parameter, at a fixed temperature.
 //!
 //! `H(T) = integral of C from T0 to T`, so that `dH = integral of dC - C(T0) dT0`. For a constant
-//! capacity this is `dC (T - T0) - C dT0`; where all of a varying one is scaled by a size,
+//! capacity this is `dC (T - T0) - C dT0`; if a varying one is scaled as a whole by a size, it is
 //! `H dln(size) - C(T0) dT0`.
 
 use lptn_units::Scalar;
@@ -26,14 +26,14 @@ pub(super) struct Content {
     change: Change,
 }
 
-/// How the capacity of a node changes.
+/// Change of the capacity of a node.
 #[derive(Clone, Debug)]
 enum Change {
     /// `dC` of a constant one in J/K.
     Constant(Vec<[f64; PASS]>),
     /// `dln(size)` of one that is scaled as a whole.
     Scaled(Vec<[f64; PASS]>),
-    /// That of one whose parts change by themselves: integrated.
+    /// The parts of one whose parts change separately: integrated.
     Parts(Vec<Value>),
 }
 
@@ -131,7 +131,7 @@ fn melts(network: &Network, node: NodeId) -> bool {
     network.nodes()[node.index()].molten > 0.0 || melting(network, node).next().is_some()
 }
 
-/// Whether latent heat is proportional to these factors of a capacity too, and else does not
+/// True if latent heat is proportional to these factors of a capacity too, and else does not
 /// change.
 fn latent_scales(
     network: &Network,
@@ -195,8 +195,8 @@ fn integral(
 }
 
 impl Tangents {
-    /// Writes by how much the heat content of every node over that at its start changes in J per SI
-    /// unit of each parameter, at these temperatures of all nodes in K: blocks of as many values as
+    /// Writes the changes of the heat content of every node over that at its start in J per SI unit
+    /// of each parameter, at these temperatures of all nodes in K: blocks of as many values as
     /// there are nodes.
     pub fn contents(&mut self, network: &Network, temperatures: &[f64], out: &mut [f64]) {
         let nodes = network.nodes().len();

@@ -1,4 +1,4 @@
-//! How the heat flows of a network change with a parameter, temperatures of nodes held.
+//! Changes of the heat flows of a network with a parameter, at fixed temperatures of the nodes.
 
 use lptn_units::Scalar;
 
@@ -14,10 +14,10 @@ use crate::parts::signal::Course;
 use crate::slot;
 
 impl Tangents {
-    /// Writes by how much the heat that every vertex (nodes, then boundaries) receives changes in W
-    /// per SI unit of each parameter: where `scope` stands, at these temperatures of all vertices
-    /// in K, those of the nodes held and those of the boundaries as they change. Blocks of as many
-    /// values as there are vertices.
+    /// Writes the changes of the heat that every vertex (nodes, then boundaries) receives in W per
+    /// SI unit of each parameter, at the state of `scope` and these temperatures of all vertices in
+    /// K. Nodes are fixed, and boundaries change with the parameter. Blocks of as many values as
+    /// there are vertices.
     ///
     /// # Errors
     /// [`InputError`] for a value that has no finite derivative here.
@@ -123,7 +123,7 @@ impl Tangents {
     }
 }
 
-/// The temperature of a vertex: that of a node is held.
+/// The temperature of a vertex: that of a node is fixed.
 fn of_vertex(
     vertex: usize,
     network: &Network,
@@ -136,7 +136,7 @@ fn of_vertex(
     }
 }
 
-/// As [`place`], for constant conductors too, of which no dependence is kept.
+/// The same as [`place`], for constant conductors too, whose dependence is not stored.
 fn place_ends(
     slots: &mut [Slope],
     of: &Dependence,

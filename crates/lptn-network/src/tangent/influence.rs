@@ -1,4 +1,4 @@
-//! What depends on the parameters that a network is differentiated by.
+//! Dependence of a network on the parameters that it is differentiated by.
 
 use crate::id::{
     BoundaryId, ConductorId, ControlId, Item, NodeId, ParameterId, SignalId, SourceId,
@@ -41,7 +41,7 @@ impl<'a> Influence<'a> {
         influence
     }
 
-    /// Whether a value changes with one of the parameters, temperatures of nodes held.
+    /// True if a value changes with one of the parameters, at fixed temperatures of the nodes.
     pub(super) fn value(&self, value: &Value) -> bool {
         !matches!(value, Value::Constant(_))
             && value.slots().iter().any(|&slot| self.slots[slot as usize])
@@ -59,8 +59,8 @@ impl<'a> Influence<'a> {
         self.network.sources()[id.index()].law.values().iter().any(|value| self.value(value))
     }
 
-    /// Whether the heat of a conductor changes: by its values, or because a boundary does that it
-    /// ends at.
+    /// True if the heat of a conductor changes: through its values, or through a boundary at one
+    /// end.
     pub(super) fn conductor(&self, id: ConductorId) -> bool {
         let conductor = &self.network.conductors()[id.index()];
         let ends = [conductor.from, conductor.to].into_iter().any(|end| match end {
@@ -74,7 +74,7 @@ impl<'a> Influence<'a> {
             || properties.into_iter().any(|v| self.value(v))
     }
 
-    /// Whether how or when a node melts changes.
+    /// True if the melting of a node changes, in heat or in temperature.
     pub(super) fn melting(&self, id: NodeId) -> bool {
         melting(self.network, id).any(|(lump, melting)| {
             let density = self.network.materials()[lump.material.index()].density.as_ref();
@@ -98,7 +98,7 @@ impl<'a> Influence<'a> {
         self.network.inputs().find(|(_, _, value)| moves(value)).map(|(item, _, _)| item)
     }
 
-    /// Whether a slot changes during a run.
+    /// True if a slot changes during a run.
     fn varies(&self, slot: u32) -> bool {
         slot == slot::TIME
             || slot == slot::SEGMENT

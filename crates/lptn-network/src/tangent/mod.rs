@@ -1,8 +1,8 @@
-//! Derivatives of a network's values by its parameters, temperatures held: what sensitivities are
-//! driven by.
+//! Derivatives of a network's values by its parameters at fixed temperatures: the right-hand sides
+//! of sensitivities.
 //!
 //! Each value is evaluated on dual numbers by the same code that evaluates it on numbers, the
-//! parameters being the variables. Only what depends on one of them is evaluated at all.
+//! parameters being the variables. Only values that depend on one of them are evaluated at all.
 
 mod content;
 mod heat;
@@ -21,7 +21,7 @@ pub use refusal::NoTangents;
 /// Derivatives of a network's heat flows and heat contents by some of its parameters.
 ///
 /// All results are in SI units per SI unit of the parameter, in blocks, one for each parameter in
-/// the order in which they were asked for. Evaluating allocates nothing.
+/// the order in which they were requested. Evaluating allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Tangents {
     parameters: Vec<ParameterId>,
@@ -44,11 +44,11 @@ struct Pass {
 }
 
 impl Network {
-    /// What is needed to differentiate by these parameters. One that is an expression of others
-    /// counts as a variable of its own if it is among them.
+    /// Prepares derivatives by these parameters. One that is an expression of others counts as a
+    /// separate variable if it is among them.
     ///
     /// # Errors
-    /// [`NoTangents`] where a derivative by them does not exist everywhere or is not to be had.
+    /// [`NoTangents`] if a derivative by them does not exist everywhere or cannot be computed.
     pub fn tangents(&self, parameters: &[ParameterId]) -> Result<Tangents, NoTangents> {
         let influence = Influence::new(self, parameters);
         refusal::check(self, &influence)?;

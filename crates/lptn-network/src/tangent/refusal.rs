@@ -1,4 +1,4 @@
-//! What cannot be differentiated by a parameter.
+//! Reasons for which a network cannot be differentiated by a parameter.
 
 use std::fmt;
 
@@ -9,12 +9,12 @@ use crate::id::{FluidId, Item, NodeId};
 use crate::network::Network;
 
 lptn_units::problems! {
-/// Why a network cannot be differentiated by some parameters. Of an item and what kind of thing it
-/// is, `say` tells one.
+/// Why a network cannot be differentiated by some parameters. `say` puts an item and the kind of
+/// thing it is into words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
-    /// It switches: the times of events move with the parameters. The first control, or what a
-    /// comparison of temperatures stands in.
+    /// It switches: the times of events move with the parameters. The item is the first control, or
+    /// contains a comparison of temperatures.
     Events { item: Item } = "sensitivity::events", at Some(*item),
         says format!(
             "{} switches, at times that move with the parameters",
@@ -25,12 +25,12 @@ pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
     MovingJump { item: Item } = "sensitivity::moving_jump", at Some(*item),
         says format!("{} jumps at a time that moves with a parameter", say(*item, "an input")),
         help None;
-    /// A massless node leaps from one solution of its balance to another, at a time that moves with
-    /// the parameters. A run finds that, not the form of the network.
+    /// A massless node jumps from one solution of its balance to another, at a time that moves with
+    /// the parameters. A run finds this; the form of the network does not show it.
     Leaps = "sensitivity::leaps", at None,
         says "a massless node jumps, at a time that moves with the parameters".to_owned(),
         help None;
-    /// How a node melts changes by more than its size.
+    /// The melting of a node changes by more than its size.
     Melting { node: NodeId } = "sensitivity::melting", at Some(Item::Node(*node)),
         says format!("how {} melts depends on a parameter", say(Item::Node(*node), "a node")),
         help None;
@@ -61,7 +61,7 @@ pub(super) fn check(network: &Network, influence: &Influence<'_>) -> Result<(), 
 }
 
 impl NoTangents {
-    /// What it is said of, in words; the name in backquotes.
+    /// The reason in words, with the name of the item in backquotes.
     pub fn describe(&self, network: &Network) -> String {
         self.message(&|item, _| format!("`{}`", network.name_of(item)))
     }

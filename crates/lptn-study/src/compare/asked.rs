@@ -1,4 +1,4 @@
-//! The run that is asked of every candidate.
+//! The run of every candidate.
 
 use lptn_analysis::RunAnalysis;
 use lptn_network::{Network, NodeId, RunSettings};
@@ -6,7 +6,7 @@ use lptn_network::{Network, NodeId, RunSettings};
 use crate::compare::heat;
 
 /// A run or cycle without rows and with the windows that its heats need: peaks and limits are
-/// looked at between rows.
+/// evaluated between rows.
 pub(crate) fn bare(network: &Network, settings: &RunSettings) -> RunAnalysis {
     let windows = heat::window(network, (settings.start, settings.stop)).into_iter().collect();
     RunAnalysis::of(network, settings).bare().at(Vec::new()).over(windows)

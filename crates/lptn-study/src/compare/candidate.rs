@@ -15,43 +15,43 @@ use crate::compare::limits::{self, CandidateLimit};
 use crate::compare::peak::{Peak, hottest, peak};
 use crate::compare::settled::{self, Settled};
 
-/// What is compared of a candidate. Temperatures in K, times in s.
+/// The compared results of a candidate. Temperatures in K, times in s.
 #[derive(Clone, Debug)]
 pub struct Candidate {
-    /// The name of the node that gets hottest; `None` where a network consists of boundaries alone.
+    /// The name of the hottest node; `None` if a network consists of boundaries alone.
     pub hottest: Option<String>,
-    /// Its peak during the run, or its steady temperature where there is no run.
+    /// Its peak during the run, or its steady temperature if there is no run.
     pub peak: Option<Peak>,
-    /// Its temperature in steady state; `None` where inputs change with time or there is none.
+    /// Its temperature in steady state; `None` if inputs change with time or there is none.
     pub steady: Option<f64>,
-    /// How long it takes to get 95 % of the way from its start to its steady state; `None` if the
-    /// run ends before.
+    /// Time to get 95 % of the way from its start to its steady state; `None` if the run ends
+    /// before.
     pub time_to_95: Option<f64>,
     /// Every limit, in the order of the network.
     pub limits: Vec<CandidateLimit>,
-    /// The settled cycle, where signals repeat themselves: what came of it, or why there is none.
+    /// The periodic steady state if signals repeat themselves: its results, or why there is none.
     pub settled: Option<Result<Settled, Arc<PeriodicError>>>,
-    /// Where its heat goes.
+    /// The distribution of its heat.
     pub heat: HeatOut,
     /// Sum of all heat capacities in J/K.
     pub capacity: f64,
-    /// Mass of all nodes in kg; `None` where that of a node with capacity is not known.
+    /// Mass of all nodes in kg; `None` if that of a node with capacity is not known.
     pub mass: Option<f64>,
-    /// How far its numbers can be trusted.
+    /// The trust in its numbers.
     pub trust: Trust,
-    /// Its steady state, where there are others or they cannot be excluded.
+    /// Its steady state, if there are others or they cannot be excluded.
     pub several: Option<SteadyState>,
     /// The work of its run or cycle; zero in steady state.
     pub statistics: Statistics,
-    /// How much was looked at in it.
+    /// Number of evaluations in it.
     pub looks: Looks,
-    /// What the `±` of parameters do to it, where that was asked for: see [`Scatter::of_run`].
+    /// The effect of the `±` of parameters on it, if requested: see [`Scatter::of_run`].
     pub scatter: Option<Scatter>,
 }
 
 impl Candidate {
-    /// Runs a candidate; without settings of a run it is compared over its settled cycle where its
-    /// signals repeat themselves, else in steady state.
+    /// Runs a candidate. Without settings of a run it is compared over its periodic steady state if
+    /// its signals repeat themselves, else in steady state.
     ///
     /// # Errors
     /// [`CompareError`] if it cannot be solved.
@@ -77,11 +77,11 @@ impl Candidate {
         }
     }
 
-    /// Compares a candidate over its settled cycle, although it may have a run, which lends start and
-    /// tolerance; in steady state where its inputs are constant.
+    /// Compares a candidate over its periodic cycle, although it may have a run, from which start
+    /// and tolerance are taken; in steady state if its inputs are constant.
     ///
     /// # Errors
-    /// [`CompareError`] if there is no settled cycle, or it was interrupted.
+    /// [`CompareError`] if there is no periodic steady state, or it was interrupted.
     pub fn settled_observed(
         system: &ThermalSystem,
         run: Option<&RunSettings>,
@@ -97,7 +97,7 @@ impl Candidate {
         }
     }
 
-    /// The temperature limit with the least margin: of those of severity error, else of the
+    /// The temperature limit with the least margin: one of severity error, else one of the
     /// warnings; `None` without a limit of a temperature.
     pub fn worst(&self) -> Option<&CandidateLimit> {
         let of = |severity| {
@@ -108,7 +108,7 @@ impl Candidate {
         of(LimitSeverity::Error).or_else(|| of(LimitSeverity::Warning))
     }
 
-    /// What every candidate has, whatever it was solved over.
+    /// The results that every candidate has, whatever it was solved over.
     fn of(network: &Network, limits: &[lptn_analysis::LimitResult], trust: Trust) -> Self {
         Self {
             hottest: None,
@@ -161,7 +161,7 @@ impl Candidate {
         })
     }
 
-    /// Where signals repeat themselves and nothing says how long a run is.
+    /// Results if signals repeat themselves and no run has a given length.
     fn over_a_cycle(system: &ThermalSystem, found: settled::Found) -> Self {
         let settled::Found { settled, limits, answer } = found;
         let network = system.network();

@@ -1,4 +1,4 @@
-//! How sure what is compared is, and how sure the difference of two candidates.
+//! Uncertainty of compared results, and of the difference between two candidates.
 
 use lptn_analysis::RunAnalysis;
 use lptn_network::{LimitId, Network, Parameters, RunSettings};
@@ -6,7 +6,7 @@ use lptn_units::statistics::share_below;
 
 use crate::uncertainty::{Answer, AnswerOf, Inputs, UncertaintyError, UncertaintyTask, uncertain};
 
-/// What the `±` of parameters do to what is compared of a candidate, by straight lines.
+/// Effects of the `±` of parameters on the compared results of a candidate, by straight lines.
 #[derive(Clone, Debug)]
 pub struct Scatter {
     /// One standard deviation of the peak in K.
@@ -16,14 +16,14 @@ pub struct Scatter {
     pub limits: Vec<(f64, f64)>,
     /// The peak in K.
     value: f64,
-    /// What one standard deviation of each parameter does to the peak, by name.
+    /// Change of the peak in K with one standard deviation of each parameter, by name.
     effects: Vec<(String, f64)>,
     /// The names of the inputs.
     names: Vec<String>,
     inputs: Inputs,
 }
 
-/// By how much one peak is above another.
+/// Difference between one peak and another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Above {
     /// In K.
@@ -35,8 +35,8 @@ pub struct Above {
 }
 
 impl Scatter {
-    /// Of the run of a network with these parameters, `hottest` being the node that gets hottest;
-    /// `None` where every parameter is certain, or there is no such node.
+    /// Scatter of the run of a network with these parameters, `hottest` being the node that gets
+    /// hottest; `None` if every parameter is certain, or there is no such node.
     ///
     /// # Errors
     /// [`UncertaintyError`].
@@ -69,9 +69,9 @@ impl Scatter {
         }))
     }
 
-    /// By how much the peak is above that of another candidate. Parameters of one name are one
-    /// thing, off by as many of their standard deviations in both; what is correlated in one is so in
-    /// both.
+    /// Difference of the peak from that of another candidate. Parameters of one name are the same:
+    /// they deviate by as many of their standard deviations in both, and a correlation in one
+    /// applies to both.
     pub fn above(&self, other: &Self) -> Above {
         let mut all: Vec<(&str, f64)> =
             self.effects.iter().map(|(name, effect)| (name.as_str(), *effect)).collect();
@@ -92,9 +92,9 @@ impl Scatter {
         Above { by, deviation, probability }
     }
 
-    /// The correlation of two parameters by name; `None` where it has not both.
+    /// The correlation of two parameters by name; `None` if it does not have both.
     fn tied(&self, a: &str, b: &str) -> Option<f64> {
-        // effects stand in the order of the ranking, inputs in that of the network
+        // effects are in the order of the ranking, inputs in that of the network
         let place = |name: &str| self.names.iter().position(|own| own == name);
         Some(self.inputs.correlations().between(place(a)?, place(b)?))
     }

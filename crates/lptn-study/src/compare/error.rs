@@ -19,7 +19,7 @@ pub enum CompareError {
     Input => InputError;
     /// The balances of its massless nodes have no solution at the start.
     Start => Unsolved as Class::of_numbers;
-    /// It has no settled cycle, where that is what is asked for.
+    /// It has no periodic steady state, and that was requested.
     Cycle(error: Arc<PeriodicError>) = error.code(),
         format!("there is no periodic steady state: {error}"),
         source error.as_ref(), help error.help(), class error.class().not_an_answer();

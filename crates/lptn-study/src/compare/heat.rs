@@ -1,23 +1,22 @@
-//! Where the heat of a candidate goes: over its whole run, or in steady state.
+//! Distribution of the heat of a candidate: over its whole run, or in steady state.
 
 use lptn_network::{End, Item, Network};
 use lptn_solve::{Ledger, Selection, Solution, SteadyState, Window};
 
-/// The name of what streams carry away, among those of boundaries.
+/// The name of the heat that streams carry away, among those of boundaries.
 const STREAMS: &str = "streams";
 
-/// The window over the run in which paths are looked at.
+/// The window over the run in which heat by path is taken.
 const WINDOW: &str = "compare";
 
-/// Of a network with more paths to boundaries than these, such as an imported one, no path is told
-/// by itself.
+/// Most paths to boundaries that are listed one by one; a network with more, such as an imported
+/// one, lists none.
 const MOST_PATHS: usize = 64;
 
-/// A part of the heat by the name of what takes it, as a share; `None` where no heat was turned
-/// over.
+/// A part of the heat as a share, by the name of its receiver; `None` if there was no heat.
 pub type Share = (String, Option<f64>);
 
-/// In which results heat is looked at.
+/// The results over which heat is taken.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum HeatOver {
     /// In steady state.
@@ -25,34 +24,34 @@ pub enum HeatOver {
     Steady,
     /// Over the whole run.
     Run,
-    /// Over the settled cycle.
+    /// Over the periodic steady state.
     Cycle,
 }
 
-/// Where heat goes. Shares are those of all heat that leaves the network or is stored in it.
+/// Distribution of heat. Shares are those of all heat that leaves the network or is stored in it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HeatOut {
     /// All of it: in J over a run or cycle, in W in steady state.
     pub all: f64,
-    /// In which results.
+    /// The results over which it is taken.
     pub over: HeatOver,
-    /// What nodes store; 0 where they give off heat that they had. Over a run only.
+    /// Share stored in nodes; 0 if they give off heat that they had. Over a run only.
     pub stored: Option<f64>,
-    /// What each boundary takes on balance; 0 for one that gives heat. Last, as `streams`, what
-    /// streams carry away that no other stream brings.
+    /// Share that each boundary takes on balance; 0 for one that gives heat. The last, `streams`,
+    /// is heat that streams carry away and that no other stream brings.
     pub boundaries: Vec<Share>,
-    /// What each path brings on balance to the boundary at its end, but for streams.
+    /// Share that each path brings on balance to the boundary at its end, except streams.
     pub paths: Vec<PathShare>,
 }
 
-/// What a path to a boundary brings to it.
+/// Heat that a path to a boundary brings to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PathShare {
     /// The name of the path.
     pub name: String,
     /// The name of the boundary.
     pub to: String,
-    /// Its share; 0 where it takes heat from the boundary.
+    /// Its share; 0 if it takes heat from the boundary.
     pub share: Option<f64>,
 }
 
@@ -95,14 +94,14 @@ impl HeatOut {
         Self { over, ..Self::of(network, (boundaries, streams), (stored, &paths)) }
     }
 
-    /// Boundaries and streams by the heat that they give, paths by what they bring.
+    /// Boundaries and streams by the heat that they give, paths by the heat that they bring.
     fn of(
         network: &Network,
         (given, streams): (&[f64], &[f64]),
         (stored, paths): (Option<f64>, &[(Path, f64)]),
     ) -> Self {
         let taken = |given: f64| (-given).max(0.0);
-        // one stream hands on what another brings, so a closed circuit carries nothing away
+        // one stream passes on the heat of another, so a closed circuit carries nothing away
         let (brought, moved) =
             streams.iter().fold((0.0, 0.0), |(sum, moved), q| (sum + q, moved + q.abs()));
         let carried = if brought.abs() > 1e-9 * moved { taken(brought) } else { 0.0 };
@@ -127,8 +126,8 @@ impl HeatOut {
     }
 }
 
-/// The window over a run that [`HeatOut::over_time`] reads; none where no path is told, or each is
-/// the only one to its boundary, whose heat the ledger knows.
+/// The window over a run that [`HeatOut::over_time`] reads; none if no path is listed, or if each
+/// is the only one to its boundary, whose heat the ledger has.
 pub(crate) fn window(network: &Network, (from, to): (f64, f64)) -> Option<Window> {
     let paths = paths(network);
     let shared = paths.iter().filter(|path| !is_alone(network, path));
@@ -142,7 +141,7 @@ pub(crate) fn window(network: &Network, (from, to): (f64, f64)) -> Option<Window
 struct Path {
     item: Item,
     to: End,
-    /// 1 where its heat flow is counted towards the boundary.
+    /// 1 if its heat flow is counted towards the boundary.
     sign: f64,
 }
 
@@ -152,7 +151,7 @@ impl Path {
     }
 }
 
-/// Whether nothing else touches the boundary of a path.
+/// True if nothing else touches the boundary of a path.
 fn is_alone(network: &Network, path: &Path) -> bool {
     let conductors = network.conductors();
     let touches = |id: lptn_network::ConductorId| {
@@ -164,8 +163,8 @@ fn is_alone(network: &Network, path: &Path) -> bool {
     network.outer_conductors().chain(joints).filter(|id| touches(*id)).count() == 1
 }
 
-/// The paths by which heat may leave, but for streams, in the order of the network; none where they
-/// are very many.
+/// The paths by which heat may leave, except streams, in the order of the network; none if they are
+/// very many.
 fn paths(network: &Network) -> Vec<Path> {
     let conductors = network.conductors();
     let ends = |item: Item, id: lptn_network::ConductorId| {

@@ -1,37 +1,37 @@
-//! What became of the limits of a candidate.
+//! Results for the limits of a candidate.
 
 use lptn_network::{LimitSeverity, Network};
 use lptn_units::{Dimension, Type};
 
-/// What became of a limit.
+/// The result for a limit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CandidateLimit {
     /// The name of the limit in its network.
     pub name: String,
     /// Type of the margin; a difference for temperatures.
     pub ty: Type,
-    /// What it means if it is broken.
+    /// The consequence if it is broken.
     pub severity: LimitSeverity,
-    /// The least margin, in SI units: positive while the limit is kept; NaN where it is not judged,
-    /// since it depends on inputs that change with time and was looked at in steady state only.
+    /// The least margin, in SI units: positive while the limit is kept. NaN if it is not judged,
+    /// because it depends on inputs that change with time and was evaluated in steady state only.
     pub margin: f64,
-    /// When it is first broken, in s; `None` if it is kept, or was looked at in steady state or over
-    /// the settled cycle.
+    /// Time in s at which it is first broken; `None` if it is kept, or was evaluated in steady
+    /// state or over the periodic steady state.
     pub broken_at: Option<f64>,
 }
 
 impl CandidateLimit {
-    /// Whether it is neither kept nor broken, because it was not judged.
+    /// True if it is neither kept nor broken, because it was not judged.
     pub fn is_open(&self) -> bool {
         self.margin.is_nan()
     }
 
-    /// Whether it is broken.
+    /// True if it is broken.
     pub fn broken(&self) -> bool {
         self.margin < 0.0
     }
 
-    /// Whether its margin is a temperature difference.
+    /// True if its margin is a temperature difference.
     pub fn is_temperature(&self) -> bool {
         self.ty == Type::of(Dimension::TEMPERATURE)
     }

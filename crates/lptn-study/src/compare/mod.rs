@@ -1,4 +1,4 @@
-//! Comparison of candidate designs: what an engineer asks of each, side by side.
+//! Comparison of candidate designs: the results that matter for each, side by side.
 
 mod asked;
 mod candidate;

@@ -8,11 +8,11 @@ use lptn_solve::{NodeSummary, first_there};
 pub struct Peak {
     /// The temperature in K.
     pub temperature: f64,
-    /// The time in s at which it is first there; `None` where the candidate was not run.
+    /// The time in s at which it is first reached; `None` if the candidate was not run.
     pub at: Option<f64>,
 }
 
-/// What has the largest value; of equals the first.
+/// The item with the largest value; the first of equal ones.
 pub(crate) fn hottest<T>(mut of: impl Iterator<Item = (T, f64)>) -> Option<(T, f64)> {
     let first = of.next()?;
     Some(
@@ -20,7 +20,7 @@ pub(crate) fn hottest<T>(mut of: impl Iterator<Item = (T, f64)>) -> Option<(T, f
     )
 }
 
-/// The peak of a node; one that the tolerance cannot tell from the start or from the end is there.
+/// The peak of a node; at the start or end if it is equal to the value there within the tolerance.
 pub(crate) fn peak(node: &NodeSummary, run: &RunSettings) -> Peak {
     let ends = [(node.start, run.start), (node.end, run.stop)];
     Peak { temperature: node.peak.0, at: Some(first_there(node.peak, ends, 10.0 * run.tolerance)) }

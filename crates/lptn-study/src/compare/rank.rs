@@ -7,7 +7,7 @@ use lptn_network::LimitSeverity;
 use crate::compare::candidate::Candidate;
 
 lptn_units::words! {
-/// What candidates are sorted by, the best first.
+/// The key by which candidates are sorted, the best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SortKey {
     /// Those that keep every limit first; then by the least margin of their temperature limits, the
@@ -21,15 +21,15 @@ pub enum SortKey {
     Time = "time",
     /// The least heat capacity first.
     Capacity = "capacity",
-    /// As they were given.
+    /// In the given order.
     Given = "given",
 }
 /// The name on the command line.
 pub fn key;
 }
 
-/// The positions of candidates in their order; `None` stands for one without results, which comes
-/// last. Equals stay as they were given.
+/// The positions of candidates in their order; `None` means one without results, which comes last.
+/// Equals stay in the given order.
 pub fn order(candidates: &[Option<&Candidate>], key: SortKey) -> Vec<usize> {
     let mut positions: Vec<usize> = (0..candidates.len()).collect();
     positions.sort_by(|&a, &b| match (candidates[a], candidates[b]) {
@@ -55,12 +55,12 @@ fn compare(a: &Candidate, b: &Candidate, key: SortKey) -> Ordering {
     }
 }
 
-/// Whether a limit that counts is broken.
+/// True if a limit of severity error is broken.
 fn broken(candidate: &Candidate) -> bool {
     candidate.limits.iter().any(|limit| limit.broken() && limit.severity == LimitSeverity::Error)
 }
 
-/// What is not known stands last among ascending values.
+/// An unknown value comes last among ascending values.
 fn ascending(a: Option<f64>, b: Option<f64>) -> Ordering {
     a.unwrap_or(f64::INFINITY).total_cmp(&b.unwrap_or(f64::INFINITY))
 }

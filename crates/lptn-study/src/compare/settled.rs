@@ -1,4 +1,4 @@
-//! The cycle to which a candidate settles whose inputs repeat themselves.
+//! The cycle to which a candidate with repeating inputs settles.
 //!
 //! Repeating signals ask for the periodic steady state, so `compare` computes it without an option.
 //! Without a `[run]` it is the state that is compared, because no other moment has a meaning. Heat
@@ -16,32 +16,32 @@ use crate::compare::error::CompareError;
 use crate::compare::limits::{self, CandidateLimit};
 use crate::compare::peak::{Peak, hottest, peak};
 
-/// What is compared of a settled cycle. Temperatures in K, times in s.
+/// The compared results of a periodic steady state. Temperatures in K, times in s.
 #[derive(Clone, Debug)]
 pub struct Settled {
     /// The name of the node that gets hottest in it; `None` for boundaries alone.
     pub hottest: Option<String>,
     /// Its highest temperature.
     pub peak: Option<Peak>,
-    /// How long the cycle is.
+    /// The period of the cycle.
     pub period: f64,
     /// Every limit over the cycle, in the order of the network.
     pub limits: Vec<CandidateLimit>,
 }
 
-/// A settled cycle with its answer.
+/// A periodic steady state with its answer.
 pub(crate) struct Found {
     pub(crate) settled: Settled,
     pub(crate) limits: Vec<lptn_analysis::LimitResult>,
     pub(crate) answer: Trusted<Periodic>,
 }
 
-/// A settled cycle, or why there is none; nothing where signals do not repeat themselves.
+/// A periodic steady state, or why there is none; nothing if signals do not repeat themselves.
 pub(crate) type Search = Option<Result<Found, Arc<PeriodicError>>>;
 
 impl Settled {
-    /// The settled cycle where signals repeat themselves and it can be found; the reason where they do
-    /// and it cannot; nothing where they do not.
+    /// The settled cycle if signals repeat themselves and it can be found; the reason if they do
+    /// and it cannot; nothing if they do not.
     ///
     /// # Errors
     /// [`CompareError`] if it was interrupted, or its energy balance does not close.

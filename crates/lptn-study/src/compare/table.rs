@@ -10,25 +10,25 @@ use crate::compare::heat::{HeatOut, HeatOver, PathShare};
 use crate::compare::limits::CandidateLimit;
 use crate::compare::settled::Settled;
 
-/// A candidate with what it is called.
+/// A candidate with its names.
 #[derive(Debug)]
 pub struct CompareRow {
     /// The file it was read from.
     pub file: String,
     /// Its title; may be empty.
     pub title: String,
-    /// Its results, or the code of the problem that there are none for.
+    /// Its results, or the code of the problem for which there are none.
     pub outcome: Result<Candidate, String>,
 }
 
 impl CompareRow {
-    /// Its results; `None` where it has a problem instead.
+    /// Its results; `None` if it has a problem instead.
     pub fn candidate(&self) -> Option<&Candidate> {
         self.outcome.as_ref().ok()
     }
 
-    /// `none` without limits, `kept`, `warning` where only limits of that severity are broken,
-    /// `broken`, `not judged` where inputs change with time and there is no run, or the code of the
+    /// `none` without limits, `kept`, `warning` if only limits of that severity are broken,
+    /// `broken`, `not judged` if inputs change with time and there is no run, or the code of the
     /// problem.
     pub fn status(&self) -> &str {
         let candidate = match &self.outcome {
@@ -59,7 +59,7 @@ impl CompareRow {
         boundary.map_or_else(|| path()?.share, |(_, share)| *share)
     }
 
-    /// What the `±` of parameters do to it, where that was asked for.
+    /// The effect of the `±` of parameters on it, if requested.
     pub fn scatter(&self) -> Option<&Scatter> {
         self.candidate()?.scatter.as_ref()
     }
@@ -71,12 +71,12 @@ impl CompareRow {
         self.scatter()?.limits.get(place).copied()
     }
 
-    /// Its settled cycle, if it has one.
+    /// Its periodic steady state, if it has one.
     pub fn settled(&self) -> Option<&Settled> {
         self.candidate()?.settled.as_ref()?.as_ref().ok()
     }
 
-    /// Its result for the limit of this name over the settled cycle, if it has one.
+    /// Its result for the limit of this name in the periodic steady state.
     pub fn settled_limit(&self, name: &str) -> Option<&CandidateLimit> {
         self.settled()?.limits.iter().find(|limit| limit.name == name)
     }
@@ -109,8 +109,8 @@ impl CompareRow {
         })
     }
 
-    /// The names of the paths of some rows to boundaries of which one has several in any row: where
-    /// all have one, its share is that of the boundary.
+    /// The names of paths to boundaries that have several paths in any row. The share of a single
+    /// path is that of its boundary.
     pub fn path_names(rows: &[Self]) -> Vec<&str> {
         let paths = rows.iter().filter_map(Self::candidate).map(|c| c.heat.paths.as_slice());
         let shared: Vec<&str> = paths
@@ -126,8 +126,8 @@ impl CompareRow {
     }
 }
 
-/// One line for each row: what it is and how it ended, then its numbers, temperatures in `unit`;
-/// what a candidate does not have is NaN.
+/// One line for each row: its names and status, then its numbers, temperatures in `unit`; NaN for
+/// numbers that a candidate does not have.
 pub fn compare_table(rows: &[CompareRow], unit: &Unit) -> Table {
     let hottest =
         |row: &CompareRow| row.candidate().and_then(|c| c.hottest.clone()).unwrap_or_default();
@@ -181,7 +181,7 @@ fn general(rows: &[CompareRow], unit: &Unit, table: &mut TableOf<'_, CompareRow>
     }
 }
 
-/// How sure peaks and margins are, and by how much each peak is above that of the first row.
+/// Deviations of peaks and margins, and the difference of each peak from that of the first row.
 fn scatter(rows: &[CompareRow], table: &mut TableOf<'_, CompareRow>) {
     let Some(first) = rows.iter().find_map(CompareRow::scatter) else { return };
     fn of(row: &CompareRow, value: impl Fn(&Scatter) -> f64) -> f64 {
@@ -202,7 +202,7 @@ fn scatter(rows: &[CompareRow], table: &mut TableOf<'_, CompareRow>) {
     }
 }
 
-/// What is known of the heat as a whole.
+/// Heat as a whole.
 fn of_heat(rows: &[CompareRow], table: &mut TableOf<'_, CompareRow>) {
     fn heat(row: &CompareRow) -> Option<&HeatOut> {
         row.candidate().map(|c| &c.heat).filter(|heat| heat.over != HeatOver::Steady)
@@ -215,7 +215,7 @@ fn of_heat(rows: &[CompareRow], table: &mut TableOf<'_, CompareRow>) {
 }
 
 /// The margins of the limits of a name and when they break. Candidates may mean different
-/// quantities by one name: each quantity has a column of its own, told apart by the unit.
+/// quantities by one name: each quantity has its own column, distinguished by the unit.
 fn of_limit(rows: &[CompareRow], name: &str, table: &mut TableOf<'_, CompareRow>) {
     let unit = |limit: &CandidateLimit| limit.ty.dimension.si_unit();
     let mut units: Vec<String> = Vec::new();

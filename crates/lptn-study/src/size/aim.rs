@@ -1,21 +1,21 @@
-//! What the best design has least or most of.
+//! The objective of the best design.
 
 use lptn_netlist::Goal;
 use lptn_network::Value;
 
-/// What the best design has least or most of.
+/// The quantity that the best design minimises or maximises.
 #[derive(Clone, Copy, Debug)]
 pub struct Aim<'a> {
-    /// The quantity: an expression of parameters, or of results where `of_results` says so.
+    /// The quantity: an expression of parameters, or of results if `of_results` is true.
     pub value: &'a Value,
-    /// Whether the best design has least or most of it.
+    /// The direction: least or most of it.
     pub goal: Goal,
-    /// Whether it reads temperatures or heat flows of the steady state.
+    /// True if it reads temperatures or heat flows of the steady state.
     pub of_results: bool,
 }
 
 impl Aim<'_> {
-    /// What is sought as something of which less is better.
+    /// The objective as a cost, of which less is better.
     pub(crate) fn cost(self, objective: f64) -> f64 {
         match self.goal {
             Goal::Minimise => objective,

@@ -5,16 +5,16 @@ use lptn_network::{NodeId, ParameterId};
 
 use crate::size::judge::{Demand, Judged};
 
-/// What is to be sized.
+/// A task of sizing.
 #[derive(Clone, Debug)]
 pub struct SizeTask<'a> {
-    /// What has to be kept.
+    /// The requirements.
     pub demand: Demand<'a>,
-    /// The parameter whose value is sought.
+    /// The parameter to be sized.
     pub parameter: ParameterId,
     /// The least and the largest value it may take, in SI units.
     pub range: (f64, f64),
-    /// Which of several values that do is the best.
+    /// The direction in which values that keep every requirement get better.
     pub goal: Goal,
 }
 
@@ -23,56 +23,56 @@ pub struct SizeTask<'a> {
 pub struct Trial {
     /// The value in SI units.
     pub value: f64,
-    /// What came of it.
+    /// The results there.
     pub judged: Judged,
 }
 
-/// How an answer came about.
+/// The kind of answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// A requirement binds: beyond the value it is broken.
     Bound,
-    /// A requirement is broken behind an edge, at which the network goes elsewhere.
+    /// A requirement is broken beyond an edge, at which the network goes to another state.
     Edge,
     /// The best end of the range keeps every requirement already.
     BestEnd,
-    /// No value that was looked at keeps every requirement.
+    /// No value that was evaluated keeps every requirement.
     Infeasible,
 }
 
-/// What came of sizing.
+/// The result of sizing.
 #[derive(Clone, Debug)]
 pub struct Sizing {
-    /// How the answer came about.
+    /// The kind of answer.
     pub verdict: Verdict,
-    /// The value with its margins; where it is infeasible, the value that comes closest.
+    /// The value with its margins; if it is infeasible, the value that comes closest.
     pub trial: Trial,
     /// The requirement that is closest to being broken, relative to how much it varies over the
     /// range.
     pub closest: usize,
-    /// Where a requirement breaks again on the far side of the value, in SI units: more is not
-    /// always better.
+    /// The value in SI units at which a requirement breaks again on the far side of the answer:
+    /// more is not always better.
     pub breaks_again: Option<f64>,
-    /// The edge at which the network goes elsewhere, if the verdict is [`Verdict::Edge`].
+    /// The edge at which the network goes to another state, if the verdict is [`Verdict::Edge`].
     pub edge: Option<Edge>,
     /// Change of the closest requirement's margin, in SI units, for 1 % more of the parameter;
-    /// `None` for a temperature, of which there is no percentage, for zero, and near an edge.
+    /// `None` for a temperature, which has no percentage, for zero, and near an edge.
     pub sensitivity: Option<f64>,
-    /// By how much the value may be off, in SI units, since runs are computed to a tolerance: their
-    /// error over what the closest margin changes with the value. `None` in steady state, where
-    /// margins are exact to rounding, where nothing binds, and where that change is not known.
+    /// Error of the value in SI units, as runs are computed to a tolerance: their error over the
+    /// change of the closest margin with the value. `None` in steady state, whose margins are exact
+    /// to rounding, if nothing binds, and if that change is not known.
     pub error: Option<f64>,
     /// The value that the Norton equivalent seen from the changed path predicted, in SI units; only
     /// in steady state.
     pub first_guess: Option<f64>,
-    /// How many networks were solved.
+    /// Number of networks that were solved.
     pub solved: usize,
-    /// The places over the whole range that were looked at first, the best end of it first.
+    /// The points over the whole range that were evaluated first, the best end of it first.
     pub looked_at: Vec<Trial>,
 }
 
 impl Sizing {
-    /// Whether the value keeps every requirement.
+    /// True if the value keeps every requirement.
     pub fn feasible(&self) -> bool {
         self.verdict != Verdict::Infeasible
     }
@@ -83,14 +83,14 @@ impl Sizing {
     }
 }
 
-/// Where a network goes elsewhere.
+/// An edge: a value at which a network goes to another state.
 #[derive(Clone, Debug)]
 pub struct Edge {
     /// The last value of the parameter on the side of the answer, in SI units.
     pub value: f64,
     /// The margin in SI units, just beyond it, of the requirement that is broken most there.
     pub beyond: f64,
-    /// That requirement, by its position among the margins.
+    /// Index of that requirement among the margins.
     pub broken: usize,
     /// In steady state the node whose temperature differs most, with its temperatures in K on the
     /// side of the answer and beyond.

@@ -1,5 +1,5 @@
-//! Choosing parts from catalogues: of all combinations the best that keeps everything, with what is
-//! varied beside the parts sized for each.
+//! Choosing parts from catalogues: the best of all combinations that keep every requirement, with
+//! further parameters sized for each combination.
 //!
 //! Parts are judged in the order of their price, in blocks whose size does not depend on threads.
 //! The first part that works is the answer, and the evaluated parts are the same on every machine.
@@ -18,17 +18,16 @@ use crate::size::several::{SeveralTask, size_several};
 /// More combinations than these are refused.
 const MOST: usize = 1_000_000;
 
-/// And more than these where each has to be solved before it is known what it costs.
+/// The same limit if each has to be solved before its cost is known.
 const MOST_SOLVED: usize = 10_000;
 
-/// So many are judged before it is asked whether more have to be: the same ones whatever the number
-/// of threads.
+/// Combinations judged before checking for an end: the same ones whatever the number of threads.
 const BLOCK: usize = 32;
 
-/// So many that keep everything are looked for behind the best one.
+/// Combinations that keep everything and are searched after the best one.
 const RUNNERS_UP: usize = 3;
 
-/// All of so many combinations are judged, whatever the best one is.
+/// Up to this number of combinations all are judged, whatever the best one is.
 const ALL: usize = 200;
 
 /// Parts to choose from: the parameters that one sets, and for each part their values in SI units.
@@ -40,19 +39,19 @@ pub struct Parts {
     pub values: Vec<Vec<f64>>,
 }
 
-/// What is to be chosen.
+/// A task of choosing parts.
 #[derive(Clone, Debug)]
 pub struct ChoiceTask<'a> {
-    /// What has to be kept.
+    /// The requirements.
     pub demand: Demand<'a>,
-    /// What the best choice has least or most of.
+    /// The objective of the best choice.
     pub aim: Aim<'a>,
-    /// Of each one part is chosen; at least one.
+    /// The catalogues; one part is chosen from each; at least one.
     pub catalogues: &'a [Parts],
     /// The parameters that are sized for each choice, and the least and largest value that each may
     /// take, in SI units.
     pub varied: &'a [(ParameterId, (f64, f64))],
-    /// How many threads may work; the result is the same.
+    /// Number of threads; the result does not depend on it.
     pub threads: usize,
 }
 
@@ -61,46 +60,46 @@ pub struct ChoiceTask<'a> {
 pub struct Choice {
     /// The position of the part in each catalogue.
     pub parts: Vec<usize>,
-    /// What the parts set, then what was sized, in SI units; only the former where it failed.
+    /// Values of the parts, then the sized values, in SI units; only the former if it failed.
     pub values: Vec<f64>,
-    /// What is sought, in SI units; NaN where that is not known, since it failed.
+    /// The objective in SI units; NaN if it is not known, since the choice failed.
     pub objective: f64,
-    /// What came of it, or why it could not be judged.
+    /// The results, or why it could not be judged.
     pub judged: Result<Judged, SizeError>,
 }
 
 impl Choice {
-    /// Whether it is known to keep everything.
+    /// True if it is known to keep everything.
     pub fn keeps(&self) -> bool {
         self.judged.as_ref().is_ok_and(Judged::keeps)
     }
 
-    /// How far each requirement is from being broken; none where it could not be judged.
+    /// The margin of each requirement; none if the choice could not be judged.
     pub fn margins(&self) -> &[f64] {
         self.judged.as_ref().map_or(&[], |judged| &judged.margins)
     }
 }
 
-/// What came of choosing.
+/// The result of choosing.
 #[derive(Clone, Debug)]
 pub struct Choices {
-    /// Those that were judged. Of given parts the best comes first by what is sought; where something
-    /// is sized, what keeps everything comes before what does not. Of equals the first of the file.
+    /// The judged combinations, the best objective first. If parameters are sized, combinations
+    /// that keep everything come before the others. Equal ones are in the order of the file.
     pub judged: Vec<Choice>,
     /// The best one that keeps everything, by its position among them.
     pub best: Option<usize>,
-    /// How many combinations there are.
+    /// Number of combinations.
     pub count: usize,
-    /// How many networks were solved.
+    /// Number of networks that were solved.
     pub solved: usize,
 }
 
-/// Judges combinations of parts, those that are better by what is sought first, until the best that
-/// keeps everything and some behind it are known; all, if they are few, none keeps it, or each has to
-/// be solved before it is known what it costs.
+/// Judges combinations of parts in the order of the objective, the best first, until the best that
+/// keeps everything and some after it are known. It judges all if they are few, if none keeps
+/// everything, or if each has to be solved before its cost is known.
 ///
 /// # Errors
-/// [`SizeError`] if no combination can be judged, one is no network, or there are too many. One
+/// [`SizeError`] if no combination can be judged, one is not a network, or there are too many. One
 /// without an answer, such as a run that fails, is listed with its error.
 pub fn choose(task: &ChoiceTask<'_>) -> Result<Choices, SizeError> {
     let sizes: Vec<usize> = task.catalogues.iter().map(|parts| parts.values.len()).collect();
@@ -150,7 +149,7 @@ fn values(task: &ChoiceTask<'_>, picks: &[usize]) -> Vec<f64> {
     of.flat_map(|(parts, &pick)| parts.values[pick].iter().copied()).collect()
 }
 
-/// All combinations, the best first by what is sought, where that is known beforehand.
+/// All combinations, the best first by the objective if it is known in advance.
 fn in_order(
     task: &ChoiceTask<'_>,
     designs: &Designs<'_>,
@@ -168,8 +167,8 @@ fn in_order(
     Ok(all.into_iter().map(|(_, picks)| picks).collect())
 }
 
-/// What was solved: by what is sought, those whose costs are not known last; where something is sized,
-/// what keeps everything first, for what does not has no cost.
+/// Sorts solved choices by the objective, those without a cost last; if parameters are sized, those
+/// that keep everything first, for the others have no cost.
 fn sort(task: &ChoiceTask<'_>, judged: &mut [Choice]) {
     judged.sort_by(|a, b| {
         let fails = |choice: &Choice| !task.varied.is_empty() && !choice.keeps();
@@ -181,7 +180,7 @@ fn sort(task: &ChoiceTask<'_>, judged: &mut [Choice]) {
     });
 }
 
-/// One combination, and how many networks were solved for it beside those of `designs`.
+/// One combination, and the number of networks solved for it in addition to those of `designs`.
 fn one(
     task: &ChoiceTask<'_>,
     designs: &Designs<'_>,
@@ -211,7 +210,7 @@ fn one(
     Ok((choice, solved))
 }
 
-/// Whether a combination has no answer of its own, which says nothing of the others.
+/// True if this combination alone has no answer, which does not affect the others.
 fn is_no_answer(error: &SizeError) -> bool {
     let SizeError::Trial { error, .. } = error else { return false };
     matches!(
@@ -224,7 +223,7 @@ fn is_no_answer(error: &SizeError) -> bool {
     )
 }
 
-/// A look, and a better one where that does not tell whether something is kept.
+/// A rough evaluation, and a better one if that does not show whether everything is kept.
 fn judge(designs: &Designs<'_>, values: &[f64]) -> Result<Design, SizeError> {
     let look = designs.judge(values, Care::Look)?;
     let error = look.judged.error;
@@ -232,7 +231,7 @@ fn judge(designs: &Designs<'_>, values: &[f64]) -> Result<Design, SizeError> {
     if clear { Ok(look) } else { designs.judge(values, Care::Proof) }
 }
 
-/// The best values of what is varied, beside these of the parts.
+/// The best values of the varied parameters, with these values of the parts.
 fn size(
     task: &ChoiceTask<'_>,
     designs: &Designs<'_>,

@@ -1,7 +1,7 @@
-//! What a cooling has to do, from a power and two temperatures alone.
+//! The cooling that is needed, from a power and two temperatures alone.
 
-/// Heat, the temperature that must not be exceeded, and what takes the heat away. Temperatures in
-/// K.
+/// Heat, the temperature that must not be exceeded, and the temperature of the surroundings.
+/// Temperatures in K.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CoolingTask {
     /// Heat to be taken away in W.
@@ -10,7 +10,7 @@ pub struct CoolingTask {
     pub limit: f64,
     /// Temperature of the surroundings, and of a coolant where it enters.
     pub ambient: f64,
-    /// How much warmer a coolant may leave than it enters.
+    /// Largest temperature rise of a coolant from inlet to outlet.
     pub rise: f64,
 }
 
@@ -32,11 +32,11 @@ pub struct CoolantFlow {
     pub volume: f64,
 }
 
-/// What a cooling has to do.
+/// The cooling that is needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cooling {
-    /// `limit - ambient` in K: by so much the limit is above its surroundings; if it is not
-    /// positive no cooling without refrigeration keeps it.
+    /// `limit - ambient` in K, the temperature difference that is available. If it is not positive,
+    /// no cooling without refrigeration keeps the limit.
     pub available: f64,
     /// Largest thermal resistance to the surroundings in K/W.
     pub resistance: f64,
@@ -77,8 +77,8 @@ impl CoolingTask {
     }
 
     /// The flow that takes the heat away while it warms by `rise`: `P = m cp rise`, the energy
-    /// equation of a steady flow without work (Incropera et al.). `None` where the coolant would
-    /// have to leave warmer than the limit.
+    /// equation of a steady flow without work (Incropera et al.). `None` if the coolant would have
+    /// to leave warmer than the limit.
     pub fn flow(&self, coolant: Coolant) -> Option<CoolantFlow> {
         if self.rise > self.limit - self.ambient {
             return None;

@@ -1,4 +1,4 @@
-//! Designs: values of several parameters, and what the best one has least or most of.
+//! Designs: values of several parameters, and the objective.
 
 use lptn_network::{Network, ParameterId};
 
@@ -6,14 +6,14 @@ use crate::size::aim::Aim;
 use crate::size::error::SizeError;
 use crate::size::judge::{Care, Demand, Judge, Judged};
 
-/// Values of several parameters, and what came of them.
+/// Values of several parameters, and their results.
 #[derive(Clone, Debug)]
 pub struct Design {
     /// The values in SI units, in the order of the parameters.
     pub values: Vec<f64>,
-    /// What is sought, in SI units.
+    /// The objective in SI units.
     pub objective: f64,
-    /// What came of it.
+    /// The results.
     pub judged: Judged,
 }
 
@@ -52,12 +52,12 @@ impl<'a> Designs<'a> {
         self.judge.network(&self.with_values(values))
     }
 
-    /// What is sought where it follows from parameters, without a look at what has to be kept.
+    /// The objective if it follows from parameters, without evaluating the requirements.
     pub(crate) fn objective(&self, values: &[f64]) -> Result<f64, SizeError> {
         self.judge.value(&self.with_values(values), self.aim.value)
     }
 
-    /// What is sought as something of which less is better.
+    /// The objective as a cost, of which less is better.
     pub(crate) fn cost(&self, objective: f64) -> f64 {
         self.aim.cost(objective)
     }

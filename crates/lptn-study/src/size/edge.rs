@@ -1,7 +1,7 @@
-//! Edges: values at which what is left of a requirement jumps, since the network goes elsewhere.
+//! Edges: values at which the network goes to another state, and the margin of a requirement jumps.
 //!
-//! On which side of an edge a run is hangs on its error. So the answer is a value from which runs of
-//! several tolerances all go the same way.
+//! The error of a run decides on which side of an edge it is. So the answer is a value from which
+//! runs of several tolerances all go the same way.
 
 use lptn_network::NodeId;
 
@@ -10,7 +10,7 @@ use crate::size::error::SizeError;
 use crate::size::judge::{Care, Moments};
 use crate::size::search::Search;
 
-/// What is left of a requirement jumps if it changes by more than this share of its scale between
+/// The margin of a requirement jumps if it changes by more than this share of its scale between
 /// neighbouring values.
 const JUMP: f64 = 1e-3;
 
@@ -24,15 +24,15 @@ const TOLERANCES: [f64; 4] = [1e-3, 1e-4, 1e-5, 1e-6];
 const FIRST: f64 = 1e-10;
 const FURTHER: f64 = 3.0;
 
-/// The share of the value beyond which no answer is sought behind an edge.
+/// The share of the value beyond which no answer is searched after an edge.
 const FURTHEST: f64 = 1e-6;
 
 /// The most distances.
 const DISTANCES: usize = 24;
 
 impl Search<'_> {
-    /// The edge between a value that keeps everything and one that does not, if there is one and not
-    /// only a border.
+    /// The edge between a value that keeps everything and one that does not, if there is one and
+    /// not only a border.
     pub(super) fn edge(&self, kept: &Trial, broken: f64) -> Result<Option<Edge>, SizeError> {
         if (broken - kept.value).abs() > NEIGHBOURS * kept.value.abs() {
             return Ok(None);
@@ -80,9 +80,9 @@ impl Search<'_> {
         most
     }
 
-    /// The trial on the way from an edge to `inside` that is twice as far from it as the edges of runs
-    /// of other tolerances are; the one at the edge where they do not differ. Where it is not known how
-    /// far that is, the first that all of them keep.
+    /// The trial on the way from an edge to `inside` that is twice as far from it as the edges of
+    /// runs of other tolerances; the one at the edge if these do not differ. If that distance is
+    /// not known, the first trial that all of them keep.
     pub(super) fn safe(
         &self,
         (at_edge, broken): (Trial, f64),
@@ -110,7 +110,7 @@ impl Search<'_> {
         first.map_or(Ok(at_edge), |value| self.trials.at(value))
     }
 
-    /// Whether runs of all tolerances keep everything, or none of them does.
+    /// True if runs of all tolerances keep everything (`keep`), or none of them does (not `keep`).
     fn all_runs(&self, value: f64, keep: bool) -> bool {
         let like = |care: &Care| match self.trials.with(value, *care) {
             Ok(trial) => self.keeps(&trial) == keep,

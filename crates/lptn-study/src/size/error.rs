@@ -21,12 +21,12 @@ pub enum SizeError {
         format!("the range has to begin before it ends, got {from} to {to}");
     /// Nothing is required.
     NoRequirement = "size::no_requirement", "nothing is required, so nothing can be sized";
-    /// A probability is asked for, and no parameter has a `±`.
+    /// A probability is requested, and no parameter has a `±`.
     NoDeviation = "size::no_deviation",
         "`probability` counts the `±` of parameters, and none has any",
         help "give a parameter its uncertainty: `P = \"100 ± 5 W\"`, or with `--set`";
-    /// What is required depends on inputs that change with time: there is no one steady state to
-    /// judge. At least one.
+    /// The requirements depend on inputs that change with time (at least one), so there is no
+    /// single steady state to judge.
     Changing(inputs: Vec<Changing>) = "size::inputs_change",
         "the requirements depend on inputs that change with time, but a steady state is one moment \
          of them";
@@ -34,7 +34,7 @@ pub enum SizeError {
     TooMany { most: usize } = "size::too_many",
         format!("the catalogues have more than {most} combinations"),
         help "choose from one catalogue first, or shorten them";
-    /// A design cannot be judged: its values, and the load case, whose name is empty where there is
+    /// A design cannot be judged: its values, and the load case, with an empty name if there is
     /// none.
     Trial { values: Vec<f64>, case: String, error: Box<TrialError> } = error.code(),
         format!("{}: {error}", place(values, case)),
@@ -48,7 +48,7 @@ impl SizeError {
         Self::Trial { values, case: case.to_owned(), error: Box::new(error) }
     }
 
-    /// Whether no steady state was found, which is not an answer about the network.
+    /// True if no steady state was found, which is not an answer about the network.
     pub(crate) fn is_not_found(&self) -> bool {
         let Self::Trial { error, .. } = self else { return false };
         matches!(
@@ -92,7 +92,7 @@ pub enum TrialError {
     /// Its run failed.
     Run(error: Arc<TransientError>) = error.code(), format!("the run failed: {error}"),
         source error.as_ref(), help error.help(), class not_an_answer(error.class());
-    /// It has no settled cycle.
+    /// It has no periodic steady state.
     Periodic(error: Arc<PeriodicError>) = error.code(),
         format!("there is no periodic steady state: {error}"),
         source error.as_ref(), help error.help(), class not_an_answer(error.class());
@@ -103,7 +103,7 @@ pub enum TrialError {
             Some(error) => format!("`{text}` has no value: {error}"),
             None => format!("`{text}` has no finite value"),
         };
-    /// What is sought has no value; why not, or `None` if it gave no finite number.
+    /// The objective has no value; why not, or `None` if it gave no finite number.
     Objective(error: Option<EvalError>) = "size::objective",
         match error {
             Some(error) => format!("the objective has no value: {error}"),
@@ -126,7 +126,7 @@ impl From<AnalysisError> for TrialError {
     }
 }
 
-/// A network without an answer is no answer of its own.
+/// A network without an answer is an error of the input here.
 fn not_an_answer(class: Class) -> Class {
     match class {
         Class::No => Class::Input,

@@ -1,5 +1,5 @@
-//! How far requirements are from being broken: in steady state, or at every moment of a run or of a
-//! settled cycle, in every load case.
+//! Margins of requirements: in steady state, or at every moment of a run or of a settled cycle, in
+//! every load case.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -15,19 +15,19 @@ use crate::size::aim::Aim;
 use crate::size::error::{SizeError, TrialError};
 use crate::uncertainty::{Inputs, Uncertain};
 
-/// The finest tolerance in K of runs that are judged, if the run itself asks for no finer one. Of a
-/// rise of 1 K ten times this is a part in 1e8.
+/// The finest tolerance in K of runs that are judged, unless the run itself needs a finer one. Ten
+/// times this is 1e-8 of a rise of 1 K.
 const FINE: f64 = 1e-9;
 
-/// How well a design is judged; steady states are always refined to rounding.
+/// The accuracy with which a design is judged; steady states are always refined to rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Care {
     /// To the tolerance of the run.
     Look,
-    /// As well as a run can be.
+    /// As accurate as a run can be.
     Proof,
-    /// As a run with this tolerance in K comes out, steady states as one that follows the network
-    /// from its start.
+    /// A run with this tolerance in K; for a steady state one that follows the network from its
+    /// start.
     Within(f64),
 }
 
@@ -41,30 +41,30 @@ impl Care {
         }
     }
 
-    /// The tolerance in K of the run whose steady state is asked for.
+    /// The tolerance in K of the run to the steady state, if there is one.
     fn within(self) -> Option<f64> {
         if let Self::Within(tolerance) = self { Some(tolerance) } else { None }
     }
 }
 
-/// The error of a run is so many tolerances.
+/// The error of a run in tolerances.
 const ERROR: f64 = 10.0;
 
-/// The settings of a run, or of a cycle, for the parameters of a network; a sentence where there
-/// are none.
+/// The settings of a run, or of a cycle, for the parameters of a network; a sentence if there are
+/// none.
 pub type RunOf<'a> = dyn Fn(&Network) -> Result<RunSettings, String> + Sync + 'a;
 
-/// What watches runs and may interrupt them.
+/// An observer of runs, which may interrupt them.
 pub type Watcher<'a> = dyn Fn(Progress) -> Proceed + Sync + 'a;
 
-/// In which results requirements are judged.
+/// The results in which requirements are judged.
 #[derive(Clone, Copy)]
 pub enum Moments<'a> {
     /// In steady state, with inputs as they are at this time in s.
     Steady(f64),
     /// At every moment of the run.
     Run(&'a RunOf<'a>),
-    /// At every moment of the settled cycle that lasts from start to stop.
+    /// At every moment of the periodic steady state that lasts from start to stop.
     Periodic(&'a RunOf<'a>),
 }
 
@@ -77,32 +77,31 @@ pub struct LoadCase {
     pub set: Vec<(ParameterId, f64)>,
 }
 
-/// How likely something has to be kept, by the `±` of parameters.
+/// The probability of being kept that is required, by the `±` of parameters.
 #[derive(Clone, Copy, Debug)]
 pub struct Doubt<'a> {
     /// The probability, more than 0.5 and less than 1.
     pub probability: f64,
-    /// The parameters that are not certain; `None` where all are.
+    /// The parameters that are not certain; `None` if all are.
     pub inputs: Option<&'a Inputs>,
 }
 
-/// What has to be kept, by which network, and when.
+/// The requirements, with their network and moments.
 #[derive(Clone, Copy)]
 pub struct Demand<'a> {
     /// The network with every parameter at its own value.
     pub network: &'a Network,
-    /// Where it was read, which knows the gears that mesh.
+    /// The netlist it was read from, which knows the gears that mesh.
     pub netlist: &'a Netlist,
-    /// The cases in each of which everything has to be kept; the network as it is where there is
-    /// none.
+    /// The cases in each of which everything has to be kept; the network as it is if there is none.
     pub cases: &'a [LoadCase],
-    /// What has to be kept.
+    /// The requirements.
     pub requirements: &'a [Requirement],
-    /// When.
+    /// The moments at which they have to be kept.
     pub moments: Moments<'a>,
-    /// How likely each requirement has to be kept in each case; `None` where `±` does not count.
+    /// The required probability of each requirement in each case; `None` if `±` does not count.
     pub doubt: Option<Doubt<'a>>,
-    /// What watches the runs.
+    /// The observer of the runs.
     pub watcher: &'a Watcher<'a>,
 }
 
@@ -116,31 +115,31 @@ impl std::fmt::Debug for Demand<'_> {
     }
 }
 
-/// What came of one design.
+/// The results of one design.
 #[derive(Clone, Debug, Default)]
 pub struct Judged {
-    /// How far each requirement is from being broken, in SI units, positive while it is kept: those
-    /// of the first load case, then those of the next. Where a probability is asked for, what is left
+    /// The margin of each requirement, in SI units, positive while it is kept: those of the first
+    /// load case, then those of the next. If a probability is required, the margin that is left
     /// with that probability.
     pub margins: Vec<f64>,
-    /// One standard deviation of each, in SI units, to first order in those of the parameters; empty
-    /// where no probability is asked for.
+    /// One standard deviation of each, in SI units, to first order in those of the parameters;
+    /// empty if no probability is required.
     pub deviations: Vec<f64>,
-    /// What the first order leaves out of each, in SI units: the shift of its mean to second order.
+    /// The error of the first order in each, in SI units: the shift of its mean to second order.
     pub left_out: Vec<f64>,
-    /// When that is, in s; `None` in steady state.
+    /// The time of each least margin in s; `None` in steady state.
     pub worst_at: Vec<Option<f64>>,
     /// The laws that are outside the ranges in which they are known.
     pub out_of_range: Vec<OutOfRange>,
-    /// What is sought where it reads results, in SI units: of several load cases the worst.
+    /// The objective in SI units if it reads results; the worst of several load cases.
     pub objective: Option<f64>,
-    /// By how much in K its temperatures may be off, or in SI units a margin that changes faster than
-    /// steps are looked at; 0 in steady state, which is refined to rounding.
+    /// Error of its temperatures in K, or in SI units that of a margin that changes faster than
+    /// steps are evaluated; 0 in steady state, which is refined to rounding.
     pub error: f64,
 }
 
 impl Judged {
-    /// Whether everything is kept.
+    /// True if everything is kept.
     pub fn keeps(&self) -> bool {
         self.margins.iter().all(|margin| *margin >= 0.0)
     }
@@ -149,7 +148,7 @@ impl Judged {
 /// Judges designs: networks that differ by parameters. Nothing is parsed, the structure is shared.
 pub(crate) struct Judge<'a> {
     demand: Demand<'a>,
-    /// What is sought, where it reads results.
+    /// The objective, if it reads results.
     sought: Option<Aim<'a>>,
     base: Network,
     count: AtomicUsize,
@@ -157,12 +156,12 @@ pub(crate) struct Judge<'a> {
 
 impl<'a> Judge<'a> {
     /// # Errors
-    /// [`SizeError`] if nothing is required, or what cannot be judged in steady state.
+    /// [`SizeError`] if there is no requirement, or one that cannot be judged in steady state.
     pub(crate) fn new(demand: Demand<'a>) -> Result<Self, SizeError> {
         Self::seeking(demand, None)
     }
 
-    /// The same; what is sought is read from each steady state.
+    /// The same; the objective is read from each steady state.
     pub(crate) fn seeking(demand: Demand<'a>, sought: Option<Aim<'a>>) -> Result<Self, SizeError> {
         if demand.requirements.is_empty() {
             return Err(SizeError::NoRequirement);
@@ -181,13 +180,13 @@ impl<'a> Judge<'a> {
                 }
                 demand.network.clone()
             }
-            // limits are looked at between rows and steps
+            // limits are evaluated between rows and steps
             _ => demand.network.requiring(limits),
         };
         Ok(Self { demand, sought, base, count: AtomicUsize::new(0) })
     }
 
-    /// How many networks were solved.
+    /// Number of networks that were solved.
     pub(crate) fn count(&self) -> usize {
         self.count.load(Ordering::Relaxed)
     }
@@ -221,9 +220,10 @@ impl<'a> Judge<'a> {
         Ok(all)
     }
 
-    /// Takes from every margin what the `±` of parameters may take with a probability: margins are
-    /// straight in the parameters and normal. Each parameter is moved by one standard deviation to
-    /// either side of where the design and the case have it, with what is correlated with it.
+    /// Subtracts from every margin the part that the `±` of parameters may take with a probability:
+    /// margins are linear in the parameters and normal. Each parameter, with those correlated to
+    /// it, is moved by one standard deviation to either side of its value in the design and the
+    /// case.
     fn doubt(
         &self,
         judged: &mut Judged,
@@ -313,7 +313,7 @@ impl<'a> Judge<'a> {
         self.asked(&network, care)
     }
 
-    /// One network, over what is asked for.
+    /// The results of one network, over the moments of the demand.
     fn asked(&self, network: &Network, care: Care) -> Result<Judged, TrialError> {
         let analysis = self.analysis(network, care)?;
         let system = ThermalSystem::assemble(network)?;
@@ -325,7 +325,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Limits are looked at between the rows of a run anyway.
+    /// The analysis over these moments. Limits are evaluated between the rows of a run anyway.
     fn analysis(&self, network: &Network, care: Care) -> Result<Analysis, TrialError> {
         let run = |of: &RunOf<'_>| {
             let settings = of(network).map_err(TrialError::Settings)?;
@@ -364,8 +364,8 @@ impl<'a> Judge<'a> {
         })
     }
 
-    /// What is said of the requirements, whose limits stand behind those of the network; `more` is
-    /// the error in K besides that of the run.
+    /// Results for the requirements, whose limits are after those of the network; `more` is the
+    /// error in K in addition to that of the run.
     fn over_time(
         &self,
         (solution, trust): (&Solution, &Trust),
@@ -399,7 +399,7 @@ fn finite(found: Result<f64, EvalError>) -> Result<f64, Option<EvalError>> {
     }
 }
 
-/// What is left of every requirement in the network as it is.
+/// The margins of every requirement in the network as it is.
 ///
 /// # Errors
 /// [`SizeError`] if it cannot be solved or a requirement has no value.

@@ -1,4 +1,4 @@
-//! Sizing: what a cooling has to do, the value of a parameter that keeps what is required, and
+//! Sizing: the cooling that is needed, the value of a parameter that keeps the requirements, and
 //! the best of several parameters and of parts.
 //!
 //! A requirement of a study becomes a limit of the network that is run (`Network::requiring`).

@@ -1,4 +1,4 @@
-//! Where a function of one variable changes its sign.
+//! Sign change of a function of one variable.
 
 /// Most steps; bisection alone needs 52 to use up the digits of a number, Brent's method at most
 /// the square of that.
@@ -8,15 +8,14 @@ const MOST_STEPS: usize = 3000;
 pub(crate) type Point = (f64, f64);
 
 /// Narrows a bracket between a point where `f` is not negative and one where it is, to neighbouring
-/// numbers or to a share of their size, and gives them: the last one at which everything is kept, and
-/// the first at which something is broken.
+/// numbers or to a share of their size, and gives them: the last one at which everything is kept,
+/// and the first at which something is broken.
 ///
 /// Brent's method: R. P. Brent, Algorithms for Minimization without Derivatives, 1973, chapter 4:
-/// inverse quadratic interpolation or the secant where they make progress, bisection where they do
-/// not.
+/// inverse quadratic interpolation or the secant if they make progress, else bisection.
 ///
 /// # Errors
-/// What `f` reports.
+/// The error of `f`.
 pub(crate) fn last_kept<E>(
     kept: Point,
     broken: Point,

@@ -1,9 +1,8 @@
 //! The best value of a parameter that keeps every requirement.
 //!
-//! The range is looked at in [`POINTS`] places first, so that a requirement that is kept in the
-//! middle only is found and one that breaks again behind the answer is told. Then the border
-//! nearest to the best end is narrowed to neighbouring numbers, with the full network at every
-//! step.
+//! The range is evaluated at [`POINTS`] points first, so that a requirement kept only in the middle
+//! is found, and one that breaks again beyond the answer is reported. Then the border nearest to
+//! the best end is narrowed to neighbouring numbers, with the full network at every step.
 
 use lptn_netlist::Goal;
 
@@ -12,21 +11,21 @@ use crate::size::error::SizeError;
 use crate::size::judge::{Care, Judge, Moments};
 use crate::size::root::{last_kept, norton_guess};
 
-/// Places at which the range is looked at.
+/// Points at which the range is evaluated.
 const POINTS: usize = 25;
 
-/// A range that spans more than this is looked at in equal ratios rather than in equal steps.
+/// A range that spans more than this factor is divided in equal ratios instead of equal steps.
 pub(crate) const WIDE: f64 = 10.0;
 
-/// Steps of the search for a value that keeps what no place looked at keeps: golden section, 2e-9
-/// of its interval. Half of them, 4e-5, where margins carry the error of a run: at the top they hardly
-/// change.
+/// Steps of the search for a value that keeps every requirement if no point does: golden section,
+/// to 2e-9 of its interval. Half of them, to 4e-5, if margins have the error of a run: at the top
+/// they hardly change.
 const GOLDEN_STEPS: usize = 42;
 
-/// Where margins carry the error of a run, values that differ by this share are not told apart.
+/// Values that differ by less than this share are the same if margins have the error of a run.
 const RESOLUTION: f64 = 1e-12;
 
-/// What counts as the worst margin, as a share of its scale, of a value without a steady state.
+/// The worst margin of a value without a steady state, as a share of its scale.
 const NOT_KEPT: f64 = -1.0;
 
 /// Relative change of the parameter for its sensitivity.
@@ -71,7 +70,7 @@ pub fn size(task: &SizeTask<'_>) -> Result<Sizing, SizeError> {
     })
 }
 
-/// The places of the first look, the best end of the range first; the ends are exact.
+/// The points of the first evaluation, the best end of the range first; the ends are exact.
 fn places(task: &SizeTask<'_>) -> impl Iterator<Item = f64> + use<> {
     let (best, worst) = match task.goal {
         Goal::Minimise => task.range,
@@ -111,17 +110,17 @@ impl Trials<'_> {
         Ok(Trial { value, judged })
     }
 
-    /// A look at a value.
+    /// A rough evaluation of a value.
     fn look(&self, value: f64) -> Result<Trial, SizeError> {
         self.with(value, Care::Look)
     }
 
-    /// As well as it can be known.
+    /// The most accurate evaluation of a value.
     pub(super) fn at(&self, value: f64) -> Result<Trial, SizeError> {
         self.with(value, Care::Proof)
     }
 
-    /// Whether margins are exact to rounding.
+    /// True if margins are exact to rounding.
     pub(super) fn exact(&self) -> bool {
         matches!(self.task.demand.moments, Moments::Steady(_))
     }
@@ -153,7 +152,7 @@ impl Found {
     }
 }
 
-/// Where a requirement is broken.
+/// The border at which a requirement breaks.
 struct Border {
     /// The last trial that keeps everything.
     trial: Trial,
@@ -168,7 +167,7 @@ impl Search<'_> {
         trial.judged.margins.iter().zip(&self.scale).map(|(margin, scale)| margin / scale)
     }
 
-    /// The least margin as a share of its scale: not negative where everything is kept.
+    /// The least margin as a share of its scale: not negative if everything is kept.
     pub(super) fn worst(&self, trial: &Trial) -> f64 {
         self.shares(trial).fold(f64::INFINITY, f64::min)
     }
@@ -182,7 +181,7 @@ impl Search<'_> {
         self.worst(trial) >= 0.0
     }
 
-    /// The trial at a place, as well as it can be known.
+    /// The trial at a place, as accurate as possible.
     fn proven(&self, place: usize) -> Result<Trial, SizeError> {
         let trial = &self.scan[place];
         if self.trials.exact() { Ok(trial.clone()) } else { self.trials.at(trial.value) }
@@ -201,9 +200,9 @@ impl Search<'_> {
         Ok(found)
     }
 
-    /// The first place at which everything is kept, from place `k` on, which a look holds to be it;
-    /// what is broken at the one before it, unless it is the best end. A look may mistake a place
-    /// that is nearer to the border than its error.
+    /// The first place with everything kept, searched from place `k`, the first that a rough
+    /// evaluation keeps; also the broken trial before it, unless it is the best end. A rough
+    /// evaluation may err at a place that is nearer to the border than its error.
     fn bracket(&self, mut k: usize) -> Result<Option<(usize, Option<Trial>, Trial)>, SizeError> {
         let mut kept = self.proven(k)?;
         while !self.keeps(&kept) {
@@ -224,8 +223,8 @@ impl Search<'_> {
         Ok(Some((0, None, kept)))
     }
 
-    /// The last trial on the way from `kept` to `broken` that keeps everything; at an edge one that is
-    /// far enough from it.
+    /// The last trial on the way from `kept` to `broken` that keeps everything; at an edge one that
+    /// is far enough from it.
     fn at_border(&self, broken: &Trial, kept: &Trial) -> Result<Found, SizeError> {
         let Border { trial, beyond, first_guess } = self.border(broken, kept)?;
         let edge = self.edge(&trial, beyond)?;
@@ -254,7 +253,7 @@ impl Search<'_> {
         }
         let point = |trial: &Trial| (trial.value, self.worst(trial));
         let mut worst = |value| match self.trials.at(value) {
-            // just where two steady states end none is found
+            // no steady state is found exactly where two of them end
             Err(error) if error.is_not_found() => Ok(NOT_KEPT),
             trial => trial.map(|trial| self.worst(&trial)),
         };
@@ -264,7 +263,7 @@ impl Search<'_> {
         Ok(Border { trial: self.trials.at(value)?, beyond, first_guess: guess })
     }
 
-    /// Where a requirement breaks behind place `k`, at which everything is kept.
+    /// The value at which a requirement breaks beyond place `k`, at which everything is kept.
     fn breaks_after(&self, k: usize) -> Result<Option<f64>, SizeError> {
         let behind = self.scan.iter().enumerate().skip(k + 1);
         let Some((at, _)) = behind.into_iter().find(|(_, trial)| !self.keeps(trial)) else {
@@ -273,7 +272,7 @@ impl Search<'_> {
         let (kept, broken) = (self.proven(at - 1)?, self.proven(at)?);
         match (self.keeps(&kept), self.keeps(&broken)) {
             (true, false) => self.border(&broken, &kept).map(|border| Some(border.trial.value)),
-            // the border is there, as nearly as a look can tell
+            // the border is there, as nearly as a rough evaluation can locate it
             (false, _) => Ok(Some(kept.value)),
             (true, true) => Ok(Some(broken.value)),
         }
@@ -285,7 +284,7 @@ impl Search<'_> {
         let by_worst = |a: &usize, b: &usize| {
             self.worst(&self.scan[*a]).total_cmp(&self.worst(&self.scan[*b]))
         };
-        // of equals the first, which is nearer to the best end
+        // the first of equal ones, which is nearer to the best end
         let best = (0..self.scan.len()).rev().max_by(by_worst).unwrap_or(0);
         let near = [best.saturating_sub(1), best, (best + 1).min(self.scan.len() - 1)];
         let [low, middle, high] = near.map(|place| self.proven(place));

@@ -1,10 +1,10 @@
 //! Several parameters at once: the best of something, with everything kept.
 //!
-//! The box is looked at in places that fill it evenly; from the best of them a search goes on with
-//! derivatives, at first as well as a look can tell, at last as well as a run can be. What it comes to
-//! is a local minimum at best, and it is brought to the side on which everything is kept.
+//! The box is evaluated at points that fill it evenly. From the best of them a search with
+//! derivatives goes on, at first with rough evaluations, at last with the most accurate ones. The
+//! result is a local minimum at best; it is moved to the side on which everything is kept.
 //!
-//! Several parameters are searched from values alone, because peaks over a run have kinks where
+//! Several parameters are searched from values alone, because peaks over a run have kinks when
 //! another moment becomes the highest. Differences of runs to 1e-9 K serve as derivatives. The last
 //! step goes along the way from a point that keeps everything, and needs none.
 
@@ -25,44 +25,44 @@ const PLACES: usize = 16;
 /// Not more places than these.
 const MOST_PLACES: usize = 512;
 
-/// Of more parameters the corners of the box are not all looked at.
+/// With more parameters than this the corners of the box are not all evaluated.
 const MOST_CORNERS: usize = 6;
 
 /// Searches that begin in different parts of the box.
 const STARTS: usize = 4;
 
-/// They begin so far apart, as a share of the box.
+/// Least distance of their starts, as a share of the box.
 const APART: f64 = 0.2;
 
-/// A search as well as a look can tell, and as well as a run can be.
+/// The effort of a search with rough evaluations, and with the most accurate ones.
 const ROUGH: Effort = Effort { step: 1e-3, accuracy: 1e-6, iterations: 60 };
 const FINE: Effort = Effort { step: 1e-4, accuracy: 1e-12, iterations: 60 };
 
-/// What is to be sized.
+/// A task of sizing several parameters.
 #[derive(Clone, Debug)]
 pub struct SeveralTask<'a> {
-    /// What has to be kept.
+    /// The requirements.
     pub demand: Demand<'a>,
-    /// What the best design has least or most of.
+    /// The objective of the best design.
     pub aim: Aim<'a>,
     /// The parameters, and the least and largest value that each may take, in SI units.
     pub varied: Vec<(ParameterId, (f64, f64))>,
-    /// How many threads may work; the result is the same.
+    /// Number of threads; the result does not depend on it.
     pub threads: usize,
 }
 
-/// What came of sizing.
+/// The result of sizing several parameters.
 #[derive(Clone, Debug)]
 pub struct Several {
-    /// The best design that keeps everything; where there is none, the one that comes closest.
+    /// The best design that keeps everything; if there is none, the one that comes closest.
     pub design: Design,
-    /// Whether it keeps everything.
+    /// True if it keeps everything.
     pub feasible: bool,
     /// The requirements that bind, by their positions among the margins.
     pub binding: Vec<usize>,
-    /// The designs that were looked at first.
+    /// The designs that were evaluated first.
     pub looked_at: Vec<Design>,
-    /// How many networks were solved.
+    /// Number of networks that were solved.
     pub solved: usize,
 }
 
@@ -95,12 +95,12 @@ fn places(n: usize) -> Vec<Vec<f64>> {
     let count = (PLACES << n.min(MOST_CORNERS)).min(MOST_PLACES);
     let corners = if n <= MOST_CORNERS { 1_usize << n } else { 0 };
     let corner = |k: usize| (0..n).map(|i| f64::from(u8::from(k >> i & 1 == 1))).collect();
-    // Halton's points: in each coordinate the digits of the number behind the point, in reverse
+    // Halton's points: each coordinate has the digits of the number after the point, reversed
     let inside = |k: usize| (0..n).map(|i| reversed(k + 1, prime(i))).collect();
     (0..corners).map(corner).chain((0..count).map(inside)).collect()
 }
 
-/// A number between 0 and 1 with the digits of `k` behind the point, the last one first.
+/// A number between 0 and 1 with the digits of `k` after the point, the last one first.
 fn reversed(mut k: usize, base: usize) -> f64 {
     let (mut value, mut digit) = (0.0, 1.0);
     while k > 0 {
@@ -116,7 +116,7 @@ fn prime(i: usize) -> usize {
     (2..).filter(is_prime).nth(i).unwrap_or(2)
 }
 
-/// The values at a place of the unit box: in equal ratios where the range is wide.
+/// The values at a place of the unit box: in equal ratios if the range is wide.
 fn values(task: &SeveralTask<'_>, place: &[f64]) -> Vec<f64> {
     let of = task.varied.iter().zip(place);
     of.map(|(&(_, (from, to)), &share)| match share {
@@ -133,7 +133,7 @@ struct Search<'a> {
     designs: &'a Designs<'a>,
     places: Vec<Vec<f64>>,
     looked_at: Vec<Design>,
-    /// The largest size of each margin, and the spread of what is sought.
+    /// The largest size of each margin, and the spread of the objective.
     scale: Vec<f64>,
     spread: f64,
 }
@@ -164,8 +164,8 @@ impl<'a> Search<'a> {
         shares.fold(f64::INFINITY, f64::min)
     }
 
-    /// The better of two comes first: what keeps everything by what is sought, what does not by how
-    /// far it fails.
+    /// The better of two comes first: designs that keep everything by the objective, the others by
+    /// how far they fail.
     fn order(&self, a: &Design, b: &Design) -> std::cmp::Ordering {
         let rank = |design: &Design| match self.worst(design) {
             worst if worst >= 0.0 => (0.0_f64, self.designs.cost(design.objective)),
@@ -203,7 +203,7 @@ impl<'a> Search<'a> {
         let first = ranked.first().map(|&k| (self.places[k].clone(), self.looked_at[k].clone()));
         found.extend(first.clone());
         found.sort_by(|a, b| self.order(&a.1, &b.1));
-        // what a look holds to be broken may only touch
+        // a requirement that a rough evaluation breaks may only touch its limit
         let near = found.iter().position(|(_, design)| self.worst(design) >= -ROUGH.accuracy);
         let start = &found[near.unwrap_or(0)].0;
         let place = self.search(start, (Care::Proof, FINE))?;
@@ -236,7 +236,7 @@ impl<'a> Search<'a> {
         starts
     }
 
-    /// The last place on the way to a found one at which everything is kept, from one that keeps it.
+    /// The last place with everything kept on the way from a kept place to a found one.
     fn on_the_kept_side(&self, found: Found, anchor: Option<&Found>) -> Result<Found, SizeError> {
         let Some((from, kept)) = anchor.filter(|_| !found.1.judged.keeps()) else {
             return Ok(found);
@@ -271,7 +271,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// A requirement binds whose margin is less than this part of what a step of so much of the box
-/// changes.
+/// A requirement binds if its margin is less than [`SMALL`] times its change over this step of the
+/// box.
 const NEAR: f64 = 1e-3;
 const SMALL: f64 = 1e-2;

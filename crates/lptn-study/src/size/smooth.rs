@@ -1,5 +1,5 @@
-//! Constrained minimisation in a box by sequential least squares, from values alone: the one place
-//! that knows the library.
+//! Constrained minimisation in a box by sequential least squares, from values alone: the only
+//! module that knows the library.
 
 use std::cell::RefCell;
 
@@ -10,25 +10,25 @@ use basin::{
     SelectedFirstOrderState, Slsqp, State,
 };
 
-/// Something to make small, and what must not be negative, both of order 1.
+/// An objective to minimise, and values that must not be negative, all of order 1.
 pub(crate) type Values = (f64, Vec<f64>);
 
-/// How far the search goes.
+/// The effort of a search.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Effort {
     /// The step of differences, as a share of the box.
     pub(crate) step: f64,
-    /// The error of the objective and of what must not be negative.
+    /// The error of the objective and of the values that must not be negative.
     pub(crate) accuracy: f64,
     pub(crate) iterations: u64,
 }
 
-/// The place in the unit box that Kraft's sequential least-squares programming comes to from a start
-/// (D. Kraft, DFVLR-FB 88-28, 1988), with derivatives by central differences. It may break what must
-/// not be negative by the accuracy, and it is a local minimum at best: whoever asks has to look at it.
+/// The place in the unit box that Kraft's sequential least-squares programming reaches from a start
+/// (D. Kraft, DFVLR-FB 88-28, 1988), with derivatives by central differences. A constraint may be
+/// negative by the accuracy, and the result is a local minimum at best: the caller has to check it.
 ///
 /// # Errors
-/// What the function reports.
+/// The error of the function.
 pub(crate) fn minimise<E: 'static>(
     function: &dyn Fn(&[f64]) -> Result<Values, E>,
     (start, count): (&[f64], usize),
@@ -58,7 +58,7 @@ pub(crate) fn minimise<E: 'static>(
     })
 }
 
-/// Of so many places the values are kept.
+/// Number of places whose values are kept.
 const KEPT: usize = 64;
 
 struct Smooth<'a, E> {
@@ -72,7 +72,7 @@ struct Smooth<'a, E> {
     failed: RefCell<Option<E>>,
 }
 
-/// That the function failed; why is kept beside.
+/// The function failed; the reason is stored in [`Smooth`].
 #[derive(Debug)]
 struct Failed;
 
@@ -142,13 +142,13 @@ impl<E> Gradient for &Smooth<'_, E> {
     type Gradient = Vec<f64>;
 
     fn gradient(&self, x: &Vec<f64>) -> Result<Vec<f64>, Failed> {
-        // asked for at places that are accepted
+        // called at places that are accepted
         self.best.borrow_mut().clone_from(x);
         (0..x.len()).map(|i| self.slope(x, i).map(|slope| slope.0)).collect()
     }
 }
 
-/// Of the library, where a constraint is kept while it is not positive.
+/// The library's convention: a constraint is kept while it is not positive.
 impl<E> NonlinearInequalityValues for &Smooth<'_, E> {
     type Param = Vec<f64>;
     type Values = Vec<f64>;

@@ -1,4 +1,4 @@
-//! The values of each candidate: what case `k` is follows from the study and `k` alone.
+//! The values of each candidate: case `k` follows from the study and `k` alone.
 //!
 //! A Latin hypercube comes from a permutation that is computed and not stored. Threads, stops and
 //! parts of a cluster cannot change a row, and memory does not grow with the number of candidates.
@@ -13,12 +13,12 @@ use crate::uncertainty::points;
 #[derive(Clone, Debug)]
 pub struct Cases {
     plan: SweepPlan,
-    /// For each axis how many candidates have one value before the next one, in a grid.
+    /// For each axis of a grid, the number of candidates with one value before the next value.
     strides: Vec<u64>,
 }
 
 impl Cases {
-    /// Those of a plan.
+    /// The candidates of a plan.
     pub fn new(plan: SweepPlan) -> Self {
         let mut strides = vec![1_u64; plan.axes.len()];
         for axis in (1..plan.axes.len()).rev() {
@@ -28,7 +28,7 @@ impl Cases {
         Self { plan, strides }
     }
 
-    /// How many there are.
+    /// Number of candidates.
     pub fn count(&self) -> u64 {
         self.plan.cases
     }

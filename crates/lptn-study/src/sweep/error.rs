@@ -4,10 +4,10 @@ use lptn_network::Changing;
 use lptn_solve::PeriodicError;
 
 lptn_units::errors! {
-/// Why nothing is swept. That a candidate fails is an answer and not an error.
+/// Why nothing is swept. A candidate that fails is an answer and not an error.
 #[derive(Debug)]
 pub enum SweepError {
-    /// What is reported of a steady state depends on inputs that change with time. At least one.
+    /// A report of a steady state depends on inputs that change with time. At least one.
     Changing(inputs: Vec<Changing>) = "sweep::inputs_change",
         "the reports depend on inputs that change with time, but a steady state is one moment of \
          them",
@@ -17,7 +17,7 @@ pub enum SweepError {
     NoPeriod = "sweep::no_period",
         "no signal is repeated, so the length of the cycle is not known",
         help "give the time after which all inputs repeat: `period = \"10 min\"`";
-    /// The cycle is none at the netlist's own values.
+    /// There is no cycle at the netlist's own values.
     Periodic => PeriodicError;
 }
 }

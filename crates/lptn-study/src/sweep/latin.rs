@@ -1,8 +1,8 @@
-//! Latin hypercubes whose samples can be had one by one, in any order and without memory.
+//! Latin hypercubes whose samples are computed one by one, in any order and without memory.
 
 /// The place of sample `index` of `count` in a permutation: A. Kensler, Correlated Multi-Jittered
-/// Sampling, Pixar Technical Memo 13-01 (2013), listing 2, whose steps are a bijection of a power of
-/// two that is walked until it comes back below `count`.
+/// Sampling, Pixar Technical Memo 13-01 (2013), listing 2, whose steps are a bijection of a power
+/// of two that is walked until it comes back below `count`.
 fn permuted(index: u32, count: u32, seed: u32) -> u32 {
     let mut mask = count - 1;
     for shift in [1, 2, 4, 8, 16] {
@@ -41,7 +41,7 @@ fn mixed(bits: u64) -> u64 {
     bits ^ (bits >> 31)
 }
 
-/// One coordinate of one sample, between 0 and 1: each of the `count` cells of an axis holds one
+/// One coordinate of one sample, between 0 and 1: each of the `count` cells of an axis has one
 /// sample, anywhere inside.
 pub(super) fn sample(index: u64, count: u64, axis: usize, seed: u32) -> f64 {
     const DOUBLE: f64 = 1.0 / (1_u64 << 53) as f64;
@@ -60,7 +60,7 @@ pub(super) fn sample(index: u64, count: u64, axis: usize, seed: u32) -> f64 {
 mod tests {
     use super::sample;
 
-    /// What makes a Latin hypercube: each cell of each axis holds one sample.
+    /// The defining property of a Latin hypercube: each cell of each axis has one sample.
     #[test]
     fn every_cell_of_every_axis_holds_one_sample() {
         for count in [1, 2, 3, 7, 64, 100, 1000] {

@@ -6,22 +6,22 @@ use lptn_solve::{CourseSeen, FollowedQuantity, LinearVariants, Look};
 
 use crate::sweep::task::{Candidate, Seen, SweepTask, taken};
 
-/// A sweep whose candidates are solved in closed form. What this cannot answer for a candidate is
-/// left to [`SweepTask::candidate`], so that every row is the same however the sweep is cut.
+/// A sweep whose candidates are solved in closed form. A candidate that has no closed form is left
+/// to [`SweepTask::candidate`], so that every row is the same however the sweep is divided.
 pub struct LinearSweep<'a> {
     task: &'a SweepTask,
     linear: LinearVariants<'a>,
     quantities: Vec<FollowedQuantity<'a>>,
     /// Start and stop of the run in s, the times between at which inputs bend, and its tolerance in
-    /// K; of a steady state the time of its inputs.
+    /// K; for a steady state the time of its inputs.
     span: (f64, f64),
     breakpoints: Vec<f64>,
     tolerance: f64,
 }
 
 impl<'a> LinearSweep<'a> {
-    /// For a sweep over steady states or runs of a small linear network, whose reports go in
-    /// straight lines with temperatures and heat flows; `None` for others.
+    /// For a sweep over steady states or runs of a small linear network, whose reports are linear
+    /// in temperatures and heat flows; `None` for others.
     pub fn new(task: &'a SweepTask) -> Option<Self> {
         let (network, netlist) = (task.network(), task.netlist());
         let changed: Vec<ParameterId> = task.cases().parameters().collect();
@@ -35,7 +35,7 @@ impl<'a> LinearSweep<'a> {
             SweepOver::Run => {
                 let run = netlist.run.as_ref()?;
                 let fixed = !netlist.run_values().any(|v| network.depends_on(v, &changed));
-                // a closed form has no energy balance to hold to a share of its own
+                // a closed form has no energy balance to check against a given share
                 let chosen =
                     run.integrator != IntegratorChoice::Auto || run.balance_error.is_some();
                 if !fixed || chosen || !linear.runs() || !network.ranged().is_empty() {
@@ -50,7 +50,7 @@ impl<'a> LinearSweep<'a> {
         known.then_some(Self { task, linear, quantities, span, breakpoints, tolerance })
     }
 
-    /// Solves a candidate; `false` where it has to be solved as others are.
+    /// Solves a candidate; `false` if it has to be solved as others are.
     pub fn solve(&mut self, case: u64, candidate: &mut Candidate) -> bool {
         candidate.values.resize(self.task.cases().parameters().len(), 0.0);
         self.task.cases().values(case, &mut candidate.values);
@@ -84,7 +84,7 @@ impl<'a> LinearSweep<'a> {
     }
 }
 
-/// What the reports over time follow.
+/// The quantities that the reports over time follow.
 fn followed<'a>(task: &'a SweepTask) -> Option<Vec<FollowedQuantity<'a>>> {
     let timed = task.study().reports.iter().filter(|r| r.functional != Functional::Value);
     timed

@@ -1,4 +1,4 @@
-//! Many candidates: values of parameters, and what is reported of each.
+//! Many candidates: values of parameters, and reports of each.
 //!
 //! The rows of `lptn sweep` grow in a file with its own name (`sweep.csv.part`). The record of its
 //! inputs, parameters and version is written next to it before the first row. `--resume` accepts no

@@ -12,17 +12,17 @@ use lptn_solve::{ColumnSeen, Proceed, Selection, Solution, SteadyState, Window};
 use crate::sweep::cases::Cases;
 use crate::sweep::error::SweepError;
 
-/// The code where a report is no number.
+/// The code of a report that is not a number.
 const NOT_FINITE: &str = "sweep::not_finite";
 
-/// What came of a candidate.
+/// The results of a candidate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Candidate {
     /// The values of the axes, in SI units.
     pub values: Vec<f64>,
-    /// What is reported, in SI units and in the order of the study; NaN where it failed.
+    /// The reports in SI units and in the order of the study; NaN if it failed.
     pub reports: Vec<f64>,
-    /// How many laws were outside of the ranges in which they are known.
+    /// Number of laws outside of the ranges in which they are known.
     pub outside: usize,
     /// The code of the error that it failed with.
     pub failed: Option<&'static str>,
@@ -49,7 +49,7 @@ pub struct SweepTask {
     netlist: Netlist,
     study: SweepStudy,
     cases: Cases,
-    /// The network with what is reported as its further reports.
+    /// The network with the reports of the study as its further reports.
     network: Network,
     reports: Vec<ReportId>,
     /// The columns of those that are taken over time.
@@ -58,7 +58,7 @@ pub struct SweepTask {
 }
 
 impl SweepTask {
-    /// Looks at what can be known before any candidate is solved.
+    /// Prepares a sweep and checks everything that is known before a candidate is solved.
     ///
     /// # Errors
     /// [`SweepError`].
@@ -116,7 +116,7 @@ impl SweepTask {
         &self.study
     }
 
-    /// The network with the netlist's own values and what is reported.
+    /// The network with the netlist's own values and the reports of the study.
     pub fn network(&self) -> &Network {
         &self.network
     }
@@ -136,7 +136,7 @@ impl SweepTask {
         self.cases.plan().period.or_else(|| network.repeat_period().ok().flatten())
     }
 
-    /// Solves one candidate; `None` where `control` interrupted it.
+    /// Solves one candidate; `None` if `control` interrupted it.
     pub fn candidate(&self, case: u64, control: &dyn Fn() -> Proceed) -> Option<Candidate> {
         let mut values = vec![0.0; self.cases.parameters().len()];
         self.cases.values(case, &mut values);
@@ -197,7 +197,7 @@ impl SweepTask {
         })
     }
 
-    /// A run that looks at what is reported over the whole of it, and keeps nothing else.
+    /// A run that takes the reports over the whole of it, and keeps nothing else.
     fn run(&self, network: &Network, settings: &RunSettings) -> RunAnalysis {
         let (name, of) = (self.study.name.clone(), self.columns.clone());
         let window = Window { name, from: settings.start, to: settings.stop, of };
@@ -236,13 +236,13 @@ impl SweepTask {
     }
 }
 
-/// What was seen of a quantity over a run.
+/// Statistics of a quantity over a run.
 pub(super) struct Seen {
     pub(super) last: f64,
     pub(super) min: f64,
     pub(super) max: f64,
     pub(super) mean: f64,
-    /// For how long it was above zero, in s.
+    /// Total time in s for which it was above zero.
     pub(super) positive: f64,
 }
 
@@ -251,8 +251,8 @@ fn of_column(column: &ColumnSeen) -> Seen {
     Seen { last, min: min.0, max: max.0, mean, positive }
 }
 
-/// What a functional takes of what was seen over a run of this length in s; `life` is that at the
-/// reference in s.
+/// The value of a functional from the statistics over a run of this length in s; `life` is that at
+/// the reference in s.
 pub(super) fn taken(
     functional: Functional,
     seen: &Seen,

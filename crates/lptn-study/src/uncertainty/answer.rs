@@ -1,4 +1,4 @@
-//! One number of a run, how uncertain it is, and what makes it so.
+//! One number of a run, its uncertainty, and the contributions to it.
 
 use std::borrow::Cow;
 
@@ -14,7 +14,7 @@ pub enum AnswerOf {
     /// Its highest temperature, between the rows too, in K.
     Max(NodeId),
     /// The least margin of a limit in SI units of its quantity, a difference in K for temperatures;
-    /// negative where it is broken.
+    /// negative if it is broken.
     Margin(LimitId),
 }
 
@@ -30,29 +30,29 @@ impl AnswerOf {
     }
 }
 
-/// What one parameter does to an answer.
+/// The contribution of one parameter to an answer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contribution {
     /// The parameter, as its place in
     /// [`Uncertainty::inputs`](crate::uncertainty::Uncertainty::inputs).
     pub input: usize,
-    /// What one standard deviation more of the parameter adds to the answer, in its unit: exact for
-    /// a small deviation where the method is linear, the mean slope over the samples else, the
-    /// others held.
+    /// Change of the answer, in its unit, with one standard deviation more of the parameter and the
+    /// others fixed: exact for a small deviation if the method is linear, else the mean slope over
+    /// the samples.
     pub effect: f64,
     /// The share of the answer's variance that this parameter makes by itself, its first-order
-    /// index. Where parameters are correlated no such share is defined; then it is the effect times
-    /// the covariance of the answer and the parameter (J. W. Pratt, Proc. 2nd Int. Tampere Conf.
+    /// index. For correlated parameters no such share is defined; then it is the effect times the
+    /// covariance of the answer and the parameter (J. W. Pratt, Proc. 2nd Int. Tampere Conf.
     /// Statistics (1987) 245), which may be negative: shares add up to the part of the variance
-    /// that straight lines tell.
+    /// that straight lines explain.
     pub share: Estimate,
-    /// The share that it makes by itself and together with others, its total index; `None` where
-    /// the method is linear, which knows no together, and where parameters are correlated.
+    /// The share that it makes by itself and together with others, its total index; `None` if the
+    /// method is linear, which has no interactions, and if parameters are correlated.
     pub total: Option<Estimate>,
 }
 
 impl Contribution {
-    /// What the ranking goes by: the total share, or the share where there is no total.
+    /// The weight in the ranking: the total share, or the share if there is no total.
     pub fn weight(&self) -> f64 {
         self.total.unwrap_or(self.share).value
     }
@@ -61,7 +61,7 @@ impl Contribution {
 /// One answer of a run with its uncertainty.
 #[derive(Clone, Debug)]
 pub struct Answer {
-    /// Which number of the run it is.
+    /// The number of the run.
     pub of: AnswerOf,
     /// Its value in SI units with every parameter at its own.
     pub value: f64,
@@ -69,18 +69,18 @@ pub struct Answer {
     pub deviation: Estimate,
     /// 2.5 % of the answers are below this.
     pub low: Estimate,
-    /// Half of the answers are below this; `None` where the method is linear: it is the value.
+    /// Half of the answers are below this; `None` if the method is linear: it is the value.
     pub median: Option<Estimate>,
     /// 2.5 % of the answers are above this.
     pub high: Estimate,
-    /// The share of answers below zero: of a margin the probability that the limit is broken.
+    /// The share of answers below zero: for a margin the probability that the limit is broken.
     pub below_zero: Estimate,
     /// Every uncertain parameter, the one that matters most first.
     pub ranking: Vec<Contribution>,
 }
 
 impl Answer {
-    /// Sorts the parameters by weight; of equals the first one of the network stays first.
+    /// Sorts the parameters by weight; equal ones stay in the order of the network.
     pub(crate) fn sorted(mut self) -> Self {
         self.ranking.sort_by(|a, b| b.weight().total_cmp(&a.weight()));
         self

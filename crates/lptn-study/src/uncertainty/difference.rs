@@ -1,4 +1,4 @@
-//! Where straight lines do not tell what happens.
+//! Differences between the linear and the sampled uncertainty.
 
 use lptn_network::NodeId;
 use lptn_units::statistics::NORMAL_95;
@@ -17,7 +17,7 @@ const NOISE: f64 = 2.0 * 2.671;
 /// A band that the linear method gives wrongly.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Discrepancy {
-    /// What it is the band of: the end stands for the row at `time` here.
+    /// The answer whose band it is; `End` means the row at `time` here.
     pub of: AnswerOf,
     /// The time in s of a row; `None` for a maximum or a margin.
     pub time: Option<f64>,
@@ -29,9 +29,9 @@ pub struct Discrepancy {
     pub part: f64,
 }
 
-/// Where the two methods, asked the same, differ by more than a tenth of the band: for each node
-/// the row where they differ most, then maxima and margins; what the number of samples cannot tell
-/// does not count. `least` in K is the width below which a band is that of the solver.
+/// Differences of the two methods, for the same task, by more than a tenth of the band: for each
+/// node the row where they differ most, then maxima and margins. Differences within the sampling
+/// error do not count. `least` in K is the width below which a band is that of the solver.
 pub fn discrepancies(linear: &Uncertainty, sampled: &Uncertainty, least: f64) -> Vec<Discrepancy> {
     let noise = match sampled.method {
         UncertaintyMethod::Sobol { samples, .. } => NOISE / (2.0 * samples as f64).sqrt(),

@@ -1,4 +1,4 @@
-//! Why the uncertainty of a run cannot be had.
+//! Why the uncertainty of a run cannot be computed.
 
 use lptn_analysis::RunError;
 use lptn_assembly::{AssemblyError, ChangeError};
@@ -10,13 +10,13 @@ use crate::uncertainty::lost::Lost;
 use crate::uncertainty::points::{LEAST, MOST_DIMENSIONS, MOST_POINTS};
 
 lptn_units::errors! {
-/// Why the uncertainty of a run cannot be had.
+/// Why the uncertainty of a run cannot be computed.
 #[derive(Debug)]
 pub enum UncertaintyError {
     /// No parameter carries `±`.
     NoDeviation = "uncertainty::no_deviation", "no parameter has a `±`, so nothing is uncertain",
         help "give a parameter its standard deviation: `R_skin = \"0.365 K/W ± 20 %\"` in [param]";
-    /// The parameters are correlated in a way that cannot be.
+    /// The correlations of the parameters contradict each other.
     NotDefinite { parameter: String } = "uncertainty::not_definite",
         format!("correlations that cannot be: those of `{parameter}` with the parameters before it"),
         help "two values that follow a third one closely follow each other too: the matrix of all \
@@ -34,14 +34,14 @@ pub enum UncertaintyError {
     TooLarge(bytes: usize) = "uncertainty::too_large",
         format!("the temperatures of all samples at all rows need {} MB", bytes / 1_000_000),
         help "write fewer rows or samples, or fewer columns with `--select 'steel.T'`";
-    /// So few samples have a result that nothing can be said; why the others have none.
+    /// Too few samples have a result; why the others have none.
     TooFew(lost: Vec<Lost>) = "uncertainty::too_few",
         lost.iter().fold("too few samples have a result".to_owned(), |text, lost| {
             format!("{text}; {lost}")
         }),
         help "make the `±` smaller: most values that it allows do not give a network that runs",
         class Class::Numbers;
-    /// There is no network a little beside the parameters' values.
+    /// There is no network for values close to the parameters' values.
     Network(errors: BuildErrors) = "uncertainty::network",
         format!("there is no network next to the values: {errors}"), source errors,
         class Class::Numbers;
@@ -49,7 +49,7 @@ pub enum UncertaintyError {
     Assembly => AssemblyError as Class::of_numbers;
     /// The run itself, with every parameter at its value, fails.
     Run => Box<TransientError> as Class::of_numbers;
-    /// A limit has no value beside the run.
+    /// A limit has no value next to the run.
     Limit => InputError as Class::of_numbers;
     /// It was interrupted.
     Interrupted = "uncertainty::interrupted", "the sampling was interrupted",

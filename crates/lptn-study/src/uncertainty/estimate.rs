@@ -2,12 +2,12 @@
 
 use lptn_units::statistics;
 
-/// A number, and one standard error of it where it comes from samples.
+/// A number, and one standard error of it if it comes from samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
     /// The number, from all samples.
     pub value: f64,
-    /// One standard error; `None` for what is not sampled.
+    /// One standard error; `None` for a number that is not sampled.
     pub error: Option<f64>,
 }
 
@@ -64,7 +64,7 @@ mod tests {
         assert!(quantile(&[], 0.5).is_nan());
     }
 
-    /// Of a mean the jackknife is the usual standard error of the groups' means: here of 1, 2, 4
+    /// The jackknife of a mean is the usual standard error of the groups' means: here of 1, 2, 4
     /// and 8.
     #[test]
     fn the_jackknife_of_a_mean_is_its_standard_error() {

@@ -1,4 +1,4 @@
-//! The parameters that are not certain, and what is known of them together.
+//! The parameters that are not certain, and their correlations.
 
 use std::ops::Deref;
 
@@ -11,18 +11,18 @@ use crate::uncertainty::error::UncertaintyError;
 /// A parameter whose value is not certain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uncertain {
-    /// Which parameter it is.
+    /// The parameter.
     pub parameter: ParameterId,
-    /// Its value in SI units, absolute temperatures in K: the mean, of a lognormal one the median.
+    /// Its value in SI units, absolute temperatures in K: the mean, for a lognormal one the median.
     pub value: f64,
-    /// One standard deviation in SI units, more than 0; of a lognormal one to first order.
+    /// One standard deviation in SI units, more than 0; for a lognormal one to first order.
     pub deviation: f64,
-    /// How it is distributed.
+    /// Its distribution.
     pub distribution: Distribution,
 }
 
 impl Uncertain {
-    /// A normal number as what is one standard deviation to first order.
+    /// The deviation that a normal number means, in standard deviations to first order.
     pub(crate) fn standard(&self, score: f64) -> f64 {
         match self.distribution {
             Distribution::Normal | Distribution::Lognormal => score,
@@ -30,12 +30,12 @@ impl Uncertain {
         }
     }
 
-    /// The value with a normal number in the place of its standard deviations.
+    /// The value at a normal number of standard deviations.
     pub(crate) fn at(&self, score: f64) -> f64 {
         self.moved(self.value, self.standard(score))
     }
 
-    /// Another value of the parameter, so many standard deviations off.
+    /// Another value of the parameter, moved by this number of standard deviations.
     pub(crate) fn moved(&self, value: f64, deviations: f64) -> f64 {
         match self.distribution {
             Distribution::Normal | Distribution::Rectangle => value + deviations * self.deviation,
@@ -55,7 +55,7 @@ pub struct Inputs {
     all: Vec<Uncertain>,
     correlations: Correlations,
     /// The lower triangle that makes correlated normal numbers of independent ones, row by row;
-    /// `None` where nothing is correlated.
+    /// `None` if nothing is correlated.
     factor: Option<Vec<f64>>,
 }
 
@@ -68,20 +68,19 @@ impl Deref for Inputs {
 }
 
 impl Inputs {
-    /// Their correlations, of a lognormal one those of its logarithm.
+    /// Their correlations; for a lognormal one that of its logarithm.
     pub fn correlations(&self) -> &Correlations {
         &self.correlations
     }
 
-    /// Whether any two of them are off together.
+    /// True if any two of them are correlated.
     pub fn are_correlated(&self) -> bool {
         self.factor.is_some()
     }
 
-    /// By how much an answer scatters together with each of them, for what one standard deviation
-    /// of each does to it: the covariance of the answer and the parameter, in standard deviations
-    /// of the parameter. The sum of these times the effects is the variance of the answer
-    /// (ISO/IEC Guide 98-3, 5.2.2).
+    /// Covariance of an answer and each of them, in standard deviations of the parameter, from the
+    /// effect of one standard deviation of each on the answer. The sum of these times the effects
+    /// is the variance of the answer (ISO/IEC Guide 98-3, 5.2.2).
     pub(crate) fn together(&self, effects: &[f64]) -> Vec<f64> {
         if !self.are_correlated() {
             return effects.to_vec();
@@ -106,9 +105,9 @@ impl Inputs {
         (0..n).map(one).collect()
     }
 
-    /// By how many of its standard deviations each parameter moves with the one after the other of
-    /// as many independent numbers: a unit step along each of these gives the variance of an answer
-    /// as the sum of squares.
+    /// Moves of the parameters, in their standard deviations, with each of as many independent
+    /// numbers: a unit step along each of these gives the variance of an answer as the sum of
+    /// squares.
     pub(crate) fn directions(&self) -> Vec<Vec<(Uncertain, f64)>> {
         let n = self.all.len();
         let triangle = self.correlations.factor().unwrap_or_default();
@@ -121,13 +120,12 @@ impl Inputs {
     }
 }
 
-/// The parameters of `network` that are not certain, in the order of the network; `parameters` are
-/// the values that were set in place of its own, what was said of them there counts before the `±`
-/// of the network.
+/// The parameters of `network` that are not certain, in the order of the network. A deviation in
+/// `parameters`, the values set instead of its own, replaces the `±` of the network.
 ///
 /// # Errors
-/// [`UncertaintyError::NoDeviation`] if all are certain, [`UncertaintyError::NotDefinite`] if they
-/// are correlated in a way that cannot be.
+/// [`UncertaintyError::NoDeviation`] if all are certain, [`UncertaintyError::NotDefinite`] if their
+/// correlations contradict each other.
 pub fn uncertain(network: &Network, parameters: &Parameters) -> Result<Inputs, UncertaintyError> {
     let known = parameters.uncertain();
     let one = |&(parameter, Spread { sigma, distribution }): &(ParameterId, Spread)| Uncertain {

@@ -20,9 +20,9 @@ impl UncertaintyTask<'_> {
     /// Bands and shares of the variance from `dT/dp`: the variance of a result is the sum of
     /// `(dT/dp sigma)^2`, with twice the correlation times their product for each pair that is
     /// correlated, its band 1.96 standard deviations to each side of the value (ISO/IEC Guide 98-3,
-    /// 5.1.2 and 5.2.2). A maximum changes as the temperature does at its time, a margin as it
-    /// does when it is least: on the side where it stands, if something jumps there. Where a network has no exact sensitivities they are differences of
-    /// runs, and the method says so.
+    /// 5.1.2 and 5.2.2). A maximum changes as the temperature does at its time, a margin as it does
+    /// when it is least: on its own side, if something jumps there. If a network has no exact
+    /// sensitivities, they are differences of runs, and the method reports it.
     ///
     /// # Errors
     /// [`UncertaintyError`].

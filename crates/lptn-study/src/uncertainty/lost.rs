@@ -5,14 +5,14 @@ use std::fmt;
 /// Runs without a result, all for the same reason.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lost {
-    /// How many.
+    /// Number of runs.
     pub count: usize,
-    /// Whether the network refused the parameters, such as a resistance below zero; else the run
+    /// True if the network refused the parameters, such as a resistance below zero; else the run
     /// failed.
     pub refused: bool,
     /// The stable code of the reason.
     pub code: &'static str,
-    /// What the network or the run said of the first of them.
+    /// The message of the network or the run for the first of them.
     pub message: String,
 }
 

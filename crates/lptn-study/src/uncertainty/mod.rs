@@ -1,10 +1,11 @@
-//! What the `±` of parameters do to the results of a run.
+//! Effects of the `±` of parameters on the results of a run.
 //!
-//! Every parameter with `±` is normal unless it says otherwise, and independent of those with which
-//! no correlation is known; a posterior of a fit says both. [`UncertaintyTask::sobol`] runs the network at scrambled Sobol points of the
-//! parameters: no assumption about how the results depend on them. [`UncertaintyTask::linear`]
-//! takes the exact sensitivities of one run and assumes that results are straight lines in the
-//! parameters as far as these may be off. [`discrepancies`] says where the two disagree.
+//! Every parameter with `±` is normal by default, and independent of those with which no
+//! correlation is known; a posterior of a fit gives both. [`UncertaintyTask::sobol`] runs the
+//! network at scrambled Sobol points of the parameters: no assumption about how the results depend
+//! on them. [`UncertaintyTask::linear`] takes the exact sensitivities of one run and assumes that
+//! results are straight lines in the parameters within their deviations. [`discrepancies`] lists
+//! where the two disagree.
 
 mod answer;
 mod difference;

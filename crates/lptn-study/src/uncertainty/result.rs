@@ -1,4 +1,4 @@
-//! What came of it.
+//! Results with their uncertainty.
 
 use lptn_network::NodeId;
 
@@ -6,24 +6,24 @@ use crate::uncertainty::answer::Answer;
 use crate::uncertainty::input::Inputs;
 use crate::uncertainty::lost::Lost;
 
-/// How the uncertainty of the results was found.
+/// The method by which the uncertainty of the results was found.
 #[derive(Clone, Debug, PartialEq)]
 pub enum UncertaintyMethod {
     /// From the sensitivities of one run.
     Linear {
-        /// Why they are differences of runs, where they are not exact.
+        /// Why they are differences of runs, if they are not exact.
         differences: Option<String>,
     },
     /// From runs at scrambled Sobol points.
     Sobol {
-        /// Base points: each gives two runs for the bands and, where no parameters are correlated,
-        /// one for each parameter.
+        /// Base points: each gives two runs for the bands and, if no parameters are correlated, one
+        /// for each parameter.
         samples: usize,
         /// The seed of the scrambling.
         seed: u32,
         /// All runs that were made.
         runs: usize,
-        /// Those without a result: the bands are those of the others.
+        /// Runs without a result: the bands are those of the others.
         lost: Vec<Lost>,
     },
 }
@@ -39,7 +39,7 @@ pub struct Bands {
     pub deviation: Vec<f64>,
     /// 2.5 % of the answers are below this.
     pub low: Vec<f64>,
-    /// Half of them are below this; `None` where the method is linear.
+    /// Half of them are below this; `None` if the method is linear.
     pub median: Option<Vec<f64>>,
     /// 2.5 % of them are above this.
     pub high: Vec<f64>,
@@ -48,13 +48,13 @@ pub struct Bands {
 /// The results of a run with their uncertainty.
 #[derive(Clone, Debug)]
 pub struct Uncertainty {
-    /// How it was found.
+    /// The method.
     pub method: UncertaintyMethod,
     /// The parameters that are not certain, in the order of the network.
     pub inputs: Inputs,
     /// The time of each row in s.
     pub times: Vec<f64>,
-    /// The nodes that were asked for.
+    /// The bands of the requested nodes.
     pub bands: Vec<Bands>,
     /// For each of these nodes its end and its maximum, then the margin of every limit.
     pub answers: Vec<Answer>,

@@ -1,4 +1,4 @@
-//! What one run gives, or why it gives nothing.
+//! The numbers of one run, or why it has none.
 
 use lptn_analysis::RunError;
 use lptn_assembly::ChangeError;
@@ -6,11 +6,11 @@ use lptn_solve::Solution;
 
 use crate::uncertainty::lost::Lost;
 
-/// What one run gives.
+/// The numbers of one run.
 #[derive(Clone, Debug)]
 pub(crate) struct Sample {
     /// The temperatures of the first node at all rows in K, then those of the next; empty unless
-    /// asked for.
+    /// requested.
     pub(crate) rows: Vec<f64>,
     /// The answers in the order of the task's questions.
     pub(crate) answers: Vec<f64>,
@@ -40,7 +40,7 @@ pub(crate) enum NoSample {
     Interrupted,
     /// It was not tried: another run of the same base point has no result.
     Skipped,
-    /// The reason, and what to group it by.
+    /// The reason, and the key to group it by.
     Lost { key: String, lost: Lost },
 }
 

@@ -2,7 +2,7 @@
 //!
 //! Correlated parameters have no Sobol index. Changing one alone leaves the distribution, and the
 //! order in which they are made independent would decide the result. Their shares are those of a
-//! plane, in both methods, and the output says so. Sampled numbers carry the error that eight
+//! plane, in both methods, and the output says so. Sampled numbers have the error that eight
 //! independent scramblings show.
 
 mod indices;
@@ -24,13 +24,13 @@ pub const GROUPS: usize = 8;
 /// Bytes that the temperatures of all samples at all rows may take.
 const MOST_BYTES: usize = 1 << 31;
 
-/// How to sample.
+/// Settings of the sampling.
 #[derive(Clone, Copy)]
 pub struct Sobol<'a> {
     /// Base points, 64 to 65536, rounded up to a power of two. With d uncertain parameters there
-    /// are d + 2 runs for each: two with every parameter sampled, from which bands are taken, and d
-    /// that share all parameters but one with the first of the two; these are not made where
-    /// parameters are correlated.
+    /// are d + 2 runs for each: two with every parameter sampled, for the bands, and d that share
+    /// all parameters but one with the first of the two; these d are not made if parameters are
+    /// correlated.
     pub samples: usize,
     /// The seed of the scrambling: the same seed gives the same result to the last digit.
     pub seed: u32,
@@ -48,12 +48,12 @@ impl UncertaintyTask<'_> {
     /// 4), in eight independent scramblings whose spread gives the standard errors.
     ///
     /// Parameters that the network refuses, such as a resistance below zero, are left out and
-    /// counted: the distribution is cut off there. Of correlated parameters the normal numbers are
+    /// counted: the distribution is cut off there. The normal numbers of correlated parameters are
     /// made by the lower triangle of their correlations; shares of the variance are then those of
     /// [`Contribution`](crate::uncertainty::Contribution).
     ///
     /// # Errors
-    /// [`UncertaintyError`]; runs that fail are an error only where too few are left.
+    /// [`UncertaintyError`]; runs that fail are an error only if too few are left.
     pub fn sobol(&self, how: &Sobol<'_>) -> Result<Uncertainty, UncertaintyError> {
         let inputs = uncertain(self.network, &self.parameters)?;
         let samples = self.checked(how.samples, &inputs)?;
@@ -101,7 +101,7 @@ fn nothing(error: &NoSample) -> UncertaintyError {
     }
 }
 
-/// Where the points of the samples lie.
+/// The points of the samples.
 struct Design<'a> {
     task: &'a UncertaintyTask<'a>,
     inputs: &'a Inputs,
@@ -113,13 +113,13 @@ struct Design<'a> {
 struct Block {
     /// Both with every parameter sampled, independently of each other.
     base: [Result<Sample, NoSample>; 2],
-    /// For each parameter the answers with this one of the second and all others of the first;
-    /// none where parameters are correlated.
+    /// For each parameter the answers with this one of the second and all others of the first; none
+    /// if parameters are correlated.
     mixed: Vec<Result<Vec<f64>, NoSample>>,
 }
 
 impl Design<'_> {
-    /// The normal numbers behind the parameters of a run whose parameter `i` is that of base run
+    /// The normal numbers of the parameters of a run whose parameter `i` is that of base run
     /// `which(i)`.
     fn scores(&self, number: usize, which: &dyn Fn(usize) -> usize) -> Vec<f64> {
         let one = |i: usize| self.normal(number, which(i), i);

@@ -1,4 +1,4 @@
-//! What is asked, and one run of it.
+//! A task of uncertainty, and one run of it.
 
 use lptn_analysis::{RunAnalysis, RunError, Trusted};
 use lptn_assembly::ThermalSystem;
@@ -9,23 +9,23 @@ use crate::uncertainty::answer::AnswerOf;
 use crate::uncertainty::error::UncertaintyError;
 use crate::uncertainty::sample::{NoSample, Sample};
 
-/// A run whose uncertainty is asked for.
+/// A run whose uncertainty is to be computed.
 #[derive(Debug)]
 pub struct UncertaintyTask<'a> {
     /// The network with every parameter at its own value.
     pub network: &'a Network,
-    /// The values that were set in place of the network's own; see [`Network::overrides`].
+    /// The values that were set instead of the network's own; see [`Network::overrides`].
     pub parameters: Parameters,
-    /// The times, the tolerance and the controls at the start; what is recorded and watched is
-    /// chosen by the method. The times stay as they are, also where they were computed from a
-    /// parameter with `±`.
+    /// The times, the tolerance and the controls at the start; the method chooses the nodes to
+    /// record and watch. The times stay as they are, even if they were computed from a parameter
+    /// with `±`.
     pub run: RunAnalysis,
-    /// The nodes whose temperatures are asked for, ascending.
+    /// The requested nodes, ascending.
     pub nodes: Vec<NodeId>,
 }
 
 impl UncertaintyTask<'_> {
-    /// The numbers that are asked for beside the rows.
+    /// The requested numbers in addition to the rows.
     pub(crate) fn questions(&self) -> Vec<AnswerOf> {
         let of_node = |&node: &NodeId| [AnswerOf::End(node), AnswerOf::Max(node)];
         let margins = self.network.limit_ids().map(AnswerOf::Margin);
@@ -37,13 +37,13 @@ impl UncertaintyTask<'_> {
         Ok(self.run.rows()?)
     }
 
-    /// The run with what has to be recorded and watched.
+    /// The run with the nodes to be recorded and watched.
     pub(crate) fn watched(&self) -> RunAnalysis {
         let record = RecordedNodes::Nodes(self.nodes.clone());
         self.run.clone().bare().keeping(record).watching(self.nodes.iter().copied())
     }
 
-    /// Runs the network with other parameters; without `rows` only what is asked for beside them.
+    /// Runs the network with other parameters; without `rows` only the numbers other than the rows.
     pub(crate) fn sample(
         &self,
         parameters: &Parameters,

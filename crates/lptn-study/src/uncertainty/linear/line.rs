@@ -1,4 +1,4 @@
-//! A run with its sensitivities at the rows and where temperatures are highest.
+//! A run with its sensitivities at the rows and at the highest temperatures.
 
 use lptn_analysis::Trusted;
 use lptn_network::{NodeId, ParameterId};
@@ -22,8 +22,8 @@ pub(super) struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// The run at its rows and at the times at which `solution` saw the nodes highest, on both sides
-    /// of those.
+    /// The run at its rows and at the times at which `solution` saw the nodes highest, on both
+    /// sides of those.
     pub(super) fn new(
         task: &UncertaintyTask<'_>,
         inputs: &'a Inputs,
@@ -39,8 +39,8 @@ impl<'a> Line<'a> {
         Ok(Self { inputs, run, rows: places })
     }
 
-    /// What one standard deviation more of each parameter adds to the temperature of a node at a
-    /// time of the run, in K.
+    /// Change of the temperature of a node in K with one standard deviation more of each parameter,
+    /// at a time of the run.
     pub(super) fn effects(&self, node: NodeId, place: usize) -> Vec<f64> {
         let effect = |input: &Uncertain| self.slopes(input, node)[place] * input.deviation;
         self.inputs.iter().map(effect).collect()
@@ -58,8 +58,7 @@ impl<'a> Line<'a> {
     }
 
     /// The same for its maximum: as the temperature changes at the time of the maximum, or as the
-    /// maxima of the runs do where these are compared, for a maximum may stand where something
-    /// jumps.
+    /// maxima of the runs do if these are compared, for a maximum may be where something jumps.
     pub(super) fn effects_on_maximum(&self, node: NodeId) -> Vec<f64> {
         let of_runs =
             |input: &Uncertain| Some(self.run.peak(input.parameter, node)? * input.deviation);

@@ -1,4 +1,4 @@
-//! How the margins of limits change with the parameters.
+//! Changes of the margins of limits with the parameters.
 
 use lptn_assembly::ThermalSystem;
 use lptn_solve::{Gradient, LimitSeen, Proceed, RecordedNodes, Solution, on_both_sides, own_side};
@@ -10,11 +10,11 @@ use crate::uncertainty::task::UncertaintyTask;
 
 /// The part of a standard deviation over which the expression of a limit is differentiated. Its
 /// temperatures are moved along their sensitivities, so that the limit of a temperature is exact to
-/// rounding; what bends within a thousandth of a standard deviation is wrong in the seventh digit.
+/// rounding; an expression that bends within this part is wrong in the seventh digit.
 const PART: f64 = 1e-3;
 
-/// For each limit what one standard deviation more of each parameter adds to its margin, in SI
-/// units.
+/// For each limit the change of its margin, in SI units, with one standard deviation more of each
+/// parameter.
 pub(super) fn effects(
     task: &UncertaintyTask<'_>,
     line: &Line<'_>,

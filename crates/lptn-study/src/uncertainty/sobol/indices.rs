@@ -1,4 +1,4 @@
-//! What matters: the shares of the variance, and the errors of all that is sampled.
+//! The shares of the variance, and the errors of all sampled numbers.
 
 use crate::uncertainty::answer::{Answer, AnswerOf, Contribution};
 use crate::uncertainty::estimate::{Estimate, moments, quantile};
@@ -60,7 +60,7 @@ impl Column {
         Self { base, blocks: blocks_of }
     }
 
-    /// The values of the base runs but for those of a group, ascending.
+    /// The values of the base runs except those of a group, ascending.
     fn kept(&self, left_out: Option<usize>) -> Vec<f64> {
         self.base
             .iter()
@@ -100,7 +100,7 @@ impl Column {
     }
 
     /// First-order and total index: A. Saltelli et al., Comput. Phys. Commun. 181 (2010) 259, table
-    /// 2 (b) and (f), the first with values counted from their mean. Zero where nothing varies.
+    /// 2 (b) and (f), the first with values counted from their mean. Zero if nothing varies.
     fn indices(&self, input: usize, left_out: Option<usize>) -> [f64; 2] {
         let (mean, deviation) = moments(&self.kept(left_out));
         let (mut sums, mut n) = ([0.0; 2], 0.0);

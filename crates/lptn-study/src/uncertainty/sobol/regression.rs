@@ -1,4 +1,4 @@
-//! What matters where parameters are correlated: straight lines through the base runs.
+//! Shares of the variance for correlated parameters: straight lines through the base runs.
 
 use crate::uncertainty::answer::Contribution;
 use crate::uncertainty::estimate::Estimate;
@@ -10,15 +10,15 @@ pub(super) struct Regression<'a> {
     blocks: &'a Blocks,
     /// For each run of [`Blocks::base`] its group, and the parameters in standard deviations.
     points: Vec<(usize, Vec<f64>)>,
-    /// Of all runs, then without each group.
+    /// The plane of all runs, then the planes without each group.
     planes: Vec<Plane>,
 }
 
-/// What a plane needs of the points alone.
+/// The part of a plane that depends on the points alone.
 struct Plane {
     left_out: Option<usize>,
     mean: Vec<f64>,
-    /// The lower triangle of the squares and products about the mean; empty where they are not
+    /// The lower triangle of the squares and products about the mean; empty if they are not
     /// independent.
     factor: Vec<f64>,
 }
