@@ -331,7 +331,7 @@ fn no_unit(header: &Header, wanted: Option<Type>) -> Diagnostic {
 pub enum Wrong {
     /// It is empty.
     Missing,
-    /// It contains another text.
+    /// It contains other text.
     Text,
     /// It contains `inf` or `nan`.
     NotFinite,

@@ -17,7 +17,7 @@ use crate::fluid::{EXPANSION, Fluid, length, of_fluid, prandtl};
 /// Standard acceleration of gravity in m/s^2, exact by definition (CGPM 1901).
 pub(crate) const GRAVITY: f64 = 9.806_65;
 
-/// Differences of temperature in K below which |dT| is smooth: see [`rayleigh`].
+/// Difference of temperatures in K below which |dT| is smoothed: see [`rayleigh`].
 const STILL: f64 = 1e-3;
 
 /// Rayleigh number: Ra = g beta |dT| L^3 / (nu alpha), dimensionless.

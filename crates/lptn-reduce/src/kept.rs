@@ -21,9 +21,9 @@ use crate::rises::{Rises, Way};
 /// every temperature of these nodes and every heat of a boundary is exact. The capacity of a node
 /// that is left out goes to the kept nodes in the shares in which its temperature follows theirs,
 /// as in TICER (B. N. Sheehan, ICCAD 1999, 200). If that reduces the error over every load, the
-/// smallest change of capacities follows that gives the responses at the requested nodes their
-/// first moments, `sum of Z_pn C_n Z_nq`. All elements are positive, so the reduced network is
-/// passive.
+/// capacities are then changed by the least amount that gives the responses at the requested nodes
+/// their first moments, `sum of Z_pn C_n Z_nq`. All elements are positive, so the reduced network
+/// is passive.
 ///
 /// Further nodes are those that follow the others latest. The mean delay of a node with all chosen
 /// ones fixed is the solution of the network for the heat `C_n` in every node.

@@ -52,7 +52,7 @@ impl Nodes {
 
     /// The smallest number of nodes, at most `most`, whose error over every load is no larger than
     /// `limit` in K for each W of the largest power; one node is the best of the pairs. Also
-    /// returns the numbers of nodes that were not enough, the smallest first.
+    /// returns the smaller numbers of nodes that were not enough, the smallest first.
     pub fn enough(
         step: &StepResponse,
         pairs: &[Pair],

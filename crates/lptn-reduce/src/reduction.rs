@@ -206,7 +206,7 @@ impl Reduction {
         (run, allowed): (Option<&RunAnalysis>, Allowed),
     ) -> Result<Option<(Nodes, Judge, Deviation)>, ReduceError> {
         const MOST: usize = 8;
-        /// One more node has to reduce the error at least by this factor, else more will not help.
+        /// One more node has to reduce the error to this share, else more will not help.
         const LESS: f64 = 0.9;
         let Some(step) = self.dynamics.as_ref().and_then(|dynamics| dynamics.step.as_ref()) else {
             return Ok(None);

@@ -46,7 +46,7 @@ pub struct Spread {
 }
 
 impl Spread {
-    /// A normal distribution.
+    /// A normal distribution with this standard deviation.
     pub const fn normal(sigma: f64) -> Self {
         Self { sigma, distribution: Distribution::Normal }
     }

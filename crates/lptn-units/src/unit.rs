@@ -1,4 +1,4 @@
-//! A separate unit, as in the header of a table: `T [degC]`.
+//! A unit alone, as in the header of a table: `T [degC]`.
 //!
 //! lptn carries the units that people write and never computes with them. `Signal::unit` and
 //! `TableSymbol::units` serve headers, messages and the expansion only.

@@ -1,4 +1,4 @@
-//! Types of names that give an expression the expected type.
+//! Dimensions of unknown names, from the expected type of an expression.
 
 use super::fold;
 use super::function::{self, Function};

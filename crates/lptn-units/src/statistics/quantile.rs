@@ -48,7 +48,7 @@ pub fn chi_square_999(degrees: f64) -> f64 {
     degrees * (1.0 - part + NORMAL_999 * part.sqrt()).powi(3)
 }
 
-/// The size that a variable exceeds with probability 5 % that is normal with one of these standard
+/// The size that a variable exceeds with probability 5 %. It is normal with one of these standard
 /// deviations, each after its probability.
 pub fn mixed_95(parts: &[(f64, f64)]) -> f64 {
     let beyond = |size: f64| -> f64 {
