@@ -1,4 +1,4 @@
-//! Points of curves: numbers with their places, from a list or from a column of a CSV file.
+//! Points of curves: numbers with their places, from a list or a column of a CSV file.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::hints;
 use crate::limits::MOST_PROBLEMS;
 use crate::text::CsvText;
 
-/// A header as it could be.
+/// An example of a header.
 const EXAMPLE: &str = "t [s],speed [rpm]";
 
 /// Numbers in SI units, with the place of each.
@@ -22,26 +22,26 @@ pub struct PlacedNumbers {
     pub numbers: Vec<f64>,
     /// Their type.
     pub ty: Type,
-    /// Where each of them stands.
+    /// The place of each number.
     pub places: Places,
     /// The list, or the header of the column.
     pub whole: Span,
-    /// The unit that they are given in, of several that of the first.
+    /// The unit in which they are given; if there are several, that of the first.
     pub unit: Option<Unit>,
 }
 
-/// Where the numbers of a curve stand.
+/// The places of the numbers of a curve.
 #[derive(Clone, Debug)]
 pub enum Places {
     /// Each item of a list.
     Items(Vec<Span>),
-    /// The rows of a file, one for each number, and the position of the column: a file may have
-    /// millions, and the places of two of them are asked for, where something is wrong.
+    /// The rows of a file, one for each number, and the position of the column. A file may have
+    /// millions of rows, and only the places of errors are needed.
     Column(Arc<CsvFile>, usize),
 }
 
 impl PlacedNumbers {
-    /// Where a number stands.
+    /// The place of a number.
     pub fn place(&self, index: usize) -> Span {
         let place = match &self.places {
             Places::Items(places) => places.get(index).cloned(),
@@ -51,23 +51,22 @@ impl PlacedNumbers {
     }
 }
 
-/// One CSV file: a header, and rows of cells. The rows stand in the text alone and are read again
-/// for every column: held as cells they would take twenty times the memory of the file.
+/// A CSV file: a header, and rows of cells. Only the text is stored, and each column reads it
+/// again: stored cells would take twenty times the memory of the file.
 #[derive(Debug)]
 pub struct CsvFile {
     head: Head,
     text: Arc<str>,
 }
 
-/// So many rows of a column are looked at for what is wrong with them; of millions the rest are
-/// like those.
+/// Number of wrong cells at which reading stops; of millions the rest would be alike.
 const MOST_WRONG: usize = 20 * MOST_PROBLEMS;
 
 impl CsvFile {
-    /// The file, if its header is one and no row is longer.
+    /// The file, if its header is valid and no row is longer.
     ///
     /// # Errors
-    /// What is wrong with its form; `asked` is the place that names the file.
+    /// The error of its form; `asked` is the place that names the file.
     pub fn open(text: &CsvText, asked: &Span) -> Result<Self, Diagnostic> {
         let first = reader(&text.text).records().find_map(Result::ok);
         let head = header(text, first, (hints::NETLIST, EXAMPLE));
@@ -79,7 +78,7 @@ impl CsvFile {
         }
     }
 
-    /// Visits the cells of the rows in their order, until the visitor has found what it looked for.
+    /// Visits the cells of the rows in order, until the visitor returns a result.
     fn visit<T>(&self, mut visit: impl FnMut(&csv::StringRecord) -> Option<T>) -> Option<T> {
         let (mut reader, mut cells) = (reader(&self.text), csv::StringRecord::new());
         let mut is_head = true;
@@ -113,7 +112,7 @@ impl CsvFile {
         })
     }
 
-    /// The first row with a value behind the last column.
+    /// The error of the first row with a value after the last column.
     fn too_long(&self, asked: &Asked) -> Option<Diagnostic> {
         let columns = self.head.columns.len();
         self.visit(|cells| {
@@ -122,11 +121,10 @@ impl CsvFile {
         })
     }
 
-    /// The numbers of the column that `ask` names, in SI units; of type `wanted` where that is
-    /// known.
+    /// The numbers of the column `name`, in SI units, and of type `wanted` if that is known.
     ///
     /// # Errors
-    /// That there is no such column, that its unit is another, or every cell without a number.
+    /// If there is no such column or its unit is another; or one for every cell without a number.
     pub fn column(
         self: &Arc<Self>,
         name: &str,
@@ -137,7 +135,7 @@ impl CsvFile {
         found.pop().unwrap_or_else(|| Err(Vec::new()))
     }
 
-    /// Several columns, for which the file is gone through once.
+    /// Several columns, in one pass over the file.
     pub fn columns(
         self: &Arc<Self>,
         asked: &[(&str, Option<Type>, &Asked)],
@@ -165,10 +163,10 @@ impl CsvFile {
         self.head.columns.iter().map(|column| (column.name.as_str(), &column.place))
     }
 
-    /// The words in a column that names what stands in its rows: there, and each once.
+    /// The words of a column of names, all present and different.
     ///
     /// # Errors
-    /// That there is no such column or no row, and every cell that is empty or repeats another.
+    /// If there is no such column or no row; or one for every cell that is empty or a repetition.
     pub fn words(&self, name: &str, ask: &Asked) -> Result<Vec<String>, Vec<Diagnostic>> {
         let index = self.head.find(name, ask).map_err(|problem| vec![problem])?;
         let (mut words, mut problems): (Vec<String>, Vec<Diagnostic>) = (Vec::new(), Vec::new());
@@ -213,7 +211,7 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    /// Takes in its cell of a row.
+    /// Adds its cell of a row.
     fn take(&mut self, file: &CsvFile, cells: &csv::StringRecord) {
         let Ok(CsvColumn { index, unit }) = &self.column else { return };
         match value(cells.get(*index).unwrap_or_default().trim(), unit) {

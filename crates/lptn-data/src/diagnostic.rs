@@ -1,4 +1,4 @@
-//! What is said about a netlist: one type for errors and warnings, of every stage.
+//! Diagnostics of a netlist: one type for errors and warnings of every stage.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use lptn_units::{Help, suggest};
 
 use crate::file::{Files, Span};
 
-/// How bad it is.
+/// The severity of a problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
     /// The netlist cannot be used.
@@ -22,24 +22,24 @@ pub struct Label {
     pub span: Span,
     /// The words; may be empty.
     pub text: String,
-    /// Whether the problem is here; other places only explain it.
+    /// True if the problem is here; other places only explain it.
     pub primary: bool,
 }
 
-/// One problem: what, where, and what to do about it.
+/// One problem with its place and remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Diagnostic {
     /// A stable `area::problem`.
     pub code: &'static str,
-    /// How bad it is.
+    /// Its severity.
     pub severity: Severity,
-    /// What is wrong, as a sentence without capital and full stop.
+    /// The problem as a sentence without capital and full stop.
     pub message: String,
-    /// Where; the primary place first. Empty if there is no place.
+    /// The places, the primary one first. Empty if there is no place.
     pub labels: Vec<Label>,
-    /// What to do, with a text that can be pasted where possible.
+    /// The remedy, with a text that can be pasted if possible.
     pub help: Option<String>,
-    /// What else is worth knowing.
+    /// Additional information.
     pub notes: Vec<String>,
 }
 
@@ -62,7 +62,7 @@ impl Diagnostic {
         Self { severity: Severity::Warning, ..Self::error(code, message) }
     }
 
-    /// An error at its place, with what to do about it.
+    /// An error at its place, with its remedy.
     pub fn wrong(
         code: &'static str,
         message: impl Into<String>,
@@ -72,7 +72,7 @@ impl Diagnostic {
         Self::error(code, message).at(at.clone(), "").help(help)
     }
 
-    /// A warning at its place, with what to do about it.
+    /// A warning at its place, with its remedy.
     pub fn doubt(
         code: &'static str,
         message: impl Into<String>,
@@ -82,40 +82,40 @@ impl Diagnostic {
         Self { severity: Severity::Warning, ..Self::wrong(code, message, at, help) }
     }
 
-    /// Adds the place of the problem, where there is one.
+    /// Adds the place of the problem, if there is one.
     #[must_use]
     pub fn at(self, span: impl Into<Option<Span>>, text: impl Into<String>) -> Self {
         self.label(span.into(), text.into(), true)
     }
 
-    /// Adds a place that explains the problem, where there is one.
+    /// Adds a place that explains the problem, if there is one.
     #[must_use]
     pub fn also(self, span: impl Into<Option<Span>>, text: impl Into<String>) -> Self {
         self.label(span.into(), text.into(), false)
     }
 
-    /// Adds several places, of which the first is that of the problem.
+    /// Adds several places; the first is that of the problem.
     #[must_use]
     pub fn places(self, places: impl IntoIterator<Item = (Span, String)>) -> Self {
         let places = places.into_iter().enumerate();
         places.fold(self, |problem, (n, (span, text))| problem.label(Some(span), text, n == 0))
     }
 
-    /// Sets what to do about it, where something is known.
+    /// Sets the remedy, if one is known.
     #[must_use]
     pub fn help(mut self, help: impl Help) -> Self {
         self.help = help.words().or(self.help);
         self
     }
 
-    /// Adds what else is worth knowing.
+    /// Adds a note.
     #[must_use]
     pub fn note(mut self, note: impl Into<String>) -> Self {
         self.notes.push(note.into());
         self
     }
 
-    /// Says what was probably meant by `wrong`: the nearest of the names, else `otherwise`.
+    /// Suggests the nearest of the names to `wrong`, else `otherwise`.
     #[must_use]
     pub fn did_you_mean<'n>(
         self,
@@ -152,14 +152,14 @@ impl fmt::Display for Diagnostic {
 }
 
 impl Files {
-    /// Adds for which instance of a template, and of so many others, the place is read, and where
-    /// that is made.
+    /// Adds the template's instance for which the place is read, with the number of others, and the
+    /// place where the instance is made.
     fn with_copies(&self, mut diagnostic: Diagnostic, others: usize) -> Diagnostic {
         let mut copy = diagnostic.place().and_then(|place| self.copy(place.copy));
         if copy.is_none() || diagnostic.labels.iter().any(|label| label.text.ends_with(USED)) {
             return diagnostic;
         }
-        // what belongs together in several instances stands in one place of the template
+        // related places of several instances are one place in the template
         let mut seen: Vec<Label> = Vec::new();
         diagnostic.labels.retain(|label| {
             let new = !seen.iter().any(|other| other.span.is_same_text(&label.span));
@@ -197,11 +197,11 @@ impl Files {
     }
 }
 
-/// How the place is called where an instance is made.
+/// The label of the place where an instance is made.
 const USED: &str = ", used here";
 
-/// Sorts by place, and drops what says the same of the same place; what is wrong in a template is
-/// said once, and of which instance.
+/// Sorts by place and drops repetitions. A problem in a template is reported once, with its
+/// instance.
 pub fn arrange(files: &Files, diagnostics: &mut Vec<Diagnostic>) {
     diagnostics.sort_by_key(|d| d.place().map(Span::order));
     diagnostics.dedup_by(|b, a| a.code == b.code && a.place().is_some() && a.place() == b.place());

@@ -1,4 +1,4 @@
-//! The texts that diagnostics point into.
+//! The texts to which diagnostics refer.
 
 use std::ops::Range;
 use std::sync::{Arc, OnceLock};
@@ -14,7 +14,7 @@ pub struct Span {
     pub file: FileId,
     /// The bytes.
     pub range: Range<usize>,
-    /// For which instance of a template the text is read here.
+    /// The instance of a template for which the text is read.
     pub copy: CopyId,
 }
 
@@ -48,19 +48,19 @@ impl Span {
         Self { copy, ..self.clone() }
     }
 
-    /// Whether it is the same place, for whichever instance.
+    /// True if it is the same place, for any instance.
     pub fn is_same_text(&self, other: &Self) -> bool {
         self.file == other.file && self.range == other.range
     }
 
-    /// Whether it lies inside another place.
+    /// True if it lies inside another place.
     pub fn is_inside(&self, other: &Self) -> bool {
         self.file == other.file
             && other.range.start <= self.range.start
             && self.range.end <= other.range.end
     }
 
-    /// What sorts places in the order a reader meets them.
+    /// The sort key for the order in which a reader meets places.
     pub fn order(&self) -> (FileId, usize, usize) {
         (self.file, self.range.start, self.range.end)
     }
@@ -82,9 +82,9 @@ pub fn on_borders(text: &str, range: Range<usize>) -> Range<usize> {
 #[derive(Clone, Debug)]
 struct File {
     name: String,
-    /// Shared with what looks for places in it: an imported file is long.
+    /// Shared with the readers of places: an imported file is long.
     text: Arc<str>,
-    /// Byte at which each line begins; counted when a place is first asked for.
+    /// Byte at which each line begins; computed when a place is first needed.
     lines: OnceLock<Vec<usize>>,
 }
 
@@ -102,7 +102,7 @@ impl File {
 pub struct Instance {
     /// Its name, `planet[2]`.
     pub name: String,
-    /// Where it is made: the name below `[use]`.
+    /// The place that makes it: the name below `[use]`.
     pub made: Span,
 }
 
@@ -130,11 +130,11 @@ impl Files {
     /// Notes an instance of a template.
     pub fn add_copy(&mut self, name: String, made: Span) -> CopyId {
         self.copies.push(Instance { name, made });
-        // more instances than this are refused before
+        // a larger number of instances is refused earlier
         CopyId(u32::try_from(self.copies.len()).unwrap_or(u32::MAX))
     }
 
-    /// The instance for which a place is read; `None` where the text itself is meant.
+    /// The instance for which a place is read; `None` for the text itself.
     pub fn copy(&self, id: CopyId) -> Option<&Instance> {
         self.copies.get(id.index()?)
     }
@@ -154,7 +154,7 @@ impl Files {
         self.get(id).map_or("", |file| &file.text)
     }
 
-    /// The text at a place; empty where there is none.
+    /// The text at a place; empty if there is none.
     pub fn at(&self, span: &Span) -> &str {
         self.text(span.file).get(span.range.clone()).unwrap_or("")
     }
@@ -166,7 +166,7 @@ impl Files {
         let line = lines.partition_point(|&start| start <= span.range.start);
         let start = line.checked_sub(1).and_then(|i| lines.get(i)).copied().unwrap_or(0);
         let before = file.text.get(start..span.range.start).unwrap_or("");
-        // a byte order mark is not something a reader sees
+        // a reader does not see a byte order mark
         let before = before.strip_prefix('\u{feff}').unwrap_or(before);
         (line.max(1), before.chars().count() + 1)
     }

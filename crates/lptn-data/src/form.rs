@@ -1,6 +1,5 @@
-//! How a CSV file was saved: what its first lines say when that was done otherwise than with one
-//! header, commas and decimal points. Records, sheets of points, signals, tables and imports are
-//! told the same.
+//! The form of a CSV file: an error if its first lines are not one header with commas and decimal
+//! points. Records, sheets of points, signals, tables and imports share these messages.
 
 use lptn_units::Unit;
 
@@ -10,11 +9,11 @@ use crate::head::{Head, Row, reader, row};
 use crate::hints::{Codes, RECORD};
 use crate::text::CsvText;
 
-/// Titles of loggers are not longer than this, in lines.
+/// Greatest length of a logger's title, in lines.
 const LONGEST_TITLE: usize = 30;
 
-/// What the header says of how the file was saved: with another separator, without names, below a
-/// title. `example` is a header as it could be.
+/// The error that the first lines show: another separator, no names, a title above the header.
+/// `example` is an example of a header.
 fn check(head: &Head, text: &CsvText, (codes, example): (&Codes, &str)) -> Option<Diagnostic> {
     if head.columns.iter().all(|header| header.written.replace(',', ".").parse::<f64>().is_ok()) {
         let problem = Diagnostic::error(
@@ -60,7 +59,7 @@ fn foreign(head: &Head, name: &str, codes: &Codes) -> Option<Diagnostic> {
     Some(problem.at(head.place.clone(), "taken for the header").help(help))
 }
 
-/// The columns are separated by something else.
+/// The error of another separator between the columns.
 fn separator(head: &Head, name: &str, (rows, codes): (&[Row], &Codes)) -> Option<Diagnostic> {
     let [one] = head.columns.as_slice() else { return None };
     let other = [';', '\t', '|'].into_iter().find(|c| one.written.contains(*c))?;
@@ -107,7 +106,7 @@ fn names_columns(row: &Row, file: FileId) -> bool {
     named && columns.iter().any(|header| header.unit.as_deref().is_some_and(unit))
 }
 
-/// The header of a text, whose first record is given; `example` is a header as it could be.
+/// The header of a text from its first record; `example` is an example of a header.
 pub(crate) fn header(
     text: &CsvText,
     first: Option<csv::StringRecord>,

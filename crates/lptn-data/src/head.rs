@@ -1,5 +1,5 @@
 //! The header of a CSV file and the cells below it: columns by name, numbers with their units,
-//! places, and what is wrong with them.
+//! places, and errors.
 
 use lptn_units::{Dimension, Type, Unit, suggest};
 
@@ -8,12 +8,12 @@ use crate::file::{FileId, Span};
 use crate::hints::{Codes, other_brackets, text_help};
 use crate::words::nearest;
 
-/// Who reads a column.
+/// The reader of a column.
 #[derive(Clone, Debug, Default)]
 pub struct Asked {
     /// "`csv` of table `loss`"; empty for a file that is read as a whole.
     pub words: String,
-    /// Where that is written.
+    /// The place where that is written.
     pub span: Option<Span>,
 }
 
@@ -23,7 +23,7 @@ impl Asked {
         problem.also(self.span.clone(), "read here")
     }
 
-    /// What a sentence begins with.
+    /// The beginning of a sentence.
     fn subject(&self) -> String {
         if self.words.is_empty() { String::new() } else { format!("{}: ", self.words) }
     }
@@ -62,7 +62,7 @@ pub(crate) struct Row {
     pub(crate) cells: csv::StringRecord,
     /// The bytes of the line.
     place: std::ops::Range<usize>,
-    /// Whether the line holds no quotes, so that the place of each cell can be counted.
+    /// True if the line has no quotes, so that the place of each cell can be counted.
     plain: bool,
 }
 
@@ -75,7 +75,7 @@ pub(crate) fn reader(text: &str) -> csv::Reader<&[u8]> {
         .from_reader(text.as_bytes())
 }
 
-/// The byte at which the reader began to look for a record.
+/// The byte at which the reader started to look for a record.
 pub(crate) fn position(cells: &csv::StringRecord) -> usize {
     cells.position().map_or(0, |position| usize::try_from(position.byte()).unwrap_or(0))
 }
@@ -91,10 +91,10 @@ pub(crate) fn row(cells: csv::StringRecord, text: &str) -> Row {
 pub(crate) fn line(text: &str, from: usize) -> std::ops::Range<usize> {
     let mut start = from.min(text.len());
     if start == 0 && text.starts_with('\u{feff}') {
-        // the reader leaves out a mark at the beginning, and only there
+        // the reader skips a byte order mark at the beginning, and only there
         start = '\u{feff}'.len_utf8();
     }
-    // the reader notes where it looked for a record, not where it found one
+    // the reader notes where it started to look for a record, not where the record is
     let ends = ['\r', '\n'];
     let mut rest = text.get(start..).unwrap_or_default();
     while rest.starts_with(ends) || rest.starts_with('#') {
@@ -111,7 +111,7 @@ impl Row {
         self.cells.get(index).unwrap_or_default().trim()
     }
 
-    /// The place of a cell, or of the line where it cannot be told.
+    /// The place of a cell, or of its line if the cell has no known place.
     pub(crate) fn place(&self, file: FileId, index: usize) -> Span {
         let cell = self.cells.get(index).filter(|cell| self.plain && !cell.trim().is_empty());
         let Some(cell) = cell else { return Span::new(file, self.place.clone()) };
@@ -137,13 +137,13 @@ impl Row {
 }
 
 impl Head {
-    /// The header that a record is.
+    /// The header that a record contains.
     pub(crate) fn new(file: FileId, head: &Row, codes: &'static Codes) -> Self {
         let columns = (0..head.cells.len()).map(|i| head.header(file, i)).collect();
         Self { file, codes, columns, place: Span::new(file, head.place.clone()) }
     }
 
-    /// The text that it is the header of.
+    /// The text with this header.
     pub(crate) fn file(&self) -> FileId {
         self.file
     }
@@ -172,8 +172,8 @@ impl Head {
         self.column(self.find(name, ask)?, ty, ask)
     }
 
-    /// A column with its unit, which is of type `wanted` where that is known. In a record `K` alone
-    /// is a point on the scale: a sensor measures no difference.
+    /// A column with its unit, of type `wanted` if that is known. In a record `K` alone is an
+    /// absolute temperature: a sensor does not measure a difference.
     pub(crate) fn column(
         &self,
         index: usize,
@@ -219,7 +219,7 @@ impl Head {
         Diagnostic::error(self.codes.unit, message).help(help)
     }
 
-    /// That there is no such column.
+    /// The error that there is no such column.
     fn no_column(&self, name: &str, ask: &Asked) -> Diagnostic {
         let message = format!("{}there is no column `{name}`", ask.subject());
         let problem = Diagnostic::error(self.codes.no_column, message);
@@ -251,8 +251,8 @@ impl Head {
         ask.also(problem).help(format!("rename one of them, for example `{name}_2`"))
     }
 
-    /// Why a row has a value behind the last column: with a decimal comma every number falls into
-    /// two.
+    /// The error of a row with a value after the last column: a decimal comma splits every number
+    /// in two.
     pub(crate) fn extra(&self, row: &Row, ask: &Asked) -> Option<Diagnostic> {
         let columns = self.columns.len();
         let index = (columns..row.cells.len()).find(|&i| !row.cell(i).is_empty())?;
@@ -264,7 +264,7 @@ impl Head {
         Some(ask.also(problem).help(extra_help(row)))
     }
 
-    /// That a row has fewer cells than the header; `example` is one with an empty cell.
+    /// The error of a row with fewer cells than the header; `example` has an empty cell.
     pub(crate) fn short(&self, row: &Row, (ask, example): (&Asked, &str)) -> Diagnostic {
         let (cells, columns) = (row.cells.len(), self.columns.len());
         let message = format!("this row has {cells} of {columns} values");
@@ -275,7 +275,7 @@ impl Head {
             .help(format!("a missing value is an empty cell between commas: `{example}`"))
     }
 
-    /// A cell that does not hold a number.
+    /// The error of a cell without a number.
     pub(crate) fn no_number(
         &self,
         row: &Row,
@@ -326,16 +326,16 @@ fn no_unit(header: &Header, wanted: Option<Type>) -> Diagnostic {
     })
 }
 
-/// Why a cell does not hold a number.
+/// The reason why a cell has no number.
 #[derive(Clone, Copy)]
 pub enum Wrong {
     /// It is empty.
     Missing,
-    /// It holds something else.
+    /// It contains other text.
     Text,
-    /// It holds `inf` or `nan`.
+    /// It contains `inf` or `nan`.
     NotFinite,
-    /// It holds a temperature below absolute zero.
+    /// It contains a temperature below absolute zero.
     Cold,
 }
 
@@ -355,8 +355,8 @@ pub(crate) fn value(cell: &str, unit: &Unit) -> Result<f64, Wrong> {
     if unit.ty.absolute && value < 0.0 { Err(Wrong::Cold) } else { Ok(value) }
 }
 
-/// What to do about a row with more values than the header has columns: with a decimal comma every
-/// number is two.
+/// Help for a row with more values than the header has columns: a decimal comma makes every number
+/// two.
 fn extra_help(row: &Row) -> &'static str {
     let whole = |i: usize| {
         let cell = row.cell(i).trim_start_matches(['+', '-']);
@@ -369,11 +369,10 @@ fn extra_help(row: &Row) -> &'static str {
     }
 }
 
-/// A unit where a type is due: `K` alone is absolute where an absolute temperature is. What is due
-/// and what was found, where they differ.
+/// Fits a unit to the type `wanted`: `K` alone is absolute if an absolute temperature is wanted.
 ///
 /// # Errors
-/// Both types, what is due first.
+/// Both types, the wanted one first.
 pub fn fit(unit: Unit, wanted: Option<Type>) -> Result<Unit, (Type, Type)> {
     let Some(wanted) = wanted else { return Ok(unit) };
     let kelvin = wanted.absolute && unit.ty == Type::of(Dimension::TEMPERATURE);

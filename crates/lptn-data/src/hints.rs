@@ -1,12 +1,11 @@
-//! What the problems of a CSV file are called, and what to write in place of what it holds.
+//! The codes of problems of a CSV file, and help for its cells.
 
 use lptn_units::Unit;
 
-/// What the problems of a file are called.
+/// The codes of the problems of a file.
 #[derive(Debug)]
 pub(crate) struct Codes {
-    /// Whether it holds what was measured: gaps are meant, units have to be given; a command line
-    /// names it.
+    /// True for measured data: gaps are allowed, units are required; a command line names the file.
     pub(crate) of_record: bool,
     pub(crate) empty: &'static str,
     pub(crate) separator: &'static str,
@@ -21,7 +20,7 @@ pub(crate) struct Codes {
     pub(crate) not_finite: &'static str,
 }
 
-/// Of records and sheets of points.
+/// Codes for records and sheets of points.
 pub(crate) const RECORD: &Codes = &Codes {
     of_record: true,
     empty: "record::empty",
@@ -37,7 +36,7 @@ pub(crate) const RECORD: &Codes = &Codes {
     not_finite: "record::not_finite",
 };
 
-/// Of the files that a netlist names.
+/// Codes for the files that a netlist names.
 pub(crate) const NETLIST: &Codes = &Codes {
     of_record: false,
     empty: "netlist::csv_empty",
@@ -62,7 +61,7 @@ pub(crate) fn other_brackets(name: &str) -> Option<(&str, &str)> {
     (!bare.trim().is_empty() && Unit::parse(unit).is_ok()).then_some((bare.trim(), unit))
 }
 
-/// What to write in place of a text where a number is due.
+/// Help for a text in a cell that needs a number.
 pub(crate) fn text_help(name: &str, cell: &str) -> String {
     let point = cell.replacen(',', ".", 1);
     if cell.contains(',') && point.parse::<f64>().is_ok() {

@@ -1,14 +1,12 @@
-//! What is read and what is said about it: texts with places ([`Files`], [`Span`]), the one
-//! [`Diagnostic`], and the one reader of CSV files. Headers carry units, `speed [rpm]`; what is
-//! wrong is named by its line.
+//! Inputs and their diagnostics: texts with places ([`Files`], [`Span`]), the one [`Diagnostic`],
+//! and the one reader of CSV files. Headers have units, `speed [rpm]`; errors name their line.
 //!
-//! A file is read in four ways, by the same header, numbers and checks of its form: as columns
-//! over time ([`read_record`]), as points without an order ([`read_sheet`]), one column after the
-//! other ([`CsvFile`]), or row by row without being held ([`CsvRows`]). A record that grows is read
-//! line by line ([`RecordLines`]).
+//! There are four ways to read a file, with the same header, numbers and checks of its form: as
+//! columns over time ([`read_record`]), as points without an order ([`read_sheet`]), one column
+//! after the other ([`CsvFile`]), or row by row without storing it ([`CsvRows`]). A record that
+//! grows is read line by line ([`RecordLines`]).
 //!
-//! Diagnostics stand here and not in a crate below: they point into texts, and nothing below this
-//! crate has one.
+//! Diagnostics are in this crate because they refer to texts, and no lower crate has one.
 
 mod csv_file;
 mod diagnostic;

@@ -1,4 +1,4 @@
-//! How much is read and how much is said, and why a file was refused.
+//! Limits on input and messages, and the error of a refused file.
 
 use std::fmt;
 use std::io::{self, Read};
@@ -9,13 +9,13 @@ use lptn_units::Problem;
 use crate::diagnostic::{Diagnostic, Severity, arrange};
 use crate::file::{FileId, Files, Span};
 
-/// The longest netlist in bytes; anything longer is a device or no netlist.
+/// The longest netlist in bytes; anything longer is a device or not a netlist.
 pub const MOST_BYTES: u64 = 100_000_000;
 
 /// The longest CSV file in bytes: 10^7 rows take about 300 MB.
 pub const MOST_CSV_BYTES: u64 = 2_000_000_000;
 
-/// So many problems of one file are shown; the rest are counted.
+/// Number of problems of one file that are shown; the rest are counted.
 pub const MOST_PROBLEMS: usize = 50;
 
 /// A netlist, a record or a sheet that cannot be used, with every reason.
@@ -23,22 +23,22 @@ pub const MOST_PROBLEMS: usize = 50;
 pub struct Rejected {
     /// The texts that places refer to.
     pub files: Files,
-    /// What is wrong, in file order; holds at least one error.
+    /// The problems in file order, at least one error.
     pub diagnostics: Vec<Diagnostic>,
-    /// Whether the text could not even be read as TOML.
+    /// True if the text is not even valid TOML.
     pub syntax: bool,
 }
 
 impl Rejected {
-    /// With the problems in the order of their places, each said once, as many as are shown; so
-    /// many more were dropped before.
+    /// Sorts the problems by place and keeps each once, as many as are shown; `dropped` is the
+    /// number of those dropped before.
     pub fn arranged(files: Files, mut diagnostics: Vec<Diagnostic>, dropped: usize) -> Self {
         arrange(&files, &mut diagnostics);
         shorten(&mut diagnostics, dropped);
         Self { files, diagnostics, syntax: false }
     }
 
-    /// With the problems in the order of their places, as many as are shown.
+    /// Sorts the problems by place and keeps as many as are shown.
     pub(crate) fn new(files: Files, mut diagnostics: Vec<Diagnostic>) -> Self {
         diagnostics.sort_by_key(|diagnostic| diagnostic.place().map(Span::order));
         shorten(&mut diagnostics, 0);
@@ -80,8 +80,8 @@ pub enum ReadError {
 }
 }
 
-/// The bytes of a file, which need not be text, up to [`MOST_BYTES`]; an input without an end is
-/// not read on.
+/// The bytes of a file, which need not be text, up to [`MOST_BYTES`]; an endless input is not read
+/// further.
 ///
 /// # Errors
 /// [`ReadError::Io`] if the file cannot be read; [`ReadError::Rejected`] with `netlist::too_long`
@@ -112,7 +112,7 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
 /// a network.
 ///
 /// # Errors
-/// That of the system; [`io::ErrorKind::FileTooLarge`] if the file is longer.
+/// That of the system, or of a device; [`io::ErrorKind::FileTooLarge`] if the file is longer.
 pub fn read_named(path: &Path) -> io::Result<Vec<u8>> {
     let metadata = std::fs::metadata(path)?;
     if is_device(metadata.file_type()) {
@@ -126,7 +126,7 @@ pub fn read_named(path: &Path) -> io::Result<Vec<u8>> {
     limited(std::fs::File::open(path)?, MOST_CSV_BYTES)?.ok_or_else(too_long)
 }
 
-/// All bytes, or `None` if there are more than `most`; at most one more is read.
+/// All bytes, or `None` if there are more than `most`; at most one byte more is read.
 fn limited(from: impl Read, most: u64) -> io::Result<Option<Vec<u8>>> {
     let mut bytes = Vec::new();
     from.take(most + 1).read_to_end(&mut bytes)?;
@@ -151,8 +151,8 @@ fn refused(name: &str, error: Diagnostic) -> ReadError {
     ReadError::Rejected(Rejected { files, diagnostics: vec![error], syntax: false })
 }
 
-/// Keeps the first problems of each file, errors before warnings, and counts the others, with those
-/// errors that were dropped before.
+/// Keeps the first problems of each file, errors before warnings. Counts the others and those
+/// `dropped` before.
 pub fn shorten(diagnostics: &mut Vec<Diagnostic>, dropped: usize) {
     if diagnostics.len() <= MOST_PROBLEMS && dropped == 0 {
         return;

@@ -1,4 +1,4 @@
-//! A CSV file that is read row by row and of which nothing is held: files with millions of rows.
+//! A CSV file that is read row by row and not stored: files with millions of rows.
 
 use lptn_units::Type;
 
@@ -10,18 +10,18 @@ use crate::hints;
 use crate::text::CsvText;
 use crate::words::nearest;
 
-/// The place of every so manyeth row is kept; the others are counted from there.
+/// Distance of the rows whose places are kept; the others are counted from these.
 const STRIDE: usize = 256;
 
-/// A CSV file, standing at a row.
+/// A CSV file, at one of its rows.
 pub struct CsvRows<'s> {
     /// The columns.
     head: Head,
-    /// What names the file.
+    /// The reader that names the file.
     pub asked: Asked,
-    /// Whether the row has as many cells as the header, so that each stands where it seems to.
+    /// True if the row has as many cells as the header, so that each is in its column.
     pub sound: bool,
-    /// How many problems of its cells were found.
+    /// Number of problems found in its cells.
     pub problems: usize,
     text: &'s CsvText,
     reader: csv::Reader<&'s [u8]>,
@@ -32,10 +32,10 @@ pub struct CsvRows<'s> {
 }
 
 impl<'s> CsvRows<'s> {
-    /// A file, standing before its first row; `example` is a header as it could be.
+    /// A file, before its first row; `example` is an example of a header.
     ///
     /// # Errors
-    /// What is wrong with its form.
+    /// The error of its form.
     pub fn open(text: &'s CsvText, asked: Asked, example: &str) -> Result<Self, Diagnostic> {
         let mut reader = reader(&text.text);
         let mut record = csv::StringRecord::new();
@@ -72,7 +72,7 @@ impl<'s> CsvRows<'s> {
         true
     }
 
-    /// Leaves out the row: it becomes no element.
+    /// Skips the row: it does not become an element.
     pub fn skip(&mut self) {
         self.skipped.push(self.rows - 1 - self.skipped.len());
     }
@@ -82,7 +82,7 @@ impl<'s> CsvRows<'s> {
         self.record.get(index).unwrap_or_default().trim()
     }
 
-    /// The row, for what is said about it.
+    /// The row, for diagnostics.
     fn row(&self) -> Row {
         row(self.record.clone(), &self.text.text)
     }
@@ -92,7 +92,7 @@ impl<'s> CsvRows<'s> {
         self.row().place(self.head.file(), index)
     }
 
-    /// Whether there is a column of this name.
+    /// True if there is a column of this name.
     pub fn has(&self, name: &str) -> bool {
         self.head.columns.iter().any(|column| column.name == name)
     }
@@ -113,26 +113,26 @@ impl<'s> CsvRows<'s> {
         Marks { text: self.text.clone(), count, marks: self.marks, skipped: self.skipped }
     }
 
-    /// The position of a column that has to be there.
+    /// The position of a required column.
     ///
     /// # Errors
-    /// That it is not there, or twice.
+    /// If it is missing or there twice.
     pub fn required(&self, name: &str) -> Result<usize, Diagnostic> {
         self.head.find(name, &self.asked)
     }
 
-    /// The position of a column that may be there.
+    /// The position of an optional column.
     ///
     /// # Errors
-    /// That it is there twice.
+    /// If it is there twice.
     pub fn optional(&self, name: &str) -> Result<Option<usize>, Diagnostic> {
         self.head.optional(name, &self.asked)
     }
 
-    /// A column of numbers of this type, which has to be there.
+    /// A required column of numbers of this type.
     ///
     /// # Errors
-    /// That it is not there, is there twice, or has another unit.
+    /// If it is missing, is there twice, or has another unit.
     pub fn numbers(&self, name: &str, ty: Type) -> Result<CsvColumn, Diagnostic> {
         self.head.numbers(name, Some(ty), &self.asked)
     }
@@ -145,12 +145,12 @@ impl<'s> CsvRows<'s> {
     /// The number in a cell, in SI units.
     ///
     /// # Errors
-    /// Why it holds none.
+    /// The reason why there is none.
     pub fn number(&self, column: &CsvColumn) -> Result<f64, Wrong> {
         value(self.cell(column.index), &column.unit)
     }
 
-    /// A problem for every column that is not one of these.
+    /// An error for every column that is not one of these.
     pub fn unknown_columns(&self, known: &[&str]) -> Vec<Diagnostic> {
         let unknown =
             self.head.columns.iter().filter(|column| !known.contains(&column.name.as_str()));
@@ -166,7 +166,7 @@ impl<'s> CsvRows<'s> {
         told.collect()
     }
 
-    /// A cell without a usable number.
+    /// The error of a cell without a usable number.
     pub fn no_number(&self, index: usize, wrong: Wrong) -> Diagnostic {
         let problem = self.head.no_number(&self.row(), (index, wrong), &self.asked);
         match wrong {
@@ -176,7 +176,7 @@ impl<'s> CsvRows<'s> {
         }
     }
 
-    /// A cell that has to hold a name and is empty.
+    /// The error of an empty cell that needs a name.
     pub fn no_name(&self, index: usize) -> Diagnostic {
         let message = format!("column `{}` has no name in this row", self.head.columns[index].name);
         let problem =
@@ -184,7 +184,7 @@ impl<'s> CsvRows<'s> {
         self.asked.also(problem).help("fill it in, or remove the row")
     }
 
-    /// A row that has more or fewer cells than the header.
+    /// The error of a row with more or fewer cells than the header.
     pub fn wrong_length(&self) -> Diagnostic {
         let row = self.row();
         let extra = self.head.extra(&row, &self.asked);
@@ -192,15 +192,15 @@ impl<'s> CsvRows<'s> {
     }
 }
 
-/// The way back to the rows of a file of which nothing is held.
+/// Finds the rows of a file that is not stored.
 #[derive(Clone, Debug)]
 pub struct Marks {
-    /// How many elements the rows became.
+    /// Number of elements from the rows.
     pub count: usize,
     text: CsvText,
     /// The bytes of the rows 0, [`STRIDE`], 2 [`STRIDE`] and so on.
     marks: Vec<usize>,
-    /// How many elements came before each row that is none.
+    /// Number of elements before each skipped row.
     skipped: Vec<usize>,
 }
 
@@ -218,7 +218,7 @@ impl Marks {
 
     fn row(&self, element: usize) -> Option<Row> {
         let number = element + self.skipped.partition_point(|before| *before <= element);
-        // with the end of the line before: a reader leaves out a byte order mark at its beginning
+        // with the line end before it: a reader skips a byte order mark at its beginning
         let mark = self.marks.get(number / STRIDE)?.saturating_sub(1);
         let mut records = reader(self.text.text.get(mark..)?).into_records();
         let mut cells = records.nth(number % STRIDE)?.ok()?;

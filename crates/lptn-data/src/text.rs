@@ -12,7 +12,7 @@ pub struct CsvText {
     pub file: FileId,
     /// The name that diagnostics show.
     pub name: String,
-    /// What it holds.
+    /// The content.
     pub text: Arc<str>,
 }
 
@@ -20,7 +20,7 @@ impl CsvText {
     /// Keeps the text among others.
     ///
     /// # Errors
-    /// That the bytes are not text in UTF-8.
+    /// If the bytes are not text in UTF-8.
     pub fn of(files: &mut Files, name: String, bytes: &[u8]) -> Result<Self, Diagnostic> {
         match std::str::from_utf8(bytes) {
             Ok(text) if !text.contains('\0') => {
@@ -36,7 +36,7 @@ impl CsvText {
     }
 }
 
-/// A file that is not text in UTF-8.
+/// The error of a file that is not text in UTF-8.
 fn not_text(files: &Files, file: FileId, (name, bytes): (&str, &[u8])) -> Diagnostic {
     let text = files.text(file);
     let at = text.find(char::REPLACEMENT_CHARACTER).unwrap_or(0);

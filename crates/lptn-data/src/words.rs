@@ -2,7 +2,7 @@
 
 use lptn_units::suggest;
 
-/// So many names are listed at most.
+/// Greatest number of names in a list.
 const MOST: usize = 40;
 
 /// "`a`, `b` and `c`".
@@ -17,7 +17,7 @@ pub fn list(names: &[&str]) -> String {
     }
 }
 
-/// What was probably meant by `wrong`: the nearest of the names, else `all`, "its names are", with
+/// A suggestion for `wrong`: the nearest of the names, else `all`, such as "its names are", with
 /// all of them.
 pub fn nearest<'n>(wrong: &str, names: impl IntoIterator<Item = &'n str>, all: &str) -> String {
     let names: Vec<&str> = names.into_iter().collect();

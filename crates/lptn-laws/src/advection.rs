@@ -1,5 +1,5 @@
-//! Heat carried by a stream, one-way: the end it flows into receives, the end it leaves does not
-//! notice.
+//! Heat carried by a stream, one-way: the end it flows into receives it, the end it leaves is not
+//! affected.
 //!
 //! At zero flow both ends take the side of a flow that begins `from` -> `to`, so that together they
 //! have one derivative, that of mcp (T_from - T_to).

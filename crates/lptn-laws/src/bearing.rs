@@ -26,8 +26,8 @@ pub(crate) const Bearing: KindDeclaration = KindDeclaration {
 const MEAN_DIAMETER: FieldDeclaration =
     length("d_m", "mean diameter, half of bore and outer diameter together", "\"60 mm\"");
 
-/// Where the constant branch of [`bearing_no_load`] ends: the least nu n in mm^2/s rpm to the power
-/// of 2/3.
+/// The least (nu n)^(2/3) of [`bearing_no_load`], with nu n in mm^2/s rpm: below it the torque is
+/// constant.
 const LEAST: f64 = 160.0;
 
 /// Friction of a bearing without load: P = M0 omega, in W, with M0 = 1e-7 f0 (nu n)^(2/3) d_m^3 in N

@@ -25,8 +25,8 @@ pub(crate) const Churning: KindDeclaration = KindDeclaration {
     surface: None,
 };
 
-/// What turns in oil: the diameter D in m, the share of it that dips in, the viscosity in m^2/s, the
-/// constant A_g of the arrangement, and the speed in rad/s, of either sign.
+/// A part that turns in oil: the diameter D in m, the share of it that dips in, the viscosity in
+/// m^2/s, the constant A_g of the arrangement, and the speed in rad/s, of either sign.
 #[derive(Clone, Copy, Debug)]
 pub struct Churned<S> {
     /// Outer diameter D in m, above 0.

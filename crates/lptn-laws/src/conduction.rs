@@ -57,7 +57,7 @@ const fn length(
     FieldDeclaration::measure(key, Type::of(Dimension::LENGTH), meaning, example)
 }
 
-/// What the shapes have in common.
+/// The common part of the shapes.
 const BODY: LawDeclaration = LawDeclaration {
     name: "",
     sentence: "",
@@ -81,8 +81,7 @@ const BODY: LawDeclaration = LawDeclaration {
 
 /// Conductance of a plane layer: G = k A / L, in W/K.
 ///
-/// * `k`: conductivity in W/(m K), above 0; where it depends on temperature, its mean over the
-///   layer
+/// * `k`: conductivity in W/(m K), above 0; if it depends on temperature, its mean over the layer
 /// * `area`: A in m^2, normal to the heat, above 0
 /// * `thickness`: L in m, along the heat, above 0
 ///

@@ -1,9 +1,9 @@
 //! `[cooler]`: heat exchangers between two streams, by their effectiveness.
 //!
-//! Each end is a place where a stream is well mixed. Where it is the one that a stream comes from, its
-//! temperature is that of the inlet, and q = e C_min (T_from - T_to) as it is printed. Where `from`
-//! is the one behind the cooler, its temperature is that of the outlet, T_in - q / C_from, and the
-//! same heat is q = G / (1 - G / C_from) (T_from - T_to) with G = e C_min.
+//! Each end is a place where a stream is well mixed. If a stream comes from it, its temperature is
+//! that of the inlet, and q = e C_min (T_from - T_to) as printed. If `from` is after the cooler,
+//! its temperature is that of the outlet, T_in - q / C_from, and the same heat is q = G / (1 - G /
+//! C_from) (T_from - T_to) with G = e C_min.
 //!
 //! A cooler is a path between places, not between pipes. Its ends are inlets, because effectiveness
 //! is published for inlets. If a flow continues to another node, that node is the outlet. The same
@@ -43,16 +43,15 @@ pub(crate) const Cooler: KindDeclaration = KindDeclaration {
     surface: None,
 };
 
-/// A cooler of more transfer units than this works like one of as many.
+/// The largest number of transfer units: a cooler with more works like one with this number.
 const MOST_UNITS: f64 = 500.0;
 
-/// A capacity rate in W/K that is none.
+/// A capacity rate in W/K that counts as no flow.
 const NO_FLOW: f64 = 1e-200;
 
-/// What an outlet is nearer to the other inlet than the inlet was, at best.
+/// The smallest distance of the outlet from the other inlet, as a share of the inlet's distance.
 const NEAREST: f64 = 1e-12;
 
-/// What a cooler does.
 struct Duty<S> {
     /// Number of transfer units.
     units: S,
@@ -62,12 +61,12 @@ struct Duty<S> {
     from: S,
 }
 
-/// The effectiveness of a form: along N and C_r.
+/// The effectiveness of a form for N and C_r.
 type Effectiveness<S> = fn(S, S) -> S;
 
 impl<S: Scalar> Duty<S> {
-    /// From UA and one or two capacity rates; `forms` are that of the cooler, and what it becomes
-    /// where one of the streams is reversed.
+    /// From UA and one or two capacity rates; `forms` are that of the cooler and that with one of
+    /// the streams reversed.
     fn of(values: &[S], forms: [Effectiveness<S>; 2]) -> Self {
         let (size, none) = (values[0], S::from_f64(NO_FLOW));
         let from = values[1].abs();
@@ -92,11 +91,11 @@ impl<S: Scalar> Duty<S> {
     }
 }
 
-/// What the coolers tell: effectiveness, NTU, and where the streams are at their other ends.
+/// Results of coolers: effectiveness, NTU, and temperatures at the streams' other ends.
 fn told(values: &[f64], duty: &Duty<f64>, ends: [f64; 2], outlet: bool) -> Vec<f64> {
     let conductance = if outlet { duty.behind() } else { duty.between_inlets() };
     let heat = conductance * (ends[0] - ends[1]);
-    // a fluid that stands still has not come from anywhere else
+    // a fluid at rest has the same temperature at both ends
     let change = |rate: f64| if rate == 0.0 { 0.0 } else { heat / rate.abs() };
     let other = ends[0] + if outlet { change(values[1]) } else { -change(values[1]) };
     let to = values.get(2).map(|rate| ends[1] + change(*rate));
@@ -144,12 +143,12 @@ const RATES: FieldDeclaration = FieldDeclaration::new(
 const RATE: FieldDeclaration =
     FieldDeclaration { meaning: "capacity rate of the stream of `from`", ..RATES };
 
-/// The same where `from` is an outlet: a reversed stream would make it an inlet.
+/// The same if `from` is an outlet: a reversed stream would make it an inlet.
 const fn forward(rate: FieldDeclaration) -> FieldDeclaration {
     FieldDeclaration { meaning: "the same if `from` is an outlet", ..rate.from_zero() }
 }
 
-/// What they have in common.
+/// The common part of the coolers.
 const COOLER: LawDeclaration = LawDeclaration {
     name: "",
     sentence: "",
@@ -170,8 +169,8 @@ const COOLER: LawDeclaration = LawDeclaration {
     confidence: Confidence::High,
 };
 
-/// Behind a larger cooler the outlet is as warm as the other stream but for rounding, and tells the
-/// heat no more.
+/// At the outlet of a larger cooler the temperature differs from that of the other stream by
+/// rounding only and does not determine the heat.
 const TOLD_BY_OUTLET: Group = Group {
     name: "NTU",
     meaning: "number of transfer units up to which an outlet determines the heat",

@@ -1,5 +1,5 @@
-//! How a kind of path and a law are declared: everything that netlists, checks, documents and
-//! analyses know of them follows from here.
+//! Declarations of kinds of paths and of laws. All that netlists, checks, documents and analyses
+//! know of them follows from here.
 
 use std::f64::consts::PI;
 
@@ -8,12 +8,12 @@ use lptn_units::{Dimension, Scalar, Type};
 use crate::Kind;
 pub use crate::range::Range;
 
-/// A law: what it declares, and its formula.
+/// A law: its declaration and its formula.
 pub trait Law {
     /// Its name, equation, fields, range of validity and source.
     const DECLARATION: LawDeclaration;
 
-    /// Its value in SI units, of what [`LawDeclaration::carries`] says.
+    /// Its value in SI units, with the meaning that [`LawDeclaration::carries`] gives.
     ///
     /// * `values`: one for each of its [fields](LawDeclaration::fields), in their order, in SI
     ///   units
@@ -21,18 +21,18 @@ pub trait Law {
     ///   [`LawDeclaration::reads_ends`] read; for results those of the hottest and the coldest node
     ///   that a source heats
     ///
-    /// A formula checks nothing: who calls it refuses what is outside the ranges of the fields.
-    /// Inside them, value and derivatives are finite.
+    /// A formula checks nothing: the caller refuses values outside the ranges of the fields. Inside
+    /// them, value and derivatives are finite.
     fn value<S: Scalar>(values: &[S], ends: [S; 2]) -> S;
 
-    /// What its [groups](LawDeclaration::groups) are for these values and ends, in their order;
-    /// `None` for one that does not count there.
+    /// The values of its [groups](LawDeclaration::groups) for these values and ends, in their
+    /// order; `None` for one that does not apply there.
     fn groups(values: &[f64], ends: [f64; 2]) -> Vec<Option<f64>> {
         let _ = (values, ends);
         Vec::new()
     }
 
-    /// What it tells of itself besides its heat, by the names that results have: `NAME.pressure`.
+    /// Its results in addition to its heat, by the names that results have: `NAME.pressure`.
     const RESULTS: &'static [ResultDeclaration] = &[];
 
     /// Its [results](Law::RESULTS) for these values and ends, in SI units, in their order.
@@ -41,63 +41,61 @@ pub trait Law {
         Vec::new()
     }
 
-    /// Whether its [results](Law::RESULTS) judge anything for these values; without load no flank
+    /// True if its [results](Law::RESULTS) judge anything for these values; without load no flank
     /// scuffs, however hot it is.
     fn judges(values: &[f64], ends: [f64; 2]) -> bool {
         let _ = (values, ends);
         true
     }
 
-    /// The key of the capacity rate of a stream that comes to `from` out of what the law describes, so
-    /// that streams have to bring as much there; `None` where `from` is no outlet.
+    /// The key of the capacity rate of a stream that leaves the law's device at `from`, so that
+    /// streams must bring as much there; `None` if `from` is not an outlet.
     const OUTLET: Option<&'static str> = None;
 }
 
-/// What is known of a law.
+/// The properties of a law.
 #[derive(Debug)]
 pub struct LawDeclaration {
-    /// Its name in one word; where a key chooses among the laws of a kind, the word for that. Of
-    /// laws with one word the keys that are given choose.
+    /// Its name in one word; if a key selects among the laws of a kind, the word for that. Among
+    /// laws with the same word, the given keys select.
     pub name: &'static str,
-    /// What it is, in one sentence.
+    /// A description in one sentence.
     pub sentence: &'static str,
     /// The equation in text.
     pub equation: &'static str,
     /// The kinds of path or source that obey it.
     pub kinds: &'static [Kind],
-    /// Whether its name chooses it, by the [selector](KindDeclaration::selector) of its kinds;
+    /// True if its name selects it, by the [selector](KindDeclaration::selector) of its kinds;
     /// otherwise its fields do.
     pub named: bool,
-    /// What it takes. Two in a row with one key are given as a list of two.
+    /// Its fields. Two in a row with one key are given as a list of two.
     pub fields: &'static [FieldDeclaration],
-    /// What the value of its formula means.
+    /// The meaning of its formula's value.
     pub carries: Carries,
-    /// Whether its value depends on the temperatures of the ends even where all fields are
-    /// constant.
+    /// True if its value depends on the temperatures of the ends even if all fields are constant.
     pub reads_ends: bool,
-    /// How its value follows from its fields, as far as it can be told whether heat rises with
-    /// temperature.
+    /// The form of its value in its fields, as far as it determines if heat rises with temperature.
     pub form: Form,
-    /// Pairs of keys of which the first has to be smaller.
+    /// Pairs of keys; the value of the first has to be smaller.
     pub ordered: &'static [[&'static str; 2]],
     /// The keys whose product is the area of its surface; the first is the area itself.
     pub area: &'static [&'static str],
-    /// What is divided where the path becomes equal ones side by side.
+    /// The field to divide if the path becomes equal parallel ones.
     pub extent: Extent,
-    /// Keys of other laws of its kinds that mean nothing beside its own, and results that it does
-    /// not tell, with the reason.
+    /// Keys of other laws of its kinds that have no effect on it, and results that it does not
+    /// have, with the reason.
     pub idle: &'static [(&'static str, &'static str)],
-    /// Where it holds, as far as numbers do not say it.
+    /// Its range of validity, apart from the numbers.
     pub validity: &'static str,
-    /// The numbers that say where it holds; [`Law::groups`] gives their values.
+    /// The numbers that limit its validity; [`Law::groups`] gives their values.
     pub groups: &'static [Group],
-    /// Where it was published.
+    /// Its publication.
     pub source: &'static str,
-    /// How sure its formula and constants are.
+    /// Confidence in its formula and constants.
     pub confidence: Confidence,
 }
 
-/// What the value of a law is.
+/// The meaning of a law's value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Carries {
     /// A conductance G in W/K: q = G (T_from - T_to).
@@ -111,23 +109,23 @@ pub enum Carries {
     /// A volume flow in m^3/s of a fluid, measured at the temperature that the field of this key
     /// gives.
     VolumeFlow(&'static str),
-    /// A heat in W, positive into the nodes that it heats: no path, but a source.
+    /// A heat in W, positive into the nodes that it heats: not a path, but a source.
     Heat,
 }
 
 impl Carries {
-    /// Whether it is a stream, whose heat goes one way.
+    /// True if it is a stream, whose heat goes one way.
     pub fn is_stream(self) -> bool {
         !matches!(self, Self::Conductance | Self::Radiation | Self::Heat)
     }
 
-    /// Whether it needs a fluid.
+    /// True if it needs a fluid.
     pub fn is_of_fluid(self) -> bool {
         matches!(self, Self::MassFlow | Self::VolumeFlow(_))
     }
 }
 
-/// How a value follows from fields.
+/// The form of a value in its fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     /// It is their product.
@@ -138,51 +136,51 @@ pub enum Form {
     Other,
 }
 
-/// What is divided where a path becomes equal ones side by side.
+/// The division of a path into equal parallel ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
-    /// Each has a part of the field of this key.
+    /// Each has a part of the field with this key.
     Divided(&'static str),
-    /// Each has as many times the field of this key.
+    /// Each has a multiple of the field with this key.
     Multiplied(&'static str),
     /// It cannot be divided.
     Whole,
 }
 
-/// A number that says where a law holds, as a rule one without dimension.
+/// A number that limits the validity of a law, usually a dimensionless one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Group {
     /// Its symbol: `Ra`.
     pub name: &'static str,
-    /// What it is called, and its unit if it has one: `Rayleigh number`.
+    /// Its name in words, and its unit if it has one: `Rayleigh number`.
     pub meaning: &'static str,
-    /// The least value for which the law is known.
+    /// The smallest value for which the law is known.
     pub from: f64,
     /// The largest.
     pub to: f64,
 }
 
 impl Group {
-    /// Whether a value is inside; one that is not a number is not.
+    /// True if a value is inside; NaN is not.
     pub fn contains(&self, value: f64) -> bool {
         (self.from..=self.to).contains(&value)
     }
 }
 
-/// What a law tells of itself besides its heat.
+/// A result of a law in addition to its heat.
 #[derive(Clone, Copy, Debug)]
 pub struct ResultDeclaration {
     /// The ending of its name: `pressure` of `ring_fit.pressure`.
     pub key: &'static str,
     /// Its dimension; a temperature is a difference.
     pub ty: Type,
-    /// What it is, in a few words.
+    /// Its meaning in a few words.
     pub meaning: &'static str,
-    /// Why there may be no such number, as the end of a sentence; empty where there always is one.
+    /// The reason for a missing number, as the end of a sentence; empty if there always is one.
     pub missing: &'static str,
 }
 
-/// How sure a formula and its constants are.
+/// Confidence in a formula and its constants.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Confidence {
     /// Read in the source and checked against its numbers.
@@ -196,38 +194,38 @@ pub enum Confidence {
 pub struct FieldDeclaration {
     /// Its key in a netlist.
     pub key: &'static str,
-    /// Its dimension, and whether it is an absolute temperature.
+    /// Its type: a dimension, or an absolute temperature.
     pub ty: Type,
-    /// Which numbers it may be.
+    /// The numbers that it may be.
     pub range: Range,
-    /// Its value where it is left out; `None` where it must be given.
+    /// Its default; `None` if it must be given.
     pub default: Option<f64>,
-    /// What it means, in a few words.
+    /// Its meaning in a few words.
     pub meaning: &'static str,
     /// The right side of the key in a netlist, as an example.
     pub example: &'static str,
-    /// What to do about a number outside its range.
+    /// Help for a number outside its range.
     pub hints: Hints,
-    /// Words that may stand in its place, for the expressions that they mean; `OIL` in them is the
+    /// Words that may replace it, with the expressions that they mean; `OIL` in them is the
     /// lubricant.
     pub words: &'static [(&'static str, &'static str)],
-    /// What it is a property of, if it is one: a material, fluid or lubricant may be named in its
-    /// place. Of a path its expression may read `T` then, the mean temperature of the ends.
+    /// The kind of substance whose property it is, if any: a material, fluid or lubricant may be
+    /// named instead. The expression of a path may then read `T`, the mean temperature of the ends.
     pub property: Option<Substance>,
-    /// Whether it is the conductivity of a body through which heat flows from one end to the other:
-    /// its mean over the temperatures between the ends counts.
+    /// True for the conductivity of a body through which heat flows from one end to the other: its
+    /// mean over the temperatures between the ends applies.
     pub along: bool,
 }
 
 lptn_units::words! {
-/// What has properties, by the key that names it.
+/// A kind of substance with properties, by the key that names it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Substance {
-    /// `material`: what a body is made of.
+    /// `material`: of a body.
     Material = "material",
-    /// `fluid`: what a surface is wetted by.
+    /// `fluid`: on a surface.
     Fluid = "fluid",
-    /// `lubricant`: what a loss is lubricated with.
+    /// `lubricant`: of a loss.
     Lubricant = "lubricant",
 }
 /// The key that names it.
@@ -272,7 +270,7 @@ impl FieldDeclaration {
         Self { hints: Hints::GIVEN, ..Self::new(key, Type::SCALAR, meaning, example) }
     }
 
-    /// The unit to write it in, and how many SI units that is: an angle in degrees.
+    /// The unit to write it in, and the size of that in SI units: an angle in degrees.
     pub fn unit(&self) -> (String, f64) {
         match self.ty {
             ty if ty == Type::of(Dimension::ANGLE) => ("deg".to_owned(), PI / 180.0),
@@ -280,12 +278,12 @@ impl FieldDeclaration {
         }
     }
 
-    /// The same with this value where it is left out.
+    /// The same with this default.
     pub const fn or(self, default: f64) -> Self {
         Self { default: Some(default), ..self }
     }
 
-    /// The same that is counted: whole, at least 1.
+    /// The same as a count: whole, at least 1.
     pub const fn counted(self) -> Self {
         Self { range: Range::Count, ..self }
     }
@@ -306,7 +304,7 @@ impl FieldDeclaration {
     }
 }
 
-/// What to do about a number that is not above 0.
+/// Help for a number that is not above 0.
 #[derive(Clone, Copy, Debug)]
 pub struct Hints {
     /// It is 0.
@@ -318,41 +316,41 @@ pub struct Hints {
 }
 
 impl Hints {
-    /// Of what may be of either sign by mistake.
+    /// For a value whose sign may be wrong.
     pub const SIGN: Self = Self {
         zero: "check the sign: heat flows from the warm to the cold end, whichever is named first",
         negative: "check the sign: heat flows from the warm to the cold end, whichever is named \
             first",
         infinite: "something is divided by zero, or a number is too large",
     };
-    /// Of what carries the more heat the larger it is.
+    /// For a value that carries the more heat the larger it is.
     pub const CONDUCTS: Self =
         Self { zero: "leave the path out if no heat flows through it", ..Self::SIGN };
-    /// Of what carries the less heat the larger it is.
+    /// For a value that carries the less heat the larger it is.
     pub const RESISTS: Self = Self {
         zero: "two places without resistance between them are one node: make them one",
         infinite: "leave the path out if no heat flows through it",
         ..Self::SIGN
     };
-    /// Of a measure of a body.
+    /// For a dimension of a body.
     pub const MEASURE: Self = Self {
         zero: "a body has dimensions of more than zero",
         negative: "a body has dimensions of more than zero",
         ..Self::SIGN
     };
-    /// Of a number that a catalogue or a drawing gives.
+    /// For a number that a catalogue or a drawing gives.
     pub const GIVEN: Self = Self {
         zero: "the catalogue or the drawing has a number of more than zero",
         negative: "the catalogue or the drawing has a number of more than zero",
         ..Self::SIGN
     };
-    /// Of a property of a fluid.
+    /// For a property of a fluid.
     pub const FLUID: Self = Self {
         zero: "a fluid has properties of more than zero",
         negative: "a fluid has properties of more than zero",
         ..Self::SIGN
     };
-    /// Of a property of a body.
+    /// For a property of a body.
     pub const PROPERTY: Self = Self {
         zero: "a body has a mass, a volume and properties of more than zero",
         negative: "a body has a mass, a volume and properties of more than zero",
@@ -360,14 +358,14 @@ impl Hints {
     };
 }
 
-/// What is known of a kind of path or source: a section of the netlist.
+/// The properties of a kind of path or source: a section of the netlist.
 #[derive(Debug)]
 pub struct KindDeclaration {
-    /// The section, which is also what an element of it is called.
+    /// The section, which is also the word for an element of it.
     pub section: &'static str,
-    /// What it is, in one sentence.
+    /// A description in one sentence.
     pub sentence: &'static str,
-    /// The key whose word chooses among its [named](LawDeclaration::named) laws.
+    /// The key whose word selects among its [named](LawDeclaration::named) laws.
     pub selector: Option<&'static str>,
     /// The right side of an element of it, for help.
     pub example: &'static str,
@@ -375,12 +373,12 @@ pub struct KindDeclaration {
     pub elsewhere: &'static [(&'static str, &'static str)],
     /// Keys that are decided but not supported yet.
     pub later: &'static [&'static str],
-    /// Which surface of a body it is, if any.
+    /// The kind of surface of a body, if it is one.
     pub surface: Option<SurfaceKind>,
 }
 
-/// How a surface of a body gives off heat. What convects also radiates: their areas are the same
-/// skin.
+/// The way in which a surface of a body gives off heat. A surface that convects also radiates:
+/// their areas are the same skin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SurfaceKind {
     /// It convects.

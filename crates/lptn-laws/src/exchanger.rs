@@ -11,7 +11,7 @@
 
 use lptn_units::Scalar;
 
-/// Below this the difference of a quotient would cancel, and its series stands for it.
+/// Below this the difference in a quotient would cancel, and a series replaces it.
 const SMALL: f64 = 1e-2;
 
 /// (1 - exp(-x)) / x, 1 at 0.
@@ -24,7 +24,7 @@ fn mean_of_decay<S: Scalar>(x: S) -> S {
     (one - (-x).exp()) / x
 }
 
-/// Effectiveness of two streams that run against each other.
+/// Effectiveness of two streams in opposite directions.
 ///
 /// e = (1 - exp(-N (1 - C_r))) / (1 - C_r exp(-N (1 - C_r))); for C_r = 1 it is N / (1 + N)
 ///
@@ -40,7 +40,7 @@ pub fn effectiveness_counterflow<S: Scalar>(ntu: S, ratio: S) -> S {
     gained / (one + ratio * gained)
 }
 
-/// Effectiveness of two streams that run side by side.
+/// Effectiveness of two parallel streams.
 ///
 /// e = (1 - exp(-N (1 + C_r))) / (1 + C_r)
 ///
@@ -66,7 +66,7 @@ pub fn effectiveness_parallel<S: Scalar>(ntu: S, ratio: S) -> S {
 /// ```
 pub fn effectiveness_crossflow<S: Scalar>(ntu: S, ratio: S) -> S {
     let (hot, cold, one) = (ntu, ratio * ntu, S::from_f64(1.0));
-    // what is left of 1 after the terms of each exponential series so far; the second over C_r N
+    // the rest of 1 after the terms so far of each exponential series; the second over C_r N
     let mut rest = [hot * mean_of_decay(hot), mean_of_decay(cold)];
     let mut power = [(-hot).exp() * hot, (-cold).exp()];
     let mut sum = rest[0] * rest[1];
@@ -103,9 +103,9 @@ pub fn effectiveness_shell<S: Scalar>(ntu: S, ratio: S) -> S {
     two * gained / ((one + ratio) * gained + one + left)
 }
 
-/// Effectiveness where the other side has one temperature: it boils, condenses or is a bath.
+/// Effectiveness if the other side has one temperature: it boils, condenses or is a bath.
 ///
-/// e = 1 - exp(-N), whatever C_r would be
+/// e = 1 - exp(-N), for any C_r
 ///
 /// ```
 /// assert!((lptn_laws::effectiveness_one_stream(5.0, 0.0) - 0.993_262).abs() < 5e-7);

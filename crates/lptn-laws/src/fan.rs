@@ -1,20 +1,20 @@
-//! Fans and pumps at a system: where they meet.
+//! Fans and pumps at a system: their duty point.
 //!
-//! A fan is three powers of its speed. At a system of r Q^2 the curve shrinks along that parabola.
-//! The duty point at one speed is therefore sufficient, and the expansion writes it.
+//! A fan follows three powers of its speed. At a system of r Q^2 the curve shrinks along that
+//! parabola. The duty point at one speed is therefore sufficient, and the expansion writes it.
 
-/// Flow and pressure at which a fan or pump runs: where its curve meets that of the system,
-/// p = r Q^2.
+/// Flow and pressure of a fan or pump at its duty point: its curve intersects that of the system, p
+/// = r Q^2.
 ///
 /// * `curve`: points of flow in m^3/s, at least 0 and rising, and pressure in Pa, not rising, with
 ///   straight lines between them
 /// * `resistance`: r of the system in Pa/(m^3/s)^2, above 0
 ///
-/// `None` where they do not meet between the ends of the curve. There is one place at most, since one
+/// `None` if they do not intersect between the ends of the curve. There is at most one, since one
 /// falls and the other rises; on a line p = a - b Q it is Q = 2 a / (b + sqrt(b^2 + 4 r a)). At
-/// another speed n both flows change as n and both pressures as n^2, so that they meet at Q n/n0 and
-/// p (n/n0)^2, and the power is P (n/n0)^3 (affinity laws, for a system of this form exact). Source:
-/// F. M. White, Fluid Mechanics, 7th edition, sections 11.3 and 11.5.
+/// another speed n both flows change as n and both pressures as n^2, so that they meet at Q n/n0
+/// and p (n/n0)^2, and the power is P (n/n0)^3 (affinity laws, for a system of this form exact).
+/// Source: F. M. White, Fluid Mechanics, 7th edition, sections 11.3 and 11.5.
 ///
 /// ```
 /// let curve = [[0.0, 100.0], [0.1, 100.0], [0.2, 0.0]];

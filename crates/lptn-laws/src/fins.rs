@@ -7,7 +7,7 @@ use crate::convection::Film;
 use crate::declare::{Extent, FieldDeclaration, Form, Hints, Law, LawDeclaration, Substance};
 use crate::fluid::length;
 
-/// Below this tanh(x)/x is its series.
+/// Below this a series replaces tanh(x)/x.
 const SMALL: f64 = 1e-2;
 
 /// Efficiency of a straight fin with an insulated tip: tanh(mL)/(mL), 1 for a fin that conducts
@@ -16,7 +16,7 @@ const SMALL: f64 = 1e-2;
 /// * `ml`: m L, at least 0, with m = sqrt(2 h / (k t)) of a fin of thickness t, and its length L
 ///   from root to tip
 ///
-/// Heat through the tip counts if L is taken longer by t/2. Source: Incropera et al., Fundamentals of
+/// To include heat through the tip, increase L by t/2. Source: Incropera et al., Fundamentals of
 /// Heat and Mass Transfer, 6th edition, equations 3.86 to 3.89.
 ///
 /// ```
@@ -36,7 +36,7 @@ pub fn fin_efficiency<S: Scalar>(ml: S) -> S {
 ///
 /// * `h`: film coefficient in W/(m^2 K), at least 0, the same everywhere
 /// * `bare`, `fins`: areas in m^2 of the base between the fins, and of all fins
-/// * `ml`: m L, as [`fin_efficiency`] takes it
+/// * `ml`: m L, as in [`fin_efficiency`]
 ///
 /// Source: Incropera et al., 6th edition, equation 3.101.
 pub fn finned<S: Scalar>(h: S, [bare, fins]: [S; 2], ml: S) -> S {

@@ -1,5 +1,4 @@
-//! What correlations of heat transfer take of a fluid, and the numbers without dimension that
-//! follow.
+//! Properties of fluids in correlations of heat transfer, and the dimensionless numbers from them.
 //!
 //! Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, table 6.2.
 
@@ -98,7 +97,7 @@ impl<S: Scalar> Fluid<S> {
     /// Conductance of a film in W/K: G = Nu k / L A.
     ///
     /// * `nusselt`: Nu, the mean over the surface
-    /// * `length`: the length L in m that Nu is made with
+    /// * `length`: the length L of Nu in m
     /// * `area`: A in m^2
     pub fn film(self, nusselt: S, length: S, area: S) -> S {
         nusselt * self.conductivity / length * area
@@ -115,7 +114,7 @@ pub(crate) const fn reynolds(from: f64, to: f64) -> Group {
     Group { name: "Re", meaning: "Reynolds number", from, to }
 }
 
-/// A length that a correlation is made with, or a dimension of a body.
+/// A length in a correlation, or a dimension of a body.
 pub(crate) const fn length(
     key: &'static str,
     meaning: &'static str,

@@ -50,10 +50,9 @@ const HILPERT: [(f64, f64); 5] =
 /// | to 40 000 | 0.193 | 0.618 |
 /// | to 400 000 | 0.027 | 0.805 |
 ///
-/// At the ends of the rows Nu would jump by up to 1.5 %; here the largest of the five counts, so
-/// that each goes over into the next where they meet (Re = 4.5, 35, 4080, 37 000). Source: R.
-/// Hilpert, Forschung auf dem Gebiete des Ingenieurwesens 4 (1933) 215; Incropera et al., 6th
-/// edition, equation 7.52 and table 7.2.
+/// At the ends of the rows Nu would jump by up to 1.5 %. Here the largest of the five applies, so
+/// that neighbours meet (Re = 4.5, 35, 4080, 37 000). Source: R. Hilpert, Forschung auf dem Gebiete
+/// des Ingenieurwesens 4 (1933) 215; Incropera et al., 6th edition, equation 7.52 and table 7.2.
 pub fn nusselt_cross_flow_hilpert<S: Scalar>(re: S, pr: S) -> S {
     let powers = HILPERT.map(|(factor, exponent)| S::from_f64(factor) * re.powf(exponent));
     powers.into_iter().fold(S::from_f64(0.0), S::max) * pr.powf(1.0 / 3.0)
@@ -61,8 +60,8 @@ pub fn nusselt_cross_flow_hilpert<S: Scalar>(re: S, pr: S) -> S {
 
 /// Mean Nusselt number of a flat plate along a flow, over its length.
 ///
-/// Nu = 0.664 Re^(1/2) Pr^(1/3) where it is laminar, (0.037 Re^(4/5) - 871) Pr^(1/3) where it turns
-/// turbulent on the way, whichever is larger: from Re = 5e5 on that is the second
+/// Nu = 0.664 Re^(1/2) Pr^(1/3) for laminar flow, (0.037 Re^(4/5) - 871) Pr^(1/3) if it turns
+/// turbulent on the way, whichever is larger: from Re = 5e5 on the second
 ///
 /// * `re`: Reynolds number of the length, at least 0, at most 1e8
 /// * `pr`: Prandtl number, 0.6 to 60
@@ -77,7 +76,7 @@ pub fn nusselt_flat_plate<S: Scalar>(re: S, pr: S) -> S {
 /// Nu of a laminar flow in a round duct with a wall of one temperature.
 const LAMINAR_DUCT: f64 = 3.66;
 
-/// Where a flow in a duct stops being laminar, and where it is turbulent.
+/// Reynolds numbers at which a flow in a duct stops being laminar and becomes turbulent.
 const TRANSITION: [f64; 2] = [2300.0, 4000.0];
 
 /// Nusselt number of the developed flow in a smooth duct, over its hydraulic diameter.
@@ -145,7 +144,7 @@ fn re_and_pr(values: &[f64]) -> Vec<Option<f64>> {
     vec![Some(re), Some(pr)]
 }
 
-/// What they have in common.
+/// The common part of these laws.
 const BODY: LawDeclaration = LawDeclaration {
     kinds: &[Kind::Convection],
     named: true,

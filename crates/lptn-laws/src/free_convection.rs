@@ -2,8 +2,8 @@
 //!
 //! All properties are those at the film temperature, the mean of surface and fluid.
 //!
-//! Printed formulas that do not meet at a limit of their ranges are joined where they cross. A jump
-//! of heat has no steady state and stops an integrator. The validity of each law says where it
+//! Printed formulas that do not meet at a limit of their ranges are joined at their intersection. A
+//! jump of heat has no steady state and stops an integrator. The validity of each law says how it
 //! differs from its source. For the same reason |dT| is sqrt(dT^2 + (1 mK)^2). If it matters which
 //! side of a path is the surface, the name of the law says so (`upper_side_of_from`).
 
@@ -17,7 +17,7 @@ use crate::fluid::{EXPANSION, Fluid, length, of_fluid, prandtl};
 /// Standard acceleration of gravity in m/s^2, exact by definition (CGPM 1901).
 pub(crate) const GRAVITY: f64 = 9.806_65;
 
-/// Differences of temperature in K that are as good as none: see [`rayleigh`].
+/// Difference of temperatures in K below which |dT| is smoothed: see [`rayleigh`].
 const STILL: f64 = 1e-3;
 
 /// Rayleigh number: Ra = g beta |dT| L^3 / (nu alpha), dimensionless.
@@ -27,9 +27,9 @@ const STILL: f64 = 1e-3;
 /// * `difference`: dT in K, of either sign
 /// * `length`: L in m, above 0
 ///
-/// Powers of |dT| below 1 have no slope at 0, and a film that conducts nothing there cuts a node off,
-/// so |dT| is taken as sqrt(dT^2 + (1 mK)^2), which is smooth. A film that goes with Ra^(1/3) is
-/// then too large by 1.7e-7 of itself at 1 K and by 1.7e-5 at 0.1 K, others by less; at dT = 0 it is
+/// Powers of |dT| below 1 have no slope at 0, and a film without conductance cuts a node off. So
+/// |dT| is taken as sqrt(dT^2 + (1 mK)^2), which is smooth. A film proportional to Ra^(1/3) is then
+/// too large by 1.7e-7 of itself at 1 K and by 1.7e-5 at 0.1 K, others by less. At dT = 0 it is
 /// that of 1 mK, and carries no heat.
 ///
 /// Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 9.25.
@@ -40,12 +40,12 @@ pub fn rayleigh<S: Scalar>(fluid: Fluid<S>, expansion: S, difference: S, length:
     drive * density * density * specific_heat / (viscosity * conductivity)
 }
 
-/// The magnitude of a difference of temperatures in K, as [`rayleigh`] takes it.
+/// The magnitude of a difference of temperatures in K, as in [`rayleigh`].
 pub(crate) fn magnitude<S: Scalar>(difference: S) -> S {
     (difference * difference + S::from_f64(STILL * STILL)).sqrt()
 }
 
-/// The function of Pr by which Churchill and Chu weigh Ra: (1 + (c/Pr)^(9/16))^(-16/9).
+/// The factor with which Churchill and Chu weigh Ra: (1 + (c/Pr)^(9/16))^(-16/9).
 fn weight<S: Scalar>(pr: S, c: f64) -> S {
     let one = S::from_f64(1.0);
     one / (one + (S::from_f64(c) / pr).powf(9.0 / 16.0)).powf(16.0 / 9.0)
@@ -85,29 +85,29 @@ pub fn nusselt_horizontal_cylinder<S: Scalar>(ra: S, pr: S) -> S {
     (S::from_f64(0.60) + S::from_f64(0.387) * root).powi(2)
 }
 
-/// Mean Nusselt number of a horizontal plate, where the fluid beside it is driven away from it: the
-/// upper side of a warm plate, the lower side of a cold one.
+/// Mean Nusselt number of a horizontal plate that drives the fluid away: the upper side of a warm
+/// plate, the lower side of a cold one.
 ///
 /// Nu = 0.54 Ra^(1/4) or 0.15 Ra^(1/3), whichever is larger
 ///
 /// * `ra`: Rayleigh number of the length A/P, area over perimeter; 1e4 to 1e11
 ///
-/// The source changes from the first to the second at Ra = 1e7, where Nu would jump by 6 %; here it
-/// changes where they meet, at 4.7e6. Source: W. H. McAdams, Heat Transmission, 3rd edition
+/// The source changes from the first to the second at Ra = 1e7, with a jump of 6 % in Nu. Here the
+/// change is at their intersection, 4.7e6. Source: W. H. McAdams, Heat Transmission, 3rd edition
 /// (McGraw-Hill 1954), page 180; Incropera et al., 6th edition, equations 9.30 and 9.31.
 pub fn nusselt_plate_driven<S: Scalar>(ra: S) -> S {
     let laminar = S::from_f64(0.54) * ra.powf(0.25);
     laminar.max(S::from_f64(0.15) * ra.powf(1.0 / 3.0))
 }
 
-/// Mean Nusselt number of a horizontal plate, where the fluid beside it lies still: the lower side of
-/// a warm plate, the upper side of a cold one.
+/// Mean Nusselt number of a horizontal plate with a still layer of fluid: the lower side of a warm
+/// plate, the upper side of a cold one.
 ///
 /// Nu = 0.27 Ra^(1/4)
 ///
 /// * `ra`: Rayleigh number of the length A/P, area over perimeter; 1e5 to 1e10
 ///
-/// Source: as of [`nusselt_plate_driven`], equation 9.32.
+/// Source: as for [`nusselt_plate_driven`], equation 9.32.
 pub fn nusselt_plate_layered<S: Scalar>(ra: S) -> S {
     S::from_f64(0.27) * ra.powf(0.25)
 }
@@ -118,7 +118,7 @@ fn state<S: Scalar>(values: &[S], [from, to]: [S; 2]) -> (Fluid<S>, S, S) {
     (fluid, rayleigh(fluid, values[4], from - to, values[5]), fluid.prandtl())
 }
 
-/// What they have in common.
+/// The common part of these laws.
 const BODY: LawDeclaration = LawDeclaration {
     kinds: &[Kind::Convection],
     named: true,
@@ -194,7 +194,7 @@ impl Law for HorizontalCylinder {
     }
 }
 
-/// Which side of a horizontal plate.
+/// A side of a horizontal plate.
 #[derive(Clone, Copy)]
 enum Side {
     Upper,
@@ -202,8 +202,8 @@ enum Side {
 }
 
 impl Side {
-    /// Whether the fluid is driven away from this side of `from` or lies still; neither where the
-    /// temperatures are equal.
+    /// True if this side of `from` drives the fluid away, false if the fluid lies still; `None` if
+    /// the temperatures are equal.
     fn drives<S: Scalar>(self, [from, to]: [S; 2]) -> Option<bool> {
         let warmer = from.value() > to.value();
         let differ = warmer || from.value() < to.value();

@@ -8,7 +8,7 @@ use crate::declare::{
 };
 
 /// Below this p/H the law is continued by the straight line through 0, so that its slope is finite
-/// where two bodies only just touch: it is a thousandth of the least pressure it is known for.
+/// if two bodies only just touch. It is a thousandth of the smallest known pressure.
 const LEAST: f64 = 1e-9;
 
 /// Contact conductance of a joint: h = 1.25 ks (m / sigma) (p / H)^0.95 + h_gap, in W/(m^2 K), with
@@ -19,7 +19,7 @@ const LEAST: f64 = 1e-9;
 ///   surfaces together, the root of the sum of squares), microhardness H of the softer one in Pa;
 ///   above 0
 /// * `pressure`: p in Pa, at least 0
-/// * `gap`: conductance of what fills the gaps, in W/(m^2 K), at least 0; of a gas kg / (Y + M)
+/// * `gap`: conductance of the medium in the gaps, in W/(m^2 K), at least 0; of a gas kg / (Y + M)
 ///
 /// Surfaces are rough, conforming and pressed together for the first time, so that asperities flow.
 /// Below p/H = 1e-9 the power is replaced by the straight line to 0.
@@ -83,7 +83,7 @@ pub(crate) const GAP: FieldDeclaration = FieldDeclaration::new(
 .from_zero()
 .or(0.0);
 
-/// What the pressure is to the hardness.
+/// The pressure relative to the hardness.
 pub(crate) const RELATIVE_PRESSURE: Group =
     Group { name: "p/H", meaning: "pressure over microhardness", from: 1e-6, to: 2.3e-2 };
 

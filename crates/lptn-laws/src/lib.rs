@@ -1,15 +1,15 @@
-//! Published formulas of heat transfer and of losses, one function each, and the declarations of the
-//! laws and kinds of paths and sources that follow from them ([`Formula`], [`Kind`]): fields with quantity, range,
+//! Published formulas of heat transfer and of losses, one function each, and the declarations of
+//! laws and of kinds of paths and sources ([`Formula`], [`Kind`]): fields with quantity, range,
 //! default and example, forms, validity, source. Netlist keys, checks, help, documents, expansion
-//! and the tests of derivatives are read from there.
+//! and the tests of derivatives use these declarations.
 //!
 //! Every law is generic over [`Scalar`](lptn_units::Scalar): on `f64` it gives the value, on
-//! [`Dual`](lptn_units::Dual) the derivatives with it, from the same lines. All quantities are in
-//! SI units, absolute temperatures in K. A function checks nothing: its valid range is in its
-//! description, and who calls it refuses what is outside, with the name of the element. Inside the
-//! range, value and derivatives are finite, at `dT = 0`, at zero flow and at reversal too.
+//! [`Dual`](lptn_units::Dual) also the derivatives, from the same lines. All quantities are in SI
+//! units, absolute temperatures in K. A function checks nothing: its description gives its valid
+//! range, and the caller refuses values outside, with the name of the element. Inside the range,
+//! value and derivatives are finite, also at `dT = 0`, at zero flow and at reversal.
 //!
-//! Links are written as q = G dT wherever a conductance exists, so that heat never is the small
+//! Links are written as q = G dT if a conductance exists, so that heat is never the small
 //! difference of two large numbers.
 //!
 //! ```

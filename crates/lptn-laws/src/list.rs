@@ -1,5 +1,5 @@
 //! The one list of kinds and laws. A new one is its file and its word here; everything else follows
-//! from what the file declares.
+//! from the declarations in the file.
 
 use lptn_units::Scalar;
 
@@ -7,8 +7,8 @@ use crate::declare::{KindDeclaration, Law, LawDeclaration, ResultDeclaration};
 
 macro_rules! declare {
     ($($module:ident: $($kind:ident)? { $($law:ident),* };)*) => {
-        /// A kind of path or of source of heat: the section of the netlist that it stands in, in
-        /// the order in which their columns stand; paths come first.
+        /// A kind of path or of source of heat: its section of the netlist, in the order of the
+        /// columns; paths come first.
         #[allow(missing_docs, reason = "its declaration says what it is")]
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Kind { $($($kind,)?)* }
@@ -45,12 +45,12 @@ macro_rules! declare {
                 }
             }
 
-            /// What it tells of itself besides its heat.
+            /// Its results in addition to its heat.
             pub const fn result_declarations(self) -> &'static [ResultDeclaration] {
                 match self { $($(Self::$law => <crate::$module::$law as Law>::RESULTS,)*)* }
             }
 
-            /// Whose outlet `from` is, as [`Law::OUTLET`].
+            /// The capacity rate of the stream whose outlet `from` is, as [`Law::OUTLET`].
             pub const fn outlet(self) -> Option<&'static str> {
                 match self { $($(Self::$law => <crate::$module::$law as Law>::OUTLET,)*)* }
             }
@@ -62,14 +62,14 @@ macro_rules! declare {
                 }
             }
 
-            /// Whether its results judge anything, as [`Law::judges`].
+            /// True if its results judge anything, as [`Law::judges`].
             pub fn judges(self, values: &[f64], ends: [f64; 2]) -> bool {
                 match self {
                     $($(Self::$law => <crate::$module::$law as Law>::judges(values, ends),)*)*
                 }
             }
 
-            /// What its groups are, as [`Law::groups`].
+            /// The values of its groups, as [`Law::groups`].
             pub fn groups(self, values: &[f64], ends: [f64; 2]) -> Vec<Option<f64>> {
                 match self {
                     $($(Self::$law => <crate::$module::$law as Law>::groups(values, ends),)*)*

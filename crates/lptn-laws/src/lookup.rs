@@ -1,4 +1,4 @@
-//! What is asked of kinds and laws: which belong together, and their fields.
+//! Queries of kinds and laws: which belong together, and their fields.
 
 use std::sync::LazyLock;
 
@@ -8,7 +8,7 @@ use crate::{Formula, Kind};
 impl Kind {
     /// The laws that its paths obey, in the order of the list.
     pub fn laws(self) -> impl Iterator<Item = Formula> {
-        // asked for each key of each section, so found once
+        // needed for each key of each section, so found once
         static LAWS: LazyLock<Vec<Vec<Formula>>> = LazyLock::new(|| {
             let obeys = |law: &Formula, kind| law.declaration().kinds.contains(kind);
             let laws = |kind| Formula::ALL.iter().copied().filter(|law| obeys(law, kind)).collect();
@@ -17,22 +17,22 @@ impl Kind {
         LAWS[self as usize].iter().copied()
     }
 
-    /// Whether its paths are streams, whose two ends receive different heats.
+    /// True if its paths are streams, whose two ends receive different heats.
     pub fn is_stream(self) -> bool {
         self.laws().any(|law| law.declaration().carries.is_stream())
     }
 
-    /// Whether its elements are no paths between two ends, but sources that heat nodes.
+    /// True if its elements are not paths between two ends, but sources that heat nodes.
     pub fn is_source(self) -> bool {
         self.laws().any(|law| law.declaration().carries == Carries::Heat)
     }
 
-    /// The laws that only their name chooses, or only their fields.
+    /// The laws that are selected by their name only, or by their fields only.
     pub fn laws_named(self, named: bool) -> impl Iterator<Item = Formula> {
         self.laws().filter(move |law| law.declaration().named == named)
     }
 
-    /// Its fields, each key once: those that all its laws take come first.
+    /// Its fields, each key once; the fields of all its laws come first.
     pub fn fields(self) -> Vec<&'static FieldDeclaration> {
         let mut fields: Vec<&'static FieldDeclaration> = Vec::new();
         for field in self.laws().flat_map(|law| law.declaration().fields) {

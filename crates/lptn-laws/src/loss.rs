@@ -1,8 +1,8 @@
-//! What the laws of losses have in common: heat of friction at a speed, which is the same for both
+//! The common part of the laws of losses: heat of friction at a speed, which is the same for both
 //! directions of rotation and 0 at rest.
 //!
 //! The published formulas take speeds in rpm, lengths in mm and viscosities in mm^2/s; their
-//! constants stand here as printed.
+//! constants are as printed.
 
 use std::f64::consts::PI;
 
@@ -34,8 +34,8 @@ pub(crate) const VISCOSITY: FieldDeclaration = FieldDeclaration {
     )
 };
 
-/// Where the curves of lubricants end: below, ASTM D341 is an extrapolation. It changes no faster
-/// than temperatures do.
+/// The lower end of the curves of lubricants: below it ASTM D341 is an extrapolation. It changes no
+/// faster than temperatures do.
 pub const THIN_OIL: Group = Group {
     name: "nu",
     meaning: "viscosity of the lubricant in mm^2/s",
@@ -43,7 +43,7 @@ pub const THIN_OIL: Group = Group {
     to: f64::INFINITY,
 };
 
-/// The viscosity in mm^2/s of the values of a law; at rest it does not count, for nothing is lost.
+/// The viscosity in mm^2/s of the values of a law; `None` at rest, when nothing is lost.
 pub(crate) fn viscosity<L: Law>(values: &[f64]) -> Option<f64> {
     let of = |key| L::DECLARATION.fields.iter().position(|field| field.key == key);
     let (nu, speed) = (values[of(VISCOSITY.key)?], values[of(SPEED.key)?]);
@@ -59,7 +59,7 @@ pub(crate) const fn length(
     FieldDeclaration::measure(key, Type::of(Dimension::LENGTH), meaning, example)
 }
 
-/// What the laws have in common.
+/// The common part of the laws.
 pub(crate) const LOSS: LawDeclaration = LawDeclaration {
     name: "",
     sentence: "",

@@ -1,4 +1,4 @@
-//! Whether a body is a lump: how evenly warm it is inside.
+//! Numbers that show if a body is a lump: how uniform its temperature is inside.
 
 use lptn_units::Scalar;
 
@@ -9,7 +9,7 @@ use lptn_units::Scalar;
 /// * `length`: characteristic length L in m, volume over the surface that gives off heat; above 0
 /// * `conductivity`: k of the body in W/(m K), above 0
 ///
-/// Below 0.1 one temperature stands for the body: the error of the lumped capacitance method is
+/// Below 0.1 one temperature represents the body: the error of the lumped capacitance method is
 /// small. Source: Incropera, DeWitt, Bergman, Lavine, Fundamentals of Heat and Mass Transfer, 6th
 /// edition, equations 5.9 and 5.10.
 ///

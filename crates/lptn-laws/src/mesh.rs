@@ -33,14 +33,14 @@ pub(crate) const Mesh: KindDeclaration = KindDeclaration {
     surface: None,
 };
 
-/// The most that the coefficient of friction becomes: the formula has no bound at low speed.
+/// Upper bound of the coefficient of friction: the formula has none at low speed.
 const MOST_FRICTION: f64 = 0.2;
 
 /// The factor of gear loss H_V = pi (u + 1) / (z1 u cos beta_b) (1 - eps_alpha + eps_1^2 + eps_2^2),
 /// with u - 1 for an internal mesh.
 ///
 /// * `teeth`: z1 of the pinion, z2 of the wheel or ring, above 0; of a ring z2 > z1
-/// * `internal`: whether the wheel is a ring with internal teeth
+/// * `internal`: true if the wheel is a ring with internal teeth
 /// * `cos_base`: cosine of the helix angle at the base circle
 /// * `contact`: eps_1 and eps_2, tip contact ratios of pinion and wheel; eps_alpha is their sum
 ///
@@ -100,7 +100,7 @@ fn joined<S: Scalar>(z2: S, z1: S, internal: bool) -> S {
 pub struct GearPair<S> {
     /// Teeth z1 of the pinion and z2 of the wheel or ring.
     pub teeth: [S; 2],
-    /// Whether the wheel is a ring with internal teeth.
+    /// True if the wheel is a ring with internal teeth.
     pub internal: bool,
     /// Normal module in m.
     pub module: S,
@@ -117,8 +117,8 @@ pub struct GearPair<S> {
 impl<S: Scalar> GearPair<S> {
     /// Friction of its teeth: P = abs(T1 omega1) mu H_V, in W.
     ///
-    /// * `speed`: omega1 of the pinion in rad/s, of either sign; in a planetary stage that against
-    ///   the carrier, so that it is the rolling power that counts
+    /// * `speed`: omega1 of the pinion in rad/s, of either sign; in a planetary stage relative to
+    ///   the carrier, so that the rolling power counts
     /// * `torque`: T1 of the pinion in N m, of either sign
     /// * `oil`: nu in m^2/s and density in kg/m^3, above 0, and X_L as in [`mesh_friction`]
     /// * `roughness`: Ra, mean of the two flanks, in m, at least 0
@@ -130,7 +130,7 @@ impl<S: Scalar> GearPair<S> {
         speed.abs() * torque.abs() * self.friction(speed, torque, oil, roughness) * factor
     }
 
-    /// Its mean coefficient of friction, for what [`GearPair::power`] takes.
+    /// Its mean coefficient of friction, with the arguments of [`GearPair::power`].
     pub fn friction(&self, speed: S, torque: S, oil: [S; 3], roughness: S) -> S {
         let [nu, density, lubricant] = oil;
         let [z1, z2] = self.teeth;
@@ -196,7 +196,7 @@ const fn angle(
     FieldDeclaration::measure(key, Type::of(Dimension::ANGLE), meaning, example).or(default)
 }
 
-/// Why a mesh without `scuffing` tells nothing of it.
+/// The reason why a mesh without `scuffing` has no results of it.
 const BULK: &str = "needs `scuffing` in the mesh: a bulk temperature alone is not safe, for the \
     flash temperature depends on load, speed and geometry";
 
@@ -306,7 +306,7 @@ fn mesh<S: Scalar>(values: &[S], internal: bool) -> S {
     pair_of(values, internal).power(values[0], values[1], oil, values[6])
 }
 
-/// In m/s; at rest and without torque it does not count, for nothing is lost.
+/// Pitch line velocity in m/s; `None` at rest or without torque, when nothing is lost.
 fn pitch_line_velocity(values: &[f64]) -> Option<f64> {
     let (speed, torque, z1) = (values[0].abs(), values[1].abs(), values[2]);
     let (module, helix) = (values[4], values[11]);

@@ -1,4 +1,4 @@
-//! Heat sinks with straight fins side by side: the film between them, and what the fins conduct.
+//! Heat sinks with parallel straight fins: the film between them, and conduction in the fins.
 //!
 //! All properties are those at the film temperature, the mean of base and fluid.
 
@@ -17,9 +17,9 @@ use crate::free_convection::rayleigh;
 ///
 /// * `elenbaas`: El = Ra_S S / L with the height L of the plates, at least 0; 0.1 to 1e5
 ///
-/// The first part is that of plates so close that the flow between them is developed, the second
-/// that of single plates in air. Source: A. Bar-Cohen and W. M. Rohsenow, Journal of Heat Transfer
-/// 106 (1984) 116; Incropera et al., 6th edition, section 9.7.1.
+/// The first part applies to plates so close that the flow between them is developed, the second to
+/// single plates in air. Source: A. Bar-Cohen and W. M. Rohsenow, Journal of Heat Transfer 106
+/// (1984) 116; Incropera et al., 6th edition, section 9.7.1.
 ///
 /// ```
 /// // Cengel: thin fins side by side give off most at S = 2.714 L / Ra_L^(1/4), where Nu = 1.307
@@ -38,10 +38,10 @@ pub fn nusselt_between_plates<S: Scalar>(elenbaas: S) -> S {
 /// * `re`: Re* = Re_S S / L with the length L along the flow, at least 0; 0.1 to 100
 /// * `pr`: Prandtl number, that of air
 ///
-/// The first part is what the air between the plates can take up, so that the temperature of the
-/// fluid is that with which it enters. Source: P. Teertstra, M. M. Yovanovich, J. R. Culham and T.
-/// Lemczyk, 15th IEEE SEMI-THERM (1999) 34; J. R. Culham and Y. S. Muzychka, IEEE Transactions on
-/// Components and Packaging Technologies 24 (2001) 159.
+/// The first part is the heat that the air between the plates can take up: the temperature of the
+/// fluid is that at its inlet. Source: P. Teertstra, M. M. Yovanovich, J. R. Culham and T. Lemczyk,
+/// 15th IEEE SEMI-THERM (1999) 34; J. R. Culham and Y. S. Muzychka, IEEE Transactions on Components
+/// and Packaging Technologies 24 (2001) 159.
 pub fn nusselt_through_plates<S: Scalar>(re: S, pr: S) -> S {
     let [one, two, flat, late] = [1.0, 2.0, 0.664, 3.65].map(S::from_f64);
     let taken = re * pr / two;
@@ -51,7 +51,7 @@ pub fn nusselt_through_plates<S: Scalar>(re: S, pr: S) -> S {
     taken / (one + ratio.powi(3)).powf(1.0 / 3.0)
 }
 
-/// Re* that is as good as none.
+/// Re* that counts as no flow.
 const NO_FLOW: f64 = 1e-12;
 
 const GAP: FieldDeclaration = length("fin_gap", "clear distance between two fins", "\"8 mm\"");
@@ -60,7 +60,7 @@ const LENGTH: FieldDeclaration =
 const THICKNESS: FieldDeclaration = length("fin_thickness", "thickness of a fin", "\"1.5 mm\"");
 const FINS: FieldDeclaration = FieldDeclaration::given("fins", "number of fins", "12").counted();
 
-/// How a sink is built: S, L along the flow, fin length, thickness, k and number of fins.
+/// Dimensions of a sink: S, L along the flow, fin length, thickness, k and number of fins.
 struct Sink<S> {
     gap: S,
     along: S,
@@ -199,6 +199,6 @@ impl Law for PlateFinsBlown {
     }
 }
 
-/// What they have in common.
+/// The common part of the sinks.
 const SINK: LawDeclaration =
     LawDeclaration { confidence: Confidence::Medium, ..StraightFins::DECLARATION };

@@ -63,7 +63,7 @@ impl<S: Scalar> Fit<S> {
         self.interference - self.diameter * (grown - filled)
     }
 
-    /// Pressure in Pa at temperatures of hub and shaft in K, 0 where there is a clearance.
+    /// Pressure in Pa at temperatures of hub and shaft in K; 0 if there is a clearance.
     ///
     /// Lamé's thick-walled cylinders in plane stress, elastic: p = delta / (d (c_h / E_h + c_s /
     /// E_s)) with c_h = (D^2 + d^2)/(D^2 - d^2) + nu_h and c_s = (d^2 + b^2)/(d^2 - b^2) - nu_s.
@@ -85,8 +85,8 @@ impl<S: Scalar> Fit<S> {
         self.interference_at(ends).max(S::from_f64(0.0)) / (self.diameter * given)
     }
 
-    /// By how many K hub and shaft may become warmer together until the fit is lost; colder, where
-    /// the shaft expands more. Below 0 it is lost. Infinite where both expand alike.
+    /// Common rise of hub and shaft in K until the fit is lost, or common fall if the shaft expands
+    /// more. Negative if the fit is lost, infinite if both expand alike.
     ///
     /// ```
     /// # use lptn_laws::Fit;
@@ -182,7 +182,7 @@ impl Law for Interference {
         validity: "`from` is the hub, `to` the shaft. Elastic, as long as each other, at rest: \
             centrifugal forces loosen a fast hub further. If the fit is lost, only `h_gap` \
             conducts.",
-        // where the fit is lost the pressure passes through 0
+        // when the fit is lost the pressure passes through 0
         groups: &[Group { from: 0.0, ..RELATIVE_PRESSURE }],
         source: "R. G. Budynas, J. K. Nisbett, Shigley's Mechanical Engineering Design, press and \
             shrink fits; DIN 7190-1; conductance as of [contact]",

@@ -139,8 +139,8 @@ impl Law for ParallelPlates {
 
 /// The Stefan-Boltzmann constant in W/(m^2 K^4).
 ///
-/// Exact since the SI of 2019: 2 pi^5 k^4 / (15 h^3 c^2), of which CODATA 2018 and 2022 print
-/// 5.670374419...e-8. The digits printed are kept here, as other programs do; the next would change
+/// Exact since the SI of 2019: 2 pi^5 k^4 / (15 h^3 c^2). CODATA 2018 and 2022 print
+/// 5.670374419...e-8. The printed digits are kept here, as in other programs; the next would change
 /// it by 3e-11.
 pub const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 
@@ -150,8 +150,8 @@ pub const STEFAN_BOLTZMANN: f64 = 5.670_374_419e-8;
 /// * `t_from`, `t_to`: absolute temperatures in K, at least 0
 ///
 /// The heat is q = G (T_from - T_to) = sigma gr (T_from^4 - T_to^4), positive from `from` to `to`.
-/// In this form nothing cancels where the temperatures are close, and at dT = 0 the derivative is 4
-/// sigma gr T^3.
+/// This form avoids cancellation at close temperatures, and at dT = 0 the derivative is 4 sigma gr
+/// T^3.
 ///
 /// Source: Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equations 1.8 and
 /// 1.9.
@@ -164,8 +164,8 @@ pub fn radiation_conductance<S: Scalar>(gr: S, t_from: S, t_to: S) -> S {
 /// * `emissivity`: effective emissivity of the pair, 0 to 1
 ///   ([`effective_emissivity_parallel_plates`]; the emissivity of a small body in a large room)
 /// * `area`: A of the surface that `view_factor` and `emissivity` refer to, in m^2, above 0
-/// * `view_factor`: F from that area to the other surface, 0 to 1. It is 1 where the effective
-///   emissivity already holds the geometry
+/// * `view_factor`: F from that area to the other surface, 0 to 1. It is 1 if the effective
+///   emissivity already includes the geometry
 ///
 /// With e = 1 the exchange of black surfaces; with F = 1 that of a two-surface enclosure; with both
 /// below 1 an approximation, as the reflected part is taken to leave. Source: Incropera et al.,

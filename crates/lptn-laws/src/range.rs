@@ -1,6 +1,6 @@
-//! Which numbers a field may be.
+//! The numbers that a field may be.
 
-/// Which numbers a field may be. During a run, where it may depend on time and temperatures, 0 is
+/// The numbers that a field may be. During a run, if it may depend on time and temperatures, 0 is
 /// allowed as well.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Range {
@@ -18,12 +18,12 @@ pub enum Range {
     Temperature,
     /// An angle above the first and below the second number of degrees.
     Degrees(i16, i16),
-    /// A number that is counted: whole, at least 1.
+    /// A count: whole, at least 1.
     Count,
 }
 
 impl Range {
-    /// Whether an angle in rad is inside; `true` for what is no angle.
+    /// True if an angle in rad is inside, or if the range is not one of angles.
     pub fn has_angle(self, radians: f64) -> bool {
         match self {
             Self::Degrees(from, to) => {

@@ -34,7 +34,7 @@ pub fn nusselt_shaft<S: Scalar>(turning: S, blown: S, ra: S, pr: S) -> S {
 ///
 /// * `ta`: Taylor number w^2 r gap^3 / nu^2 with the mean radius r of the gap, at least 0
 ///
-/// The second is taken from where it reaches 2, at 1790, so that nothing jumps. Source: K. M. Becker
+/// The second applies from 1790 on, where it reaches 2, so that nothing jumps. Source: K. M. Becker
 /// and J. Kaye, Journal of Heat Transfer 84 (1962) 97; not read in the primary source, and reviews
 /// differ in a factor of the Taylor number that is 1 for thin gaps.
 pub fn nusselt_annulus<S: Scalar>(ta: S) -> S {

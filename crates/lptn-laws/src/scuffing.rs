@@ -9,7 +9,7 @@ use crate::declare::{
 };
 use crate::mesh::{GearPair, MeshExternal, MeshInternal, Transverse, pair_of};
 
-/// What the flanks of two gears of one material are made of.
+/// The material of the flanks of two gears.
 #[derive(Clone, Copy, Debug)]
 pub struct Flanks<S> {
     /// Modulus of elasticity in Pa, above 0.
@@ -23,19 +23,19 @@ pub struct Flanks<S> {
 }
 
 impl<S: Scalar> Flanks<S> {
-    /// Blok's flash temperature in K: by how much the hottest point of a band of contact is above
-    /// the bulk, 1.11 mu w (sqrt(v1) - sqrt(v2)) / (B sqrt(2 b)), with b of Hertz.
+    /// Blok's flash temperature in K: the rise of the hottest point of a band of contact above the
+    /// bulk, 1.11 mu w (sqrt(v1) - sqrt(v2)) / (B sqrt(2 b)), with b of Hertz.
     ///
     /// * `friction`: coefficient mu, at least 0
     /// * `line_load`: w, normal to the flanks, in N per m of the line of contact, at least 0
     /// * `radius`: of relative curvature in m, above 0
     /// * `speeds`: v of the two surfaces over the contact in m/s, at least 0
     ///
-    /// B = sqrt(k rho c), b = sqrt(8 w R / (pi E_r)) is half the width, E_r = E / (1 - nu^2). For
-    /// heat that is spread as the pressure of Hertz and surfaces so fast that it does not spread
-    /// sideways (Péclet numbers above 10). Source: H. Blok, Les températures de surface dans des
-    /// conditions de graissage sous extrême pression (1937); 1.11 over the whole width: T. A.
-    /// Stolarski, Tribology in Machine Design, section 2.
+    /// B = sqrt(k rho c), b = sqrt(8 w R / (pi E_r)) is half the width, E_r = E / (1 - nu^2). The
+    /// heat is distributed like the pressure of Hertz, and the surfaces are so fast that it does
+    /// not spread sideways (Péclet numbers above 10). Source: H. Blok, Les températures de surface
+    /// dans des conditions de graissage sous extrême pression (1937); 1.11 over the whole width: T.
+    /// A. Stolarski, Tribology in Machine Design, section 2.
     ///
     /// ```
     /// # use lptn_laws::Flanks;
@@ -46,7 +46,7 @@ impl<S: Scalar> Flanks<S> {
     pub fn flash(&self, friction: S, line_load: S, radius: S, speeds: [S; 2]) -> S {
         let (one, of) = (S::from_f64(1.0), S::from_f64);
         let reduced = self.modulus / (one - self.poisson * self.poisson);
-        // w / sqrt(b), which has a value without load
+        // w / sqrt(b), which is finite without load
         let pressed = line_load.powf(0.75) / (of(8.0 / PI) * radius / reduced).powf(0.25);
         let [first, second] = speeds.map(|speed| speed.sqrt());
         let entered = (self.conductivity * self.capacity).sqrt() * of(2.0_f64.sqrt());
@@ -54,25 +54,25 @@ impl<S: Scalar> Flanks<S> {
     }
 }
 
-/// Points of each stretch of the path of contact at which the flash temperature is taken.
+/// Points of each stretch of the path of contact at which the flash temperature is evaluated.
 const POINTS: usize = 64;
 
-/// Spur teeth: the part of the load that a pair takes over where it comes into mesh.
+/// Spur teeth: the share of the load of a pair that comes into mesh.
 const FIRST_SHARE: f64 = 1.0 / 3.0;
 
 impl GearPair<f64> {
-    /// The highest flash temperature over the path of contact in K; NaN where the path reaches
-    /// below a base circle, where no involute is.
+    /// The highest flash temperature over the path of contact in K; NaN if the path reaches below a
+    /// base circle, where there is no involute.
     ///
     /// * `speed`, `torque` of the pinion in rad/s and N m, of either sign
     /// * `friction`: the mean coefficient over the path
     ///
-    /// A pair of teeth carries a third of the load where it comes into mesh, two thirds before it
-    /// is the only one, and as much on the way out. Helical teeth carry 1 + 0.3 eps_beta times as
-    /// much, 1.3 at most, and the mean, 1 / eps_alpha, where eps_alpha + eps_beta is above 2. Where
-    /// spur teeth are never alone in mesh one of them is taken to carry all. Without tip relief and
-    /// dynamic or application factors: give the torque with them. Source: AGMA 925-A03 and ISO/TR
-    /// 13989-1, by accounts of them.
+    /// A pair of teeth carries a third of the load when it comes into mesh, two thirds just before
+    /// it is the only one, and as much on the way out. Helical teeth carry 1 + 0.3 eps_beta times
+    /// as much, 1.3 at most, and the mean, 1 / eps_alpha, if eps_alpha + eps_beta is above 2. If
+    /// spur teeth are never alone in mesh one of them is assumed to carry all. Tip relief and
+    /// dynamic or application factors are not included: give the torque with them. Source: AGMA
+    /// 925-A03 and ISO/TR 13989-1, by accounts of them.
     pub fn flash(&self, speed: f64, torque: f64, friction: f64, flanks: &Flanks<f64>) -> f64 {
         let at = self.transverse();
         let path = Path::new(self, &at);
@@ -112,9 +112,9 @@ struct Path {
     internal: bool,
     /// Speed of the wheel over that of the pinion.
     slower: f64,
-    /// Between two pairs of teeth.
+    /// Distance between two pairs of teeth.
     step: f64,
-    /// Where a pair comes into mesh and where it leaves it.
+    /// The places at which a pair comes into mesh and leaves it.
     ends: [f64; 2],
 }
 
@@ -161,7 +161,7 @@ impl Path {
     }
 }
 
-/// Of the fields those that say how the flanks scuff.
+/// The fields that describe how the flanks scuff.
 const OWN: [FieldDeclaration; 5] = [
     FieldDeclaration {
         range: Range::Temperature,
@@ -200,10 +200,10 @@ const fn flank(
     FieldDeclaration { hints: Hints::PROPERTY, ..field }
 }
 
-/// Of a mesh without this.
+/// The fields of a mesh without these.
 const PLAIN: &[FieldDeclaration] = MeshExternal::DECLARATION.fields;
 
-/// Those of a mesh, with a torque, and these.
+/// The fields of a mesh, which then needs a torque, and these.
 const FIELDS: [FieldDeclaration; PLAIN.len() + OWN.len()] = {
     let mut all = [OWN[0]; PLAIN.len() + OWN.len()];
     let mut i = 0;
@@ -217,7 +217,7 @@ const FIELDS: [FieldDeclaration; PLAIN.len() + OWN.len()] = {
     all
 };
 
-/// Why there is no flash temperature.
+/// The reason why there is no flash temperature.
 const UNDERCUT: &str = "if the path of contact reaches below a base circle, which has no involute: \
     less addendum, or more teeth";
 
@@ -328,7 +328,7 @@ impl Law for MeshInternalScuffing {
     }
 }
 
-/// Whether flanks slide under load: there is no flash temperature without.
+/// True if flanks slide under load: otherwise there is no flash temperature.
 fn is_loaded(values: &[f64]) -> bool {
     let [speed, torque] = [values[0], values[1]];
     speed != 0.0 && torque != 0.0

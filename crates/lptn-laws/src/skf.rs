@@ -6,8 +6,8 @@ use crate::Kind;
 use crate::declare::{FieldDeclaration, Hints, Law, LawDeclaration};
 use crate::loss::{LOSS, SPEED, THIN_OIL, VISCOSITY, length, mm, mm2_per_s, rpm, viscosity};
 
-/// A deep groove ball bearing as the SKF model takes it: sizes, loads and constants in SI units, the
-/// constants as the catalogue prints them.
+/// A deep groove ball bearing in the SKF model: sizes and loads in SI units, constants as the
+/// catalogue prints them.
 #[derive(Clone, Copy, Debug)]
 pub struct SkfBearing<S> {
     /// Bore in m, above 0.
@@ -41,8 +41,8 @@ impl<S: Scalar> SkfBearing<S> {
     /// * `speed`: omega in rad/s, of either sign
     ///
     /// Source: SKF, Rolling bearings (catalogue), "The SKF model for calculating the frictional
-    /// moment". An axial load changes the form of the sliding part, which as printed does not go
-    /// over into that without axial load. Drag in the form of the older catalogue.
+    /// moment". An axial load changes the form of the sliding part; as printed, it does not tend to
+    /// the form without axial load. Drag in the form of the older catalogue.
     pub fn power(&self, nu: S, speed: S) -> S {
         let (n, nu) = (rpm(speed), mm2_per_s(nu));
         let moment = self.rolling_moment(nu, n) + self.sliding_moment(nu, n) + self.drag_moment(n);

@@ -1,7 +1,7 @@
 //! The viscosity index of oils: from it the viscosity at 100 degC.
 
-/// Kinematic viscosity in mm^2/s at 100 degC of an oil with this viscosity index; `None` where no
-/// oil of 2 to 1000 mm^2/s has it.
+/// Kinematic viscosity in mm^2/s at 100 degC of an oil with this viscosity index; `None` if no oil
+/// of 2 to 1000 mm^2/s has it.
 ///
 /// * `nu_40`: kinematic viscosity in mm^2/s at 40 degC
 /// * `index`: viscosity index VI
@@ -63,7 +63,7 @@ fn reference(nu_100: f64, table: &[f64; ROWS], [a, b, c]: [f64; 3]) -> f64 {
     table[first] + part * (table[first + 1] - table[first])
 }
 
-/// How many rows the table has.
+/// Number of rows of the tables.
 const ROWS: usize = 311;
 
 /// L in mm^2/s at 40 degC: the oil of index 0 with each of the viscosities at 100 degC.

@@ -13,7 +13,7 @@ use crate::free_convection::{
 /// Film coefficient of forced and natural convection together, in W/(m^2 K):
 /// h = (h_F^3 + h_N^3)^(1/3).
 ///
-/// * `forced`, `natural`: what each would be alone, in W/(m^2 K), at least 0
+/// * `forced`, `natural`: the coefficient of each alone, in W/(m^2 K), at least 0
 ///
 /// The flow helps the natural one or crosses it; against it the powers would be subtracted. Source:
 /// Incropera et al., Fundamentals of Heat and Mass Transfer, 6th edition, equation 9.64.
@@ -24,12 +24,12 @@ pub fn combined<S: Scalar>(forced: S, natural: S) -> S {
 /// Film coefficient of a flow along the natural one or against it, in W/(m^2 K):
 /// h^3 = |h_F^3 + h_N^3| or |h_F^3 - h_N^3|.
 ///
-/// * `forced`, `natural`: what each would be alone, in W/(m^2 K), at least 0
-/// * `opposed`: whether they run against each other
+/// * `forced`, `natural`: the coefficient of each alone, in W/(m^2 K), at least 0
+/// * `opposed`: true if they run against each other
 ///
-/// Where both are alike and opposed, the printed h is 0 with no slope, which no film is: |x| is
-/// taken as (x^2 + (0.01 (h_F^3 + h_N^3))^2)^(1/2), larger by 1.7e-5 of h where one of them is none and by
-/// 1.5e-4 where the cubes are as 1 to 2. Source: Incropera et al., 6th edition, equation 9.64.
+/// If both are equal and opposed, the printed h is 0 with no slope, unlike any film: |x| is taken
+/// as (x^2 + (0.01 (h_F^3 + h_N^3))^2)^(1/2), larger by 1.7e-5 of h if one of them is 0 and by
+/// 1.5e-4 if the cubes are as 1 to 2. Source: Incropera et al., 6th edition, equation 9.64.
 ///
 /// ```
 /// use lptn_laws::along;
@@ -44,7 +44,7 @@ pub fn along<S: Scalar>(forced: S, natural: S, opposed: bool) -> S {
     (left * left + blurred * blurred).powf(1.0 / 6.0)
 }
 
-/// The share of both cubes that stays where they oppose each other alike.
+/// The share of both cubes that remains if they are equal and opposed.
 const BLUR: f64 = 0.01;
 
 /// Film coefficient of a gearbox in still air, in W/(m^2 K): h = 18 H^(-1/10) (|dT|/T)^(3/10).
@@ -66,7 +66,7 @@ pub fn gearbox_wall<S: Scalar>(height: S, t_from: S, t_to: S) -> S {
 /// * `gr`: Grashof number of the length, above 0
 /// * `length`: L in m, along the flow, above 0
 ///
-/// Convection alone, in air: its conductivity is in the factor. Source: as of [`gearbox_wall`].
+/// Convection alone, in air: its conductivity is in the factor. Source: as for [`gearbox_wall`].
 pub fn gearbox_wall_blown<S: Scalar>(re: S, gr: S, length: S) -> S {
     let both = re * re + gr / S::from_f64(2.5);
     S::from_f64(0.0086) * both.powf(0.32) / length
@@ -128,7 +128,7 @@ impl Law for WallInWind {
 pub(crate) struct WallInVerticalFlow;
 
 impl WallInVerticalFlow {
-    /// Re, Ra, Pr, how far they cancel if they oppose each other, and the film coefficient.
+    /// Re, Ra, Pr, the ratio of the cubes if they oppose each other, and the film coefficient.
     fn state<S: Scalar>(values: &[S], [from, to]: [S; 2]) -> ([S; 3], Option<S>, S) {
         let fluid = Fluid::of(values);
         let (expansion, speed, height) = (values[4], values[5], values[6]);

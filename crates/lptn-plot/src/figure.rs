@@ -1,11 +1,11 @@
-//! What a figure shows, without saying how it looks.
+//! The content of a figure, independent of its appearance.
 
 /// A figure: panels below each other.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
-    /// What it is of.
+    /// Title of the figure.
     pub title: String,
-    /// What a reader has to know beside it.
+    /// A note for the reader, below the title.
     pub note: String,
     /// Its panels, from top to bottom.
     pub panels: Vec<Panel>,
@@ -14,68 +14,68 @@ pub struct Figure {
 /// Curves over one axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Panel {
-    /// The axis to the right.
+    /// The horizontal axis.
     pub x: Axis,
-    /// The axis upwards.
+    /// The vertical axis.
     pub y: Axis,
     /// The curves; each has the ink of its place.
     pub curves: Vec<Curve>,
-    /// Values that should not be passed.
+    /// Values that should not be exceeded.
     pub limits: Vec<Level>,
-    /// Places on the axis to the right where something happened.
+    /// Events on the horizontal axis.
     pub moments: Vec<Moment>,
-    /// Its height as a share of that of an ordinary panel.
+    /// Height as a share of the height of an ordinary panel.
     pub share: f64,
 }
 
 /// An axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// What is measured along it.
+    /// Name of the quantity along the axis.
     pub name: String,
-    /// The unit of its values; empty for plain numbers, and `s` for a time, which is shown in s,
+    /// The unit of its values: empty for plain numbers, `s` for a time, which is shown in ms, s,
     /// min, h or d by its length.
     pub unit: String,
-    /// How values become places.
+    /// Relation between values and places.
     pub scale: Scale,
 }
 
-/// How values become places on an axis.
+/// The relation between values and places on an axis.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Scale {
-    /// In proportion.
+    /// Linear.
     Linear,
-    /// By their logarithms; values that are not positive are not shown.
+    /// Logarithmic; values that are not positive are not shown.
     Log,
-    /// In proportion, of seconds.
+    /// Linear, of times in s.
     Time,
-    /// 0, 1, 2 .. are things that have names, and are apart by the same distance.
+    /// Named things at 0, 1, 2 .., at equal distances.
     Names(Vec<String>),
 }
 
 /// A curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// What it is of.
+    /// Name of the curve.
     pub name: String,
     /// Its points in order. A value that is not finite interrupts it.
     pub points: Vec<(f64, f64)>,
-    /// Lowest and highest value at each point: a band around a line, bars at dots. Empty where
-    /// nothing is known of it.
+    /// Lowest and highest value at each point: a band around a line, bars at dots. Empty if
+    /// unknown.
     pub spread: Vec<(f64, f64)>,
-    /// How it is drawn.
+    /// Its style.
     pub look: Look,
-    /// The ink, where it is not that of its place: the same thing in another panel, what was
-    /// measured and what was computed.
+    /// The place whose ink it has, if not its own: for the same thing in another panel, or for a
+    /// measured and a computed curve.
     pub place: Option<usize>,
 }
 
-/// How a curve is drawn.
+/// The style of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Look {
     /// A line through its points.
     Line,
-    /// A broken line.
+    /// A dashed line.
     Dashed,
     /// A dot at each point.
     Dots,
@@ -83,31 +83,31 @@ pub enum Look {
     Stems,
 }
 
-/// A value that should not be passed.
+/// A value that should not be exceeded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Level {
-    /// What it is called.
+    /// Name of the limit.
     pub name: String,
-    /// Where it is.
+    /// The value.
     pub value: f64,
 }
 
-/// A place on the axis to the right where something happened.
+/// An event on the horizontal axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Moment {
-    /// What happened.
+    /// Name of the event.
     pub name: String,
-    /// Where.
+    /// Position on the horizontal axis.
     pub at: f64,
 }
 
 impl Axis {
-    /// An axis of values in proportion.
+    /// A linear axis.
     pub fn linear(name: impl Into<String>, unit: impl Into<String>) -> Self {
         Self { name: name.into(), unit: unit.into(), scale: Scale::Linear }
     }
 
-    /// An axis of values by their logarithms.
+    /// A logarithmic axis.
     pub fn log(name: impl Into<String>, unit: impl Into<String>) -> Self {
         Self { name: name.into(), unit: unit.into(), scale: Scale::Log }
     }
@@ -117,26 +117,26 @@ impl Axis {
         Self { name: "time".into(), unit: "s".into(), scale: Scale::Time }
     }
 
-    /// An axis of things with names.
+    /// An axis of named things.
     pub fn names(name: impl Into<String>, names: Vec<String>) -> Self {
         Self { name: name.into(), unit: String::new(), scale: Scale::Names(names) }
     }
 }
 
 impl Scale {
-    /// Whether it has a place for a value.
+    /// True if the scale has a place for a value.
     pub fn shows(&self, value: f64) -> bool {
         value.is_finite() && (*self != Self::Log || value > 0.0)
     }
 }
 
 impl Panel {
-    /// Whether both axes have a place for a point.
+    /// True if both axes have a place for a point.
     pub fn shows(&self, (x, y): (f64, f64)) -> bool {
         self.x.scale.shows(x) && self.y.scale.shows(y)
     }
 
-    /// A panel without anything in it.
+    /// An empty panel.
     pub fn new(x: Axis, y: Axis) -> Self {
         Self { x, y, curves: Vec::new(), limits: Vec::new(), moments: Vec::new(), share: 1.0 }
     }
@@ -149,19 +149,19 @@ impl Curve {
         Self { name: name.into(), points, spread, look, place }
     }
 
-    /// Drawn otherwise.
+    /// Sets how the curve is drawn.
     #[must_use]
     pub fn looks(self, look: Look) -> Self {
         Self { look, ..self }
     }
 
-    /// With the ink of another place.
+    /// Sets the ink to that of another place.
     #[must_use]
     pub fn as_place(self, place: usize) -> Self {
         Self { place: Some(place), ..self }
     }
 
-    /// With a band or bars around it.
+    /// Adds a band or bars around the curve.
     #[must_use]
     pub fn within(self, spread: Vec<(f64, f64)>) -> Self {
         Self { spread, ..self }

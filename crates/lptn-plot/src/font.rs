@@ -8,10 +8,10 @@ use ttf_parser::Face;
 const REGULAR: &[u8] = include_bytes!("../font/Arimo-Regular-subset.ttf");
 const BOLD: &[u8] = include_bytes!("../font/Arimo-Bold-subset.ttf");
 
-/// Width of what the font does not have, in its size.
+/// Width of a character that the font does not have, as a share of the font size.
 const UNKNOWN: f64 = 0.6;
 
-/// The font itself.
+/// The regular or bold font.
 pub(crate) fn face(bold: bool) -> Option<Face<'static>> {
     Face::parse(if bold { BOLD } else { REGULAR }, 0).ok()
 }

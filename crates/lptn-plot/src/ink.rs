@@ -1,13 +1,13 @@
-//! What a line or an area means, and the colour that each theme gives it.
+//! Meanings of lines and areas, and the colour that each theme gives them.
 //!
 //! A shape has a meaning (`Ink::Limit`, `Ink::Series(2)`), and a theme gives it a colour. Tests
 //! check the contrast by WCAG, and the distance of the first five curves for two kinds of
 //! colour-blind readers.
 
-/// What a line or an area means.
+/// Meaning of a line or an area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Ink {
-    /// What everything stands on.
+    /// The background.
     Paper,
     /// Titles and names.
     Text,
@@ -19,16 +19,16 @@ pub enum Ink {
     Grid,
     /// A limit.
     Limit,
-    /// One of several curves, by its place; after [`SERIES`] the colours begin anew.
+    /// One of several curves, by its place; after [`SERIES`] the colours repeat.
     Series(usize),
     /// A value on a scale from 0, cold, to [`FIELD`] - 1, hot.
     Field(usize),
 }
 
-/// How many curves have colours of their own.
+/// Number of curves with different colours.
 pub const SERIES: usize = 8;
 
-/// How many colours the scale from cold to hot has.
+/// Number of colours on the scale from cold to hot.
 pub const FIELD: usize = 32;
 
 /// The two backgrounds on which a picture is seen.
@@ -89,8 +89,8 @@ impl Ink {
     }
 }
 
-/// On paper and on a dark screen. The first five stay apart for readers that see no red or no
-/// green: a test asks.
+/// Colours on paper and on a dark screen. A test checks that readers who see no red or no green can
+/// distinguish the first five.
 const SERIES_COLOURS: [[Rgb; 2]; SERIES] = [
     [[0, 98, 170], [108, 182, 255]],
     [[200, 80, 0], [255, 155, 87]],
@@ -103,8 +103,8 @@ const SERIES_COLOURS: [[Rgb; 2]; SERIES] = [
 ];
 
 /// The scale cividis of Nunez, Anderton and Renslow (PLoS ONE 13(7), 2018), made for readers with
-/// and without colour vision deficiency: lightness grows evenly from blue to yellow. Its colours at
-/// 0, 1/8, .. 1, between which is drawn straight.
+/// and without colour vision deficiency: lightness grows evenly from blue to yellow. Colours are
+/// interpolated linearly between those at 0, 1/8, .. 1.
 fn field(place: usize) -> Rgb {
     const KNOTS: [Rgb; 9] = [
         [0, 34, 78],
@@ -154,7 +154,7 @@ mod tests {
         assert!((contrast([0x77; 3], [255; 3]) - 4.48).abs() < 0.005);
     }
 
-    /// WCAG 2.1: 4.5 for text, which names at curves are, and 3 for lines.
+    /// WCAG 2.1 requires 4.5 for text, such as names at curves, and 3 for lines.
     #[test]
     fn everything_that_is_read_stands_out_in_both_themes() {
         for theme in [Theme::Light, Theme::Dark] {
@@ -168,7 +168,7 @@ mod tests {
     }
 
     /// Machado, Oliveira and Fernandes (2009), severity 1: protanopia and deuteranopia. The first
-    /// five curves stay apart by 10 in CIELAB, some four times what is just seen.
+    /// five curves differ by 10 in CIELAB, about four times the just noticeable difference.
     #[test]
     fn the_first_curves_differ_for_readers_that_see_no_red_or_no_green() {
         const PROTAN: [[f64; 3]; 3] = [
@@ -195,7 +195,7 @@ mod tests {
         }
     }
 
-    /// CIELAB under D65 of what a colour looks like through a matrix on linear RGB.
+    /// CIELAB under D65 of a colour seen through a matrix on linear RGB.
     fn lab(rgb: [u8; 3], seen: [[f64; 3]; 3]) -> [f64; 3] {
         let linear = rgb.map(|value| {
             let value = f64::from(value) / 255.0;

@@ -1,9 +1,9 @@
-//! Figures: what they show, how they are laid out, and how they are written.
+//! Figures: their content, their layout and their output.
 //!
-//! A [`Figure`] says what is shown: curves with units, limits, moments. [`chart::scene`] lays it out
-//! as a [`Scene`], a drawing of paths and texts, which [`svg`] and [`png`] write; [`terminal`] draws
-//! it with characters. What a colour means is said by an [`Ink`], and each [`Theme`] has a colour
-//! for it. Nothing here knows what a node is.
+//! A [`Figure`] is the content: curves with units, limits, moments. [`chart::scene`] lays it out as
+//! a [`Scene`], a drawing of paths and texts, which [`svg`] and [`png`] write; [`terminal`] draws
+//! it with characters. An [`Ink`] is the meaning of a colour, and each [`Theme`] has a colour for
+//! it. This crate has no notion of a node.
 //!
 //! A page gives figures. They are laid out once as a scene, which each writer only transcribes. SVG
 //! and PNG therefore cannot differ, and other drawings, such as that of a network, use the same

@@ -25,7 +25,7 @@ pub enum PngError {
 }
 }
 
-/// A drawing as PNG on paper, `scale` of its pixels for one of the drawing's.
+/// A drawing as PNG in the colours of paper, with `scale` pixels for each of the drawing.
 ///
 /// # Errors
 /// [`PngError`] if it is empty or too large for memory.
@@ -123,7 +123,7 @@ fn paint(ink: Ink, opacity: f64) -> Paint<'static> {
     paint
 }
 
-/// The outlines of a line of glyphs; those of fonts grow upwards.
+/// The outlines of a line of glyphs. In fonts, y grows upwards.
 struct Outline {
     builder: PathBuilder,
     x: f32,

@@ -1,4 +1,4 @@
-//! What is to be drawn: paths and texts on a page, in the order in which they cover each other.
+//! A drawing: paths and texts on a page, in the order in which they cover each other.
 
 use crate::ink::Ink;
 
@@ -7,9 +7,9 @@ use crate::ink::Ink;
 pub struct Scene {
     /// Width and height.
     pub size: (f64, f64),
-    /// What it shows, for readers that do not see it.
+    /// Description for readers who do not see the drawing.
     pub title: String,
-    /// What is on it, the lowest first.
+    /// The shapes, the lowest first.
     pub shapes: Vec<Shape>,
 }
 
@@ -25,13 +25,13 @@ pub enum Shape {
 /// A line or an area.
 #[derive(Clone, Debug)]
 pub struct Path {
-    /// Where it goes.
+    /// Its steps in order.
     pub steps: Vec<Step>,
-    /// How its line is drawn.
+    /// Style of its line.
     pub stroke: Option<Stroke>,
-    /// How its area is filled.
+    /// Style of its area.
     pub fill: Option<Fill>,
-    /// What a reader that points at it is told.
+    /// Tooltip of the path.
     pub tip: Option<String>,
 }
 
@@ -44,63 +44,63 @@ pub enum Step {
     Line(f64, f64),
     /// A cubic Bezier curve: two control points and the end.
     Curve([(f64, f64); 3]),
-    /// Back to where the piece began.
+    /// A line back to the beginning of the piece.
     Close,
-    /// A piece of its own: a circle by its centre and radius.
+    /// A separate piece: a circle by its centre and radius.
     Circle((f64, f64), f64),
 }
 
-/// How a line is drawn.
+/// Style of a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
-    /// What it means.
+    /// Meaning of the line.
     pub ink: Ink,
-    /// Its width.
+    /// Width in pixels.
     pub width: f64,
     /// Its dashes.
     pub dash: Dash,
 }
 
-/// How a line is broken.
+/// Dashes of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Dash {
-    /// Not at all.
+    /// A line without gaps.
     Solid,
-    /// Into dashes.
+    /// Dashes.
     Dashed,
-    /// Into dots.
+    /// Dots.
     Dotted,
 }
 
-/// How an area is filled.
+/// Style of an area.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fill {
-    /// What it means.
+    /// Meaning of the area.
     pub ink: Ink,
-    /// From 0, not at all, to 1.
+    /// Opacity from 0, transparent, to 1.
     pub opacity: f64,
 }
 
 /// A line of text.
 #[derive(Clone, Debug)]
 pub struct Text {
-    /// What it says.
+    /// The characters.
     pub text: String,
-    /// Where: the base line, at the end that `align` names.
+    /// Position on the base line of the end that `align` names.
     pub at: (f64, f64),
-    /// Height of a line of the font.
+    /// Font size in pixels.
     pub size: f64,
-    /// What it means.
+    /// Meaning of the text.
     pub ink: Ink,
-    /// Which end of it `at` is.
+    /// The end of the text that `at` gives.
     pub align: Align,
-    /// Whether it is heavy.
+    /// True for bold type.
     pub bold: bool,
-    /// Whether it reads from bottom to top.
+    /// True if the text reads from bottom to top.
     pub upward: bool,
 }
 
-/// Which end of a text is at its point.
+/// The end of a text that is at its point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
     /// Its beginning.
@@ -119,12 +119,12 @@ impl Scene {
         scene
     }
 
-    /// Draws a line or an area on top of what there is.
+    /// Draws a line or an area on top of the existing shapes.
     pub fn put(&mut self, path: Path) {
         self.shapes.push(Shape::Path(path));
     }
 
-    /// Writes on top of what there is.
+    /// Writes a text on top of the existing shapes.
     pub fn write(&mut self, text: Text) {
         self.shapes.push(Shape::Text(text));
     }
@@ -143,19 +143,19 @@ impl Path {
         Self { steps, stroke: None, fill: None, tip: None }
     }
 
-    /// With a line.
+    /// Adds a line along the path.
     #[must_use]
     pub fn stroked(self, stroke: Stroke) -> Self {
         Self { stroke: Some(stroke), ..self }
     }
 
-    /// With its area filled.
+    /// Fills the area.
     #[must_use]
     pub fn filled(self, ink: Ink, opacity: f64) -> Self {
         Self { fill: Some(Fill { ink, opacity }), ..self }
     }
 
-    /// With a text for readers that point at it.
+    /// Adds a tooltip.
     #[must_use]
     pub fn tipped(self, tip: impl Into<String>) -> Self {
         Self { tip: Some(tip.into()), ..self }
@@ -169,19 +169,19 @@ impl Text {
         Self { text: text.into(), at, size, ink, align, bold, upward }
     }
 
-    /// With its point at another end.
+    /// Sets which end is at its point.
     #[must_use]
     pub fn aligned(self, align: Align) -> Self {
         Self { align, ..self }
     }
 
-    /// Heavy.
+    /// Makes it bold.
     #[must_use]
     pub fn bold(self) -> Self {
         Self { bold: true, ..self }
     }
 
-    /// From bottom to top.
+    /// Turns it to read from bottom to top.
     #[must_use]
     pub fn upward(self) -> Self {
         Self { upward: true, ..self }
@@ -206,8 +206,8 @@ pub fn polygon(points: impl IntoIterator<Item = (f64, f64)>) -> Path {
     path
 }
 
-/// A share of its radius by which the control points of a quarter of a circle lie beside its ends:
-/// the curve is off by less than 0.03 %.
+/// Distance of the control points of a quarter circle from its ends, as a share of its radius: the
+/// curve is off by less than 0.03 %.
 const KAPPA: f64 = 0.552_284_75;
 
 /// A rectangle by its upper left corner, with corners rounded by a radius.

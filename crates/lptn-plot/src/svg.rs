@@ -5,8 +5,8 @@ use std::fmt::{self, Write as _};
 use crate::ink::Theme;
 use crate::scene::{Align, Dash, Path, Scene, Shape, Step, Text};
 
-/// A drawing as SVG with the colours of paper. Each line has the class `s-KEY` and each area and
-/// text `f-KEY` of its [`Ink`](crate::Ink), by which a page that shows it may give it other colours.
+/// A drawing as SVG in the colours of paper. Each line has the class `s-KEY` and each area and text
+/// `f-KEY` of its [`Ink`](crate::Ink). A page can set other colours by these classes.
 pub fn write(scene: &Scene) -> String {
     let (width, height) = (length(scene.size.0), length(scene.size.1));
     let mut out = format!(
@@ -105,7 +105,7 @@ impl Dash {
 /// The fonts whose widths are those of [`crate::font`].
 const FONT: &str = "Arimo, Arial, Helvetica, Liberation Sans, sans-serif";
 
-/// A length to a hundredth, without zeros at its end; what is not finite is 0.
+/// A length with at most two decimals and no trailing zeros; 0 if it is not finite.
 pub fn length(value: f64) -> String {
     if !value.is_finite() {
         return "0".into();
@@ -115,8 +115,8 @@ pub fn length(value: f64) -> String {
     if text == "-0" { "0".into() } else { text.into() }
 }
 
-/// A text that is only text in XML and HTML, in elements and in attributes. Control characters,
-/// which XML cannot hold, become U+FFFD.
+/// A text escaped for elements and attributes of XML and HTML. Tabs and line ends become spaces,
+/// other control characters, which XML cannot contain, U+FFFD.
 pub fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

@@ -10,10 +10,10 @@ use crate::ticks::Ruler;
 /// Rows of an ordinary panel.
 const ROWS: f64 = 16.0;
 
-/// Most of the width that names of curves may take.
+/// Largest width of the names of curves, in characters.
 const NAMES: usize = 24;
 
-/// Signs of single points, by which curves differ without colours.
+/// Signs of single points, which distinguish curves without colours.
 const MARKS: [char; SERIES] = ['●', '■', '▲', '◆', '○', '□', '△', '◇'];
 
 /// Colours of the curves in the order of [`crate::Ink::Series`], by their numbers in a terminal.
@@ -41,12 +41,12 @@ pub fn write(figure: &Figure, columns: usize, styled: bool) -> String {
     out
 }
 
-/// A text without what a terminal would take for an order.
+/// A text without control characters, which a terminal would obey.
 fn plain(text: &str) -> String {
     text.chars().map(|c| if c.is_control() { '\u{FFFD}' } else { c }).collect()
 }
 
-/// A character of the drawing: dots, or a sign of its own, and the colour.
+/// A character of the drawing: dots or a sign, and the place of its curve.
 #[derive(Clone, Copy, Default)]
 struct Cell {
     dots: u8,
@@ -91,7 +91,7 @@ struct Canvas {
     downward: bool,
 }
 
-/// Dots of a Braille character by row and column, U+2800 and these bits.
+/// Bits of the dots of a Braille character by row and column, added to U+2800.
 const DOTS: [[u8; 2]; 4] = [[0x01, 0x08], [0x02, 0x10], [0x04, 0x20], [0x40, 0x80]];
 
 impl Canvas {
@@ -117,7 +117,7 @@ impl Canvas {
             if (0.0..=1.0).contains(&place) {
                 let row = self.row(limit.value);
                 let name = format!("╌╌ {} ", plain(&limit.name));
-                // a number that is cut would be another one
+                // a number that is cut would read as another one
                 let fits = name.chars().count() <= self.columns;
                 let name = if fits { name } else { String::new() };
                 let signs = name.chars().chain(repeat_n('╌', self.columns)).take(self.columns);
@@ -135,7 +135,7 @@ impl Canvas {
         }
     }
 
-    /// The place upwards, from 0 at the top to 1 at the bottom.
+    /// The vertical position, from 0 at the top to 1 at the bottom.
     fn down(&self, value: f64) -> f64 {
         let place = self.y.place(value);
         if self.downward { place } else { 1.0 - place }
@@ -175,7 +175,7 @@ impl Canvas {
         }
     }
 
-    /// Whether the points of a curve are so few that each has a sign.
+    /// True if the points of a curve are few enough that each has a sign.
     fn marked(&self, curve: &Curve) -> bool {
         curve.look == Look::Dots && curve.points.len() <= self.columns / 2
     }
@@ -258,7 +258,7 @@ impl Canvas {
         names
     }
 
-    /// The axis to the right with its numbers.
+    /// The horizontal axis with its numbers.
     fn axis(&self) -> String {
         let mut axis: Vec<char> = repeat_n('─', self.columns).collect();
         let mut numbers: Vec<char> = Vec::new();

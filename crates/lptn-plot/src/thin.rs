@@ -3,9 +3,9 @@
 //! Dots are thinned in the same way as lines: the first, lowest, highest and last of each stretch
 //! stay, so that an outlier is always drawn.
 
-/// What of a curve is seen at so many pixels of width: of the points that fall on one pixel, the
-/// first, the lowest, the highest and the last, so that no peak is lost. Points stand in the order
-/// of their first coordinate; one that is not finite ends a piece and stays.
+/// The points of a curve that are visible at a width of `pixels`. Of the points on one pixel, the
+/// first, lowest, highest and last stay, so that no peak is lost. Points are in the order of their
+/// first coordinate; one that is not finite ends a piece and stays.
 pub fn thinned(points: &[(f64, f64)], pixels: usize) -> Vec<(f64, f64)> {
     let range = |(low, high): (f64, f64), &(x, _): &(f64, f64)| (low.min(x), high.max(x));
     let (low, high) = points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), range);

@@ -1,4 +1,4 @@
-//! Where an axis has marks, and what stands at them.
+//! Marks of an axis and their texts.
 
 use crate::figure::{Axis, Scale};
 
@@ -9,7 +9,7 @@ pub(crate) struct Ruler {
     pub(crate) range: (f64, f64),
     /// Values with their texts.
     pub(crate) ticks: Vec<(f64, String)>,
-    /// What stands at the axis.
+    /// Name and unit.
     pub(crate) title: String,
     log: bool,
 }
@@ -36,7 +36,7 @@ impl Ruler {
     }
 }
 
-/// A range that is not empty around what may be one value.
+/// Widens a range of one value, so that it is not empty.
 fn opened((low, high): (f64, f64)) -> (f64, f64) {
     if high - low > 1e-12 * low.abs().max(high.abs()) {
         return (low, high);
@@ -51,7 +51,7 @@ fn linear(axis: &Axis, range: (f64, f64), count: f64, whole: bool) -> Ruler {
     let step = round_step((high - low) / count.max(1.0));
     let (first, last) = ((low / step - 1e-9).floor(), (high / step + 1e-9).ceil());
     let range = if whole { (first * step, last * step) } else { (low, high) };
-    // one number alone does not tell how large a distance is
+    // one number alone does not show the scale
     let steps = [step, round_step(0.4 * step), round_step(0.1 * step)].map(|s| marks(range, s));
     let ticks = steps.into_iter().find(|ticks| ticks.len() > 1).unwrap_or_default();
     Ruler { range, ticks, title: title(&axis.name, &axis.unit), log: false }
@@ -71,7 +71,7 @@ fn marks((low, high): (f64, f64), step: f64) -> Vec<(f64, String)> {
     ticks
 }
 
-/// How the numbers of an axis are written: with as many digits as tell its marks apart.
+/// Notation of the numbers of an axis, with enough digits to distinguish its marks.
 struct Notation {
     decimals: usize,
     /// A power of ten that all share.
@@ -79,7 +79,7 @@ struct Notation {
 }
 
 impl Notation {
-    /// For numbers up to `largest` that are multiples of `step`.
+    /// Notation for numbers up to `largest` that are multiples of `step`.
     fn of(largest: f64, step: f64) -> Self {
         let (high, low) = (exponent(largest), exponent(step));
         let decimals = |digits: i32| usize::try_from(digits).unwrap_or(0);
@@ -89,7 +89,7 @@ impl Notation {
         Self { decimals: decimals(high - low), power: Some(high) }
     }
 
-    /// A number, with the sign of typography.
+    /// A number, with a typographic minus sign.
     fn text(&self, value: f64) -> String {
         let decimals = self.decimals;
         let text = match self.power {
@@ -109,7 +109,7 @@ fn exponent(value: f64) -> i32 {
     (value.log10() + 1e-9).floor().clamp(-300.0, 300.0) as i32
 }
 
-/// The least of 1, 2 and 5 times a power of ten that is not below.
+/// The smallest of 1, 2 and 5 times a power of ten that is not below `least`.
 fn round_step(least: f64) -> f64 {
     let power = 10_f64.powf(least.log10().floor());
     let step = [1.0, 2.0, 5.0].into_iter().find(|step| step * power >= least * (1.0 - 1e-9));
@@ -143,7 +143,7 @@ fn short(value: f64) -> String {
     format!("{}e{power}", (value / 10_f64.powi(power)).round()).replace('-', "\u{2212}")
 }
 
-/// Seconds in the units in which people tell times, with the steps that divide each.
+/// Units of time with their seconds and the steps that divide each.
 const TIMES: [(&str, f64, &[f64]); 5] = [
     ("ms", 1e-3, &[1.0, 2.0, 5.0]),
     ("s", 1.0, &[1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 30.0, 60.0]),
@@ -152,7 +152,7 @@ const TIMES: [(&str, f64, &[f64]); 5] = [
     ("d", 86400.0, &[1.0, 2.0, 5.0, 7.0, 10.0, 20.0, 30.0, 50.0, 100.0]),
 ];
 
-/// The unit in which a time of this length is told: one of which there are at least three.
+/// The largest unit that a time of this length in s has at least three of, or else ms.
 fn time_unit(length: f64) -> (&'static str, f64, &'static [f64]) {
     let fits = |unit: &&(_, f64, _)| length >= 3.0 * unit.1;
     *TIMES.iter().rev().find(fits).unwrap_or(&TIMES[0])
@@ -183,7 +183,7 @@ fn title(name: &str, unit: &str) -> String {
     }
 }
 
-/// A unit as it is printed: `degC` as °C, powers of 2 and 3 raised.
+/// A unit as it is printed: `degC` as °C, `Ohm` as Ω, powers of 2 and 3 raised.
 pub fn printed(unit: &str) -> String {
     let unit = unit.replace("deg", "\u{b0}").replace("^2", "\u{b2}").replace("^3", "\u{b3}");
     unit.replace("Ohm", "\u{3a9}")
@@ -227,7 +227,7 @@ mod tests {
         assert_eq!(printed("degC"), "°C");
     }
 
-    /// Marks of one text would say that nothing changes.
+    /// Two marks with the same text would suggest that nothing changes.
     #[test]
     fn marks_are_told_apart() {
         for range in [

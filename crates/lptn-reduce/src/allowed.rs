@@ -1,15 +1,15 @@
-//! How large an error may be.
+//! Limits on errors.
 
-/// The largest error that is allowed.
+/// The largest acceptable error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Allowed {
     /// In K.
     Kelvin(f64),
-    /// As a share of the rise.
+    /// A share of the rise.
     Share(f64),
 }
 
-/// 5 % of the rise: what an engineer would call the same curve.
+/// 5 % of the rise: an engineer would call the curves the same.
 impl Default for Allowed {
     fn default() -> Self {
         Self::Share(0.05)
@@ -25,8 +25,8 @@ impl Allowed {
         }
     }
 
-    /// As a share of a rise that has no kelvins of its own, as that of a step of 1 W: 5 % where the
-    /// limit is in K.
+    /// The limit as a share for a step of 1 W: 5 % if it is in K, since such a step is of no
+    /// particular size.
     pub(crate) fn share(self) -> f64 {
         match self {
             Self::Kelvin(_) => Self::default().share(),

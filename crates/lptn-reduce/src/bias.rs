@@ -1,4 +1,4 @@
-//! What the seed paper's method would say of a network whose truth is known.
+//! The seed paper's method, applied to a network whose true heat is known.
 
 use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
@@ -9,8 +9,7 @@ use crate::error::{FitError, ReduceError};
 use crate::fit::{ExponentialFit, fit_exponential};
 use crate::norton::NortonEquivalent;
 
-/// The heat that one exponential through the port's record implies, against the heat that was put
-/// in.
+/// The heat inferred from one exponential through the port's record, and the true heat.
 ///
 /// The method (seed paper, equations 8 to 11): fit `T_i + (T_f - T_i)(1 - exp(-t / t_RC))` to the
 /// record of one thermocouple, take `C_eq` as the sum of the capacities, and conclude
@@ -29,13 +28,12 @@ pub struct Bias {
     pub resistance: f64,
     /// `(T_f - T_i) C_eq / t_RC` in W.
     pub inferred: f64,
-    /// Heat of all sources that the port feels in W, as a mean over the record.
+    /// Mean heat over the record of all sources that the port feels, in W.
     pub heat: f64,
 }
 
 impl Bias {
-    /// Runs the network as `run` says, with a row where it has one, and fits the record of the
-    /// port.
+    /// Runs the network as `run` says, with a row at each of its rows, and fits the port's record.
     ///
     /// # Errors
     /// [`ReduceError`] if the run fails; inside, [`FitError`] if the record has no exponential.
@@ -61,7 +59,7 @@ impl Bias {
         }))
     }
 
-    /// The inferred heat over the true one, less one; `None` where no heat was put in.
+    /// The inferred heat over the true one, less one; `None` if no heat was put in.
     pub fn relative(&self) -> Option<f64> {
         (self.heat.abs() > 0.0).then(|| self.inferred / self.heat - 1.0)
     }

@@ -5,16 +5,16 @@
 
 use crate::step::StepResponse;
 
-/// `C_eq` in J/K for which the integral of `(z(t) - R (1 - exp(-t / (R C))))^2` from 0 to `window`
-/// [s] is least, with R held at `R_eq`.
+/// `C_eq` in J/K that minimises the integral of `(z(t) - R (1 - exp(-t / (R C))))^2` from 0 to
+/// `window` [s], with R fixed at `R_eq`.
 ///
-/// With `a = 1/(R C)` and `z = R - sum r_i exp(-l_i t)` the derivative by a vanishes where
-/// `R K(2a) = sum r_i K(a + l_i)`, K(s) being the integral of `t exp(-s t)` over the window: closed
-/// forms, no sampling. There is one such place at most: with M(s) the mean of t under the weight
-/// `t exp(-s t)`, the logarithm of `K(a + l) / K(2a)` rises by `2 M(2a) - M(a + l) > 0`, since M
-/// falls with s while `s M(s)` rises. From `sum r_i K(l_i) / K(0) < R` at a = 0 the sum rises to
-/// `4 sum r_i`: if that is not above R, no capacity at all is nearest, 0, which happens at massless
-/// ports only, where three quarters of the rise come at once.
+/// With `a = 1/(R C)` and `z = R - sum r_i exp(-l_i t)` the derivative by a vanishes if
+/// `R K(2a) = sum r_i K(a + l_i)`, where K(s) is the integral of `t exp(-s t)` over the window:
+/// closed forms, no sampling. There is at most one such rate: with M(s) the mean of t under the
+/// weight `t exp(-s t)`, the logarithm of `K(a + l) / K(2a)` rises by `2 M(2a) - M(a + l) > 0`,
+/// since M falls with s while `s M(s)` rises. From `sum r_i K(l_i) / K(0) < R` at a = 0 the sum
+/// rises to `4 sum r_i`. If that is not above R, no capacity is nearest and the result is 0, which
+/// needs a massless port and three quarters of the rise at once.
 pub(crate) fn least_squares(step: &StepResponse, window: f64) -> f64 {
     let slow: f64 = step.terms.iter().map(|t| t.resistance).sum();
     if 4.0 * slow <= step.resistance {
@@ -31,7 +31,7 @@ pub(crate) fn least_squares(step: &StepResponse, window: f64) -> f64 {
     1.0 / (step.resistance * root(step, window, (0.0, fast)))
 }
 
-/// Positive where a larger rate is better.
+/// Positive if a larger rate is better.
 fn slope(step: &StepResponse, window: f64, rate: f64) -> f64 {
     let own = step.resistance * ramp(2.0 * rate, window);
     own - step.terms.iter().map(|t| t.resistance * ramp(rate + 1.0 / t.tau, window)).sum::<f64>()
@@ -52,7 +52,7 @@ fn root(step: &StepResponse, window: f64, (mut a, mut b): (f64, f64)) -> f64 {
 }
 
 /// Integral of `t exp(-s t)` from 0 to `window`: `(1 - exp(-x)(1 + x)) / s^2` with `x = s window`,
-/// by its series where the difference would lose digits.
+/// or its series if the difference would lose digits.
 fn ramp(s: f64, window: f64) -> f64 {
     let x = s * window;
     if x > 0.5 {
@@ -82,10 +82,10 @@ mod tests {
         assert!((ramp(0.0, 3.0) - 4.5).abs() < 1e-15);
     }
 
-    /// `z = 1 - r exp(-t)` at a massless port, over a window so long that the cost is, less what
-    /// does not depend on a, `1/(2a) - 2r/(a + 1)`. Its derivative vanishes where
-    /// `(a + 1)^2 = 4 r a^2`, `a = 1/(2 sqrt(r) - 1)`, and the cost there is
-    /// `-(2 sqrt(r) - 1)^2 / 2`, lower than that of C = 0; for r <= 1/4 there is no such place.
+    /// `z = 1 - r exp(-t)` at a massless port, over a window so long that the cost is
+    /// `1/(2a) - 2r/(a + 1)` plus a constant. Its derivative vanishes if `(a + 1)^2 = 4 r a^2`,
+    /// `a = 1/(2 sqrt(r) - 1)`, and the cost there is `-(2 sqrt(r) - 1)^2 / 2`, lower than that of
+    /// C = 0; for r <= 1/4 there is no such rate.
     #[test]
     fn no_capacity_is_nearest_to_a_port_that_answers_at_once() {
         for r in [0.02_f64, 0.249, 0.25, 0.2501, 0.26, 0.5, 0.99] {
@@ -124,9 +124,9 @@ mod tests {
         }
     }
 
-    /// A massless port jumps to `z = d` at once, and `1 - exp(-a t)` comes nearest to it over a
-    /// short window W where the integral of `(d - 1 + exp(-a t)) t exp(-a t)` vanishes: for x = a
-    /// W, `(1 - d) k(x) = k(2 x)` with `k(x) = (1 - (1 + x) exp(-x)) / x^2`.
+    /// A massless port jumps to `z = d` at once. Over a short window W, `1 - exp(-a t)` is nearest
+    /// to it if the integral of `(d - 1 + exp(-a t)) t exp(-a t)` vanishes: for x = a W,
+    /// `(1 - d) k(x) = k(2 x)` with `k(x) = (1 - (1 + x) exp(-x)) / x^2`.
     #[test]
     fn in_a_short_window_a_massless_port_has_jumped() {
         let step = StepResponse {

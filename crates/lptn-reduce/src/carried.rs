@@ -1,4 +1,4 @@
-//! Inputs of a network that a reduced one keeps as they are written.
+//! Inputs of a network that a reduced one keeps as written.
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{BoundaryId, Course, End, Extent, Input, NetworkBuilder, Path, Source, Value};
@@ -14,8 +14,8 @@ pub(crate) struct Carried<'a> {
 }
 
 impl Carried<'_> {
-    /// The parameters that the inputs use, as the constants they come to; with signals and tables
-    /// all of them.
+    /// Adds the parameters that the inputs use as constants, or all of them if there are signals;
+    /// and the tables and signals.
     pub(crate) fn parameters(&self, builder: &mut NetworkBuilder) -> Result<(), ReduceError> {
         let network = self.system.network();
         let boundaries = network.boundaries().iter().zip(&self.boundaries);
@@ -51,7 +51,7 @@ impl Carried<'_> {
         Ok(())
     }
 
-    /// A boundary with its temperature as it is written.
+    /// A boundary with its temperature as written.
     pub(crate) fn boundary(
         &self,
         builder: &mut NetworkBuilder,
@@ -75,7 +75,7 @@ impl Carried<'_> {
         Ok(())
     }
 
-    /// A name that nothing of the network has.
+    /// The name `wanted`, made unique with underscores.
     pub(crate) fn free(&self, wanted: &str) -> String {
         let mut name = wanted.to_owned();
         while self.system.network().item(&name).is_ok() {

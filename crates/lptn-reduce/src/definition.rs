@@ -1,9 +1,9 @@
-//! The four capacities that may stand for a network at a port.
+//! The four capacities that may represent a network at a port.
 
 use crate::deviation::Deviation;
 
 lptn_units::words! {
-/// What the capacity of the one-node equivalent is to be equal in. `R_eq` is the same for all.
+/// Property that the one-node equivalent's capacity preserves. `R_eq` is the same for all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Definition {
     /// The heat stored when all nodes are equally warm: the sum of the capacities that heat from
@@ -21,26 +21,25 @@ pub enum Definition {
 pub fn key;
 }
 
-/// A capacity that goes with `R_eq`, and what the two are worth.
+/// A capacity that goes with `R_eq`, and the errors of the two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pair {
-    /// What the capacity is equal in.
+    /// The property that the capacity preserves.
     pub definition: Definition,
-    /// `C_eq` in J/K; 0 where the least squares of a massless port are those of no capacity.
+    /// `C_eq` in J/K; 0 if no capacity has the least squares, at a massless port.
     pub capacity: f64,
-    /// Largest error for a step of 1 W at the port; the rise is `R_eq` times 1 W. `None` where
-    /// streams go on from node to node, so that the step is no sum of falling exponentials.
+    /// Largest error for a step of 1 W at the port; the rise is `R_eq` times 1 W. `None` if streams
+    /// go on from node to node: the step is then not a sum of falling exponentials.
     pub step: Option<Deviation>,
-    /// Largest error for the network's own sources, boundaries and run; `None` where no run was
-    /// given.
+    /// Largest error for the network's own sources, boundaries and run; `None` if no run was given.
     pub run: Option<Deviation>,
 }
 
 lptn_units::words! {
-/// What a pair is judged by.
+/// The criterion for a pair.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Judge {
-    /// A step of heat at the port and all times after it: the same whatever the run is.
+    /// A step of heat at the port and all times after it: the same for every run.
     #[default]
     Step = "step",
     /// The network's own run.
@@ -55,12 +54,12 @@ pub fn key;
 pub struct Recommended {
     /// The definition whose capacity is recommended.
     pub definition: Definition,
-    /// What it has the smallest error of; `None` where there is nothing to judge by.
+    /// The criterion by which its error is smallest; `None` if there is none.
     pub by: Option<Judge>,
 }
 
-/// The pair with the smallest error of what is asked for, or else of what there is; of pairs that
-/// differ by less than the noise of the run or of the step, both in K, the simplest.
+/// The pair with the smallest error by the wanted criterion, or else by one that is available. Of
+/// pairs that differ by less than the noise of the run or of the step, both in K, the simplest.
 pub(crate) fn recommended(
     pairs: &[Pair],
     wanted: Judge,
@@ -90,7 +89,7 @@ pub(crate) fn recommended(
 mod tests {
     use super::*;
 
-    /// Pairs with these errors in K of the step and of the run; no run where it is not finite.
+    /// Pairs with these errors in K of the step and of the run; no run if it is not finite.
     fn pairs(of_step: [f64; 4], of_run: [f64; 4]) -> [Pair; 4] {
         let deviation = |kelvin: f64| Deviation {
             kelvin,
@@ -123,7 +122,7 @@ mod tests {
         assert_eq!(none, found(Definition::FirstMoment, Judge::Step));
     }
 
-    /// A run in which nothing rises has no share of the rise: it cannot decide.
+    /// A run without a rise has no share of the rise and cannot decide.
     #[test]
     fn a_run_in_which_nothing_rises_decides_nothing() {
         let mut still = pairs([2.0, 3.0, 4.0, 1.0], [0.0; 4]);

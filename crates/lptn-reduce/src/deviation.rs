@@ -1,4 +1,4 @@
-//! How far a one-node network is from the network it stands for.
+//! Errors of a one-node network against the network that it represents.
 
 use lptn_analysis::{RunAnalysis, RunError};
 use lptn_assembly::ThermalSystem;
@@ -13,19 +13,19 @@ use crate::step::StepResponse;
 pub struct Deviation {
     /// Its size in K.
     pub kelvin: f64,
-    /// The same as a share of the rise; `None` where nothing rises.
+    /// The same as a share of the rise; `None` if nothing rises.
     pub relative: Option<f64>,
-    /// When it occurs, in s: after the step, or in the time of the run.
+    /// Time of the error in s: after the step, or in the time of the run.
     pub time: f64,
-    /// The one node less the network at that time in K: negative where the one node reads too cold.
+    /// The one node less the network at that time in K: negative if the one node is too cold.
     pub signed: f64,
-    /// From when on the error stays within what is allowed, in s as `time`; `None` where it is
-    /// above that at the end of the run.
+    /// Time after which the error stays within the limit, in s as `time`; `None` if it is above the
+    /// limit at the end of the run.
     pub good_from: Option<f64>,
 }
 
 impl Deviation {
-    /// Whether the error is at most this; where nothing rises, no share of it is too large.
+    /// True if the error is at most this; if nothing rises, no share of it is too large.
     pub fn within(&self, allowed: Allowed) -> bool {
         match allowed {
             Allowed::Kelvin(most) => self.kelvin <= most,
@@ -34,9 +34,9 @@ impl Deviation {
     }
 }
 
-/// For a step of 1 W at the port and all times after it. Looked for on a grid of 200 points a
-/// decade from a thousandth of the shortest to 50 of the longest time constant, and at 0, then
-/// refined. `share` of the rise is what is allowed.
+/// For a step of 1 W at the port and all times after it. The error is sampled at 0 and at 200
+/// points a decade, from a thousandth of the shortest to 50 of the longest time constant, then
+/// refined. `share` of the rise is allowed.
 pub(crate) fn of_step(step: &StepResponse, capacity: f64, share: f64) -> Deviation {
     let tau = step.resistance * capacity;
     // without capacity all of the rise comes at once
@@ -46,8 +46,7 @@ pub(crate) fn of_step(step: &StepResponse, capacity: f64, share: f64) -> Deviati
     of_curve(step, &model, (tau > 0.0).then_some((tau, tau)), share)
 }
 
-/// The same for any curve in place of the step response, with its shortest and longest time
-/// constant.
+/// The same for any model's curve, with its shortest and longest time constant in s.
 pub(crate) fn of_curve(
     step: &StepResponse,
     model: &dyn Fn(f64) -> f64,
@@ -91,7 +90,7 @@ pub(crate) fn of_curve(
     }
 }
 
-/// Where what is true at `a` and not at `b` ceases to be.
+/// The time at which `is`, true at `a` and not at `b`, becomes false.
 fn last(is: &dyn Fn(f64) -> bool, mut a: f64, mut b: f64) -> f64 {
     for _ in 0..60 {
         let middle = 0.5 * (a + b);
@@ -124,7 +123,7 @@ impl Record {
         Ok(Self::all(system, &[node], run)?.pop().unwrap_or_default())
     }
 
-    /// Runs `system` and keeps these nodes, each in a record of its own.
+    /// Runs `system` and keeps these nodes, each in a separate record.
     pub(crate) fn all(
         system: &ThermalSystem,
         nodes: &[NodeId],
@@ -153,7 +152,7 @@ impl Record {
         let (kelvin, time) = self.largest(signed.iter().map(|d| d.abs()));
         let rise = self.rise();
         let row = self.times.partition_point(|&t| t <= time).saturating_sub(1);
-        // a top between two rows has the sign of the larger of them
+        // a maximum between two rows has the sign of the larger of them
         let [a, b] = [row, row + 1].map(|k| signed.get(k).copied().unwrap_or(0.0));
         let sign = if a.abs() >= b.abs() { a } else { b };
         let most = allowed.of(rise);
@@ -184,9 +183,8 @@ impl Record {
         all.fold(start, |best, next| if next.0 > best.0 { next } else { best })
     }
 
-    /// Whether a parabola may go through rows at these times: a jump or kink on the way has none,
-    /// and rows that lie much closer on one side than on the other give its slope as noise over
-    /// their distance.
+    /// True if a parabola may go through rows at these times. A jump or kink between them rules it
+    /// out, and so do very unequal distances, which turn noise into slope.
     fn is_smooth(&self, [a, b, c]: [f64; 3]) -> bool {
         const MOST_UNEVEN: f64 = 10.0;
         let passed = |time: f64| self.breaks.partition_point(|&at| at <= time);
@@ -195,7 +193,7 @@ impl Record {
     }
 }
 
-/// A run with rows where errors are looked for, and its known discontinuities.
+/// A run with rows for the search of errors, and its known discontinuities.
 #[derive(Clone, Debug)]
 pub(crate) struct Dense {
     run: RunAnalysis,
@@ -205,7 +203,7 @@ pub(crate) struct Dense {
 impl Dense {
     /// The rows of `run`, and between two known discontinuities 1000 at equal distances, 100 a
     /// decade after the first over eight decades, since errors are largest soon after a jump, and
-    /// one just before the second, where a massless port is about to leap.
+    /// one just before the second, when a massless port is about to leap.
     pub(crate) fn new(
         system: &ThermalSystem,
         run: &RunAnalysis,
@@ -282,11 +280,11 @@ mod tests {
         };
         assert!(found.within(Allowed::Kelvin(2.0)) && found.within(Allowed::Share(0.1)));
         assert!(!found.within(Allowed::Kelvin(1.9)) && !found.within(Allowed::Share(0.09)));
-        // nothing rises: no share of it is too large
+        // if nothing rises, no share of it is too large
         assert!(Deviation { relative: None, ..found }.within(Allowed::Share(0.0)));
     }
 
-    /// Of a parabola with its top, 4, at 1.3.
+    /// The deviation of a parabola with its maximum, 4, at 1.3.
     fn parabola(times: &[f64], breaks: &[f64]) -> Deviation {
         let of =
             |temperatures| Record { times: times.to_vec(), temperatures, breaks: breaks.to_vec() };
@@ -317,7 +315,7 @@ mod tests {
             (found.kelvin - 4.0).abs() < 1e-14 && (found.time - 1.3).abs() < 1e-14,
             "{found:?}"
         );
-        // from 2.31 to 3.91 at 1, 4 between: the rise is that of the top as well
+        // from 2.31 to 3.91 at the rows, 4 between them: the rise is also that of the maximum
         assert!((found.relative.unwrap() - 4.0 / 1.69).abs() < 1e-14, "{found:?}");
     }
 
@@ -325,7 +323,7 @@ mod tests {
     fn no_parabola_goes_over_a_break() {
         let is_row = |breaks: &[f64]| (parabola(&[0.0, 1.0, 2.0], breaks).time - 1.0).abs() < 1e-15;
         assert!(is_row(&[0.5]) && is_row(&[1.0]) && is_row(&[1.5]) && is_row(&[-3.0, 1.5, 9.0]));
-        // the row at a break shows what follows it
+        // the row at a break belongs to the time after it
         assert!(is_row(&[2.0]) && !is_row(&[0.0]) && !is_row(&[-3.0, 9.0]));
     }
 

@@ -1,4 +1,4 @@
-//! Sums of falling exponentials, and how far they rise in all.
+//! Sums of falling exponentials, and their total rise.
 
 /// `sum of w_i exp(-t / tau_i)`, after a jump from 0 at time 0: the difference of two step
 /// responses that end at the same rise.
@@ -8,38 +8,38 @@ pub(crate) struct Exponentials {
     terms: Vec<(f64, f64)>,
 }
 
-/// What a curve does between 0 and the end of time.
+/// The variation of a curve from 0 to infinite time.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Variation {
-    /// Sum of all its rises, which is that of all its falls.
+    /// Sum of all its rises, which equals that of all its falls.
     pub(crate) rises: f64,
-    /// By how much more it may rise at most, in extremes so close that none was seen; 0 where it is
-    /// proven that there are no others.
+    /// Upper bound of further rises, in extremes too close to be found; 0 if it is proven that
+    /// there are no others.
     pub(crate) missed: f64,
     /// Times of its extremes, ascending.
     pub(crate) turns: Vec<f64>,
 }
 
-/// Points of the first look in a decade of time.
+/// Points in a decade of time of the first search.
 const PER_DECADE: f64 = 60.0;
 
-/// Unseen extremes in an interval that add less than this share of the rises are not looked for.
+/// Extremes in an interval that can add no more than this share of the rises are not searched for.
 const ENOUGH: f64 = 1e-6;
 
 /// Rises below this share of the weights are rounding.
 const SMALLEST: f64 = 1e-6;
 
-/// Most halvings of an interval between two points.
+/// Greatest number of halvings of an interval between two points.
 const DEEPEST: u32 = 12;
 
 impl Exponentials {
-    /// Of weights and time constants in s.
+    /// From weights and time constants in s.
     pub(crate) fn new(terms: impl Iterator<Item = (f64, f64)>) -> Self {
         let falls = |&(weight, tau): &(f64, f64)| weight != 0.0 && tau > 0.0;
         let mut terms: Vec<(f64, f64)> =
             terms.filter(falls).map(|(weight, tau)| (weight, tau.recip())).collect();
         terms.sort_by(|a, b| a.1.total_cmp(&b.1));
-        // what is there twice is one term, or none: the same network twice has no difference
+        // equal rates make one term, or none: two equal networks have no difference
         terms.dedup_by(|next, first| {
             let same = next.1.total_cmp(&first.1).is_eq();
             if same {
@@ -51,7 +51,7 @@ impl Exponentials {
         Self { terms }
     }
 
-    /// After the jump.
+    /// The value after the jump.
     pub(crate) fn value(&self, time: f64) -> f64 {
         self.sum(time, |_| 1.0)
     }
@@ -65,7 +65,7 @@ impl Exponentials {
         self.terms.iter().map(|&(w, rate)| w * factor(rate) * (-rate * time).exp()).sum()
     }
 
-    /// The largest of its third derivative's size between two times: the parts of either sign fall,
+    /// Upper bound of its third derivative's size between two times: the parts of either sign fall,
     /// so that their values at the two ends enclose it.
     fn third(&self, (a, b): (f64, f64)) -> f64 {
         let part = |sign: f64, time: f64| -> f64 {
@@ -76,8 +76,8 @@ impl Exponentials {
         (rise[0] - fall[1]).abs().max((rise[1] - fall[0]).abs())
     }
 
-    /// How often the weights change their sign in the order of their rates. The derivative has no
-    /// more zeros: Descartes' rule, which holds for sums of exponentials (E. N. Laguerre, J. Math.
+    /// Number of changes of sign of the weights in the order of their rates. The derivative has no
+    /// more zeros: Descartes' rule, which applies to sums of exponentials (E. N. Laguerre, J. Math.
     /// Pures Appl. 9 (1883) 99; G. Polya, G. Szego, Problems and Theorems in Analysis II, part V,
     /// problem 77).
     pub(crate) fn most_turns(&self) -> usize {
@@ -99,7 +99,7 @@ impl Exponentials {
         times
     }
 
-    /// Its rises, with all its extremes or with what others could add.
+    /// Its rises, with all its extremes or a bound on what others could add.
     pub(crate) fn variation(&self) -> Variation {
         let times = self.times();
         let points: Vec<(f64, f64)> = times.iter().map(|&time| (time, self.slope(time))).collect();
@@ -121,7 +121,7 @@ impl Exponentials {
         Variation { rises, missed, turns }
     }
 
-    /// Its rises as a look at these times alone shows them.
+    /// Its rises from samples at these times only.
     pub(crate) fn coarse(&self, times: &[f64]) -> f64 {
         let (mut last, mut rises) = (0.0, 0.0);
         for value in [0.0].iter().chain(times).map(|&time| self.value(time)).chain([0.0]) {
@@ -135,9 +135,9 @@ impl Exponentials {
 struct Search<'a> {
     curve: &'a Exponentials,
     turns: Vec<f64>,
-    /// What the intervals may add in which no more turns could be excluded.
+    /// Bound on rises in the intervals that may contain more turns.
     missed: f64,
-    /// What one of them may add.
+    /// Acceptable bound of one interval.
     enough: f64,
 }
 
@@ -149,11 +149,11 @@ impl Search<'_> {
         }
     }
 
-    /// Looks for turns between two points.
+    /// Searches for turns between two points.
     ///
-    /// A slope that keeps its sign lies beyond the line through its ends less `w^2/8` times its
-    /// second derivative, the error of linear interpolation over the width w; where that is beyond
-    /// zero there is none. Else the interval is halved while it matters.
+    /// Linear interpolation over the width w is off by at most `w^2/8` times the second derivative
+    /// of the slope. If the line through the ends is farther from zero than that, there is no turn.
+    /// Else the interval is halved while it matters.
     fn look(&mut self, (a, b): ((f64, f64), (f64, f64)), depth: u32) {
         let width = b.0 - a.0;
         let sag = width * width / 8.0 * self.curve.third((a.0, b.0));
@@ -197,8 +197,8 @@ mod tests {
         }
     }
 
-    /// Two extremes as close as the coefficients allow: the derivative of
-    /// `(x - a)(x - b)` in x = exp(-t), with a and b apart by 1e-5, far below the first look.
+    /// Two extremes as close as the coefficients allow: the derivative of `(x - a)(x - b)` in x =
+    /// exp(-t), with a and b apart by 1e-5, far below the first search.
     #[test]
     fn a_pair_of_close_turns_is_found_or_bounded() {
         for apart in [1e-2, 1e-4, 1e-5] {
@@ -216,7 +216,7 @@ mod tests {
         }
     }
 
-    /// The whole of a falling curve is its jump at the start.
+    /// The only rise of a falling curve is its jump at the start.
     #[test]
     fn a_jump_counts_as_a_rise() {
         let curve = Exponentials::new([(2.0, 3.0)].into_iter());

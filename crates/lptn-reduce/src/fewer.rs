@@ -10,24 +10,24 @@ use lptn_integrate::vectors::{dot, norm, take_off};
 use crate::exponentials::Exponentials;
 use crate::step::{ResponseTerm, StepResponse};
 
-/// `terms` exponentials in place of those of a step response: resistances in K/W with time
-/// constants in s, all positive, with the same sum.
+/// The step response with `terms` exponentials: resistances in K/W with time constants in s, all
+/// positive, with the same sum.
 ///
-/// In the coordinates of its modes the network is `diag(tau) dx/dt = b P - x` with `b_i =
-/// sqrt(r_i)`. It is projected onto the answers `b / (1 + s tau)` at as many real frequencies s >=
-/// 0 as there are terms (a rational Krylov space; for s = 0 alone PRIMA: A. Odabasioglu, M. Celik,
-/// L. T. Pileggi, IEEE Trans. CAD 17 (1998) 645): a congruence, so what comes out is passive with
-/// real time constants and positive resistances, and agrees with the network at every s in value
-/// and slope (E. J. Grimme, thesis, Urbana 1997). With s = 0 among them `R_eq` and the area under
-/// the response are exact.
+/// In modal coordinates the network is `diag(tau) dx/dt = b P - x` with `b_i = sqrt(r_i)`. It is
+/// projected onto the responses `b / (1 + s tau)` at as many real frequencies s >= 0 as there are
+/// terms (a rational Krylov space; for s = 0 alone PRIMA: A. Odabasioglu, M. Celik, L. T. Pileggi,
+/// IEEE Trans. CAD 17 (1998) 645). This is a congruence, so the result is passive with real time
+/// constants and positive resistances, and agrees with the network at every s in value and slope
+/// (E. J. Grimme, thesis, Urbana 1997). With s = 0 among them `R_eq` and the area under the
+/// response are exact.
 ///
 /// So the error's impulse response is orthogonal to `exp(-s t)` and `t exp(-s t)` for each s, twice
-/// as many functions as terms, which form a Chebyshev system: it has at least so many changes of
-/// sign. By Descartes' rule it has no more, since its coefficients, positive ones of the terms among
-/// negative ones of the network, change their sign no oftener. So all of them are known when so
-/// many are found.
+/// as many functions as terms. They form a Chebyshev system: the error has at least as many changes
+/// of sign. By Descartes' rule it has no more, because its coefficients, positive for the terms
+/// among negative ones for the network, change sign no more often. So all changes are known once
+/// that number is found.
 ///
-/// The other frequencies are those for which the error over every load is smallest, by a search.
+/// A search finds the other frequencies, for the smallest error over every load.
 pub(crate) fn fewer(step: &StepResponse, terms: usize) -> Option<Vec<(f64, f64)>> {
     let all: Vec<(f64, f64)> = step.terms.iter().map(|term| (term.resistance, term.tau)).collect();
     if all.len() <= terms {
@@ -59,8 +59,8 @@ impl<'a> Search<'a> {
         slow.is_finite().then_some(Self { network, times, values, range: (slow, fast) })
     }
 
-    /// Decades of the frequencies beside 0: evenly over the best part of the range, then each by
-    /// itself.
+    /// Decades of the frequencies other than 0: evenly over the best part of the range, then each
+    /// by itself.
     fn best(&self, terms: usize) -> Option<Vec<f64>> {
         const ROUNDS: usize = 3;
         if terms <= 1 {
@@ -94,7 +94,7 @@ impl<'a> Search<'a> {
         Some(best)
     }
 
-    /// The largest error over every load of up to 1 W in K, as a look at the times shows it.
+    /// The largest error over every load of up to 1 W in K, sampled at the times.
     fn error(&self, shifts: &[f64]) -> Option<f64> {
         let terms = self.projected(shifts)?;
         let curve = Exponentials::new(terms.into_iter().map(|(r, tau)| (-r, tau)));
@@ -107,8 +107,8 @@ impl<'a> Search<'a> {
         Some(rises + f64::max(-last, 0.0))
     }
 
-    /// Resistances and time constants of the projection onto the answers at 0 and at these decades
-    /// of frequencies. `None` where two of them are the same to rounding.
+    /// Resistances and time constants of the projection onto the responses at 0 and at these
+    /// decades of frequencies. `None` if two responses are equal to rounding.
     fn projected(&self, shifts: &[f64]) -> Option<Vec<(f64, f64)>> {
         const SAME: f64 = 1e-10;
         let b: Vec<f64> = self.network.iter().map(|term| term.resistance.sqrt()).collect();

@@ -13,19 +13,19 @@ pub struct ExponentialFit {
     pub settled: f64,
     /// Time constant in s.
     pub tau: f64,
-    /// Square root of the mean square of what the curve misses.
+    /// Root mean square of the residual, in the unit of the record.
     pub rms: f64,
 }
 
 /// Fits `T_i`, `T_f` and `tau` to temperatures at ascending times in s, counted from time 0.
 ///
 /// By variable projection (G. H. Golub and V. Pereyra, SIAM J. Numer. Anal. 10 (1973) 413): for a
-/// given `tau` the other two are linear; `tau` is sought on a grid over all scales of the record
-/// and then by Gauss-Newton steps in its logarithm, without the term of the derivative that
-/// vanishes with the residual (L. Kaufman, BIT 15 (1975) 49).
+/// given `tau` the other two are linear. `tau` is found on a grid over all scales of the record,
+/// then by Gauss-Newton steps in its logarithm, without the term of the derivative that vanishes
+/// with the residual (L. Kaufman, BIT 15 (1975) 49).
 ///
 /// # Errors
-/// [`FitError`], in particular where the record does not bend.
+/// [`FitError`], in particular if the record does not bend.
 pub fn fit_exponential(times: &[f64], temperatures: &[f64]) -> Result<ExponentialFit, FitError> {
     let record = Record::new(times, temperatures)?;
     let (log_tau, best) = record.refined(record.search()?);
@@ -39,7 +39,7 @@ pub fn fit_exponential(times: &[f64], temperatures: &[f64]) -> Result<Exponentia
 
 struct Record<'a> {
     times: &'a [f64],
-    /// The first time. Shapes begin there: far behind time 0 nothing but rounding would be left of
+    /// The first time in s. Shapes begin there: far after time 0 only rounding would be left of
     /// them.
     first: f64,
     temperatures: &'a [f64],
@@ -52,7 +52,7 @@ struct Projected {
     rise: f64,
     /// `1 - exp(-t / tau)`, t from the first point on.
     shape: Vec<f64>,
-    /// Sum of the squares of what it misses.
+    /// Sum of the squares of the residual.
     squares: f64,
 }
 
@@ -99,8 +99,8 @@ impl<'a> Record<'a> {
     /// The logarithm of the best time constant of a grid, from a tenth of the shortest distance of
     /// two points to a thousand times the length.
     ///
-    /// A long record is looked at through the means of its stretches first, which show all but time
-    /// constants that are as short as these.
+    /// A long record is searched through the means of its stretches first, which show all but time
+    /// constants as short as the stretches.
     fn search(&self) -> Result<f64, FitError> {
         if self.times.len() >= 2 * FEW {
             let (times, temperatures) = (means(self.times), means(self.temperatures));
@@ -114,7 +114,7 @@ impl<'a> Record<'a> {
         self.grid(300)
     }
 
-    /// The best of so many time constants, and whether it is inside.
+    /// The logarithm of the best time constant of a grid of `count` steps, if it is inside.
     fn grid(&self, count: i32) -> Result<f64, FitError> {
         let shortest =
             self.times.windows(2).map(|pair| pair[1] - pair[0]).fold(f64::INFINITY, f64::min);
@@ -140,8 +140,8 @@ impl<'a> Record<'a> {
         Projected { initial, rise, shape, squares }
     }
 
-    /// The Gauss-Newton step of the logarithm: what is missed against the part of the derivative
-    /// that offset and factor cannot follow.
+    /// The Gauss-Newton step of the logarithm: the residual against the part of the derivative that
+    /// offset and factor cannot follow.
     fn step(&self, log_tau: f64, at: &Projected) -> f64 {
         let tau = log_tau.exp();
         let slope = |(t, s): (&f64, &f64)| -at.rise * ((t - self.first) / tau) * (1.0 - s);
@@ -171,7 +171,7 @@ fn line(shape: &[f64], values: &[f64]) -> (f64, f64) {
     (mean_value - factor * mean_shape, factor)
 }
 
-/// At least this many stretches stand for a long record.
+/// Smallest number of stretches of a long record.
 const FEW: usize = 200;
 
 /// The means of [`FEW`] stretches or some more.
@@ -183,8 +183,8 @@ fn means(values: &[f64]) -> Vec<f64> {
 mod tests {
     use super::*;
 
-    /// The means of equal stretches of an exponential are one with the same time constant, so that
-    /// the search through them ends there, and no point of a grid does.
+    /// The means of equal stretches of an exponential are an exponential with the same time
+    /// constant. The search through them finds it; no grid point does.
     #[test]
     fn a_long_record_is_searched_through_its_means() {
         for tau in [80.0_f64, 900.0, 31_000.0] {

@@ -1,5 +1,5 @@
-//! Several nodes of a network with what stands between them: a network of fewer nodes with positive
-//! elements.
+//! Several nodes of a network with the conductances between them: a network of fewer nodes with
+//! positive elements.
 //!
 //! The elements are a Schur complement with moved capacities, from one solution a node, so that
 //! large networks are not eliminated.
@@ -16,23 +16,22 @@ use crate::rises::{Rises, Way};
 
 /// A network reduced to some of its nodes.
 ///
-/// Between the nodes stand the conductances of the Schur complement (G. Kron, Tensor Analysis of
-/// Networks, 1939): the inverse of the block of `G^-1` that belongs to them. In steady state they
-/// are exact: every temperature of these nodes, every heat of a boundary. The capacity of every
-/// node that is left out goes to those that stay in the shares in which its temperature follows
-/// theirs, as TICER moves them (B. N. Sheehan, ICCAD 1999, 200). Where that makes the error over
-/// every load smaller, they are then changed by as little as gives the responses at the nodes asked
-/// for their first moments, `sum of Z_pn C_n Z_nq`. All elements are positive, so the reduced
-/// network is passive.
+/// The conductances between the nodes are those of the Schur complement (G. Kron, Tensor Analysis
+/// of Networks, 1939): the inverse of the block of `G^-1` that belongs to them. In steady state
+/// every temperature of these nodes and every heat of a boundary is exact. The capacity of a node
+/// that is left out goes to the kept nodes in the shares in which its temperature follows theirs,
+/// as in TICER (B. N. Sheehan, ICCAD 1999, 200). If that reduces the error over every load, the
+/// capacities are then changed by the least amount that gives the responses at the requested nodes
+/// their first moments, `sum of Z_pn C_n Z_nq`. All elements are positive, so the reduced network
+/// is passive.
 ///
-/// Of the nodes that nobody named those are taken that follow the others latest: the mean delay of
-/// a node with all chosen ones held is the solution of the network for the heat `C_n` in every
-/// node.
+/// Further nodes are those that follow the others latest. The mean delay of a node with all chosen
+/// ones fixed is the solution of the network for the heat `C_n` in every node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kept {
-    /// The nodes that stay: those asked for, then those that were chosen.
+    /// The nodes that stay: the requested ones, then those that were chosen.
     pub nodes: Vec<NodeId>,
-    /// How many were asked for.
+    /// Number of requested nodes.
     pub asked: usize,
     /// Heat capacity of each in J/K.
     pub capacity: Vec<f64>,
@@ -44,29 +43,29 @@ pub struct Kept {
     pub shares: Vec<Vec<f64>>,
     /// Share of each in the temperature of every node of the network: between 0 and 1.
     pub weights: Vec<Vec<f64>>,
-    /// By how much the first moments at the nodes asked for are missed, relative to them.
+    /// Largest error of the first moments at the requested nodes, relative to them.
     pub moments: f64,
 }
 
-/// What the temperature of every node is beside its shares of the kept ones, exact in steady state:
-/// `T_n = sum of weights T_kept + sum of boundaries T_b + sum of sources P`. In between it takes what
-/// was left out to be at rest among the kept ones.
+/// The part of every node's temperature that does not follow from the kept ones, exact in steady
+/// state: `T_n = sum of weights T_kept + sum of boundaries T_b + sum of sources P`. In between, it
+/// assumes that the other nodes are at rest among the kept ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Recovery {
     /// Share of each boundary in every node; empty for a boundary that none feels.
     pub boundaries: Vec<Vec<f64>>,
-    /// Rise of every node for each source in K/W, the kept nodes held.
+    /// Rise of every node for each source in K/W, with the kept nodes fixed.
     pub sources: Vec<Vec<f64>>,
 }
 
 impl Kept {
-    /// Keeps these nodes and chooses as many more as make `count`, or all there are. Whether
-    /// capacities are changed, and how much of that falls on large ones, is taken as the error over
-    /// every load is smallest.
+    /// Keeps the requested nodes and chooses more until there are `count`, or all. The smallest
+    /// error over every load decides if capacities are changed, and how much of that falls on large
+    /// ones.
     ///
     /// # Errors
-    /// [`ReduceError::NoGround`], [`ReduceError::NotLinear`], [`ReduceError::OneWay`] where streams
-    /// go on from node to node, [`ReduceError::Factorization`], and as [`Kept::network`].
+    /// [`ReduceError::NoGround`], [`ReduceError::NotLinear`], [`ReduceError::OneWay`] if streams go
+    /// on from node to node, [`ReduceError::Factorization`], and as [`Kept::network`].
     pub fn new(
         system: &ThermalSystem,
         reference: &KeptReference,
@@ -96,14 +95,14 @@ impl Kept {
         best.ok_or(ReduceError::Modes)
     }
 
-    /// How all temperatures follow from those of the kept nodes.
+    /// Recovers all temperatures from those of the kept nodes.
     ///
     /// # Errors
     /// As [`Kept::new`].
     pub fn recovery(&self, system: &ThermalSystem) -> Result<Recovery, ReduceError> {
         let network = system.network();
         let mut rises = Rises::new(system)?;
-        // what the chosen nodes do not explain of a temperature field
+        // the part of a temperature field that the chosen nodes do not explain
         let rest = |field: Vec<f64>| -> Vec<f64> {
             let mut rest = field.clone();
             for (node, weights) in self.nodes.iter().zip(&self.weights) {
@@ -125,25 +124,25 @@ impl Kept {
         Ok(Recovery { boundaries, sources })
     }
 
-    /// How many nodes there are.
+    /// Number of nodes.
     pub fn count(&self) -> usize {
         self.nodes.len()
     }
 }
 
-/// Powers of the capacities in whose shares they are changed: not at all, in proportion, and more of
-/// the large ones.
+/// Powers of the capacities that weigh their changes: no change, in proportion, and more of the
+/// large ones.
 const POWERS: [Option<i32>; 4] = [None, Some(1), Some(2), Some(3)];
 
 /// Shares and conductances below this part of the whole are rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Nodes chosen so far, with what the network is seen from each.
+/// Nodes chosen so far, each with its Norton equivalent.
 struct Choice<'a> {
     system: &'a ThermalSystem,
     columns: Vec<NortonEquivalent>,
     capacity: Vec<f64>,
-    /// Mean delay of every node with only the boundaries held, in s.
+    /// Mean delay of every node with only the boundaries fixed, in s.
     delay: Vec<f64>,
 }
 
@@ -152,7 +151,7 @@ impl<'a> Choice<'a> {
         let network: &Network = system.network();
         let mut capacity: Vec<f64> = network.node_ids().map(|id| network.capacity(id)).collect();
         for loose in network.ungrounded().into_iter().flatten() {
-            capacity[loose.index()] = 0.0; // an island of its own stores nothing that is asked about
+            capacity[loose.index()] = 0.0; // the heat of a separate island does not matter
         }
         let delay = rises.of_nodes(&capacity, Way::Forth)?;
         Ok(Self { system, columns: Vec::new(), capacity, delay })
@@ -164,7 +163,7 @@ impl<'a> Choice<'a> {
         Ok(())
     }
 
-    /// The node with capacity that follows the chosen ones latest, of those that feel them.
+    /// The node with capacity that follows the chosen ones latest, among those that feel them.
     fn latest(&self) -> Result<Option<NodeId>, ReduceError> {
         let held = self.held(&self.delay)?;
         let felt = |id: &NodeId| self.columns.iter().any(|c| c.response[id.index()] > 0.0);
@@ -182,7 +181,7 @@ impl<'a> Choice<'a> {
         Mat::from_fn(k, k, |i, j| 0.5 * (entry(i, j) + entry(j, i)))
     }
 
-    /// Temperatures as they were, less what follows from those of the chosen nodes.
+    /// Temperatures less the part that follows from those of the chosen nodes.
     fn held(&self, temperatures: &[f64]) -> Result<Vec<f64>, ReduceError> {
         let at = |i: usize| temperatures[self.columns[i].port.index()];
         let b = Mat::from_fn(self.columns.len(), 1, |i, _| at(i));
@@ -232,8 +231,8 @@ impl<'a> Choice<'a> {
         weights.iter().map(part).collect()
     }
 
-    /// The capacities nearest to these with the first moments of the whole network at the nodes
-    /// asked for, and by how much they miss them.
+    /// The capacities nearest to these with the first moments of the whole network at the requested
+    /// nodes, and the remaining error.
     fn matched(
         &self,
         among: &Mat<f64>,
@@ -258,7 +257,7 @@ impl<'a> Choice<'a> {
         let scale = |pair: (usize, usize)| {
             (whole((pair.0, pair.0)) * whole((pair.1, pair.1))).sqrt().max(f64::MIN_POSITIVE)
         };
-        // the least change, each capacity weighed by its power, that has the moments
+        // the least change, with each capacity weighed by its power, that gives the moments
         let largest = start.iter().copied().fold(0.0, f64::max);
         let exponent = 0.5 * f64::from(power.unwrap_or(1) - 1);
         let ease = |j: usize| start[j] * (start[j] / largest).powf(exponent);
@@ -270,7 +269,7 @@ impl<'a> Choice<'a> {
             Some(multipliers) => {
                 let change = dense::product(a.as_ref(), multipliers.as_ref());
                 let change: Vec<f64> = (0..k).map(|j| change[(j, 0)] * ease(j)).collect();
-                // not more than nine tenths of a capacity are taken away
+                // at most nine tenths of a capacity are taken away
                 let shares = change.iter().zip(&start).map(|(change, c)| change / c);
                 let least = shares.filter(|share| share.is_finite()).fold(0.0, f64::min);
                 let part = if least < -0.9 { -0.9 / least } else { 1.0 };
@@ -283,7 +282,7 @@ impl<'a> Choice<'a> {
     }
 }
 
-/// A share without what rounding leaves beside nothing or the whole.
+/// A share without rounding errors near 0 and 1.
 fn clean(share: f64) -> f64 {
     if share < ROUNDING {
         0.0

@@ -1,4 +1,4 @@
-//! What it costs to believe a network of kept nodes.
+//! Errors of a network of kept nodes.
 
 use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
@@ -12,12 +12,12 @@ use crate::reduction::TOLERANCE;
 use crate::rises::Rises;
 use crate::step::StepResponse;
 
-/// How far the nodes asked for are from those of the whole network.
+/// Errors at the requested nodes against the whole network.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KeptErrors {
-    /// Over the run, one for each node asked for, with its rise in K.
+    /// Over the run, one for each requested node, with its rise in K.
     pub run: Option<Vec<(Deviation, f64)>>,
-    /// The largest error of each over every load between 0 and 1 W into each of the nodes asked for
+    /// The largest error of each over every load between 0 and 1 W into each of the requested nodes
     /// at once, in K, and the largest rise that such loads lead to.
     pub loads: Vec<(f64, f64)>,
 }
@@ -29,11 +29,11 @@ impl KeptErrors {
     }
 }
 
-/// The whole network at the nodes asked for: what reduced ones are compared with.
+/// The whole network at the requested nodes, for the comparison with reduced ones.
 #[derive(Debug)]
 pub struct KeptReference {
     asked: Vec<NodeId>,
-    /// Of each pair, the second not behind the first.
+    /// For each pair of nodes, the second not after the first.
     responses: Vec<(Terms, f64)>,
     run: Option<(Dense, Vec<Record>)>,
     start: f64,
@@ -73,7 +73,7 @@ impl KeptReference {
         self.start
     }
 
-    /// How far a reduced network is from it, whose first nodes are those asked for.
+    /// The errors of a reduced network whose first nodes are the requested ones.
     ///
     /// # Errors
     /// [`ReduceError::Run`], [`ReduceError::Equivalent`] if it cannot be assembled.
@@ -85,7 +85,7 @@ impl KeptReference {
         Ok(KeptErrors { run, loads: self.over_loads(&responses(&few, &here)?) })
     }
 
-    /// How far a model is from it over every load, of which these are the weights in K/W and time
+    /// The errors of a model over every load. `between` returns the weights in K/W and time
     /// constants in s of the rise of one node for heat into another.
     pub(crate) fn errors_of(&self, between: &dyn Fn(NodeId, NodeId) -> Terms) -> KeptErrors {
         let pairs = (0..self.asked.len()).flat_map(|p| (0..=p).map(move |q| (p, q)));
@@ -104,7 +104,7 @@ impl KeptReference {
         Ok(whole.iter().zip(&reduced).map(error).collect())
     }
 
-    /// Loads at different nodes have nothing to do with one another: the largest errors add.
+    /// Loads at different nodes are independent: the largest errors add.
     fn over_loads(&self, reduced: &[(Terms, f64)]) -> Vec<(f64, f64)> {
         let mut sums = vec![(0.0, 0.0); self.asked.len()];
         let pairs = (0..self.asked.len()).flat_map(|p| (0..=p).map(move |q| (p, q)));
@@ -144,8 +144,8 @@ struct Responses<'a> {
 pub(crate) type Terms = Vec<(f64, f64)>;
 
 impl Responses<'_> {
-    /// What is still missing of the rise of one for 1 W into the other, and the whole rise: a
-    /// quarter of the difference of what both together see of their sum and of their difference,
+    /// The remaining rise of one for 1 W into the other, and the whole rise. It is a quarter of the
+    /// difference of two responses, to heat into both and to heat into one and out of the other,
     /// each of which is a sum of falling exponentials.
     fn between(&mut self, p: usize, q: usize) -> Result<(Terms, f64), ReduceError> {
         if p == q {

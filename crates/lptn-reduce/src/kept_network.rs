@@ -15,7 +15,7 @@ const ROUNDING: f64 = 1e-14;
 
 impl Kept {
     /// The reduced network, its nodes with their own names and start temperatures, its inputs as
-    /// they are written.
+    /// written.
     ///
     /// # Errors
     /// [`ReduceError::Equivalent`] if an input cannot be expressed in it, [`ReduceError::NotGiven`],

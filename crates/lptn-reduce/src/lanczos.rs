@@ -11,14 +11,14 @@ use crate::error::ReduceError;
 pub(crate) struct Mode {
     pub(crate) value: f64,
     pub(crate) weight: f64,
-    /// How far the value is from an eigenvalue at most.
+    /// Upper bound of the distance of the value from an eigenvalue.
     pub(crate) error: f64,
 }
 
 /// A symmetric operator: gives its product with a vector.
 pub(crate) type Operator<'a> = dyn FnMut(&[f64]) -> Result<Vec<f64>, ReduceError> + 'a;
 
-/// Most vectors kept. A port sees few modes: those beyond are too fast or too far to matter.
+/// Most vectors kept. A port sees few modes: those beyond are too fast or too far away to matter.
 const MOST: usize = 300;
 
 /// Coupling relative to the largest eigenvalue below which nothing new is excited.
@@ -26,8 +26,8 @@ const EXHAUSTED: f64 = 1e-14;
 
 /// Lanczos iteration with full reorthogonalisation (C. Lanczos, J. Res. NBS 45 (1950) 255; G. H.
 /// Golub and G. Meurant, Matrices, Moments and Quadrature (2010), chapter 4: values and weights are
-/// the Gauss quadrature of the start vector's measure). Ends when `enough` says so of the modes
-/// found, or when there are no more.
+/// the Gauss quadrature of the start vector's measure). Ends when `enough` accepts the modes found,
+/// or when there are no more.
 pub(crate) fn modes(
     start: &[f64],
     apply: &mut Operator<'_>,
@@ -58,8 +58,8 @@ pub(crate) fn modes(
     }
 }
 
-/// Takes the parts along `basis` off a vector and gives the length that is left. A second time
-/// where much was taken off, so that rounding of the first does not stay.
+/// Subtracts the parts along `basis` from a vector and returns the remaining length. If much was
+/// subtracted, it does so twice, so that rounding of the first pass does not stay.
 fn orthogonalise(next: &mut [f64], basis: &[Vec<f64>]) -> f64 {
     let before = norm(next);
     for _ in 0..2 {
@@ -121,8 +121,8 @@ mod tests {
         }
     }
 
-    /// A diagonal operator has its entries for eigenvalues, and the squares of the start vector for
-    /// weights.
+    /// The eigenvalues of a diagonal operator are its entries, the weights the squares of the start
+    /// vector.
     #[test]
     fn modes_of_a_diagonal_operator_are_its_entries() {
         let entries = [3.0, 0.5, 7.0, 1.0, 0.01, 2.0];

@@ -1,16 +1,16 @@
-//! A network seen from one node: its Norton equivalent, and what it costs to believe it.
+//! A network seen from one node: its Norton equivalent and the error of that.
 //!
 //! At a *port* (a node) a linear network is `q = Q_N - (T - T_ref) / R_eq` in steady state,
 //! exactly: [`NortonEquivalent`]. Over time it is not one resistance and one capacity but a sum of
 //! exponentials, [`StepResponse`]; the capacity `C_eq` of the nearest one-node network depends on
-//! what "nearest" means, so [`Reduction`] gives it by four [`Definition`]s, each with the largest
-//! [`Deviation`] it leads to, measured for a unit step of heat and for the network's own inputs.
-//! Streams of constant capacity rate may be among the paths; what goes on from node to node makes the
-//! network lack symmetry, and leaves it without a [`StepResponse`].
-//! [`Nodes`] are a few nodes at a port, [`WorstCase`] their error over every load, [`Kept`] several
-//! nodes with what stands between them. The impedance of a port has two forms, [`Foster`](lptn_network::Foster) and
-//! [`Cauer`](lptn_network::Cauer), each of which follows from the other. [`fit_exponential`] and [`Bias`] are the method of
-//! the seed paper, which takes heat from one exponential.
+//! the meaning of "nearest", so [`Reduction`] gives it by four [`Definition`]s. Each has its
+//! largest [`Deviation`] for a unit step of heat and for the network's own inputs. Streams of
+//! constant capacity rate may be among the paths. Streams that go on from node to node make the
+//! network unsymmetric and leave it without a [`StepResponse`]. [`Nodes`] are a few nodes at a
+//! port, [`WorstCase`] their error over every load, [`Kept`] several nodes with the conductances
+//! between them. The impedance of a port has two equivalent forms, [`Foster`](lptn_network::Foster)
+//! and [`Cauer`](lptn_network::Cauer). [`fit_exponential`] and [`Bias`] are the method of the seed
+//! paper, which infers heat from one exponential.
 //!
 //! Units: SI, temperatures in K, resistances in K/W, capacities in J/K, heat positive into a node.
 

@@ -16,19 +16,19 @@ use crate::norton::{Inputs, NortonEquivalent, grounded};
 use crate::reduction::{Dynamics, Reduction, ReductionOptions, window};
 use crate::step::{ResponseTerm, StepResponse};
 
-/// Modes of a smaller share of the resistance are not seen.
+/// Modes with a smaller share of the resistance are ignored.
 const VISIBLE: f64 = 1e-9;
 
-/// A rate whose imaginary part is larger than this swings.
+/// A rate whose relative imaginary part is larger than this oscillates.
 const REAL: f64 = 1e-9;
 
 impl Reduction {
-    /// Reduces a system near one of its states, of which `linear` is the linearisation: small
-    /// disturbances at `port` see this resistance and these capacities. `Q_N` weighs the heat that
-    /// the sources have there, and `T_ref` is such that the equivalent has the port's temperature
-    /// and heat there, in a state that is not settled with the heat that nodes store. No run is
-    /// compared; pairs are judged by a step. Where modes swing, or coincide, only the sum and the
-    /// first moment are there, as with streams.
+    /// Reduces a system near one of its states, with its linearisation `linear`: small disturbances
+    /// at `port` see this resistance and these capacities. `Q_N` weighs the heat of the sources
+    /// there, and `T_ref` gives the equivalent the port's temperature and heat there. In a state
+    /// that is not settled it includes the heat that nodes store. No run is compared; pairs are
+    /// judged by a step. If modes oscillate or coincide, only the sum and the first moment are
+    /// given, as with streams.
     ///
     /// # Errors
     /// [`ReduceError`]
@@ -48,7 +48,7 @@ impl Reduction {
         let stored = settled_rises(linear, &[state.stored(network)])?;
         let temperature = state.temperatures[port.index()];
         let heat = norton.heat(&state.source_heat);
-        // where nothing is stored this is the temperature itself
+        // if nothing is stored this is the temperature itself
         let rests = temperature + stored[0][port.index()];
         let inputs = Inputs { reference: rests - norton.resistance * heat, heat };
         let capacities = capacities(linear, &norton)?;
@@ -95,8 +95,8 @@ fn norton(
     })
 }
 
-/// The sum of the capacities there of what heat from the port reaches, and the first moment over
-/// the resistance squared, in J/K.
+/// The sum of the capacities there that heat from the port reaches, and the first moment over the
+/// resistance squared, in J/K.
 fn capacities(
     linear: &Linearised<'_>,
     norton: &NortonEquivalent,
@@ -108,7 +108,7 @@ fn capacities(
     Ok(vec![(Definition::Sum, sum), (Definition::FirstMoment, moment / squared)])
 }
 
-/// The step at the port as exponentials that all rise; `None` where some swing, fall or coincide.
+/// The step at the port as rising exponentials; `None` if some oscillate, fall or coincide.
 fn response(step: &StepAnswer, port: NodeId) -> Option<StepResponse> {
     let node = port.index();
     let (resistance, direct) = (step.settled[node], step.direct(node));

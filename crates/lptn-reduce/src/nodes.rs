@@ -1,4 +1,4 @@
-//! What a port sees, with a few nodes.
+//! A few nodes at a port.
 
 use crate::definition::{Definition, Pair};
 use crate::fewer::fewer;
@@ -7,13 +7,13 @@ use lptn_network::{Cauer, Foster};
 use crate::step::StepResponse;
 use crate::worst::WorstCase;
 
-/// A few nodes that stand for a network at a port.
+/// A few nodes that represent a network at a port.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Nodes {
-    /// The definition of the capacity, where it is one node.
+    /// The definition of the capacity, if it is one node.
     pub definition: Option<Definition>,
-    /// The nodes, one a rung. What stands before the first is 0 unless the port is massless, and
-    /// then that which answers at once.
+    /// The nodes, one per rung. The resistance before the first is 0 unless the port is massless;
+    /// then it is the immediate response.
     pub ladder: Cauer,
     /// Their step response.
     pub foster: Foster,
@@ -22,7 +22,7 @@ pub struct Nodes {
 }
 
 impl Nodes {
-    /// How many nodes with capacity there are.
+    /// Number of nodes with capacity.
     pub fn count(&self) -> usize {
         self.ladder.rungs.len()
     }
@@ -36,8 +36,8 @@ impl Nodes {
         Some(Self { definition: Some(pair.definition), ladder, foster, worst })
     }
 
-    /// So many nodes behind one another, with the smallest error over every load that was found;
-    /// fewer where the port sees no more. `None` where elements are beyond what a number holds.
+    /// `count` nodes in a row, with the smallest error over every load that was found; fewer if the
+    /// port sees no more. `None` if an element is beyond the range of a number.
     pub fn of(step: &StepResponse, count: usize) -> Option<Self> {
         let terms = fewer(step, count)?;
         // rounding must not move the steady state
@@ -51,8 +51,8 @@ impl Nodes {
     }
 
     /// The smallest number of nodes, at most `most`, whose error over every load is no larger than
-    /// `limit` in K for each W of the largest power; one node is the best of the pairs. Beside it
-    /// the numbers that were not enough, the smallest first.
+    /// `limit` in K for each W of the largest power; one node is the best of the pairs. Also
+    /// returns the smaller numbers of nodes that were not enough, the smallest first.
     pub fn enough(
         step: &StepResponse,
         pairs: &[Pair],

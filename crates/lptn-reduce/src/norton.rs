@@ -1,4 +1,4 @@
-//! What a network is in steady state, seen from one node.
+//! A network in steady state, seen from one node.
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{ConductorFlow, End, InputError, Item, Network, NodeId};
@@ -7,14 +7,14 @@ use crate::error::ReduceError;
 use crate::rises::{Rises, Way};
 
 /// The Norton equivalent of a linear network at a port: `q = Q_N - (T - T_ref) / R_eq`, where q is
-/// the heat that the network gives out of the port in W when something outside holds the port at T.
+/// the heat in W that the network gives out of the port if something outside fixes the port at T.
 ///
 /// `R_eq = (G^-1)_pp` is the rise of the port for 1 W into it. By reciprocity (G is symmetric) the
 /// response `R_kp` of node k to heat at the port is that of the port to heat at k, so one solution
 /// gives the weights of all sources, `R_pk / R_pp`, and of all boundaries: the share of the 1 W
-/// that each takes. A stream that goes on to another node is felt there and not back: G is then
-/// not symmetric, and the weights come from a solution with its transpose, equally exact. Source:
-/// L. O. Chua, C. A. Desoer, E. S. Kuh, Linear and Nonlinear Circuits (1987), chapters 5 and 13.
+/// that each takes. A stream that goes on to another node acts downstream only: G is then not
+/// symmetric, and the weights come from a solution with its transpose, equally exact. Source: L. O.
+/// Chua, C. A. Desoer, E. S. Kuh, Linear and Nonlinear Circuits (1987), chapters 5 and 13.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NortonEquivalent {
     /// The node seen from outside.
@@ -24,8 +24,8 @@ pub struct NortonEquivalent {
     /// `R_kp` in K/W: rise of every node for 1 W into the port, between 0 and `R_eq`; 0 for nodes
     /// that no heat from the port reaches.
     pub response: Vec<f64>,
-    /// `R_pk` in K/W: rise of the port for 1 W into every node; the same as `response` where no
-    /// stream goes on to another node.
+    /// `R_pk` in K/W: rise of the port for 1 W into every node; the same as `response` if no stream
+    /// goes on to another node.
     pub influence: Vec<f64>,
     /// Weight of every boundary in `T_ref`: not negative, sum 1.
     pub boundary_weights: Vec<f64>,
@@ -33,16 +33,16 @@ pub struct NortonEquivalent {
     pub source_weights: Vec<f64>,
 }
 
-/// What the inputs of a network are at its port at one time.
+/// The inputs of a network, seen from its port at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Inputs {
     /// The port's steady temperature with all sources off, in K.
     pub reference: f64,
-    /// `Q_N` in W: the heat at the port that does there what all sources do.
+    /// `Q_N` in W: the heat at the port with the same effect there as all sources.
     pub heat: f64,
 }
 
-/// The node of this name, to be a port.
+/// The node of this name, for use as a port.
 ///
 /// # Errors
 /// [`ReduceError::UnknownPort`], with a suggestion, and [`ReduceError::BoundaryPort`].
@@ -53,7 +53,7 @@ pub fn port(network: &Network, name: &str) -> Result<NodeId, ReduceError> {
     }
 }
 
-/// Rise of node `to` in K for 1 W into node `from`, in K/W; the same with the two exchanged where no
+/// Rise of node `to` in K for 1 W into node `from`, in K/W; the same with the two exchanged if no
 /// stream goes on from one node to another.
 ///
 /// # Errors
@@ -121,7 +121,7 @@ impl NortonEquivalent {
         sources.iter().zip(&self.source_weights).map(|(p, w)| w * p).sum()
     }
 
-    /// The inputs as they are at `time`, in s.
+    /// The inputs at `time`, in s.
     ///
     /// # Errors
     /// [`InputError`] if a source or boundary has no value.
@@ -149,8 +149,8 @@ impl NortonEquivalent {
     }
 }
 
-/// The port must lead to a boundary. Nodes that no path over nodes joins to it need not: it does
-/// not feel them.
+/// The port must lead to a boundary. Nodes without a path over nodes to it need not: they do not
+/// affect it.
 pub(crate) fn grounded(network: &Network, port: NodeId) -> Result<(), ReduceError> {
     let Some(loose) = network.ungrounded().into_iter().find(|island| island.contains(&port)) else {
         return Ok(());
@@ -159,7 +159,7 @@ pub(crate) fn grounded(network: &Network, port: NodeId) -> Result<(), ReduceErro
     Err(ReduceError::NoGround { names })
 }
 
-/// Which nodes heat from the port reaches over nodes, or from which heat reaches the port.
+/// Marks the nodes that heat from the port reaches over nodes, or from which heat reaches the port.
 fn reached(network: &Network, port: NodeId, way: Way) -> Vec<bool> {
     let mut next_to: Vec<Vec<usize>> = vec![Vec::new(); network.nodes().len()];
     for (conductor, id) in network.conductors().iter().zip(network.conductor_ids()) {

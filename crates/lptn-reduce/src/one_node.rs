@@ -1,4 +1,4 @@
-//! One node, or a few in a row, in place of a network: as a network that runs.
+//! One node, or a few in a row, instead of a network: as a network that runs.
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{
@@ -9,11 +9,11 @@ use crate::carried::{Carried, first};
 use crate::error::ReduceError;
 use crate::norton::NortonEquivalent;
 
-/// What stands between the port and the reference.
+/// The elements between the port and the reference.
 pub(crate) struct Row {
-    /// Resistance in K/W in front of the first capacity; 0 for none.
+    /// Resistance in K/W before the first capacity; 0 for none.
     pub(crate) direct: f64,
-    /// Capacities in J/K with the resistances behind them in K/W, port first.
+    /// Capacities in J/K with the resistances after them in K/W, port first.
     pub(crate) rungs: Vec<(f64, f64)>,
 }
 
@@ -40,17 +40,17 @@ pub(crate) struct OneNode<'a> {
     pub(crate) norton: &'a NortonEquivalent,
     /// Temperature of the port at the start in K.
     pub(crate) initial: f64,
-    /// Start of the run in s, where constant inputs are read.
+    /// Start of the run in s, for the values of constant inputs.
     pub(crate) start: f64,
 }
 
 impl OneNode<'_> {
-    /// The network with this row of nodes. The first is the port's namesake.
+    /// The network with this row of nodes. The first has the name of the port.
     ///
-    /// Constant inputs become one boundary `T_ref` at the end of the row and one source `Q_N`. Where
-    /// an input changes with time, every boundary stays, behind the last resistance over its
-    /// weight, and every source, times its weight: expressions stay as they are written, and the
-    /// whole is the same equivalent at every moment.
+    /// Constant inputs become one boundary `T_ref` at the end of the row and one source `Q_N`. If
+    /// an input changes with time, every boundary stays, after the last resistance over its weight,
+    /// and every source, times its weight. Expressions stay as written, and the whole is the same
+    /// equivalent at every moment.
     pub(crate) fn network(&self, row: &Row) -> Result<Network, ReduceError> {
         let from = self.system.network();
         let mut builder = NetworkBuilder::new();
@@ -69,7 +69,7 @@ impl OneNode<'_> {
         builder.build().map_err(|errors| ReduceError::Equivalent(first(&errors)))
     }
 
-    /// The nodes; the port and the last of them, with the resistance behind it.
+    /// Adds the nodes; returns the port, and the last node with the resistance after it.
     fn row(&self, builder: &mut NetworkBuilder, row: &Row) -> (NodeId, (NodeId, f64)) {
         let name = &self.system.network().nodes()[self.norton.port.index()].name;
         let start = Temperature(self.initial);
@@ -142,7 +142,7 @@ impl OneNode<'_> {
         Ok(())
     }
 
-    /// What of the inputs is carried over.
+    /// The inputs that are kept.
     fn carried(&self) -> Carried<'_> {
         let some = |weights: &[f64]| weights.iter().map(|w| *w > 0.0).collect();
         Carried {

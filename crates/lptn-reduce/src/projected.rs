@@ -1,4 +1,4 @@
-//! Several nodes of a network as a few modes, which are no network of their own.
+//! Several nodes of a network as a few modes, which are not a network.
 //!
 //! Between several nodes the elements of a projection are not all positive.
 
@@ -12,28 +12,28 @@ use crate::error::ReduceError;
 use crate::kept_errors::{KeptErrors, KeptReference};
 use crate::rises::{Rises, Way};
 
-/// A network projected onto its first answers to heat at some of its nodes: `tau_j dx_j/dt = sum of
-/// s_pj P_p - x_j` and `T_n = T_ref + sum of s_nj x_j`, with the heat `P_p` into each node asked
-/// for.
+/// A network projected onto its first responses to heat at some of its nodes:
+/// `tau_j dx_j/dt = sum of s_pj P_p - x_j` and `T_n = T_ref + sum of s_nj x_j`, with the heat `P_p`
+/// into each requested node.
 ///
-/// First onto many answers: the block Krylov space of `G^-1 C` from `G^-1` of these nodes (PRIMA: A.
-/// Odabasioglu, M. Celik, L. T. Pileggi, IEEE Trans. CAD 17 (1998) 645), made orthonormal by G. Then
-/// these modes onto their answers at a few real frequencies, 0 and others that lie evenly by their
-/// logarithms, as far as the error over every load is smallest. Both are congruences, so the model
-/// is passive: its time constants are real and not negative. Between the nodes asked for the steady
-/// state is exact, and so are the first moments.
+/// The first projection has many responses: the block Krylov space of `G^-1 C` from `G^-1` of these
+/// nodes (PRIMA: A. Odabasioglu, M. Celik, L. T. Pileggi, IEEE Trans. CAD 17 (1998) 645), made
+/// orthonormal by G. The second takes its modes onto their responses at a few real frequencies: 0
+/// and others at equal logarithmic distances, over the range with the smallest error over every
+/// load. Both are congruences, so the model is passive: its time constants are real and not
+/// negative. Between the requested nodes the steady state is exact, and so are the first moments.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Projected {
-    /// Time constant of each mode in s, the slowest first; 0 for what comes at once.
+    /// Time constant of each mode in s, the slowest first; 0 for an immediate response.
     pub tau: Vec<f64>,
     /// `s_nj` of each mode at every node of the network, in sqrt(K/W).
     pub shapes: Vec<Vec<f64>>,
-    /// The errors at the nodes asked for over every load.
+    /// The errors at the requested nodes over every load.
     pub errors: KeptErrors,
 }
 
 impl Projected {
-    /// So many modes, or as many as these nodes see.
+    /// `count` modes, or as many as these nodes see.
     ///
     /// # Errors
     /// [`ReduceError::OneWay`], [`ReduceError::NotLinear`], [`ReduceError::Factorization`],
@@ -62,7 +62,7 @@ impl Projected {
     }
 }
 
-/// Answers of the first projection, and those of networks of more than so many nodes.
+/// Number of responses of the first projection: `FEW` for networks of more than `LARGE` nodes.
 const MANY: usize = 160;
 const FEW: usize = 40;
 const LARGE: usize = 50_000;
@@ -70,14 +70,14 @@ const LARGE: usize = 50_000;
 /// Modes of a projection.
 struct Modes {
     tau: Vec<f64>,
-    /// Each as a column of weights of the first answers.
+    /// Each mode as a column of weights of the first responses.
     mix: Mat<f64>,
-    /// Of each mode at each node asked for.
+    /// Each mode at each requested node.
     ports: Mat<f64>,
 }
 
 impl Modes {
-    /// Those of `C` in a basis of which these are the rows at the nodes asked for.
+    /// The modes of `C` in a basis with the rows `ports` at the requested nodes.
     fn of(c: &Mat<f64>, basis: &Mat<f64>, ports: &Mat<f64>) -> Result<Self, ReduceError> {
         let n = c.nrows();
         let (values, vectors) = dense::symmetric_eigen(c.as_ref()).ok_or(ReduceError::Modes)?;
@@ -108,7 +108,7 @@ impl Many {
         Ok(Self { modes: Modes::of(&c, &Mat::identity(n, n), &ports)? })
     }
 
-    /// So many of them, with the smallest error over every load.
+    /// `count` of them, with the smallest error over every load.
     fn best(
         &self,
         reference: &KeptReference,
@@ -136,7 +136,7 @@ impl Many {
         best.ok_or(ReduceError::Modes)
     }
 
-    /// Onto the answers at frequency 0 and at others between these decades.
+    /// The projection onto the responses at frequency 0 and at others between these decades.
     fn projected(&self, (slow, fast): (f64, f64), count: usize) -> Result<Modes, ReduceError> {
         let (tau, ports) = (&self.modes.tau, &self.modes.ports);
         let blocks = count.div_ceil(ports.nrows().max(1));
@@ -167,10 +167,10 @@ impl Many {
     }
 }
 
-/// Parts of an answer below this are those of the others.
+/// A response whose part outside of the others is smaller than this share is not new.
 const NEW: f64 = 1e-12;
 
-/// The answers of all nodes, orthonormal by G, in sqrt(K/W): each with the heat that it answers.
+/// The responses of all nodes, orthonormal by G, in sqrt(K/W).
 fn answers(
     system: &ThermalSystem,
     (asked, capacity): (&[NodeId], &[f64]),

@@ -1,4 +1,4 @@
-//! A network reduced to one node: everything there is to say about it.
+//! A network reduced to one node, with all results.
 
 use lptn_analysis::RunAnalysis;
 use lptn_assembly::ThermalSystem;
@@ -16,29 +16,29 @@ use crate::one_node::{OneNode, Row};
 use crate::rises::Rises;
 use crate::step::StepResponse;
 
-/// The largest tolerance in K of the runs that are compared; a run with a tighter one keeps a
-/// hundredth of that. The errors they give are right to about ten times as much.
+/// The largest tolerance in K of the runs that are compared: they use a hundredth of the run's
+/// tolerance if that is smaller. Their errors are right to about ten times the tolerance.
 pub const TOLERANCE: f64 = 1e-7;
 
-/// What a reduction needs to know besides the network.
+/// The options of a reduction.
 #[derive(Clone, Debug, Default)]
 pub struct ReductionOptions {
     /// The run to compare over; `None` leaves the second error out.
     pub run: Option<RunAnalysis>,
     /// Length in s of the window of [`Definition::LeastSquares`], from the step on.
     pub window: Option<f64>,
-    /// What the recommended pair is to have the smallest error of.
+    /// The criterion for the recommended pair.
     pub judge: Judge,
-    /// How large an error is accepted: it says from when on a pair is good.
+    /// The largest acceptable error, which determines from when on a pair is good.
     pub allowed: Allowed,
 }
 
 /// The window of the least-squares definition, which begins with the step. Lengths in s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LeastSquaresWindow {
-    /// As it was asked for.
+    /// The requested length.
     Given(f64),
-    /// As long as the run, by which the pairs are judged.
+    /// The length of the run, by which the pairs are judged.
     Run(f64),
     /// Five of the slowest time constants.
     TimeConstants(f64),
@@ -61,18 +61,18 @@ pub struct Reduction {
     pub inputs: Inputs,
     /// Temperature of the port at the start in K.
     pub initial: f64,
-    /// Where the port sees a capacity: its dynamics.
+    /// The dynamics, if the port sees a capacity.
     pub dynamics: Option<Dynamics>,
 }
 
-/// What depends on capacities.
+/// The results that depend on capacities.
 #[derive(Clone, Debug)]
 pub struct Dynamics {
-    /// The step response of the port; `None` where streams go on from node to node.
+    /// The step response of the port; `None` if streams go on from node to node.
     pub step: Option<StepResponse>,
-    /// The window of the least-squares definition, where there is one.
+    /// The window of the least-squares definition, if there is one.
     pub window: Option<LeastSquaresWindow>,
-    /// One pair a definition, in the order of [`Definition::ALL`]; where streams go on from node to
+    /// One pair per definition, in the order of [`Definition::ALL`]; if streams go on from node to
     /// node only the sum and the first moment.
     pub pairs: Vec<Pair>,
     /// The pair to use.
@@ -81,25 +81,25 @@ pub struct Dynamics {
     pub tolerance: Option<f64>,
     /// The port's largest change from its start over the run, in K.
     pub rise: Option<f64>,
-    /// How large an error is accepted.
+    /// The largest acceptable error.
     pub allowed: Allowed,
 }
 
 impl Dynamics {
-    /// The pair of a definition, where there is one.
+    /// The pair of a definition, if there is one.
     pub fn pair(&self, definition: Definition) -> Option<&Pair> {
         self.pairs.iter().find(|pair| pair.definition == definition)
     }
 
-    /// The error that says whether a pair may stand for the network: that of the run, where the
-    /// port rises in it, else that of a step. `None` where there is neither.
+    /// The error that decides if a pair may represent the network: that of the run if the port
+    /// rises in it, else that of a step. `None` if there is neither.
     pub fn judged(&self, pair: &Pair) -> Option<(Judge, Deviation)> {
         let run = pair.run.filter(|run| run.relative.is_some()).map(|run| (Judge::Run, run));
         run.or(pair.step.map(|step| (Judge::Step, step)))
     }
 
-    /// Whether that error is no larger than what is accepted. In K a step says nothing: it has no
-    /// heat of its own.
+    /// True if that error is acceptable. `None` for a step with a limit in K: a step has no size of
+    /// its own.
     pub fn collapses(&self, pair: &Pair) -> Option<bool> {
         match (self.judged(pair)?, self.allowed) {
             ((Judge::Step, _), Allowed::Kelvin(_)) => None,
@@ -114,7 +114,7 @@ impl Dynamics {
 }
 
 impl Reduction {
-    /// Reduces `system` at `port` and measures what the result is worth.
+    /// Reduces `system` at `port` and computes the errors of the result.
     ///
     /// # Errors
     /// [`ReduceError`], in particular for a port without a path to a boundary, and for a run of a
@@ -180,8 +180,8 @@ impl Reduction {
         self.one_node(system, start).network(&Row::from(&nodes.ladder))
     }
 
-    /// The error of a few nodes: that of the run, where there is one in which the port rises, else
-    /// that of a step. `None` where streams go on from node to node.
+    /// The error of a few nodes: that of the run, if there is one in which the port rises, else
+    /// that of a step. `None` if streams go on from node to node.
     ///
     /// # Errors
     /// [`ReduceError::Run`], and as [`Reduction::network`].
@@ -195,8 +195,8 @@ impl Reduction {
         self.error_of(whole.as_ref(), nodes, allowed)
     }
 
-    /// The smallest number of nodes, from two to eight, whose error is no larger than what is
-    /// accepted; `None` where there is none, as where the heat goes in elsewhere.
+    /// The smallest number of nodes, from two to eight, whose error is acceptable; `None` if there
+    /// is none, for example if the heat goes in elsewhere.
     ///
     /// # Errors
     /// As [`Reduction::judged`].
@@ -206,7 +206,7 @@ impl Reduction {
         (run, allowed): (Option<&RunAnalysis>, Allowed),
     ) -> Result<Option<(Nodes, Judge, Deviation)>, ReduceError> {
         const MOST: usize = 8;
-        /// A node more has to take so much of the error away, else more will not help.
+        /// One more node has to reduce the error to this share, else more will not help.
         const LESS: f64 = 0.9;
         let Some(step) = self.dynamics.as_ref().and_then(|dynamics| dynamics.step.as_ref()) else {
             return Ok(None);
@@ -260,7 +260,7 @@ impl Reduction {
     ) -> Result<Dynamics, ReduceError> {
         let window = step.as_ref().map(|step| window(step, options));
         let capacities = self.capacities(system.network(), step.as_ref().zip(window));
-        // in a window far from every time constant the change of the port is lost in rounding
+        // in a window far from every time constant rounding hides the change of the port
         if let Some((window, (_, capacity))) = window.zip(capacities.last())
             && !capacity.is_finite()
         {
@@ -284,7 +284,7 @@ impl Reduction {
         Ok(Dynamics { step, window, pairs, recommended, tolerance, rise, allowed })
     }
 
-    /// The capacity of every definition that there is, in J/K.
+    /// The capacity of every available definition, in J/K.
     fn capacities(
         &self,
         network: &Network,
@@ -319,7 +319,7 @@ impl Reduction {
     }
 }
 
-/// The whole network's run, with which reduced ones are compared.
+/// The whole network's run, for the comparison with reduced ones.
 struct Whole<'a> {
     one_node: OneNode<'a>,
     run: Dense,
@@ -350,7 +350,7 @@ impl<'a> Whole<'a> {
     }
 }
 
-/// The window of the least-squares definition: it follows the run only where the run judges.
+/// The window of the least-squares definition: it follows the run only if the run judges.
 pub(crate) fn window(step: &StepResponse, options: &ReductionOptions) -> LeastSquaresWindow {
     match (options.window, &options.run, options.judge) {
         (Some(length), _, _) => LeastSquaresWindow::Given(length),
@@ -359,7 +359,7 @@ pub(crate) fn window(step: &StepResponse, options: &ReductionOptions) -> LeastSq
     }
 }
 
-/// Nothing may switch by itself in a network that one node is to follow over time.
+/// Nothing may switch by itself in a network that one node has to follow over time.
 pub(crate) fn still(network: &Network) -> Result<(), ReduceError> {
     match EventKind::switching(network).next() {
         Some(kind) => Err(ReduceError::Switches { name: kind.name(network) }),
@@ -367,7 +367,7 @@ pub(crate) fn still(network: &Network) -> Result<(), ReduceError> {
     }
 }
 
-/// What the runs of the four pairs gave.
+/// The results of the runs of the four pairs.
 struct Comparison {
     deviations: Vec<Deviation>,
     tolerance: f64,

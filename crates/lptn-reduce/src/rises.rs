@@ -7,7 +7,7 @@ use lptn_solve::Conductances;
 use crate::error::ReduceError;
 use crate::streams::{Streams, inflow};
 
-/// Temperatures over boundaries that are all at zero.
+/// Temperatures relative to boundaries that are all at zero.
 pub(crate) struct Rises<'a> {
     system: &'a ThermalSystem,
     work: Workspace,
@@ -20,12 +20,12 @@ enum Solver<'a> {
     Streams(Box<Streams>),
 }
 
-/// Which way heat is followed.
+/// The direction in which heat is followed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Way {
-    /// What heat here does everywhere.
+    /// The effect everywhere of heat here.
     Forth,
-    /// What heat everywhere does here: the same where no stream goes on to another node.
+    /// The effect here of heat everywhere: the same if no stream goes on to another node.
     Back,
 }
 
@@ -45,8 +45,8 @@ impl<'a> Rises<'a> {
         Ok(Self { system, work: system.workspace(), solver, still })
     }
 
-    /// Whether heat here does there what heat there does here, so that the modes are real and a
-    /// step response is a sum of exponentials that all fall.
+    /// True if heat acts both ways alike between two nodes, so that the modes are real and a step
+    /// response is a sum of falling exponentials.
     pub(crate) fn is_symmetric(&self) -> bool {
         match &self.solver {
             Solver::Paths(_) => true,
@@ -96,8 +96,8 @@ impl<'a> Rises<'a> {
         self.solved(Way::Forth)
     }
 
-    /// By how much the port follows each boundary: `back` is what heat everywhere does to it, as
-    /// [`Rises::of_nodes`] last gave it.
+    /// The weight of each boundary at the port: `back` is the effect of heat everywhere on it, as
+    /// [`Rises::of_nodes`] last returned it.
     pub(crate) fn boundary_weights(
         &mut self,
         port: NodeId,
@@ -115,7 +115,7 @@ impl<'a> Rises<'a> {
             self.system.apply(&mut self.work, &none, &temperatures);
             let b = inflow(self.system, &mut self.work).map_err(ReduceError::Input)?;
             let felt = self.system.unknowns().iter().zip(&b).map(|(id, q)| back[id.index()] * q);
-            // what an eliminated port takes from the boundary without any unknown between them
+            // the part of an eliminated port that comes from the boundary directly
             self.system.recover(&mut self.work, &cold);
             let direct = self.system.node_temperatures(&self.work)[port.index()];
             weights.push(felt.sum::<f64>() + direct);
@@ -123,7 +123,7 @@ impl<'a> Rises<'a> {
         Ok(weights)
     }
 
-    /// Heat that every boundary takes in W at the rises last asked for by [`Rises::of_nodes`].
+    /// Heat that every boundary takes in W at the last rises of [`Rises::of_nodes`].
     fn boundary_heat(&self) -> Vec<f64> {
         let mut heat = vec![0.0; self.still.len()];
         let mut states = vec![0.0; self.system.states().len()];

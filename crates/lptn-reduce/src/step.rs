@@ -15,7 +15,7 @@ pub struct ResponseTerm {
     pub tau: f64,
     /// Its share of `R_eq` in K/W.
     pub resistance: f64,
-    /// How far `tau` is from a time constant of the network at most, in s.
+    /// Upper bound of the distance of `tau` from a time constant of the network, in s.
     pub error: f64,
 }
 
@@ -23,27 +23,27 @@ pub struct ResponseTerm {
 ///
 /// The terms are the modes of `C dT/dt = -G T` that heat at the port excites: eigenvalues of
 /// `C^1/2 G^-1 C^1/2` found by Lanczos iteration from `C^1/2 G^-1 e_p`, so that the slowest come
-/// first and modes that the port does not see never appear. For small networks they are all there
-/// is; for large ones the iteration ends when the curve is known to 1e-9 of `R_eq`, or after 300
-/// vectors, and [`StepResponse::residual`] says what is left.
+/// first and modes that the port does not see never appear. For small networks they are complete.
+/// For large ones the iteration ends when the curve is known to 1e-9 of `R_eq`, or after 300
+/// vectors, and [`StepResponse::residual`] is the remainder.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepResponse {
     /// `R_eq` in K/W.
     pub resistance: f64,
-    /// The rise that comes at once in K/W: 0 unless the port is massless.
+    /// The immediate rise in K/W: 0 unless the port is massless.
     pub direct: f64,
     /// The terms, slowest first.
     pub terms: Vec<ResponseTerm>,
-    /// By how much the terms miss the rise at time 0 in K/W: the part of the fastest modes that is
-    /// not resolved. The curve is least exact there, so this is the size of its largest error (an
+    /// Error of the terms in the rise at time 0 in K/W: the part of the fastest modes that is not
+    /// resolved. The curve is least exact there, so this is the size of its largest error (an
     /// estimate, not a bound).
     pub residual: f64,
 }
 
-/// Share of `R_eq` that a mode must have to count as one that the port sees.
+/// Smallest share of `R_eq` of a mode that the port sees.
 const VISIBLE: f64 = 1e-9;
 
-/// The curve is known well enough when it misses no more than this share of `R_eq`.
+/// The curve is known well enough if its error is at most this share of `R_eq`.
 const CURVE: f64 = 1e-9;
 
 /// The slowest time constant is known well enough with this relative error.
@@ -74,8 +74,8 @@ impl StepResponse {
         Self::known(system, &known, rises)
     }
 
-    /// The response of `sum of h_n T_n` to heat of h_n W in every node n: that of a port where h is
-    /// 1 there, and of the sum or difference of two.
+    /// The response of `sum of h_n T_n` to heat of h_n W in every node n: that of a port if h is 1
+    /// there, and of the sum or difference of two.
     pub(crate) fn for_heat(
         system: &ThermalSystem,
         heat: &[f64],
@@ -116,7 +116,7 @@ impl StepResponse {
         Ok(Some(Self { resistance, direct, terms, residual }))
     }
 
-    /// The rise in K/W at `time` in s; at 0 that which comes at once.
+    /// The rise in K/W at `time` in s; at 0 the immediate rise.
     pub fn value(&self, time: f64) -> f64 {
         if time <= 0.0 {
             return self.direct;
@@ -144,7 +144,7 @@ impl StepResponse {
 }
 
 /// Modes as terms: the weight in the measure of `C^1/2 G^-1 e_p` is `tau r`. Values within rounding
-/// of zero are no time constants.
+/// of zero are not time constants.
 fn terms(modes: &[Mode]) -> Vec<ResponseTerm> {
     let least = 1e-15 * modes.first().map_or(0.0, |mode| mode.value);
     let real = modes.iter().filter(|mode| mode.value > least && mode.weight > 0.0);
@@ -152,9 +152,9 @@ fn terms(modes: &[Mode]) -> Vec<ResponseTerm> {
         .collect()
 }
 
-/// What a step response begins with.
+/// The known properties of a step response.
 struct Known<'a> {
-    /// Rise of every node in the end in K.
+    /// Final rise of every node in K.
     rise: &'a [f64],
     resistance: f64,
     direct: f64,
@@ -198,7 +198,7 @@ mod tests {
                 < 1e-15
         );
         assert!((of_terms(&[(100.0, 0.5e-9), (10.0, 0.5)]).slowest().tau - 100.0).abs() < 1e-15);
-        // none that it sees: the slowest there is
+        // no visible one: the slowest of all
         assert!((of_terms(&[(100.0, 1e-12), (10.0, 1e-12)]).slowest().tau - 100.0).abs() < 1e-15);
         assert!(of_terms(&[]).slowest().tau.is_nan());
     }
@@ -208,8 +208,8 @@ mod tests {
         assert_eq!(of_terms(&[(100.0, 0.1), (0.02, 0.2), (3.0, 0.2)]).span(), (0.02, 100.0));
     }
 
-    /// Eigenvalues are not negative and have a weight: what rounding leaves in place of that is no
-    /// time constant.
+    /// Eigenvalues are not negative and have a weight. Values from rounding that differ are not
+    /// time constants.
     #[test]
     fn what_rounding_leaves_is_no_term() {
         let mode = |value, weight| Mode { value, weight, error: 0.25 };

@@ -1,4 +1,4 @@
-//! Networks with streams of constant capacity rate: linear, but what flows one way is felt one way.
+//! Networks with streams of constant capacity rate: linear, but heat acts downstream only.
 
 use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
 use lptn_integrate::linear::{self, Factorization};
@@ -7,13 +7,13 @@ use lptn_network::InputError;
 
 use crate::error::ReduceError;
 
-/// `G` of `C dT/dt = q - G T` with streams, and its transpose, factorised when it is asked for.
+/// `G` of `C dT/dt = q - G T` with streams, and its transpose unless it is symmetric; factorised.
 pub(crate) struct Streams {
     pattern: Pattern,
     values: Vec<f64>,
     factors: Box<dyn Factorization>,
     transposed: Option<(Vec<f64>, Box<dyn Factorization>)>,
-    /// Whether the streams only join single nodes to boundaries, so that G is symmetric after all.
+    /// True if the streams only join single nodes to boundaries, so that G is symmetric.
     pub(crate) symmetric: bool,
 }
 
@@ -45,7 +45,7 @@ impl Streams {
         Ok(Self { pattern, values, factors, transposed, symmetric })
     }
 
-    /// `G^-1 b`, one number an unknown; with `adjoint` that of the transpose.
+    /// `G^-1 b`, one number per unknown; with `adjoint` that of the transpose.
     pub(crate) fn solve(&mut self, b: &[f64], adjoint: bool) -> Result<Vec<f64>, FactorError> {
         let mut x = vec![0.0; b.len()];
         let (values, factors) = match &mut self.transposed {
@@ -85,7 +85,7 @@ fn transposed(pattern: &Pattern, values: &[f64]) -> Vec<f64> {
     out
 }
 
-/// As for networks without streams: islands that lead nowhere become regular, and nobody sees it.
+/// Islands without a boundary become regular, as in networks without streams; no one sees it.
 fn tie_down(system: &ThermalSystem, pattern: &Pattern, values: &mut [f64]) {
     for loose in system.network().ungrounded().into_iter().flatten() {
         if let Some(place) = system.unknowns().iter().position(|id| *id == loose) {

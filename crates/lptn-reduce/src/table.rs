@@ -8,12 +8,11 @@ use crate::nodes::Nodes;
 use crate::reduction::Reduction;
 
 impl Reduction {
-    /// One row a pair: `definition`, `recommended` and `within` what is allowed (`yes` or `no`);
-    /// `R_eq`, `C_eq`, `tau` (their
-    /// product, the time constant of the one-node network), and of both errors `max`, `relative`
-    /// (to the rise, -), `time`, `signed` (one node less network) and `good_from`. `any_load.max` is the largest error
-    /// over all powers between 0 and 1 W. What does not exist is NaN; a port that sees no capacity has
-    /// one row without a definition.
+    /// One row per pair: `definition`, `recommended` (`yes` or `no`) and `within` the limit (`yes`,
+    /// `no` or empty); `R_eq`, `C_eq`, `tau` (their product, the time constant of the one-node
+    /// network), and of both errors `max`, `relative` (to the rise, -), `time`, `signed` (one node
+    /// less network) and `good_from`. `any_load.max` is the largest error over all powers between 0
+    /// and 1 W. Missing values are NaN; a port without capacity has one row without a definition.
     pub fn table(&self) -> Table {
         let pairs: Vec<Option<&Pair>> = match &self.dynamics {
             Some(dynamics) => dynamics.pairs.iter().map(Some).collect(),

@@ -1,9 +1,9 @@
 //! The largest error over every load.
 //!
 //! Both networks end at the same rise. The L1 norm of the error's impulse response is therefore the
-//! variation of the step's error, and the worst load switches where that turns. The signs of the
+//! variation of the step's error, and the worst load switches when that turns. The signs of the
 //! terms bound the number of turns (`exponentials.rs`). Turns are counted, not sampled; the rest
-//! that could hide is bounded and added.
+//! that could be hidden is bounded and added.
 
 use lptn_network::Foster;
 
@@ -13,20 +13,20 @@ use crate::step::StepResponse;
 /// The largest error at a port for all powers into it between 0 and 1 W, from rest.
 ///
 /// With the powers P(t) the error is the convolution of P with the impulse response e of the error.
-/// For powers between 0 and `P_max` it is largest, at the time T, where P is `P_max` while `e(T -
-/// t)` is positive and 0 else: `P_max` times the integral of e's positive part, and as much below
-/// zero for the other half of the times. The two are equal, each half of the L1 norm of e, because
-/// the whole integral of e is 0: both networks end at the same rise (S. Boyd, C. Barratt, Linear
+/// For powers between 0 and `P_max` it is largest, at the time T, if P is `P_max` while `e(T - t)`
+/// is positive and 0 else: `P_max` times the integral of e's positive part, and as much below zero
+/// for the other half of the times. The two are equal, each half of the L1 norm of e, because the
+/// whole integral of e is 0: both networks end at the same rise (S. Boyd, C. Barratt, Linear
 /// Controller Design (1991), section 5.1.1, for powers between -1 and 1: the whole norm).
 ///
 /// The integral over e is the step's error E, so the positive part is the sum of all rises of E,
-/// and the load switches where E turns.
+/// and the load switches when E turns.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorstCase {
     /// The error in K for each W of the largest power, reached by the load of [`WorstCase::load`].
     pub kelvin: f64,
-    /// By how much more it could be at most, in K/W, in turns of E so close that they were not
-    /// seen; 0 where none is left.
+    /// Upper bound of a further error in K/W, in turns of E too close to be found; 0 if there are
+    /// none.
     pub missed: f64,
     /// Times at which the step's error turns, in s.
     pub turns: Vec<f64>,
@@ -37,14 +37,14 @@ pub struct WorstCase {
 pub type Stretch = (f64, bool);
 
 impl WorstCase {
-    /// The largest error of a step of 1 W in K, with its sign: negative where the reduced network
+    /// The largest error of a step of 1 W in K, with its sign: negative if the reduced network
     /// reads too cold.
     pub fn step(&self) -> f64 {
         let levels = [0.0].iter().chain(&self.turns).map(|&time| self.curve.value(time));
         levels.fold(0.0, |most: f64, level| if level.abs() > most.abs() { level } else { most })
     }
 
-    /// Of a few exponentials in place of a step response; what comes at once is the same in both.
+    /// Error of a few exponentials against a step response; the immediate rise is the same in both.
     pub(crate) fn new(step: &StepResponse, few: &Foster) -> Self {
         let network = step.terms.iter().map(|term| (term.resistance, term.tau));
         let model = few.terms.iter().map(|&(resistance, tau)| (-resistance, tau));
@@ -53,16 +53,16 @@ impl WorstCase {
         Self { kelvin: found.rises, missed: found.missed, turns: found.turns, curve }
     }
 
-    /// The most that the error can be in K/W.
+    /// Upper bound of the error in K/W.
     pub fn most(&self) -> f64 {
         self.kelvin + self.missed
     }
 
-    /// The load at whose end the reduced network reads too cold by [`WorstCase::kelvin`], to 1e-4 of
-    /// that, with its end in s. It is on wherever the one that reads too warm is off.
+    /// The load at whose end the reduced network reads too cold by [`WorstCase::kelvin`], to 1e-4
+    /// of that, with its end in s. It is on while the one that reads too warm is off.
     pub fn load(&self) -> (Vec<Stretch>, f64) {
         let edges: Vec<f64> = [0.0].into_iter().chain(self.turns.iter().copied()).collect();
-        // the age of the heat counts: on where E falls, from the oldest to now
+        // the age of the heat counts: on while E falls, from the oldest to now
         let levels: Vec<f64> = edges.iter().map(|&age| self.curve.value(age)).collect();
         let falls = |k: usize| levels.get(k + 1).copied().unwrap_or(0.0) < levels[k];
         let last = edges.len() - 1;
@@ -75,7 +75,7 @@ impl WorstCase {
         (stretches, end)
     }
 
-    /// An age beyond which next to nothing is left of the error.
+    /// An age beyond which almost no error is left.
     fn settled(&self, from: f64) -> f64 {
         let mut age = 2.0 * from.max(f64::MIN_POSITIVE);
         while self.curve.value(age).abs() > 1e-5 * self.kelvin {

@@ -43,7 +43,7 @@ pub(crate) fn bracketed(
         }
     }
     let expression = Expression::parse(&result).ok()?;
-    // without names it can be told whether it is right
+    // without names its correctness can be checked
     let constant = expression.names().is_empty() && expression.calls().is_empty();
     if constant && expression.compile(&NoNames, None).is_err() {
         return None;
@@ -51,7 +51,7 @@ pub(crate) fn bracketed(
     first.map(|span| (result.trim().to_owned(), span))
 }
 
-/// Whether the number at this byte is added to a name that is one of a temperature by its looks:
+/// True if the number at this byte is added to a name that looks like a temperature:
 /// `T_amb + 5 degC`.
 fn is_added_to_temperature(text: &str, number: usize) -> bool {
     let before = text.get(..number).unwrap_or_default().trim_end();
@@ -61,7 +61,7 @@ fn is_added_to_temperature(text: &str, number: usize) -> bool {
     name.is_some_and(|name| name == "T" || name.starts_with("T_") || name.ends_with(".T"))
 }
 
-/// The unit of a difference of temperatures in place of that of a temperature.
+/// The unit of a temperature difference for that of a temperature.
 fn difference(unit: &str) -> &str {
     match unit {
         "degC" => "K",
@@ -91,7 +91,7 @@ fn unit_end(text: &str, at: usize, is_parameter: &dyn Fn(&str) -> bool) -> usize
     end
 }
 
-/// End of one unit with its exponent, or of a group in brackets, if one stands here.
+/// End of one unit with its exponent, or of a group in brackets, if there is one here.
 fn factor_end(text: &str, at: usize, is_parameter: &dyn Fn(&str) -> bool) -> Option<usize> {
     let rest = text.get(at..)?;
     let base = if rest.starts_with('(') {

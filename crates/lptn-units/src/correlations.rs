@@ -1,10 +1,10 @@
-//! Values that are off together.
+//! Correlations between values.
 
 use std::f64::consts::PI;
 
 use crate::spread::Distribution;
 
-/// The correlations of several values, 0 unless said otherwise.
+/// The correlations of several values, by default 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Correlations {
     count: usize,
@@ -16,13 +16,13 @@ pub struct Correlations {
 const ROUNDING: f64 = 1e-13;
 
 impl Correlations {
-    /// Of so many values, none of which says anything of another.
+    /// No correlations between `count` values.
     pub fn none(count: usize) -> Self {
         let value = |at: usize| f64::from(u8::from(at / count.max(1) == at % count.max(1)));
         Self { count, values: (0..count * count).map(value).collect() }
     }
 
-    /// How many values there are.
+    /// Number of values.
     pub fn count(&self) -> usize {
         self.count
     }
@@ -32,8 +32,7 @@ impl Correlations {
         self.values[i * self.count + j]
     }
 
-    /// Says how values `i` and `j` are correlated; of one value with itself there is nothing to
-    /// say.
+    /// Sets the correlation of values `i` and `j`; no effect if they are the same.
     pub fn set(&mut self, i: usize, j: usize, value: f64) {
         if i != j {
             self.values[i * self.count + j] = value;
@@ -41,20 +40,20 @@ impl Correlations {
         }
     }
 
-    /// Whether two of them are correlated.
+    /// True if two of them are correlated.
     pub fn any(&self) -> bool {
         (0..self.count).any(|i| self.tied(i))
     }
 
-    /// Whether value `i` is correlated with another.
+    /// True if value `i` is correlated with another.
     pub fn tied(&self, i: usize) -> bool {
         (0..self.count).any(|j| j != i && self.between(i, j).abs() > 0.0)
     }
 
-    /// The correlations of normal numbers of which these values are functions, each growing with
-    /// its own (A. Der Kiureghian, P.-L. Liu, J. Eng. Mech. 112 (1986) 85). Of a lognormal value
-    /// the correlation is that of its logarithm, which is normal. Of two rectangles it is `2 sin(pi
-    /// r / 6)`, of a rectangle and a normal value `r sqrt(pi / 3)`.
+    /// The correlations of normal numbers of which these values are functions, each rising with its
+    /// own (A. Der Kiureghian, P.-L. Liu, J. Eng. Mech. 112 (1986) 85). For a lognormal value it is
+    /// the correlation of its logarithm, which is normal. For two rectangles it is
+    /// `2 sin(pi r / 6)`, for a rectangle and a normal value `r sqrt(pi / 3)`.
     #[must_use]
     pub fn of_scores(&self, distributions: &[Distribution]) -> Self {
         let mut scores = self.clone();
@@ -80,8 +79,8 @@ impl Correlations {
     /// plain sums, the same on every processor.
     ///
     /// # Errors
-    /// The place of the first value that is so correlated with those before it that nothing of its
-    /// own is left: such correlations cannot be.
+    /// The place of the first value that the values before it determine completely: such
+    /// correlations are impossible.
     pub fn factor(&self) -> Result<Vec<f64>, usize> {
         let n = self.count;
         let mut l = vec![0.0; n * n];

@@ -4,11 +4,11 @@
 //! one place. The reader of a file supplies the names of items (`Naming` of `lptn-network`): a
 //! netlist calls a conductor by its section.
 //!
-//! Errors that need no names are declared by `errors!`, behind the trait `Problem`. An error that
-//! is only passed on is a variant `Name => ItsError;`. An error that adds something names its
+//! Errors that need no names are declared by `errors!` and implement the trait `Problem`. An error
+//! that is only passed on is a variant `Name => ItsError;`. An error that adds something names its
 //! `source`. The class of an error determines the exit code; the command line adds only the place.
 
-/// Help as a declaration gives it: words, or none.
+/// The help in a declaration: words, or none.
 pub trait Help {
     /// The words.
     fn words(self) -> Option<String>;
@@ -38,12 +38,12 @@ impl Help for Option<String> {
     }
 }
 
-/// Declares an enum of errors, each told once: its fields, its stable code, its sentence and, where
-/// there is one, the help; its class where it is not that of a wrong input. The expressions see the
-/// fields by reference; a sentence is anything that can be displayed. Where another error is a part
-/// of it, `source` names that. A variant that only passes an error on says which,
-/// `Name => ItsError;`: code, sentence, help, source and class are that error's, and `?` makes one
-/// of the other; `Name => ItsError as Class::of_numbers;` makes another class of its class.
+/// Declares an enum of errors, each in one place: its fields, its stable code, its sentence, its
+/// help if there is one, and its class if that is not a wrong input. The expressions see the fields
+/// by reference; a sentence is anything that can be displayed. If another error is a part of it,
+/// `source` names that. A variant that only passes an error on names it, `Name => ItsError;`: code,
+/// sentence, help, source and class are that error's, and `?` converts it.
+/// `Name => ItsError as Class::of_numbers;` changes its class.
 ///
 /// ```
 /// lptn_units::errors! {
@@ -108,7 +108,7 @@ macro_rules! errors {
                 }
             }
 
-            /// What to do about it, in words that can be pasted where possible.
+            /// The remedy, in words that can be pasted if possible.
             pub fn help(&self) -> Option<String> {
                 match self {
                     $(Self::$variant $(($($arg),*))? $({ $($field),* })?
@@ -175,7 +175,7 @@ macro_rules! errors {
     };
 }
 
-/// The class of a declaration; where it has none the input is wrong.
+/// The class of a declaration; by default the input is wrong.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! class_of {
@@ -187,7 +187,7 @@ macro_rules! class_of {
     };
 }
 
-/// The class of what a variant passes on, or what it makes of that.
+/// The class of the error that a variant passes on, or the class that it makes of that.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! class_in {
@@ -199,7 +199,7 @@ macro_rules! class_in {
     };
 }
 
-/// A name for what a variant holds.
+/// A name for the content of a variant.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! bound {
@@ -232,9 +232,8 @@ macro_rules! help_of {
     };
 }
 
-/// Declares an enum of problems, each told once: its fields, its stable code, where it is, what it
-/// says and what to do about it. The expressions see the fields by reference, and `$say`, which
-/// knows what things are called.
+/// Declares an enum of problems, each in one place: its fields, stable code, place, sentence and
+/// help. The expressions see the fields by reference, and `$say`, which knows the names of things.
 ///
 /// ```
 /// lptn_units::problems! {
@@ -276,17 +275,17 @@ macro_rules! problems {
                 match self { $(Self::$variant $({ $($field),* })? => $code,)* }
             }
 
-            /// Where it is, if it is in one place.
+            /// The place, if it is one.
             pub fn place(&self) -> Option<$Place> {
                 match self { $(Self::$variant $({ $($field),* })? => $place,)* }
             }
 
-            /// What is wrong, in one sentence.
+            /// The problem in one sentence.
             pub fn message(&self, $say: $Say) -> String {
                 match self { $(Self::$variant $({ $($field),* })? => $message,)* }
             }
 
-            /// What to do about it, in words that can be pasted where possible.
+            /// The remedy, in words that can be pasted if possible.
             pub fn help(&self, $say: $Say) -> Option<String> {
                 match self { $(Self::$variant $({ $($field),* })? => $help,)* }
             }

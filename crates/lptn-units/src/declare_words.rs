@@ -1,7 +1,7 @@
 //! Enums whose variants have words.
 
-/// Declares an enum each of whose variants has one word, as files, options and results write it:
-/// the word stands once, next to its variant. `ALL` holds the variants in their order.
+/// Declares an enum with one word for each variant, as files, options and results write it. The
+/// word is next to its variant. `ALL` has the variants in their order.
 ///
 /// ```
 /// lptn_units::words! {

@@ -18,14 +18,14 @@ pub(crate) struct Deviation {
     pub(crate) measure: Measure,
 }
 
-/// What the number of a deviation counts.
+/// The unit of a deviation's number.
 #[derive(Debug)]
 pub(crate) enum Measure {
     /// The unit that follows both numbers: `50 ± 5 %`.
     Shared,
-    /// A unit of its own behind that of the value: scale and dimension.
+    /// Its own unit after that of the value: scale and dimension.
     Own(f64, Dimension),
-    /// Nothing stands behind it, but the value has a unit: `5 kW ± 1`.
+    /// No unit after it, although the value has one: `5 kW ± 1`.
     Missing,
     /// A part of the value, `20 W ± 5 %`; before the unit, `20 ± 5 % W`, it can be read in two
     /// ways.
@@ -45,7 +45,7 @@ pub(crate) fn plus_minus(text: &str, at: usize) -> Option<Range<usize>> {
         .min_by_key(|range| range.start)
 }
 
-/// The deviation directly after the number, and where the unit begins.
+/// The deviation directly after the number, and the byte at which the unit begins.
 pub(crate) fn leading(text: &str, at: usize) -> Result<(Option<Deviation>, usize), UnitError> {
     let start = skip_space(text, at);
     let Some(sign) = plus_minus(text, start).filter(|sign| sign.start == start) else {
@@ -54,7 +54,7 @@ pub(crate) fn leading(text: &str, at: usize) -> Result<(Option<Deviation>, usize
     let number = deviation_number(text, sign.end)?;
     let after = skip_space(text, number.span.end);
     let unit = text.get(after..).unwrap_or_default().strip_prefix('%').map(str::trim);
-    // `%` and `%/K` are units; `% W` is not one that anybody writes
+    // `%` and `%/K` are units; no one writes `% W`
     let is_apart =
         |rest: &str| !rest.is_empty() && !rest.starts_with(|c| c == '/' || c == '^' || raised(c));
     Ok(match unit.filter(|rest| is_apart(rest)) {
@@ -86,7 +86,7 @@ pub(crate) fn trailing(text: &str, at: usize) -> Result<Deviation, UnitError> {
 }
 
 impl Reading<'_> {
-    /// The number behind `±` in SI units, for this value in SI units.
+    /// The number after `±` in SI units, for this value in SI units.
     pub(crate) fn deviation_in_si(&self, value: f64, ty: Type) -> Result<Option<f64>, UnitError> {
         let Some(deviation) = &self.deviation else { return Ok(None) };
         if let Some(kind) = self.doubt(deviation, ty) {
@@ -101,7 +101,7 @@ impl Reading<'_> {
         self.in_range(si).map(Some)
     }
 
-    /// What keeps a deviation from being read in one way only.
+    /// The reason why a deviation cannot be read in one way only.
     fn doubt(&self, deviation: &Deviation, ty: Type) -> Option<UnitErrorKind> {
         let dimension = self.unit.as_ref().map_or(Dimension::NONE, |(unit, _)| unit.dimension);
         let (x, y) = (self.number.value, deviation.number.value);
@@ -126,7 +126,7 @@ impl Reading<'_> {
                     part: percent(x, (x * y / 100.0).abs()),
                 }
             }
-            // what was a factor with a deviation in percent could be taken for a share now
+            // a factor with a deviation in percent could be taken for a share
             Measure::Shared if self.is_percent() && !is_share(x, y) => {
                 UnitErrorKind::PercentDeviation {
                     points: plain(x / 100.0, y / 100.0),
@@ -158,7 +158,7 @@ impl Reading<'_> {
         self.text.get(deviation.number.span.clone()).unwrap_or_default()
     }
 
-    /// `0.8 ± 5 %` where something with a unit is due.
+    /// `0.8 ± 5 %` if a value with a unit is expected.
     pub(crate) fn percent_of_bare_number(&self, wanted: Type) -> Option<String> {
         let shared = |deviation: &&Deviation| matches!(deviation.measure, Measure::Shared);
         let deviation = self
@@ -179,12 +179,12 @@ impl Reading<'_> {
     }
 }
 
-/// Whether two numbers before `%` are a share and its deviation, and not a factor and a part of it.
+/// True if two numbers before `%` are a share and its deviation, not a factor and a part of it.
 fn is_share(x: f64, y: f64) -> bool {
     x.abs() > 1.0 && y <= x.abs()
 }
 
-/// `x ± y` percent, in a form that is read in one way.
+/// `x ± y` percent, in a form with only one reading.
 fn percent(x: f64, y: f64) -> String {
     if is_share(x, y) { format!("{} %", plain(x, y)) } else { plain(x / 100.0, y / 100.0) }
 }

@@ -8,11 +8,11 @@ use crate::rational::Rational;
 
 /// A physical dimension: exponents of length, mass, time, temperature, current and angle.
 ///
-/// The angle is a dimension of its own here, unlike in the SI: 50 Hz and 50 rad/s differ by a
-/// factor of 2π that no number shows, and only the dimension can tell them apart.
+/// The angle is a separate dimension here, unlike in the SI: 50 Hz and 50 rad/s differ by a factor
+/// of 2π that no number shows, and only the dimension can distinguish them.
 ///
 /// A torque (N m) and an energy (J) are equal here, as their exponents are. A dimension remembers
-/// which of the two it is, because a frequency makes a power of an energy only; see
+/// which of the two it is, because only an energy times a frequency is a power; see
 /// [`Dimension::is_torque_per_time`].
 #[derive(Clone, Copy)]
 pub struct Dimension {
@@ -143,7 +143,7 @@ impl Dimension {
         }
     }
 
-    /// N m: equal to [`Dimension::ENERGY`], but no frequency makes it a power.
+    /// N m: equal to [`Dimension::ENERGY`], but not a power if multiplied by a frequency.
     pub const TORQUE: Self = Self::ENERGY.of_kin(Kin::Torque);
 
     pub(crate) const fn of_kin(self, kin: Kin) -> Self {
@@ -158,16 +158,16 @@ impl Dimension {
         (self.kin, self.exponents)
     }
 
-    /// That of a value in its usual unit: only a torque is more than its exponents there.
+    /// The dimension of a value in its usual unit: only a torque is more than its exponents there.
     pub(crate) fn as_written(self) -> Self {
         let torque = self.kin == Kin::Torque && self == Self::ENERGY;
         if torque { self } else { self.of_kin(Kin::Plain) }
     }
 
-    /// Did a torque times a frequency (1/s, Hz), or a torque over a time, come into it?
+    /// True if a torque times a frequency (1/s, Hz), or a torque over a time, is part of it.
     ///
     /// A torque is an energy per radian. Times a rotational speed (rad/s) it is a power; times a
-    /// frequency of revolutions it is short of one by 2π.
+    /// frequency of revolutions it is too small by a factor of 2π.
     pub fn is_torque_per_time(&self) -> bool {
         self.kin == Kin::TorquePerTime
     }
@@ -177,19 +177,19 @@ impl Dimension {
         self.exponents
     }
 
-    /// The dimension of a product; `None` where an exponent overflows.
+    /// The dimension of a product; `None` if an exponent overflows.
     pub fn checked_mul(self, other: Self) -> Option<Self> {
         let product = self.zip(other, Rational::checked_add)?;
         Some(product.of_kin(Kin::of_product(self.both(), other.both(), product.exponents)))
     }
 
-    /// The dimension of a quotient; `None` where an exponent overflows.
+    /// The dimension of a quotient; `None` if an exponent overflows.
     pub fn checked_div(self, other: Self) -> Option<Self> {
         let quotient = self.zip(other, Rational::checked_sub)?;
         Some(quotient.of_kin(Kin::of_quotient(self.both(), other.both(), quotient.exponents)))
     }
 
-    /// The dimension of a power; `None` where an exponent overflows.
+    /// The dimension of a power; `None` if an exponent overflows.
     pub fn checked_pow(self, exponent: Rational) -> Option<Self> {
         let mut exponents = self.exponents;
         for e in &mut exponents {
@@ -207,7 +207,7 @@ impl Dimension {
         Some(Self { exponents, kin: Kin::Plain })
     }
 
-    /// Is it [`Dimension::NONE`]?
+    /// True if it is [`Dimension::NONE`].
     pub fn is_none(&self) -> bool {
         *self == Self::NONE
     }

@@ -1,4 +1,4 @@
-//! The distribution that stands behind a deviation: `0 ± 3 K (rectangle)`.
+//! The distribution after a deviation: `0 ± 3 K (rectangle)`.
 
 use std::ops::Range;
 
@@ -6,14 +6,14 @@ use crate::error::{UnitError, UnitErrorKind};
 use crate::spread::Distribution;
 use crate::suggest::suggest;
 
-/// A distribution as it stands in a text, brackets included.
+/// A distribution as written, brackets included.
 #[derive(Clone, Debug)]
 pub(crate) struct Named {
     pub(crate) distribution: Distribution,
     pub(crate) span: Range<usize>,
 }
 
-/// What distributions are called elsewhere, and which is meant; some there are not.
+/// Other names of distributions, with the one that is meant; `None` if there is none.
 const OTHERS: [(&str, Option<Distribution>); 12] = [
     ("rectangular", Some(Distribution::Rectangle)),
     ("uniform", Some(Distribution::Rectangle)),
@@ -29,7 +29,7 @@ const OTHERS: [(&str, Option<Distribution>); 12] = [
     ("student", None),
 ];
 
-/// The distribution in brackets at the end of a text; `None` where the bracket is part of a unit.
+/// The distribution in brackets at the end of a text; `None` if the bracket is part of a unit.
 pub(crate) fn named(text: &str) -> Result<Option<Named>, UnitError> {
     let end = text.trim_end().len();
     let Some(inside) = text.get(..end).and_then(|text| text.strip_suffix(')')) else {
@@ -60,7 +60,7 @@ pub(crate) fn named(text: &str) -> Result<Option<Named>, UnitError> {
 mod tests {
     use crate::parse_quantity;
 
-    /// Brackets of a unit are no distribution, whatever they are like.
+    /// Brackets of a unit are not a distribution, whatever they look like.
     #[test]
     fn a_distribution_that_is_misspelt_is_one() {
         for (text, help) in [

@@ -32,13 +32,12 @@ impl<const N: usize> Dual<N> {
     }
 }
 
-/// A slope times a derivative. What does not depend on a variable does not, however steep the
-/// function.
+/// A slope times a derivative. A derivative of 0 stays 0, however steep the function.
 fn times(slope: f64, derivative: f64) -> f64 {
     if derivative == 0.0 { 0.0 } else { slope * derivative }
 }
 
-/// The slope of `value = x^a`, with the value 0 where it is infinite: at x = 0 for 0 < a < 1.
+/// The slope of `value = x^a`; 0 if it is infinite: at x = 0 for 0 < a < 1.
 fn power_slope(base: f64, exponent: f64, value: f64) -> f64 {
     if base == 0.0 && (0.0..1.0).contains(&exponent) {
         0.0

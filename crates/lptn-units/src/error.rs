@@ -1,4 +1,4 @@
-//! What can be wrong with a quantity or an expression, each told once.
+//! Mistakes in a quantity or an expression, each declared once.
 
 use std::fmt;
 use std::ops::Range;
@@ -16,22 +16,21 @@ use crate::unit_table::calendar;
 /// A mistake in a quantity, a unit or an expression, with its place in the text.
 #[derive(Clone, PartialEq, Debug)]
 pub struct UnitError {
-    /// Which mistake it is, with what to write instead.
+    /// The kind of mistake, with a correction.
     pub kind: UnitErrorKind,
-    /// Where: bytes of the string that was parsed.
+    /// The place: bytes of the string that was parsed.
     pub span: Range<usize>,
 }
 
 errors! {
-/// What is wrong. A `fix` is a text that can be pasted over the whole string, unless said
-/// otherwise.
+/// A kind of mistake. By default, a `fix` is a text that can be pasted over the whole string.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum UnitErrorKind {
-    /// The string holds nothing.
+    /// The string is empty or blank.
     Empty = "units::empty", "empty string, expected a quantity or an expression",
         help "write a quantity such as \"0.3 K/W\" or an expression such as \"2 * G\"";
-    /// Something else was due here; both in words.
+    /// Something else was expected here; both in words.
     Syntax { wanted: &'static str, found: String } = "units::syntax",
         format!("expected {wanted}, found {found}"),
         help syntax_help(wanted, found).map(str::to_owned);
@@ -41,8 +40,8 @@ pub enum UnitErrorKind {
     /// `nan` or `inf`.
     NotFinite { text: String } = "units::not_finite", format!("`{text}` is not a finite number"),
         help "leave the field out if there is no such value";
-    /// `0,5` for `0.5`, or `1,000` for `1000`: the string with a decimal point, where the comma can
-    /// be one, and without the commas, where they can separate thousands.
+    /// `0,5` for `0.5`, or `1,000` for `1000`: the string with a decimal point, if the comma can be
+    /// one, and without the commas, if they can separate thousands.
     DecimalComma { decimal: Option<String>, thousands: Option<String> } = "units::decimal_comma",
         if thousands.is_none() { "decimal comma" } else { "comma in a number" },
         help comma(decimal.as_deref(), thousands.as_deref());
@@ -52,7 +51,7 @@ pub enum UnitErrorKind {
     /// `7.7*10^-3 K/W` for `7.7e-3 K/W`.
     PowerOfTen { fix: String } = "units::power_of_ten", "a power of ten is part of a number",
         help write(fix);
-    /// `2 P` for `2 * P`: the parameter that stands in the place of a unit.
+    /// `2 P` for `2 * P`: the parameter in the position of a unit.
     MissingOperator { name: String, fix: String } = "units::missing_operator",
         format!("`{name}` is a parameter, not a unit"), help write(fix);
     /// Brackets, signs or powers nested more deeply than this.
@@ -79,21 +78,21 @@ pub enum UnitErrorKind {
             true => turning(fix),
             false => fix.as_deref().map_or_else(|| unit_wanted("value", wanted), write),
         };
-    /// A number without a unit where a unit is due; the string with the usual one.
+    /// A number without a unit, although one is expected; the string with the usual one.
     BareNumber { wanted: Type, fix: String } = "units::bare_number",
         format!("must be {}, got a number without a unit", wanted.with_article()),
         help bare_number(wanted, fix);
-    /// `Hz` or `1/s` where a rotation is due; the string, or the part of an expression, in
+    /// `Hz` or `1/s` instead of a rotation; the string, or the part of an expression, in
     /// revolutions.
     Rotation { fix: Option<String> } = "units::rotation",
         "must be a rotational speed (rad/s), got a frequency: 1/s and Hz do not say what turns",
         help rotation(fix);
-    /// A temperature difference where an absolute temperature is due. Either one text is meant, or
+    /// A temperature difference instead of an absolute temperature. Either one text is meant, or
     /// `fix` counts from 0 K and `celsius` from 0 degC.
     AbsoluteWanted { fix: String, celsius: Option<String> } = "units::absolute_wanted",
         "must be an absolute temperature, got a temperature difference",
         help from_zero(fix, celsius.as_deref());
-    /// An absolute temperature where a difference is due.
+    /// An absolute temperature instead of a difference.
     DifferenceWanted { fix: String } = "units::difference_wanted",
         "must be a temperature difference, got an absolute temperature", help write(fix);
     /// An absolute temperature below 0 K.
@@ -104,7 +103,7 @@ pub enum UnitErrorKind {
     NegativeDeviation { text: String } = "units::negative_deviation",
         format!("negative standard deviation `{text}`"),
         help "the standard deviation after ± is zero or positive";
-    /// A distribution that there is not, or not by this word; the one that is meant.
+    /// An unknown distribution, or another word for one; the one that is meant.
     UnknownDistribution { word: String, meant: Option<Distribution> } = "units::distribution",
         format!("there is no distribution `{word}`"),
         help match meant {
@@ -116,7 +115,7 @@ pub enum UnitErrorKind {
                 `(normal)`, which need not be written"
                 .to_owned(),
         };
-    /// A distribution behind a value without a deviation.
+    /// A distribution after a value without a deviation.
     DistributionAlone { word: &'static str } = "units::distribution",
         format!("`({word})` is the distribution of a deviation, but there is no `±`"),
         help "write how far the value may be off before it: \"20 W ± 5 % (rectangle)\"";
@@ -127,18 +126,17 @@ pub enum UnitErrorKind {
     /// `25 ± 5 % degC`: a percentage of an absolute temperature.
     RelativeDeviation { fix: Option<String> } = "units::relative_deviation",
         "percentage of an absolute temperature", help fix.as_deref().map(write);
-    /// A deviation in percent that reads in two ways: `0.8 ± 5 %`, `80 % ± 5 %`, `220 ± 5 % W`. The
-    /// string if the percentage is one of the same kind as the value, and if it is a part of the
-    /// value.
+    /// A deviation in percent with two readings: `0.8 ± 5 %`, `80 % ± 5 %`, `220 ± 5 % W`. The
+    /// string if the percentage is of the same kind as the value, and if it is a part of the value.
     PercentDeviation { points: String, part: String } = "units::percent_deviation",
         "a deviation in percent that reads in two ways",
         help format!(
             "write \"{part}\" for a part of the value, or \"{points}\" for percentage points"
         );
-    /// A deviation without a unit behind a value that has one: `5 kW ± 1`.
+    /// A deviation without a unit after a value that has one: `5 kW ± 1`.
     BareDeviation { fix: String } = "units::bare_number",
         "the deviation has no unit, but the value has one", help write(fix);
-    /// A fraction in the place of a number: `3/8 in`, `1 1/2 in`.
+    /// A fraction instead of a number: `3/8 in`, `1 1/2 in`.
     Fraction { fix: String } = "units::fraction", "fraction instead of a number",
         help write(fix);
     /// `2 * m` while `m` is both a unit and a parameter.
@@ -161,7 +159,7 @@ pub enum UnitErrorKind {
     /// No function has this name; the nearest one.
     UnknownFunction { name: String, suggestion: Option<String> } = "units::unknown_function",
         format!("unknown function `{name}`"), help meant(suggestion);
-    /// A wrong number of arguments; what the function takes, in words.
+    /// A wrong number of arguments; `wanted` is the right one, in words.
     Arity { function: &'static str, wanted: &'static str, found: usize } = "units::arity",
         format!("`{function}` takes {wanted}, got {found}");
     /// `-2^2`, which some read as 4 and some as -4: the power negated, and the negative number
@@ -183,15 +181,14 @@ pub enum UnitErrorKind {
             Some(fix) => write(fix),
             None => alike(left, right),
         };
-    /// An absolute temperature where only plain quantities can be used; what it cannot be, in
-    /// words: "multiplied". Either one text is meant, or `fix` counts from 0 K and `celsius` from
-    /// 0 degC.
+    /// An absolute temperature in an operation that needs plain quantities; the operation in words:
+    /// "multiplied". Either one text is meant, or `fix` counts from 0 K and `celsius` from 0 degC.
     AbsoluteOperand { operation: &'static str, fix: String, celsius: Option<String> } =
         "units::absolute_temperature",
         format!("an absolute temperature cannot be {operation}"),
         help from_zero(fix, celsius.as_deref());
-    /// A function argument of the wrong type; what it takes, in words, and the string with the
-    /// argument made a plain number by a scale of its own kind.
+    /// A function argument of the wrong type; the right one in words, and the string with the
+    /// argument made a plain number by a scale of the same kind.
     Argument {
         function: &'static str, wanted: &'static str, found: Box<Type>, example: Option<String>
     } = "units::argument", format!("`{function}` takes {wanted}, got {}", got(found)),
@@ -199,7 +196,7 @@ pub enum UnitErrorKind {
             format!("divide it by {}, for example \"{example}\"", found.with_article())
         });
     /// A table called with a wrong number of arguments, or used without any; the fix has names in
-    /// scope that are of the right kind.
+    /// scope of the right kind.
     TableArity { table: String, wanted: Vec<Type>, found: usize, fix: Option<String> } =
         "units::arity", {
             let count = if wanted.len() == 1 { "one argument" } else { "two arguments" };
@@ -230,9 +227,9 @@ pub enum UnitErrorKind {
     ExponentDimension { found: Type } = "units::exponent",
         format!("exponent must be a plain number, got {}", got(found)),
         help "divide the exponent by its unit: \"x^(n / 1 [K])\"";
-    /// A comparison where a value is due; the comparison inside an `if`.
+    /// A comparison instead of a value; the comparison inside an `if`.
     TruthValue { fix: String } = "units::truth", "comparison used as a value", help write(fix);
-    /// A value where a comparison is due; the value compared with something.
+    /// A value instead of a comparison; the value compared with something.
     TruthWanted { fix: String } = "units::truth", "first argument of `if` must be a comparison",
         help write(fix);
 }
@@ -248,7 +245,7 @@ impl UnitError {
         self.kind.code()
     }
 
-    /// What to write instead.
+    /// The correction.
     pub fn help(&self) -> Option<String> {
         self.kind.help()
     }

@@ -3,7 +3,7 @@
 use crate::temperature::TemperatureScale;
 use crate::types::Type;
 
-/// That operands are to be of one of two types.
+/// Help for operands that must be of one of two types.
 pub(crate) fn alike(left: &Type, right: &Type) -> String {
     let unit = |ty: &Type| match ty.is_scalar() {
         true => "without a unit".to_owned(),
@@ -16,7 +16,7 @@ pub(crate) fn alike(left: &Type, right: &Type) -> String {
 pub(crate) fn turning(fix: &Option<String>) -> String {
     let ask = "a power of rad is left over: is a frequency (Hz, 1/s) meant as a rotational speed?";
     match fix {
-        // radians that somebody wrote: nothing turns
+        // radians as written: nothing turns
         Some(fix) if !["rev", "rpm"].iter().any(|unit| fix.contains(unit)) => write(fix),
         Some(fix) => {
             format!(
@@ -28,7 +28,7 @@ pub(crate) fn turning(fix: &Option<String>) -> String {
     }
 }
 
-/// A torque times a frequency, where a power is due.
+/// A torque times a frequency instead of a power.
 pub(crate) fn torque_turning(fix: &Option<String>) -> String {
     let speeds = "give the speed in rpm, rev/s or rad/s; an energy per cycle is written in J";
     match fix {
@@ -38,7 +38,7 @@ pub(crate) fn torque_turning(fix: &Option<String>) -> String {
     }
 }
 
-/// A frequency where a rotational speed is due.
+/// A frequency instead of a rotational speed.
 pub(crate) fn rotation(fix: &Option<String>) -> String {
     match fix {
         Some(fix) if fix.contains("* 1 [rad]") => write(fix),
@@ -57,7 +57,7 @@ pub(crate) fn from_zero(fix: &str, celsius: Option<&str>) -> String {
     }
 }
 
-/// What a comma in a number may mean.
+/// The possible meanings of a comma in a number.
 pub(crate) fn comma(decimal: Option<&str>, thousands: Option<&str>) -> String {
     match (decimal, thousands) {
         (Some(decimal), Some(thousands)) => format!(
@@ -105,7 +105,7 @@ pub(crate) fn write(fix: &str) -> String {
     format!("write \"{fix}\"")
 }
 
-/// How a found type is called: by its unit if it is unusual, by name and unit if it is usual.
+/// The words for a found type: the unit if it is unusual, name and unit if it is usual.
 pub(crate) fn got(found: &Type) -> String {
     if found.dimension.is_torque_per_time() {
         return format!("a torque times a frequency ({})", found.dimension.si_unit());
@@ -122,7 +122,7 @@ pub(crate) fn meant(suggestion: &Option<String>) -> Option<String> {
     suggestion.as_ref().map(|name| format!("did you mean `{name}`?"))
 }
 
-/// The unit that is due.
+/// Help with the expected unit.
 pub(crate) fn unit_wanted(what: &str, wanted: &Type) -> String {
     match wanted.is_scalar() {
         true => format!("the {what} must come out without a unit"),
@@ -130,7 +130,7 @@ pub(crate) fn unit_wanted(what: &str, wanted: &Type) -> String {
     }
 }
 
-/// What a table takes.
+/// The arguments of a table in words.
 pub(crate) fn kinds(arguments: &[Type]) -> String {
     let kinds: Vec<String> = arguments.iter().map(Type::with_article).collect();
     kinds.join(" and ")

@@ -11,7 +11,7 @@ use crate::rational::Rational;
 /// The exponents of a dimension: length, mass, time, temperature, current, angle.
 pub(crate) type Exponents = [Rational; 6];
 
-/// What is known of a dimension beyond its exponents.
+/// Properties of a dimension beyond its exponents.
 ///
 /// A torque is an energy per radian, but the radian is not written: a torque of 1 N m does a work
 /// of 1 J over a radian and 2π J over a revolution. So `torque * n` with `n` in `1/min` would be
@@ -28,7 +28,7 @@ pub(crate) enum Kin {
     Turning,
 }
 
-/// A kin and the exponents beside it.
+/// A kin and its exponents.
 pub(crate) type Known = (Kin, Exponents);
 
 impl Kin {
@@ -63,7 +63,7 @@ impl Kin {
         }
     }
 
-    /// Of a dimension with a torque among its factors, and nothing else of length or mass.
+    /// The kin of a dimension with a torque among its factors, and nothing else of length or mass.
     pub(crate) fn of_torque(exponents: Exponents) -> Self {
         let [_, _, time, _, _, angle] = exponents;
         // a torque has 1/s^2
@@ -76,7 +76,7 @@ impl Kin {
         }
     }
 
-    /// That of a sum, or of one of two that are chosen from: an energy beside a torque is one.
+    /// The kin of a sum, or of a choice of two: an energy next to a torque is one.
     pub(crate) fn either(self, other: Self) -> Self {
         if self == Self::Plain { other } else { self }
     }

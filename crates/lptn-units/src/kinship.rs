@@ -1,4 +1,4 @@
-//! How kinds of quantities are related: inverses, frequencies and rotations, the end of the
+//! Relations between kinds of quantities: inverses, frequencies and rotations, the end of the
 //! temperature scale.
 
 use std::ops::Range;
@@ -7,8 +7,8 @@ use crate::dimension::Dimension;
 use crate::error::{UnitError, UnitErrorKind};
 use crate::types::Type;
 
-/// Whether the inverse of what was found is what is due, and both are quantities that people write:
-/// a conductance and a resistance, a time and a frequency. The inverse of a length is a slip.
+/// True if the inverse of the found type is the wanted one and people write both: a conductance and
+/// a resistance, a time and a frequency. The inverse of a length is a slip.
 pub(crate) fn has_inverse(found: Type, wanted: Type) -> bool {
     const WRITTEN: [Dimension; 5] = [
         Dimension::RESISTANCE,
@@ -32,12 +32,12 @@ pub(crate) fn revolutions(scale: f64) -> Option<&'static str> {
     if is(1.0) { Some("rev/s") } else { is(1.0 / 60.0).then_some("rpm") }
 }
 
-/// Is a frequency given where a rotation is due?
+/// True if a frequency is given instead of a rotation.
 pub(crate) fn is_frequency_for_rotation(found: Type, wanted: Type) -> bool {
     wanted == Type::of(Dimension::ANGULAR_VELOCITY) && found == Type::of(Dimension::FREQUENCY)
 }
 
-/// An absolute temperature in K; what rounding puts below 0 K is 0 K.
+/// An absolute temperature in K; a value that rounding puts below 0 K becomes 0 K.
 pub(crate) fn above_absolute_zero(kelvin: f64, span: Range<usize>) -> Result<f64, UnitError> {
     if kelvin < -1e-9 {
         return Err(UnitError::new(UnitErrorKind::BelowAbsoluteZero { kelvin }, span));

@@ -1,9 +1,8 @@
 //! Quantities, dimensions and expressions with units checked.
 //!
 //! A value in a netlist is a string: a *quantity* such as `"0.3 K/W"` or `"87 ± 15 uW/rpm^(5/3)"`,
-//! or an *expression* such as `"20 [W/K] + 60 [W/K] * fan"`. [`parse_value`] tells them apart,
-//! checks their dimensions, and on a mistake names the place, what is wrong and the text to write
-//! instead.
+//! or an *expression* such as `"20 [W/K] + 60 [W/K] * fan"`. [`parse_value`] distinguishes them,
+//! checks their dimensions, and for a mistake reports the place, the problem and the correct text.
 //!
 //! An expression is compiled once, against the names in scope, into a flat [`Program`] that is
 //! evaluated on `f64` or, for derivatives, on [`Dual`] numbers.

@@ -1,4 +1,4 @@
-//! What dimensions are called: usual units and usual words.
+//! Names of dimensions: usual units and usual words.
 
 use std::fmt;
 
@@ -49,12 +49,12 @@ const KNOWN: &[(Dimension, &str, &str)] = &[
     (Dimension::ELECTRICAL_RESISTANCE, "ohm", "electrical resistance"),
 ];
 
-/// Derived units worth pulling out of a product of base units. J is left out: who writes K/W/s
+/// Derived units to extract from a product of base units. J is not one of them: a writer of K/W/s
 /// thinks in W.
 const FACTORS: [(Dimension, &str); 2] = [(Dimension::POWER, "W"), (Dimension::FORCE, "N")];
 
 impl Dimension {
-    /// The unit a reader expects: `W`, `K/W`, `J/K`, `W/(m^2 K)`; where the dimension has no usual
+    /// The unit a reader expects: `W`, `K/W`, `J/K`, `W/(m^2 K)`; if the dimension has no usual
     /// unit, the shortest product of base units and one derived unit. `1` for a plain number.
     /// [`Unit::parse`] reads it back with scale 1.
     ///
@@ -67,7 +67,7 @@ impl Dimension {
         }
     }
 
-    /// Its unit and its words; N m and J are told apart.
+    /// Its unit and its words; N m and J are distinguished.
     fn known(&self) -> Option<&'static (Dimension, &'static str, &'static str)> {
         let of_kin = KNOWN.iter().find(|(known, ..)| known == self && known.kin() == self.kin());
         of_kin.or_else(|| KNOWN.iter().find(|(known, ..)| known == self))
@@ -117,7 +117,7 @@ fn base_factors(dimension: Dimension) -> Vec<Factor> {
         .collect()
 }
 
-/// `kg m^2/(s^2 K)`: what stands above the bar, then what stands below it.
+/// `kg m^2/(s^2 K)`: the factors above the bar, then those below it.
 fn compose(factors: &[Factor]) -> String {
     let above: Vec<String> =
         factors.iter().filter(|(_, e)| e.num() > 0).map(|&(name, e)| power(name, e)).collect();

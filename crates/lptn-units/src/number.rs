@@ -10,12 +10,12 @@ use crate::rational::Rational;
 #[derive(Clone, Debug)]
 pub(crate) struct Number {
     pub(crate) value: f64,
-    /// The same without rounding, where it is short enough.
+    /// The same without rounding, if it is short enough.
     pub(crate) exact: Option<Rational>,
     pub(crate) span: Range<usize>,
 }
 
-/// Reads the number at byte `at`; `None` where there is none. A sign counts only if `signed`.
+/// Reads the number at byte `at`; `None` if there is none. A sign counts only if `signed`.
 pub(crate) fn scan(text: &str, at: usize, signed: bool) -> Result<Option<Number>, UnitError> {
     let rest = text.get(at..).unwrap_or_default();
     let (negative, sign_length) = if signed { sign(rest) } else { (false, 0) };
@@ -39,7 +39,7 @@ pub(crate) fn scan(text: &str, at: usize, signed: bool) -> Result<Option<Number>
     Ok(Some(Number { value, exact: Rational::from_decimal(&plain), span }))
 }
 
-/// The number as every reader of numbers takes it.
+/// The number in the form that every reader of numbers accepts.
 fn plain(negative: bool, digits: &str) -> Cow<'_, str> {
     match (negative, digits.contains('_')) {
         (false, false) => digits.into(),
@@ -48,7 +48,7 @@ fn plain(negative: bool, digits: &str) -> Cow<'_, str> {
     }
 }
 
-/// Is the sign a minus, and how many bytes has it? The typographic minus counts.
+/// True for a minus, and the length of the sign in bytes. The typographic minus counts.
 fn sign(text: &str) -> (bool, usize) {
     match text.chars().next() {
         Some('+') => (false, 1),

@@ -3,21 +3,21 @@
 use std::error::Error;
 use std::fmt;
 
-/// What can be wrong, for who tells it: every error of this workspace that people may meet.
+/// An error that users may meet: its code, help and class.
 pub trait Problem: Error {
     /// The stable code, as diagnostics print it.
     fn code(&self) -> &'static str;
 
-    /// What to do about it, in words that can be pasted where possible.
+    /// The remedy, in words that can be pasted if possible.
     fn help(&self) -> Option<String>;
 
-    /// Whose fault it is.
+    /// The class of the problem.
     fn class(&self) -> Class {
         Class::Input
     }
 }
 
-/// Whose fault a problem is, or what it says of the question; programs end with a code for each.
+/// The class of a problem: its cause, or its meaning for the question; each has an exit code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Class {
     /// The input is wrong, or the question does not fit it.
@@ -107,13 +107,13 @@ impl<P> IntoIterator for Problems<P> {
 }
 
 impl Class {
-    /// Whoever passes the problem on could not compute what was asked for.
+    /// The class for a caller that could not compute the answer because of this problem.
     #[must_use]
     pub fn of_numbers(self) -> Self {
         Self::Numbers
     }
 
-    /// What is an answer to one question is a failure of another one that needed it.
+    /// The class for another question that needed the answer: a no becomes a failure.
     #[must_use]
     pub fn not_an_answer(self) -> Self {
         if self == Self::No { Self::Numbers } else { self }

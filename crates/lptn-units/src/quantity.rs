@@ -22,14 +22,14 @@ use crate::unit_parser::ParsedUnit;
 pub struct Quantity {
     /// The value in SI units; an absolute temperature in K.
     pub value: f64,
-    /// How far it may be off, if the text says so.
+    /// Its uncertainty, if the text gives one.
     pub deviation: Option<Spread>,
-    /// Its dimension, and whether it is an absolute temperature.
+    /// Its type: a dimension, or an absolute temperature.
     pub ty: Type,
 }
 
 impl Quantity {
-    /// One standard deviation in SI units; 0 of a value that is certain.
+    /// One standard deviation in SI units; 0 if the value is certain.
     pub fn sigma(&self) -> f64 {
         self.deviation.map_or(0.0, |spread| spread.sigma)
     }
@@ -37,12 +37,12 @@ impl Quantity {
 
 /// Reads a quantity: `0.3 K/W`, `87 ± 15 uW/rpm^(5/3)`, `20 W +- 5 %`, `25.5 degC`, `0.7`.
 ///
-/// `expected` is the type of the field, where it is known; the quantity must then be of this type,
-/// or have exactly one radian more (see [`Type::conforms_to`]). `300 K` is an absolute temperature
-/// only where one is expected. The deviation stands after the number (`25 ± 0.5 degC`) or, with a
-/// unit of its own, at the end (`25 degC ± 0.5 K`); behind a unit `± 5 %` is relative to the value.
-/// `50 ± 5 %` is `0.5 ± 0.05`, as for every other unit. Last may stand how it is distributed,
-/// `0 ± 3 K (rectangle)`; see [`Distribution`](crate::Distribution).
+/// `expected` is the type of the field, if known; the quantity must then be of this type, or have
+/// exactly one radian more (see [`Type::conforms_to`]). `300 K` is an absolute temperature only if
+/// one is expected. The deviation follows the number (`25 ± 0.5 degC`) or, with its own unit, is at
+/// the end (`25 degC ± 0.5 K`); after a unit `± 5 %` is relative to the value. `50 ± 5 %` is
+/// `0.5 ± 0.05`, as for every other unit. The distribution may come last, `0 ± 3 K (rectangle)`;
+/// see [`Distribution`](crate::Distribution).
 ///
 /// # Errors
 ///
@@ -53,8 +53,8 @@ pub fn parse_quantity(text: &str, expected: Option<Type>) -> Result<Quantity, Un
     read(text).map_err(|error| of_quantity(error, expected))?.conclude(expected)
 }
 
-/// The same mistake without a unit that was taken for a slip, if it measures something else than is
-/// due: `2 yd` is not meant where a time is.
+/// The same mistake, without a proposed unit of another quantity than the expected one: `2 yd` is
+/// not meant if a time is expected.
 pub(crate) fn of_quantity(mut error: UnitError, expected: Option<Type>) -> UnitError {
     let Some(wanted) = expected else { return error };
     if let UnitErrorKind::UnknownUnit { fix, .. } = &mut error.kind {
@@ -68,10 +68,9 @@ pub(crate) fn of_quantity(mut error: UnitError, expected: Option<Type>) -> UnitE
     error
 }
 
-/// The mistake in a whole string in kelvin, such as `300 K`, where an absolute temperature is due
-/// in a place that has no type of its own: its type follows from something else, as that of a
-/// parameter's new value or of a bound does. `K` is a difference there, as it is in the parameter
-/// itself. `None` for any other text.
+/// The mistake in a whole string in kelvin, such as `300 K`, if an absolute temperature is expected
+/// but the type follows from something else, like that of a parameter's new value or of a bound.
+/// `K` is a difference there, as it is in the parameter itself. `None` for any other text.
 pub fn kelvin_alone(text: &str) -> Option<UnitError> {
     let reading = read(text).ok()?;
     let found = reading.conclude(None).ok()?.ty;
@@ -79,17 +78,16 @@ pub fn kelvin_alone(text: &str) -> Option<UnitError> {
     (found == difference).then(|| reading.mismatch(found, Type::ABSOLUTE_TEMPERATURE))
 }
 
-/// A quantity's number and unit as they stand in a text.
+/// A quantity's number and unit as written in a text.
 #[derive(Clone, Debug)]
 pub struct WrittenQuantity {
     /// The bytes of the number, its sign included.
     pub number: Range<usize>,
-    /// The unit, `1` where none is written.
+    /// The unit, `1` if none is written.
     pub unit: Unit,
 }
 
-/// Where the number of a quantity stands and in which unit it is; `None` if the text is not a
-/// quantity.
+/// The place of a quantity's number, and its unit; `None` if the text is not a quantity.
 pub fn written_quantity(text: &str) -> Option<WrittenQuantity> {
     let reading = read(text).ok()?;
     let written = reading.unit_text();
@@ -104,11 +102,11 @@ pub(crate) struct Reading<'a> {
     pub(crate) number: Number,
     pub(crate) deviation: Option<Deviation>,
     pub(crate) unit: Option<(ParsedUnit, Range<usize>)>,
-    /// How the deviation is distributed, where that is said.
+    /// The distribution of the deviation, if given.
     pub(crate) distribution: Option<Named>,
 }
 
-/// Reads the text without a look at the type.
+/// Reads the text without regard to the type.
 pub(crate) fn read(text: &str) -> Result<Reading<'_>, UnitError> {
     let start = text.len() - text.trim_start().len();
     let distribution = distribution::named(text)?;
@@ -219,7 +217,7 @@ impl Reading<'_> {
         UnitError::new(UnitErrorKind::DistributionAlone { word }, named.span.clone())
     }
 
-    /// How the value is distributed; only what is more than zero can be so by its logarithm.
+    /// The distribution; only a value above zero that is not absolute can be lognormal.
     fn distribution(&self, value: f64, ty: Type) -> Result<Distribution, UnitError> {
         let Some(named) = &self.distribution else { return Ok(Distribution::Normal) };
         if named.distribution == Distribution::Lognormal && (ty.absolute || value <= 0.0) {
@@ -243,7 +241,7 @@ impl Reading<'_> {
         self.text.trim()
     }
 
-    /// The text with a space in place of an operator between number and unit.
+    /// The text with a space instead of an operator between number and unit.
     pub(crate) fn as_plain_quantity(&self) -> String {
         let unit = self.unit_text().trim_start_matches(['*', '·', ' ']);
         let bar = if unit.starts_with('/') { "1" } else { "" };
@@ -311,13 +309,13 @@ impl Reading<'_> {
         skip_space(self.text, 0)..self.text.trim_end().len()
     }
 
-    /// Where the text ends, but for its distribution and the space before it.
+    /// The end of the text, without its distribution and the space before it.
     fn body_end(&self) -> usize {
         let end = self.distribution.as_ref().map_or(self.text.len(), |named| named.span.start);
         self.text.get(..end).unwrap_or_default().trim_end().len()
     }
 
-    /// What stands behind the unit: a deviation with a unit of its own, its distribution.
+    /// The text after the unit: a deviation with its own unit, a distribution.
     fn tail(&self) -> &str {
         let end = self.unit.as_ref().map_or(self.body_end(), |(_, span)| span.end);
         self.text.get(end..).unwrap_or_default().trim_end()
@@ -351,7 +349,7 @@ impl Reading<'_> {
         format!("{} {}", self.amount_text(), if fahrenheit { "degR" } else { "K" })
     }
 
-    /// None for a deviation that would not be converted.
+    /// `None` for a deviation that would not be converted.
     fn in_revolutions(&self) -> Option<String> {
         let (scale, tail) = (self.scale(), self.tail());
         if let Some(unit) = revolutions(scale) {
@@ -361,8 +359,8 @@ impl Reading<'_> {
         complete.then(|| format!("{} rev/s{tail}", rounded(self.number.value * scale, 12)))
     }
 
-    /// The inverse of what is due where both are in use. A unit that measures nothing known is one
-    /// with a slip, of another quantity nobody knows what was meant.
+    /// The inverse of the expected type, if both are in use. A unit without a known quantity is a
+    /// slip; for a unit of another quantity the intended one is unknown.
     fn mismatch_fix(&self, found: Type, wanted: Type) -> Option<String> {
         if is_inverse(found, wanted) {
             let inverse = || format!("1 / ({} [{}])", number(self.number.value), self.unit_text());

@@ -5,7 +5,7 @@ use std::fmt;
 /// A fraction in lowest terms with a positive denominator. Dimensions carry these as exponents, so
 /// that `(x^(5/3))^(3/5)` has exactly the dimension of `x`.
 ///
-/// Every operation is checked: it returns `None` where the result does not fit into two `i32`.
+/// Every operation is checked: it returns `None` if the result does not fit into two `i32`.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub struct Rational {
     num: i32,
@@ -102,7 +102,7 @@ impl Rational {
         f64::from(self.num) / f64::from(self.den)
     }
 
-    /// Is it 0?
+    /// True if it is 0.
     pub const fn is_zero(self) -> bool {
         self.num == 0
     }

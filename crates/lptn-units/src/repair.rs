@@ -1,4 +1,4 @@
-//! Proposes the unit that was probably meant by a text that is none.
+//! Proposes the unit that was probably meant by an invalid text.
 
 use crate::unit_parser::{self, is_name_start, superscript};
 use crate::unit_table;
@@ -110,7 +110,7 @@ fn known(name: &str) -> Option<String> {
     }
 }
 
-/// An exponent at the start of `text`, with or without its `^`, and what follows it.
+/// An exponent at the start of `text`, with or without its `^`, and the rest.
 fn exponent(text: &str) -> Option<(String, &str)> {
     let (body, has_caret) = match text.strip_prefix('^').or_else(|| text.strip_prefix("**")) {
         Some(body) => (body, true),

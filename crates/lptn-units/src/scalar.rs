@@ -5,12 +5,11 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// A number a [`Program`](crate::Program) can be evaluated on: `f64`, or [`Dual`](crate::Dual) for
 /// derivatives.
 ///
-/// Derivatives at the points where there is none: `abs`, `min` and `max` take one side at their
-/// kinks (`abs'(0) = 1`; `min` and `max` of equal values take the first; a table takes the piece
-/// above its knot). `sqrt` and `x^a` with 0 < a < 1 have an infinite derivative at 0; it is given
-/// as 0, so that a law whose conductance goes like `abs(dT)^0.25` has a finite Jacobian at `dT = 0`
-/// (where the term `dT * dG/ddT` is 0). `x^a` with a > 1 has derivative 0 at 0, which is what it
-/// is.
+/// Derivatives at points without one: `abs`, `min` and `max` take one side at their kinks
+/// (`abs'(0) = 1`; `min` and `max` of equal values take the first; a table takes the piece above
+/// its knot). `sqrt` and `x^a` with 0 < a < 1 have an infinite derivative at 0; it is given as 0,
+/// so that a law whose conductance goes like `abs(dT)^0.25` has a finite Jacobian at `dT = 0`
+/// (where the term `dT * dG/ddT` is 0). `x^a` with a > 1 has the exact derivative 0 at 0.
 pub trait Scalar:
     Copy
     + Add<Output = Self>
@@ -19,14 +18,14 @@ pub trait Scalar:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// Whether it is told which piece of a table it is on: see [`Scalar::on_piece`].
+    /// True if it needs to know its piece of a table: see [`Scalar::on_piece`].
     const IN_PIECES: bool = false;
 
     /// A constant.
     fn from_f64(value: f64) -> Self;
     /// The value without its derivatives.
     fn value(self) -> f64;
-    /// Are the value and all derivatives finite?
+    /// True if the value and all derivatives are finite.
     fn is_finite(self) -> bool;
     /// Absolute value.
     fn abs(self) -> Self;
@@ -59,12 +58,12 @@ pub trait Scalar:
         self
     }
 
-    /// The smaller; the first of equal values; no number if one of them is none.
+    /// The smaller; the first of equal values; NaN if one of them is NaN.
     fn min(self, other: Self) -> Self {
         if other.value() < self.value() || other.value().is_nan() { other } else { self }
     }
 
-    /// The larger; the first of equal values; no number if one of them is none.
+    /// The larger; the first of equal values; NaN if one of them is NaN.
     fn max(self, other: Self) -> Self {
         if other.value() > self.value() || other.value().is_nan() { other } else { self }
     }

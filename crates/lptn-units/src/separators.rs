@@ -8,7 +8,7 @@ use crate::format::number as format_number;
 use crate::number::{self, Number};
 use crate::quantity;
 
-/// Longer texts get no proposal: each is read again to see whether it is one.
+/// Longer texts get no proposal: each proposal is read again to check it.
 const LONGEST: usize = 200;
 
 /// Refuses a number with other separators than one decimal point, and shows it without.
@@ -27,21 +27,21 @@ pub(crate) fn check(text: &str, number: &Number) -> Result<(), UnitError> {
     Err(UnitError::new(kind, run.first.clone()))
 }
 
-/// Refuses `3/8 in`, `1 1/2 in` and `1-1/2 in`, which are 0.375 and 1.5 of a unit to whoever writes
-/// them and would be a number over a unit as an expression.
+/// Refuses `3/8 in`, `1 1/2 in` and `1-1/2 in`, which mean 0.375 and 1.5 of a unit but would be a
+/// number over a unit as an expression.
 pub(crate) fn check_fraction(text: &str, first: &Number) -> Result<(), UnitError> {
     let Some((value, end)) = fraction_at(text, first).filter(|_| text.len() <= LONGEST) else {
         return Ok(());
     };
     let fix = format!("{} {}", format_number(value), text.get(end..).unwrap_or_default().trim());
-    // without a unit it is a quotient, and behind it may stand the rest of an expression
+    // without a unit it is a quotient, and the rest of an expression may follow
     if quantity::read(&fix).is_err() || text.get(end..).is_none_or(|unit| unit.trim().is_empty()) {
         return Ok(());
     }
     Err(UnitError::new(UnitErrorKind::Fraction { fix }, first.span.start..end))
 }
 
-/// The value of the fraction that begins with this number, and where it ends.
+/// The value of the fraction that begins with this number, and its end.
 fn fraction_at(text: &str, first: &Number) -> Option<(f64, usize)> {
     if let Some((below, end)) = divisor(text, first.span.end) {
         return Some((first.value / below, end));
@@ -61,7 +61,7 @@ fn fraction_at(text: &str, first: &Number) -> Option<(f64, usize)> {
     proper.then_some((first.value + part.copysign(first.value), end))
 }
 
-/// A whole number behind a bar, and where it ends.
+/// A positive number after a bar, and its end.
 fn divisor(text: &str, at: usize) -> Option<(f64, usize)> {
     let rest = text.get(at..)?.trim_start().strip_prefix(['/', '⁄'])?.trim_start();
     let number = number::scan(text, text.len() - rest.len(), false).ok()??;
@@ -80,7 +80,7 @@ struct Run<'a> {
 }
 
 impl<'a> Run<'a> {
-    /// The run that begins with this number; `None` if it is written as it should be.
+    /// The run that begins with this number; `None` if it is written correctly.
     fn at(text: &'a str, number: &Range<usize>) -> Option<Self> {
         let sign = text.get(number.clone())?.find(|c: char| c.is_ascii_digit() || c == '.')?;
         let start = number.start + sign;
@@ -133,7 +133,7 @@ impl<'a> Run<'a> {
     }
 }
 
-/// `7.7*10^-3 K/W` and `7.7x10-3 K/W` as `7.7e-3 K/W`, where that is a quantity.
+/// `7.7*10^-3 K/W` and `7.7x10-3 K/W` as `7.7e-3 K/W`, if that is a quantity.
 pub(crate) fn power_of_ten(text: &str) -> Option<String> {
     let text = text.trim();
     let at =
@@ -156,8 +156,8 @@ fn digits(text: &str) -> usize {
     text.find(|c: char| !c.is_ascii_digit() && c != '_').unwrap_or(text.len())
 }
 
-/// Can this stand between digits, with so many after it? A space can only before three: `5 1/s` is
-/// a quantity.
+/// True if this can be between digits, with `after` digits after it. A space needs three: `5 1/s`
+/// is a quantity.
 fn separates(mark: char, after: usize) -> bool {
     match mark {
         ',' | '.' => after > 0,

@@ -1,33 +1,33 @@
-//! How far a value may be off, and in which way.
+//! The uncertainty of a value: its size and its distribution.
 //!
 //! A `Spread` contains the standard deviation and not the number after `±`. Code that reads
 //! deviations is therefore right for rectangular distributions too; only samples need the shape.
 
 crate::words! {
-/// How a value that is not certain is distributed.
+/// The distribution of an uncertain value.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Distribution {
-    /// Normal; the number behind `±` is one standard deviation.
+    /// Normal; the number after `±` is one standard deviation.
     #[default]
     Normal = "normal",
-    /// As likely everywhere between two limits, and nowhere else: the number behind `±` is half the
-    /// width a, one standard deviation `a / sqrt(3)` (ISO/IEC Guide 98-3, 4.3.7).
+    /// Uniform between two limits: the number after `±` is half the width a, one standard deviation
+    /// `a / sqrt(3)` (ISO/IEC Guide 98-3, 4.3.7).
     Rectangle = "rectangle",
     /// A factor on the value, which is its median: the logarithm is normal, and its standard
-    /// deviation is the number behind `±` over the value.
+    /// deviation is the number after `±` over the value.
     Lognormal = "lognormal",
 }
-/// Its word, as it stands in brackets behind a value.
+/// Its word, as in brackets after a value.
 pub fn word;
 }
 
 impl Distribution {
-    /// The one of this word.
+    /// The distribution with this word.
     pub fn of(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|distribution| distribution.word() == word)
     }
 
-    /// What stands behind `±` for a standard deviation of 1.
+    /// The number after `±` for a standard deviation of 1.
     pub fn written(self) -> f64 {
         match self {
             Self::Rectangle => 3_f64.sqrt(),
@@ -36,17 +36,17 @@ impl Distribution {
     }
 }
 
-/// How far a value may be off.
+/// The uncertainty of a value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spread {
-    /// One standard deviation in SI units, of a lognormal value to first order; zero or positive.
+    /// One standard deviation in SI units, zero or positive; to first order for a lognormal value.
     pub sigma: f64,
-    /// How it is distributed.
+    /// Its distribution.
     pub distribution: Distribution,
 }
 
 impl Spread {
-    /// A normal one.
+    /// A normal distribution with this standard deviation.
     pub const fn normal(sigma: f64) -> Self {
         Self { sigma, distribution: Distribution::Normal }
     }
@@ -56,7 +56,7 @@ impl Spread {
         self.sigma / value
     }
 
-    /// What stands behind the unit, with a space before it; nothing for a normal one.
+    /// The text after the unit, with a space before it; empty for a normal distribution.
     pub fn suffix(self) -> String {
         match self.distribution {
             Distribution::Normal => String::new(),

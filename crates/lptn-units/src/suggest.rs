@@ -5,9 +5,9 @@ const LONGEST: usize = 64;
 
 /// The candidate nearest to `name`, or `None` when nothing is near.
 ///
-/// Near means: equal but for case, or at most one edit for every three characters (one edit for
+/// Near means: equal except for case, or at most one edit for every three characters (one edit for
 /// names of two to five) by the Damerau-Levenshtein distance in which no part is edited twice
-/// (optimal string alignment). Of equally near candidates those of the same length win, then the
+/// (optimal string alignment). Among equally near candidates those of the same length win, then the
 /// first.
 ///
 /// Source: R. A. Wagner and M. J. Fischer, Journal of the ACM 21 (1974) 168, with the transposition

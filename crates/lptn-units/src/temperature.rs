@@ -1,9 +1,9 @@
-//! The scale in which a temperature was probably meant.
+//! The probable scale of a temperature.
 
-/// The scales in which a number that stands for a temperature is a plausible one.
+/// The plausible scales of a number that means a temperature.
 ///
-/// 60 is 60 degC and not 60 K, at which air is liquid; 293.15 is 20 degC in kelvin. Between, and
-/// where things glow, it may be either.
+/// 60 is 60 degC and not 60 K, at which air is liquid; 293.15 is 20 degC in kelvin. Numbers between
+/// these, and those of glowing bodies, may be either.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum TemperatureScale {
     /// Degrees Celsius.
@@ -15,7 +15,7 @@ pub enum TemperatureScale {
 }
 
 impl TemperatureScale {
-    /// That of a number without a scale, or of one whose scale may be wrong.
+    /// The scale of a number without one, or with one that may be wrong.
     pub fn of(number: f64) -> Self {
         match number {
             n if n < COLDEST => Self::Celsius,
@@ -25,8 +25,8 @@ impl TemperatureScale {
     }
 }
 
-/// Below so many K, -73 degC, a number is one of degrees Celsius.
+/// A number below this, in K -73 degC, is one of degrees Celsius.
 const COLDEST: f64 = 200.0;
-/// From here on to [`GLOWING`] a number is one of kelvin: -23 to 127 degC.
+/// A number from this up to [`GLOWING`] is one of kelvin: -23 to 127 degC.
 const HOT: f64 = 250.0;
 const GLOWING: f64 = 400.0;

@@ -1,14 +1,14 @@
-//! Numbers that remember which piece of a piecewise function they went through.
+//! Numbers that remember their pieces of piecewise functions.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::scalar::Scalar;
 
-/// A value with a number for the pieces of `abs`, `min`, `max` and tables that led to it. Where two
-/// evaluations of one program have different traces, a kink may lie between them; where they have
-/// the same, and every argument of such a function goes one way, none does.
+/// A value with a number for the pieces of `abs`, `min`, `max` and tables that led to it. If two
+/// evaluations of one program have different traces, a kink may lie between them. If they have the
+/// same, and every argument of such a function is monotonic, none does.
 ///
-/// What does not depend on a variable leaves no trace.
+/// A value that does not depend on a variable leaves no trace.
 ///
 /// ```
 /// use lptn_units::{Scalar, Traced};
@@ -32,7 +32,7 @@ fn mixed(a: u64, b: u64) -> u64 {
 }
 
 impl Traced {
-    /// A number that is looked at as it changes.
+    /// A number that varies.
     #[must_use]
     pub const fn variable(value: f64) -> Self {
         Self { value, trace: 0, varies: true }

@@ -1,15 +1,15 @@
 //! The type of a value: its dimension, and whether it is an absolute temperature.
 //!
-//! Angle is a dimension, so that `Hz` in place of `rpm` is an error. Torque times speed therefore
-//! has the unit W rad. One surplus radian is accepted where a power is expected; any other
-//! difference is refused.
+//! Angle is a dimension, so that `Hz` instead of `rpm` is an error. Torque times speed therefore
+//! has the unit W rad. One surplus radian is accepted if a power is expected; any other difference
+//! is refused.
 
 use std::fmt;
 
 use crate::dimension::Dimension;
 
-/// What a value is: a dimension, and for temperatures whether it is a point on the scale (absolute)
-/// or a difference of two such points.
+/// The type of a value: a dimension, and for temperatures either a point on the scale (absolute) or
+/// a difference of two such points.
 ///
 /// 20 degC + 20 degC has no meaning while 20 K + 20 K has, so the two are kept apart.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -32,12 +32,12 @@ impl Type {
         Self { dimension, absolute: false }
     }
 
-    /// Is it a plain number?
+    /// True if it is a plain number.
     pub fn is_scalar(&self) -> bool {
         !self.absolute && self.dimension.is_none()
     }
 
-    /// Is it a temperature, absolute or a difference?
+    /// True if it is a temperature, absolute or a difference.
     pub fn is_temperature(&self) -> bool {
         self.dimension == Dimension::TEMPERATURE
     }
@@ -48,7 +48,7 @@ impl Type {
         if self.absolute { "degC".to_owned() } else { self.dimension.si_unit() }
     }
 
-    /// May a value of this type stand where `wanted` is due?
+    /// True if a value of this type is accepted as `wanted`.
     ///
     /// The types are equal, or the value has exactly one radian too many: a torque (N m) times a
     /// rotational speed (rad/s) is a power. A rotational speed is never a frequency (1/s), and a
@@ -64,30 +64,30 @@ impl Type {
         alike && (*self == wanted || one_radian_too_many())
     }
 
-    /// Of two types that conform the one that tells more: a torque is an energy too.
+    /// The more specific of two types that conform: a torque is an energy too.
     pub(crate) fn of_either(self, other: Type) -> Self {
         let kin = self.dimension.kin().either(other.dimension.kin());
         Self { dimension: self.dimension.of_kin(kin), ..self }
     }
 
-    /// Do the two differ by nothing but a power of rad, or by that which a torque does not show?
-    /// Then a frequency was probably meant to be a rotational speed, which [`Dimension`] tells
-    /// apart.
+    /// True if the two differ only by a power of rad, or by the radian that a torque does not show.
+    /// Then a frequency was probably meant to be a rotational speed, which [`Dimension`]
+    /// distinguishes.
     ///
-    /// `other` is what is due.
+    /// `other` is the expected type.
     pub fn differs_by_radians(&self, other: Type) -> bool {
         if self.differs_by_a_turn(other) {
             return true;
         }
         let apart = self.dimension.checked_div(other.dimension).map(|ratio| ratio.exponents());
-        // where a frequency is due a speed is what is wrong
+        // if a frequency is expected, a speed is the mistake
         let due = other.dimension == Dimension::FREQUENCY || self.absolute || other.absolute;
         apart.is_some_and(|[rest @ .., rad]| {
             rest.iter().all(|exponent| exponent.is_zero()) && !rad.is_zero()
         }) && !due
     }
 
-    /// Is one of them a torque times a frequency, and the other not, although they are equal?
+    /// True if only one of them is a torque times a frequency, although they are equal.
     pub(crate) fn differs_by_a_turn(&self, other: Type) -> bool {
         self.dimension == other.dimension
             && self.dimension.is_torque_per_time() != other.dimension.is_torque_per_time()

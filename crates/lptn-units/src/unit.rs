@@ -1,4 +1,4 @@
-//! A unit on its own, as in the header of a table: `T [degC]`.
+//! A unit alone, as in the header of a table: `T [degC]`.
 //!
 //! lptn carries the units that people write and never computes with them. `Signal::unit` and
 //! `TableSymbol::units` serve headers, messages and the expansion only.
@@ -19,15 +19,15 @@ pub struct Unit {
     pub scale: f64,
     /// Added to a value before scaling: 273.15 for `degC` alone, 459.67 for `degF` alone, else 0.
     pub offset: f64,
-    /// The type of what it measures.
+    /// The type of its quantity.
     pub ty: Type,
 }
 
 impl Unit {
     /// Reads a unit: `W/(m^2 K)`, `uW/rpm^(5/3)`, `1` for plain numbers.
     ///
-    /// `degC` and `degF` standing alone are absolute; `K`, and every temperature inside a compound
-    /// unit, is a difference.
+    /// `degC` and `degF` alone are absolute; `K`, and every temperature inside a compound unit, is
+    /// a difference.
     ///
     /// # Errors
     ///
@@ -53,7 +53,7 @@ impl Unit {
     }
 }
 
-/// Reads a unit; an error carries the corrected unit text where there is one.
+/// Reads a unit; an error has the corrected unit text, if there is one.
 pub(crate) fn parse_or_repair(text: &str) -> Result<ParsedUnit, UnitError> {
     if text.trim().is_empty() {
         return Err(UnitError::new(UnitErrorKind::Empty, 0..text.len()));
@@ -83,8 +83,7 @@ fn with_fix(mut error: UnitError, text: &str) -> UnitError {
         UnitErrorKind::UnknownUnit { fix, .. } | UnitErrorKind::AmbiguousProduct { fix } => {
             *fix = repaired
         }
-        // `m-2`, `m**2`: no such thing as a unit, but plainly one with its exponent written
-        // otherwise.
+        // `m-2`, `m**2`: not a unit, but plainly one with its exponent in another notation.
         UnitErrorKind::Syntax { .. } if repaired.is_some() => {
             let name = text.trim().to_owned();
             error.kind = UnitErrorKind::UnknownUnit { name, fix: repaired };

@@ -123,7 +123,7 @@ impl Parser<'_> {
         })
     }
 
-    /// What joins the factor before to the one after, if there is one after.
+    /// The sign that joins the factor before to the one after, if there is one after.
     fn joint(&mut self) -> Joint {
         let before = self.at;
         self.skip_space();
@@ -143,7 +143,7 @@ impl Parser<'_> {
         }
     }
 
-    /// A `1` may stand above the bar: `1/K`.
+    /// A `1` may be above the bar: `1/K`.
     fn first_factor(&mut self) -> Result<Factor, UnitError> {
         if self.peek() == Some('1') {
             self.advance();

@@ -7,7 +7,7 @@ use crate::dimension::Dimension;
 pub(crate) struct Entry {
     pub(crate) name: &'static str,
     pub(crate) scale: f64,
-    /// Added before scaling; only temperatures standing alone use it.
+    /// Added before scaling; only temperatures alone use it.
     pub(crate) offset: f64,
     pub(crate) dimension: Dimension,
     prefixes: bool,
@@ -239,7 +239,7 @@ fn run_together(name: &str) -> Option<String> {
 /// `PS` is not a pascal.
 const NO_SLIPS: [&str; 2] = ["PS", "ps"];
 
-/// Times that are not units, because nobody knows how long they are, and what to write.
+/// Times that are not units because their length is ambiguous, and the text to write.
 const CALENDAR: [(&str, &str); 6] = [
     ("a", "a year of 365 days is \"8760 h\""),
     ("yr", "a year of 365 days is \"8760 h\""),
@@ -249,7 +249,7 @@ const CALENDAR: [(&str, &str); 6] = [
     ("week", "a week is \"7 d\""),
 ];
 
-/// What to write for a unit that there is not on purpose.
+/// Help for a unit that is left out on purpose.
 pub(crate) fn calendar(name: &str) -> Option<&'static str> {
     let lower = name.to_lowercase();
     CALENDAR.iter().find(|(word, _)| *word == lower).map(|(_, say)| *say)
@@ -267,7 +267,7 @@ pub(crate) fn meant(name: &str) -> Option<String> {
         "mbar", "mL", "kWh", "kHz", "mA", "mV", "cSt", "cP", "kcal", "ms",
     ];
     if let Some([milli, mega]) = TWO_SIZES.iter().find(|[milli, _]| milli.to_lowercase() == lower) {
-        // the prefix as it is written; without any capital letter nobody knows
+        // the prefix as written; without any capital letter it is ambiguous
         return match name.starts_with('M') {
             true => Some((*mega).to_owned()),
             false => (name != lower).then(|| (*milli).to_owned()),

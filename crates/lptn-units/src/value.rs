@@ -10,7 +10,7 @@ use crate::separators;
 use crate::types::Type;
 use crate::unit_parser::is_name_start;
 
-/// What a string turned out to be.
+/// The reading of a string.
 #[derive(Clone, Debug)]
 pub enum Written {
     /// A number with a unit, `0.3 K/W`.
@@ -22,15 +22,14 @@ pub enum Written {
 /// Reads a string that is either a quantity or an expression. A string that reads as a quantity is
 /// never an expression.
 ///
-/// `expected` is the type of the field, where it is known; only a quantity is checked against it
-/// here, an expression is when it is compiled. `is_parameter` tells which names are parameters in
-/// scope.
+/// `expected` is the type of the field, if known; only a quantity is checked against it here, an
+/// expression is when it is compiled. `is_parameter` is true for the names of parameters in scope.
 ///
 /// # Errors
 ///
-/// Where neither reading succeeds, the error of the more probable one. `2 * m` is an error if `m`
-/// is a parameter, because both readings succeed; units without brackets in an expression are an
-/// error that shows the brackets.
+/// If neither reading succeeds, the error of the more probable one. `2 * m` is an error if `m` is a
+/// parameter, because both readings succeed; units without brackets in an expression are an error
+/// that shows the brackets.
 pub fn parse_value(
     text: &str,
     expected: Option<Type>,
@@ -125,7 +124,7 @@ fn more_helpful(
     as_expression
 }
 
-/// `2 P`, where `P` is a parameter.
+/// `2 P`, if `P` is a parameter.
 fn missing_operator(
     text: &str,
     error: &UnitError,
@@ -145,7 +144,7 @@ fn mentions_parameter(text: &str, is_parameter: &dyn Fn(&str) -> bool) -> bool {
     text.split(|c: char| !c.is_alphanumeric() && c != '_').any(is_parameter)
 }
 
-/// A number, then only what units are made of; `+` and `-` only in `±` and exponents.
+/// A number, then only parts of units; `+` and `-` only in `±` and exponents.
 fn looks_like_quantity(text: &str) -> bool {
     let text = text.trim();
     let Ok(Some(number)) = crate::number::scan(text, 0, true) else {

@@ -7,7 +7,7 @@ use crate::record::RecordColumn;
 /// Words for a value that was not measured.
 const GAPS: [&str; 5] = ["nan", "na", "n/a", "null", "none"];
 
-/// The first problem of a kind, and how many like it there are.
+/// The first problem of a kind, and the number of such problems.
 #[derive(Default)]
 pub(crate) struct Counted {
     first: Option<Diagnostic>,
@@ -34,12 +34,12 @@ impl Counted {
     }
 }
 
-/// The columns so far, with what is wrong with their cells.
+/// The columns so far, with the problems of their cells.
 pub(crate) struct Cells {
     pub(crate) head: Head,
     pub(crate) columns: Vec<RecordColumn>,
     chosen: Vec<CsvColumn>,
-    /// By column.
+    /// Problems of the cells by column.
     wrong: Vec<Counted>,
     lengths: Counted,
 }
@@ -59,7 +59,7 @@ impl Cells {
         Self { head, columns, chosen, wrong, lengths: Counted::default() }
     }
 
-    /// Whether a row has as many cells as the header; `example` is a row with an empty cell.
+    /// True if a row has as many cells as the header; `example` is a row with an empty cell.
     pub(crate) fn is_whole(&mut self, row: &Row, example: &str) -> bool {
         let (head, nobody) = (&self.head, Asked::default());
         if let Some(extra) = head.extra(row, &nobody) {
@@ -72,7 +72,7 @@ impl Cells {
         false
     }
 
-    /// Adds the values of a row in SI units: NaN for a gap, and in place of what is wrong.
+    /// Adds the values of a row in SI units: NaN for a gap or a wrong cell.
     pub(crate) fn push(&mut self, row: &Row) {
         for (i, CsvColumn { index, unit }) in self.chosen.iter().enumerate() {
             let value = value(row.cell(*index), unit).unwrap_or_else(|wrong| {
@@ -87,14 +87,14 @@ impl Cells {
         }
     }
 
-    /// What is wrong with the rows, and the columns.
+    /// The problems of the rows, the columns, and the header.
     pub(crate) fn finish(self) -> (Vec<Diagnostic>, Vec<RecordColumn>, Head) {
         let wrong = self.wrong.into_iter().filter_map(|wrong| wrong.told("cell of this column"));
         (self.lengths.told("row").into_iter().chain(wrong).collect(), self.columns, self.head)
     }
 }
 
-/// Whether nothing was measured.
+/// True if nothing was measured.
 pub(crate) fn is_gap(cell: &str, wrong: Wrong) -> bool {
     let word = cell.trim_start_matches(['+', '-']).trim_start_matches('#');
     match wrong {

@@ -1,4 +1,4 @@
-//! Which columns of a record are meant.
+//! The choice of the columns of a record.
 
 use lptn_units::{Dimension, Type, Unit};
 
@@ -28,7 +28,7 @@ pub(crate) fn choose(
     }
 }
 
-/// All of them, or everything that is wrong with any.
+/// All results, or all errors.
 pub(crate) fn each<T>(
     results: impl Iterator<Item = Result<T, Diagnostic>>,
 ) -> Result<Vec<T>, Vec<Diagnostic>> {
@@ -42,8 +42,8 @@ pub(crate) fn each<T>(
     if problems.is_empty() { Ok(found) } else { Err(problems) }
 }
 
-/// The columns that are read where none is named: those of numbers. Words under a header without
-/// unit are remarks.
+/// The columns that are read by default: those of numbers. Words under a header without unit are
+/// remarks.
 pub(crate) fn all(
     head: &Head,
     first: Option<&csv::StringRecord>,

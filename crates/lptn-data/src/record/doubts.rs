@@ -1,4 +1,4 @@
-//! What is doubtful about the values of a column.
+//! Doubtful values of a column.
 
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
@@ -8,14 +8,14 @@ use lptn_units::format_short as short;
 
 const ZERO_CELSIUS: f64 = 273.15;
 
-/// The fewest rows, and the least share of the record, that an extreme value is held for.
+/// The fewest rows, and the smallest share of the record, for which an extreme value has to last.
 const LEAST_RUN: usize = 8;
 const LEAST_SHARE: f64 = 0.01;
 
-/// Fewer steps of the instrument than this over its whole range say nothing of an end.
+/// A range of fewer steps of the instrument than this does not show an end.
 const FEWEST_STEPS: f64 = 12.0;
 
-/// Where a column seems to be at its end, and what is to be said about its values.
+/// The value at which a column seems to be at its end, and the warnings about its values.
 pub(crate) fn of(
     record: &Record,
     column: &RecordColumn,
@@ -38,7 +38,7 @@ pub(crate) fn of(
     (saturation, warnings)
 }
 
-/// The rows of values that no course explains.
+/// The rows of outliers.
 pub(crate) fn outliers(record: &Record, column: &RecordColumn) -> Vec<usize> {
     let rows: Vec<usize> =
         (0..record.time.len()).filter(|&row| !column.values[row].is_nan()).collect();
@@ -46,7 +46,7 @@ pub(crate) fn outliers(record: &Record, column: &RecordColumn) -> Vec<usize> {
     spikes(&values).into_iter().map(|place| rows[place]).collect()
 }
 
-/// What there is to say of them.
+/// The warning about outliers.
 pub(crate) fn outlying(
     record: &Record,
     column: usize,
@@ -119,7 +119,7 @@ fn gap((rows, all): (&[usize], usize), names: &[&str], line: &dyn Fn(usize) -> S
     Diagnostic::warning("record::gaps", message).at(line(rows[0]), label)
 }
 
-/// So many names are written out.
+/// Number of names that are written out.
 const NAMED: usize = 4;
 
 fn several(names: &[&str]) -> String {
@@ -140,7 +140,7 @@ fn unchanging(column: &RecordColumn) -> Diagnostic {
     Diagnostic::warning("record::constant", message).at(column.span.clone(), "")
 }
 
-/// A jump as a change of the unit makes one.
+/// A jump like that of a change of unit.
 fn jump(column: &RecordColumn, rows: &[usize], line: &dyn Fn(usize) -> Span) -> Option<Diagnostic> {
     if !column.unit.ty.absolute {
         return None;
@@ -150,7 +150,7 @@ fn jump(column: &RecordColumn, rows: &[usize], line: &dyn Fn(usize) -> Span) -> 
     sizes.sort_by(f64::total_cmp);
     let usual = sizes.get(sizes.len() / 2).copied().unwrap_or(0.0);
     let large = |a: f64, b: f64| (b - a).abs() > 20.0_f64.max(20.0 * usual);
-    // as the numbers stand in the file
+    // as the numbers are in the file
     let written = |si: f64| column.unit.from_si(si);
     let (at, (before, after)) = steps().enumerate().find_map(|(i, [a, b])| {
         let units = changed_unit(written(a), written(b)).filter(|_| large(a, b))?;
@@ -182,7 +182,7 @@ fn changed_unit(a: f64, b: f64) -> Option<(&'static str, &'static str)> {
     .find_map(|(is, units)| is.then_some(units))
 }
 
-/// Kelvin that read like degrees Celsius, and the other way round.
+/// Kelvin that read like degrees Celsius, or the reverse.
 fn implausible(column: &RecordColumn) -> Option<Diagnostic> {
     if !column.unit.ty.absolute {
         return None;
@@ -210,8 +210,7 @@ fn implausible(column: &RecordColumn) -> Option<Diagnostic> {
     Some(warning.help(format!("if so, write `{} [{other}]`", column.name)))
 }
 
-/// An extreme value that is come to steeply and then held: a body that settles slows down before it
-/// stands still.
+/// An extreme value that is reached steeply and then stays: a body that settles slows down first.
 fn saturation(record: &Record, column: &RecordColumn, rows: &[usize]) -> Option<Saturation> {
     let values: Vec<f64> = rows.iter().map(|&row| column.values[row]).collect();
     let highest = values.iter().copied().max_by(f64::total_cmp)?;
@@ -247,12 +246,11 @@ fn longest_run(values: &[f64], value: f64) -> Option<(usize, usize)> {
     best
 }
 
-/// Whether the values before a run come to it as fast at the end as before, and it lasts much
-/// longer than at that speed a value would that is rounded: over the last tenth of the range in no
-/// more than 1.5 times the rows of the tenth before it, and for 4 times the rows of one step
-/// between values. A body that settles, `exp(-t / tau)`, takes longer and longer for the same
-/// stretch; where its record ends before it slows down, its last value lasts no longer than the
-/// steps before.
+/// True if the values reach a run without slowing down, and it lasts longer than rounding explains:
+/// the last tenth of the range takes at most 1.5 times the rows of the tenth before it, and the run
+/// more than 4 times the rows of one step between values. A body that settles, `exp(-t / tau)`,
+/// takes longer and longer for the same distance. If its record ends before it slows down, its last
+/// value lasts no longer than the steps before.
 fn is_abrupt(before: &[f64], length: usize, (extreme, range): (f64, f64)) -> bool {
     let reached =
         |share: f64| before.iter().rposition(|value| (value - extreme).abs() > share * range);
@@ -262,7 +260,7 @@ fn is_abrupt(before: &[f64], length: usize, (extreme, range): (f64, f64)) -> boo
     let step = steps.fold(range, f64::min);
     #[expect(clippy::cast_precision_loss, reason = "counts of rows")]
     let usual = (end as f64) * step / (0.1 * range);
-    // a few steps of rounding make a plateau of every slow extreme
+    // with few rounding steps every slow extreme looks like a plateau
     if range < FEWEST_STEPS * step {
         return false;
     }
@@ -271,7 +269,7 @@ fn is_abrupt(before: &[f64], length: usize, (extreme, range): (f64, f64)) -> boo
     2 * end <= 3 * (last - earlier) && held > 4.0 * usual
 }
 
-/// That a column is at its end.
+/// The warning that a sensor seems to be at its end.
 fn saturated(
     record: &Record,
     column: &RecordColumn,

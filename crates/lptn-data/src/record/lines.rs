@@ -1,4 +1,4 @@
-//! A record whose rows come one after the other, of which only the header and the last row are kept.
+//! A record whose rows arrive one by one; only the header and the last row are kept.
 
 use crate::diagnostic::Diagnostic;
 use crate::file::Files;
@@ -7,61 +7,59 @@ use crate::record::rows::{Extent, read};
 use crate::record::{Record, RecordQuery};
 use crate::text::CsvText;
 
-/// Reads a record line by line. Comments, gaps, units, rows that stand twice and a last row that
-/// breaks off are treated as in a record that is read as a whole; what can be told only from all
-/// rows together (holes, outliers, a sensor at its end) is not looked for.
+/// Reads a record line by line. Comments, gaps, units, repeated rows and a last row that breaks off
+/// are treated as in a record that is read as a whole. Checks that need all rows (holes, outliers,
+/// a sensor at its end) are skipped.
 #[derive(Debug)]
 pub struct RecordLines {
     name: String,
     query: RecordQuery,
-    /// How many lines have come.
+    /// Number of lines so far.
     count: usize,
-    /// The header, the last row, and one behind it that breaks off, each with the number of its
-    /// line.
+    /// The header, the last row, and one after it that breaks off, each with its line number.
     kept: Vec<(usize, String)>,
-    /// Whether the last of them breaks off.
+    /// True if the last of them breaks off.
     broken: bool,
-    /// How many rows have come.
+    /// Number of rows so far.
     rows: usize,
 }
 
-/// A row that came.
+/// A row of the record.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RecordRow {
     /// The number of its line, from 1.
     pub line: usize,
-    /// In s.
+    /// Time in s.
     pub time: f64,
-    /// A value in SI units for each column that was asked for, absolute temperatures in K; NaN for
-    /// a gap.
+    /// A value in SI units for each requested column, absolute temperatures in K; NaN for a gap.
     pub values: Vec<f64>,
 }
 
-/// What a line says.
+/// The result of a line.
 #[derive(Debug, Default)]
 pub struct RecordLine {
-    /// Its row, if it is one that counts.
+    /// Its row, if it counts as one.
     pub row: Option<RecordRow>,
-    /// What is doubtful about it, and the texts that the places of that refer to.
+    /// Its warnings, and the texts to which their places refer.
     pub warnings: (Files, Vec<Diagnostic>),
 }
 
 impl RecordLines {
-    /// Before the first line; `name` is what diagnostics call the record.
+    /// Before the first line; `name` is the record's name in diagnostics.
     pub fn new(name: impl Into<String>, query: RecordQuery) -> Self {
         let (kept, name) = (Vec::new(), name.into());
         Self { name, query, count: 0, kept, broken: false, rows: 0 }
     }
 
-    /// How many rows have come.
+    /// Number of rows so far.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// Takes a line in, with or without its end.
+    /// Reads a line, with or without its end.
     ///
     /// # Errors
-    /// [`Rejected`] with what is wrong with it and its place.
+    /// [`Rejected`] with its problems and their places.
     pub fn take(&mut self, bytes: &[u8]) -> Result<RecordLine, Rejected> {
         self.count += 1;
         let bytes = bytes.strip_suffix(b"\n").unwrap_or(bytes);
@@ -76,15 +74,15 @@ impl RecordLines {
             return Ok(RecordLine::default());
         }
         let sound = self.read(false).ok().filter(|(_, record)| record.warnings.is_empty());
-        // where something is to be said, places are those of all lines
+        // for diagnostics, places are those of all lines
         let (files, record) = sound.map_or_else(|| self.read(true), Ok)?;
         Ok(self.answer(files, &record))
     }
 
-    /// What is to be said where no more lines come: that the last one breaks off.
+    /// The warnings if no more lines come: that the last one breaks off.
     ///
     /// # Errors
-    /// [`Rejected`] with what else is wrong with it.
+    /// [`Rejected`] with its other problems.
     pub fn end(self) -> Result<(Files, Vec<Diagnostic>), Rejected> {
         if !self.broken {
             return Ok((Files::new(), Vec::new()));
@@ -105,7 +103,7 @@ impl RecordLines {
             .map_err(|problem| Rejected::new(files, vec![problem]))
     }
 
-    /// What is kept, one line behind the other or each at its own line.
+    /// The kept lines, one after the other or each at its own line.
     fn text(&self, placed: bool) -> String {
         let mut text = String::new();
         let mut at = 1;
@@ -132,7 +130,7 @@ impl RecordLines {
         }
     }
 
-    /// What the last line was, of what is kept as a record.
+    /// The result of the last line, from the kept lines as a record.
     fn answer(&mut self, files: Files, record: &Record) -> RecordLine {
         let before = usize::from(self.rows > 0);
         let broke = record.warnings.iter().any(|warning| warning.code == "record::broken_off");

@@ -1,9 +1,9 @@
 //! Measured records: columns of numbers over time, from a CSV file with headers `name [unit]`.
 //!
-//! What is wrong with a record is an error with its line; what can be gone on with is treated in a
-//! stated way and said in a warning:
+//! A problem with a record is an error with its line. If reading can go on, it does so in a stated
+//! way, with a warning:
 //!
-//! | In the file | What becomes of it |
+//! | In the file | Treatment |
 //! |---|---|
 //! | lines that begin with `#`, empty lines, Windows line ends, a byte order mark | left out |
 //! | an empty cell, `NaN`, `NA`, `N/A`, `null`, dashes | a gap: NaN, counted in a warning |
@@ -15,8 +15,8 @@
 //! | another separator, a decimal comma | an error |
 //! | a value below absolute zero | an error |
 //! | a jump by 273.15 K, or to 1.8 times the value + 32 | a warning: the unit seems to change |
-//! | an extreme value held after a steep rise or fall | a warning: the sensor may be at its end |
-//! | a value far outside of what stands before and behind it | a warning; a gap where that is asked |
+//! | an extreme value kept after a steep rise or fall | a warning: the sensor may be at its end |
+//! | a value far outside of those before and after it | a warning; a gap on request |
 //! | a column that does not change | a warning |
 
 mod cells;
@@ -40,41 +40,41 @@ use crate::file::{FileId, Files, Span};
 use crate::limits::Rejected;
 use crate::text::CsvText;
 
-/// Something that is looked for in a record.
+/// A column to look for in a record.
 #[derive(Clone, Debug)]
 pub struct RecordName {
     /// The name of a column, as its header gives it without the unit.
     pub name: String,
-    /// What it has to measure, where that is known.
+    /// The type of its quantity, if that is known.
     pub ty: Option<Type>,
-    /// Where it is asked for; diagnostics show the place.
+    /// The place of the request, for diagnostics.
     pub span: Option<Span>,
 }
 
 impl RecordName {
-    /// A column of any type, asked for at no place.
+    /// A column of any type, without a place of the request.
     pub fn new(name: impl Into<String>) -> Self {
         Self { name: name.into(), ty: None, span: None }
     }
 }
 
-/// What is to be read of a record.
+/// A request for parts of a record.
 #[derive(Clone, Debug, Default)]
 pub struct RecordQuery {
-    /// The column of the times; where none is named, the first in a unit of time, else the one
-    /// named `t` or `time`.
+    /// The column of the times; by default the first in a unit of time, else the one named `t` or
+    /// `time`.
     pub time: Option<RecordName>,
-    /// The columns to read, in this order; where none is named, all columns of numbers in the order
-    /// of the file.
+    /// The columns to read, in this order; by default all columns of numbers in the order of the
+    /// file.
     pub columns: Vec<RecordName>,
-    /// Rows before this time, in s, are left out, whatever they hold.
+    /// Rows before this time, in s, are left out, whatever their values.
     pub from: Option<f64>,
     /// Rows after this time, in s, are left out.
     pub to: Option<f64>,
-    /// Whether values that no course explains become gaps.
+    /// True if outliers become gaps.
     pub drop_outliers: bool,
-    /// Whether it is the result of a run, where `K` alone is a difference but in columns named
-    /// `NODE.T`. A sensor measures none.
+    /// True for the result of a run, where `K` alone is a difference except in columns named
+    /// `NODE.T`. A sensor does not measure differences.
     pub of_run: bool,
 }
 
@@ -91,9 +91,9 @@ pub struct Record {
     pub columns: Vec<RecordColumn>,
     /// The lines that begin with `#`, without it and without blanks around.
     pub comments: Vec<String>,
-    /// What was left out or is doubtful.
+    /// Warnings about what was left out or is doubtful.
     pub warnings: Vec<Diagnostic>,
-    /// The byte at which the reader looked for each row.
+    /// The byte at which the reader started to look for each row.
     pub(crate) bytes: Vec<usize>,
 }
 
@@ -102,11 +102,11 @@ pub struct Record {
 pub struct RecordColumn {
     /// Its name, without the unit.
     pub name: String,
-    /// Its unit; alone, `K` is a point on the scale of temperature, as degC is.
+    /// Its unit; `K` alone is an absolute temperature, as degC is.
     pub unit: Unit,
     /// One value for each time, in SI units, absolute temperatures in K; NaN for a gap.
     pub values: Vec<f64>,
-    /// How many of them are gaps.
+    /// Number of gaps.
     pub gaps: usize,
     /// An extreme value at which the sensor seems to be at its end.
     pub saturation: Option<Saturation>,
@@ -114,12 +114,12 @@ pub struct RecordColumn {
     pub span: Span,
 }
 
-/// A value that a column comes to steeply and then holds.
+/// A value that a column reaches steeply and at which it stays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Saturation {
     /// The value, in SI units.
     pub value: f64,
-    /// The first row that holds it.
+    /// The first row with it.
     pub first: usize,
     /// The last row of the same run.
     pub last: usize,
@@ -141,14 +141,14 @@ impl Record {
         self.line_in(files.text(self.file), row)
     }
 
-    /// The same, with the text it was read from.
+    /// The place of a row, in the text it was read from.
     pub(crate) fn line_in(&self, text: &str, row: usize) -> Span {
         let from = self.bytes.get(row).copied().unwrap_or(text.len());
         Span::new(self.file, crate::head::line(text, from))
     }
 }
 
-/// Reads a record from the bytes of a file that was read; `path` is what diagnostics call it.
+/// Reads a record from the bytes of a file; `path` is its name in diagnostics.
 ///
 /// # Errors
 /// [`Rejected`] with every problem, each with a code `record::problem` and its line.
@@ -166,7 +166,7 @@ pub fn read_record(
     }
 }
 
-/// Reads a record from a text, with what is doubtful about it.
+/// Reads a record from a text, with warnings about doubtful values.
 ///
 /// # Errors
 /// Every problem, each with a code `record::problem` and its line.

@@ -10,7 +10,7 @@ use crate::record::times::Order;
 use crate::record::{Record, RecordColumn, RecordQuery};
 use crate::text::CsvText;
 
-/// A header as it could be.
+/// An example of a header.
 const EXAMPLE: &str = "t [s],ring [degC]";
 
 /// A record that is being read.
@@ -26,11 +26,11 @@ struct Work<'t> {
     timeless: Counted,
 }
 
-/// How much of a record a text holds.
+/// The part of a record that a text contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Extent {
     Whole,
-    /// Some rows of it: that there are none, or none with a value of a column, says nothing.
+    /// Some of its rows: no row, or no value of a column, is not an error.
     Part,
 }
 
@@ -92,7 +92,7 @@ impl<'t> Work<'t> {
         }
     }
 
-    /// Whether a row has as many cells as the header. The last one may break off: the logger was
+    /// True if a row has as many cells as the header. The last one may break off if the logger was
     /// switched off.
     fn has_its_cells(&mut self, row: &Row, last: bool) -> bool {
         let (cells, columns) = (row.cells.len(), self.cells.head.columns.len());
@@ -106,7 +106,7 @@ impl<'t> Work<'t> {
         self.cells.is_whole(row, "10.2,,45.1")
     }
 
-    /// A row whose time is not a number.
+    /// The error of a row without a valid time.
     fn no_time(&self, row: &Row, wrong: Wrong) -> Diagnostic {
         let index = self.time.index;
         if is_gap(row.cell(index), wrong) {
@@ -148,7 +148,7 @@ impl<'t> Work<'t> {
     }
 }
 
-/// That the window holds no row.
+/// The error that the window has no row.
 fn outside(head: &Head, (from, to): (&str, &str)) -> Diagnostic {
     let message = format!("no row lies in the window of time: the record goes from {from} to {to}");
     Diagnostic::wrong(

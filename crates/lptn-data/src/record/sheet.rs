@@ -13,7 +13,7 @@ use crate::record::cells::Cells;
 use crate::record::columns::{all, each, of_any};
 use crate::text::CsvText;
 
-/// A header as it could be.
+/// An example of a header.
 const EXAMPLE: &str = "omega [rpm],P [W]";
 
 /// Columns of numbers with units, and columns of words under headers without.

@@ -1,28 +1,28 @@
-//! Values that no course explains: a broken wire, a digit lost on the way.
+//! Outliers: a broken wire, a lost digit.
 //!
-//! A value counts as one where it lies outside of what the values before it and those behind it
-//! say, by far more than they scatter. A step of the power is between both and is none.
+//! An outlier lies outside of the values before and after it by far more than they scatter. A step
+//! of the power lies between both and is not one.
 
-/// So many values on each side of one are looked at.
+/// Number of values on each side with which one is compared.
 const SIDE: usize = 7;
 
-/// By so many times of what the values of a column scatter, of the step of the instrument, and of
-/// what those around it spread, one has to be off.
+/// An outlier is off by more than these multiples of the scatter of the column, of the step of the
+/// instrument, and of the spread of the values around it.
 const SCATTER: f64 = 20.0;
 const STEPS: f64 = 10.0;
 const SPREAD: f64 = 5.0;
 
-/// At an end of the record the neighbour has to be nearer to the others by this factor: what begins
-/// fast is no spike.
+/// At an end of the record the neighbour has to be nearer to the others by this factor: a fast
+/// start is not an outlier.
 const ALONE: f64 = 0.1;
 
-/// In a record of few rows, of so many at least, a value counts as one where it is off by so many
-/// times of what all others span. There the first and the last say nothing: what begins or ends
-/// fast is as far off.
+/// In a record of few rows, at least `FEWEST`, an outlier is off by more than `SPAN` times the
+/// range of all others. There the first and the last row are not judged: a fast start or end is as
+/// far off.
 const FEWEST: usize = 6;
 const SPAN: f64 = 30.0;
 
-/// The places of such values, in order; `values` holds no gaps.
+/// The places of outliers, in order; `values` has no gaps.
 pub(crate) fn spikes(values: &[f64]) -> Vec<usize> {
     match values.len() {
         ..FEWEST => Vec::new(),
@@ -31,13 +31,13 @@ pub(crate) fn spikes(values: &[f64]) -> Vec<usize> {
     }
 }
 
-/// Whether a value is far outside of all others, whatever course they take.
+/// True if a value is far outside of all others, whatever their time history.
 fn is_far(values: &[f64], i: usize) -> bool {
     let others = || values.iter().enumerate().filter(|(k, _)| *k != i).map(|(_, v)| *v);
     let low = others().fold(f64::INFINITY, f64::min);
     let high = others().fold(f64::NEG_INFINITY, f64::max);
     let outside = (values[i] - high).max(low - values[i]);
-    // of others that are all the same nothing says how far they scatter
+    // others that are all equal do not show their scatter
     high > low && outside > SPAN * (high - low)
 }
 
@@ -45,13 +45,12 @@ fn scattered(values: &[f64]) -> Vec<usize> {
     let bent = |w: &[f64]| (w[1] - 0.5 * (w[0] + w[2])).abs();
     let scatter = 1.4826 * median(values.windows(3).map(bent).collect());
     let least = (SCATTER * scatter).max(STEPS * step(values));
-    // what most are does not need their neighbours to be sorted
+    // a cheap test first: most values need no sorting of their neighbours
     let is_off = |i: &usize| off(values, *i, 0.0) > least;
     (0..values.len()).filter(is_off).filter(|&i| off(values, i, SPREAD) > least).collect()
 }
 
-/// By how much a value is outside of what stands before and behind it, less so many times of what
-/// that scatters.
+/// Distance of a value beyond those before and after it; 0 if it is within `times` their scatter.
 fn off(values: &[f64], i: usize, times: f64) -> f64 {
     let before = &values[i.saturating_sub(SIDE)..i];
     let behind = &values[(i + 1).min(values.len())..(i + 1 + SIDE).min(values.len())];
@@ -79,7 +78,7 @@ fn off(values: &[f64], i: usize, times: f64) -> f64 {
     if outside > times * scatter { outside } else { 0.0 }
 }
 
-/// The least distance of two values that are not equal, 0 where all are.
+/// The smallest distance between consecutive values that differ; 0 if all are equal.
 fn step(values: &[f64]) -> f64 {
     let apart = values.windows(2).map(|pair| (pair[1] - pair[0]).abs());
     let least = apart.filter(|d| *d > 0.0).fold(f64::INFINITY, f64::min);
@@ -118,8 +117,8 @@ mod tests {
         assert_eq!(spikes(&values), [50, 99]);
     }
 
-    /// Courses of few rows with one broken value inside, and what is no outlier among few: a pulse
-    /// beside nothing, a start and an end that are fast, a peak between rows far apart.
+    /// Few rows with one outlier, and few rows without: a pulse among zeros, a fast start or end, a
+    /// peak between rows far apart.
     #[test]
     fn one_of_few_rows_is_found() {
         for count in 6..25 {

@@ -8,13 +8,13 @@ use crate::record::Record;
 use crate::record::cells::Counted;
 use lptn_units::format_short as short;
 
-/// So many times the usual time between two rows is a hole.
+/// A hole is longer than this multiple of the usual time between two rows.
 const HOLE: f64 = 5.0;
 
 /// The order of the rows so far.
 pub(crate) struct Order<'t> {
     text: &'t str,
-    /// Of the times, as the file has them.
+    /// The unit of the times in the file.
     unit: Unit,
     first: Option<f64>,
     last: Option<(f64, Span)>,
@@ -29,8 +29,7 @@ impl<'t> Order<'t> {
         Self { text, unit: unit.clone(), first: None, last: None, reversed, repeated, same: None }
     }
 
-    /// Whether a row comes after those before it; one that says the same as the one before it is
-    /// dropped.
+    /// False for the time of the row before it; counts rows that repeat it or go back in time.
     pub(crate) fn accepts(&mut self, time: f64, place: Span) -> bool {
         let written = |span: &Span| self.text.get(span.range.clone()).unwrap_or_default().trim();
         let accepted = match &self.last {
@@ -57,7 +56,7 @@ impl<'t> Order<'t> {
         accepted
     }
 
-    /// The first and the last time, as the file has them; `None` without rows.
+    /// The first and the last time as in the file; `None` without rows.
     pub(crate) fn range(&self) -> Option<(String, String)> {
         Some((self.shown(self.first?), self.shown(self.last.as_ref()?.0)))
     }
@@ -97,8 +96,8 @@ fn repeated(time: &str, place: &Span, before: &Span) -> Diagnostic {
     .help("keep one of the two rows; times that are rounded need another digit")
 }
 
-/// Whether rows are further and further apart, as they are over decades of time: the last third of
-/// the steps is much longer than the first, and hardly one is shorter than the one before it.
+/// True if rows are further and further apart, as over decades of time: the last third of the steps
+/// is much longer than the first, and hardly any step is shorter than the one before it.
 fn grows(steps: &[f64]) -> bool {
     let third = (steps.len() / 3).max(1);
     let middle = |part: &[f64]| {
@@ -111,7 +110,7 @@ fn grows(steps: &[f64]) -> bool {
     10 * shorter <= steps.len() && last > HOLE * first
 }
 
-/// The longest time without a row, if it is long.
+/// The warning about the longest time without a row, if it is long.
 pub(crate) fn holes(record: &Record, text: &str) -> Option<Diagnostic> {
     let steps: Vec<f64> = record.time.windows(2).map(|pair| pair[1] - pair[0]).collect();
     let mut sorted = steps.clone();

@@ -1,14 +1,14 @@
-//! Where a panel lies on the page, and how large its texts are.
+//! Position of a panel on the page, and sizes of its texts.
 
 use crate::font::width;
 use crate::ticks::Ruler;
 
-/// Heights of texts: title, names, numbers.
+/// Text sizes in pixels: title, names, numbers.
 pub(crate) const TITLE: f64 = 15.0;
 pub(crate) const NAME: f64 = 12.0;
 pub(crate) const SMALL: f64 = 11.0;
 
-/// Where a panel's curves are drawn, and its two axes.
+/// The area of a panel's curves, in pixels, and its two axes.
 #[derive(Debug)]
 pub(crate) struct Area {
     pub(crate) left: f64,
@@ -17,7 +17,7 @@ pub(crate) struct Area {
     pub(crate) bottom: f64,
     pub(crate) x: Ruler,
     pub(crate) y: Ruler,
-    /// Whether y grows downwards: a list of things is read from the top.
+    /// True if y grows downwards: a list is read from the top.
     pub(crate) downward: bool,
 }
 
@@ -37,7 +37,7 @@ impl Area {
     }
 }
 
-/// A text that is not wider than `room`, with an ellipsis where something is left out.
+/// A text that is not wider than `room`, shortened with an ellipsis if necessary.
 pub(crate) fn shortened(text: &str, size: f64, room: f64) -> String {
     if width(text, size, false) <= room {
         return text.to_owned();

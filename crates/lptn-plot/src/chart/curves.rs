@@ -9,10 +9,10 @@ use crate::thin::thinned;
 /// Width of a curve.
 const LINE: f64 = 1.8;
 
-/// Radius of a dot, of one among few and of one among many.
+/// Radius of a dot, one among few and one among many.
 const DOTS: [f64; 2] = [3.0, 1.5];
 
-/// Where there are very many dots they are thinned in stretches of so many pixels.
+/// Width in pixels of the stretches in which very many dots are thinned.
 const PER_DOT: f64 = 3.0;
 
 /// The ink of the curve at a place of a panel.
@@ -20,12 +20,12 @@ pub fn ink(curve: &Curve, place: usize) -> Ink {
     Ink::Series(curve.place.unwrap_or(place))
 }
 
-/// What is drawn of a panel: curves with what is around them.
+/// Draws the curves of a panel with their bands and bars.
 pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area) {
     for (place, curve) in panel.curves.iter().enumerate() {
         let ink = ink(curve, place);
         spread(scene, curve, (panel, area), ink);
-        // the second round of colours is told apart by dashes
+        // dashes distinguish the second round of colours
         let second = curve.place.unwrap_or(place) >= SERIES;
         let dash = if second || curve.look == Look::Dashed { Dash::Dashed } else { Dash::Solid };
         let stroke = Stroke { ink, width: LINE, dash };
@@ -43,7 +43,7 @@ fn on_page((panel, area): Place<'_>, (x, y): (f64, f64)) -> Option<(f64, f64)> {
     panel.shows((x, y)).then(|| (area.x_at(x), area.y_at(y)))
 }
 
-/// The points of a curve on the page, thinned there to what so many stretches of its width show;
+/// The points of a curve on the page, thinned to this number of stretches if they are in order;
 /// gaps are not finite.
 fn placed(points: &[(f64, f64)], place: Place<'_>, stretches: usize) -> Vec<(f64, f64)> {
     let gap = |(x, _): (f64, f64)| (if x.is_finite() { place.1.x_at(x) } else { x }, f64::NAN);
@@ -65,7 +65,7 @@ fn lines(scene: &mut Scene, curve: &Curve, place: Place<'_>, stroke: Stroke) {
     }
 }
 
-/// Of very many dots those that stick out stay.
+/// Draws dots. If there are very many, outliers stay.
 fn dots(scene: &mut Scene, curve: &Curve, place: Place<'_>, ink: Ink) {
     let most = (place.1.width() / PER_DOT) as usize;
     let radius = DOTS[usize::from(curve.points.len() > most / 3)];

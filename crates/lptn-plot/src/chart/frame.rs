@@ -7,22 +7,22 @@ use crate::font::width;
 use crate::ink::Ink;
 use crate::scene::{Align, Dash, Scene, Stroke, Text, line};
 
-/// Room for the numbers and the title of the axis to the right.
+/// Room for the numbers and the title of the horizontal axis.
 pub(super) const ROOM_BELOW: f64 = 46.0;
 
-/// Lines for limits that are too far to be shown.
+/// Largest number of lines for limits that are too far away to be shown.
 const FAR: usize = 3;
 
-/// Least distance of the names of two moments.
+/// Smallest distance between the names of two moments.
 const APART: f64 = 14.0;
 
-/// Room above a panel for what is said of limits that are too far to be shown.
+/// Room above a panel for the texts on limits that are too far away to be shown.
 pub(super) fn room_above(panel: &Panel) -> f64 {
     far(panel).len() as f64 * (SMALL + 4.0)
 }
 
-/// Grid, axes and their numbers. Where the panel below has the same axis to the right, that one
-/// writes the numbers.
+/// Grid, axes and their numbers. If the panel below shares the horizontal axis, that panel writes
+/// its numbers.
 pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area, shared: bool) {
     let grid = Stroke::solid(Ink::Grid, 1.0);
     let is_list = matches!(panel.y.scale, Scale::Names(_));
@@ -88,7 +88,7 @@ pub(super) fn marks(scene: &mut Scene, panel: &Panel, area: &Area) {
     moments(scene, panel, area);
 }
 
-/// The names of limits whose names would cover each other.
+/// One text for limits whose names would cover each other.
 fn together(names: &[&str]) -> String {
     match names {
         [one, other] => format!("{one}; {other}"),
@@ -97,7 +97,7 @@ fn together(names: &[&str]) -> String {
     }
 }
 
-/// What is said of limits that are too far to be shown.
+/// Texts on limits that are too far away to be shown.
 pub(crate) fn far(panel: &Panel) -> Vec<String> {
     let (low, high) = range::upward(panel);
     let text = |limit: &Level| {
@@ -125,7 +125,7 @@ fn moments(scene: &mut Scene, panel: &Panel, area: &Area) {
             continue;
         }
         last = x;
-        // beside the line, where there is room
+        // left of the line, but right of it close to the axis
         let x = if x - area.left < APART { x + SMALL } else { x - 4.0 };
         let text = Text::new(&moment.name, (x, area.bottom - 6.0), SMALL, Ink::Faint);
         scene.write(text.upward());

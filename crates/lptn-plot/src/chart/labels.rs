@@ -1,4 +1,4 @@
-//! Names at the ends of curves, which need no legend and no colour to be told apart.
+//! Names at the ends of curves, which identify them without legend and colour.
 
 use super::area::{Area, NAME, shortened};
 use super::curves;
@@ -9,18 +9,18 @@ use crate::scene::{Dash, Scene, Stroke, Text, circle, line};
 /// Room between a curve's end and its name.
 pub(super) const GAP: f64 = 14.0;
 
-/// Distance of two names.
+/// Distance between two names.
 const LINE: f64 = NAME + 2.0;
 
 struct Label<'a> {
     name: &'a str,
     ink: Ink,
-    /// Where the curve ends, and where its name stands.
+    /// End of the curve; `y` is the height of its name.
     end: (f64, f64),
     y: f64,
 }
 
-/// Writes the names. Those that would cover each other are moved apart, with a line to their end.
+/// Writes the names. Those that would overlap are moved apart, with a line to their end.
 pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area, right: f64) {
     let mut labels = ends(panel, area);
     let room = ((area.bottom - area.top + LINE) / LINE).floor().max(1.0) as usize;
@@ -29,7 +29,7 @@ pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area, right: f64) {
         labels.truncate(room - 1);
     }
     labels.sort_by(|a, b| a.end.1.total_cmp(&b.end.1));
-    // the curves of a list have no end: their names stand beside it as a legend
+    // the curves of a list have no end: their names are a legend next to it
     let is_list = matches!(panel.y.scale, Scale::Names(_));
     let place = |label: &Label<'_>| if is_list { area.top } else { label.end.1 };
     let wanted: Vec<f64> = labels.iter().map(place).collect();
@@ -56,7 +56,7 @@ pub(super) fn draw(scene: &mut Scene, panel: &Panel, area: &Area, right: f64) {
 fn connect(scene: &mut Scene, label: &Label<'_>, (edge, x): (f64, f64)) {
     let from = (edge.max(label.end.0) + 2.0, label.end.1);
     if edge - label.end.0 > 2.0 {
-        // grey and dotted, or it would look as if the curve went on
+        // grey and dotted, or the curve would seem to continue
         let stroke = Stroke { ink: Ink::Frame, width: 0.7, dash: Dash::Dotted };
         scene.put(line([label.end, from]).stroked(stroke));
     }
@@ -65,7 +65,7 @@ fn connect(scene: &mut Scene, label: &Label<'_>, (edge, x): (f64, f64)) {
     }
 }
 
-/// The ends of the curves that have a name; one of several that share name and ink.
+/// The ends of the curves that have a name; one for curves that share name and ink.
 fn ends<'a>(panel: &'a Panel, area: &Area) -> Vec<Label<'a>> {
     let mut labels: Vec<Label<'a>> = Vec::new();
     for (place, curve) in panel.curves.iter().enumerate() {
@@ -80,9 +80,8 @@ fn ends<'a>(panel: &'a Panel, area: &Area) -> Vec<Label<'a>> {
     labels
 }
 
-/// Places in order, at least `distance` apart and inside a range if they fit, near to where they
-/// are wanted: neighbours that would cover each other become a block around the mean of what they
-/// want.
+/// Places in order, at least `distance` apart and inside a range if they fit, close to the wanted
+/// ones. Neighbours that would overlap become a block around the mean of their wanted places.
 pub(crate) fn apart(wanted: &[f64], distance: f64, (low, high): (f64, f64)) -> Vec<f64> {
     struct Block {
         first: f64,
@@ -95,7 +94,7 @@ pub(crate) fn apart(wanted: &[f64], distance: f64, (low, high): (f64, f64)) -> V
         while let Some(above) =
             blocks.pop_if(|above| block.first < above.first + above.count as f64 * distance)
         {
-            // what each wants, less the places of those before it in the block
+            // the wanted places, less the offsets of their names in the block
             block.sum += above.sum - block.count as f64 * above.count as f64 * distance;
             block.count += above.count;
             block.first = block.sum / block.count as f64;
@@ -108,7 +107,7 @@ pub(crate) fn apart(wanted: &[f64], distance: f64, (low, high): (f64, f64)) -> V
     for block in blocks {
         places.extend((0..block.count).map(|i| block.first + i as f64 * distance));
     }
-    // blocks that were pushed back by the end of the range
+    // places before a block that the end of the range pushed back
     for i in (1..places.len()).rev() {
         places[i - 1] = places[i - 1].min(places[i] - distance);
     }

@@ -19,7 +19,7 @@ use crate::ink::Ink;
 use crate::scene::{Scene, Text};
 use crate::ticks::Ruler;
 
-/// Most room for what stands at the axis upwards.
+/// Largest room for the numbers and title of the vertical axis.
 const WIDEST: f64 = 240.0;
 
 /// Room around everything.
@@ -28,13 +28,13 @@ const MARGIN: f64 = 14.0;
 /// Height of an ordinary panel.
 const HEIGHT: f64 = 300.0;
 
-/// A number of the axis upwards for each so many pixels.
+/// Height in pixels for each number of the vertical axis.
 const ROW: f64 = 38.0;
 
-/// Most of the width that names of curves may take.
+/// Largest share of the width for the names of curves.
 const NAMES: f64 = 0.3;
 
-/// Figures below each other as a drawing of this width in pixels; its height follows from their
+/// Figures below each other as a drawing of this width in pixels; its height follows from the
 /// panels.
 pub fn scene(figures: &[Figure], width: f64) -> Scene {
     let title = figures.first().map_or("", |figure| figure.title.as_str());
@@ -45,7 +45,7 @@ pub fn scene(figures: &[Figure], width: f64) -> Scene {
     scene
 }
 
-/// Draws a figure from `top` on, and gives where it ends.
+/// Draws a figure from `top` on and returns the y of its end, in pixels.
 fn draw(figure: &Figure, (top, width): (f64, f64), scene: &mut Scene) -> f64 {
     let mut top = header(figure, (top, width), scene);
     let margins = (left_margin(figure), right_margin(figure, width));
@@ -63,11 +63,11 @@ fn draw(figure: &Figure, (top, width): (f64, f64), scene: &mut Scene) -> f64 {
     top
 }
 
-/// The ranges of a panel of a figure, to the right and upwards.
+/// The horizontal and the vertical range of a panel of a figure.
 pub fn ranges(figure: &Figure, panel: &Panel) -> [(f64, f64); 2] {
     let sharing = figure.panels.iter().filter(|other| other.x == panel.x);
     let across = range::across(sharing);
-    // what may be one value is opened as for the picture
+    // a range of one value is widened as for the picture
     let opened = |axis, range| Ruler::new(axis, range, 2.0, false).range;
     [opened(&panel.x, across), opened(&panel.y, range::upward(panel))]
 }
@@ -93,7 +93,7 @@ fn area(
     Area { left, right, top, bottom, x, y, downward }
 }
 
-/// Title and note; gives where the panels begin.
+/// Draws title and note and returns the y at which the panels begin, in pixels.
 fn header(figure: &Figure, (top, page): (f64, f64), scene: &mut Scene) -> f64 {
     let mut top = top + MARGIN;
     let room = page - 2.0 * MARGIN;
@@ -108,12 +108,12 @@ fn header(figure: &Figure, (top, page): (f64, f64), scene: &mut Scene) -> f64 {
     top + MARGIN
 }
 
-/// A text in lines that are not wider than `room` unless a word is.
+/// A text in lines that are not wider than `room`, except for longer words.
 fn wrapped(text: &str, size: f64, room: f64, bold: bool) -> Vec<String> {
     in_lines(text, |line| width(line, size, bold) <= room)
 }
 
-/// A text in lines that fit, unless a word does not.
+/// A text in lines that fit, except for longer words.
 pub(crate) fn in_lines(text: &str, fits: impl Fn(&str) -> bool) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {

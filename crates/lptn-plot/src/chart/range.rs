@@ -1,8 +1,8 @@
-//! From where to where an axis goes.
+//! Ranges of axes.
 
 use crate::figure::{Look, Panel, Scale};
 
-/// A limit widens the axis by at most this share of what the curves take.
+/// Limits farther away than this share of the range of the curves are not shown.
 const FAR: f64 = 1.5;
 
 /// Room above and below the curves, as a share of their range.
@@ -16,13 +16,13 @@ fn with((low, high): Range, value: f64) -> Range {
     if value.is_finite() { (low.min(value), high.max(value)) } else { (low, high) }
 }
 
-/// A range that is one: up to 1 where there is nothing.
+/// The range, or one up to 1 if it is empty.
 fn some((low, high): Range, logarithmic: bool) -> Range {
     let lowest = if logarithmic { 0.1 } else { 0.0 };
     if low <= high { (low, high) } else { (lowest, 1.0) }
 }
 
-/// The range to the right of panels that share it.
+/// The horizontal range of panels that share it.
 pub(crate) fn across<'a>(panels: impl Iterator<Item = &'a Panel>) -> Range {
     let (mut range, mut scale, mut dotted) = (NOTHING, &Scale::Linear, false);
     for panel in panels {
@@ -34,7 +34,7 @@ pub(crate) fn across<'a>(panels: impl Iterator<Item = &'a Panel>) -> Range {
         range = all.filter(|x| scale.shows(*x)).fold(range, with);
     }
     let range = some(range, *scale == Scale::Log);
-    // a dot on the edge would be cut in two; a record begins where it begins
+    // a dot on the edge would be cut in two; a time axis begins with its record
     if dotted && *scale != Scale::Time { aired(range, scale) } else { range }
 }
 
@@ -48,7 +48,7 @@ fn aired((low, high): Range, scale: &Scale) -> Range {
     (low - air, high + air)
 }
 
-/// The range upwards.
+/// The vertical range.
 pub(crate) fn upward(panel: &Panel) -> Range {
     let curves = of_curves(panel);
     let range = panel.limits.iter().filter(|limit| is_near(limit.value, curves));
@@ -62,20 +62,20 @@ fn of_curves(panel: &Panel) -> Range {
     for curve in &panel.curves {
         let spread = curve.spread.iter().flat_map(|&(low, high)| [low, high]);
         let all = curve.points.iter().map(|point| point.1).chain(spread);
-        // stems stand on zero
+        // stems start at zero
         let foot = (curve.look == Look::Stems).then_some(0.0);
         range = all.chain(foot).filter(|y| panel.y.scale.shows(*y)).fold(range, with);
     }
     range
 }
 
-/// Whether a limit can be shown without making the curves flat. Where there are no curves, it can.
+/// True if a limit can be shown without flattening the curves, or if there are no curves.
 fn is_near(limit: f64, (low, high): Range) -> bool {
     let span = (high - low).max(1e-3 * high.abs());
     low > high || (limit >= low - FAR * span && limit <= high + FAR * span)
 }
 
-/// Limits that are too far from the curves to be shown.
+/// Limits that are too far away from the curves to be shown.
 pub(super) fn far(panel: &Panel) -> impl Iterator<Item = &crate::figure::Level> {
     let curves = of_curves(panel);
     panel.limits.iter().filter(move |limit| !is_near(limit.value, curves))

@@ -58,7 +58,7 @@ fn a_figure_says_names_units_limits_and_moments() {
     ] {
         assert!(texts.contains(&wanted), "{wanted}: {texts:?}");
     }
-    // both panels have the time, the lower one writes it
+    // the lower panel writes the time axis that both share
     assert_eq!(texts.iter().filter(|text| **text == "time [min]").count(), 1);
     if let Some(folder) = std::env::var_os("LPTN_PICTURES") {
         let folder = std::path::Path::new(&folder);
@@ -67,7 +67,7 @@ fn a_figure_says_names_units_limits_and_moments() {
     }
 }
 
-/// Everything that is drawn lies on the page.
+/// Every text is inside the page.
 #[test]
 fn nothing_leaves_the_page() {
     let scene = scene(&[heating()], 500.0);
@@ -97,7 +97,7 @@ fn a_figure_of_nothing_is_drawn() {
     assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
 }
 
-/// Two that want the same place share it around it; the ends of the range hold.
+/// Two names that want the same place share it around it; both stay inside the range.
 #[test]
 fn names_move_apart_and_stay_inside() {
     assert_eq!(apart(&[10.0, 50.0], 12.0, (0.0, 100.0)), [10.0, 50.0]);
@@ -114,7 +114,7 @@ fn texts_keep_to_their_room() {
     assert!(short.ends_with('\u{2026}') && width(&short, 12.0, false) <= 80.0, "{short}");
 }
 
-/// Of 100000 measured values the one that is wrong is seen, and the file stays small.
+/// The one outlier among 100000 measured values is drawn, and the file stays small.
 #[test]
 fn no_dot_that_sticks_out_is_lost() {
     let value = |i: u32| if i == 54_321 { 7.0 } else { 0.01 * f64::from(i % 7) };
@@ -140,7 +140,7 @@ fn a_figure_is_drawn_with_characters() {
     assert!(text.lines().all(|line| line.chars().count() <= 80), "{text}");
 }
 
-/// Names of limits of one value stood over each other.
+/// Names of limits of one value would cover each other.
 #[test]
 fn limits_of_one_value_share_a_line_of_text() {
     let limits = |count: usize| {

@@ -1,4 +1,4 @@
-//! What can be wrong with the call of a table.
+//! Mistakes in the call of a table.
 
 use std::ops::Range;
 
@@ -14,7 +14,7 @@ use crate::types::Type;
 /// A table and its name.
 type Named<'a> = (&'a str, &'a TableSymbol);
 
-/// A name that is called but is not a table: a parameter, or nothing at all.
+/// A name that is called but is not a table: a parameter, or an unknown name.
 pub(super) fn no_table(source: &Source<'_>, scope: &dyn Scope, id: Id) -> UnitError {
     let Node::Call { function: name, name_span, arguments } = source.tree.node(id) else {
         return UnitError::new(Kind::Empty, source.tree.span(id));
@@ -30,7 +30,7 @@ pub(super) fn no_table(source: &Source<'_>, scope: &dyn Scope, id: Id) -> UnitEr
     UnitError::new(Kind::UnknownFunction { name: name.clone(), suggestion }, name_span.clone())
 }
 
-/// A table whose name is near, as it is called.
+/// A table with a similar name, as a call.
 pub(super) fn near_table(scope: &dyn Scope, name: &str) -> Option<String> {
     let tables = scope.table_names();
     suggest(name, tables.iter().map(String::as_str)).map(|table| format!("{table}(..)"))
@@ -44,8 +44,8 @@ fn uncalled(source: &Source<'_>, id: Id, name: &str, arguments: &[Id]) -> String
     source.replace(id, &if whole { product } else { format!("({product})") })
 }
 
-/// A table with too many or too few arguments, or with none and without brackets. The given ones
-/// are kept if they are of the right types, those that it lacks become names in scope.
+/// A table with too many or too few arguments, or with none and without brackets. Given arguments
+/// of the right types are kept; names in scope replace the missing ones.
 pub(super) fn wrong_arity(
     source: &Source<'_>,
     scope: &dyn Scope,

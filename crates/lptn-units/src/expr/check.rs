@@ -16,7 +16,7 @@ use crate::rational::Rational;
 use crate::suggest::suggest;
 use crate::types::Type;
 
-/// What is known of a node.
+/// The results for a node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Checked {
     /// The type; `None` for the truth of a comparison.
@@ -25,7 +25,7 @@ pub(crate) struct Checked {
     pub(crate) constant: Option<f64>,
     /// The constant without rounding, if it is a short fraction.
     pub(crate) exact: Option<Rational>,
-    /// What a name stands for.
+    /// The symbol of a name.
     pub(crate) symbol: Option<Symbol>,
     /// Index of the table that is called.
     pub(crate) table: Option<usize>,
@@ -37,7 +37,7 @@ impl Checked {
     }
 }
 
-/// What is known of a tree.
+/// The results for a tree.
 pub(crate) struct Resolved {
     /// One entry per node, in the order of the tree.
     pub(crate) nodes: Vec<Checked>,
@@ -86,7 +86,7 @@ fn types(
 struct Checker<'a> {
     source: Source<'a>,
     scope: &'a dyn Scope,
-    /// `None` where an error was found, or in an operand.
+    /// `None` after an error, here or in an operand.
     found: Vec<Option<Checked>>,
     tables: Vec<NamedTable>,
     errors: Vec<UnitError>,
@@ -126,7 +126,7 @@ impl Checker<'_> {
         None
     }
 
-    /// The type of an operand; a comparison is none.
+    /// The type of an operand; an error if it is a comparison.
     fn value(&mut self, id: Id) -> Option<Type> {
         let found = self.found.get(id).copied().flatten()?;
         match found.ty {
@@ -274,7 +274,7 @@ impl Checker<'_> {
         Some(Checked { constant, ..Checked::of(ty) })
     }
 
-    /// The one type of all these values.
+    /// The common type of these values.
     fn common_type(&mut self, operation: &'static str, ids: &[Id]) -> Option<Type> {
         let mut types = Vec::new();
         for &id in ids {
@@ -303,7 +303,7 @@ impl Checker<'_> {
         Some(Checked { constant, ..Checked::of(ty) })
     }
 
-    /// Checks the whole against what is due.
+    /// Checks the whole against the expected type.
     fn result(&mut self, expected: Option<Type>) {
         let root = self.source.tree.root();
         let (Some(found), Some(wanted)) = (self.value(root), expected) else { return };

@@ -9,7 +9,7 @@ use super::program::{Arithmetic, NamedTable, Op, Operand, Program};
 use super::tree::{Comparison, Id, Node, Operator, Tree};
 use crate::types::Type;
 
-/// What the programs of one expression share.
+/// The common part of the programs of one expression.
 #[derive(Clone, Copy)]
 pub(super) struct Common<'a> {
     pub(super) tree: &'a Tree,
@@ -19,9 +19,9 @@ pub(super) struct Common<'a> {
 
 pub(super) struct Generator<'a> {
     common: Common<'a>,
-    /// Do comparisons load the slots meant for them?
+    /// True if comparisons load the slots meant for them.
     freezes: bool,
-    /// Inside how many comparisons are we?
+    /// Number of comparisons around the current node.
     comparing: usize,
     code: Vec<Op>,
     spans: Vec<Range<usize>>,
@@ -142,7 +142,7 @@ impl<'a> Generator<'a> {
         }
     }
 
-    /// Both sides of an operation, neither of them done.
+    /// Both sides of an operation, neither of them computed yet.
     pub(super) fn pair(&mut self, operator: Operator, left: Id, right: Id, origin: Id) {
         match (self.leaf(left), self.leaf(right), arithmetic(operator)) {
             (Some(operand), None, Some(arithmetic)) => {

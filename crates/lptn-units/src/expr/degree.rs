@@ -1,21 +1,21 @@
-//! How a program depends on a slot, from the form of its code.
+//! The dependence of a program on a slot, from the form of its code.
 
 use super::program::{Arithmetic, Op, Operand, Program};
 
-/// How a result depends on one variable.
+/// The dependence of a result on one variable.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum Degree {
-    /// Not at all.
+    /// No dependence.
     Constant,
-    /// As `a + b x`.
+    /// `a + b x`.
     Affine,
-    /// In any other way, as far as the form of the code tells.
+    /// Any other dependence, as far as the form of the code shows.
     Nonlinear,
 }
 
 impl Program {
-    /// How the result depends on one slot, the others held: an upper bound from the form of the
-    /// code.
+    /// The dependence of the result on one slot, with the others fixed: an upper bound from the
+    /// form of the code.
     pub fn degree_in(&self, slot: u32) -> Degree {
         degree(&self.code, slot)
     }
@@ -24,11 +24,11 @@ impl Program {
 /// A conditional part whose end has not been reached.
 struct Branch {
     condition: Degree,
-    /// Degree of the first branch and where the second ends, once the first is through.
+    /// Degree of the first branch, and the end of the second, once the first is through.
     first: Option<(Degree, usize)>,
 }
 
-/// Follows the code once, with degrees in place of values.
+/// Follows the code once, with degrees instead of values.
 fn degree(code: &[Op], slot: u32) -> Degree {
     let mut stack: Vec<Degree> = Vec::new();
     let mut branches: Vec<Branch> = Vec::new();
@@ -97,7 +97,7 @@ fn combine(arithmetic: Arithmetic, left: Degree, right: Degree) -> Degree {
     }
 }
 
-/// What a function makes of its argument.
+/// The degree of a function of an argument.
 fn bent(degree: Degree) -> Degree {
     if degree == Degree::Constant { Degree::Constant } else { Degree::Nonlinear }
 }

@@ -1,4 +1,4 @@
-//! Runs the code on bounds in place of numbers.
+//! Runs the code on bounds instead of numbers.
 
 use super::function::Function;
 use super::program::{Arithmetic, Op, Operand, Program};
@@ -7,22 +7,22 @@ use crate::table::LookupTable;
 use crate::taylor::Taylor;
 use crate::taylor::interval::Interval;
 
-/// How many times both branches of an `if` are followed, as both may be taken, before the result
-/// counts as unknown.
+/// Number of times that both branches of an `if` are followed, if both may be taken, before the
+/// result counts as unknown.
 const FORKS: u32 = 64;
 
 impl Program {
     /// Bounds on the result, and on its derivatives, while one slot runs through an interval and
-    /// the others stand still. They hold for every number of the interval, whatever the expression
-    /// does between any two of them: where [`Taylor::range`] is known, every evaluation succeeds.
+    /// the others are fixed. They apply to every number of the interval, whatever the expression
+    /// does between any two of them: if [`Taylor::range`] is known, every evaluation succeeds.
     pub fn enclose(&self, slot: u32, over: [f64; 2], slots: &[f64]) -> Taylor {
         let variable = Taylor::variable(over[0], over[1]);
         self.enclose_along(&|of| (of == slot).then_some(variable), slots)
     }
 
-    /// Bounds on the result, and on its derivatives, along a way: `known` gives the bounds of the
-    /// slots that move on it, by one variable; the others stand still. They hold as those of
-    /// [`Program::enclose`] do.
+    /// Bounds on the result, and on its derivatives, along a path: `known` gives the bounds of the
+    /// slots that vary on it, by one variable; the others are fixed. They apply like those of
+    /// [`Program::enclose`].
     pub fn enclose_along(&self, known: &dyn Fn(u32) -> Option<Taylor>, slots: &[f64]) -> Taylor {
         if self.slots.last().is_some_and(|last| *last as usize >= slots.len()) {
             return Taylor::unknown();
@@ -42,11 +42,11 @@ impl Program {
     }
 }
 
-/// A run that has come to some place.
+/// A run up to some operation.
 #[derive(Clone)]
 struct Run<'a> {
     program: &'a Program,
-    /// What is known of each slot.
+    /// The bounds on each slot.
     of: &'a dyn Fn(u32) -> Taylor,
     stack: Vec<Taylor>,
 }
@@ -128,7 +128,7 @@ impl Run<'_> {
     }
 }
 
-/// Whether a comparison holds for all values, or for none; `None` where it depends on them.
+/// True if a comparison holds for all values, false if for none; `None` if it depends on them.
 fn holds(comparison: Comparison, left: Interval, right: Interval) -> Option<bool> {
     if left == Interval::ALL || right == Interval::ALL {
         return None;
@@ -183,7 +183,7 @@ fn apply(arithmetic: Arithmetic, left: Taylor, right: Taylor) -> Taylor {
 mod tests {
     use super::*;
 
-    /// A comparison holds for all numbers of two ranges, for none or for some: their halves tell
+    /// A comparison holds for all numbers of two ranges, for none or for some: their halves show
     /// which.
     #[test]
     fn a_comparison_of_ranges_is_that_of_all_their_numbers() {

@@ -1,4 +1,4 @@
-//! What can go wrong where an expression is evaluated.
+//! Errors in the evaluation of an expression.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use crate::format::rounded;
 use crate::unit::Unit;
 
 crate::errors! {
-/// What can go wrong at run time; numbers are in SI units, spans are bytes of the expression.
+/// Errors at run time; numbers are in SI units, spans are bytes of the expression.
 #[derive(Clone, PartialEq, Debug)]
 #[non_exhaustive]
 pub enum EvalError {
@@ -21,7 +21,7 @@ pub enum EvalError {
         format!("`{function}` of {argument}"),
         help "keep the argument positive: \"max(x, 1e-9)\" with its unit";
     /// An argument, counted from 0, outside the knots of a table that has no value there; with the
-    /// unit in which the table gives this argument, where that is known.
+    /// unit in which the table gives this argument, if known.
     OutsideTable {
         table: String, argument: usize, value: f64, from: f64, to: f64, unit: Option<Box<Unit>>,
         span: Range<usize>
@@ -29,7 +29,7 @@ pub enum EvalError {
         outside(table, *argument, [*from, *to, *value], unit.as_deref()),
         help "stay inside, or give a [table] more points, or its end values with `outside = \"hold\"`";
     /// The result or one of its derivatives is infinite or not a number; with the part of the text
-    /// in which this came up first.
+    /// in which this first occurred.
     NotFinite { value: f64, span: Range<usize> } = "units::result_not_finite",
         format!("result {value} or its derivative is not finite"),
         help "keep divisors away from 0: \"max(x, 1e-9)\" with its unit";
@@ -63,7 +63,7 @@ fn outside(table: &str, argument: usize, range: [f64; 3], unit: Option<&Unit>) -
     )
 }
 
-/// A number with the unit in which people give it.
+/// A number with its usual unit.
 fn in_unit(si: f64, unit: Option<&Unit>, digits: usize) -> String {
     match unit {
         None => format!("{si}"),

@@ -26,16 +26,16 @@ fn is_frequency(ty: Type) -> bool {
 pub(crate) struct Source<'a> {
     pub(crate) text: &'a str,
     pub(crate) tree: &'a Tree,
-    /// What tries a correction; `None` while one is tried.
+    /// Tries a correction; `None` while one is tried.
     pub(crate) judge: Option<Judge<'a>>,
 }
 
-/// The names and the type that a corrected text has to do with.
+/// The names and the type that a corrected text must fit.
 #[derive(Clone, Copy)]
 pub(crate) struct Judge<'a> {
     pub(crate) scope: &'a dyn Scope,
     pub(crate) expected: Option<Type>,
-    /// What finds the mistakes of a tree.
+    /// Finds the mistakes of a tree.
     pub(crate) check: fn(Source<'_>, &dyn Scope, Option<Type>) -> Vec<UnitError>,
 }
 
@@ -62,19 +62,19 @@ impl Source<'_> {
         self.literal_number(id).map(|number| self.replace(id, &format!("{number} [{unit}]")))
     }
 
-    /// How many mistakes are left when these names and numbers are of another type; `None` while
-    /// that is tried.
+    /// Number of mistakes left if these names and numbers are of another type; `None` while that is
+    /// tried.
     fn mistakes_with(&self, ids: &[Id], ty: Type) -> Option<usize> {
         let Judge { scope, expected, check } = self.judge?;
         let tree = self.tree.with_literals(ids, ty);
         let source = Source { tree: &tree, judge: None, ..*self };
-        // a temperature that something is done to shows that it should have been a difference
+        // an operation on a temperature shows that it should have been a difference
         let weight =
             |error: &UnitError| if let Kind::AbsoluteOperand { .. } = error.kind { 2 } else { 1 };
         Some(check(source, scope, expected).iter().map(weight).sum())
     }
 
-    /// The text with the one frequency in it made a speed, where that makes it right.
+    /// The text with its one frequency made a speed, if that makes it right.
     fn turning(&self) -> Option<String> {
         let scope = self.judge?.scope;
         let frequency = |node: &Node| match node {
@@ -97,8 +97,8 @@ impl Source<'_> {
         Some(text.trim().to_owned())
     }
 
-    /// Whether a frequency of this type counts revolutions, or radians because it was multiplied
-    /// by 2π or is a power over a torque; `None` if an expression with π leaves both open.
+    /// `rev` if a frequency of this type counts revolutions, `rad` if it was multiplied by 2π or is
+    /// a power over a torque; `None` if an expression with π leaves both open.
     fn turn(&self, ty: Type) -> Option<&'static str> {
         if ty.dimension.kin() == Kin::Turning {
             return Some("rad");
@@ -129,8 +129,8 @@ impl Source<'_> {
         self.relabel(id, if fahrenheit { "degR" } else { "K" })
     }
 
-    /// An absolute temperature that something was to be done to. `signed` tells that a literal
-    /// would be right with its sign directly before it.
+    /// An absolute temperature in an operation. `signed` is true if a literal would be right with
+    /// its sign directly before it.
     pub(crate) fn absolute(&self, id: Id, operation: &'static str, signed: bool) -> UnitError {
         let negative = || format!("-{}", self.text_of(id));
         let fix = match signed && self.literal_number(id).is_some() {
@@ -154,7 +154,7 @@ impl Source<'_> {
         UnitError::new(kind, self.tree.span(id))
     }
 
-    /// `(a + b) / 2` and `0.5 * (a + b)` as `mean(a, b)`, which temperatures have too.
+    /// `(a + b) / 2` and `0.5 * (a + b)` as `mean(a, b)`, which also takes temperatures.
     pub(crate) fn as_mean(&self, a: Id, b: Id) -> Option<String> {
         let nodes = || self.tree.nodes().enumerate().map(|(id, (node, _))| (id, node));
         let sum = nodes()
@@ -207,14 +207,14 @@ impl Source<'_> {
         }
     }
 
-    /// A node as it can stand in a product.
+    /// A node as a factor of a product.
     pub(crate) fn factor(&self, id: Id) -> String {
         let part = self.text_of(id);
         let sum = matches!(self.tree.node(id), Node::Binary(..) | Node::Compare(..));
         if sum { format!("({part})") } else { part.to_owned() }
     }
 
-    /// The text with this node made what is wanted, where there is a way that is probably meant.
+    /// The text with this node converted to the wanted type, if there is a probable way.
     pub(crate) fn converted(&self, id: Id, found: Type, wanted: Type) -> Option<String> {
         let part = self.factor(id);
         if is_frequency_for_rotation(found, wanted) {
@@ -237,7 +237,7 @@ impl Source<'_> {
         }
     }
 
-    /// The text with this node divided by a value of its own kind.
+    /// The text with this node divided by a value of the same kind.
     pub(crate) fn divided(&self, id: Id, ty: Type) -> String {
         let part = self.factor(id);
         let scale = if ty == Type::of(Dimension::TIME) { 60 } else { 1 };
@@ -284,7 +284,7 @@ impl Source<'_> {
         UnitError::new(kind, span)
     }
 
-    /// `3/8 [in]`, a number over inches, as `0.375 [in]`, where inches are due.
+    /// `3/8 [in]`, a number over inches, as `0.375 [in]`, if inches are expected.
     fn fraction(&self, root: Id, wanted: Type) -> Option<String> {
         let Node::Binary(Operator::Divide, above, below) = self.tree.node(root) else {
             return None;
@@ -300,7 +300,7 @@ impl Source<'_> {
         fits.then(|| format!("{} [{unit}", number(value / divisor)))
     }
 
-    /// `T - 5 [degC]`, where a temperature is due, as `T - 5 [K]`.
+    /// `T - 5 [degC]` as `T - 5 [K]`, if a temperature is expected.
     fn less_a_difference(&self, root: Id) -> Option<String> {
         let Node::Binary(Operator::Subtract, _, right) = self.tree.node(root) else { return None };
         let right_then = self.mistakes_with(&[*right], Type::of(Dimension::TEMPERATURE)) == Some(0);
@@ -356,8 +356,8 @@ impl Source<'_> {
         }
     }
 
-    /// The unit of a number that is added to a temperature or subtracted: a difference, unless it
-    /// is wrong that the outcome is a temperature again, as in `0.004 [1/K] * (T - 20)`.
+    /// The unit of a number that is added to a temperature or subtracted: a difference, unless the
+    /// result must not be a temperature again, as in `0.004 [1/K] * (T - 20)`.
     fn beside_temperature(&self, id: Id) -> String {
         let mistakes = |ty| self.mistakes_with(&[id], ty).unwrap_or(0);
         let absolute =

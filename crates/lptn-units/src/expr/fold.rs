@@ -1,4 +1,4 @@
-//! Values of constant parts. What would fail is left to fail at run time, where it is reported.
+//! Values of constant parts. Failures are left to run time, where they are reported.
 
 use super::function::Function;
 use super::tree::Operator;

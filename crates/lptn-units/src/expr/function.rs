@@ -34,7 +34,7 @@ const ALL: [(&str, Function); 13] = [
     ("absolute", Function::Absolute),
 ];
 
-/// Is this the name of a built-in function?
+/// True if this is the name of a built-in function.
 pub fn is_function(name: &str) -> bool {
     find(name).is_some()
 }
@@ -52,7 +52,7 @@ impl Function {
         ALL.iter().find(|(_, function)| *function == self).map_or("", |(name, _)| name)
     }
 
-    /// In words, if `count` arguments are not what it takes.
+    /// The right number of arguments in words, if `count` is wrong.
     pub(crate) fn wrong_arity(self, count: usize) -> Option<&'static str> {
         let (right, words) = match self {
             Self::Min | Self::Max => (count >= 2, "two or more arguments"),

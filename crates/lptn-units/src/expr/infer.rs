@@ -1,4 +1,4 @@
-//! What a name must be for an expression to be of the type that is due.
+//! Dimensions of unknown names, from the expected type of an expression.
 
 use super::fold;
 use super::function::{self, Function};
@@ -8,8 +8,8 @@ use crate::dimension::Dimension;
 use crate::rational::Rational;
 use crate::types::Type;
 
-/// The names that `scope` does not know, in order of appearance, each with its dimension where the
-/// rest of the expression leaves no choice.
+/// The names that `scope` does not know, in order of appearance, each with its dimension if the
+/// rest of the expression determines it.
 pub(crate) fn unknown_names(
     tree: &Tree,
     scope: &dyn Scope,
@@ -126,11 +126,11 @@ impl Inference<'_> {
         }
     }
 
-    /// Goes from the whole to its parts with what is due, and settles the names it meets.
+    /// Goes from the whole to its parts with the expected dimensions, and settles names.
     fn settle(&mut self, known: &[Option<Dimension>], expected: Dimension) {
         let mut due: Vec<Option<Dimension>> = vec![None; known.len()];
         due[self.tree.root()] = Some(expected);
-        // operands stand before what uses them
+        // operands come before the nodes that use them
         for id in (0..known.len()).rev() {
             match self.tree.node(id) {
                 Node::Name(name) => {
@@ -151,7 +151,7 @@ impl Inference<'_> {
         }
     }
 
-    /// What is due from the operands of a node that is to be of dimension `due`.
+    /// The expected dimensions of the operands of a node of dimension `due`.
     fn operands(
         &self,
         node: &Node,

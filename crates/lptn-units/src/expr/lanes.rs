@@ -1,8 +1,8 @@
 //! One program on the slots of several elements at once.
 //!
-//! Each operation is read once and done for all lanes, with the same arithmetic as
-//! [`Program::eval`] does it, so that the results are the same to the last digit. Where one lane
-//! has an error all are given up, and whoever asked evaluates them one by one to learn of it.
+//! Each operation is read once and done for all lanes, with the same arithmetic as in
+//! [`Program::eval`], so that the results are the same to the last digit. If one lane has an error,
+//! all are abandoned, and the caller evaluates them one by one to find it.
 
 use std::sync::Arc;
 
@@ -11,14 +11,14 @@ use super::program::{Arithmetic, Op, Operand, Program};
 use crate::scalar::Scalar;
 use crate::table::LookupTable;
 
-/// How many elements are evaluated together.
+/// Number of elements that are evaluated together.
 pub const LANES: usize = 8;
 
-/// A number of each of them.
+/// A number for each of them.
 pub type Lanes = [f64; LANES];
 
 impl Program {
-    /// Whether it has no branch and no table of two arguments, so that all lanes take one way.
+    /// True if it has no branch and no table of two arguments, so that all lanes take one path.
     pub fn runs_on_lanes(&self) -> bool {
         let straight = |op: &Op| {
             !matches!(
@@ -29,7 +29,7 @@ impl Program {
         self.code.iter().all(straight)
     }
 
-    /// Whether it does the same with the same slots, whatever its text.
+    /// True if it does the same with the same slots, whatever its text.
     pub fn does_the_same(&self, other: &Self) -> bool {
         let tables = || self.tables.iter().zip(other.tables.iter());
         self.code == other.code
@@ -37,8 +37,8 @@ impl Program {
             && tables().all(|(own, others)| Arc::ptr_eq(&own.table, &others.table))
     }
 
-    /// The values for the slots that `load` gives, in SI units; `None` where one of them is not
-    /// finite or cannot be had, or the program does not run on lanes.
+    /// The values for the slots that `load` gives, in SI units; `None` if one of them is not finite
+    /// or has an error, or the program does not run on lanes.
     pub fn eval_lanes(&self, load: impl Fn(u32) -> Lanes, stack: &mut Vec<Lanes>) -> Option<Lanes> {
         let operand = |operand: Operand| match operand {
             Operand::Constant(value) => [value; LANES],
@@ -125,7 +125,7 @@ fn call(function: Function, lanes: Lanes) -> Option<Lanes> {
         Function::Sin => lanes.map(f64::sin),
         Function::Cos => lanes.map(f64::cos),
         Function::Tanh => lanes.map(f64::tanh),
-        // operations of their own, or the value itself in K
+        // separate operations, or the value itself in K
         Function::Min
         | Function::Max
         | Function::Mean

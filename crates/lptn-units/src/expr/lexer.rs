@@ -125,7 +125,7 @@ impl Lexer<'_> {
         let follows =
             matches!(self.tokens.last(), Some((Token::Name(_) | Token::Unit(_) | Token::Close, _)));
         let in_name = self.text.get(..span.start).is_some_and(|t| t.ends_with(is_identifier_part));
-        // a unit where a value is due is one of that unit: `[W]` as `1 [W]`
+        // a unit instead of a value means one of that unit: `[W]` as `1 [W]`
         let replacement = match self.text.get(span.clone()) {
             Some(unit) if !follows && !in_name => format!("1 {unit}"),
             _ => String::new(),
@@ -134,7 +134,7 @@ impl Lexer<'_> {
         UnitError::new(UnitErrorKind::MisplacedBracket { fix }, span)
     }
 
-    /// The number before an absolute unit, with its sign, is a temperature above 0 K.
+    /// Checks that the number before an absolute unit, with its sign, is a temperature above 0 K.
     fn absolute_zero(&self, unit: &Unit) -> Result<(), UnitError> {
         let [before @ .., (Token::Number(number), span)] = self.tokens.as_slice() else {
             return Ok(());
@@ -197,7 +197,7 @@ impl Lexer<'_> {
     }
 }
 
-/// Is the last of these tokens, a sign, at the start of an operand, and not between two?
+/// True if the last of these tokens, a sign, is at the start of an operand, not between two.
 fn starts_operand(tokens: &[Spanned]) -> bool {
     let before = tokens.len().checked_sub(2).and_then(|i| tokens.get(i));
     !matches!(before, Some((Token::Number(_) | Token::Unit(_) | Token::Name(_) | Token::Close, _)))

@@ -46,19 +46,19 @@ pub use trend::Trend;
 #[derive(Clone, Debug)]
 pub struct Expression {
     text: String,
-    /// The part of the text that this expression is; the whole unless it was split off.
+    /// The part of the text with this expression; the whole unless it was split off.
     part: Range<usize>,
     tree: Tree,
-    /// Names that stand for others, in the order of the text.
+    /// Places of renamed names, with the new ones, in the order of the text.
     renamed: Vec<(Range<usize>, String)>,
 }
 
 impl Expression {
     /// Parses an expression.
     ///
-    /// Precedence, from the loosest: comparison, `+ -`, `* /`, sign, `^` (right to left). Units
-    /// stand in brackets directly after a number, `5 [W/K]`. A sign directly before a number
-    /// belongs to it (`-20 [degC]`), for which reason `-2^2` is refused.
+    /// Precedence, from the loosest: comparison, `+ -`, `* /`, sign, `^` (right to left). Units are
+    /// in brackets directly after a number, `5 [W/K]`. A sign directly before a number belongs to
+    /// it (`-20 [degC]`), so `-2^2` is refused.
     ///
     /// # Errors
     ///
@@ -68,9 +68,9 @@ impl Expression {
         Ok(Self { text: text.to_owned(), part: 0..text.len(), tree, renamed: Vec::new() })
     }
 
-    /// The same expression with other names: where `meaning` gives a name for one, in the place of
-    /// a value or of a table that is called, that name is meant. Spans still count in the text that
-    /// was parsed; [`Program::text`] has the new names.
+    /// The same expression with other names: `meaning` gives the new name for one, if any, for
+    /// values and for tables that are called. Spans still count in the text that was parsed;
+    /// [`Program::text`] has the new names.
     #[must_use]
     pub fn renamed(mut self, meaning: &dyn Fn(&str) -> Option<String>) -> Self {
         let renamed = self.tree.rename(meaning);
@@ -79,7 +79,7 @@ impl Expression {
         self
     }
 
-    /// The text with the names that are meant, for a reader who does not know what they stand for.
+    /// The text with the new names, for a reader who does not know the old ones.
     pub fn meant(&self) -> String {
         let (mut text, mut at) = (String::new(), self.part.start);
         for (span, name) in self.renamed.iter().filter(|(span, _)| self.part.contains(&span.start))
@@ -108,9 +108,9 @@ impl Expression {
     }
 
     /// The names that `scope` does not know, in order of appearance, each with the dimension it
-    /// must have so that the whole is of type `expected`: with a rotation `omega`, power is due
-    /// from `a * omega + b * omega^3` only if `a` is in W s/rad and `b` in W s^3/rad^3. `None`
-    /// where the expression leaves a choice, as in `a * b`.
+    /// must have so that the whole is of type `expected`: with a rotation `omega`,
+    /// `a * omega + b * omega^3` is a power only if `a` is in W s/rad and `b` in W s^3/rad^3.
+    /// `None` if the expression leaves a choice, as in `a * b`.
     pub fn unknown_names(
         &self,
         scope: &dyn Scope,
@@ -131,7 +131,7 @@ impl Expression {
         called.collect()
     }
 
-    /// Everything that is called, functions and tables, with the number of its arguments.
+    /// All calls, of functions and tables, with the number of their arguments.
     pub fn called(&self) -> impl Iterator<Item = (&str, usize)> {
         self.tree.nodes().filter_map(|(node, _)| match node {
             Node::Call { function, arguments, .. } => Some((function.as_str(), arguments.len())),
@@ -139,7 +139,7 @@ impl Expression {
         })
     }
 
-    /// The comparisons by `==` or `!=` in which this name occurs: where it is a time, they hold, or
+    /// The comparisons by `==` or `!=` in which this name occurs: if it is a time, they hold, or
     /// fail to, for a moment that has no length.
     pub fn equalities(&self, name: &str) -> Vec<Range<usize>> {
         let named = |node: &Node| matches!(node, Node::Name(found) if found == name);
@@ -154,7 +154,7 @@ impl Expression {
 
     /// Resolves the names, checks the dimensions and translates to flat code.
     ///
-    /// `expected` is the type that is due, where it is known; see [`Type::conforms_to`].
+    /// `expected` is the expected type, if known; see [`Type::conforms_to`].
     ///
     /// # Errors
     ///
@@ -180,8 +180,8 @@ impl Expression {
         Some((self.part(left), *comparison, self.part(right)))
     }
 
-    /// For `f(a, b)`: what is called, and its arguments as expressions. `None` if the expression as
-    /// a whole is not a call. Spans still count from the start of the original text.
+    /// For `f(a, b)`: the name, and the arguments as expressions. `None` if the expression as a
+    /// whole is not a call. Spans still count from the start of the original text.
     pub fn split_call(&self) -> Option<(&str, Vec<Expression>)> {
         let Node::Call { function, arguments, .. } = self.tree.node(self.tree.root()) else {
             return None;
@@ -191,7 +191,7 @@ impl Expression {
         Some((function, parts.map(|tree| self.part(tree)).collect()))
     }
 
-    /// A part of this expression, which is one by itself.
+    /// A part of this expression as a separate one.
     fn part(&self, tree: Tree) -> Self {
         Self {
             part: tree.span(tree.root()),

@@ -78,7 +78,7 @@ impl Parser<'_> {
         start: usize,
         floor: u8,
     ) -> Result<Option<Id>, UnitError> {
-        // The right side of a power may begin with a sign and hold another power: 2^-1, 2^3^2.
+        // The right side of a power may begin with a sign and contain another power: 2^-1, 2^3^2.
         let (strength, right_floor) = match operator {
             Operator::Add | Operator::Subtract => (SUM, SUM),
             Operator::Multiply | Operator::Divide => (PRODUCT, PRODUCT),

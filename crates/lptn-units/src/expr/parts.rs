@@ -1,4 +1,4 @@
-//! Programs of parts of an expression, whose roots are where the whole has a kink or a jump.
+//! Programs of parts of an expression; the whole has a kink or a jump at their roots.
 
 use std::sync::Arc;
 
@@ -10,8 +10,8 @@ use super::tree::{Id, Node, Operator, Tree};
 use crate::dimension::Dimension;
 use crate::types::Type;
 
-/// Most arguments of a `min` or `max` of which every pair has a program: pairs grow with the
-/// square.
+/// Most arguments of a `min` or `max` for which every pair has a program: the number of pairs grows
+/// with the square.
 const MOST_IN_PAIRS: usize = 16;
 
 /// The program of a checked tree, with those of its parts.
@@ -111,7 +111,7 @@ impl Parts<'_> {
         part.finish(self.text, self.type_of_difference(left[0], right[0]))
     }
 
-    /// Of two types that go together, the one without the spare radian.
+    /// The one of two conforming types that lacks the spare radian.
     fn type_of_difference(&self, left: Id, right: Id) -> Type {
         let checked = self.common.checked;
         let (Some(a), Some(b)) = (checked[left].ty, checked[right].ty) else { return Type::SCALAR };

@@ -1,4 +1,4 @@
-//! Which pieces of its kinks and tables a program goes through, without its value.
+//! The pieces of kinks and tables that a program goes through, without its value.
 
 use super::program::{Program, TableCall};
 
@@ -6,12 +6,12 @@ use super::program::{Program, TableCall};
 const FACTOR: u64 = 0x517c_c1b7_2722_0a95;
 
 impl Program {
-    /// A number for the sides of its kinks and the pieces of its tables where these slots are, of
-    /// those that read a slot for which `varies` holds. `None` if one of them cannot be evaluated,
-    /// or the program has branches.
+    /// A number for the sides of its kinks and the pieces of its tables at these slots, of those
+    /// that read a slot for which `varies` holds. `None` if one of them cannot be evaluated, or the
+    /// program has branches.
     ///
-    /// Where two numbers differ, a kink may lie between; where they are the same, and every
-    /// argument goes one way, none does.
+    /// If two numbers differ, a kink may lie between. If they are the same, and every argument is
+    /// monotonic, none does.
     pub fn pieces(
         &self,
         slots: &[f64],
@@ -37,7 +37,7 @@ impl Program {
     }
 }
 
-/// The order counts.
+/// The order matters.
 fn mixed(number: u64, piece: u64) -> u64 {
     (number.rotate_left(5) ^ (piece + 1)).wrapping_mul(FACTOR)
 }

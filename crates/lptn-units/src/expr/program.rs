@@ -1,4 +1,4 @@
-//! Flat code: what an expression becomes.
+//! Flat code: the compiled form of an expression.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -9,7 +9,7 @@ use crate::table::LookupTable;
 use crate::types::Type;
 use crate::unit::Unit;
 
-/// Where an operation finds its right operand.
+/// The right operand of an operation.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Operand {
     Constant(f64),
@@ -53,7 +53,7 @@ pub(crate) enum Op {
     /// Goes on at the target unless `popped comparison accumulator` holds.
     JumpUnless(Comparison, usize),
     Jump(usize),
-    /// Goes on at the target if the slot holds 0; drops what was compared.
+    /// Goes on at the target if the slot contains 0; drops the compared value.
     JumpUnlessSet(u32, usize),
 }
 
@@ -62,21 +62,21 @@ pub(crate) enum Op {
 pub(crate) struct NamedTable {
     pub(crate) name: String,
     pub(crate) table: Arc<LookupTable>,
-    /// Those of [`crate::TableSymbol::units`].
+    /// The units of [`crate::TableSymbol::units`].
     pub(crate) units: Arc<[Unit]>,
 }
 
-/// One call of a table, and where its arguments are.
+/// One call of a table, with its arguments.
 #[derive(Clone, Debug)]
 pub struct TableCall {
     /// The table that is called.
     pub table: Arc<LookupTable>,
     /// One program per argument. It loads the ordinary slots of its symbols, inside comparisons
-    /// too, so that the roots of its value minus a knot are where the call crosses the knot.
+    /// too, so that the call crosses a knot at a root of its value minus the knot.
     pub arguments: Vec<Program>,
 }
 
-/// A compiled expression. It holds no reference to the network and can be shared between threads.
+/// A compiled expression. It has no reference to the network and can be shared between threads.
 #[derive(Clone, Debug)]
 pub struct Program {
     pub(crate) text: Arc<str>,
@@ -104,7 +104,7 @@ impl Program {
         self.slots.clone()
     }
 
-    /// The most values that wait on the stack; a stack with this capacity is never reallocated.
+    /// Most values on the stack at once; a stack with this capacity is never reallocated.
     pub fn stack_size(&self) -> usize {
         self.stack_size
     }
@@ -115,15 +115,15 @@ impl Program {
     }
 
     /// One program per comparison, nested ones included: left side minus right side, in the order
-    /// of the text. They load the ordinary slots of their symbols, so that a root of theirs is
-    /// where the truth of the comparison changes.
+    /// of the text. They load the ordinary slots of their symbols, so that the truth of the
+    /// comparison changes at a root of theirs.
     pub fn comparisons(&self) -> &[Program] {
         &self.comparisons
     }
 
-    /// The same program with the truth of some comparisons read from slots, 0 for no: `slot_of` is
-    /// asked for each of [`Program::comparisons`] by its position. Comparisons inside others are
-    /// held in these too.
+    /// The same program with the truth of some comparisons read from slots, 0 for false: `slot_of`
+    /// gives the slot of each of [`Program::comparisons`] by its position. Comparisons inside
+    /// others are fixed in these too.
     #[must_use]
     pub fn with_held_comparisons(&self, slot_of: &mut dyn FnMut(usize) -> Option<u32>) -> Self {
         let mut held = self.clone();
@@ -150,8 +150,8 @@ impl Program {
         self.slots.dedup();
     }
 
-    /// Whether there may be something narrow in it: a table, a kink, a quotient, or a function that
-    /// is not about a straight line or a low power.
+    /// True if it may have narrow features: a table, a kink, a quotient, or a function that is not
+    /// almost a straight line or a low power.
     pub fn may_be_narrow(&self) -> bool {
         let narrow = |op: &Op| match *op {
             Op::Table(_)
@@ -170,20 +170,19 @@ impl Program {
         self.code.iter().any(narrow)
     }
 
-    /// How the two sides of each of [`Program::comparisons`] are compared.
+    /// The relations between the two sides of each of [`Program::comparisons`].
     pub fn relations(&self) -> &[Comparison] {
         &self.relations
     }
 
-    /// Where the result has a kink: for every `abs` its argument, for every pair of arguments of a
-    /// `min` or `max` their difference, inner calls before those around them and otherwise in the
-    /// order of the text. They load the ordinary slots of their symbols, so that a kink is at a
-    /// root of theirs. Not every root is a kink: the pair may not be the smallest or largest, the
-    /// branch not the one that is taken; there a program may also fail to evaluate.
+    /// Programs for the kinks of the result: for every `abs` its argument, for every pair of
+    /// arguments of a `min` or `max` their difference, inner calls before those around them and
+    /// otherwise in the order of the text. They load the ordinary slots of their symbols, so that a
+    /// kink is at a root of theirs. Not every root is a kink: the pair may not be the smallest or
+    /// largest, the branch not the one that is taken; there a program may also fail to evaluate.
     ///
-    /// Pairs of constants are left out. Of more than 16 arguments the lists are halved until they
-    /// have no more; between halves stands the difference of their extremes, whose roots are the
-    /// kinks between them.
+    /// Pairs of constants are left out. Lists of more than 16 arguments are halved until they have
+    /// no more; the difference of the halves' extremes gives the kinks between them.
     pub fn kinks(&self) -> &[Program] {
         &self.kinks
     }

@@ -3,26 +3,26 @@
 use crate::table::TableSymbol;
 use crate::types::Type;
 
-/// Names with a meaning of their own, which no parameter, signal, control or table may take: the
-/// time `t`, `pi`, the temperatures of the element at hand, and all functions.
+/// Names with a fixed meaning, which no parameter, signal, control or table may take: the time `t`,
+/// `pi`, the temperatures of the element at hand, and all functions.
 pub const RESERVED: &[&str] = &[
     "t", "pi", "T", "T_from", "T_to", "T_mean", "dT", "abs", "min", "max", "mean", "sqrt", "exp",
     "ln", "sin", "cos", "tanh", "if", "kelvin", "absolute",
 ];
 
-/// A name in scope: where its value is found and what it is.
+/// A name in scope: the slot of its value, and its type.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub struct Symbol {
     /// Index of the value among the slots given to [`Program::eval`](crate::Program::eval).
     pub slot: u32,
-    /// The type of the value that the name stands for.
+    /// The type of its value.
     pub ty: Type,
     /// Index to load instead inside the two operands of a comparison. An integrator keeps the truth
     /// of comparisons fixed between events by freezing the values in these slots.
     pub in_comparison: Option<u32>,
 }
 
-/// No names but those of functions: the scope of an expression that is a constant.
+/// No names except functions: the scope of a constant expression.
 #[derive(Clone, Copy, Debug)]
 pub struct NoNames;
 

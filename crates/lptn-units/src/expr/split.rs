@@ -4,25 +4,25 @@ use std::sync::Arc;
 
 use super::program::{Arithmetic, Op, Operand, Program};
 
-/// What a slot is to [`Program::split`].
+/// The role of a slot in [`Program::split`].
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum SlotKind {
     /// It never changes.
     Fixed,
-    /// It changes, and belongs to the parts that are looked for.
+    /// It changes, and belongs to the wanted parts.
     Varying,
     /// It does not belong to them.
     Foreign,
 }
 
-/// What [`Program::split`] finds.
+/// The result of [`Program::split`].
 #[derive(Clone, Debug, Default)]
 pub struct Split {
     /// The largest parts that read no foreign slot and some varying one, in the order of the code.
     /// Parts of branches that are not taken may fail to evaluate.
     pub parts: Vec<Program>,
-    /// Whether something other than a sum, a product or a choice is made of a value that reads both
-    /// varying and foreign slots, so that the parts do not tell how the whole varies.
+    /// True if something other than a sum, a product or a choice uses a value that reads both
+    /// varying and foreign slots, so that the parts do not show how the whole varies.
     pub entangled: bool,
 }
 
@@ -38,7 +38,7 @@ struct Held {
 /// A conditional part whose end has not been reached.
 struct Branch {
     condition: Held,
-    /// The first branch and where the second ends, once the first is through.
+    /// The first branch and the end of the second, once the first is through.
     first: Option<(Held, usize)>,
 }
 
@@ -52,7 +52,7 @@ struct Walk<'a> {
 
 impl Program {
     /// The parts that read no slot of the kind [`SlotKind::Foreign`]: in `a(t) * (1 + b * T)` with
-    /// `T` foreign it is `a(t)`, wherever it stands.
+    /// `T` foreign it is `a(t)`, in any position.
     pub fn split(&self, kind: &dyn Fn(u32) -> SlotKind) -> Split {
         let mut walk = Walk {
             program: self,
@@ -65,7 +65,7 @@ impl Program {
         walk.found
     }
 
-    /// What tells it from other programs over the same slots and tables, whatever the text.
+    /// A text that distinguishes it from other programs over the same slots and tables.
     pub fn fingerprint(&self) -> String {
         let tables: Vec<&str> = self.tables.iter().map(|named| named.name.as_str()).collect();
         format!("{:?} {tables:?}", self.code)
@@ -186,7 +186,7 @@ impl Walk<'_> {
         self.stack.pop().unwrap_or(or)
     }
 
-    /// Something bends this value.
+    /// A nonlinear operation on this value.
     fn join(&mut self, value: Option<Held>) {
         self.found.entangled |= value.is_some_and(|value| value.varies && value.foreign);
     }
@@ -229,12 +229,12 @@ impl Walk<'_> {
         current
     }
 
-    /// Keeps a value that is as large as it can be.
+    /// Keeps a value of maximal size.
     fn keep(&mut self, value: Held) {
         if value.foreign || !value.varies {
             return;
         }
-        // an operand that is only a name has no code of its own
+        // an operand that is only a name has no separate code
         let part = if value.from < value.to {
             self.program.part(value.from, value.to)
         } else {

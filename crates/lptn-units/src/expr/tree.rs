@@ -1,5 +1,5 @@
-//! The syntax tree, in one list: operands stand before what uses them, so that no walk over it
-//! recurses.
+//! The syntax tree, in one list: operands come before the nodes that use them, so that no walk over
+//! it recurses.
 
 use std::fmt;
 use std::ops::Range;
@@ -60,12 +60,12 @@ pub enum Comparison {
     /// `!=`
     NotEqual = "!=",
 }
-/// How it is written.
+/// Its symbol.
 pub(crate) fn symbol;
 }
 
 impl Comparison {
-    /// Does the comparison hold?
+    /// True if the comparison holds.
     #[expect(clippy::float_cmp, reason = "`==` in an expression means equal to the last bit")]
     pub fn holds(self, left: f64, right: f64) -> bool {
         match self {
@@ -109,12 +109,12 @@ impl Tree {
         self.nodes.len() - 1
     }
 
-    /// Operands before what uses them.
+    /// The nodes, operands first.
     pub(crate) fn nodes(&self) -> impl Iterator<Item = &(Node, Range<usize>)> {
         self.nodes.iter()
     }
 
-    /// The same tree with literals of a type in the place of some nodes that have no operands.
+    /// The same tree with literals of a type instead of some nodes without operands.
     pub(crate) fn with_literals(&self, ids: &[Id], ty: Type) -> Self {
         let mut tree = self.clone();
         for &id in ids {
@@ -123,8 +123,7 @@ impl Tree {
         tree
     }
 
-    /// Puts other names in the place of those that have a meaning; where these stand, and what they
-    /// are now.
+    /// Renames the names that have a meaning; returns their places and the new names.
     pub(crate) fn rename(
         &mut self,
         meaning: &dyn Fn(&str) -> Option<String>,
@@ -146,8 +145,8 @@ impl Tree {
         renamed
     }
 
-    /// The nodes from `first` to `root`, where these are a tree of their own: all operands of a
-    /// node stand directly before it.
+    /// The nodes from `first` to `root`, if these are a separate tree: all operands of a node are
+    /// directly before it.
     pub(crate) fn subtree(&self, first: Id, root: Id) -> Self {
         let mut nodes = self.nodes[first..=root].to_vec();
         for (node, _) in &mut nodes {

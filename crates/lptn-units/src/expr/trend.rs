@@ -1,12 +1,10 @@
-//! Whether a result goes one way with a variable, from the form of its code: what cannot be told is
-//! not known.
+//! Monotonicity of a result in a variable, from the form of its code, as far as that shows it.
 
 use super::function::Function;
 use super::program::{Arithmetic, Op, Operand, Program};
 use crate::table::LookupTable;
 
-/// What is known of a value that depends on one variable: the range it stays in, and whether it
-/// goes one way.
+/// Known properties of a value that depends on one variable: its range, and its monotonicity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trend {
     /// It is never less than this.
@@ -38,7 +36,7 @@ impl Trend {
     /// A number whose magnitude is the variable.
     pub const SIGNED: Self = Self { signed: true, ..Self::UNKNOWN };
 
-    /// Something that does not depend on the variable and is not known otherwise.
+    /// A value that does not depend on the variable and is not known otherwise.
     pub const HELD: Self = Self { rises: true, falls: true, ..Self::UNKNOWN };
 
     /// A constant.
@@ -54,7 +52,7 @@ impl Trend {
                 && other.low.to_bits() == other.high.to_bits();
             return if both { Self::constant(self.low * other.low) } else { Self::HELD };
         }
-        // of what is 0 and nothing else the negative is the same again
+        // 0 alone is excluded: its negative is the same again
         if self.high <= 0.0 && self.low < 0.0 {
             return self.negated().times(other).negated();
         }
@@ -77,13 +75,13 @@ impl Trend {
         let (held, varies) = if self.is_held() { (self, other) } else { (other, self) };
         let signed = held.is_held() && varies.signed;
         match held.is_held() && held.low >= 0.0 {
-            // the sign of what varies is not known, its way is
+            // the sign of the varying value is not known, its trend is
             true => Self { rises: varies.rises, falls: varies.falls, signed, ..Self::UNKNOWN },
             false => Self { signed, ..Self::UNKNOWN },
         }
     }
 
-    /// Whether it does not depend on the variable.
+    /// True if it does not depend on the variable.
     pub fn is_held(self) -> bool {
         self.rises && self.falls
     }
@@ -128,7 +126,7 @@ impl Trend {
         }
     }
 
-    /// What a function that never falls makes of it.
+    /// The trend of a function that never falls.
     fn through(self, f: fn(f64) -> f64) -> Self {
         let bound = |x: f64, none: f64| if f(x).is_nan() { none } else { f(x) };
         let (low, high) = (bound(self.low, f64::NEG_INFINITY), bound(self.high, f64::INFINITY));
@@ -189,8 +187,8 @@ impl Trend {
 }
 
 impl Program {
-    /// How the result goes with a variable: `of` says what is known of each slot. Behind a
-    /// condition nothing is known.
+    /// The trend of the result in a variable: `of` gives that of each slot. After a condition
+    /// nothing is known.
     pub fn trend(&self, of: &dyn Fn(u32) -> Trend) -> Trend {
         let operand = |operand: Operand| match operand {
             Operand::Constant(value) => Trend::constant(value),
@@ -223,7 +221,7 @@ impl Program {
         now
     }
 
-    /// What a table of one argument makes of it.
+    /// The trend of a table of one argument.
     fn looked_up(&self, index: usize, argument: Trend) -> Trend {
         let table = match self.tables.get(index).map(|named| &*named.table) {
             Some(LookupTable::One(table)) => table,

@@ -1,31 +1,31 @@
-//! Where a result turns: rises no longer and falls from there on, or the other way round.
+//! Turns of a result: it stops rising and falls from there on, or the reverse.
 
 use super::program::Program;
 use crate::taylor::Taylor;
 
-/// A part of a way, as shares of it from 0 to 1.
+/// A part of a path, as shares of it from 0 to 1.
 type Part = [f64; 2];
 
-/// Bounds are asked for so many times at most.
+/// Greatest number of times that bounds are computed.
 const LOOKS: usize = 20_000;
 
 /// Values that differ by less than this part of their size are one value.
 const SAME: f64 = 1e-8;
 
-/// Beside a turn a value is that of the turn up to this part of what it falls or rises there.
+/// A value close to a turn counts as that of the turn up to this share of the fall or rise there.
 const NEAR: f64 = 0.1;
 
-/// Halvings in search of how far that is.
+/// Halvings in the search for that distance.
 const HALVINGS: usize = 40;
 
 impl Program {
-    /// Where the result turns while each slot that it reads goes straight from the first number of
-    /// `ways` to the second: the part of the way, between 0 and 1 and ascending, in which it is
-    /// about what it is at the turn, which lies inside. Between two of them it never falls, or
-    /// never rises. That follows from bounds, not from looks at some places, so that nothing can
-    /// hide which is wider than `least`, a share of the way.
+    /// The turns of the result while each slot that it reads goes straight from the first number of
+    /// `ways` to the second. Each is a part of the path, between 0 and 1 and ascending, in which
+    /// the value is about that of the turn, which lies inside. Between two of them the result never
+    /// falls, or never rises. That follows from bounds, not from samples, so that nothing wider
+    /// than `least`, a share of the path, can be hidden.
     ///
-    /// Where bounds are not known, as behind the end of a table, nothing is told.
+    /// If bounds are not known, as beyond the end of a table, no turn is reported.
     pub fn turns(&self, ways: &dyn Fn(u32) -> [f64; 2], least: f64) -> Vec<[f64; 2]> {
         let mut walk = Walk {
             program: self,
@@ -41,7 +41,7 @@ impl Program {
         walk.turns.iter().enumerate().map(|(k, turn)| walk.widened(*turn, walk.around(k))).collect()
     }
 
-    /// The ends of the way and the shares at which an argument that goes straight meets a kink or
+    /// The ends of the path and the shares at which an argument that goes straight meets a kink or
     /// a knot, ascending.
     fn corners(&self, ways: &dyn Fn(u32) -> [f64; 2]) -> Vec<f64> {
         let mut corners = vec![0.0, 1.0];
@@ -75,10 +75,10 @@ struct Walk<'a> {
     ways: &'a dyn Fn(u32) -> [f64; 2],
     least: f64,
     looks: usize,
-    /// Where it last rose or fell, and whether it rose.
+    /// The place of the last rise or fall, and true for a rise.
     last: Option<(f64, bool)>,
     turns: Vec<Part>,
-    /// Where it is level.
+    /// Parts in which it is level.
     flats: Vec<Part>,
 }
 
@@ -90,7 +90,7 @@ impl Walk<'_> {
         })
     }
 
-    /// Takes in the next part of the way.
+    /// Processes the next part of the path.
     fn look(&mut self, [from, to]: Part) {
         self.looks = self.looks.saturating_sub(1);
         let bounds = self.program.enclosed(&|slot| Taylor::on_way((self.ways)(slot), [from, to]));
@@ -128,7 +128,7 @@ impl Walk<'_> {
         self.last = Some((to, rises));
     }
 
-    /// The next places to both sides of a turn where it turns or is level, or the ends of the way.
+    /// The nearest turns or level parts on both sides of a turn, or the ends of the path.
     fn around(&self, turn: usize) -> Part {
         let [from, to] = self.turns[turn];
         let before = turn.checked_sub(1).map_or(0.0, |before| self.turns[before][1]);
@@ -140,15 +140,15 @@ impl Walk<'_> {
         [before.max(level), behind.min(falls_to)]
     }
 
-    /// A turn with what is about the same beside it, as the smaller of the two falls or rises to
-    /// its neighbours says.
+    /// A turn with the values close to it, in relation to the smaller of the two falls or rises to
+    /// its neighbours.
     fn widened(&self, turn: Part, others: Part) -> Part {
         let falls = [0, 1].map(|side| (self.value(others[side]) - self.value(turn[side])).abs());
         let most = NEAR * falls[0].min(falls[1]);
         [self.beside(turn[0], others[0], most), self.beside(turn[1], others[1], most)]
     }
 
-    /// How far from a turn towards another place the value changes by no more than so much.
+    /// The place between a turn and another place up to which the value changes by at most `most`.
     fn beside(&self, turn: f64, other: f64, most: f64) -> f64 {
         let top = self.value(turn);
         let mut way = other - turn;

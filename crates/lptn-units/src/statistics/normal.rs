@@ -5,7 +5,7 @@ pub fn share_below(x: f64) -> f64 {
     0.5 * libm::erfc(-x / std::f64::consts::SQRT_2)
 }
 
-/// The number of standard deviations below which lies the share `p`, from 1e-10 to 1 - 1e-10.
+/// The number of standard deviations below which the share `p` lies, from 1e-10 to 1 - 1e-10.
 ///
 /// M. J. Wichura, Algorithm AS 241, Applied Statistics 37 (1988) 477, routine PPND16 without its
 /// far tails (beyond 6.3 standard deviations): relative error about 1e-16.

@@ -4,9 +4,9 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::NORMAL_95;
 
-/// The t that a variable of Student's distribution with so many degrees of freedom (at least 1)
-/// exceeds in size with probability 5 %: 1.96 for many, 12.7 for one. To 1e-4 of itself from 2 on;
-/// below, between the two exact values.
+/// The t that a variable of Student's distribution with this number of degrees of freedom (at least
+/// 1) exceeds in size with probability 5 %: 1.96 for many, 12.7 for one. Relative error 1e-4 from 2
+/// on; below, between the two exact values.
 ///
 /// G. W. Hill, Algorithm 396, Communications of the ACM 13 (1970) 619.
 pub fn student_95(degrees: f64) -> f64 {
@@ -40,16 +40,16 @@ pub fn student_95(degrees: f64) -> f64 {
     (n * y).sqrt()
 }
 
-/// What chi-square of so many degrees of freedom exceeds with a probability of 0.1 %; to 3 % of
-/// itself (E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684).
+/// The value that chi-square with this number of degrees of freedom exceeds with a probability of
+/// 0.1 %; relative error 3 % (E. B. Wilson, M. M. Hilferty, Proc. Natl. Acad. Sci. 17 (1931) 684).
 pub fn chi_square_999(degrees: f64) -> f64 {
     const NORMAL_999: f64 = 3.090_232_306_167_813;
     let part = 2.0 / (9.0 * degrees);
     degrees * (1.0 - part + NORMAL_999 * part.sqrt()).powi(3)
 }
 
-/// What a variable exceeds in size with probability 5 % that is normal with one of these standard
-/// deviations, each behind its probability.
+/// The size that a variable exceeds with probability 5 %. It is normal with one of these standard
+/// deviations, each after its probability.
 pub fn mixed_95(parts: &[(f64, f64)]) -> f64 {
     let beyond = |size: f64| -> f64 {
         let tail = |(weight, deviation): &(f64, f64)| {
@@ -61,7 +61,7 @@ pub fn mixed_95(parts: &[(f64, f64)]) -> f64 {
     halved((0.0, 2.0 * widest), |size| beyond(size) > 0.05)
 }
 
-/// The degrees of freedom for which Student's t is exceeded beyond `t` with probability 5 %: 1 for
+/// The degrees of freedom for which Student's t exceeds `t` in size with probability 5 %: 1 for
 /// 12.7 and more, infinite for 1.96 and less.
 pub fn degrees_of(t: f64) -> f64 {
     if t <= NORMAL_95 {
@@ -70,7 +70,7 @@ pub fn degrees_of(t: f64) -> f64 {
     halved((0.0, 20.0), |logarithm: f64| student_95(logarithm.exp()) > t).exp()
 }
 
-/// Where something that holds below ends to hold.
+/// The number at which `holds`, true below it, becomes false.
 fn halved((mut low, mut high): (f64, f64), holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..50 {
         let middle = 0.5 * (low + high);

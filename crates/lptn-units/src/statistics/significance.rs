@@ -1,6 +1,6 @@
-//! How likely chance alone is.
+//! Probability of a result by chance alone.
 
-/// The probability that Student's t with so many degrees of freedom (at least 1; infinite: a
+/// The probability that Student's t with this number of degrees of freedom (at least 1; infinite: a
 /// standard normal variable) is further from 0 than `z`.
 ///
 /// M. Abramowitz, I. A. Stegun, Handbook of Mathematical Functions, 26.7.1 and 26.5.2.
@@ -9,7 +9,7 @@ pub fn two_sided(z: f64, degrees_of_freedom: f64) -> f64 {
         return libm::erfc(z.abs() * std::f64::consts::FRAC_1_SQRT_2);
     }
     let degrees = degrees_of_freedom.max(1.0);
-    // 1 / (1 + z^2 / degrees), which z may not overflow
+    // 1 / (1 + z^2 / degrees), without overflow of z^2
     let x = (1.0 + z * (z / degrees)).recip();
     if x > (0.5 * degrees + 1.0) / (0.5 * degrees + 2.5) {
         1.0 - beta((1.0 - x, x), 0.5, 0.5 * degrees)

@@ -1,41 +1,39 @@
-//! One axis of a table: its knots, and what lies between and beyond them.
+//! One axis of a table: its knots, and the places between and beyond them.
 
-/// How a [`Table1`](crate::Table1) runs between its points.
+/// The interpolation of a [`Table1`](crate::Table1) between its points.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Interpolation {
     /// Straight lines.
     Linear,
-    /// Cubic pieces that are smooth to the first derivative and rise and fall only where the points
-    /// do.
+    /// Cubic pieces with a continuous first derivative that rise and fall only with the points.
     Pchip,
 }
 
-/// What a table is outside its points.
+/// The behaviour of a table outside its points.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Outside {
-    /// Nothing: it has no value there. Up to 1e-14 of the larger end beyond it, which is rounding,
-    /// is inside.
+    /// No value. Up to 1e-14 of the larger end beyond it, which is rounding, is inside.
     Error,
     /// The value at the nearer end; its slope is 0.
     Hold,
 }
 
-/// Where a number stands on one axis.
+/// The place of a number on one axis.
 pub(super) enum Place {
     /// In the interval that begins with this knot; the last knot is in the last interval.
     In(usize),
-    /// Before the first knot, which is held.
+    /// Before the first knot, whose value continues.
     Below,
-    /// After the last knot, which is held.
+    /// After the last knot, whose value continues.
     Above,
 }
 
-/// What an argument may be beyond an end of its knots, relative to the larger end: the rounding of
-/// a few operations, such as a speed computed from another speed and a ratio of gears.
+/// Largest distance of an argument beyond an end of its knots, relative to the larger end: the
+/// rounding of a few operations, such as a speed computed from another speed and a ratio of gears.
 const ROUNDING: f64 = 1e-14;
 
-/// The place of `x` among knots that rise; `None` where the table has no value, and for a number
-/// that is not finite.
+/// The place of `x` among knots that rise; `None` if the table has no value there, or `x` is not
+/// finite.
 pub(super) fn place(knots: &[f64], x: f64, outside: Outside) -> Option<Place> {
     let (&first, &last) = (knots.first()?, knots.last()?);
     if !x.is_finite() {

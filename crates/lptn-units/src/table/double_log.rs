@@ -1,4 +1,4 @@
-//! Straight lines of a double logarithm, as the viscosity of oils follows over temperature.
+//! Straight lines in a double logarithm, like the viscosity of oils over temperature.
 
 use crate::taylor::Taylor;
 
@@ -15,11 +15,11 @@ pub struct DoubleLog {
 }
 
 impl DoubleLog {
-    /// The one through two points `[x, y]`, for `x` from where `y` is `most` up to `last`; `None`
-    /// unless `0 < x0 < x1 < last` and `unit < y1 < y0 < most`.
+    /// The one through two points `[x, y]`, for `x` from the place at which `y` is `most` up to
+    /// `last`; `None` unless `0 < x0 < x1 < last` and `unit < y1 < y0 < most`.
     ///
-    /// * `shift`: what is added to `y / unit`, between 0 and 1
-    /// * `unit`: what `y` is counted in
+    /// * `shift`: the number added to `y / unit`, between 0 and 1
+    /// * `unit`: the unit of `y`
     pub fn through(
         points: [[f64; 2]; 2],
         (shift, unit): (f64, f64),
@@ -42,12 +42,12 @@ impl DoubleLog {
         self.points
     }
 
-    /// What is added to `y / unit`.
+    /// The number added to `y / unit`.
     pub fn shift(&self) -> f64 {
         self.shift
     }
 
-    /// From where to where it has values.
+    /// The range of its argument.
     pub fn range(&self) -> &[f64] {
         &self.range
     }
@@ -61,7 +61,7 @@ impl DoubleLog {
         Some((self.unit * (sum - self.shift), -self.unit * sum * inner * b / x))
     }
 
-    /// Bounds on its value for an argument of which bounds are known.
+    /// Bounds on its value for an argument with known bounds.
     pub(crate) fn enclose(&self, x: Taylor) -> Taylor {
         let ([first, last], [a, b]) = (self.range, self.line);
         match x.range() {

@@ -7,7 +7,7 @@ use super::two::Table2;
 use crate::taylor::Taylor;
 use crate::taylor::interval::Interval;
 
-/// What an argument may be beyond a knot, relative to it, and still count as before it: a table is
+/// Relative distance beyond a knot at which an argument still counts as before it: a table is
 /// continuous, so nothing is lost, and knots are seldom met to the last digit.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
@@ -15,13 +15,13 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 enum Part {
     /// Within the interval that begins with this knot.
     Within(usize),
-    /// Beyond the first or the last knot, which is held.
+    /// Beyond the first or the last knot, whose value continues.
     Held(usize),
     /// Over several: the first and the last knot that bound it.
     Over(usize, usize),
 }
 
-/// `None` where the table may have no value, and for an argument that is not bounded.
+/// `None` if the table may have no value, or the argument is not bounded.
 fn part(knots: &[f64], argument: &Taylor, outside: Outside) -> Option<Part> {
     let [from, to] = argument.range()?;
     place(knots, from, outside).and(place(knots, to, outside))?;
@@ -44,7 +44,7 @@ fn part(knots: &[f64], argument: &Taylor, outside: Outside) -> Option<Part> {
 }
 
 impl Table1 {
-    /// Bounds on its value for an argument of which bounds are known.
+    /// Bounds on its value for an argument with known bounds.
     pub(crate) fn enclose(&self, x: Taylor) -> Taylor {
         match part(&self.x, &x, self.outside) {
             None => Taylor::unknown(),
@@ -72,7 +72,7 @@ impl Table1 {
 }
 
 impl Table2 {
-    /// Bounds on its value for arguments of which bounds are known.
+    /// Bounds on its value for arguments with known bounds.
     pub(crate) fn enclose(&self, [x, y]: [Taylor; 2]) -> Taylor {
         let along = [(self.x_knots(), x), (self.y_knots(), y)];
         let [Some(in_x), Some(in_y)] =

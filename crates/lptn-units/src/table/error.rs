@@ -1,7 +1,7 @@
-//! What can be wrong with the numbers of a table.
+//! Mistakes in the numbers of a table.
 
 crate::errors! {
-/// Why numbers do not make a table. Indices are counted from 0.
+/// Reason why numbers are not a table. Indices are counted from 0.
 #[derive(Clone, PartialEq, Eq, Debug)]
 #[non_exhaustive]
 pub enum TableError {

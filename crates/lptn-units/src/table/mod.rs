@@ -1,7 +1,7 @@
 //! Tabulated functions of one number ([`Table1`]) and of two ([`Table2`]).
 //!
 //! All numbers are in SI units; a table knows nothing of units.
-//! [`Scope::table`](crate::Scope::table) says what its arguments and its result are.
+//! [`Scope::table`](crate::Scope::table) gives the types of its arguments and its result.
 
 mod axis;
 mod double_log;
@@ -32,14 +32,14 @@ pub enum LookupTable {
     One(Table1),
     /// A function of two numbers.
     Two(Table2),
-    /// A function of one number by a formula in place of points.
+    /// A function of one number by a formula instead of points.
     DoubleLog(DoubleLog),
     /// A power of one number.
     PowerLaw(PowerLaw),
 }
 
 impl LookupTable {
-    /// How many arguments it takes: 1 or 2.
+    /// Number of its arguments: 1 or 2.
     pub fn dimension(&self) -> usize {
         match self {
             Self::One(_) | Self::DoubleLog(_) | Self::PowerLaw(_) => 1,
@@ -60,18 +60,18 @@ impl LookupTable {
         }
     }
 
-    /// How many of the knots along one argument are not above `value`: the same number within one
+    /// Number of the knots along one argument that are not above `value`: constant within one
     /// smooth piece.
     pub(crate) fn piece(&self, argument: usize, value: f64) -> usize {
         self.knots(argument).partition_point(|knot| *knot <= value)
     }
 
-    /// Has it a value where this argument is `value`, as far as that one counts?
+    /// True if it has a value at this `value` of the argument, as far as that one decides.
     pub(crate) fn reaches(&self, argument: usize, value: f64) -> bool {
         place(self.knots(argument), value, self.outside()).is_some()
     }
 
-    /// What it is outside its knots.
+    /// Its behaviour outside its knots.
     pub fn outside(&self) -> Outside {
         match self {
             Self::One(table) => table.outside(),
@@ -81,7 +81,7 @@ impl LookupTable {
     }
 }
 
-/// A table in scope: what it is, and what it takes and gives.
+/// A table in scope, with the types of its arguments and its value.
 #[derive(Clone, Debug)]
 pub struct TableSymbol {
     /// The numbers, in SI units.
@@ -91,8 +91,8 @@ pub struct TableSymbol {
     pub arguments: Vec<Type>,
     /// The type of the value.
     pub ty: Type,
-    /// The units in which people give them, arguments first, then the value; none where that is not
-    /// known. Nothing is computed with them.
+    /// The usual units, arguments first, then the value; empty if unknown. They are not used in
+    /// computations.
     pub units: Vec<Unit>,
 }
 

@@ -59,8 +59,8 @@ impl Table1 {
         Ok(table)
     }
 
-    /// Value and slope at `x`. At a knot of straight lines the slope is that of the piece to the
-    /// right, at the last knot that of the piece to the left; outside held ends it is 0.
+    /// Value and slope at `x`. At a knot of straight lines the slope is that of the right piece, at
+    /// the last knot that of the left one; beyond ends with [`Outside::Hold`] it is 0.
     ///
     /// `None` outside the knots with [`Outside::Error`], and for an `x` that is not finite.
     pub fn value_and_slope(&self, x: f64) -> Option<(f64, f64)> {
@@ -71,9 +71,9 @@ impl Table1 {
         }
     }
 
-    /// The integral from one number to another, exact but for rounding; negative of itself with the
-    /// limits exchanged. Limits in one interval lose nothing to cancellation, however near they
-    /// are.
+    /// The integral from one number to another, exact except for rounding; the negative of itself
+    /// with the limits exchanged. Limits in one interval lose nothing to cancellation, however near
+    /// they are.
     ///
     /// `None` if a limit is outside the knots with [`Outside::Error`], or not finite.
     pub fn integral(&self, from: f64, to: f64) -> Option<f64> {
@@ -107,12 +107,12 @@ impl Table1 {
         &self.y
     }
 
-    /// How it runs between its points.
+    /// The interpolation between its points.
     pub fn interpolation(&self) -> Interpolation {
         if self.slopes.is_empty() { Interpolation::Linear } else { Interpolation::Pchip }
     }
 
-    /// What it is outside its points.
+    /// Its behaviour outside its points.
     pub fn outside(&self) -> Outside {
         self.outside
     }

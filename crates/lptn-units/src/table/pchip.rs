@@ -20,7 +20,7 @@ pub(super) fn slopes(x: &[f64], y: &[f64]) -> Vec<f64> {
     std::iter::once(first).chain(inner).chain([last]).collect()
 }
 
-/// Between two secants: their harmonic mean, weighted by the widths; 0 at a peak and beside a flat
+/// Between two secants: their harmonic mean, weighted by the widths; 0 at a peak and next to a flat
 /// piece.
 fn inner(h: [f64; 2], m: [f64; 2]) -> f64 {
     if !same_sign(m[0], m[1]) {

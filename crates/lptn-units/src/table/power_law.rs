@@ -1,4 +1,4 @@
-//! Powers of one number, as what a fan or a pump does follows its speed.
+//! Powers of one number, like the flow, pressure and power of a fan or a pump over its speed.
 
 use crate::taylor::Taylor;
 
@@ -25,7 +25,7 @@ impl PowerLaw {
         self.point
     }
 
-    /// From where to where it has values.
+    /// The range of its argument.
     pub fn range(&self) -> &[f64] {
         &self.range
     }
@@ -38,7 +38,7 @@ impl PowerLaw {
         Some((y0 * ratio.powi(power), y0 / x0 * f64::from(power) * ratio.powi(power - 1)))
     }
 
-    /// Bounds on its value for an argument of which bounds are known.
+    /// Bounds on its value for an argument with known bounds.
     pub(crate) fn enclose(&self, x: Taylor) -> Taylor {
         let ([first, last], [x0, y0]) = (self.range, self.point);
         match x.range() {

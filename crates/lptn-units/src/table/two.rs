@@ -23,7 +23,7 @@ pub struct Table2 {
     outside: Outside,
 }
 
-/// A place on one axis: the interval, the number held to the knots, and whether it is between them.
+/// A place on one axis: the interval, the number limited to the knots, and true if between them.
 struct Held {
     interval: usize,
     at: f64,
@@ -55,8 +55,8 @@ impl Table2 {
     }
 
     /// The value at `(x, y)` and its slopes along `x` and `y`. At a knot the slope is that of the
-    /// cell above it, at the last knot that of the cell below; along an argument outside held ends
-    /// it is 0.
+    /// cell above it, at the last knot that of the cell below; along an argument beyond ends with
+    /// [`Outside::Hold`] it is 0.
     ///
     /// `None` if an argument is outside its knots with [`Outside::Error`], or not finite.
     pub fn value_and_slopes(&self, x: f64, y: f64) -> Option<(f64, [f64; 2])> {
@@ -91,7 +91,7 @@ impl Table2 {
         &self.z
     }
 
-    /// What it is outside its points.
+    /// Its behaviour outside its points.
     pub fn outside(&self) -> Outside {
         self.outside
     }

@@ -74,7 +74,7 @@ impl Taylor {
         })
     }
 
-    /// A constant power. Unknown where the base may be negative and the exponent is not whole.
+    /// A constant power. Unknown if the base may be negative and the exponent is not whole.
     #[must_use]
     pub fn power(self, exponent: f64) -> Self {
         if exponent.fract() == 0.0 && exponent.abs() <= 64.0 {
@@ -165,7 +165,7 @@ impl Taylor {
         -((-self).smaller(-other))
     }
 
-    /// One of two, it is not known which.
+    /// One of two; it is unknown which.
     pub(crate) fn either(self, other: Self) -> Self {
         if self.is_unknown() || other.is_unknown() {
             return Self::unknown();

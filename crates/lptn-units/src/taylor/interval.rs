@@ -21,7 +21,7 @@ impl Interval {
         Self::new(value, value)
     }
 
-    /// Everything, where an end is not a number.
+    /// All numbers between two ends; everything if an end is not a number.
     pub(crate) fn new(low: f64, high: f64) -> Self {
         if low <= high { Self { low, high } } else { Self::ALL }
     }
@@ -197,7 +197,7 @@ mod tests {
         assert_eq!((of(1.0, 0.0), of(f64::NAN, 0.0)), (Interval::ALL, Interval::ALL));
     }
 
-    /// Against the largest and smallest of many values, widened by what lies between two of them.
+    /// Against the largest and smallest of many values, widened by the change between two of them.
     #[test]
     fn sines_turn_at_crests_and_troughs() {
         let steps = 2000;

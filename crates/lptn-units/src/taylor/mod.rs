@@ -1,6 +1,6 @@
 //! Bounds on a function of one variable: on its values over an interval, and on its Taylor
-//! coefficients at every point of it. They follow from the form of the function, not from looking
-//! at it at some points, so nothing can hide.
+//! coefficients at every point of it. They follow from the form of the function, not from samples,
+//! so nothing can be hidden.
 //!
 //! Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis (SIAM 2009),
 //! chapter 9.2: automatic differentiation to higher order in interval arithmetic.
@@ -12,7 +12,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use interval::Interval;
 
-/// How many coefficients are carried: the value, and derivatives to the ninth.
+/// Number of coefficients: the value, and derivatives to the ninth.
 const ORDERS: usize = 10;
 
 /// Bounds on `f(x)` for every x of an interval, and on `f'(x)`, `f''(x)/2!`, .. for every x between
@@ -33,12 +33,12 @@ pub struct Taylor {
     terms: [Interval; ORDERS],
     /// All terms after this one are zero ..
     degree: usize,
-    /// .. up to this one; those behind it are not known.
+    /// .. up to this one; those after it are not known.
     orders: usize,
 }
 
 impl Taylor {
-    /// The highest order that bounds are known for.
+    /// The highest order with known bounds.
     pub const ORDER: usize = ORDERS - 1;
 
     /// A number.
@@ -65,8 +65,8 @@ impl Taylor {
         all
     }
 
-    /// A part of the straight way from one number to another: both as shares of it, from 0 to 1.
-    /// Bounds on the value and the derivative follow, no others.
+    /// A part of the straight path from one number to another: both as shares of it, from 0 to 1.
+    /// It has bounds on the value and the derivative, no others.
     pub(crate) fn on_way([from, to]: [f64; 2], [first, last]: [f64; 2]) -> Self {
         let [a, b] = [first, last].map(|share| from + share * (to - from));
         let mut way = Self::flat(Interval::new(a.min(b), a.max(b)));
@@ -83,7 +83,7 @@ impl Taylor {
         self.terms[1]
     }
 
-    /// A number of which only bounds are known.
+    /// A number with known bounds.
     fn flat(value: Interval) -> Self {
         let mut terms = [Interval::ZERO; ORDERS];
         terms[0] = value;
@@ -123,7 +123,7 @@ impl Taylor {
         self.terms.get(order).map_or(f64::INFINITY, |term| term.magnitude())
     }
 
-    /// The degree of the polynomial that it is at most; [`Taylor::ORDER`] for anything else.
+    /// Upper bound of the degree, if it is a polynomial; [`Taylor::ORDER`] for anything else.
     pub fn degree(&self) -> usize {
         self.degree
     }
