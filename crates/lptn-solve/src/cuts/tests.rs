@@ -90,8 +90,8 @@ fn a_steep_passage_is_closed_in() {
     }
 }
 
-/// Levels within a part in 1e9 of the curve's range of an end were passed before or will be
-/// passed behind it.
+/// Levels within a part in 1e9 of the curve's range from an end were passed before or will be
+/// passed after it.
 #[test]
 fn an_end_stands_at_a_level_to_a_part_in_a_thousand_million() {
     for scale in [1e-6, 1.0, 1e6] {
