@@ -201,8 +201,7 @@ impl<'a> Heat<'a> {
     }
 
     /// Lets massless nodes jump as they do at `beyond`, and brings them back to `here`; both are a
-    /// time and a state. Returns true if they are on another branch then; if not, nothing has
-    /// changed.
+    /// time and a state. True if they are then on another branch; if not, nothing has changed.
     pub(crate) fn leap(&mut self, beyond: (f64, &[f64]), here: (f64, &[f64])) -> bool {
         let before = self.unfold.algebraic().to_vec();
         self.unfold.may_leap();

@@ -142,8 +142,7 @@ impl Elements {
         Ok(Self { among, inputs, boundaries, streams })
     }
 
-    /// `G_mm^-1` times the conductances of the massless nodes (rows) to each state and input
-    /// (columns).
+    /// `G_mm^-1` times the conductances of massless nodes (rows) to states and inputs (columns).
     fn recovery(&self, massless: &[NodeId], states: &[NodeId]) -> Option<Mat<f64>> {
         let inputs = self.inputs.ncols();
         let given = Mat::from_fn(massless.len(), states.len() + inputs, |i, j| {
