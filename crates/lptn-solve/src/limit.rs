@@ -117,10 +117,9 @@ impl<'a> LimitWatch<'a> {
         (self.look, self.last) = (look, end);
     }
 
-    /// The results. A worst point that the tolerance in K cannot distinguish from the start or the
-    /// end is put there. A limit that it cannot distinguish from being reached and not passed is
-    /// not broken; a start that breaks it is exact. A mean is known at the end, and it is broken
-    /// there.
+    /// The results. A worst point that the tolerance in K cannot distinguish from the start or end
+    /// is put there. A limit that it cannot distinguish from being just reached is not broken; a
+    /// start that breaks it is exact. A mean is known at the end, and broken there.
     pub(crate) fn into_seen(mut self, tolerance: f64) -> Vec<LimitSeen> {
         let (end, margins) = self.last;
         let mut all = std::mem::take(&mut self.look.seen);

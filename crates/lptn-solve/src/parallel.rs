@@ -35,8 +35,7 @@ pub fn in_parallel<T: Sync, R: Send>(
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(item) = items.get(index) else { break };
                     let result = work(item);
-                    // a thread that panicked ends the scope with its panic: its results are
-                    // complete
+                    // a thread that panicked ends the scope with it: its results are complete
                     done.lock().unwrap_or_else(PoisonError::into_inner).push((index, result));
                 }
             });

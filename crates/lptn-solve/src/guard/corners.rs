@@ -211,8 +211,7 @@ fn fourth_differences(heats: &[Vec<f64>], (length, capacity): (f64, &[f64])) -> 
 }
 
 impl Heat<'_> {
-    /// Adds to the capacity of every node in J/K the heat that it gives off in `length` in s, per
-    /// K.
+    /// Adds to the capacity of every node in J/K the heat per K that it gives off in `length` s.
     fn add_slopes(&mut self, length: f64, capacity: &mut [f64]) {
         let pattern = self.pattern().clone();
         let mut values = vec![0.0; pattern.len()];

@@ -72,7 +72,7 @@ impl Secants {
         Self { weights, bend, pairs: VecDeque::new(), last: None }
     }
 
-    /// Begins anew.
+    /// Restarts without any differences.
     pub(super) fn forget(&mut self) {
         self.pairs.clear();
         self.last = None;
@@ -88,8 +88,8 @@ impl Secants {
         self.last = Some(shot);
     }
 
-    /// Where the next cycle had best begin, after this one: no further away from its end than
-    /// `most` in K. `None` where no difference helps.
+    /// The best start of the next cycle, after this one: no further away from its end than `most`
+    /// in K. `None` if no difference helps.
     pub(super) fn next(&self, shot: &Shot, most: f64) -> Option<Vec<f64>> {
         let directions = self.directions(|pair| (minus(&pair.end, &pair.start), pair.end.clone()));
         let residual = minus(&shot.end, &shot.start);
@@ -108,7 +108,7 @@ impl Secants {
         None
     }
 
-    /// The residual of a cycle in the norm that is made small, in K.
+    /// The residual of a cycle in the norm that is minimised, in K.
     pub(super) fn size(&self, shot: &Shot) -> f64 {
         self.length(&minus(&shot.end, &shot.start))
     }
@@ -129,8 +129,8 @@ impl Secants {
         largest.is_finite().then_some(largest)
     }
 
-    /// Orthonormal combinations of what `of` takes first from each difference, the latest first,
-    /// without those that may be made up of what is wrong with the differences.
+    /// Orthonormal combinations of the first value of `of` for each difference, the latest first,
+    /// without those that may consist of the errors of the differences.
     fn directions(&self, of: impl Fn(&Pair) -> (Vec<f64>, Vec<f64>)) -> Vec<Direction> {
         let mut known: Vec<Direction> = Vec::new();
         for pair in &self.pairs {
