@@ -104,8 +104,7 @@ impl Track {
         ended
     }
 
-    /// The time in s at which the value passed an end of the range between two evaluations, on a
-    /// straight line.
+    /// The time in s between two evaluations at which a straight line passed an end of the range.
     fn edge(&self, before: Option<Point>, after: Option<Point>, low: bool) -> Option<f64> {
         let ((t0, y0), (t1, y1)) = (before?, after?);
         let end = if low { self.group.from } else { self.group.to };

@@ -65,8 +65,7 @@ impl Readings {
     }
 }
 
-/// The parts of a step between some times, ascending; each with a flag that it begins at one of
-/// them.
+/// The parts of a step between some times, ascending, flagged if they begin at one of them.
 pub(crate) fn pieces(ends: &[f64], (from, to): (f64, f64)) -> Vec<((f64, f64), bool)> {
     let first = ends.partition_point(|&end| end < from);
     let mut begins = ends.get(first).is_some_and(|end| end.to_bits() == from.to_bits());

@@ -277,9 +277,9 @@ impl SensitiveRun {
         Ok(straight.then_some((above - below) / distance))
     }
 
-    /// How the highest temperature of a watched node changes with a parameter, in K per SI unit of
-    /// the parameter, as a difference of runs; `None` where the gradient is exact, or the node was
-    /// not watched.
+    /// Sensitivity of the highest temperature of a watched node to a parameter, in K per SI unit of
+    /// the parameter, as a difference of runs; `None` if the gradient is exact, or the node was not
+    /// watched.
     pub fn peak(&self, parameter: ParameterId, node: NodeId) -> Option<f64> {
         let peak = |solution: &Solution| {
             solution.watched().iter().find(|seen| seen.watch.node == node).map(|seen| seen.peak.0)
@@ -287,8 +287,8 @@ impl SensitiveRun {
         self.difference(parameter)?.slope(peak)
     }
 
-    /// How the least margin of a limit changes with a parameter, in SI units of its quantity per SI
-    /// unit of the parameter, as a difference of runs; `None` where the gradient is exact: it is
+    /// Sensitivity of the least margin of a limit to a parameter, in SI units of its quantity per
+    /// SI unit of the parameter, as a difference of runs; `None` if the gradient is exact: it is
     /// one of temperatures.
     pub fn margin(&self, parameter: ParameterId, limit: LimitId) -> Option<f64> {
         self.difference(parameter)?.slope(|solution| Some(solution.limits()[limit.index()].margin))

@@ -114,8 +114,7 @@ fn wanted(
     Wanted { rates, drive, leak, unit, longest, terms: 1 }
 }
 
-/// Amount by which each row of a matrix sums to less than 0, if its elements are those of a thermal
-/// network.
+/// Shortfall of each row sum below 0, if the elements are those of a thermal network.
 fn leak(rates: &Mat<f64>) -> Option<Vec<f64>> {
     let size = rates.nrows();
     let thermal = (0..size).all(|i| (0..size).all(|j| i == j || rates[(i, j)] >= 0.0));

@@ -1,4 +1,4 @@
-//! How a run guards what depends on temperature, and what it makes up for.
+//! Guards of a run against laws that depend on temperature, and against growing errors.
 
 use lptn_integrate::{OdeSystem, Step};
 
@@ -8,16 +8,16 @@ use crate::settings::Transient;
 use crate::solution::{RunStatus, Solution};
 use crate::transient::{Break, Care, Run};
 
-/// How much a run has to make up for.
+/// Effort against errors of a run.
 #[derive(Clone, Copy)]
 pub(super) struct Effort {
     pub(super) care: Care,
-    /// By how much errors grow, as far as that is known.
+    /// Growth of errors, as far as that is known.
     pub(super) grows: f64,
 }
 
 impl Transient {
-    /// Whether errors of a run grow by more than is borne, and a smaller tolerance makes up for it.
+    /// True if errors of a run grow by more than allowed, and a smaller tolerance can correct it.
     pub(super) fn can_make_up_for(&self, solution: &Solution) -> bool {
         let needed = growth::share(solution.growth);
         needed < 1.0 && needed >= self.finest() && solution.end() == RunStatus::Reached
@@ -25,7 +25,7 @@ impl Transient {
 }
 
 impl Run<'_> {
-    /// Says when the next step has to end at the latest, `stop` among other reasons.
+    /// Sets the latest end of the next step, for `stop` among other reasons.
     pub(super) fn hold_step(&mut self, stop: f64) {
         let mut stop = stop;
         if let Some(guard) = &mut self.guard {
