@@ -8,9 +8,8 @@ use crate::unsolved::Unsolved;
 
 /// The rates of a system's states at any time and state.
 ///
-/// A state is a variable of the integrator: the temperature of a node in K or, if its capacity
-/// depends on its temperature, its start plus the heat that it has taken up over its capacity at
-/// the start.
+/// A state is an integrator's variable: the temperature of a node in K or, if its capacity depends
+/// on temperature, its start plus the heat it has taken up over its capacity at the start.
 pub struct StateRates<'a> {
     system: &'a ThermalSystem,
     work: Workspace,

@@ -23,9 +23,8 @@ pub enum SettingsError {
             six_digits(time.abs().next_up() - time.abs())
         ),
         help FROM_ZERO;
-    /// Something depends on the time, and so far from 0 a double cannot distinguish times of the
-    /// run well enough: start, stop and the distance of two doubles at the larger one of them, in
-    /// s.
+    /// Something depends on the time, and so far from 0 doubles do not resolve times of the run
+    /// well enough: start, stop and the distance of two doubles at the larger of them, in s.
     FarFromZero { start: f64, stop: f64, resolution: f64 } = "run::settings",
         format!(
             "the run from {start} s lasts {} s, but numbers of this size are {} s apart, too \

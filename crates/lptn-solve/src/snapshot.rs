@@ -79,8 +79,7 @@ impl Snapshot {
         stored
     }
 
-    /// The evaluation in which expressions of results (limits, requirements, reports) find this
-    /// state.
+    /// The scope in which expressions of results (limits, requirements, reports) find this state.
     pub fn evaluation(&self, network: &Network) -> Evaluation {
         let mut scope = network.evaluation();
         scope.set_positions(&self.positions);

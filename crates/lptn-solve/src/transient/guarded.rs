@@ -37,8 +37,8 @@ impl Run<'_> {
         }
     }
 
-    /// What is to be done about a step, for the sake of what depends on temperature; a step that
-    /// does not stand is taken back.
+    /// Verdict on a step, for laws that depend on temperature; a step that is not accepted is taken
+    /// back.
     pub(super) fn judged(&mut self, step: &Step) -> Result<Verdict, Break> {
         let Some(guard) = &mut self.guard else { return Ok(Verdict::Stands) };
         let verdict = guard.judge(self.integrator.as_mut(), step);
@@ -50,14 +50,14 @@ impl Run<'_> {
         Ok(verdict)
     }
 
-    /// The integrator begins, anew or for the first time.
+    /// Prepares the guard for a start or restart of the integrator.
     pub(super) fn guard_begins(&mut self) {
         if let Some(guard) = &mut self.guard {
             guard.begin(self.integrator.as_mut());
         }
     }
 
-    /// The same behind a jump, or for the first time: the speed is another one.
+    /// The same after a jump, or for the first time: the speed is another one.
     pub(super) fn begin_to_guard(&mut self) {
         self.guard_begins();
         if let Some(growth) = &mut self.growth {
@@ -65,7 +65,7 @@ impl Run<'_> {
         }
     }
 
-    /// Follows errors over a step of so many s.
+    /// Follows errors over a step of `length` in s.
     pub(super) fn errors_go_on(&mut self, length: f64) {
         let Some(growth) = &mut self.growth else { return };
         let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());
@@ -79,7 +79,7 @@ impl Run<'_> {
         growth.step(length, &state);
     }
 
-    /// By how much errors have grown. Those of the steps through something narrow add up too.
+    /// Growth of errors. Those of the steps through something narrow add up too.
     pub(super) fn errors_grow(&self) -> f64 {
         let growth = self.growth.as_ref().map_or(1.0, Growth::most);
         let growth = growth.max(self.guard.as_ref().map_or(1.0, Guard::grown));
