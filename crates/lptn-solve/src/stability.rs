@@ -132,9 +132,8 @@ impl Newton<'_> {
         (own.sign() <= 0.0).then(|| massless[0])
     }
 
-    /// True if the growth at these temperatures (all unknowns, in K) oscillates: if warming one
-    /// node cools another, an even number of disturbances grows if the determinant of `A` is
-    /// positive.
+    /// True if a growing disturbance (all unknowns, in K) oscillates: if warming one node cools
+    /// another, an even number of them grows if the determinant of `A` is positive.
     pub(crate) fn swings(
         &mut self,
         work: &mut Workspace,

@@ -140,7 +140,7 @@ enum Care {
     /// made already: as with a switch, they move the jump and all that follows. If heat changes as
     /// the root of the time that is left, all steps err to one side.
     Untried,
-    /// As accurate as the times of switches.
+    /// The accuracy of the times of switches.
     Leaps,
     /// No accuracy: only the result of the jump is needed.
     Way,

@@ -120,8 +120,7 @@ impl<'a> Unfold<'a> {
         &self.temperatures[self.system.states().len()..]
     }
 
-    /// Begins a run at these temperatures in K of the algebraic unknowns; their solution may have
-    /// ended.
+    /// Begins a run at these temperatures in K of the algebraic unknowns, which may have ended.
     pub(crate) fn stand_at(&mut self, algebraic: &[f64]) {
         self.seed(algebraic);
         self.may_leap();

@@ -33,11 +33,10 @@ pub(crate) const REFINEMENTS: usize = 4;
 /// that lasts, in a node that nothing delays, has it over and over.
 pub(crate) const LASTS: f64 = 16.0 * f64::EPSILON;
 
-/// The first time of an extreme (value, time), of a curve that begins and ends with these values at
-/// these times. An extreme that differs from the first value by no more than `margin` cannot be
-/// distinguished from it, and is there. One that differs from the last value by no more than that
-/// is there, unless it is the last value to rounding: then it has lasted until the end and was
-/// there before.
+/// The first time of an extreme (value, time) of a curve with these values at its ends. An extreme
+/// within `margin` of the first value cannot be distinguished from it, and is there. One that
+/// differs from the last value by no more than that is there, unless it is the last value to
+/// rounding: then it has lasted until the end and was there before.
 pub fn first_there((value, time): (f64, f64), [first, last]: [(f64, f64); 2], margin: f64) -> f64 {
     let apart = |end: f64| (end - value).abs();
     if apart(first.0) <= margin {
@@ -182,8 +181,7 @@ const BESIDE: usize = 3;
 /// Halvings of the interval between two points: to the rounding of its length.
 const HALVINGS: usize = 53;
 
-/// The time at which a curve through successive points of a step reaches a level between point `k -
-/// 1` and `k`.
+/// The time at which a curve through points of a step reaches a level between `k - 1` and `k`.
 fn on_the_curve(points: &[(f64, f64)], k: usize, level: f64) -> f64 {
     let near = &points[k.saturating_sub(BESIDE)..(k + BESIDE).min(points.len())];
     let above = |time: f64| polynomial(near, time) > level;

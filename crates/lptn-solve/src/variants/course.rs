@@ -159,8 +159,7 @@ impl Course<'_> {
         }
     }
 
-    /// Evaluates steps that grow with the time constants of the remaining modes, until it turns no
-    /// more.
+    /// Evaluates steps that grow with the time constants that remain, until it turns no more.
     fn step_by_step(
         &self,
         (begin, end): (Point, Point),

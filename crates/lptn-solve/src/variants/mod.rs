@@ -59,7 +59,7 @@ pub struct LinearVariants<'a> {
 pub struct Quantity<'a> {
     /// The expression.
     pub value: &'a Value,
-    /// That temperature or heat flow, [`Network::follows`].
+    /// The temperature or heat flow, [`Network::follows`].
     pub with: Followed,
     /// Its requested results.
     pub look: Look,

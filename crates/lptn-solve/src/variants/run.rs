@@ -137,7 +137,7 @@ impl LinearVariants<'_> {
         self.star.recover(&self.plan, &mut march.rest);
     }
 
-    /// That difference as a sum of modes.
+    /// The same difference as a sum of modes.
     fn project(&mut self) {
         let (march, capacity) = (&mut self.march, &self.variants.capacity);
         let part = |shape: &[f64]| -> f64 {
