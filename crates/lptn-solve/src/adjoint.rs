@@ -63,7 +63,7 @@ pub struct Influence {
     pub absolute: bool,
 }
 
-/// The answer of one temperature of a steady state.
+/// The response of one temperature of a steady state.
 #[derive(Clone, Debug)]
 pub struct Adjoint<'a> {
     system: &'a ThermalSystem,

@@ -1,11 +1,11 @@
 //! Temperatures between two solutions of balances, checked for any at which nothing rests.
 //!
 //! Balances bend and have corners, so that points at even distances may step over a narrow stretch
-//! Balances bend and have corners, so that points at even distances may step over a narrow stretch
 //! at which nothing rests. If the balances are smooth, the heat left over changes between two
-//! points by the mean of its slopes there. If it does not, points are added in the middle. Even
-//! places stepped over a stretch next to a corner, and a jump was missed. A stretch below 1e-6 K is
-//! rounding.
+//! points by the mean of its slopes there. If it does not, points are added in the middle.
+//!
+//! Even points stepped over a stretch next to a corner, and a jump was missed. A stretch below 1e-6
+//! K is rounding.
 
 use lptn_assembly::Workspace;
 

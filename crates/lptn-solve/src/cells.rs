@@ -66,7 +66,7 @@ pub(crate) fn stretches(
         let count = (length / first).ceil().max(LEAST);
         let cells = Cells::new(segment, length / count, first);
         let mut finer = Vec::new();
-        // a segment as short as one sample is left to the steps with which the integrator begins
+        // a segment as short as a sixteenth of a step is left to the integrator's first steps
         let looks = if length > coarse / PARTS as f64 { &open[..] } else { &[] };
         for range in cells.whole(count) {
             let samples = sampled(looks, cells, range, &mut scope);

@@ -13,7 +13,7 @@ use crate::reading::Reading;
 use crate::selection::RecordedNodes;
 use crate::settings_error::SettingsError;
 
-/// The most values that are recorded: 4 GB.
+/// The most recorded values, of nodes and of columns: 4 GB each.
 const MOST_VALUES: usize = 500_000_000;
 
 /// Memory for the recorded values of all rows.

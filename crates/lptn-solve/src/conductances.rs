@@ -31,8 +31,8 @@ impl<'a> Conductances<'a> {
 
     /// Factorises the conductances of a system.
     ///
-    /// Heat leads to no temperature of nodes without a path to a boundary. They are kept apart from
-    /// the others, and the only valid question is whether they stay where they are.
+    /// Heat does not determine the temperature of nodes without a path to a boundary. They are kept
+    /// apart, and the only valid question is if they keep their temperatures.
     ///
     /// # Errors
     /// [`FactorError`] if the conductances span more than doubles can represent.

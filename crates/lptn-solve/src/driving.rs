@@ -1,5 +1,6 @@
-//! The inputs of a network over time, in parts that are short enough to resolve them. For a network
-//! without capacity the parts follow from its inputs alone, so that rows decide nothing.
+//! The inputs of a network over time, in parts that are short enough to resolve them.
+//!
+//! For a network without capacity the parts follow from its inputs alone; rows have no effect.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::InputError;

@@ -1,4 +1,4 @@
-//! Why an analysis has no answer.
+//! Reasons why an analysis has no result.
 
 use lptn_integrate::{FactorError, IntegrateError};
 use lptn_network::{Field, InputError, Item, NodeId, list_of, list_of_names};
@@ -11,7 +11,7 @@ use crate::stop_reason::{COLD, RUNS_AWAY, StopReason, cold, runaway, scales};
 use crate::unsolved::Unsolved;
 
 lptn_units::errors! {
-/// Why there is no steady state.
+/// Reason why there is no steady state.
 #[derive(Clone, Debug)]
 pub enum SteadyError {
     /// Some nodes reach no boundary and are heated or cooled without end: one set of connected ones
@@ -82,7 +82,7 @@ impl SteadyError {
 }
 
 lptn_units::errors! {
-/// Why a transient could not be started or finished.
+/// Reason why a transient could not be started or finished.
 #[derive(Debug)]
 pub enum TransientError {
     /// The settings of the run contradict themselves.

@@ -29,8 +29,8 @@ const FURTHEST: f64 = 3000.0;
 const COLDEST: f64 = 1.0;
 
 impl Newton<'_> {
-    /// Moves free temperatures at which a value fails to where it succeeds; returns true if that
-    /// was found. Each value moves the nodes that it depends on, all by the same distance.
+    /// Moves free temperatures at which a value fails to others at which it succeeds; true if any
+    /// were found. Each value moves the nodes that it depends on, all by the same distance.
     pub(crate) fn bring_inside(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> bool {
         let (mut last, mut stride) = (None, STRIDE);
         for _ in 0..ROUNDS {

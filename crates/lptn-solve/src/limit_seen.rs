@@ -18,7 +18,7 @@ pub struct LimitSeen {
     pub margin: f64,
     /// Time of that margin in s.
     pub worst_at: f64,
-    /// When it was first broken, in s.
+    /// Time in s at which it was first broken.
     pub broken_at: Option<f64>,
     /// Possible error of the margin in SI units, in addition to the error of temperatures, because
     /// its quantity changes faster than steps resolve; 0 if it does not.

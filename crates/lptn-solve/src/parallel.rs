@@ -61,8 +61,8 @@ struct Waiting<R> {
 
 /// Applies `work` to every number on at most `threads` threads and hands the results on in the
 /// order of the numbers, from the thread of the caller. No more than a few are begun ahead of the
-/// one that is due, so that memory is bounded for any number. `take` returns if it goes on; after a
-/// break no further number is begun.
+/// one that is due, so that memory is bounded for any number. `take` decides if work goes on; after
+/// a break no further number is begun.
 pub fn in_order<R: Send>(
     numbers: Range<u64>,
     threads: usize,

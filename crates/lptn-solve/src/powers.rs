@@ -2,9 +2,9 @@
 //!
 //! The trapezoidal rule `M x' + A x = 0` takes a disturbance from one step to the next by `B = (M +
 //! h/2 A)^-1 (M - h/2 A)`; whatever the length h, its eigenvalues are within the unit circle
-//! exactly where those of `M x' = -A x` decay. B is squared again and again. As soon as a norm of a
-//! is below 1, every disturbance dies, however it turns. As soon as the trace of one is above the
-//! number of unknowns, one of its eigenvalues is above 1, and some disturbance grows.
+//! exactly when those of `M x' = -A x` decay. B is squared again and again. As soon as a norm of a
+//! power is below 1, every disturbance dies, however it turns. As soon as the trace of one is above
+//! the number of unknowns, one of its eigenvalues is above 1, and some disturbance grows.
 
 /// The most squarings: 2^60 steps.
 const SQUARINGS: usize = 60;

@@ -46,7 +46,7 @@ impl Default for Halvings {
 }
 
 impl Halvings {
-    /// Takes in if the last step was settled.
+    /// Updates the number after a step; `settled`: its two rules agreed.
     pub(crate) fn after(&mut self, settled: bool) {
         self.0 = if settled { HALVINGS } else { self.0 / 2 };
     }

@@ -229,7 +229,7 @@ impl Transient {
 /// measured to add nine tolerances: a hundred must add less than ten.
 const SWITCHING: f64 = 0.01;
 
-/// In K: nothing is tightened below this value, where rounding decides.
+/// In K: nothing is tightened below this value, because rounding decides there.
 const FINEST: f64 = 1e-8;
 
 /// The change of a temperature in K whose effect must be as accurate as the temperatures are. Heats

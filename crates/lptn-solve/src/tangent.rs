@@ -79,9 +79,8 @@ impl<'a> Tangent<'a> {
         self.tangents.parameters()
     }
 
-    /// The variables at the start, if every node has the temperature in `work`: zero if that is the
-    /// start of the network, whose temperatures may depend on the parameters; else those
-    /// temperatures do not.
+    /// The variables at a start at the temperatures in `work`, which do not depend on the
+    /// parameters. At the network's own start, whose temperatures may do so, they are zero.
     pub(crate) fn carried_at(&mut self, work: &Workspace, out: &mut [f64]) {
         self.take_contents(work);
         let system = self.system;

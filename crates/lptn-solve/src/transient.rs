@@ -174,7 +174,7 @@ pub(crate) struct Run<'a> {
     grows: f64,
     /// `None` unless something switches.
     switching: Option<Switching<'a>>,
-    /// Steps in a row that were refused before they became too short to make progress.
+    /// Steps in a row, each after refused ones, that are too short to make progress.
     crawled: usize,
     /// Attempts in a row that failed before a fold.
     stuck: usize,

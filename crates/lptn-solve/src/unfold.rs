@@ -18,7 +18,7 @@ pub(crate) struct Unfold<'a> {
     /// The states whose variable is their heat content, with their start in K.
     contents: Vec<(usize, &'a Enthalpy, f64)>,
     algebraic: Option<Newton<'a>>,
-    /// Temperature of every unknown in K. Algebraic ones begin where the last solution was.
+    /// Temperature of every unknown in K. Algebraic ones begin at the last solution.
     temperatures: Vec<f64>,
     /// Derivative of the temperature of every unknown by its variable.
     slopes: Vec<f64>,

@@ -61,7 +61,7 @@ struct Search<'a> {
     system: &'a ThermalSystem,
     time: f64,
     tried: HashSet<(Vec<bool>, Vec<bool>)>,
-    /// Why positions have no steady state at all.
+    /// Reason why positions have no steady state at all.
     failure: Option<SteadyError>,
     /// Names of the elements that had to switch in the steady states of other positions.
     restless: Vec<String>,

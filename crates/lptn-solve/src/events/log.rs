@@ -5,7 +5,7 @@ use lptn_network::{ControlId, LimitId, Network, SwitchId};
 /// An event at a time that was not known in advance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
-    /// When, in s.
+    /// Its time in s.
     pub time: f64,
     /// Its kind.
     pub kind: EventKind,
@@ -20,7 +20,7 @@ pub struct Event {
 pub struct ControlState {
     /// True if it is on.
     pub on: bool,
-    /// When it switched last, in s; minus infinity if it never did.
+    /// Time of its last switch in s; minus infinity if it never switched.
     pub since: f64,
 }
 

@@ -30,7 +30,7 @@ const MOST_EVENTS: usize = 1_000_000;
 pub(crate) struct Switching<'a> {
     network: &'a Network,
     pub(crate) positions: Positions,
-    /// When each control switched last, in s.
+    /// Time of the last switch of each control, in s.
     since: Vec<f64>,
     gates: Gates,
     excess: Vec<f64>,

@@ -92,7 +92,7 @@ impl<'a> Inputs<'a> {
         Ok(panel)
     }
 
-    /// Replaces the straight lines of other inputs by longer series.
+    /// Replaces the straight lines of curved inputs by longer series.
     fn fit(&mut self, span: (f64, f64), panel: &mut Panel) -> Result<(), InputError> {
         let points = self.rule.points;
         let samples = self.sample(span, &points)?;

@@ -1,6 +1,6 @@
 //! Inputs as Legendre series on a panel, and the response of a mode to them in closed form.
 //!
-//! A mode of rate `r` answers to `u = sum c_n P_n(x)`, x from -1 to 1 over a panel of length h,
+//! A mode of rate `r` responds to `u = sum c_n P_n(x)`, x from -1 to 1 over a panel of length h,
 //! with `int exp(-r (h - s)) u(s) ds = h sum c_n w_n(r h / 2)`, where `w_n(a) = exp(-a) i_n(a)` and
 //! i_n is the modified spherical Bessel function of the first kind: from
 //! `2 i_n(a) = int exp(a x) P_n(x) dx` over (-1, 1) (Abramowitz and Stegun, Handbook of

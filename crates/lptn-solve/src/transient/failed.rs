@@ -8,8 +8,7 @@ use crate::runaway::Runaway;
 use crate::stop_reason::StopReason;
 use crate::unsolved::Unsolved;
 
-/// Steps shorter than this part of the run, each after others that were refused, make no progress
-/// ..
+/// Steps shorter than this part of the run, each after refused ones, make no progress ..
 const CRAWL: f64 = 1e-9;
 
 /// .. if there are this many. The first step of a segment may be one of them by chance.

@@ -151,7 +151,7 @@ impl Run<'_> {
         if fold < time {
             return Ok(false);
         }
-        // no other evaluation may decide where the search begins
+        // no other evaluation may affect the start of the search
         heat.seed(self.recorder.branch());
         let mut rates = vec![0.0; state.len()];
         if heat.flow(time, &state, &mut rates).is_ok() {

@@ -122,9 +122,10 @@ impl Course<'_> {
         [value, slope, curvature]
     }
 
-    /// True if it does not turn any more when the modes are at `parts`. The slope is times
-    /// differences of exponentials that are not negative (Abel's summation), so it keeps its sign
-    /// if they all have one.
+    /// True if it does not turn any more when the modes are at `parts`. The slope is
+    /// `q - sum of r_k e_k exp(-r_k s)`: with its sums from the slowest part on, it is a sum of those
+    /// times differences of exponentials that are not negative (Abel's summation), so it keeps its
+    /// sign if they all have one.
     fn is_monotonic(&self, parts: &[f64]) -> bool {
         let (mut sum, mut least, mut most) = (self.q, self.q, self.q);
         for (part, rate) in parts.iter().zip(self.rates) {

@@ -10,7 +10,7 @@ use lptn_network::{Conductor, End};
 /// method.
 const MOST_PAIRS: usize = 400_000;
 
-/// The two ends of a conductor.
+/// The link of a conductor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Link {
     /// Between two nodes, by its place in [`Star::among`].
@@ -150,7 +150,7 @@ pub(crate) struct Star {
     pub(crate) among: Vec<f64>,
     /// Conductance of each place to all surroundings in W/K.
     pub(crate) ground: Vec<f64>,
-    /// Conductance of each place to all others together when it was taken out, in W/K.
+    /// Total conductance of each place when it was taken out, in W/K.
     total: Vec<f64>,
     work: Vec<f64>,
 }

@@ -173,7 +173,7 @@ fn a_turn_of_several_temperatures_is_looked_for_ahead() {
         near(found, 20.0, 0.2);
         assert_eq!(was, narrow, "{last}");
     }
-    // 27 s are looked ahead, and 18 s are the longest
+    // the search covers 27 s, and 18 s are the longest
     near(of([300.0, 300.0], [1.0, 1.0], 9.0).0, 18.0, 1e-9);
     near(of([301.0, 300.0], [1.0, 1.0], 6.0).0, 12.0, 1e-9);
     // a temperature that changes by less than 0.01 K passes nothing
