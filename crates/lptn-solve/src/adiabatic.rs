@@ -1,5 +1,5 @@
-//! Nodes that no path leads from to a boundary: they keep their energy, which tells where they come
-//! to rest.
+//! Nodes without a path to a boundary: they keep their energy, which determines where they come to
+//! rest.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{ConductorFlow, End, Network, NodeId};
@@ -9,23 +9,22 @@ use crate::newton::Newton;
 use crate::newton_error::NewtonError;
 use crate::unsolved::Unsolved;
 
-/// Rounds of bringing the energy of every island to what it was at the start; a linear network
-/// takes two.
+/// Most rounds that restore the energy of every island at the start; a linear network takes two.
 const ROUNDS: usize = 250;
 
-/// Rounds after which the interval that holds the solution is halved each time.
+/// Rounds after which the interval that contains the solution is halved each time.
 const QUICK: usize = 40;
 
-/// What remains, in K of a uniform rise.
+/// Remaining error, in K of a uniform rise.
 const REST: f64 = 1e-10;
 
-/// How far the heat into an island may be from zero, relative to the heat of its sources.
+/// Largest imbalance of the heat into an island, relative to the heat of its sources.
 const BALANCED: f64 = 1e-12;
 
 /// A set of connected nodes that keeps its energy.
 pub(crate) struct Island {
     pub(crate) nodes: Vec<NodeId>,
-    /// The unknown that is held while the others are solved for.
+    /// The unknown that is fixed while the others are solved for.
     pinned: usize,
 }
 
@@ -44,7 +43,7 @@ impl Island {
         Some(Self { nodes, pinned })
     }
 
-    /// Refuses an island that is heated for ever.
+    /// Refuses an island that is heated or cooled without end.
     fn check(&self, system: &ThermalSystem, work: &Workspace) -> Result<(), SteadyError> {
         let network = system.network();
         let (mut heat, mut size) = (0.0, 0.0);
@@ -98,7 +97,7 @@ impl Island {
         })
     }
 
-    /// Moves all its nodes by as much, but none below a tenth of its temperature.
+    /// Moves all its nodes by the same rise in K, but none below a tenth of its temperature.
     fn shift(&self, system: &ThermalSystem, temperatures: &mut [f64], rise: f64) {
         let inside = system.unknowns().iter().zip(temperatures);
         let inside = inside.filter(|(id, _)| self.nodes.binary_search(id).is_ok());
@@ -106,7 +105,7 @@ impl Island {
     }
 }
 
-/// The interval in which the temperature that is held must lie, in K.
+/// The interval of the fixed temperature, in K.
 #[derive(Clone, Copy)]
 struct Interval {
     low: f64,
@@ -114,7 +113,7 @@ struct Interval {
 }
 
 impl Interval {
-    /// Where to look next: where the capacity points, unless that is outside or takes too long.
+    /// The next temperature in K: where the capacity points, if that is inside and fast enough.
     fn next(&mut self, held: f64, (heat, capacity): (f64, f64), round: usize) -> f64 {
         if heat > 0.0 {
             self.high = self.high.min(held)
@@ -126,16 +125,16 @@ impl Interval {
         if round < QUICK && next > self.low && next < self.high { next } else { half }
     }
 
-    /// Whether nothing is left of it: there the heat content jumps, as where a node melts.
+    /// True if nothing is left of it: the heat content jumps there, as when a node melts.
     fn is_closed(self) -> bool {
         self.high.is_finite() && self.high - self.low <= 4.0 * f64::EPSILON * self.high
     }
 }
 
-/// Which nodes take part in something that the energy of their island does not account for.
+/// True for each node whose heat flows the energy of its island does not account for.
 fn exchanges(network: &Network) -> Vec<bool> {
     let mut exchanges = vec![false; network.nodes().len()];
-    // what flows in and out of each node, in W/K
+    // flows into and out of each node, in W/K
     let mut flows = vec![(0.0, 0.0); network.nodes().len()];
     for (conductor, id) in network.conductors().iter().zip(network.conductor_ids()) {
         if !conductor.law.is_stream() {

@@ -1,8 +1,8 @@
-//! How one temperature of a steady state answers everything else: one more solution, of the
-//! transposed linear network, tells by how much 1 W into any node warms it, and with that what
-//! every value of every element does to it (adjoint sensitivities; S. W. Director and R. A. Rohrer,
-//! The generalized adjoint network and network sensitivities, IEEE Trans. Circuit Theory CT-16
-//! (1969) 318).
+//! Response of one temperature of a steady state to everything else. One more solution, of the
+//! transposed linear network, gives the rise for 1 W into any node. With it follows the effect of
+//! every value of every element (adjoint sensitivities; S. W. Director and R. A. Rohrer, The
+//! generalized adjoint network and network sensitivities, IEEE Trans. Circuit Theory CT-16 (1969)
+//! 318).
 //!
 //! Derivatives by parameters are those of the sensitivities. Derivatives by values of laws take one
 //! seed at a time (`network/fields.rs`), so that an element needs no parameter to be ranked. Cells
@@ -23,7 +23,7 @@ use crate::linearised::{Linearised, LinearisedError};
 use crate::snapshot::Snapshot;
 
 lptn_units::errors! {
-/// Why a temperature has no adjoint.
+/// Reason why a temperature has no adjoint.
 #[derive(Clone, Debug)]
 pub enum AdjointError {
     /// The network cannot be taken for a linear one at this state.
@@ -35,7 +35,7 @@ pub enum AdjointError {
 }
 
 lptn_units::errors! {
-/// Why there are no derivatives by parameters.
+/// Reason why there are no derivatives by parameters.
 #[derive(Clone, Debug)]
 pub enum ParameterSlopes {
     /// The network has none.
@@ -45,40 +45,40 @@ pub enum ParameterSlopes {
 }
 }
 
-/// What one value does.
+/// Effect of one value on a temperature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Influence {
     /// The element, or a boundary or parameter.
     pub of: Item,
-    /// Which value of it.
+    /// The field of that value.
     pub field: Field,
     /// The value in SI units.
     pub value: f64,
-    /// By how much the temperature changes: in K for a value hundredfold of 1 % larger (`v dT/dv`),
-    /// or per K where it is a temperature itself.
+    /// Change of the temperature: in K for a value hundredfold of 1 % larger (`v dT/dv`), or in K/K
+    /// if the value is a temperature itself.
     pub change: f64,
     /// Its dimension.
     pub ty: Type,
-    /// Whether it is a temperature, so that `change` is in K/K.
+    /// True if it is a temperature, so that `change` is in K/K.
     pub absolute: bool,
 }
 
-/// The answer of one temperature of a steady state.
+/// The response of one temperature of a steady state.
 #[derive(Clone, Debug)]
 pub struct Adjoint<'a> {
     system: &'a ThermalSystem,
     state: &'a Snapshot,
-    /// Of all vertices in K: nodes, then boundaries.
+    /// Temperatures of all vertices in K: nodes, then boundaries.
     temperatures: Vec<f64>,
     /// Rise of the temperature in K for 1 W into each node.
     rise: Vec<f64>,
 }
 
 impl<'a> Adjoint<'a> {
-    /// Of the temperature of `node` in a steady state, inputs and switches held.
+    /// The adjoint of the temperature of `node` in a steady state, inputs and switches fixed.
     ///
     /// # Errors
-    /// [`AdjointError`], where a node melts, or where the state is at the edge of another.
+    /// [`AdjointError`] if a node melts, or if the state is at the edge of another.
     pub fn of(
         system: &'a ThermalSystem,
         state: &'a Snapshot,
@@ -112,15 +112,15 @@ impl<'a> Adjoint<'a> {
         Ok(Self { system, state, temperatures, rise })
     }
 
-    /// By how much 1 W into each node warms the one that answers, in K/W.
+    /// Rise of the temperature for 1 W into each node, in K/W.
     pub fn rise(&self) -> &[f64] {
         &self.rise
     }
 
-    /// What every value of every conductor and source does, what it is an expression of left as it
-    /// is, and the temperature of every boundary; in the order of the network. The conductors of a
-    /// body or of a path to a face are one, with the sum of their areas. Counts, such as that of
-    /// fins, are left out.
+    /// Effects of every value of every conductor and source, and of the temperature of every
+    /// boundary, in the order of the network. The inputs of an expression are left as they are. The
+    /// conductors of a body or of a path to a face are one, with the sum of their areas. Counts,
+    /// such as that of fins, are left out.
     ///
     /// # Errors
     /// [`InputError`] for a value that has no finite derivative here.
@@ -153,7 +153,7 @@ impl<'a> Adjoint<'a> {
         Ok(found)
     }
 
-    /// By how much the temperature changes with each parameter, in all that reads it, in K per SI
+    /// Change of the temperature with each parameter, through everything that reads it, in K per SI
     /// unit.
     ///
     /// # Errors
@@ -220,7 +220,7 @@ fn put(system: &ThermalSystem, work: &mut Workspace, node: NodeId) {
     system.apply(work, &heat, &vec![0.0; network.boundaries().len()]);
 }
 
-/// The transposed matrix, in a pattern of its own.
+/// The transposed matrix, with its own pattern.
 fn transposed(pattern: &Pattern, values: &[f64]) -> (Pattern, Vec<f64>) {
     let rows = pattern.row_indices();
     let entries = || {
@@ -256,8 +256,7 @@ fn influences<'a>(
     })
 }
 
-/// Whether a value of one of the conductors of a body is one of the body: the sizes of its cells are
-/// not.
+/// True if a value of one conductor of a body belongs to the body; the sizes of its cells do not.
 fn is_of_whole(part: &Influence) -> bool {
     match part.of {
         Item::Grid(_) => part.field.key() == "k",

@@ -1,8 +1,8 @@
-//! Where looks at massless nodes begin.
+//! Starting points of evaluations of massless nodes.
 //!
-//! Newton's method ends where a correction is small, so that the last digits of what it finds come
-//! from where it began and from the factors that it had. Rows, limits and windows look at as many
-//! times as they like; each look begins as if there were no other, with what is known of the step.
+//! Newton's method ends with a small correction, so that the last digits of its solution depend on
+//! its start and on its factors. Rows, limits and windows evaluate a step as often as they like.
+//! Each evaluation begins as if there were no other, with the known solutions of the step.
 //!
 //! An evaluation starts between the integrator's solutions at the two ends of the step, with its
 //! factors. Newton's method stops within 1e-10 K, so its last digits depend on its start. Rows,
@@ -19,25 +19,25 @@ pub(crate) struct Anchor {
 }
 
 impl Anchor {
-    /// Knows no more than this.
+    /// Forgets everything but this.
     pub(crate) fn stand(&mut self, time: f64, algebraic: &[f64]) {
         self.known.clear();
         self.add(time, algebraic);
     }
 
-    /// Forgets all but the last, which is what is known at `time`.
+    /// Forgets all but the last, which is then known at `time`.
     pub(crate) fn go_on(&mut self, time: f64) {
         self.known.drain(..self.known.len().saturating_sub(1));
         self.known.iter_mut().for_each(|(at, _)| *at = time);
     }
 
-    /// Takes what is known at a time after all others.
+    /// Adds the known temperatures at a time after all others.
     pub(crate) fn add(&mut self, time: f64, algebraic: &[f64]) {
         self.known.push((time, algebraic.to_vec()));
     }
 
-    /// Makes a look at `time` begin: between what is known before and after, or, where there may be
-    /// several solutions, at the one before.
+    /// Sets the start of an evaluation at `time`: between the known solutions before and after, or,
+    /// if there may be several solutions, at the one before.
     pub(crate) fn begin(&self, time: f64, unfold: &mut Unfold<'_>) {
         unfold.lean();
         let after = self.known.partition_point(|(at, _)| *at <= time);
@@ -50,12 +50,12 @@ impl Anchor {
 }
 
 impl Newton<'_> {
-    /// The matrix of the factors that it made last; empty if there are none.
+    /// The matrix of the last factors; empty if there are none.
     pub(crate) fn matrix(&self) -> &[f64] {
         if self.ready { &self.values } else { &[] }
     }
 
-    /// Takes a matrix with whose factors looks are to begin; without any if it is empty.
+    /// Takes a matrix with whose factors evaluations must begin; without any if it is empty.
     pub(crate) fn lean_on(&mut self, matrix: &[f64]) {
         let same = self.base.iter().map(|v| v.to_bits()).eq(matrix.iter().map(|v| v.to_bits()));
         if !same {
@@ -65,7 +65,7 @@ impl Newton<'_> {
         }
     }
 
-    /// Takes the matrix of the factors at hand.
+    /// Takes the matrix of the present factors.
     pub(crate) fn lean_on_itself(&mut self) {
         if !self.leans {
             self.base = self.matrix().to_vec();
@@ -73,7 +73,7 @@ impl Newton<'_> {
         }
     }
 
-    /// Begins a look with the factors of that matrix, whatever was solved meanwhile.
+    /// Begins an evaluation with the factors of that matrix, whatever was solved since.
     pub(crate) fn lean(&mut self) {
         if !self.leans {
             self.ready = !self.base.is_empty() && self.factors.factorize(&self.base).is_ok();

@@ -5,7 +5,7 @@ use lptn_network::{ConductorId, End, FacePathId, InputError, Item, Network, Rece
 
 use crate::ledger::{self, Ledger};
 
-/// What one path or source brings.
+/// Heat of one path or source.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Term {
     /// The conductor, the path to a face of a grid, or the source.
@@ -25,13 +25,13 @@ pub struct Balance {
     pub of: End,
     /// Everything that reaches it, in the order of the network: conductors, then sources.
     pub terms: Vec<Term>,
-    /// What it stores, in J, from its own temperature and capacity; for a boundary what it takes.
-    /// It differs from the sum of the terms by what the ledger leaves open. `None` in steady state.
+    /// Stored heat in J, from its own temperature and capacity; for a boundary the heat it takes.
+    /// The sum of the terms less this is the balance's residual. `None` in steady state.
     pub stored: Option<f64>,
 }
 
 impl Balance {
-    /// The balance of a node or boundary where its paths receive this and sources give this, in W.
+    /// The balance of a node or boundary with these heat flows of its paths and sources, in W.
     pub(crate) fn of_flows(
         network: &Network,
         of: End,
@@ -52,7 +52,7 @@ impl Balance {
         Self { of, terms: terms.collect(), stored: None }
     }
 
-    /// The sum of all heat flows in W: what the node stores, or the boundary takes.
+    /// The sum of all heat flows in W: stored in the node or taken by the boundary.
     pub fn power(&self) -> f64 {
         self.terms.iter().map(|term| term.power).sum()
     }
@@ -71,25 +71,25 @@ impl Balance {
         terms
     }
 
-    /// Heat turned over, for shares: all that comes in, which is all that goes out or stays. In W.
+    /// Total heat exchanged, for shares: the larger of heat in and heat out, in W.
     pub fn power_turned_over(&self) -> f64 {
         turned_over(self.terms.iter().map(|term| term.power))
     }
 
-    /// As [`Balance::power_turned_over`], over the run in J.
+    /// The same as [`Balance::power_turned_over`], over the run in J.
     pub fn heat_turned_over(&self) -> Option<f64> {
         self.stored?;
         Some(turned_over(self.terms.iter().filter_map(|term| term.heat)))
     }
 }
 
-/// The larger one of what comes in and what goes out.
+/// The larger of heat in and heat out.
 fn turned_over(heat: impl Iterator<Item = f64>) -> f64 {
     let (into, out) = heat.fold((0.0, 0.0), |(i, o), q: f64| (i + q.max(0.0), o + (-q).max(0.0)));
     into.max(out)
 }
 
-/// Where a term gets its heat from.
+/// The origin of the heat of a term.
 #[derive(Clone, Copy, Debug)]
 enum Kind {
     /// A conductor, and which of its ends the node is.
@@ -100,12 +100,12 @@ enum Kind {
     Source(SourceId, f64),
 }
 
-/// The terms of the node that is asked about, and the running integrals of a run.
+/// The terms of the requested node, and the running integrals of a run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Books {
     of: Option<End>,
     kinds: Vec<Kind>,
-    /// The share of the heat turned over by which the ledger may be off, if the run says one.
+    /// The share of the total heat by which the ledger may be off, if the run gives one.
     error: Option<f64>,
 }
 
@@ -136,7 +136,7 @@ impl Books {
         Self { of, kinds, error: None }
     }
 
-    /// The same, with a ledger that may be off by this share of the heat turned over.
+    /// The same, with a ledger that may be off by this share of the total heat.
     pub(crate) fn allowing(self, error: Option<f64>) -> Self {
         Self { error, ..self }
     }
@@ -166,7 +166,7 @@ impl Books {
         })
     }
 
-    /// The ledger, and the balance with the heat flows that `work` stands at.
+    /// The ledger, and the balance with the heat flows at the state of `work`.
     pub(crate) fn close(
         &self,
         system: &ThermalSystem,

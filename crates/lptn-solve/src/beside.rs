@@ -1,5 +1,5 @@
-//! Results of a run beside it: where a parameter has another value, and temperatures follow as their
-//! sensitivities say.
+//! Results next to a run: a parameter has another value, and temperatures follow their
+//! sensitivities.
 
 use std::ops::Range;
 
@@ -10,11 +10,11 @@ use crate::replay::Replay;
 use crate::solution::Solution;
 
 impl Solution {
-    /// [`Solution::result`] where a parameter has another value, and every temperature has changed with it as
-    /// its sensitivity says: of that, only the first order in the change means anything.
+    /// [`Solution::result`] with another value of a parameter. Every temperature changes by its
+    /// sensitivity, so that only the first order in the change is correct.
     ///
     /// # Errors
-    /// [`ChangeError`] where the network does not take the value.
+    /// [`ChangeError`] if the network does not take the value.
     pub(crate) fn result_beside(
         &self,
         value: &Value,
@@ -32,7 +32,7 @@ impl Solution {
         margin
     }
 
-    /// The same beside it, as [`Solution::result_beside`] has results.
+    /// The margin for that value, as [`Solution::result_beside`] has results.
     pub(crate) fn margin_beside(
         &self,
         (limit, row): (LimitId, usize),

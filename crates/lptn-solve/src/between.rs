@@ -1,11 +1,10 @@
-//! Temperatures between two solutions of balances: whether some of them are such that nothing rests
-//! there.
+//! Temperatures between two solutions of balances, checked for any at which nothing rests.
 //!
-//! Balances bend and have corners, so that places at even distances may step over a narrow stretch
-//! at which nothing rests. Between two neighbouring places the heat that is left over changes by the
-//! mean of its slopes there, if it is smooth; where it does not, places are added in the middle.
+//! Balances bend and have corners, so that points at even distances may step over a narrow stretch
+//! at which nothing rests. If the balances are smooth, the heat left over changes between two
+//! points by the mean of its slopes there. If it does not, points are added in the middle.
 //!
-//! Even places stepped over a stretch next to a corner, and a jump was missed. A stretch below 1e-6
+//! Even points stepped over a stretch next to a corner, and a jump was missed. A stretch below 1e-6
 //! K is rounding.
 
 use lptn_assembly::Workspace;
@@ -13,21 +12,20 @@ use lptn_assembly::Workspace;
 use crate::newton::Newton;
 use crate::newton_error::NewtonError;
 
-/// Places between two solutions at which the balances are always evaluated.
+/// Points between two solutions at which the balances are always evaluated.
 const PLACES: u32 = 16;
 
-/// Places that may be added.
+/// Most points that may be added.
 const MORE: usize = 96;
 
-/// The change of the heat left over may differ from what the slopes at the two ends predict by so
-/// much of it.
+/// The change of the heat left over may differ by this share from the prediction of the slopes at
+/// the two ends.
 const BENT: f64 = 0.02;
 
 /// A stretch shorter than this, in K, is rounding and not the end of a branch.
 pub(crate) const SHORT: f64 = 1e-6;
 
-/// The heat that is left over at a place on a straight way, with its slope along the way, both in
-/// W.
+/// The heat left over at a point on a straight way, with its slope along the way, both in W.
 struct Place {
     share: f64,
     left: Vec<f64>,
@@ -35,7 +33,7 @@ struct Place {
 }
 
 impl Place {
-    /// Whether the balances bend between two places more than a parabola does.
+    /// True if the balances bend between two points more than a parabola does.
     fn bends(&self, next: &Self) -> bool {
         let step = next.share - self.share;
         let changes = self.left.iter().zip(&next.left).map(|(a, b)| b - a);
@@ -53,19 +51,19 @@ impl Place {
 struct Way<'a> {
     start: &'a [f64],
     end: &'a [f64],
-    /// How far the one that moves most moves, in K.
+    /// The largest move of an unknown along the way, in K.
     length: f64,
-    /// Places that may still be added.
+    /// Points that may still be added.
     left: usize,
 }
 
 impl Newton<'_> {
-    /// Refuses a solution between which and `start` there are temperatures at which nothing rests:
-    /// it lies on another branch. What moves moves on a straight line here, so that for one
-    /// massless node this is all there is to find.
+    /// Refuses a solution if nothing rests at some temperatures between `start` and it: it lies on
+    /// another branch. All free unknowns move on a straight line here, so that for one massless
+    /// node this check is complete.
     ///
     /// # Errors
-    /// [`NewtonError::Fold`]; that a value or the factorisation fails.
+    /// [`NewtonError::Fold`], or the error of a value or of the factorisation.
     pub(crate) fn stays(
         &mut self,
         work: &mut Workspace,
@@ -95,7 +93,7 @@ impl Newton<'_> {
         Ok(())
     }
 
-    /// The same between two neighbouring places.
+    /// The same between two neighbouring points.
     fn rests_between(
         &mut self,
         work: &mut Workspace,
@@ -114,7 +112,7 @@ impl Newton<'_> {
         self.rests_between(work, way, (&middle, next))
     }
 
-    /// The temperatures at a place, moved by so many K along the way, or all alike if it has no
+    /// The temperatures at a point, moved by `moved` in K along the way, or all alike if it has no
     /// length.
     fn on(&self, way: &Way<'_>, share: f64, moved: f64) -> Vec<f64> {
         let mut at = way.end.to_vec();
@@ -143,7 +141,7 @@ impl Newton<'_> {
         self.linearize(work, &self.on(way, share, 0.0))
     }
 
-    /// What the balances are at a place at which the Jacobian was evaluated last.
+    /// The balances at a point at which the Jacobian was evaluated last.
     fn place(
         &mut self,
         work: &mut Workspace,

@@ -1,9 +1,9 @@
 //! The moment at which a quantity becomes positive, closed in between two times.
 //!
 //! The secant method in an interval that shrinks (N. Anderson, A. Björck, BIT 13 (1973) 253),
-//! halved where that is slow.
+//! halved if that is slow.
 
-/// Looks for one moment.
+/// Most evaluations for one moment.
 const MOST_LOOKS: usize = 160;
 
 /// Two times in s: at the first the quantity is not positive, at the second it is.
@@ -36,14 +36,14 @@ impl Bracket {
         }
     }
 
-    /// The same from where a straight line passes zero, to the rounding of the time.
+    /// The same, started at the zero of a straight line, to the rounding of the time.
     pub(crate) fn straight(ends: [(f64, f64); 2]) -> Self {
         let mut bracket = Self::new(ends, 0.0, 0.0);
         bracket.next = bracket.zero();
         bracket
     }
 
-    /// The time at which to look; `None` if the two are close enough.
+    /// The time of the next evaluation; `None` if the two are close enough.
     pub(crate) fn next(&mut self) -> Option<f64> {
         let [a, b] = self.times;
         let least = self.enough.max(2.0 * f64::EPSILON * b.abs());
@@ -53,7 +53,7 @@ impl Bracket {
         self.looks += 1;
         let slow = self.looks.is_multiple_of(3) && b - a > 0.5 * self.width;
         if self.looks.is_multiple_of(3) {
-            // what a halving gains is no merit of the secants
+            // the gain of a halving does not count for the secants
             self.width = if slow { 0.5 * (b - a) } else { b - a };
         }
         if self.sides[0] == 0.0 {
@@ -66,14 +66,14 @@ impl Bracket {
         })
     }
 
-    /// How far ahead to look from where the quantity is zero by rounding, and no straight line
-    /// tells where it rises: further every time.
+    /// Distance of the next evaluation from a quantity that is zero by rounding, in s. A straight
+    /// line does not show where it rises, so the distance grows every time.
     fn reach(&mut self, least: f64) -> f64 {
         self.ahead = if self.ahead == 0.0 { 0.5 * least } else { 8.0 * self.ahead };
         self.ahead
     }
 
-    /// Takes the quantity at that time; whether it is positive.
+    /// Takes the quantity at that time; returns true if it is positive.
     pub(crate) fn put(&mut self, time: f64, side: f64) -> bool {
         let passed = side > 0.0;
         let (near, far) = if passed { (1, 0) } else { (0, 1) };
@@ -86,7 +86,7 @@ impl Bracket {
         passed
     }
 
-    /// Where a straight line through both passes zero.
+    /// The zero of a straight line through both.
     fn zero(&self) -> f64 {
         let ([a, b], [low, high]) = (self.times, self.sides);
         a + (b - a) * (low / (low - high))

@@ -2,15 +2,14 @@
 //! left only where it ends.
 //!
 //! A massless node is the limit of one with a small capacity: `c dz/ds = g(y, z)` with c towards 0.
-//! A solution of `g = 0` at which that rests lasts until its Jacobian becomes singular (a fold),
-//! where it meets one at which nothing rests. Beyond, z moves in no time to where `c dz/ds = g`
-//! leads from there (the reduction of singularly perturbed systems, A. N. Tikhonov, Mat. Sb. 31
-//! (1952) 575). Newton's method alone knows nothing of this: it falls to any other solution, sooner
-//! or later than the fold.
+//! A stable solution of `g = 0` lasts until its Jacobian becomes singular (a fold), where it meets
+//! an unstable one. Beyond the fold, z moves in no time to where `c dz/ds = g` leads from there
+//! (the reduction of singularly perturbed systems, A. N. Tikhonov, Mat. Sb. 31 (1952) 575).
+//! Newton's method alone ignores this: it falls to any other solution, before or after the fold.
 //!
 //! The heat flow refuses a solution beyond temperatures at which nothing rests. If no other
 //! solution is found at the end of a branch, the run stops. Rows are found from the ends of the
-//! step, so that the output decides nothing.
+//! step, so that the output has no effect on the solution.
 
 use lptn_assembly::Workspace;
 use lptn_integrate::Pattern;
@@ -18,24 +17,24 @@ use lptn_integrate::Pattern;
 use crate::newton::{Newton, largest};
 use crate::newton_error::NewtonError;
 
-/// The longest step of a leap in K.
+/// The longest step of a jump in K.
 const STRIDE: f64 = 0.25;
 
-/// Steps of a leap.
+/// Most steps of a jump.
 const STRIDES: usize = 5000;
 
-/// From one step of a leap to the next.
+/// Ratio of one step of a jump to the one before.
 const LONGER: f64 = 1.5;
 
 /// The shortest step, over the time constant of the node.
 const SHORTEST: f64 = 1e-12;
 
 impl Newton<'_> {
-    /// Goes to where the free unknowns come to rest from `temperatures` while nothing else moves:
-    /// the same solution where it still is, another one where that has ended.
+    /// Moves the free unknowns from `temperatures` to their rest while nothing else moves: to the
+    /// same solution if it still exists, else to another one.
     ///
     /// # Errors
-    /// [`NewtonError`] if that is nowhere.
+    /// [`NewtonError`] if there is no rest.
     pub(crate) fn leap(
         &mut self,
         work: &mut Workspace,
@@ -113,7 +112,7 @@ impl Newton<'_> {
         (far <= 2.0 * STRIDE && self.stays(work, temperatures, &rest).is_ok()).then_some(rest)
     }
 
-    /// What stands for the capacities: for each free unknown all the heat flows that its
+    /// Substitutes for the capacities: for each free unknown all the heat flows that its
     /// temperature changes, in W/K, so that their time constants are much alike.
     fn small_capacities(
         &mut self,

@@ -1,4 +1,4 @@
-//! Where values curve over time, and how short the steps have to be that see it.
+//! Curvature of inputs over time, and the steps that are short enough to resolve it.
 //!
 //! A step is judged by the prediction of a cubic through the ends of its neighbours, summed over
 //! seven steps. Neither a large base nor a kink of the second derivative counts.
@@ -10,29 +10,29 @@ use crate::times::Segment;
 /// Steps of the whole run to begin with.
 const COARSE: f64 = 300.0;
 
-/// How often a step is halved at most.
+/// Most halvings of a step.
 const HALVINGS: usize = 7;
 
-/// Parts of a first step that the values are looked at in.
+/// Parts of a first step at whose ends the values are sampled.
 const PARTS: usize = 16;
 
 /// Parts of a shorter one at least, which then are no longer than those of a first step.
 const FEWEST_PARTS: usize = 4;
 
-/// The share of what bends within steps that may be something else than the values at their ends
-/// foretell. Of a sine that leaves at least six steps in a period.
+/// The share of the bend within steps that the values at their ends may fail to predict. It leaves
+/// at least six steps in a period of a sine.
 const MISSED: f64 = 0.2;
 
 /// Steps on both sides that are judged together: a bend has its size from its neighbours.
 const AROUND: usize = 3;
 
-/// What is smaller than this part of the largest value is rounding.
+/// Values below this part of the largest one are rounding.
 const ROUNDING: f64 = 1e-10;
 
-/// Parts of a segment at least, to be judged as steps: as many as it takes to foretell anything.
+/// Fewest steps of a segment: as many as a prediction takes.
 const LEAST: f64 = 4.0;
 
-/// Steps that are looked at in one go.
+/// Steps that are sampled in one go.
 const CHUNK: usize = 4096;
 
 /// A stretch of time in which no step may be longer.
@@ -43,10 +43,9 @@ pub(crate) struct Stretch {
     pub(crate) step: f64,
 }
 
-/// Looks at curves over the segments of a run and gives stretches that cover it, ascending. No step
-/// is longer than `gap` or a three-hundredth of the run, and where a curve does something between
-/// the ends of its steps that the values there do not foretell, they are halved, up to seven times.
-/// All in s.
+/// Samples curves over the segments of a run and gives stretches that cover it, ascending. No step
+/// is longer than `gap` or a three-hundredth of the run. If the ends of its steps do not predict a
+/// curve between them, the steps are halved, up to seven times. All in s.
 pub(crate) fn stretches(
     network: &Network,
     curves: &[Curve],
@@ -55,7 +54,7 @@ pub(crate) fn stretches(
 ) -> Vec<Stretch> {
     let span = segments[segments.len() - 1].to - segments[0].from;
     let coarse = span / COARSE;
-    // not finer than what is looked for: rows may be many
+    // not finer than the halvings can resolve: rows may be many
     let first = coarse.min(gap).max(coarse / f64::from(1_u32 << HALVINGS));
     let mut scope = network.evaluation();
     let largest = largest((network, curves), segments, first, &mut scope);
@@ -67,8 +66,7 @@ pub(crate) fn stretches(
         let count = (length / first).ceil().max(LEAST);
         let cells = Cells::new(segment, length / count, first);
         let mut finer = Vec::new();
-        // a segment that is as short as what is looked for is left to the steps with which the
-        // integrator begins
+        // a segment as short as a sixteenth of a step is left to the integrator's first steps
         let looks = if length > coarse / PARTS as f64 { &open[..] } else { &[] };
         for range in cells.whole(count) {
             let samples = sampled(looks, cells, range, &mut scope);
@@ -113,7 +111,7 @@ impl Cells {
         self.place((cell * self.parts) as f64)
     }
 
-    /// The time so many parts of a step after the start.
+    /// The time in s after this number of parts of a step from the start.
     fn place(&self, parts: f64) -> f64 {
         (self.segment.from + parts / self.parts as f64 * self.step).min(self.segment.to)
     }
@@ -137,7 +135,7 @@ fn whole_number(x: f64) -> usize {
     x.round() as usize
 }
 
-/// One curve that is looked at.
+/// One curve that is sampled.
 struct Look<'a> {
     network: &'a Network,
     curve: &'a Curve,
@@ -145,7 +143,7 @@ struct Look<'a> {
 }
 
 impl Look<'_> {
-    /// Adds the stretches in which the steps of a range have to be halved, and looks there again.
+    /// Adds the stretches in which the steps of a range have to be halved, and samples them again.
     fn judge(
         &self,
         (cells, (from, to)): (Cells, Range),
@@ -175,8 +173,8 @@ impl Look<'_> {
     }
 }
 
-/// The samples of each curve over a range and the steps around it. What has no value is left to the
-/// run.
+/// The samples of each curve over a range and the steps around it; NaN for a value that fails,
+/// which is left to the run.
 fn sampled(
     looks: &[Look<'_>],
     cells: Cells,
@@ -221,8 +219,8 @@ fn largest(
     largest
 }
 
-/// For each step of so many samples how far they are from the cubic through the ends of steps,
-/// and from the chord. Where a sample is not a number, nothing is known.
+/// For each step the distances of its samples from the cubic through the ends of steps, and from
+/// the chord. Both are 0 if a sample is not a number.
 fn bends(samples: &[f64], parts: usize) -> Vec<(f64, f64)> {
     let count = samples.len() / parts;
     let end = |cell: usize| samples[cell * parts];
@@ -270,7 +268,7 @@ fn flatten(whole: Stretch, mut finer: Vec<Stretch>, gap: f64, out: &mut Vec<Stre
 mod tests {
     use super::{Cells, MISSED, PARTS, Segment, bends};
 
-    /// What the cubic misses over what bends, for all steps of samples of a function of the steps.
+    /// Miss of the cubic over the bend, for all steps of samples of a function of the steps.
     fn share(count: usize, of: impl Fn(f64) -> f64) -> f64 {
         let samples: Vec<f64> = (0..=count * PARTS).map(|k| of(k as f64 / PARTS as f64)).collect();
         let sum = bends(&samples, PARTS)
@@ -289,7 +287,7 @@ mod tests {
         assert!(share(7, |x| 1e6 * (x - 3.0).powi(3)) < 1e-9);
     }
 
-    /// Samples are no further apart than those of a first step, and four in a step at least.
+    /// Samples are no further apart than those of a first step, at least four in a step.
     #[test]
     fn short_steps_have_fewer_samples() {
         let segment = Segment { from: 2.0, to: 12.0 };

@@ -1,5 +1,5 @@
-//! What is kept of each row, and columns that are read as a run comes there, so that no node has to
-//! be kept for them.
+//! The recorded values of each row, and columns that are read as a run reaches the row, so that no
+//! node has to be recorded for them.
 //!
 //! A network whose nodes have a length keeps all nodes if heat flows are selected, because Biot
 //! numbers are judged in every row. Both ways have the same digits. A column reads its inputs as
@@ -13,10 +13,10 @@ use crate::reading::Reading;
 use crate::selection::RecordedNodes;
 use crate::settings_error::SettingsError;
 
-/// The most values that are kept: 4 GB.
+/// The most recorded values, of nodes and of columns: 4 GB each.
 const MOST_VALUES: usize = 500_000_000;
 
-/// Room for what is kept of all rows.
+/// Memory for the recorded values of all rows.
 pub(crate) struct Room {
     /// The nodes, ascending.
     pub(crate) recorded: Vec<NodeId>,
@@ -25,7 +25,7 @@ pub(crate) struct Room {
 }
 
 impl Room {
-    /// For so many rows.
+    /// Allocates this number of rows.
     pub(crate) fn new(
         system: &ThermalSystem,
         record: &RecordedNodes,
@@ -63,15 +63,15 @@ impl Columns {
         self.quantities.is_empty()
     }
 
-    /// Whether any reads more than temperatures.
+    /// True if any reads more than temperatures.
     pub(crate) fn ask_for_heat(&self) -> bool {
         let heat =
             |quantity: &Quantity| matches!(quantity, Quantity::Heat(_) | Quantity::Report(_));
         self.quantities.iter().any(heat)
     }
 
-    /// Writes a row from nodes recovered; what cannot be had is NaN. Inputs are read as they are
-    /// where a row is read after the run, to the same digits.
+    /// Writes a row from recovered nodes; NaN for a value that cannot be computed. Inputs are read
+    /// as when a row is read after the run, to the same digits.
     pub(crate) fn push(
         &mut self,
         system: &ThermalSystem,
@@ -90,7 +90,7 @@ impl Columns {
         self.values.extend(self.quantities.iter().map(&mut value));
     }
 
-    /// The values of one of them over the rows in SI units; `None` if it is none of them.
+    /// The values of one of them over the rows in SI units; `None` if it is not one of them.
     pub(crate) fn get(&self, quantity: Quantity) -> Option<impl Iterator<Item = f64> + '_> {
         let column = self.quantities.iter().position(|known| *known == quantity)?;
         Some(self.values.iter().skip(column).step_by(self.quantities.len()).copied())

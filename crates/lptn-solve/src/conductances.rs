@@ -31,27 +31,27 @@ impl<'a> Conductances<'a> {
 
     /// Factorises the conductances of a system.
     ///
-    /// Nodes without a path to a boundary have no temperature that heat leads to. They are kept
-    /// apart from the others, and nothing may be asked about them but to stay where they are.
+    /// Heat does not determine the temperature of nodes without a path to a boundary. They are kept
+    /// apart, and the only valid question is if they keep their temperatures.
     ///
     /// # Errors
-    /// [`FactorError`] where the conductances span more than the numbers hold.
+    /// [`FactorError`] if the conductances span more than doubles can represent.
     pub fn new(system: &'a ThermalSystem) -> Result<Self, FactorError> {
         let factors = if system.states().is_empty() { None } else { Some(factorized(system)?) };
         Ok(Self { system, factors })
     }
 
     /// Temperature of each state in K, in the order of [`ThermalSystem::states`], at which the
-    /// inputs in `work` balance: sought from `start` in K everywhere, so that a network at rest
-    /// there stays so to the last digit.
+    /// inputs in `work` balance. The search starts from `start` in K everywhere, so that a network
+    /// at rest there stays so to the last digit.
     ///
-    /// It is refined at most `refinements` times. What is left over is taken from the links, where
-    /// a heat flow leaves one node as the number that enters the other, not from the matrix, whose
-    /// diagonal has rounded a small conductance beside a large one away (a path to ground that is
-    /// not there): the total balance is then exact, and the refinement restores what was rounded.
+    /// There are at most `refinements` refinements. The residual is taken from the links, where a
+    /// heat flow leaves one node as the number that enters the other. The diagonal of the matrix
+    /// has lost a small conductance next to a large one by rounding (a missing path to ground). So
+    /// the total balance is exact, and the refinement restores what was rounded.
     ///
     /// # Errors
-    /// [`FactorError`] where the solution is not finite.
+    /// [`FactorError`] if the solution is not finite.
     pub fn states(
         &mut self,
         work: &Workspace,
@@ -67,7 +67,7 @@ impl<'a> Conductances<'a> {
                 step.copy_from_slice(&flow);
                 factors.solve_in_place(&mut step)?;
             } else {
-                // where it iterates, what is below the last digits is not sought
+                // an iteration need not resolve what is below the last digits
                 step.fill(0.0);
                 factors.solve_from(&flow, &mut step, f64::EPSILON * size(&states))?;
             }
@@ -97,7 +97,7 @@ fn factorized(system: &ThermalSystem) -> Result<Box<dyn Factorization>, FactorEr
 }
 
 /// Makes the blocks of islands without a boundary regular, by twice their diagonal: no other block
-/// sees it, and where no heat goes in the solution is zero all the same.
+/// sees it, and without heat the solution is zero all the same.
 fn tie_down(system: &ThermalSystem, pattern: &Pattern, values: &mut [f64]) {
     for loose in system.network().ungrounded().into_iter().flatten() {
         if let Ok(state) = system.states().binary_search(&loose) {

@@ -1,8 +1,8 @@
-//! How long a step may be where inputs curve.
+//! The longest step for inputs that curve.
 //!
-//! The integrator sees an input only at the ends of its steps: a pulse between two of them would be
-//! missed without a trace, and the books would close all the same. So the inputs are looked at
-//! before the run, and no step is longer than what resolves them where it is.
+//! The integrator sees an input only at the ends of its steps. A pulse between two of them would be
+//! missed without a trace, and the energy balance would close all the same. So the inputs are
+//! sampled before the run, and no step is longer than they need at that time.
 //!
 //! CVODE's steps grow over a quiet stretch. A pulse after it was missed and the energy balance
 //! closed, because the balance sees no more than the steps do. Every part of an expression that
@@ -17,22 +17,22 @@ use lptn_assembly::{JacobianForm, ThermalSystem};
 use crate::cells::{Stretch, stretches};
 use crate::times::Segment;
 
-/// What curved inputs ask of the integrator.
+/// Limits that curved inputs set to the integrator.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Curved {
     /// The longest step everywhere.
     stretches: Vec<Stretch>,
     /// The share of the tolerance that the integrator gets.
     pub(crate) share: f64,
-    /// How many of the steps the network remembers.
+    /// Number of those steps that the network remembers.
     pub(crate) remembered: f64,
 }
 
 /// Steps within the network's memory over which errors still add up to a few tolerances.
 const REMEMBERED: f64 = 10.0;
 
-/// Steps within the memory beyond which nothing is promised of the error: with up to 1000 it stays
-/// within ten tolerances, with 8000 it was once found to be 67 of them, however small the share.
+/// Steps within the memory beyond which the error has no bound. With up to 1000 it stays within ten
+/// tolerances; with 8000 it was once 67 of them, however small the share.
 pub(crate) const MOST_REMEMBERED: f64 = 1000.0;
 
 /// The smallest share of the tolerance.
@@ -59,8 +59,8 @@ impl Curved {
         Some(Self { stretches, share, remembered })
     }
 
-    /// The longest step from `time` on, in s: one that leads into a stretch of shorter steps ends
-    /// soon behind its beginning.
+    /// The longest step from `time` on, in s: a step that leads into a stretch of shorter steps
+    /// ends soon after its beginning.
     pub(crate) fn longest(&self, time: f64) -> f64 {
         let here = self.stretches.partition_point(|s| s.to <= time).min(self.stretches.len() - 1);
         let mut longest = self.stretches[here].step;
@@ -80,7 +80,7 @@ pub(crate) fn longest_gap(rows: &[f64]) -> f64 {
     rows.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max)
 }
 
-/// The most steps of the longest size within so many s.
+/// The most steps of the longest size within `memory` in s.
 fn most_steps(stretches: &[Stretch], memory: f64) -> f64 {
     let mut ends = vec![(stretches[0].from, 0.0)];
     for s in stretches {
@@ -101,9 +101,9 @@ fn most_steps(stretches: &[Stretch], memory: f64) -> f64 {
     inside.map(|from| up_to(from + memory) - up_to(from)).fold(0.0, f64::max)
 }
 
-/// How long a network remembers, in s: all capacity over all conductance that leads out. The
-/// slowest time constant is not shorter, for it is the inverse of the least Rayleigh quotient, and
-/// this is the quotient of a uniform rise.
+/// The memory of a network, in s: all capacity over all conductance that leads out. The slowest
+/// time constant is not shorter, for it is the inverse of the least Rayleigh quotient, and this is
+/// the quotient of a uniform rise.
 fn memory(system: &ThermalSystem, time: f64) -> f64 {
     let mut values = vec![0.0; system.pattern().entries()];
     let mut work = system.workspace();
@@ -115,7 +115,7 @@ fn memory(system: &ThermalSystem, time: f64) -> f64 {
     if !known {
         return f64::INFINITY;
     }
-    // what leaves all nodes together for a rise of all by 1 K
+    // heat in W out of all nodes together for a rise of all by 1 K
     let out = -values.iter().sum::<f64>();
     if out > 0.0 { system.capacity().iter().sum::<f64>() / out } else { f64::INFINITY }
 }

@@ -8,11 +8,11 @@ use crate::interval::{At, Interval, POINTS};
 use crate::stop_reason::StopReason;
 use crate::watch::{is_same, put_in, top};
 
-/// A quantity that is nearer to a level at an end of an interval than this share of its range
-/// stands there: the interval was cut at that level.
+/// A quantity nearer to a level at an end of an interval than this share of its range is at the
+/// level: the interval was cut there.
 const AT_THE_LEVEL: f64 = 1e-9;
 
-/// Tops between the points that are looked at, for each quantity and side.
+/// Tops between the points that are evaluated, for each quantity and side.
 const TOPS: usize = 4;
 
 /// Halvings of the gap between two points in which a curve passes a level.
@@ -21,10 +21,10 @@ const GUESSES: usize = 50;
 /// A time is found to this share of the interval.
 const ENOUGH: f64 = 1e-14;
 
-/// Where curves bend: when a quantity behind the first `count` ones passes one of its levels.
+/// Levels at which curves bend: those of the quantities after the first `count` ones.
 #[derive(Clone, Copy)]
 pub(crate) struct Levels<'a> {
-    /// How many curves are asked for.
+    /// Number of curves that are asked for.
     pub(crate) count: usize,
     /// For each of the others its levels, rising.
     pub(crate) of: &'a [Vec<f64>],
@@ -65,7 +65,7 @@ fn one(
         (low, high) = (low.min(value), high.max(value));
     }
     let spread = high - low;
-    // no curve that its points tell leaves their range by as much again
+    // no curve that its points resolve leaves their range by as much again
     let within = |level: &f64| (low - spread..=high + spread).contains(level);
     let near: Vec<f64> = levels.iter().copied().filter(within).collect();
     if near.is_empty() {
@@ -87,7 +87,7 @@ fn one(
     Ok(())
 }
 
-/// Whether each point is above a level; one of the ends that stands there counts as its neighbour.
+/// True for each point above a level; an end that is at the level counts as its neighbour.
 fn sides(points: &[(f64, f64)], level: f64, margin: f64) -> Vec<bool> {
     let mut above: Vec<bool> = points.iter().map(|point| point.1 > level).collect();
     let last = points.len() - 1;
@@ -122,8 +122,8 @@ fn look_at_tops(
     Ok(())
 }
 
-/// Where the polynomial through the points of an interval passes a level between two times; the
-/// middle where it does not.
+/// The time between two at which the polynomial through the points of an interval passes a level;
+/// the middle if it does not.
 fn guess(
     interval: &Interval,
     (column, level): (usize, f64),
@@ -142,9 +142,9 @@ fn guess(
     before.midpoint(after)
 }
 
-/// Finds the moment at which a curve passes a level between two points (time in s, value): the first
-/// time behind it that was looked at, with the values of all curves there. It is not further away
-/// than `enough` in s unless rounding is more.
+/// Finds the moment at which a curve passes a level between two points (time in s, value): the
+/// first time evaluated after it, with the values of all curves there. It is not further away than
+/// `enough` in s unless rounding is more.
 pub(crate) fn passing(
     at: &mut At<'_>,
     (column, level): (usize, f64),

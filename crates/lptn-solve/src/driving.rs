@@ -1,7 +1,6 @@
-//! The inputs of a network over time, in parts that are short enough to see what they do.
+//! The inputs of a network over time, in parts that are short enough to resolve them.
 //!
-//! For a network without capacity the parts follow from its inputs alone, so that rows decide
-//! nothing.
+//! For a network without capacity the parts follow from its inputs alone; rows have no effect.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::InputError;
@@ -12,10 +11,10 @@ use crate::readings::parts;
 use crate::times::{Segment, segments};
 use crate::watch::{is_same, put_in, top};
 
-/// Parts of a segment in which no input curves: what follows from straight lines may curve.
+/// Parts of a segment in which no input curves: the response to straight lines may curve.
 const PARTS: u32 = 8;
 
-/// How often the top of a curve is approached by another parabola.
+/// Number of parabolas that approach the top of a curve after the first.
 const REFINEMENTS: usize = 12;
 
 /// The parts of each segment, from and to in s. They follow from the inputs alone, whatever rows
@@ -42,8 +41,8 @@ pub(crate) fn parts_of(system: &ThermalSystem, all: &[Segment]) -> Vec<Vec<(f64,
     all.iter().map(of).collect()
 }
 
-/// The largest value of what `of` makes of the inputs of a network, from `start` to `stop` in s. Of
-/// a network that reads no time it is that at the start.
+/// The largest value of `of` for the inputs of a network, from `start` to `stop` in s. For a
+/// network that reads no time it is that at the start.
 ///
 /// # Errors
 /// [`InputError`] if an input has no value.

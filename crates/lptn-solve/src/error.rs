@@ -1,4 +1,4 @@
-//! Why an analysis has no answer.
+//! Reasons why an analysis has no result.
 
 use lptn_integrate::{FactorError, IntegrateError};
 use lptn_network::{Field, InputError, Item, NodeId, list_of, list_of_names};
@@ -11,10 +11,10 @@ use crate::stop_reason::{COLD, RUNS_AWAY, StopReason, cold, runaway, scales};
 use crate::unsolved::Unsolved;
 
 lptn_units::errors! {
-/// Why there is no steady state.
+/// Reason why there is no steady state.
 #[derive(Clone, Debug)]
 pub enum SteadyError {
-    /// Some nodes reach no boundary and are heated or cooled for ever: one set of connected ones
+    /// Some nodes reach no boundary and are heated or cooled without end: one set of connected ones
     /// after the other, and the heat in W that they keep receiving.
     NoBoundary { nodes: Vec<NodeId>, names: Vec<String>, heat: f64 } = "steady::no_boundary",
         format!(
@@ -27,7 +27,7 @@ pub enum SteadyError {
     Input => InputError;
     /// The balances of a nonlinear network were not solved.
     Unsolved => Unsolved as Class::of_numbers;
-    /// The conductances span more than the numbers can hold.
+    /// The conductances span more than doubles can represent.
     Factorization(error: FactorError) = "steady::singular",
         format!("the conductances cannot be factorised: {error}"), source error, help MERGE,
         class Class::Numbers;
@@ -36,10 +36,10 @@ pub enum SteadyError {
     BelowAbsoluteZero { name: String, temperature: f64 } = "solve::below_absolute_zero",
         cold(name, *temperature),
         help COLD, class Class::Numbers;
-    /// From its start the network becomes hotter for ever: the node, the source whose heat grows
-    /// with its temperature, and the temperature in K from which on that is more than the paths
-    /// carry off. `rests`: the temperature of the node in K in a steady state that it does not come
-    /// to, where one is known.
+    /// From its start the network becomes hotter without end: the node, the source whose heat grows
+    /// with its temperature, and the temperature in K from which on the paths cannot carry it off.
+    /// `rests`: the temperature of the node in K in a steady state that is not reached, if one is
+    /// known.
     Runaway { node: String, source: String, from: f64, rests: Option<f64> } = "steady::runaway",
         match rests {
             None => format!("no steady state: {}", runaway(node, source, *from)),
@@ -82,7 +82,7 @@ impl SteadyError {
 }
 
 lptn_units::errors! {
-/// Why a transient could not be started or finished.
+/// Reason why a transient could not be started or finished.
 #[derive(Debug)]
 pub enum TransientError {
     /// The settings of the run contradict themselves.
@@ -95,14 +95,14 @@ pub enum TransientError {
     Integrator(error: IntegrateError) = "run::integrator",
         format!("the integrator failed: {error}"), source error,
         class Class::Numbers;
-    /// The run broke off at this time in s; what was computed before is whole.
+    /// The run broke off at this time in s; the results up to then are complete.
     Stopped { time: f64, reason: StopReason, partial: Box<Solution> } = reason.code(),
         format!("stopped at {} s: {reason}", six_digits(*time)), source reason, help reason.help(),
         class match reason {
             StopReason::NothingSwitches => Class::Input,
             _ => Class::Numbers,
         };
-    /// The run reached its stop, but its energy balance does not close; the run is whole.
+    /// The run reached its stop, but its energy balance does not close; the run is complete.
     Open { open: LedgerError, solution: Box<Solution> } = open.code(), open, source open,
         help open.help(), class Class::Numbers;
 }

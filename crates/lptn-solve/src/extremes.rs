@@ -59,7 +59,7 @@ impl Extremes {
         self
     }
 
-    /// The hottest or the coldest, where nothing real is as hot, or nothing else that cold.
+    /// The hottest or the coldest place, if nothing real is as hot, or nothing else that cold.
     /// `others` are the temperatures of boundaries in K.
     pub(crate) fn odd(self, network: &Network, others: impl Iterator<Item = f64>) -> Option<Place> {
         let starts = network.node_ids().map(|id| network.initial(id));

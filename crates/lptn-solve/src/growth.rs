@@ -1,12 +1,11 @@
-//! How errors grow along a run.
+//! Growth of errors along a run.
 //!
-//! Where heat rises faster with temperature than it is carried off, or a film grows as a body
-//! cools, two states that differ a little come to differ more, and so does a computed state from
-//! the exact one. Where nothing changes by itself, the speed `dT/dt` obeys the same linear
-//! equation along the solution as such a difference does. So the speed tells by how much an error
-//! has grown: at most as much as the largest speed has grown since. In networks that only lose
-//! heat it never grows. Where a capacity falls, errors of the heat content become larger ones of
-//! the temperature.
+//! If heat rises faster with temperature than it is carried off, or a film grows as a body cools,
+//! two states that differ a little diverge, and so does a computed state from the exact one. If
+//! nothing changes by itself, the speed `dT/dt` obeys the same linear equation along the solution
+//! as such a difference. So the speed gives the growth of an error: at most as much as the largest
+//! speed has grown since. In networks that only lose heat it never grows. If a capacity falls,
+//! errors of the heat content become larger errors of the temperature.
 //!
 //! If the error grows, the run is repeated with a tolerance that is smaller by this factor.
 
@@ -14,43 +13,43 @@ use lptn_assembly::ThermalSystem;
 
 use crate::linearised::is_proportional;
 
-/// What changes no state by more than so many tolerances tells only that the speed is not larger.
+/// A change of all states below this number of tolerances gives only a limit of the speed.
 const TOLD: f64 = 50.0;
 
-/// Errors that grow by no more than this need no smaller tolerance.
+/// Errors that grow by at most this factor need no smaller tolerance.
 const BORNE: f64 = 1.1;
 
-/// So much counts as the growth where steps pass something narrow over temperature, whose errors
-/// have no time to be forgotten.
+/// The assumed growth if steps pass something narrow over temperature, whose errors have no time to
+/// decay.
 pub(crate) const NARROW: f64 = 1.2;
 
-/// By how much more than an error grows the tolerance is tightened: nothing is forgotten meanwhile,
-/// so that the errors of the steps add up, all of one sign. A heat of reaction that nearly doubles
-/// the speed was measured to make ten tolerances of them.
+/// The tolerance is tightened by this factor more than an error grows: nothing decays in that time,
+/// so that the errors of the steps add up, all of one sign. With a heat of reaction that nearly
+/// doubles the speed, this was measured to make ten tolerances of them.
 const SPARE: f64 = 4.0;
 
-/// Errors that grow by more than this beyond what the tolerance makes up for are told.
+/// Errors that grow by this factor more than the tolerance allows for are reported.
 pub(crate) const TELLING: f64 = 4.0;
 
 /// The growth of errors.
 #[derive(Clone, Debug)]
 pub(crate) struct Growth {
     tolerance: f64,
-    /// The state since which the next speed is taken, and the time since then in s.
+    /// The state from which the next speed is computed, and the time since then in s.
     before: Vec<f64>,
     elapsed: f64,
-    /// By how much more than its state each temperature changes.
+    /// Change of each temperature over that of its state, at least 1.
     weights: Vec<f64>,
-    /// The largest change of a state in K/s; unknown behind a jump.
+    /// The largest change of a state in K/s; unknown after a jump.
     speed: Option<f64>,
-    /// By how much errors have grown since they were smallest, and the most of it.
+    /// Growth of errors since they were smallest, and its maximum.
     now: f64,
     most: f64,
 }
 
 impl Growth {
     /// `None` for a network in which no error grows, and for one whose inputs change by themselves
-    /// between two jumps: there the speed tells nothing. `tolerance` is that of the integrator in
+    /// between two jumps: there the speed gives no growth. `tolerance` is that of the integrator in
     /// K.
     pub(crate) fn of(system: &ThermalSystem, tolerance: f64) -> Option<Self> {
         let told = !is_proportional(system) && system.network().stands_still();
@@ -65,21 +64,21 @@ impl Growth {
         })
     }
 
-    /// Begins at a state, behind a jump or for the first time.
+    /// Begins at a state, after a jump or for the first time.
     pub(crate) fn begin(&mut self, state: &[f64]) {
         self.before = state.to_vec();
         self.speed = None;
         self.elapsed = 0.0;
     }
 
-    /// Takes in the slopes of temperatures over their states at the end of a step. Where one is
+    /// Takes in the slopes of temperatures over their states at the end of a step. If a slope is
     /// below 1 the tolerance is one of the state.
     pub(crate) fn weigh(&mut self, slopes: &[f64]) {
         self.weights.clear();
         self.weights.extend(slopes.iter().map(|slope| slope.max(1.0)));
     }
 
-    /// Takes in a step of so many s to a state. Short steps are taken together.
+    /// Takes in a step of `length` in s to a state. Short steps are taken together.
     pub(crate) fn step(&mut self, length: f64, state: &[f64]) {
         self.elapsed += length;
         let changes = state.iter().zip(&self.before).map(|(now, before)| (now - before).abs());
@@ -103,7 +102,7 @@ impl Growth {
         self.elapsed = 0.0;
     }
 
-    /// By how much an error has grown at most.
+    /// The largest growth of an error.
     pub(crate) fn most(&self) -> f64 {
         self.most
     }
@@ -172,7 +171,7 @@ mod tests {
         assert!((growth.now - 2.0).abs() < 1e-12);
     }
 
-    /// Fifty tolerances in a step or several tell a speed; less tells that it is no larger.
+    /// Fifty tolerances in one or more steps give a speed; less gives only an upper limit.
     #[test]
     fn what_hardly_changes_tells_only_how_fast_it_is_at_most() {
         let mut growth = new();
@@ -180,7 +179,7 @@ mod tests {
         growth.step(1.0, &[1.0]);
         growth.step(2.0, &[1.0 + 4e-4]);
         assert!((growth.speed.unwrap() - 2.5e-4).abs() < 1e-15);
-        // together with the one before it is told
+        // together with the one before it gives a speed
         growth.step(2.0, &[1.0 + 8e-4]);
         assert!((growth.speed.unwrap() - 2e-4).abs() < 1e-12 && growth.most() <= 1.0);
         growth.step(2.0, &[1.0 + 8e-4 + 5.1e-4]);
@@ -196,8 +195,8 @@ mod tests {
         assert!(shares.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{shares:?}");
     }
 
-    /// A network in which nothing acts on itself grows no errors, and one whose inputs go on by
-    /// themselves tells none by its speed.
+    /// Errors do not grow in a network in which nothing acts on itself. If inputs change by
+    /// themselves, the speed shows no growth.
     #[test]
     fn growth_is_followed_where_the_speed_tells_it() {
         let is_followed = |power: &str| {

@@ -26,7 +26,7 @@ use crate::tangent::Tangent;
 use crate::unfold::Unfold;
 use crate::unsolved::Unsolved;
 
-/// A system with what evaluating it needs. Its running integrals are those of the ledger.
+/// A system with the data to evaluate it. Its running integrals are those of the ledger.
 pub(crate) struct Heat<'a> {
     system: &'a ThermalSystem,
     pattern: Pattern,
@@ -34,19 +34,19 @@ pub(crate) struct Heat<'a> {
     unfold: Unfold<'a>,
     flow: Vec<f64>,
     books: Books,
-    /// Which Jacobian is written.
+    /// The form of the Jacobian.
     form: JacobianForm,
     /// Comparisons of `t` keep the truth they have here while a segment lasts.
     segment: f64,
-    /// The time at which inputs are held, and one inside its segment.
+    /// The time at which inputs are fixed, and one inside its segment.
     pub(crate) held: Option<(f64, f64)>,
-    /// Why the heat could not be had.
+    /// Reason why the heat could not be computed.
     pub(crate) failure: Option<NewtonError>,
-    /// The same, overcome by a smaller step or not, until someone takes it.
+    /// The same, overcome by a smaller step or not, until it is taken.
     pub(crate) refused: Option<NewtonError>,
-    /// The earliest time at which a massless node could not go on, until someone takes it.
+    /// The earliest time in s at which a massless node could not go on, until it is taken.
     pub(crate) fold: Option<f64>,
-    /// What switches.
+    /// Switching conditions.
     pub(crate) gates: Gates,
     /// The sensitivities that are followed.
     pub(crate) tangent: Option<Tangent<'a>>,
@@ -82,8 +82,8 @@ impl<'a> Heat<'a> {
         })
     }
 
-    /// Reads the inputs and takes the state; what fails may be the guess of a step that is too
-    /// long.
+    /// Reads the inputs and takes the state; a failure may come from the guess of a step that is
+    /// too long.
     fn place(&mut self, time: f64, y: &[f64]) -> Result<(), Retry> {
         let (at, segment) = self.held.unwrap_or((time, self.segment));
         let inputs = self.system.read_inputs(&mut self.work, at, segment);
@@ -103,8 +103,8 @@ impl<'a> Heat<'a> {
         self.unfold.may_leap();
     }
 
-    /// Reads the inputs at the two ends of a segment, or of what is left of it, as straight lines;
-    /// not where they are held, at a time that has nothing to do with the segment.
+    /// Reads the inputs at the two ends of a segment, or of the rest of it, as straight lines; not
+    /// if they are fixed, at a time unrelated to the segment.
     pub(crate) fn draw_line(&mut self, (from, to): (f64, f64)) {
         if self.held.is_some() {
             return;
@@ -112,7 +112,7 @@ impl<'a> Heat<'a> {
         self.work.draw_line(self.system.network(), (from, to), self.segment);
     }
 
-    /// Sets which controls are on and which comparisons hold.
+    /// Sets which controls are on and which comparisons are true.
     pub(crate) fn set_positions(&mut self, positions: &Positions) {
         self.work.set_positions(positions);
         self.unfold.may_leap();
@@ -123,7 +123,7 @@ impl<'a> Heat<'a> {
         self.system.capacity()
     }
 
-    /// Whether massless nodes may have several solutions; see [`Heat::branch`].
+    /// True if massless nodes may have several solutions; see [`Heat::branch`].
     pub(crate) fn is_guarded(&self) -> bool {
         self.unfold.is_guarded()
     }
@@ -148,20 +148,20 @@ impl<'a> Heat<'a> {
         self.unfold.matrix()
     }
 
-    /// Begins a run with massless nodes where they stood, in K.
+    /// Begins a run with massless nodes at these earlier temperatures in K.
     pub(crate) fn stand_at(&mut self, stood: &[f64]) {
         self.unfold.stand_at(stood);
     }
 
-    /// Begins the next look with massless nodes at these temperatures in K.
+    /// Begins the next evaluation with massless nodes at these temperatures in K.
     pub(crate) fn seed(&mut self, branch: &[f64]) {
         self.unfold.seed(branch);
     }
 
-    /// Brings massless nodes from these temperatures in K to this state without a leap.
+    /// Brings massless nodes from these temperatures in K to this state without a jump.
     ///
     /// # Errors
-    /// Why they do not come to it.
+    /// The reason why they do not reach it.
     pub(crate) fn comes_to(
         &mut self,
         (time, y): (f64, &[f64]),
@@ -200,8 +200,8 @@ impl<'a> Heat<'a> {
         self.system
     }
 
-    /// Lets massless nodes leap as they do at `beyond`, and brings them back to `here`; both are a
-    /// time and a state. Whether they are on another branch then; if not, nothing has changed.
+    /// Lets massless nodes jump as they do at `beyond`, and brings them back to `here`; both are a
+    /// time and a state. True if they are then on another branch; if not, nothing has changed.
     pub(crate) fn leap(&mut self, beyond: (f64, &[f64]), here: (f64, &[f64])) -> bool {
         let before = self.unfold.algebraic().to_vec();
         self.unfold.may_leap();
@@ -222,7 +222,7 @@ impl<'a> Heat<'a> {
         Ok(())
     }
 
-    /// Goes to a state of an event; what fails there ends the run.
+    /// Goes to a state of an event; a failure there ends the run.
     fn arrive(&mut self, time: f64, y: &[f64]) -> Result<(), StopReason> {
         self.recover(time, y).map_err(|_| match self.failure.take() {
             Some(NewtonError::Input(input)) => StopReason::Input(input),
@@ -234,7 +234,7 @@ impl<'a> Heat<'a> {
         })
     }
 
-    /// Writes what [`Gates::excess`] does from the states alone, if these tell it; true if they do.
+    /// Writes [`Gates::excess`] from the states alone and returns true, if they suffice.
     fn excess_is_plain(&self, y: &[f64], out: &mut [f64]) -> bool {
         let plain = self.gates.are_plain() && !self.unfold.carries_heat();
         if plain {
@@ -243,7 +243,7 @@ impl<'a> Heat<'a> {
         plain
     }
 
-    /// Writes how far everything that switches is beyond the point where it does; see
+    /// Writes the excess of everything that switches over its switching point; see
     /// [`Gates::excess`].
     pub(crate) fn excess(
         &mut self,
@@ -258,7 +258,7 @@ impl<'a> Heat<'a> {
         self.gates.excess(self.system, &mut self.work, out).map_err(StopReason::Input)
     }
 
-    /// Sets how far the sides of comparisons have to be apart; see [`Gates::set_margins`].
+    /// Sets the least difference of the sides of comparisons; see [`Gates::set_margins`].
     pub(crate) fn set_margins(
         &mut self,
         time: f64,
@@ -269,7 +269,7 @@ impl<'a> Heat<'a> {
         self.gates.set_margins(self.system, &mut self.work, tolerance).map_err(StopReason::Input)
     }
 
-    /// Which comparisons hold as they stand.
+    /// For each comparison true if it is true at present.
     pub(crate) fn comparisons(&mut self, time: f64, y: &[f64]) -> Result<Vec<bool>, StopReason> {
         self.arrive(time, y)?;
         let network = self.system.network();
@@ -282,8 +282,8 @@ impl<'a> Heat<'a> {
         Ok(holds)
     }
 
-    /// Begins to follow sensitivities; gives what is carried of them where every node starts from
-    /// `y`, of which `own_start` says whether it is the start of the network itself.
+    /// Begins to follow sensitivities; returns their carried values if every node starts from `y`.
+    /// `own_start` is true if `y` is the start of the network itself.
     pub(crate) fn follow(
         &mut self,
         mut tangent: Tangent<'a>,

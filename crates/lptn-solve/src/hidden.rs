@@ -1,5 +1,5 @@
-//! What results may do between the points of an interval, bounded by their form: a bell over a
-//! temperature may be narrower than any look.
+//! Results between the points of an interval, bounded by their form: a bell over a temperature may
+//! be narrower than any distance of points.
 //!
 //! A narrow peak without a bend is bounded along the step by Taylor arithmetic.
 
@@ -12,14 +12,14 @@ use crate::zeros::coefficients;
 /// The largest product of the distances to all points, on (-1, 1).
 const BETWEEN: f64 = 0.05;
 
-/// What may be missed between the points, over the largest value that the step allows.
+/// Largest miss between the points, over the largest value that the step allows.
 const MISSED: f64 = 1e-7;
 
-/// A range of numbers ends this share of its width within: an interval is cut where something bends,
-/// and what happens there is no part of it.
+/// A range of numbers ends this share of its width within: an interval is cut where something
+/// bends, and the bend is not part of it.
 const WITHIN: f64 = 1e-9;
 
-/// Looks for what hides in the intervals of one step.
+/// Bounds hidden features in the intervals of one step.
 pub(crate) struct Hidden<'a> {
     bends: &'a Bends,
     slots: &'a [f64],
@@ -30,13 +30,13 @@ pub(crate) struct Hidden<'a> {
 }
 
 impl<'a> Hidden<'a> {
-    /// `count` curves stand before the quantities of `bends` among the values.
+    /// `count` curves come before the quantities of `bends` among the values.
     pub(crate) fn new((bends, slots): (&'a Bends, &'a [f64]), count: usize) -> Self {
         Self { bends, slots, first: count + bends.levels().len(), sizes: None }
     }
 
-    /// By how much what may be missed in an interval is more than what is allowed; 0 where it is
-    /// not. The first interval is the whole step. Where nothing is known, nothing is missed.
+    /// Possible miss in an interval over the allowed one; 0 if it is not larger. The first interval
+    /// is the whole step. If nothing is known, nothing is missed.
     pub(crate) fn wanting(&mut self, interval: &Interval) -> f64 {
         if self.bends.moved() == 0 || self.slots.is_empty() {
             return 0.0;
@@ -117,7 +117,7 @@ mod tests {
         }
     }
 
-    /// What goes one way stays between its ends, and ends a part in 1e9 within.
+    /// A number that moves one way stays between its ends, and ends a part in 1e9 within.
     #[test]
     fn a_way_in_one_direction_stays_between_its_ends() {
         for sign in [1.0, -1.0] {
@@ -129,7 +129,7 @@ mod tests {
         }
     }
 
-    /// What bends in a report over the temperature of a node, with its slots.
+    /// The bends in a report over the temperature of a node, with their slots.
     fn bends_of(report: &str) -> (Bends, Vec<f64>) {
         let text = format!(
             "format = 1\n[node]\nbody = {{ C = \"1 J/K\", T0 = \"400 K\" }}\n[boundary]\nair = {{ T = \
@@ -146,7 +146,7 @@ mod tests {
         (bends, slots)
     }
 
-    /// An interval in which a temperature goes from one value to another, behind `count` curves.
+    /// An interval in which a temperature goes from one value to another, after `count` curves.
     fn interval(count: usize, middle: f64, half: f64) -> Interval {
         let values = NODES.map(|x| {
             let curves = (0..count).map(|k| 7e5 * x.powi(k as i32 + 2));
@@ -174,7 +174,7 @@ mod tests {
                 assert!((found - expected).abs() <= 1e-6 * expected, "{half}: {found} {expected}");
             }
         }
-        // of a part that which the whole step allows
+        // in a part, the largest value of the whole step counts
         let mut hidden = Hidden::new((&bends, &slots), 0);
         hidden.wanting(&interval(0, 400.0, 200.0));
         let found = hidden.wanting(&interval(0, 400.0, 100.0));

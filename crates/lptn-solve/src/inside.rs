@@ -1,5 +1,5 @@
-//! Temperatures at which every value can be had: a search may begin outside the range of a table or
-//! fluid, though the solution is inside.
+//! Temperatures at which every value can be computed: a search may begin outside the range of a
+//! table or fluid, though the solution is inside.
 //!
 //! Before Newton's method begins, each value is moved into the range of its tables, and the search
 //! is damped there. Tables with constant ends would let the search leave their range too, but every
@@ -12,25 +12,25 @@ use lptn_units::EvalError;
 use crate::newton::Newton;
 use crate::newton_error::NewtonError;
 
-/// Values that are brought into their range, one after the other.
+/// Most values that are brought into their range, one after the other.
 const ROUNDS: usize = 200;
 
-/// How far inside its range a value is brought, as a part of it.
+/// Share of its range by which a value is brought inside it.
 const INSIDE: f64 = 0.05;
 
-/// The first distance in K by which temperatures are moved for a value that does not say how far it
-/// is outside of its range.
+/// The first distance in K by which temperatures are moved for a value that does not report how far
+/// it is outside its range.
 const STRIDE: f64 = 5.0;
 
-/// The furthest.
+/// The furthest such distance in K.
 const FURTHEST: f64 = 3000.0;
 
 /// The lowest temperature in K to which a search is moved.
 const COLDEST: f64 = 1.0;
 
 impl Newton<'_> {
-    /// Moves free temperatures from which a value has none to where it has one; whether that was
-    /// found. Each value moves the nodes that it depends on, all by as much.
+    /// Moves free temperatures at which a value fails to others at which it succeeds; true if any
+    /// were found. Each value moves the nodes that it depends on, all by the same distance.
     pub(crate) fn bring_inside(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> bool {
         let (mut last, mut stride) = (None, STRIDE);
         for _ in 0..ROUNDS {
@@ -41,7 +41,7 @@ impl Newton<'_> {
             };
             let places = self.places_of(failed.item);
             let again = last == Some(failed.item);
-            // a value that was moved by what it lacks, and lacks it still, depends on it otherwise
+            // a value that is still outside after this move depends on the temperatures otherwise
             stride = if again { 1.5 * stride } else { STRIDE };
             last = Some(failed.item);
             let moved = lacks(&failed).filter(|_| !again).unwrap_or_else(|| match lacks(&failed) {
@@ -72,7 +72,7 @@ impl Newton<'_> {
     }
 }
 
-/// By how much a value has to become larger to be well inside its range, if it says.
+/// The increase that brings a value well inside its range, if it reports that range.
 fn lacks(error: &InputError) -> Option<f64> {
     let into = |value: f64, (from, to): (f64, f64)| {
         let room = INSIDE * (to - from);

@@ -2,8 +2,8 @@
 
 use crate::stop_reason::StopReason;
 
-/// Evaluates all curves at a time: those that are asked for, then the quantities that tell where
-/// they bend.
+/// Evaluates all curves at a time: those that are asked for, then the quantities that determine
+/// their bends.
 pub(crate) type At<'a> = dyn FnMut(f64) -> Result<Vec<f64>, StopReason> + 'a;
 
 /// Nodes and weights of the Gauss-Legendre rule of order 10 on (-1, 1)
@@ -16,20 +16,20 @@ pub(crate) const GAUSS: [(f64, f64); 5] = [
     (0.906_179_845_938_664, 0.236_926_885_056_189_1),
 ];
 
-/// So many points of every interval are looked at: its ends and the nodes of the Gauss rule between
-/// them.
+/// Points of every interval at which curves are evaluated: its ends and the nodes of the Gauss rule
+/// between them.
 pub(crate) const POINTS: usize = 7;
 
-/// Where they are on (-1, 1).
+/// The points on (-1, 1).
 pub(crate) const NODES: [f64; POINTS] =
     [-1.0, GAUSS[0].0, GAUSS[1].0, GAUSS[2].0, GAUSS[3].0, GAUSS[4].0, 1.0];
 
 /// The Gauss rule on these points.
 const RULE: [f64; POINTS] = [0.0, GAUSS[0].1, GAUSS[1].1, GAUSS[2].1, GAUSS[3].1, GAUSS[4].1, 0.0];
 
-/// The rule of order 6 that interpolates at the ends, the middle and the two nodes beside it. The
-/// temperature inside a step is a polynomial of degree 5 at most, which both integrate exactly;
-/// what both agree on is smooth.
+/// The rule of order 6 that interpolates at the ends, the middle and the two nodes next to it. The
+/// temperature inside a step is a polynomial of degree 5 at most, which both integrate exactly. A
+/// curve is smooth if both agree.
 const OTHER_RULE: [f64; POINTS] = {
     let square = NODES[2] * NODES[2];
     let beside = 2.0 / 15.0 / (square * (1.0 - square));
@@ -43,7 +43,8 @@ const SMOOTH: f64 = 1e-7;
 /// The two rules agree to this share of the integral of the absolute value.
 pub(crate) const AGREEMENT: f64 = 1e-10;
 
-/// Of the interpolation through the points (Berrut and Trefethen, SIAM Review 46, 2004, eq. 3.2).
+/// Weights of the interpolation through the points (Berrut and Trefethen, SIAM Review 46, 2004, eq.
+/// 3.2).
 const BARYCENTRIC: [f64; POINTS] = {
     let mut weights = [1.0; POINTS];
     let mut at = 0;
@@ -88,14 +89,13 @@ impl Interval {
         std::array::from_fn(|point| self.values[point][curve])
     }
 
-    /// When a point is.
+    /// The time of a point in s.
     pub(crate) fn time(&self, point: usize) -> f64 {
         time_of((self.from, self.to), point)
     }
 
-    /// Whether the points tell a curve between them: both rules agree to a share of its values, or of
-    /// its range where it passes zero. A jump or a kink does not let them, however short the interval
-    /// is.
+    /// True if the points resolve a curve: both rules agree to a share of its values, or of its
+    /// range if it passes zero. With a jump or a kink they do not, however short the interval is.
     pub(crate) fn is_smooth(&self, curve: usize) -> bool {
         let (mut apart, mut size) = (0.0_f64, 0.0);
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -111,7 +111,7 @@ impl Interval {
         interpolated((self.from, self.to), &self.of(curve), time)
     }
 
-    /// The middle is a point already, so that a half needs five new ones.
+    /// The two halves. The middle is a point already, so that a half needs five new ones.
     pub(crate) fn halves(self, at: &mut At<'_>) -> Result<[Self; 2], StopReason> {
         let middle = self.time(POINTS / 2);
         let [first, _, _, centre, _, _, last] = self.values;
@@ -135,8 +135,8 @@ impl Interval {
         Ok(parts)
     }
 
-    /// For each of the first curves its integral, how far the other rule is off, and the integral
-    /// of its absolute value.
+    /// For each of the first curves its integral, the difference of the other rule, and the
+    /// integral of its absolute value.
     pub(crate) fn integrals(&self, count: usize) -> Vec<[f64; 3]> {
         let mut sums = vec![[0.0; 3]; count];
         let half = 0.5 * (self.to - self.from);
@@ -154,7 +154,7 @@ impl Interval {
     }
 }
 
-/// When a point of the interval between two times is.
+/// The time in s of a point of the interval between two times.
 pub(crate) fn time_of((from, to): (f64, f64), point: usize) -> f64 {
     match point {
         0 => from,
@@ -192,8 +192,8 @@ mod tests {
         Interval { from: ends.0, to: ends.1, values: NODES.map(|x| curves(x).to_vec()) }
     }
 
-    /// Both rules are exact for a polynomial of degree 5, so that they differ by what is added in
-    /// one point alone: by so much of it.
+    /// Both rules are exact for a polynomial of degree 5, so that a bump in one point alone
+    /// separates them: by this share of it.
     const APART: f64 = GAUSS[0].1;
 
     fn bump(x: f64) -> f64 {
@@ -206,12 +206,12 @@ mod tests {
             interval((3.0, 7.0), |x| [f64::NAN, curve(x)]).is_smooth(1)
         };
         for sign in [1.0, -1.0] {
-            // a part in 1e10 of the integral of what does not pass zero
+            // a part in 1e10 of the integral of a curve that does not pass zero
             let size = 3.0 * 2e-10 / APART;
             assert!(is_smooth(&|x| sign * (3.0 + 0.999 * size * bump(x))));
             assert!(!is_smooth(&|x| sign * (3.0 + 1.001 * size * bump(x))));
             assert!(!is_smooth(&|x| sign * (3.0 - 1.001 * size * bump(x))));
-            // a part in 1e7 of the range of what passes it
+            // a part in 1e7 of the range of a curve that passes it
             let range = 2e-7 * 5.0 / APART;
             assert!(is_smooth(&|x| sign * (5.0 * x + 0.999 * range * bump(x))));
             assert!(!is_smooth(&|x| sign * (5.0 * x + 1.001 * range * bump(x))));
@@ -235,7 +235,7 @@ mod tests {
         }
     }
 
-    /// The rule beside the Gauss rule: exact to degree 5, as `2 / (n + 1)` for even powers.
+    /// The rule next to the Gauss rule: exact to degree 5, as `2 / (n + 1)` for even powers.
     #[test]
     fn the_other_rule_is_exact_for_polynomials_of_a_step() {
         for power in 0..6 {
@@ -245,11 +245,11 @@ mod tests {
         }
         let [_, second, .., last, _] = OTHER_RULE;
         assert_eq!([second, last], [0.0; 2]);
-        // far enough from the Gauss rule to tell what is not smooth
+        // far enough from the Gauss rule to detect a curve that is not smooth
         assert!((OTHER_RULE[3] - GAUSS[2].1).abs() > 0.1, "{OTHER_RULE:?}");
     }
 
-    /// Rounding would leave the end of some of these.
+    /// Rounding would miss the end of some of these.
     #[test]
     fn an_interval_begins_and_ends_at_its_very_ends() {
         for k in 1..200 {

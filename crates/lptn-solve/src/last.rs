@@ -1,4 +1,4 @@
-//! Where a run ended: what another one can start from.
+//! The end state of a run, from which another one can start.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::NodeId;
@@ -6,17 +6,17 @@ use lptn_network::NodeId;
 /// The state of a network at the end that a run reached.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LastState {
-    /// The time in s: the stop, or the last time up to which the run is whole.
+    /// The time in s: the stop, or the last time up to which the run is complete.
     pub time: f64,
     /// Temperature of every node in K.
     pub temperatures: Vec<f64>,
-    /// The nodes that stand at a temperature at which alone they melt, with how much of them is
-    /// molten, from 0 to 1: their temperature does not tell. Ascending.
+    /// The nodes at their single melting temperature, with their molten share, from 0 to 1, which
+    /// the temperature does not determine. Ascending.
     pub melted: Vec<(NodeId, f64)>,
 }
 
 impl LastState {
-    /// The state from what the integrator carries, and the workspace that was brought there.
+    /// The state from the integrator's variables, and the workspace at that state.
     pub(crate) fn new(
         system: &ThermalSystem,
         work: &Workspace,

@@ -1,11 +1,11 @@
-//! The energy ledger of a run: what went in, what went out, what is stored.
+//! The energy ledger of a run: heat in, heat out and stored heat.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::InputError;
 
-/// Heat turned over during a run, in J.
+/// Heat exchanged during a run, in J.
 ///
-/// It proves book-keeping, not accuracy: a run at a coarse tolerance closes its books as well.
+/// It checks the energy balance, not accuracy: a run at a coarse tolerance closes it as well.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ledger {
     /// Heat of each source, positive into the network.
@@ -19,8 +19,8 @@ pub struct Ledger {
     /// Integral of the absolute heat of every source, boundary and stream, plus the absolute heat
     /// stored by each node.
     pub turned_over: f64,
-    /// Largest share of the heat turned over that may remain: the one that the run was given, else
-    /// `1e-8 + 10 tolerance C / turned_over` with the sum C of all capacities in J/K.
+    /// Largest allowed residual over the total heat: the share given for the run, else `1e-8 + 10
+    /// tolerance C / turned_over` with the sum C of all capacities in J/K.
     pub bound: f64,
 }
 
@@ -42,29 +42,29 @@ impl Ledger {
         Self { sources, boundaries, streams, stored, turned_over, bound }
     }
 
-    /// The same account, held to this share of the heat turned over if there is one.
+    /// The same ledger with this share of the total heat as its bound, if there is one.
     pub(crate) fn allowing(self, share: Option<f64>) -> Self {
         Self { bound: share.unwrap_or(self.bound), ..self }
     }
 
-    /// Sources plus boundaries plus streams less stored heat, in J: zero but for rounding and what
-    /// Newton's method left.
+    /// Sources plus boundaries plus streams less stored heat, in J: zero but for rounding and the
+    /// residual of Newton's method.
     pub fn residual(&self) -> f64 {
         let sum = |q: &[f64]| q.iter().sum::<f64>();
         sum(&self.sources) + sum(&self.boundaries) + sum(&self.streams) - sum(&self.stored)
     }
 
-    /// The residual over the heat turned over; `None` where no heat was turned over.
+    /// The residual over the total heat; `None` if no heat was exchanged.
     pub fn relative_residual(&self) -> Option<f64> {
         (self.turned_over > 0.0).then(|| self.residual() / self.turned_over)
     }
 
-    /// Whether the books close as far as they must.
+    /// True if the energy balance closes within its bound.
     pub fn closes(&self) -> bool {
         self.check().is_ok()
     }
 
-    /// That the books close as far as they must.
+    /// Checks that the energy balance closes within its bound.
     ///
     /// # Errors
     /// [`LedgerError`]
@@ -78,10 +78,10 @@ impl Ledger {
 }
 
 lptn_units::errors! {
-/// Why the numbers of a run are not to be used.
+/// Reason why the numbers of a run must not be used.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LedgerError {
-    /// Its books do not close: the residual over the heat turned over, and what is allowed.
+    /// Its energy balance does not close: the residual over the total heat, and its bound.
     Open { residual: f64, bound: f64 } = "run::ledger",
         format!(
             "heat in, out and stored differ by {residual:.1e} of the heat exchanged, more than the \

@@ -1,4 +1,4 @@
-//! Limits in results: how near each came to being broken, and when it first was.
+//! Limits in results: their least margins, and when each was first broken.
 //!
 //! A limit is judged to the error of the run: ten times the tolerance, or 1e-9 K in steady state. A
 //! limit that is broken at the start is exact.
@@ -21,16 +21,16 @@ const ROUNDING: f64 = 1e-9;
 pub(crate) struct LimitWatch<'a> {
     network: &'a Network,
     reading: Reading<'a>,
-    /// Where their sides bend.
+    /// Bends of their sides.
     bends: Bends,
     look: LimitLook,
     /// For each limit the point at the start.
     first: Vec<Option<Point>>,
-    /// The last time with the margins, and what tells where they bend.
+    /// The last time with the margins, and the quantities that determine their bends.
     last: (f64, Vec<f64>),
     /// For each limit the largest absolute value of a side: its margin is rounded by a share of it.
     sizes: Vec<f64>,
-    /// For each limit whether it could be judged at some moment.
+    /// For each limit true if it could be judged at some moment.
     judged: Vec<bool>,
 }
 
@@ -64,7 +64,7 @@ impl<'a> LimitWatch<'a> {
         self.sizes.is_empty()
     }
 
-    /// Begins a segment: what comes before it is no part of a curve that goes on.
+    /// Begins a segment: earlier points do not belong to a curve that goes on.
     pub(crate) fn enter(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
         let margins = self.values(work, at)?;
         for ((seen, first), &margin) in self.look.seen.iter_mut().zip(&mut self.first).zip(&margins)
@@ -76,8 +76,8 @@ impl<'a> LimitWatch<'a> {
         Ok(())
     }
 
-    /// The margin of every limit where the workspace stands, then what tells where they bend; `at`
-    /// is the time and a time inside the segment.
+    /// The margin of every limit at the state of the workspace, then the quantities that determine
+    /// their bends; `at` is the time and a time inside the segment.
     pub(crate) fn values(
         &mut self,
         work: &mut Workspace,
@@ -99,12 +99,12 @@ impl<'a> LimitWatch<'a> {
         Ok(values)
     }
 
-    /// The last of those that were handed over or begun with.
+    /// The last values that were handed over or begun with.
     pub(crate) fn last(&self) -> Vec<f64> {
         self.last.1.clone()
     }
 
-    /// What is known of the limits, to look at a step with.
+    /// Lends the data of the limits, to evaluate a step.
     pub(crate) fn take_look(&mut self) -> LimitLook {
         let mut look = std::mem::take(&mut self.look);
         look.sizes.clone_from(&self.sizes);
@@ -112,14 +112,14 @@ impl<'a> LimitWatch<'a> {
         look
     }
 
-    /// Takes in what came of it; the step ends with these values.
+    /// Takes the data back; the step ends with these values.
     pub(crate) fn looked(&mut self, look: LimitLook, end: (f64, Vec<f64>)) {
         (self.look, self.last) = (look, end);
     }
 
-    /// What was seen. A worst that the tolerance in K cannot tell from the start or from the end is
-    /// there, and a limit that it cannot tell from being reached and not passed is not broken; a
-    /// start that breaks it is exact. A mean is known at the end, and there it is broken.
+    /// The results. A worst point that the tolerance in K cannot distinguish from the start or end
+    /// is put there. A limit that it cannot distinguish from being just reached is not broken; a
+    /// start that breaks it is exact. A mean is known at the end, and broken there.
     pub(crate) fn into_seen(mut self, tolerance: f64) -> Vec<LimitSeen> {
         let (end, margins) = self.last;
         let mut all = std::mem::take(&mut self.look.seen);
@@ -162,7 +162,7 @@ fn is_temperature(network: &Network, id: LimitId) -> bool {
     network.limits()[id.index()].ty.dimension == Dimension::TEMPERATURE
 }
 
-/// The margin of each limit in SI units where `scope` stands, zero where a temperature passes it by
+/// The margin of each limit in SI units at the state of `scope`; zero if a temperature passes it by
 /// rounding only, NaN if it cannot be [judged](Network::is_judged) there.
 pub(crate) fn margins(network: &Network, scope: &mut Evaluation) -> Result<Vec<f64>, InputError> {
     let margin = |id: LimitId| {

@@ -1,4 +1,4 @@
-//! Limits over a step: where they are nearest to being broken, and when they first are.
+//! Limits over a step: their least margins, and when they are first broken.
 
 use lptn_network::Bends;
 
@@ -11,22 +11,22 @@ use crate::resolve::{Judged, Resolved, resolve};
 use crate::stop_reason::StopReason;
 use crate::watch::{is_same, put_in, top};
 
-/// How often the valley of a margin is approached by another parabola.
+/// Number of parabolas that approach the valley of a margin after the first.
 const REFINEMENTS: usize = 12;
 
 /// A time is found to this share of the gap between two points.
 const ENOUGH: f64 = 1e-15;
 
-/// What is known of limits, to look at a step.
+/// Data of limits, to evaluate a step.
 #[derive(Default)]
 pub(crate) struct LimitLook {
-    /// Where they bend, and what stands still while they are looked at.
+    /// Their bends, and the values that are constant during the evaluation.
     bends: Bends,
     pub(crate) slots: Vec<f64>,
-    /// For each limit that its mean has to keep the integral of its margin so far.
+    /// For each limit the integral of its margin so far, if it applies to the mean.
     means: Vec<Option<f64>>,
     pub(crate) seen: Vec<LimitSeen>,
-    /// Sizes of what is compared.
+    /// Sizes of the compared sides.
     pub(crate) sizes: Vec<f64>,
     halvings: Halvings,
 }
@@ -37,12 +37,12 @@ impl LimitLook {
         Self { bends, means, seen, ..Self::default() }
     }
 
-    /// The integral of a margin so far, if its mean has to be kept.
+    /// The integral of a margin so far, if the limit applies to its mean.
     pub(crate) fn integral(&self, limit: usize) -> Option<f64> {
         self.means[limit]
     }
 
-    /// Looks at a step.
+    /// Evaluates a step.
     pub(crate) fn step(&mut self, step: Interval, at: &mut At<'_>) -> Result<(), StopReason> {
         let levels = Levels { count: self.seen.len(), of: self.bends.levels() };
         let mut hidden = Hidden::new((&self.bends, &self.slots), self.seen.len());
@@ -68,8 +68,8 @@ impl LimitLook {
         Ok(())
     }
 
-    /// How far the two rules of an interval are apart for the worst limit that counts, over what is
-    /// allowed; 0 where they agree.
+    /// Difference of the two rules of an interval for the worst limit that counts, over the allowed
+    /// one; 0 if they agree.
     fn wanting(&self, interval: &Interval) -> f64 {
         let length = interval.to - interval.from;
         let integrals = interval.integrals(self.seen.len());
@@ -83,13 +83,13 @@ impl LimitLook {
     }
 }
 
-/// A margin that changes by less than this share of what is compared, in a part of a step that is not
-/// looked at any closer, is rounding.
+/// A margin that changes by less than this share of its sides, in a part of a step that is not
+/// resolved any further, is rounding.
 const ROUNDED: f64 = 1e-6;
 
 impl LimitSeen {
-    /// Takes in that a part of a step with these margins, of sides of this size, is not looked at
-    /// any closer, and that something may hide in it.
+    /// Records that a part of a step with these margins, of sides of this size, is not resolved any
+    /// further, and if something may hide in it.
     fn leave_open(&mut self, margins: &[f64], (size, hides): (f64, bool)) {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
         for &margin in margins {
@@ -102,8 +102,8 @@ impl LimitSeen {
     }
 }
 
-/// Whether a margin with these values may become the least one so far, or the first below zero. No
-/// curve that its points tell leaves their range by as much again.
+/// True if a margin with these values may become the least one so far, or the first below zero. No
+/// curve that its points resolve leaves their range by as much again.
 fn counts(seen: &LimitSeen, values: &[f64]) -> bool {
     let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
     for &value in values {

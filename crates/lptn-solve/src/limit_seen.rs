@@ -1,11 +1,11 @@
-//! How near a limit came to being broken, and when it first was.
+//! The least margin of a limit, and when it was first broken.
 
 use lptn_network::LimitId;
 
 /// A time in s with a margin.
 pub(crate) type Point = (f64, f64);
 
-/// How a limit fared in a run, between the rows too.
+/// Result of a limit in a run, between the rows too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LimitSeen {
     /// The limit.
@@ -13,15 +13,15 @@ pub struct LimitSeen {
     /// Its least margin in SI units, positive if it was kept all the time; NaN if it could not be
     /// [judged](lptn_network::Network::is_judged) at any moment; see
     /// [`lptn_network::Network::limit_margin`]. That of the mean over time for
-    /// [`lptn_network::Limit::of_mean`]. Zero where a temperature passes it by less than ten times
-    /// the tolerance, which is the error of a run.
+    /// [`lptn_network::Limit::of_mean`]. Zero if a temperature passes it by less than ten times the
+    /// tolerance, which is the error of a run.
     pub margin: f64,
-    /// When that was, in s.
+    /// Time of that margin in s.
     pub worst_at: f64,
-    /// When it was first broken, in s.
+    /// Time in s at which it was first broken.
     pub broken_at: Option<f64>,
-    /// By how much in SI units the margin may be off beside the error of temperatures, because its
-    /// quantity changes faster than steps are looked at; 0 where it does not.
+    /// Possible error of the margin in SI units, in addition to the error of temperatures, because
+    /// its quantity changes faster than steps resolve; 0 if it does not.
     pub open: f64,
 }
 
@@ -53,7 +53,7 @@ pub(crate) mod tests {
 
     use super::*;
 
-    /// A limit of which nothing was seen.
+    /// A limit without any results.
     pub(crate) fn unseen() -> LimitSeen {
         let text = "format = 1\n[node]\nbody = { C = \"1 J/K\", T0 = \"0 degC\" }\n[limit]\nhot = { of = \
                     \"body.T\", below = \"1 degC\" }\n[run]\nstop = \"1 s\"\n";

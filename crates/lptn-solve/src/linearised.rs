@@ -1,4 +1,4 @@
-//! A network as it answers small disturbances of one state: `C dx/dt = J x`.
+//! The response of a network to small disturbances of one state: `C dx/dt = J x`.
 //!
 //! The linear network has the Jacobian of the assembly and the capacities at a snapshot, and it is
 //! compared with the full one. Its users (such as modes) need not know how the state was found.
@@ -16,16 +16,16 @@ use crate::snapshot::Snapshot;
 use crate::times::just_after;
 
 lptn_units::errors! {
-/// Why a network cannot be taken for a linear one near a state.
+/// Reason why a network cannot be linearised near a state.
 #[derive(Clone, Debug)]
 pub enum LinearisedError {
     /// An element or input has no value there.
     Input => InputError;
-    /// It is not linear, and no state is named; the first item that makes it so.
+    /// It is not linear, and no state is named; the first such item.
     NotLinear { item: Item, name: String } = "linearised::not_linear",
         format!("`{name}` makes the network more than constant capacities and conductances"),
         help "name the state to linearise at: --at steady, or a time such as --at \"20 min\"";
-    /// A node takes up latent heat at just the temperature that it has there; its name.
+    /// A node takes up latent heat at exactly its temperature there; its name.
     Melts { name: String } = "linearised::melts",
         format!("`{name}` melts there: its temperature does not respond to heat"),
         help "choose an operating point at which it is solid or molten";
@@ -36,7 +36,7 @@ pub enum LinearisedError {
 }
 }
 
-/// A network near one of its states, its inputs and positions held as they are there.
+/// A network near one of its states, its inputs and positions fixed as they are there.
 pub struct Linearised<'a> {
     system: &'a ThermalSystem,
     work: Workspace,
@@ -55,7 +55,7 @@ impl fmt::Debug for Linearised<'_> {
     }
 }
 
-/// How far a linear network was tried against its full one.
+/// Comparison of a linear network with its full one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tried {
     /// The largest temperature of the disturbance in K, to either side.
@@ -74,7 +74,7 @@ impl<'a> Linearised<'a> {
     /// state.
     ///
     /// # Errors
-    /// [`LinearisedError`], of a network that is not linear where no state is named too.
+    /// [`LinearisedError`], also for a network that is not linear if no state is named.
     pub fn of(system: &'a ThermalSystem, at: Option<&Snapshot>) -> Result<Self, LinearisedError> {
         if is_proportional(system) {
             return Self::of_proportional(system);
@@ -103,8 +103,8 @@ impl<'a> Linearised<'a> {
         Self::new(system, work, state.time, at)
     }
 
-    /// Of a system that is proportional ([`ThermalSystem::is_proportional`]) and so the same near
-    /// every state and at every time.
+    /// Linearises a system that is proportional ([`ThermalSystem::is_proportional`]) and so the
+    /// same near every state and at every time.
     ///
     /// # Errors
     /// [`LinearisedError`]
@@ -127,7 +127,7 @@ impl<'a> Linearised<'a> {
         Ok(Self { system, work, at, capacity, pattern, values })
     }
 
-    /// The system it is of.
+    /// The linearised system.
     pub fn system(&self) -> &'a ThermalSystem {
         self.system
     }
@@ -137,7 +137,7 @@ impl<'a> Linearised<'a> {
         &self.capacity
     }
 
-    /// Whether warming one node brings heat to another exactly as the other way round.
+    /// True if warming one node brings heat to another exactly as the other way round.
     pub fn is_symmetric(&self) -> bool {
         let rows = self.pattern.row_indices();
         (0..self.pattern.size()).all(|column| {
@@ -155,8 +155,8 @@ impl<'a> Linearised<'a> {
         (&self.pattern, self.values.iter().map(|v| -v).collect())
     }
 
-    /// `J` of the states in W/K, dense, the massless nodes that are solved for eliminated; and what
-    /// those (rows) follow of each state (columns).
+    /// `J` of the states in W/K, dense, the massless nodes that are solved for eliminated; and the
+    /// shares by which those (rows) follow each state (columns).
     ///
     /// # Errors
     /// [`LinearisedError::Singular`]
@@ -202,7 +202,7 @@ impl<'a> Linearised<'a> {
     /// the full network.
     ///
     /// # Errors
-    /// [`InputError`] where the full network has no value there.
+    /// [`InputError`] if the full network has no value there.
     pub fn tried(&mut self, disturbance: &[f64]) -> Result<Tried, InputError> {
         let size = disturbance.len();
         let (mut here, mut there) = (vec![0.0; size], vec![0.0; size]);
@@ -240,7 +240,7 @@ impl<'a> Linearised<'a> {
     }
 }
 
-/// Whether a network is the same near every state: streams with constant capacity rates are.
+/// True if a network is the same near every state; streams with constant capacity rates are.
 pub(crate) fn is_proportional(system: &ThermalSystem) -> bool {
     let network = system.network();
     system.is_proportional() && system.states().iter().all(|&id| network.enthalpy(id).is_none())

@@ -1,11 +1,11 @@
-//! How much was looked at in a run.
+//! Number of evaluations in a run.
 
-/// Counters of what a run looks at, for its rows and between them.
+/// Counters of the evaluations of a run, for its rows and between them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Looks {
-    /// How often the temperatures of all nodes were taken from the state.
+    /// Number of times that the temperatures of all nodes were taken from the state.
     pub placed: u64,
-    /// In how many steps the peak or the level of a watched node was sought, of all such nodes
-    /// together.
+    /// Number of steps in which the peak or the level of a watched node was searched for, of all
+    /// such nodes together.
     pub sought: u64,
 }

@@ -1,9 +1,9 @@
-//! Whether nodes are lumps: Biot number and diffusion time of every node that has a characteristic
+//! Checks of lumped nodes: Biot number and diffusion time of every node that has a characteristic
 //! length.
 //!
 //! The film coefficient of a node is the heat that all its surfaces give off for 1 K, over their
 //! area: h = sum of G / A. A surface that convects radiates too, so the larger of the two areas
-//! counts, and that of contacts beside it.
+//! counts, and in addition that of contacts.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +23,7 @@ use crate::unsolved::Unsolved;
 /// A jump of an input changes it by more than this part of its size; less is rounding.
 const JUMP: f64 = 1e-9;
 
-/// The Biot number of a node where it is largest.
+/// The largest Biot number of a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Biot {
     /// h L / k.
@@ -32,14 +32,14 @@ pub struct Biot {
     pub coefficient: f64,
     /// k of its material in W/(m K).
     pub conductivity: f64,
-    /// When, in s.
+    /// Its time in s.
     pub time: f64,
 }
 
-/// Why something could not be checked.
+/// Reason why something could not be checked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NotChecked {
-    /// Its capacity is a number, of no material.
+    /// Its capacity is a number without a material.
     NoMaterial,
     /// Its parts are of several materials.
     SeveralMaterials,
@@ -51,11 +51,11 @@ pub enum NotChecked {
     NoSurface,
     /// This surface has no area: it is given by `R` or `Gr`.
     NoArea(ConductorId),
-    /// A value of its surfaces cannot be had.
+    /// A value of its surfaces cannot be computed.
     NoValue,
 }
 
-/// What is known of one node.
+/// Results of one node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LumpCheck {
     /// The node.
@@ -77,15 +77,15 @@ pub struct Stretch {
     pub to: f64,
 }
 
-/// Whether the nodes of a network are lumps.
+/// Lump checks of the nodes of a network.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lumping {
     /// The nodes with a characteristic length, ascending.
     pub checks: Vec<LumpCheck>,
-    /// The other nodes with a capacity, ascending: nothing is known of them.
+    /// The other nodes with a capacity, ascending: they cannot be checked.
     pub without_length: Vec<NodeId>,
-    /// The shortest part of the run in which no source and no boundary jumps; `None` where no run
-    /// is known.
+    /// The shortest part of the run in which no source and no boundary jumps; `None` if no run is
+    /// known.
     pub shortest: Option<Stretch>,
 }
 
@@ -101,8 +101,8 @@ impl Lumping {
     /// With the temperatures at the start, in s, of a run until `stop` if one is known.
     ///
     /// # Errors
-    /// [`Unsolved`] if a value cannot be had at the start, or the balances of massless nodes have
-    /// no solution there.
+    /// [`Unsolved`] if a value cannot be computed at the start, or the balances of massless nodes
+    /// have no solution there.
     pub fn at_start(
         system: &ThermalSystem,
         start: f64,
@@ -119,7 +119,7 @@ impl Lumping {
         Ok(checker.into_lumping(span))
     }
 
-    /// At every row of a run; where not every node was recorded, at its start and its end.
+    /// Checks at every row of a run; if not every node was recorded, at its start and its end.
     pub fn of_run(solution: &Solution) -> Self {
         let system = &solution.system;
         let mut checker = Checker::new(system);
@@ -329,14 +329,14 @@ impl Stretch {
     }
 }
 
-/// Whether a source or boundary jumps at the second of three neighbouring times.
+/// True if a source or boundary jumps at the second of three neighbouring times.
 fn jumps(network: &Network, [last, now, next]: [f64; 3], scope: &mut Evaluation) -> bool {
     let count = network.sources().len();
     let mut read = |inside: f64| {
         scope.set_time(now, inside);
         let mut values = vec![0.0; count + network.boundaries().len()];
         let (power, temperature) = values.split_at_mut(count);
-        // what has no value stops the run, which says so
+        // a missing value stops the run, which reports it
         network.source_powers(scope, power).ok()?;
         network.boundary_temperatures(scope, temperature).ok().map(|()| values)
     };

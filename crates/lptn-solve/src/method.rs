@@ -1,8 +1,8 @@
-//! The integrators that there are.
+//! The available integrators.
 
 use lptn_network::IntegratorChoice;
 
-/// Which integrator computed a run.
+/// The integrator that computed a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// The one-step method for linear networks.
@@ -14,7 +14,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// As it is asked for by `integrator` of `[run]`.
+    /// Its name in `integrator` of `[run]`.
     pub fn name(self) -> &'static str {
         match self {
             Self::OneStep => IntegratorChoice::OneStep.word(),

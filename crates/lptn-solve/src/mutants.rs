@@ -1,4 +1,4 @@
-//! Wrong systems that the ledger must find: it is worth nothing if it closes whatever happens.
+//! Wrong systems that the ledger must find: a ledger that always closes is worth nothing.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_cvodes::Cvodes;
@@ -12,7 +12,7 @@ use crate::heat::Heat;
 use crate::ledger::Ledger;
 use lptn_assembly::ThermalSystem;
 
-/// What is wrong with the heat flows.
+/// Error of the heat flows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Wrong {
     Nothing,
@@ -117,15 +117,15 @@ fn every_mutant_breaks_the_books() {
     }
 }
 
-/// What is wrong with the elements that are not constant conductances.
+/// Error of the elements that are not constant conductances.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Bent {
     Nothing,
     /// The receiver of radiation gives heat too.
     Radiation,
-    /// A stream takes from its start what it brings to its end, as a conductance would.
+    /// A stream takes from its start the heat that it brings to its end, as a conductance would.
     Stream,
-    /// The source of its own temperature heats by a tenth more.
+    /// The source that depends on its node's temperature heats by a tenth more.
     Source,
     /// Heat is stored as if the capacity were that of the start.
     Capacity,
@@ -172,7 +172,7 @@ struct BentMutant<'a> {
     wrong: Bent,
 }
 
-/// Temperatures of the wax and of the block from what is carried.
+/// Temperatures of the wax and of the block from the state variables.
 fn unfolded(system: &ThermalSystem, y: &[f64]) -> [f64; 2] {
     [0, 1].map(|i| {
         let (curve, start) =

@@ -1,11 +1,11 @@
-//! Newton's method for the balances of some unknowns, the others held: steady states and massless
+//! Newton's method for the balances of some unknowns, the others fixed: steady states and massless
 //! nodes.
 //!
 //! Steps are damped until the simplified correction shrinks (the natural monotonicity test; P.
-//! Deuflhard, Newton Methods for Nonlinear Problems, Springer 2004, section 3.3). Where that
-//! stalls, the balances are followed over a pseudo-time whose steps grow as the heat that is left
-//! over shrinks (switched evolution relaxation; C. T. Kelley and D. E. Keyes, SIAM J. Numer. Anal.
-//! 35 (1998) 508), which ends where a network that stores heat in every node would.
+//! Deuflhard, Newton Methods for Nonlinear Problems, Springer 2004, section 3.3). If that stalls,
+//! the balances are followed over a pseudo-time whose steps grow as the heat that is left over
+//! shrinks (switched evolution relaxation; C. T. Kelley and D. E. Keyes, SIAM J. Numer. Anal. 35
+//! (1998) 508). It ends where a network that stores heat in every node would.
 
 use lptn_assembly::{Part, ThermalSystem, Workspace};
 use lptn_integrate::linear::{self, Factorization};
@@ -16,13 +16,13 @@ use crate::newton_error::NewtonError;
 /// Corrections below this, in K, are the last: near 300 K the last digit is 6e-14 K.
 pub(crate) const SMALL: f64 = 1e-9;
 
-/// No larger correction in K is put down to rounding.
+/// No larger correction in K counts as rounding.
 const MOST_ROUNDING: f64 = 1e-5;
 
 /// Corrections to follow a solution that moves, below this in K.
 const FOLLOWED: f64 = 1e-10;
 
-/// A correction that is foretold is taken for so many times as large.
+/// Safety factor of a predicted correction.
 const SURELY: f64 = 4.0;
 
 /// A solution that moves further than this in K at once may be another one.
@@ -31,7 +31,7 @@ const FAR: f64 = 1.0;
 /// Iterations with full or damped steps.
 const ITERATIONS: usize = 60;
 
-/// By how much the size of a correction may be off by rounding, relative.
+/// Relative rounding error of the size of a correction.
 const ROUNDING: f64 = 1e-12;
 
 /// The smallest part of the largest careful share of a correction that is tried.
@@ -45,8 +45,8 @@ const PSEUDO_STEPS: usize = 3000;
 const REUSED: usize = 6;
 const CONTRACTION: f64 = 0.25;
 
-/// The share of what is left over that a correction may leave where factors are not exact: the next
-/// one takes it away.
+/// The share of the residual that a correction may leave if factors are not exact: the next one
+/// removes it.
 const SHARE: f64 = 1e-4;
 
 /// Newton's method on a range of unknowns.
@@ -60,12 +60,13 @@ pub(crate) struct Newton<'a> {
     /// The slot in the whole Jacobian of each slot of the pattern.
     slots: Vec<usize>,
     pub(crate) factors: Box<dyn Factorization>,
-    /// Whether the factors are those of some earlier point.
+    /// True if the factors are those of some earlier point.
     pub(crate) ready: bool,
-    /// The matrix with whose factors looks begin, and whether these are at hand (`anchor.rs`).
+    /// The matrix with whose factors evaluations begin, and a flag that these are present
+    /// (`anchor.rs`).
     pub(crate) base: Vec<f64>,
     pub(crate) leans: bool,
-    /// Whether the balances may have several solutions, so that one must not be left for another.
+    /// True if the balances may have several solutions, so that one must not be left for another.
     pub(crate) guarded: bool,
     pub(crate) whole: Vec<f64>,
     pub(crate) values: Vec<f64>,
@@ -123,7 +124,7 @@ impl<'a> Newton<'a> {
             }
         }
         temperatures.copy_from_slice(&start);
-        // of several solutions only one that is near is the same; what leads to others is a leap
+        // of several solutions only a near one is the same; a step to another is a jump
         let mut solved = match self.guarded {
             true => self.damped(work, temperatures),
             false => self.solve(work, temperatures),
@@ -147,12 +148,12 @@ impl<'a> Newton<'a> {
         solved
     }
 
-    /// How far the free unknowns moved, in K.
+    /// Largest move of the free unknowns, in K.
     pub(crate) fn moved(&self, from: &[f64], to: &[f64]) -> f64 {
         self.free.iter().map(|&i| (to[i] - from[i]).abs()).fold(0.0, f64::max)
     }
 
-    /// Corrections with the factors at hand; whether they led to the solution. `None`: a value
+    /// Corrections with the present factors; true if they led to the solution. `None`: a value
     /// failed.
     fn contract(&mut self, work: &mut Workspace, temperatures: &mut [f64]) -> Option<bool> {
         let mut last = f64::INFINITY;
@@ -163,7 +164,7 @@ impl<'a> Newton<'a> {
                 return Some(false);
             }
             self.apply(&correction, 1.0, temperatures);
-            // the next one is smaller by as much as this one was
+            // the next one is smaller by the same ratio
             let next = if last.is_finite() { SURELY * size * (size / last) } else { size };
             if size.min(next) <= FOLLOWED {
                 return Some(true);
@@ -195,8 +196,7 @@ impl<'a> Newton<'a> {
                 if self.warmed(work, temperatures) {
                     return Ok(());
                 }
-                // what stopped Newton's method at the start says more than how the pseudo-time
-                // ended
+                // the reason at the start is more useful than the end of the pseudo-time
                 self.pseudo_time(work, temperatures).map_err(|later| match (first, later) {
                     (NewtonError::Stalled { .. }, later) => later,
                     (first, _) => first,
@@ -248,8 +248,8 @@ impl<'a> Newton<'a> {
         false
     }
 
-    /// The share of a correction that leaves every temperature between a fifth and five times what
-    /// it is: a straight line to a fourth power overshoots by far.
+    /// The share of a correction that leaves every temperature between a fifth and five times its
+    /// value: a straight line to a fourth power overshoots by far.
     fn careful_share(&self, temperatures: &[f64], correction: &[f64]) -> f64 {
         let free = self.free.iter().map(|&i| temperatures[i].abs().max(1.0)).zip(correction);
         free.fold(1.0, |share: f64, (t, dt)| {
@@ -258,7 +258,7 @@ impl<'a> Newton<'a> {
         })
     }
 
-    /// The last corrections, with the factors at hand, while they shrink.
+    /// The last corrections, with the present factors, while they shrink.
     fn polish(
         &mut self,
         work: &mut Workspace,
@@ -278,9 +278,8 @@ impl<'a> Newton<'a> {
         Ok(())
     }
 
-    /// What the last digits of the temperatures make of the corrections in K, with the factors and
-    /// the Jacobian at hand: a network that hangs on a small conductance feels the rounding of its
-    /// large ones.
+    /// Effect of the last digits of the temperatures on the corrections in K, with the present
+    /// factors and Jacobian: a network on a small conductance feels the rounding of its large ones.
     fn rounding(&mut self, temperatures: &[f64]) -> Result<f64, NewtonError> {
         let diagonal = self.pattern.diagonal();
         let heats = diagonal
@@ -292,7 +291,7 @@ impl<'a> Newton<'a> {
         Ok(largest(&moved).min(MOST_ROUNDING))
     }
 
-    /// The same from the start over pseudo-time only: where that rests depends on where it began.
+    /// The same from the start over pseudo-time only: its rest depends on its start.
     pub(crate) fn settle(
         &mut self,
         work: &mut Workspace,
@@ -351,7 +350,8 @@ impl<'a> Newton<'a> {
         for &slot in self.pattern.diagonal() {
             self.values[slot] += inertia * self.values[slot].abs();
         }
-        // a balance without a single term says more than the pivot at which elimination ended
+        // a balance without a single term is a better reason than the pivot at which elimination
+        // ended
         let is_empty = |&slot: &usize| self.values[slot].abs() < f64::MIN_POSITIVE;
         let empty = self.pattern.diagonal().iter().position(is_empty);
         let free = &self.free;
@@ -367,7 +367,7 @@ impl<'a> Newton<'a> {
         Ok(())
     }
 
-    /// The correction of the free unknowns, in K, with the factors at hand.
+    /// The correction of the free unknowns, in K, with the present factors.
     pub(crate) fn correction(
         &mut self,
         work: &mut Workspace,
@@ -387,7 +387,7 @@ pub(crate) fn largest(values: &[f64]) -> f64 {
     worst(values).1
 }
 
-/// The largest magnitude and where it is; what is not a number counts as infinite.
+/// The largest magnitude and its index; NaN counts as infinite.
 fn worst(values: &[f64]) -> (usize, f64) {
     let size = |v: f64| if v.is_nan() { f64::INFINITY } else { v.abs() };
     let all = values.iter().map(|&v| size(v)).enumerate();

@@ -1,9 +1,9 @@
-//! Why the balances of some unknowns have no solution, unknowns by their number.
+//! Reasons why the balances of some unknowns have no solution, unknowns by their number.
 
 use lptn_integrate::FactorError;
 use lptn_network::InputError;
 
-/// Why balances could not be solved.
+/// Reason why balances could not be solved.
 #[derive(Clone, Debug)]
 pub(crate) enum NewtonError {
     /// A value of an element fails.
@@ -15,11 +15,11 @@ pub(crate) enum NewtonError {
     },
     /// No memory, or another failure of the factorisation.
     Factorization(FactorError),
-    /// The balances hold, but the least disturbance leads away from there.
+    /// The balances are solved, but the least disturbance leads away from there.
     Unstable {
         /// The unknown that moves most.
         unknown: usize,
-        /// Whether it swings from one side to the other.
+        /// True if it oscillates from one side to the other.
         swings: bool,
     },
     /// The solution that was followed ends here: beyond, the balances have another one, elsewhere.
@@ -31,7 +31,7 @@ pub(crate) enum NewtonError {
     Stalled {
         /// The unknown that still moved most.
         unknown: usize,
-        /// By how much in K.
+        /// Its change in K.
         change: f64,
     },
 }

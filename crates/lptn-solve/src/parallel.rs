@@ -15,7 +15,7 @@ use std::ops::{ControlFlow, Range};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Applies `work` to every item on at most `threads` threads; results stand in the order of the
+/// Applies `work` to every item on at most `threads` threads. Results are in the order of the
 /// items, so that nothing depends on which thread was faster.
 pub fn in_parallel<T: Sync, R: Send>(
     items: &[T],
@@ -35,7 +35,7 @@ pub fn in_parallel<T: Sync, R: Send>(
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(item) = items.get(index) else { break };
                     let result = work(item);
-                    // a thread that panicked ends the scope with its panic: what it left is whole
+                    // a thread that panicked ends the scope with it: its results are complete
                     done.lock().unwrap_or_else(PoisonError::into_inner).push((index, result));
                 }
             });
@@ -46,7 +46,7 @@ pub fn in_parallel<T: Sync, R: Send>(
     done.into_iter().map(|(_, result)| result).collect()
 }
 
-/// What the threads of [`in_order`] share.
+/// State shared by the threads of [`in_order`].
 struct Waiting<R> {
     /// The number that is begun next.
     next: u64,
@@ -59,10 +59,10 @@ struct Waiting<R> {
     stopped: bool,
 }
 
-/// Applies `work` to every number on at most `threads` threads and hands the results on in the order
-/// of the numbers, from the thread of the caller. No more than a few are begun ahead of the one that
-/// is due, so that memory is bounded however many there are. `take` says whether to go on; after a
-/// break no further number is begun.
+/// Applies `work` to every number on at most `threads` threads and hands the results on in the
+/// order of the numbers, from the thread of the caller. No more than a few are begun ahead of the
+/// one that is due, so that memory is bounded for any number. `take` decides if work goes on; after
+/// a break no further number is begun.
 pub fn in_order<R: Send>(
     numbers: Range<u64>,
     threads: usize,
@@ -107,15 +107,15 @@ pub fn in_order<R: Send>(
     });
 }
 
-/// So many numbers a thread are begun ahead of the one that is due.
+/// Numbers per thread that are begun ahead of the one that is due.
 const AHEAD: u64 = 8;
 
-/// A thread that panicked ends the scope with its panic: what it left is whole.
+/// A thread that panicked ends the scope with its panic: its results are complete.
 fn lock<R>(state: &Mutex<Waiting<R>>) -> MutexGuard<'_, Waiting<R>> {
     state.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Says that a thread is gone, by a panic too, so that nobody waits for what it had begun.
+/// Reports that a thread is gone, by a panic too, so that no one waits for its work.
 struct Leaving<'a, R> {
     state: &'a Mutex<Waiting<R>>,
     changed: &'a Condvar,
@@ -128,7 +128,7 @@ impl<R> Drop for Leaving<'_, R> {
     }
 }
 
-/// The number to work on next, as soon as it may be begun; `None` where none is left.
+/// The number to work on next, as soon as it may be begun; `None` if none is left.
 fn begin<R>((state, changed): (&Mutex<Waiting<R>>, &Condvar), end: u64, ahead: u64) -> Option<u64> {
     let mut waiting = lock(state);
     while !waiting.stopped && waiting.next < end && waiting.next >= waiting.due + ahead {
@@ -139,7 +139,7 @@ fn begin<R>((state, changed): (&Mutex<Waiting<R>>, &Condvar), end: u64, ahead: u
     (!waiting.stopped && number < end).then_some(number)
 }
 
-/// The result that is due, as soon as it is there; `None` where all are handed on.
+/// The result that is due, as soon as it is there; `None` if all are handed on.
 fn next_due<R>(state: &Mutex<Waiting<R>>, changed: &Condvar) -> Option<R> {
     let mut waiting = lock(state);
     loop {
@@ -156,7 +156,7 @@ fn next_due<R>(state: &Mutex<Waiting<R>>, changed: &Condvar) -> Option<R> {
     }
 }
 
-/// How many threads this machine runs at once; one where it does not say.
+/// Number of threads that this machine runs at once; one if it is not known.
 pub fn available_threads() -> usize {
     std::thread::available_parallelism().map_or(1, std::num::NonZero::get)
 }

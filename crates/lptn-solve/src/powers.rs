@@ -1,15 +1,15 @@
-//! Whether small disturbances of a few temperatures grow, to the last digit that counts.
+//! Stability of small disturbances of a few temperatures, to the last digit that counts.
 //!
-//! The trapezoidal rule `M x' + A x = 0` takes a disturbance from one step to the next by
-//! `B = (M + h/2 A)^-1 (M - h/2 A)`; whatever the length h, its eigenvalues are within the unit circle
-//! exactly where those of `M x' = -A x` decay. B is squared again and again. As soon as a norm of a power
-//! is below 1, every disturbance dies, however it turns meanwhile; as soon as the trace of one is above
+//! The trapezoidal rule `M x' + A x = 0` takes a disturbance from one step to the next by `B = (M +
+//! h/2 A)^-1 (M - h/2 A)`; whatever the length h, its eigenvalues are within the unit circle
+//! exactly when those of `M x' = -A x` decay. B is squared again and again. As soon as a norm of a
+//! power is below 1, every disturbance dies, however it turns. As soon as the trace of one is above
 //! the number of unknowns, one of its eigenvalues is above 1, and some disturbance grows.
 
 /// The most squarings: 2^60 steps.
 const SQUARINGS: usize = 60;
 
-/// A norm beyond all that a disturbance that dies can reach on its way.
+/// A norm beyond the transient growth of any disturbance that dies.
 const BEYOND: f64 = 1e100;
 
 /// A dense square matrix by columns.
@@ -52,7 +52,7 @@ impl Square {
         (0..self.size).map(|i| self.column(i)[i]).sum()
     }
 
-    /// The place that moves most in what the powers of this matrix enlarge, if they enlarge anything.
+    /// Index of the largest entry that the powers of this matrix enlarge, if they enlarge anything.
     pub(crate) fn grows(mut self) -> Option<usize> {
         let mut known = false;
         for _ in 0..SQUARINGS {
@@ -69,7 +69,7 @@ impl Square {
         None
     }
 
-    /// The place that moves most in the column that moves most.
+    /// The row of the largest entry in the largest column.
     fn largest(&self) -> usize {
         let size = |column: &[f64]| column.iter().map(|a| a * a).sum::<f64>();
         let place = |items: &mut dyn Iterator<Item = f64>| {
@@ -79,7 +79,7 @@ impl Square {
         place(&mut self.column(column).iter().map(|a| a.abs()))
     }
 
-    /// The sign of the determinant: 0 where it is singular to rounding.
+    /// The sign of the determinant: 0 if it is singular to rounding.
     pub(crate) fn sign(mut self) -> f64 {
         let mut sign = 1.0;
         for k in 0..self.size {
@@ -124,8 +124,8 @@ mod tests {
         square
     }
 
-    /// A rotation by 1 rad that shrinks or grows by a part in 1e9 in each step, seen askew: its norm
-    /// goes up and down by a factor of 1e6 at every turn.
+    /// A rotation by 1 rad that shrinks or grows by a part in 1e9 in each step, in skew
+    /// coordinates: its norm goes up and down by a factor of 1e6 at every turn.
     #[test]
     fn a_rotation_is_judged_by_what_is_left_after_many_turns() {
         let turn = |factor: f64| {
@@ -152,7 +152,7 @@ mod tests {
         assert!((matrix(&[&[3.0, 0.0], &[0.0, -4.0]]).norm() - 5.0).abs() < 1e-12);
     }
 
-    /// By its trace above the number of unknowns, and by its norm where the trace is 0.
+    /// By its trace above the number of unknowns, and by its norm if the trace is 0.
     #[test]
     fn what_grows_moves_the_place_that_moves_most() {
         let turns = |a: f64, b: f64| matrix(&[&[0.1, 0.0, 0.0], &[0.0, 0.2, a], &[0.0, -b, 0.2]]);
@@ -161,7 +161,7 @@ mod tests {
         assert_eq!(matrix(&[&[0.0, 1e101], &[0.0, 0.0]]).grows(), Some(0));
         assert_eq!(matrix(&[&[0.0, 0.0], &[-3e101, 0.0]]).grows(), Some(1));
         assert_eq!(matrix(&[&[f64::NAN]]).grows(), None);
-        // what neither grows nor dies does not grow
+        // a matrix that neither grows nor dies does not grow
         assert_eq!(matrix(&[&[1.0, 0.0], &[0.0, 1.0]]).grows(), None);
         assert_eq!(matrix(&[&[0.0, 1.0], &[1.0, 0.0]]).grows(), None);
     }

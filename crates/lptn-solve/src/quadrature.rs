@@ -1,8 +1,8 @@
-//! Integrals over a step by the Gauss rule, halved where a curve has a kink.
+//! Integrals over a step by the Gauss rule, halved if a curve has a kink.
 //!
 //! Windows evaluate seven points a step. The ends and five Gauss nodes make two rules that are
 //! exact for the polynomial of a step; extremes come from the polynomial through the points. Noise
-//! that is taken for a kink in every step loses its halvings.
+//! that looks like a kink in every step loses its halvings.
 
 use lptn_network::Bends;
 
@@ -16,8 +16,8 @@ use crate::stop_reason::StopReason;
 /// kind: the difference of two temperatures that are nearly equal is rounding.
 pub(crate) const ROUNDING: f64 = 1e-12;
 
-/// Intervals that may be halved in one step: what bends at a place that nothing tells is met by
-/// halving, and what is nothing but rounding is not followed for ever.
+/// Intervals that may be halved in one step: halvings locate bends without a known level, and
+/// rounding must not be followed without end.
 const HALVINGS: usize = 80;
 
 /// Integrates several curves step by step.
@@ -28,15 +28,14 @@ pub(crate) struct Quadrature {
     /// For each curve its kind, counted from 0: curves of one quantity.
     kinds: Vec<usize>,
     halvings: Halvings,
-    /// For each curve the integral of its absolute value, and how far off its integral may be where
+    /// For each curve the integral of its absolute value, and the possible error of its integral if
     /// the halvings came to an end.
     sizes: Vec<[f64; 2]>,
     last: Option<(f64, Vec<f64>)>,
 }
 
-/// How many intervals of the next step may be halved. Rounding that is taken for a kink is so in
-/// every step: each that ends without agreement leaves the next one half as many, and one that
-/// agrees gives them back.
+/// Number of intervals of the next step that may be halved. Rounding looks like a kink in every
+/// step: each step that ends without agreement halves this number, and one that agrees restores it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Halvings(pub(crate) usize);
 
@@ -47,7 +46,7 @@ impl Default for Halvings {
 }
 
 impl Halvings {
-    /// Whether the last step was settled.
+    /// Updates the number after a step; `settled`: its two rules agreed.
     pub(crate) fn after(&mut self, settled: bool) {
         self.0 = if settled { HALVINGS } else { self.0 / 2 };
     }
@@ -60,21 +59,20 @@ impl Quadrature {
         Self { integral, kinds, halvings: Halvings::default(), sizes, last: None }
     }
 
-    /// The curves may jump here: what they were at the end of the last step says nothing of the
-    /// next.
+    /// The curves may jump here: their values at the end of the last step do not apply to the next.
     pub(crate) fn jump(&mut self) {
         self.last = None;
     }
 
-    /// The share of a curve's integral of its absolute value by which its integral may be off, where
-    /// halvings came to an end; 0 where they did not.
+    /// Possible error of a curve's integral, as a share of the integral of its absolute value, if
+    /// halvings came to an end; else 0.
     pub(crate) fn open(&self, curve: usize) -> f64 {
         let [size, open] = self.sizes[curve];
         if open > 0.0 { open / size } else { 0.0 }
     }
 
-    /// Adds the integrals over a step. Each interval is handed over in the order of time, with
-    /// whether its points tell what the curves are between them.
+    /// Adds the integrals over a step. Each interval is handed over in the order of time, with a
+    /// flag that its points resolve the curves.
     pub(crate) fn step(
         &mut self,
         (from, to): (f64, f64),
@@ -113,9 +111,9 @@ impl Quadrature {
     }
 }
 
-/// How far the two rules are apart for the worst curve, over what is allowed; 0 where they agree. A
-/// curve that has no number somewhere has none by halving. `sizes` are the largest integrals of
-/// absolute values in the step so far, beside which an interval may be nothing.
+/// Difference of the two rules for the worst curve, over the allowed one; 0 if they agree. A curve
+/// that is not a number somewhere stays so after a halving. `sizes` are the largest integrals of
+/// absolute values in the step so far, next to which an interval may be negligible.
 fn wanting(kinds: &[usize], integrals: &[[f64; 3]], sizes: &mut [f64]) -> f64 {
     let mut largest = vec![0.0_f64; kinds.iter().max().map_or(0, |kind| kind + 1)];
     for ((&kind, [_, _, size]), known) in kinds.iter().zip(integrals).zip(sizes.iter_mut()) {
@@ -139,7 +137,7 @@ mod tests {
     use super::{Halvings, Quadrature};
     use crate::interval::{GAUSS, NODES};
 
-    /// The integral, and how often the curve was evaluated.
+    /// The integral, and the number of evaluations of the curve.
     fn integral(curve: impl Fn(f64) -> f64, from: f64, to: f64) -> (f64, usize) {
         let mut sum = Quadrature::new(vec![0]);
         let mut calls = 0;
@@ -167,7 +165,7 @@ mod tests {
         assert!((integral(step, 0.0, 1.0).0 - 0.3).abs() < 1e-6);
     }
 
-    /// What a step of the integrator is needs no halving: seven points.
+    /// The polynomial of a step of the integrator needs no halving: seven points.
     #[test]
     fn polynomials_of_a_step_are_integrated_at_once() {
         let (sum, calls) = integral(|t| 300.0 + t.powi(5) - 2.0 * t * t, 0.0, 2.0);
@@ -207,8 +205,8 @@ mod tests {
         assert_eq!(sum.halvings.0, super::HALVINGS);
     }
 
-    /// Where no halving is left the integral is off by as much as the rules differ, as a share of
-    /// the integral of the absolute value.
+    /// If no halving is left, the integral is off by the difference of the rules, as a share of the
+    /// integral of the absolute value.
     #[test]
     fn how_far_off_an_integral_may_be_is_told_where_halvings_end() {
         let mut sum = Quadrature::new(vec![0, 0, 1]);
@@ -220,7 +218,8 @@ mod tests {
             sum.step((begin, begin + 2.0), along, &mut |_, told| assert!(!told)).unwrap();
             sum.jump();
         }
-        // two nodes of the Gauss rule are behind the jump, of the other one of these and the end
+        // two nodes of the Gauss rule are after the jump; for the other rule one of them and the
+        // end
         let square = NODES[4] * NODES[4];
         let beside = 2.0 / 15.0 / (square * (1.0 - square));
         let other = beside + 1.0 / 3.0 - beside * square;
@@ -240,8 +239,8 @@ mod tests {
         assert_eq!(halvings.0, super::HALVINGS);
     }
 
-    /// A curve wants as much as its rules differ over a part in 1e10 of its own size, or one in 1e12
-    /// of the largest of its kind, in this interval or before.
+    /// A curve wants the difference of its rules over a part in 1e10 of its own size, or one in
+    /// 1e12 of the largest of its kind, in this interval or before.
     #[test]
     fn the_worst_curve_tells_how_much_is_wanting() {
         let wants = |integrals: &[[f64; 3]], known: &[f64]| {
@@ -257,7 +256,7 @@ mod tests {
         for sign in [1.0, -1.0] {
             near(wants(&[[1.0, sign * 8e-10, 2.0]], &[0.0]), 4.0);
             assert!(wants(&[[1.0, sign * 1.9e-10, 2.0]], &[0.0]) == 0.0);
-            // nothing beside another one of its kind, or beside itself before
+            // negligible next to another one of its kind, or next to itself before
             let small = [1.0, sign * 8e-10, 2.0];
             near(wants(&[small, [0.0, 0.0, 500.0]], &[0.0; 2]), 8.0 / 5.0);
             assert!(wants(&[small, [0.0, 0.0, 900.0]], &[0.0; 2]) == 0.0);

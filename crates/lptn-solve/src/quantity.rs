@@ -1,4 +1,4 @@
-//! What can be a column of the results.
+//! Quantities that can be columns of the results.
 
 use lptn_network::{
     BoundaryId, ConductorId, ControlId, GridValue, HeatOf, Item, Network, NodeId, ReportId,
@@ -20,8 +20,8 @@ pub(crate) enum Quantity {
 }
 
 impl Quantity {
-    /// All of a network but what is inside grids: temperatures of nodes, grids and boundaries, heat
-    /// flows of paths, sources and boundaries, signals, controls, reports.
+    /// All of a network except the inside of grids: temperatures of nodes, grids and boundaries,
+    /// heat flows of paths, sources and boundaries, signals, controls, reports.
     pub(crate) fn all(network: &Network) -> impl Iterator<Item = Self> {
         let nodes = network.outer_nodes().map(Self::Node);
         let paths = network.outer_conductors().flat_map(|id| of_path(network, id));
@@ -37,8 +37,8 @@ impl Quantity {
             .chain(network.report_ids().map(Self::Report))
     }
 
-    /// What is inside grids: temperatures of cells and surfaces, heat flows of their paths, faces
-    /// that nothing is attached to. There may be hundreds of thousands.
+    /// The inside of grids: temperatures of cells and surfaces, heat flows of their paths, free
+    /// faces. There may be hundreds of thousands.
     pub(crate) fn inner(network: &Network) -> impl Iterator<Item = Self> {
         let nodes = network.node_ids().filter(|id| network.whole(Item::Node(*id)).is_some());
         let paths =
@@ -47,7 +47,8 @@ impl Quantity {
         nodes.map(Self::Node).chain(network.idle_grid_values().map(Self::Grid)).chain(paths)
     }
 
-    /// What sorts quantities as [`Quantity::all`] does, followed by those of [`Quantity::inner`].
+    /// A key that sorts quantities as [`Quantity::all`] does, followed by those of
+    /// [`Quantity::inner`].
     pub(crate) fn order(self, network: &Network) -> (bool, u8, usize, u8) {
         let inner = network.whole(self.item()).is_some();
         let (kind, index, end) = match self {
@@ -75,7 +76,7 @@ impl Quantity {
         (inner, kind, index, end)
     }
 
-    /// The quantity of this name, without a look at all the others; not for signals and reports.
+    /// The quantity of this name, without a search through all; not for signals and reports.
     pub(crate) fn named(network: &Network, name: &str) -> Option<Self> {
         let item = network.item(name.rsplit_once('.')?.0).ok()?;
         let all = match item {
@@ -102,7 +103,7 @@ impl Quantity {
         }
     }
 
-    /// What it is a quantity of.
+    /// The item of the quantity.
     pub(crate) fn item(self) -> Item {
         match self {
             Self::Node(id) => Item::Node(id),
@@ -127,24 +128,23 @@ impl Quantity {
         }
     }
 
-    /// Whether it can be had only where the temperature of every node is known.
+    /// True if it can be computed only if the temperature of every node is known.
     pub(crate) fn needs_all(self) -> bool {
         matches!(self, Self::Heat(_) | Self::Report(_) | Self::Grid(_))
     }
 }
 
-/// The heat flows of a path, then what its law tells of itself.
+/// The heat flows of a path, then the further results of its law.
 fn of_path(network: &Network, id: ConductorId) -> impl Iterator<Item = HeatOf> {
     network.heats_of(id).into_iter().chain(network.told_of(Item::Conductor(id)))
 }
 
-/// The heat of a source, then what its law tells of itself.
+/// The heat of a source, then the further results of its law.
 fn of_source(network: &Network, id: SourceId) -> impl Iterator<Item = HeatOf> {
     [HeatOf::Source(id)].into_iter().chain(network.told_of(Item::Source(id)))
 }
 
-/// How a quantity is shown: in a unit of its own, as a signal that is given in one, else by its
-/// type.
+/// The unit in which a quantity is shown: that of a signal that is given in one, else by its type.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Shown {
     ty: Type,

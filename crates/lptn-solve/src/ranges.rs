@@ -1,4 +1,4 @@
-//! Where and when laws were outside the ranges in which they are known.
+//! Laws outside their ranges of validity during a run.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_laws::{Group, THIN_OIL};
@@ -9,17 +9,17 @@ use crate::snapshot::Snapshot;
 /// A stretch of time in which a group of a law was outside its range, on one side of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct OutOfRange {
-    /// The conductor or source whose law it is.
+    /// The conductor or source of the law.
     pub item: Item,
     /// The group with its range.
     pub group: &'static Group,
     /// Its value that was furthest outside.
     pub value: f64,
-    /// When that was, in s.
+    /// Time of that value in s.
     pub at: f64,
-    /// From when on it was outside, in s, between the times at which it was looked at.
+    /// Start in s, interpolated between the times of evaluations.
     pub from: f64,
-    /// Until when, in s; that of the last look where it was outside to the end.
+    /// End in s; that of the last evaluation if it was outside to the end.
     pub to: f64,
 }
 
@@ -28,7 +28,7 @@ impl OutOfRange {
         Self { item, group, value, at: time, from: time, to: time }
     }
 
-    /// Whether a value is outside, and on the same side.
+    /// True if a value is outside, on the same side.
     fn goes_on(&self, value: f64) -> bool {
         !self.group.contains(value) && (value < self.group.from) == (self.value < self.group.from)
     }
@@ -42,7 +42,7 @@ impl OutOfRange {
         self.to = time;
     }
 
-    /// What is outside in a steady state, each with the one time of its inputs.
+    /// The groups outside their range in a steady state, each with the one time of its inputs.
     ///
     /// # Errors
     /// [`InputError`] if a value fails.
@@ -66,7 +66,7 @@ fn groups_of(network: &Network, item: Item) -> &'static [Group] {
     network.law(item).map_or(&[], |law| law.formula().declaration().groups)
 }
 
-/// Whether groups change no faster than temperatures do.
+/// True if groups change no faster than temperatures do.
 fn are_slow(groups: &[Group]) -> bool {
     groups.iter().all(|group| *group == THIN_OIL)
 }
@@ -78,14 +78,14 @@ type Point = (f64, f64);
 struct Track {
     item: Item,
     group: &'static Group,
-    /// The last look in this stretch of smooth inputs.
+    /// The last evaluation in this stretch of smooth inputs.
     last: Option<Point>,
-    /// Where it is outside now.
+    /// The present stretch outside the range.
     now: Option<OutOfRange>,
 }
 
 impl Track {
-    /// Takes in the next look; gives a stretch that ended.
+    /// Takes in the next evaluation; returns a stretch that ended.
     fn look(&mut self, time: f64, value: Option<f64>) -> Option<OutOfRange> {
         let last = std::mem::replace(&mut self.last, value.map(|value| (time, value)));
         let value = value.filter(|value| !self.group.contains(*value));
@@ -104,7 +104,7 @@ impl Track {
         ended
     }
 
-    /// When the value passed an end of the range between two looks, on a straight line.
+    /// The time in s between two evaluations at which a straight line passed an end of the range.
     fn edge(&self, before: Option<Point>, after: Option<Point>, low: bool) -> Option<f64> {
         let ((t0, y0), (t1, y1)) = (before?, after?);
         let end = if low { self.group.from } else { self.group.to };
@@ -113,7 +113,7 @@ impl Track {
     }
 }
 
-/// All groups of a network during a run, looked at where its limits are.
+/// All groups of a network during a run, evaluated at the same times as its limits.
 pub(crate) struct RangeWatch<'a> {
     system: &'a ThermalSystem,
     items: Vec<Item>,
@@ -145,7 +145,7 @@ impl<'a> RangeWatch<'a> {
         self.sample(work, time)
     }
 
-    /// Looks at all groups where the workspace stands, at `time` in s.
+    /// Evaluates all groups at the state of the workspace, at `time` in s.
     pub(crate) fn sample(&mut self, work: &mut Workspace, time: f64) -> Result<(), InputError> {
         self.sample_of(work, time, |_| true)
     }
@@ -181,13 +181,13 @@ impl<'a> RangeWatch<'a> {
         Ok(())
     }
 
-    /// Whether it is enough to look at the ends of steps.
+    /// True if evaluations at the ends of steps suffice.
     pub(crate) fn is_slow(&self) -> bool {
         let network = self.system.network();
         self.items.iter().all(|item| are_slow(groups_of(network, *item)))
     }
 
-    /// What was outside, in the order of paths and sources, their groups and the time.
+    /// The results, in the order of paths and sources, their groups and the time.
     pub(crate) fn into_found(mut self) -> Vec<OutOfRange> {
         let now = self.tracks.iter().enumerate();
         self.found.extend(now.filter_map(|(place, track)| Some((place, track.now?))));

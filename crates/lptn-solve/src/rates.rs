@@ -1,4 +1,4 @@
-//! How fast the states of a network change: its right side, for those who follow it by themselves.
+//! Rates of the states of a network: its right-hand side, for users with their own integrator.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 
@@ -8,15 +8,15 @@ use crate::unsolved::Unsolved;
 
 /// The rates of a system's states at any time and state.
 ///
-/// A state is what a run carries: the temperature of a node in K or, where its capacity depends on
-/// its temperature, its start plus the heat that it has taken up over its capacity at the start.
+/// A state is an integrator's variable: the temperature of a node in K or, if its capacity depends
+/// on temperature, its start plus the heat it has taken up over its capacity at the start.
 pub struct StateRates<'a> {
     system: &'a ThermalSystem,
     work: Workspace,
     unfold: Unfold<'a>,
 }
 
-/// What a state does at one moment.
+/// Rates and temperatures of a state at one moment.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rates {
     /// Rate of each state in K/s.
@@ -26,10 +26,10 @@ pub struct Rates {
 }
 
 impl<'a> StateRates<'a> {
-    /// Of a system whose controls stand as they do at the start.
+    /// The rates of a system with the controls in their state at the start.
     ///
     /// # Errors
-    /// [`Unsolved`] where the balances of massless nodes cannot be set up.
+    /// [`Unsolved`] if the balances of massless nodes cannot be set up.
     pub fn new(system: &'a ThermalSystem) -> Result<Self, Unsolved> {
         let unfold = Unfold::new(system).map_err(|error| Unsolved::new(system, error))?;
         Ok(Self { system, work: system.workspace(), unfold })
@@ -45,10 +45,10 @@ impl<'a> StateRates<'a> {
         one.collect::<Result<_, _>>().map_err(|error| Unsolved::Input(Box::new(error)))
     }
 
-    /// The rates at `time` in s, just after whatever jumps there.
+    /// The rates at `time` in s, just after any jump there.
     ///
     /// # Errors
-    /// [`Unsolved`] where an input or element has no value, or massless nodes no temperature.
+    /// [`Unsolved`] if an input or element has no value, or massless nodes no temperature.
     pub fn at(&mut self, time: f64, states: &[f64]) -> Result<Rates, Unsolved> {
         let (system, work) = (self.system, &mut self.work);
         let input = |error| Unsolved::Input(Box::new(error));

@@ -1,4 +1,4 @@
-//! Quantities of the results, read where a workspace stands.
+//! Quantities of the results, read at the state of a workspace.
 //!
 //! This is the one place where a quantity of results is read; rows, limits and windows use it.
 //! Balances of one node are running integrals, separate from the ledger's.
@@ -13,12 +13,12 @@ use crate::quantity::Quantity;
 pub(crate) struct Reading<'a> {
     system: &'a ThermalSystem,
     pub(crate) scope: Evaluation,
-    /// Whether anything reads temperatures there: results, or what laws tell of themselves.
+    /// True if anything reads temperatures: results, or further results of laws.
     reads: bool,
     unknowns: Vec<f64>,
     flow: Vec<f64>,
     boundary_heat: Vec<f64>,
-    /// Whether the heat of boundaries and sources is still to be evaluated.
+    /// True if the heat of boundaries and sources has yet to be evaluated.
     heat_is_due: bool,
     /// The heat flows that expressions of results name.
     named: Vec<f64>,
@@ -38,20 +38,20 @@ impl<'a> Reading<'a> {
         }
     }
 
-    /// The same for expressions that the network does not hold.
+    /// The same for expressions that are not part of the network.
     pub(crate) fn of_any(system: &'a ThermalSystem) -> Self {
         Self { reads: true, ..Self::new(system) }
     }
 
-    /// Goes where the workspace is, and evaluates the heat of boundaries and sources there; `at` is
-    /// the time and a time inside the segment, in s. If a temperature is not known (NaN), what
-    /// follows from it is NaN.
+    /// Goes to the state of the workspace, and evaluates the heat of boundaries and sources there;
+    /// `at` is the time and a time inside the segment, in s. If a temperature is not known (NaN),
+    /// results that depend on it are NaN.
     pub(crate) fn place(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
         self.stand(work, at)?;
         self.settle(work)
     }
 
-    /// As [`Reading::place`] without the heat, which is evaluated when it is read: most rows show
+    /// [`Reading::place`] without the heat, which is evaluated when it is read: most rows show
     /// none. Until then the workspace has the heat of sources of some earlier temperatures.
     pub(crate) fn stand(&mut self, work: &mut Workspace, at: (f64, f64)) -> Result<(), InputError> {
         let Self { system, scope, reads, unknowns, boundary_heat, .. } = self;
@@ -86,7 +86,7 @@ impl<'a> Reading<'a> {
         Ok(())
     }
 
-    /// Evaluates the heat of boundaries and sources, if that is still to be done.
+    /// Evaluates the heat of boundaries and sources, if that has yet to be done.
     fn settle(&mut self, work: &mut Workspace) -> Result<(), InputError> {
         if self.heat_is_due {
             self.boundary_heat.fill(f64::NAN);
@@ -101,7 +101,7 @@ impl<'a> Reading<'a> {
         heat_of(self.system, (&self.boundary_heat, &mut self.scope), work, heat)
     }
 
-    /// Asks every path and source for its heat where this was placed last.
+    /// Evaluates every path and source at the last place, to check its heat.
     pub(crate) fn check_heat(&mut self, work: &mut Workspace) -> Result<(), InputError> {
         self.system.flow(work, &self.unknowns, &mut self.flow)
     }
@@ -128,7 +128,7 @@ impl<'a> Reading<'a> {
     }
 }
 
-/// Whether there is a result, or a law that tells something of itself.
+/// True if there is a result, or a law with further results.
 fn reads_temperatures(network: &Network) -> bool {
     let conductors = network.conductor_ids().map(Item::Conductor);
     let mut laws = conductors.chain(network.source_ids().map(Item::Source));

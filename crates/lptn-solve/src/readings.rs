@@ -1,5 +1,5 @@
-//! Where in time results are read: limits, reports, windows and signals may bend and jump at times
-//! that the heat flows do not know of, and the integrator need not stop there.
+//! Times at which results are read: limits, reports, windows and signals may bend and jump at times
+//! that the heat flows ignore, and the integrator need not stop there.
 //!
 //! Quantities that only limits, reports, windows or columns read have breakpoints too. The recorder
 //! reads inside those stretches without a restart of the integrator.
@@ -12,19 +12,19 @@ use crate::times::{Segment, segments, snap};
 use crate::window::Window;
 
 /// The times at which anything that is evaluated over a run may bend or jump, and those at which
-/// looks between the rows have to begin anew.
+/// evaluations between the rows have to restart.
 #[derive(Clone, Debug)]
 pub(crate) struct Readings {
     /// Start, breakpoints of inputs and results, stop; ascending.
     ends: Vec<f64>,
-    /// Where looks at limits begin anew.
+    /// Times at which evaluations of limits restart, in s.
     pub(crate) limits: Vec<f64>,
-    /// Where looks into windows begin anew.
+    /// Times at which evaluations of windows restart, in s.
     pub(crate) windows: Vec<f64>,
 }
 
 impl Readings {
-    /// For a run whose results nobody reads.
+    /// For a run whose results no one reads.
     pub(crate) fn none(segment: Segment) -> Self {
         Self { ends: vec![segment.from, segment.to], limits: Vec::new(), windows: Vec::new() }
     }
@@ -58,14 +58,14 @@ impl Readings {
         0.5 * (self.ends[after - 1] + self.ends[after])
     }
 
-    /// The same before what happens at `time`.
+    /// The same before a jump at `time`.
     pub(crate) fn inside_before(&self, time: f64) -> f64 {
         let after = self.ends.partition_point(|&end| end < time).clamp(1, self.ends.len() - 1);
         0.5 * (self.ends[after - 1] + self.ends[after])
     }
 }
 
-/// The parts of a step between some times, ascending; each with whether it begins at one of them.
+/// The parts of a step between some times, ascending, flagged if they begin at one of them.
 pub(crate) fn pieces(ends: &[f64], (from, to): (f64, f64)) -> Vec<((f64, f64), bool)> {
     let first = ends.partition_point(|&end| end < from);
     let mut begins = ends.get(first).is_some_and(|end| end.to_bits() == from.to_bits());
@@ -95,7 +95,7 @@ fn nearest(times: &[f64], time: f64) -> Option<f64> {
     near.copied().min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()))
 }
 
-/// What a window takes in that heat flows do not tell.
+/// Items of a window whose breakpoints the heat flows do not have.
 fn items_of(window: &Window) -> impl Iterator<Item = Item> + '_ {
     window.of.quantities().iter().filter_map(|quantity| match *quantity {
         Quantity::Report(id) => Some(Item::Report(id)),
@@ -104,7 +104,7 @@ fn items_of(window: &Window) -> impl Iterator<Item = Item> + '_ {
     })
 }
 
-/// A run in which results are looked at.
+/// A run in which results are evaluated.
 #[derive(Clone, Copy)]
 struct Around<'a> {
     network: &'a Network,
@@ -126,8 +126,8 @@ impl Around<'_> {
         Ok(times)
     }
 
-    /// The times at which looks at these items have to begin anew: where they may bend or jump, and
-    /// between the looks that their curves ask for.
+    /// The times at which evaluations of these items have to restart: where they may bend or jump,
+    /// and in between as their curves require.
     fn looks(&self, items: &[Item]) -> Result<Vec<f64>, InputError> {
         let own = self.breakpoints(items)?.into_iter();
         let own: Vec<f64> = own.filter_map(|time| nearest(self.known, time)).collect();
@@ -139,7 +139,7 @@ impl Around<'_> {
         })
     }
 
-    /// Whatever rows there are: what is seen between them does not depend on them.
+    /// The steps do not depend on the rows, so that neither do the results between them.
     fn curved(&self, curves: &[Curve], breakpoints: &[f64]) -> Vec<f64> {
         let segments = segments(self.span.0, self.span.1, breakpoints);
         let stretches = stretches(self.network, curves, &segments, f64::INFINITY);

@@ -1,4 +1,4 @@
-//! Writes rows while a run goes on, and looks at the watched nodes.
+//! Writes rows while a run goes on, and evaluates the watched nodes.
 
 mod look;
 mod lookout;
@@ -59,27 +59,27 @@ pub(crate) struct Recorder<'a> {
     /// The hottest and the coldest node of all rows, recorded or not.
     extremes: Extremes,
     lookout: Lookout,
-    /// How often the workspace was brought to a time.
+    /// Number of times that the workspace was brought to a time.
     placed: u64,
     limits: LimitWatch<'a>,
     ranges: RangeWatch<'a>,
     windows: Vec<Tracked>,
     reading: Reading<'a>,
-    /// What the integrator carries at one time.
+    /// The variables of the integrator at one time.
     state: Vec<f64>,
     sensed: Option<Sensed<'a>>,
     unfold: Unfold<'a>,
-    /// Where looks at massless nodes begin that have one solution.
+    /// Starting points of evaluations of massless nodes with one solution.
     anchor: Anchor,
     tolerance: f64,
-    /// How many steps under curved inputs the network remembers.
+    /// Number of steps under curved inputs that the network remembers.
     pub(crate) remembered: f64,
-    /// Where the massless nodes of several solutions stood when the present step began, in K: every
-    /// row of the step is found from there, whatever else is looked at.
+    /// Temperatures of the massless nodes of several solutions at the start of the present step, in
+    /// K: every row of the step is found from there, whatever else is evaluated.
     branch: Vec<f64>,
-    /// And where they stand when it ends.
+    /// The same at its end.
     branch_ahead: Vec<f64>,
-    /// Whether nothing is to be written or looked at.
+    /// True if nothing has to be written or evaluated.
     pub(crate) idle: bool,
 }
 
@@ -171,12 +171,12 @@ impl<'a> Recorder<'a> {
         self.work.draw_line(self.system.network(), (from, to), self.readings.inside(from));
     }
 
-    /// Ends the segment here: a row at this time is left to what follows.
+    /// Ends the segment here: a row at this time is left to the next one.
     pub(crate) fn cut(&mut self, time: f64) {
         self.segment.to = time;
     }
 
-    /// How many rows are written.
+    /// Number of rows that are written.
     pub(crate) fn written(&self) -> usize {
         self.next
     }
@@ -202,9 +202,9 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
-    /// A row is whole: its heat can be had as its temperatures can. Before the first step nothing
-    /// else has looked at that, and a row lies between two looks of the integrator. A linear system
-    /// always has its heat.
+    /// Checks that a row is complete: its heat can be computed too. Before the first step nothing
+    /// else has checked that, and a row lies between two evaluations of the integrator. A linear
+    /// system always has its heat.
     fn check_heat(&mut self) -> Result<(), StopReason> {
         if self.system.is_linear() {
             return Ok(());
@@ -215,7 +215,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Writes the rows inside the step from `from` to `to`; one at the end of the segment is left
-    /// to the next segment, whose inputs hold there.
+    /// to the next segment, whose inputs apply there.
     pub(crate) fn step(
         &mut self,
         integrator: &mut dyn Integrator<Heat<'a>>,
@@ -242,7 +242,7 @@ impl<'a> Recorder<'a> {
         self.look_between((from, to), &mut |time, state| integrator.interpolate(time, state))
     }
 
-    /// Looks at the watched nodes of a system without state between two times.
+    /// Evaluates the watched nodes of a system without state between two times.
     pub(crate) fn look_without_state(&mut self, from: f64, to: f64) -> Result<(), StopReason> {
         self.walk((from, to));
         self.look_between((from, to), &mut |_, _| Ok(()))
@@ -256,7 +256,7 @@ impl<'a> Recorder<'a> {
         self.push()
     }
 
-    /// Whether every node is recorded, so that heat flows are asked for.
+    /// True if every node is recorded, so that heat flows are required.
     fn is_whole(&self) -> bool {
         self.recorded.len() == self.system.network().nodes().len()
     }
@@ -265,7 +265,7 @@ impl<'a> Recorder<'a> {
         self.next + 1 == self.rows.len()
     }
 
-    /// Whether the next row is not after `time`.
+    /// True if the next row is not after `time`.
     fn due(&self, time: f64) -> bool {
         self.rows.get(self.next).is_some_and(|&row| row <= time)
     }

@@ -7,12 +7,12 @@ use crate::quantity::Quantity;
 use crate::reading::Reading;
 use crate::snapshot::Snapshot;
 
-/// The system at one row of a solution. What follows from a node that was not recorded is NaN.
+/// The system at one row of a solution. Results that depend on an unrecorded node are NaN.
 pub(crate) struct Replay<'a> {
     system: &'a ThermalSystem,
     work: Workspace,
     reading: Reading<'a>,
-    /// Why its values cannot be had, if they cannot.
+    /// The reason why its values cannot be computed, if they cannot.
     known: Result<(), InputError>,
 }
 
@@ -22,7 +22,7 @@ impl<'a> Replay<'a> {
         Self { system, work: system.workspace(), reading: Reading::of_any(system), known: Ok(()) }
     }
 
-    /// What stands in other positions from here on.
+    /// Sets the positions from here on.
     pub(crate) fn set_positions(&mut self, positions: &Positions) {
         self.work.set_positions(positions);
     }
@@ -35,7 +35,7 @@ impl<'a> Replay<'a> {
         self.known = read.and_then(|()| self.reading.place(&mut self.work, at));
     }
 
-    /// One quantity in SI units. What could be evaluated in the run can be here.
+    /// One quantity in SI units. Anything that could be evaluated in the run can be here.
     pub(crate) fn value(&mut self, quantity: Quantity) -> f64 {
         let value = if self.known.is_ok() {
             self.reading.value(&mut self.work, quantity).ok()

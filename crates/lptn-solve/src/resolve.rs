@@ -1,4 +1,4 @@
-//! Cuts an interval until the points of every part tell what curves do between them.
+//! Cuts an interval until the points of every part resolve the curves between them.
 //!
 //! Halvings go to the worst part first. Halvings for peaks that may hide have a separate budget.
 //! The remaining doubt is reported.
@@ -10,37 +10,37 @@ use crate::stop_reason::StopReason;
 /// Parts into which bends may cut one interval.
 const MOST_CUTS: usize = 4096;
 
-/// A part of an interval that is as short as this share of it is not halved any more: what jumps
-/// there is known to rounding.
+/// A part of an interval that is as short as this share of it is not halved any more: a jump there
+/// is known to rounding.
 const SHORTEST: f64 = 1e-13;
 
-/// A part of an interval, and whether its points tell what curves are between them.
+/// A part of an interval, and a flag that its points resolve the curves between them.
 pub(crate) struct Resolved {
     pub(crate) interval: Interval,
     pub(crate) told: bool,
-    /// Whether halvings came to an end before it was so short that it is known to rounding.
+    /// True if halvings came to an end before it was so short that it is known to rounding.
     pub(crate) open: bool,
 }
 
-/// How a part of an interval is judged.
+/// Judgement of a part of an interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Judged {
-    /// How far its points are from telling what curves are between them, over what is allowed; 0
-    /// where they are not. That may be rounding, which no halving mends.
+    /// Error of the curves between its points, over the allowed one; 0 if it is smaller. It may be
+    /// rounding, which no halving removes.
     pub(crate) wanting: f64,
-    /// How much may hide between them, by the form of the curves: halving ends that.
+    /// Possible hidden features between them, by the form of the curves: halving ends that.
     pub(crate) hides: f64,
 }
 
 impl Judged {
-    /// Its points tell all.
+    /// Its points resolve everything.
     const TOLD: Self = Self { wanting: 0.0, hides: 0.0 };
 }
 
 /// Parts that are halved because something may hide in them.
 const MOST_HIDING: usize = 2000;
 
-/// The parts of an interval in the order of time. It is cut where curves bend; parts in which
+/// The parts of an interval in the order of time. It is cut at bends of curves. Parts in which
 /// something may hide are halved, then those that `judge` finds wanting, the worst first, as often
 /// as `halvings` allows.
 pub(crate) fn resolve(
@@ -74,7 +74,7 @@ pub(crate) fn resolve(
         let worst = open.iter().enumerate().max_by(|(_, a), (_, b)| a.0.total_cmp(&b.0));
         let Some(worst) = worst.map(|(place, _)| place).filter(|_| halvings > 0) else { break };
         let (_, interval) = open.swap_remove(worst);
-        // beside what was seen meanwhile it may be nothing
+        // next to values found since then it may be negligible
         if judge(&interval) == Judged::TOLD {
             done.push(Resolved { interval, told: true, open: false });
             continue;
@@ -101,11 +101,11 @@ mod tests {
 
     const WANTING: Judged = Judged { wanting: 1.0, hides: 0.0 };
 
-    /// The ends of a part, whether it is told and whether it is open.
+    /// The ends of a part, and the flags `told` and `open`.
     type Part = ((f64, f64), [bool; 2]);
 
-    /// The parts of an interval in which curves are what they like: their ends, whether each is
-    /// told and whether it is open; and how often the curves were evaluated.
+    /// The parts of an interval with arbitrary curves: their ends, the flags `told` and `open` of
+    /// each, and the number of evaluations.
     fn parts(
         (ends, halvings): ((f64, f64), usize),
         (levels, curve): (&[f64], &mut dyn FnMut(f64) -> f64),
@@ -139,7 +139,7 @@ mod tests {
 
     #[test]
     fn the_most_wanting_part_is_halved_as_often_as_is_allowed() {
-        // what begins at 0 wants most
+        // a part that begins at 0 wants most
         let first =
             |interval: &Interval| Judged { wanting: 1.0 / (1.0 + interval.from), hides: 0.0 };
         for (halvings, ends) in [(0, vec![8.0]), (1, vec![4.0, 8.0]), (3, vec![1.0, 2.0, 4.0, 8.0])]
@@ -165,7 +165,7 @@ mod tests {
         }
     }
 
-    /// It costs none of the halvings, and ends after 2000 of its own.
+    /// It uses none of the halvings, and ends after its own 2000.
     #[test]
     fn parts_in_which_something_may_hide_are_halved_until_nothing_does() {
         let hides = |least: f64| {

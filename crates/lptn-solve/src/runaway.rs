@@ -1,10 +1,10 @@
-//! Heat that grows faster with temperature than the paths carry away: where a network runs away, by
-//! which source, and from which temperature on.
+//! Heat that grows faster with temperature than the paths carry away: the runaway of a network, its
+//! source, and the temperature from which on it grows.
 //!
-//! At some temperatures let `A` be what the paths carry off, in W for 1 K of each unknown, and `B`
-//! by how much the sources heat them more for it, both at least 0 where they feed back. Heat that is
-//! given off once comes back as `B A^-1` times as much, again and again: it grows for ever where the
-//! largest eigenvalue of that, the gain, is above 1.
+//! At some temperatures let `A` be the heat carried off by the paths, in W for 1 K of each unknown,
+//! and `B` the extra heat of the sources for it, both at least 0 if they feed back. Heat that is
+//! given off once comes back as `B A^-1` times as much, again and again. It grows without limit if
+//! the largest eigenvalue of that, the gain, is above 1.
 //!
 //! The slopes of the sources are compared with those of the paths. The way from the start is
 //! followed back to the temperature at which the gain is 1. At the end of that way the slopes have
@@ -20,7 +20,7 @@ use crate::snapshot::Snapshot;
 use crate::stop_reason::StopReason;
 use crate::times::just_after;
 
-/// Parts into which the way to where a network was left is halved.
+/// Halvings of the way to the last state of the network.
 const HALVINGS: usize = 50;
 
 /// Rounds in which the gain is found; one is enough for a single source.
@@ -41,8 +41,8 @@ pub(crate) struct Runaway {
     pub(crate) from: f64,
 }
 
-/// How much of the heat that sources give off comes back as more heat in a steady state: from 1 on
-/// it is none that lasts.
+/// Share of the heat of sources that comes back as more heat in a steady state: from 1 on the state
+/// does not last.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feedback {
     /// The part that comes back, the largest eigenvalue of `B A^-1`. Losses whose slopes were larger
@@ -55,7 +55,7 @@ pub struct Feedback {
 }
 
 impl Feedback {
-    /// In a state of a system; `None` where no source gives off more heat where it is warmer.
+    /// In a state of a system; `None` if no source gives off more heat when it is warmer.
     pub fn of(system: &ThermalSystem, state: &Snapshot) -> Option<Self> {
         let mut unknowns = vec![0.0; system.unknowns().len()];
         system.unknown_temperatures(&state.temperatures, &mut unknowns);
@@ -65,14 +65,14 @@ impl Feedback {
     }
 }
 
-/// How much of the heat that sources give off comes back as more heat.
+/// Share of the heat of sources that comes back as more heat.
 struct Gain {
     value: f64,
     source: SourceId,
     unknown: usize,
 }
 
-/// What one source gives off more for 1 K of each unknown, in W/K.
+/// Extra heat of one source for 1 K of each unknown, in W/K.
 struct Answering {
     source: SourceId,
     slopes: Vec<(usize, f64)>,
@@ -86,8 +86,8 @@ struct Search<'a> {
 }
 
 impl Runaway {
-    /// Whether a network that went from its start to `last` (all unknowns, in K) is on its way to
-    /// any temperature: heat comes back more than once there, and the node became hotter.
+    /// Checks a network that went from its start to `last` (all unknowns, in K) for a runaway: heat
+    /// comes back more than once there, and the node became hotter.
     pub(crate) fn of(
         system: &ThermalSystem,
         (time, positions): (f64, &Positions),
@@ -98,7 +98,7 @@ impl Runaway {
         let on_the_way = |part: f64| -> Vec<f64> {
             start.iter().zip(last).map(|(a, b)| a + part * (b - a)).collect()
         };
-        // where heat has grown beyond all measure, what the paths carry off is rounded away
+        // with heat grown beyond all measure, the heat of the paths is rounded away
         let mut parts = (0..HALVINGS).map(|k| 0.5_f64.powi(k as i32));
         let (mut left, end) =
             parts.find_map(|part| Some((part, search.gain(&on_the_way(part))?)))?;
@@ -125,8 +125,8 @@ impl Runaway {
 }
 
 impl Runaway {
-    /// Why there is no steady state; `temperatures` of the nodes in K are one that the network does
-    /// not come to.
+    /// The error of a missing steady state; `temperatures` of the nodes in K are a steady state
+    /// that the network does not reach.
     pub(crate) fn error(self, system: &ThermalSystem, temperatures: Option<&[f64]>) -> SteadyError {
         SteadyError::Runaway {
             node: self.name(system),
@@ -136,7 +136,7 @@ impl Runaway {
         }
     }
 
-    /// Why a run ended.
+    /// The reason why a run ended.
     pub(crate) fn reason(self, system: &ThermalSystem) -> StopReason {
         StopReason::Runaway { node: self.name(system), source: self.source, from: self.from }
     }
@@ -160,8 +160,8 @@ impl<'a> Search<'a> {
         Some(Self { newton, work, scope })
     }
 
-    /// The gain at these temperatures of all unknowns in K; `None` where nothing comes back, or
-    /// where the paths alone have no answer.
+    /// The gain at these temperatures of all unknowns in K; `None` if nothing comes back, or if the
+    /// paths alone have no solution.
     fn gain(&mut self, unknowns: &[f64]) -> Option<Gain> {
         let feedback = self.feedback(unknowns);
         self.newton.linearize(&mut self.work, unknowns).ok()?;
@@ -199,7 +199,7 @@ impl<'a> Search<'a> {
         Some(Gain { value, source: most.source, unknown })
     }
 
-    /// The sources that heat more where something is warmer.
+    /// The sources that heat more when something is warmer.
     fn feedback(&mut self, unknowns: &[f64]) -> Vec<Answering> {
         let system = self.newton.system;
         let network = system.network();

@@ -1,5 +1,5 @@
-//! An integrator whose course is written down: what looks into steps is tested without one that
-//! errs.
+//! An integrator with a given time history: searches inside steps are tested without integration
+//! errors.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_assembly::{ThermalSystem, Workspace};
@@ -11,7 +11,7 @@ use lptn_network::{
 use crate::balance::Books;
 use crate::heat::Heat;
 
-/// Goes along a course, and notes where it is read.
+/// Follows a time history, and records the times at which it is read.
 pub(crate) struct Scripted<'a> {
     heat: Heat<'a>,
     course: Box<dyn Fn(f64) -> Vec<f64> + 'a>,

@@ -1,17 +1,17 @@
-//! Which columns a table has, and what a run keeps for them.
+//! The columns of a table, and the nodes that a run records for them.
 
 use lptn_network::{Item, Network, NodeId, ReportId};
 
 use crate::quantity::Quantity;
 
-/// Which nodes a solution keeps.
+/// The nodes that a solution records.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RecordedNodes {
-    /// Every node: heat flows can be had from the solution.
+    /// Every node: heat flows can be computed from the solution.
     All,
     /// These nodes only, to save memory.
     Nodes(Vec<NodeId>),
-    /// These nodes, and the values of these columns, which are read as the run comes to each row.
+    /// These nodes, and the values of these columns, which are read as the run reaches each row.
     Columns {
         /// The nodes.
         nodes: Vec<NodeId>,
@@ -21,7 +21,7 @@ pub enum RecordedNodes {
 }
 
 impl RecordedNodes {
-    /// Keeps these nodes too.
+    /// Records these nodes too.
     #[must_use]
     pub fn and(mut self, more: impl IntoIterator<Item = NodeId>) -> Self {
         if let Self::Nodes(nodes) | Self::Columns { nodes, .. } = &mut self {
@@ -44,7 +44,7 @@ impl Selection {
         Self { quantities: Quantity::all(network).collect() }
     }
 
-    /// The columns of some items; `of` tells which.
+    /// The columns of the items for which `of` is true.
     pub fn of(network: &Network, of: impl Fn(Item) -> bool) -> Self {
         Self { quantities: Quantity::all(network).filter(|quantity| of(quantity.item())).collect() }
     }
@@ -64,7 +64,7 @@ impl Selection {
             quantities.dedup();
             return Ok(Self { quantities });
         }
-        // of a large network not all names are held at once
+        // with a large network not all names are in memory at once
         let mut found = vec![false; patterns.len()];
         let mut chosen = |quantity: &Quantity, asked: &dyn Fn(&str) -> bool| {
             let name = quantity.name(network);
@@ -94,7 +94,7 @@ impl Selection {
         Quantity::all(network).map(|q| q.name(network)).collect()
     }
 
-    /// What a run has to keep so that these columns can be had.
+    /// The nodes and columns that a run has to record for this selection.
     pub fn record(&self) -> RecordedNodes {
         let (nodes, mut columns) = (self.nodes().collect(), self.clone());
         if !self.has_heat() {
@@ -104,7 +104,7 @@ impl Selection {
         RecordedNodes::Columns { nodes, columns }
     }
 
-    /// Whether there is a column that follows from the temperatures of several nodes.
+    /// True if there is a column that follows from the temperatures of several nodes.
     pub fn has_heat(&self) -> bool {
         self.quantities.iter().any(|quantity| quantity.needs_all())
     }
@@ -120,7 +120,7 @@ impl Selection {
         &self.quantities
     }
 
-    /// Whether no column is selected.
+    /// True if no column is selected.
     pub fn is_empty(&self) -> bool {
         self.quantities.is_empty()
     }
@@ -134,8 +134,8 @@ fn named(network: &Network, patterns: &[String]) -> Option<Vec<Quantity>> {
     patterns.iter().map(|pattern| Quantity::named(network, pattern)).collect()
 }
 
-/// Whether `name` has the form of `pattern`. Greedy with one place to go back to, so linear but for
-/// the product of the two lengths.
+/// True if `name` has the form of `pattern`. The match is greedy with one place to go back to, so
+/// linear but for the product of the two lengths.
 pub fn name_matches(pattern: &str, name: &str) -> bool {
     let (pattern, name) = (pattern.as_bytes(), name.as_bytes());
     let (mut p, mut n, mut star) = (0, 0, None);

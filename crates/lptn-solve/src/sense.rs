@@ -1,4 +1,4 @@
-//! Results that nothing real has: nearly always the unit of one value.
+//! Implausible results: nearly always the unit of one value is wrong.
 
 use lptn_network::{ConductorId, End, Network, NodeId, SourceId};
 
@@ -7,16 +7,16 @@ use crate::solution::Solution;
 use crate::steady::SteadyState;
 use crate::times::just_after;
 
-/// A node with a temperature that nothing real has, and what probably did it.
+/// A node with an implausible temperature, and its probable cause.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beyond {
     /// The node.
     pub node: NodeId,
     /// Its temperature in K.
     pub temperature: f64,
-    /// When, in s; `None` in steady state.
+    /// Its time in s; `None` in steady state.
     pub time: Option<f64>,
-    /// The path of the network with the largest difference between its ends, in K: what keeps the
+    /// The path of the network with the largest difference between its ends, in K: it keeps the
     /// heat in.
     pub path: Option<(ConductorId, f64)>,
     /// The source that gives it the most heat in W, whatever the sign; of any if none heats the
@@ -25,8 +25,8 @@ pub struct Beyond {
 }
 
 impl Beyond {
-    /// What a run shows, if anything: the hottest node where it is hotter than 4000 degC, or the
-    /// coldest where it is colder than -100 degC although neither a start nor a boundary is.
+    /// The implausible result of a run, if any: the hottest node if it is hotter than 4000 degC, or
+    /// the coldest if it is colder than -100 degC although neither a start nor a boundary is.
     pub fn of_run(solution: &Solution) -> Option<Self> {
         let network = solution.network();
         let last = solution.last();
@@ -49,7 +49,7 @@ impl Beyond {
         Some(Self::beside(network, place, (&temperatures, &sources)))
     }
 
-    /// What a steady state shows, if anything: as [`Beyond::of_run`].
+    /// The implausible result of a steady state, if any: as [`Beyond::of_run`].
     pub fn of_steady(network: &Network, steady: &SteadyState) -> Option<Self> {
         let nodes = network.node_ids().zip(&steady.temperatures).map(|(id, &t)| (id, t, None));
         let boundaries = &steady.boundary_temperatures;

@@ -1,4 +1,4 @@
-//! The rows of sensitivities, written beside those of temperatures.
+//! The rows of sensitivities, written next to those of temperatures.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{NodeId, ParameterId};
@@ -12,7 +12,7 @@ use crate::unfold::Unfold;
 /// Sensitivities that are being recorded.
 pub(crate) struct Sensed<'a> {
     tangent: Tangent<'a>,
-    /// What the integrator carries of them at one time.
+    /// The integrator's sensitivities at one time.
     carried: Vec<f64>,
     /// Those of all vertices by one parameter.
     vertices: Vec<f64>,
@@ -34,12 +34,12 @@ impl<'a> Sensed<'a> {
         Ok(Some(Self { tangent, carried, vertices: Vec::new(), rows }))
     }
 
-    /// Takes what the integrator carries.
+    /// Takes the integrator's sensitivities.
     pub(crate) fn carry(&mut self, carried: &[f64]) {
         self.carried.copy_from_slice(carried);
     }
 
-    /// Where the integrator writes what it carries.
+    /// The slice to which the integrator writes them.
     pub(crate) fn carried(&mut self) -> &mut [f64] {
         &mut self.carried
     }

@@ -1,4 +1,4 @@
-//! A run together with how its temperatures change with parameters.
+//! A run with the sensitivities of its temperatures to parameters.
 
 use lptn_assembly::{ChangeError, ThermalSystem};
 use lptn_network::{InputError, LimitId, Network, NoTangents, NodeId, ParameterId, Value};
@@ -8,24 +8,24 @@ use crate::settings::{Proceed, Progress, Transient};
 use crate::settings_error::SettingsError;
 use crate::solution::{RunStatus, Solution};
 
-/// By which part of itself a parameter is changed for a difference of runs. With the tolerances of
-/// fits (1e-7 K) the difference of two runs and the curvature between them leave about four digits.
+/// Relative change of a parameter for a difference of runs. With the tolerances of fits (1e-7 K)
+/// the difference of two runs and the curvature between them leave about four digits.
 const CHANGE: f64 = 1e-3;
 
 /// The change in K of a parameter that is an absolute temperature.
 const CHANGE_IN_KELVIN: f64 = 0.1;
 
-/// How sensitivities were had.
+/// Method of the sensitivities.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gradient {
     /// With the run, from the derivatives of every law: exact to its tolerance.
     Exact,
-    /// As central differences of whole runs, because there is no exact one.
+    /// From central differences of whole runs, because there is no exact method.
     Differences(NoTangents),
 }
 
-/// By which part of that a parameter is changed to see what a result makes of it beside what the
-/// temperatures do: nothing is integrated there, so rounding is all that is in the way.
+/// Part of that change for the direct effect of a parameter on a result, in addition to that of the
+/// temperatures. Nothing is integrated there, so only rounding limits it.
 const FINER: f64 = 1e-2;
 
 /// A run and its sensitivities.
@@ -33,13 +33,13 @@ const FINER: f64 = 1e-2;
 pub struct SensitiveRun {
     /// The run.
     pub solution: Solution,
-    /// How the sensitivities were had.
+    /// The method of the sensitivities.
     pub gradient: Gradient,
-    /// The runs beside it, where sensitivities are differences.
+    /// The runs next to it, if sensitivities are differences.
     differences: Vec<Difference>,
 }
 
-/// Runs with other values of one parameter: the sum of what they say, each times its weight in 1
+/// Runs with other values of one parameter: the sum of their results, each times its weight in 1
 /// over the parameter's SI unit, is a derivative.
 #[derive(Clone, Debug)]
 struct Difference {
@@ -52,7 +52,7 @@ impl Difference {
         self.runs.iter().map(|(weight, run)| Some(weight * of(run)?)).sum()
     }
 
-    /// Row by row.
+    /// The slopes row by row.
     fn slopes(&self, of: impl Fn(&Solution) -> Option<Vec<f64>>) -> Option<Vec<f64>> {
         let mut sum = Vec::new();
         for (weight, run) in &self.runs {
@@ -65,12 +65,12 @@ impl Difference {
 }
 
 lptn_units::errors! {
-/// Why a run or one beside it failed.
+/// Reason why a run or one next to it failed.
 #[derive(Debug)]
 pub enum SensitiveError {
     /// The run.
     Run => TransientError;
-    /// The network, or what it is with a parameter changed.
+    /// The network, or that with a parameter changed.
     Change => ChangeError;
     /// It was interrupted.
     Interrupted = "run::interrupted", "the run was interrupted";
@@ -78,7 +78,7 @@ pub enum SensitiveError {
 }
 
 lptn_units::errors! {
-/// Why a margin has no slope.
+/// Reason why a margin has no slope.
 #[derive(Debug)]
 pub enum MarginError {
     /// The network with the parameter changed.
@@ -88,7 +88,7 @@ pub enum MarginError {
 }
 }
 
-/// Runs a network and follows its sensitivities by `parameters`: exactly, or by differences where a
+/// Runs a network and follows its sensitivities by `parameters`: exactly, or by differences if a
 /// network has no exact ones.
 ///
 /// # Errors
@@ -142,8 +142,8 @@ pub fn sensitive_run_observed(
     }
 }
 
-/// The runs of a central difference, `at` so many steps from the own value; where one side has no
-/// run, because the value is at the end of its range, those of a difference to the other side,
+/// The runs of a central difference, `at` this number of steps from the own value. If one side has
+/// no run, because the value is at the end of its range, those of a difference to the other side,
 /// which is of the second order too.
 fn difference(
     at: impl Fn(f64) -> Result<Solution, SensitiveError>,
@@ -168,7 +168,7 @@ fn difference(
     }
 }
 
-/// That a parameter may be a little larger or smaller than it is: a count may not.
+/// Checks that a parameter may be a little larger or smaller than it is: a count may not.
 ///
 /// # Errors
 /// [`ChangeError`] of the larger value if the network takes neither.
@@ -193,7 +193,7 @@ fn step(network: &Network, id: ParameterId) -> f64 {
     CHANGE * size
 }
 
-/// A margin bends where its slopes to both sides differ by more than this share.
+/// A margin bends if its slopes to both sides differ by more than this share.
 const BENT: f64 = 0.05;
 
 /// Differences of margins below this share of 1 and the margin are rounding.
@@ -204,7 +204,7 @@ impl SensitiveRun {
         self.differences.iter().find(|difference| difference.parameter == parameter)
     }
 
-    /// How the temperature of a node changes with a parameter over the rows, in K per SI unit of
+    /// Sensitivity of the temperature of a node to a parameter over the rows, in K per SI unit of
     /// the parameter; `None` for a node that was not recorded or another parameter.
     pub fn sensitivity(&self, parameter: ParameterId, node: NodeId) -> Option<Vec<f64>> {
         if self.gradient == Gradient::Exact {
@@ -213,12 +213,12 @@ impl SensitiveRun {
         self.difference(parameter)?.slopes(|solution| solution.temperature(node))
     }
 
-    /// How an expression of results, compiled for this network, changes with a parameter over the
-    /// rows, in SI units per SI unit of the parameter: by itself, through the temperatures and
-    /// through the heat flows. NaN where it has no value, and unless every node was recorded; `None`
+    /// Sensitivity of an expression of results, compiled for this network, to a parameter over the
+    /// rows, in SI units per SI unit of the parameter: directly, through the temperatures and
+    /// through the heat flows. NaN if it has no value, and unless every node was recorded; `None`
     /// for another parameter.
     ///
-    /// Where temperatures have exact sensitivities, it is that of the expression along them: a
+    /// If temperatures have exact sensitivities, it is that of the expression along them: a
     /// difference in every row, without a run, good to 1e-8 of itself or so.
     pub fn result_slope(&self, parameter: ParameterId, value: &Value) -> Option<Vec<f64>> {
         if self.gradient != Gradient::Exact {
@@ -231,8 +231,8 @@ impl SensitiveRun {
         Some(below.iter().zip(above).map(|(below, above)| (above - below) / distance).collect())
     }
 
-    /// What `beside` says with a parameter lower and higher by `by`, and how far the two are apart:
-    /// at the end of its range there is one side only, and its `own` value on the other.
+    /// The results of `beside` with a parameter lower and higher by `by`, and the distance of the
+    /// two: at the end of its range there is one side only, and the `own` value on the other.
     fn both_sides<T>(
         &self,
         (parameter, by): (ParameterId, f64),
@@ -257,9 +257,9 @@ impl SensitiveRun {
         self.solution.margin_in_row(limit, row)
     }
 
-    /// How that margin changes with a parameter along exact sensitivities, in SI units per SI unit
-    /// of the parameter: a difference over `by` to both sides, without a run. `None` where the
-    /// margin bends, as `min(a.T, b.T)` where both are equal.
+    /// Sensitivity of that margin to a parameter along exact sensitivities, in SI units per SI unit
+    /// of the parameter: a difference over `by` to both sides, without a run. `None` if the margin
+    /// bends, as `min(a.T, b.T)` does when both are equal.
     ///
     /// # Errors
     /// [`MarginError`] if the network takes a value on neither side, or the limit has none there.
@@ -277,9 +277,9 @@ impl SensitiveRun {
         Ok(straight.then_some((above - below) / distance))
     }
 
-    /// How the highest temperature of a watched node changes with a parameter, in K per SI unit of
-    /// the parameter, as a difference of runs; `None` where the gradient is exact, or the node was
-    /// not watched.
+    /// Sensitivity of the highest temperature of a watched node to a parameter, in K per SI unit of
+    /// the parameter, as a difference of runs; `None` if the gradient is exact, or the node was not
+    /// watched.
     pub fn peak(&self, parameter: ParameterId, node: NodeId) -> Option<f64> {
         let peak = |solution: &Solution| {
             solution.watched().iter().find(|seen| seen.watch.node == node).map(|seen| seen.peak.0)
@@ -287,8 +287,8 @@ impl SensitiveRun {
         self.difference(parameter)?.slope(peak)
     }
 
-    /// How the least margin of a limit changes with a parameter, in SI units of its quantity per SI
-    /// unit of the parameter, as a difference of runs; `None` where the gradient is exact: it is
+    /// Sensitivity of the least margin of a limit to a parameter, in SI units of its quantity per
+    /// SI unit of the parameter, as a difference of runs; `None` if the gradient is exact: it is
     /// one of temperatures.
     pub fn margin(&self, parameter: ParameterId, limit: LimitId) -> Option<f64> {
         self.difference(parameter)?.slope(|solution| Some(solution.limits()[limit.index()].margin))

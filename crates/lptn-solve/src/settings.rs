@@ -22,39 +22,39 @@ pub struct Transient {
     pub start: f64,
     /// Stop in s.
     pub stop: f64,
-    /// When a row is written.
+    /// Times at which a row is written.
     pub output: OutputTimes,
     /// Tolerance in K. For networks whose nodes all lead to a boundary the error stays below ten
     /// times this, from 1e-3 to 1e-5 K (measured in the tests).
     pub tolerance: f64,
-    /// The share of the heat turned over by which the energy balance may be off, at most; `None` for
-    /// that of [`crate::Ledger::bound`].
+    /// Largest allowed residual of the energy balance as a share of the total heat; `None` for that
+    /// of [`crate::Ledger::bound`].
     pub balance_error: Option<f64>,
-    /// What is kept.
+    /// Nodes and columns that are recorded.
     pub record: RecordedNodes,
-    /// Nodes to look at between the rows too.
+    /// Nodes that are evaluated between the rows too.
     pub watch: Vec<Watch>,
-    /// Whether of these only the hottest counts: the peak of another may be missed where the hottest
+    /// True if only the hottest of these counts: the peak of another may be missed if the hottest
     /// is higher.
     pub hottest_only: bool,
     /// Windows of time over which means and extremes are taken; inside the run.
     pub windows: Vec<Window>,
-    /// The node or boundary whose heat balance is kept.
+    /// The node or boundary whose heat balance is computed.
     pub balance: Option<End>,
-    /// Where the controls stand at the start, in the order of their ids; as the network says unless
-    /// given. A control that has to stay as it is does so from when it switched last, which may be
+    /// States of the controls at the start, in the order of their ids; default: those of the
+    /// network. A control that has to stay as it is does so from its last switch, which may be
     /// before the start.
     pub controls: Vec<ControlState>,
     /// The parameters by which temperatures are differentiated, each once: see
     /// [`crate::Solution::sensitivity`].
     pub sensitivities: Vec<ParameterId>,
-    /// The integrator; chosen by the network unless said.
+    /// The integrator; default: chosen by the network.
     pub integrator: IntegratorChoice,
-    /// The linear solver; chosen by size unless said.
+    /// The linear solver; default: chosen by size.
     pub linear_solver: LinearSolver,
 }
 
-/// Where a run stands.
+/// Progress of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
     /// Start of the run in s.
@@ -65,12 +65,12 @@ pub struct Progress {
     pub stop: f64,
 }
 
-/// Whether a run goes on.
+/// Decision to continue or end a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Proceed {
-    /// It does.
+    /// It continues.
     Continue,
-    /// It ends here; what was computed is kept.
+    /// It ends here; the results up to then are kept.
     Interrupt,
 }
 
@@ -95,8 +95,8 @@ impl Transient {
         }
     }
 
-    /// The run that `settings` describe: its times, rows and tolerance, and where the controls
-    /// stand at its start. What is recorded, watched and averaged is left to the caller.
+    /// The run that `settings` describe: its times, rows and tolerance, and the states of the
+    /// controls at its start. The caller sets the recorded, watched and averaged quantities.
     pub fn of(network: &Network, settings: &RunSettings) -> Self {
         let since =
             |held: &Option<f64>| held.map_or(f64::NEG_INFINITY, |held| settings.start - held);
@@ -134,7 +134,7 @@ impl Transient {
         self
     }
 
-    /// Keeps only these nodes.
+    /// Records only these nodes.
     #[must_use]
     pub fn record(mut self, nodes: &[NodeId]) -> Self {
         self.record = RecordedNodes::Nodes(nodes.to_vec());
@@ -155,7 +155,7 @@ impl Transient {
         self
     }
 
-    /// Keeps the heat balance of a node or boundary.
+    /// Requests the heat balance of a node or boundary.
     #[must_use]
     pub fn balance(mut self, of: impl Into<End>) -> Self {
         self.balance = Some(of.into());
@@ -191,8 +191,8 @@ impl Transient {
         Ok(())
     }
 
-    /// The options of the integrator, with what curved inputs ask for; `switches`: something does,
-    /// or leaps; `grows`: by how much errors do.
+    /// The options of the integrator, with the needs of curved inputs. `switches`: something
+    /// switches or jumps; `grows`: growth of errors.
     pub(crate) fn options(
         &self,
         system: &ThermalSystem,
@@ -216,30 +216,30 @@ impl Transient {
 }
 
 impl Transient {
-    /// The smallest share of the tolerance that the integrator gets where something switches or
-    /// errors grow.
+    /// The smallest share of the tolerance that the integrator gets if something switches or errors
+    /// grow.
     pub(crate) fn finest(&self) -> f64 {
         FINEST / self.tolerance
     }
 }
 
-/// The share of the tolerance that the integrator gets where something switches. An error of a
-/// temperature moves the next switch by itself over the slope there, and all that follows by what
-/// that changes; no later step makes up for it. With a sensor far from its heater each switch was
-/// measured to add nine tolerances: a hundred are to add less than ten.
+/// The share of the tolerance that the integrator gets if something switches. An error of a
+/// temperature moves the next switch by itself over the slope there, and that change moves all
+/// later ones; no later step compensates it. With a sensor far from its heater each switch was
+/// measured to add nine tolerances: a hundred must add less than ten.
 const SWITCHING: f64 = 0.01;
 
-/// In K: nothing is tightened below, where rounding decides.
+/// In K: nothing is tightened below this value, because rounding decides there.
 const FINEST: f64 = 1e-8;
 
-/// The change of a temperature in K whose effect is to be as accurate as the temperatures are. Heats
-/// are computed to the share of it that the tolerance is, or to what the tolerance is worth in all
-/// capacities together: the error of the states says little of the heat where capacities are so
-/// small that they follow at once.
+/// The change of a temperature in K whose effect must be as accurate as the temperatures are. Heats
+/// are computed to the tolerance as a share of it, or to the tolerance times all capacities
+/// together. The error of the states says little about the heat if capacities are so small that
+/// they follow at once.
 const USUAL_CHANGE: f64 = 10.0;
 
-/// The change of a parameter, in its SI unit, whose effect is to be as accurate as the temperatures
-/// are: all of it, or what `±` says of one that is zero.
+/// The change of a parameter, in its SI unit, whose effect must be as accurate as the temperatures
+/// are: all of it, or the `±` of one that is zero.
 fn scale(network: &Network, id: ParameterId) -> f64 {
     let parameter = &network.parameters()[id.index()];
     let size = match parameter.ty.absolute {
@@ -255,8 +255,8 @@ mod tests {
     use super::*;
     use crate::scripted::bodies;
 
-    /// A hundredth where something switches, and a quarter of what errors grow by; no finer than
-    /// the integrator can be.
+    /// A hundredth if something switches, and a quarter of the inverse growth of errors; no finer
+    /// than the integrator can be.
     #[test]
     fn the_integrator_gets_a_share_of_the_tolerance() {
         let system = ThermalSystem::assemble(&bodies(&[(30.0, "1 [W]"), (12.0, "1 [W]")], None));

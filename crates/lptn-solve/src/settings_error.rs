@@ -1,4 +1,4 @@
-//! Settings of a run that cannot be.
+//! Invalid settings of a run.
 
 use lptn_network::NoTangents;
 use lptn_units::format_six as six_digits;
@@ -16,15 +16,15 @@ pub enum SettingsError {
     /// An output time in s is outside the run or not after the one before it.
     OutputTime(time: f64) = "run::settings",
         format!("the output time {time} s is outside the run or not after the one before it");
-    /// Two rows are at the same time in s, because a double cannot tell theirs apart.
+    /// Two rows are at the same time in s, because a double cannot distinguish their times.
     SameTime { time: f64 } = "run::settings",
         format!(
             "two rows have the same time, {time} s: numbers of this size are {} s apart",
             six_digits(time.abs().next_up() - time.abs())
         ),
         help FROM_ZERO;
-    /// Something depends on the time, and so far from 0 a double cannot tell times of the run apart
-    /// well enough: start, stop and the distance of two doubles at the larger one of them, in s.
+    /// Something depends on the time, and so far from 0 doubles do not resolve times of the run
+    /// well enough: start, stop and the distance of two doubles at the larger of them, in s.
     FarFromZero { start: f64, stop: f64, resolution: f64 } = "run::settings",
         format!(
             "the run from {start} s lasts {} s, but numbers of this size are {} s apart, too \
@@ -36,7 +36,7 @@ pub enum SettingsError {
     /// A window, its ends in s, is not inside the run, or its end not after its beginning.
     Window { name: String, from: f64, to: f64 } = "run::settings",
         format!("window `{name}` from {from} s to {to} s is not a part of the run");
-    /// More values would be kept than fit in memory.
+    /// More values would be recorded than fit in memory.
     TooMuch { rows: usize, values: usize } = "run::settings",
         format!(
             "{rows} rows of {values} values do not fit in memory: write fewer rows, or select \
@@ -47,8 +47,8 @@ pub enum SettingsError {
         format!("outputs every {every} s are none, or more than 10 million");
     /// The state to begin with is one of another network, or not finite.
     State = "run::settings", "the state to begin with is not one of this network";
-    /// The one-step method is asked for, which cannot compute this run; `curved`: since an input is
-    /// not a straight line in time.
+    /// The one-step method is requested, which cannot compute this run; `curved`: because an input
+    /// is not a straight line in time.
     OneStep { curved: bool } = "run::settings", {
             let why = match *curved {
                 true => "an input of this one curves over time",
@@ -58,7 +58,7 @@ pub enum SettingsError {
             format!("the one-step method is for linear networks: {why}")
         },
         help "leave `integrator` out, or write `integrator = \"cvode\"`";
-    /// ESDIRK is asked for, which cannot compute this run.
+    /// ESDIRK is requested, which cannot compute this run.
     Esdirk = "run::settings",
         "ESDIRK does not compute runs whose capacities change with temperature, or with \
          sensitivities to follow",
@@ -67,7 +67,7 @@ pub enum SettingsError {
     NoIntegrator = "run::settings",
         "this build has no integrator for runs of networks that are not linear",
         help "build lptn with its feature `cvodes`";
-    /// Sensitivities are asked for that do not exist or are not to be had.
+    /// Sensitivities are requested that do not exist or cannot be computed.
     Sensitivity(refusal: NoTangents) = "run::settings",
         format!("no exact sensitivities: {refusal}"),
         source refusal;

@@ -7,17 +7,17 @@ use lptn_assembly::{ThermalSystem, Workspace};
 
 use crate::newton::Newton;
 
-/// What is known of other steady states than the one that was found.
+/// Knowledge of steady states other than the one that was found.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum Others {
-    /// There is none, or none was met: this is where the network comes to from its start.
+    /// There is none, or none was met: the network reaches this state from its start.
     #[default]
     None,
     /// There is at least this one, temperatures of the nodes in K; from its start the network does
-    /// not come there.
+    /// not reach it.
     At(Vec<f64>),
-    /// There is at least this one, temperatures of the nodes in K, at which nothing stays: from
-    /// beyond it the network goes elsewhere.
+    /// There is at least this one, temperatures of the nodes in K, but it is unstable: from beyond
+    /// it the network goes elsewhere.
     Unstable(Vec<f64>),
     /// There may be others, and the network could not be followed from its start to this one.
     NotKnown,
@@ -26,14 +26,14 @@ pub enum Others {
 /// Two steady states that differ by less, in K, are one.
 const SAME: f64 = 1e-5;
 
-/// By how much hotter or colder, in K, all nodes are where a search begins.
+/// Offsets in K of all nodes at which a search begins.
 const APART: [f64; 4] = [200.0, 50.0, -50.0, -200.0];
 
 /// No search begins below this temperature in K.
 const COLDEST_START: f64 = 1.0;
 
-/// Where the search for a steady state begins, in K: nodes at their start, massless ones where they
-/// are said to begin, or in the middle of all that is known.
+/// Starting point of the search for a steady state, in K: nodes at their start; massless ones at
+/// their given start, or at the mean of all known temperatures.
 pub(crate) fn start(system: &ThermalSystem, work: &Workspace) -> Vec<f64> {
     let mut temperatures = system.initial();
     let boundaries = system.boundary_temperatures(work);
@@ -41,20 +41,20 @@ pub(crate) fn start(system: &ThermalSystem, work: &Workspace) -> Vec<f64> {
     let (sum, count) = known.fold((0.0, 0.0), |(sum, count), t| (sum + t, count + 1.0));
     let begins = |id: &lptn_network::NodeId| system.network().begins(*id).unwrap_or(sum / count);
     temperatures.extend(system.unknowns()[temperatures.len()..].iter().map(begins));
-    // at 0 K radiation does not tell which way to go
+    // at 0 K radiation shows no direction
     temperatures.iter_mut().for_each(|t| *t = t.max(COLDEST_START));
     temperatures
 }
 
-/// Whether two states are the same but for rounding.
+/// True if two states are the same but for rounding.
 pub(crate) fn same(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) <= SAME
 }
 
 impl Others {
-    /// Looks for another steady state than `found` (all unknowns, in K) with the inputs at which
-    /// `work` stands, from hotter and colder temperatures of all nodes. One that is stable goes
-    /// before one that is not.
+    /// Searches for another steady state than `found` (all unknowns, in K) with the inputs of
+    /// `work`, from hotter and colder temperatures of all nodes. A stable one has precedence over
+    /// an unstable one.
     pub(crate) fn search(system: &ThermalSystem, work: &mut Workspace, found: &[f64]) -> Self {
         let Ok(mut newton) = Newton::new(system, (0..found.len()).collect()) else {
             return Self::None;

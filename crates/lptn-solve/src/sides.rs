@@ -4,15 +4,15 @@
 //! end of a stretch. The slopes of an extreme are read in one of two rows: the one with the value
 //! of the extreme. The first row is 2e-9 of the run earlier.
 
-/// A row in front of a moment is so far from it, as a part of the run: far below any thermal time,
-/// far above what makes two times one.
+/// Distance of a row before a moment, as a part of the run: far below any thermal time, far above
+/// the distance at which two times are one.
 const BEFORE: f64 = 2e-9;
 
 /// The least number of doubles between the two.
 const DOUBLES: f64 = 32.0;
 
-/// The times, and in front of each another one whose row has the values from before a jump: a row
-/// has those that hold from its time on, but an extreme may stand where one ends. Ascending,
+/// The times, and before each another one whose row has the values from before a jump. A row has
+/// the values from its time on, but an extreme may be where an earlier part ends. Ascending,
 /// without those outside of the run, which goes from `start` to `stop` in s.
 pub fn on_both_sides(times: impl Iterator<Item = f64>, (start, stop): (f64, f64)) -> Vec<f64> {
     let inside = times.filter(|time| (start..=stop).contains(time));
@@ -28,9 +28,8 @@ fn before(time: f64, (start, stop): (f64, f64)) -> f64 {
     time - (BEFORE * (stop - start)).max(DOUBLES * double)
 }
 
-/// Of the rows at `times` the one whose value is nearest to `value`, among those on either side of
-/// the moment `at`, in a run from `start` to `stop` in s: that where an extreme stands. If both are,
-/// the later one.
+/// The row at `times` whose value is nearest to `value`, among those on either side of the moment
+/// `at`, in a run from `start` to `stop` in s: the one with an extreme. If both are, the later one.
 pub fn own_side(
     (times, value_of): (&[f64], impl Fn(usize) -> f64),
     (at, value): (f64, f64),
@@ -76,13 +75,13 @@ mod tests {
         assert!((found[1] - found[0] - 2e-7).abs() < 1e-13, "{found:?}");
     }
 
-    /// Where no row is beside the moment it is the first one behind it, or the last.
+    /// If no row is next to the moment it is the first one after it, or the last.
     #[test]
     fn a_moment_without_rows_has_the_next() {
         let times = [0.0, 4.0, 6.0, 10.0];
         let row = |at: f64| own_side((&times, |_| 0.0), (at, 0.0), (0.0, 10.0));
         assert_eq!([3.0, 4.0, 4.1, 9.0, 11.0].map(row), [1, 1, 2, 3, 3]);
-        // rows are beside it up to one and a half of the distance, to both sides
+        // rows are next to it up to one and a half of the distance, on both sides
         let beside = [5.0 - 2.9e-8, 5.0 + 2.9e-8, 7.0];
         let at = |value: f64| own_side((&beside, |row| row as f64), (5.0, value), (0.0, 10.0));
         assert_eq!([at(-1.0), at(0.2), at(0.9), at(9.0)], [0, 0, 1, 1]);

@@ -1,7 +1,7 @@
 //! The state of a network at one instant.
 //!
-//! A steady state holds a snapshot and lends its fields by `Deref`; a solution gives one for any
-//! row. Pictures and reports take a snapshot and know nothing of its origin but `settled`.
+//! A steady state contains a snapshot and lends its fields by `Deref`; a solution gives one for any
+//! row. Pictures and reports take a snapshot and use nothing of its origin but `settled`.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{End, Evaluation, HeatOf, InputError, Network, Positions, Received};
@@ -13,7 +13,7 @@ use crate::times::just_after;
 /// Temperatures and heat flows at one instant, of a steady state or of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Snapshot {
-    /// The time in s; that of its inputs where it is a steady state.
+    /// The time in s; that of its inputs if it is a steady state.
     pub time: f64,
     /// Temperature of each node in K.
     pub temperatures: Vec<f64>,
@@ -25,15 +25,15 @@ pub struct Snapshot {
     pub source_heat: Vec<f64>,
     /// Heat that each boundary gives to the network in W.
     pub boundary_heat: Vec<f64>,
-    /// Which controls are on and which comparisons hold.
+    /// Controls that are on and comparisons that are true.
     pub positions: Positions,
-    /// Whether it is a steady state, in which no node stores anything.
+    /// True if it is a steady state, in which no node stores anything.
     pub settled: bool,
 }
 
 impl Snapshot {
-    /// What a workspace tells at `time` in s, when its inputs are read and its nodes recovered from
-    /// these unknowns.
+    /// The snapshot of a workspace at `time` in s, when its inputs are read and its nodes recovered
+    /// from these unknowns.
     pub(crate) fn of_workspace(
         system: &ThermalSystem,
         work: &mut Workspace,
@@ -62,8 +62,8 @@ impl Snapshot {
         Balance::of_flows(network, of, &self.received, &self.source_heat)
     }
 
-    /// Heat that each node receives by all its paths and sources together in W, which is what it
-    /// stores: nothing but rounding in a steady state.
+    /// Heat that each node receives by all its paths and sources together in W, and stores: nothing
+    /// but rounding in a steady state.
     pub fn stored(&self, network: &Network) -> Vec<f64> {
         let mut stored = vec![0.0; network.nodes().len()];
         for (conductor, received) in network.conductors().iter().zip(&self.received) {
@@ -79,7 +79,7 @@ impl Snapshot {
         stored
     }
 
-    /// The place where expressions of results (limits, requirements, reports) find this state.
+    /// The scope in which expressions of results (limits, requirements, reports) find this state.
     pub fn evaluation(&self, network: &Network) -> Evaluation {
         let mut scope = network.evaluation();
         scope.set_positions(&self.positions);

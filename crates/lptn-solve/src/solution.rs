@@ -30,14 +30,14 @@ use crate::state::State;
 use crate::watch::Watched;
 use crate::window::WindowSeen;
 
-/// How a run ended.
+/// End of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum RunStatus {
     /// It reached its stop.
     Reached,
-    /// It was asked to end at this time in s; the rows up to then are whole.
+    /// It was asked to end at this time in s; the rows up to then are complete.
     Interrupted(f64),
-    /// It broke off at this time in s; the rows up to then are whole.
+    /// It broke off at this time in s; the rows up to then are complete.
     Failed(f64),
 }
 
@@ -48,7 +48,7 @@ pub struct Solution {
     pub(crate) times: Vec<f64>,
     /// For each row a time inside its segment: comparisons of `t` are read there.
     pub(crate) segments: Vec<f64>,
-    /// The positions that the rows have, one after the other; none where nothing switches.
+    /// The positions of the rows, one after the other; none if nothing switches.
     pub(crate) positions: Vec<Positions>,
     /// For each row its positions, if there is any.
     pub(crate) row_positions: Vec<u32>,
@@ -73,9 +73,9 @@ pub struct Solution {
     pub(crate) end: RunStatus,
     pub(crate) tolerance: f64,
     pub(crate) remembered: f64,
-    /// By how much errors grow, and how much of it the tolerance of the integrator makes up for.
+    /// Growth of errors, and the part of it that the tolerance of the integrator allows for.
     pub(crate) growth: f64,
-    /// When a step first stood that passes a bend over temperature, in s.
+    /// The first time in s at which a step was accepted that passes a bend over temperature.
     pub(crate) unresolved: Option<f64>,
     pub(crate) made_up: f64,
     pub(crate) end_state: State,
@@ -88,7 +88,7 @@ impl Solution {
         self.system.network()
     }
 
-    /// Which integrator computed it; `None` for a network without capacities.
+    /// The integrator that computed it; `None` for a network without capacities.
     pub fn method(&self) -> Option<Method> {
         self.method
     }
@@ -114,7 +114,7 @@ impl Solution {
         Some(self.kept(Quantity::Node(node))?.collect())
     }
 
-    /// What the run kept of a quantity over the rows in SI units, if it did.
+    /// The recorded values of a quantity over the rows in SI units, if there are any.
     pub(crate) fn kept(&self, quantity: Quantity) -> Option<Box<dyn Iterator<Item = f64> + '_>> {
         let Quantity::Node(node) = quantity else {
             return self.columns.get(quantity).map(|values| Box::new(values) as _);
@@ -127,7 +127,7 @@ impl Solution {
     /// Temperature of a node over the rows in K.
     ///
     /// # Errors
-    /// [`SolutionError::NotRecorded`] if the run did not keep it: see
+    /// [`SolutionError::NotRecorded`] if the run did not record it: see
     /// [`Transient::record`](crate::Transient::record).
     pub fn series(&self, node: NodeId) -> Result<Vec<f64>, SolutionError> {
         self.temperature(node).ok_or_else(|| {
@@ -147,9 +147,9 @@ impl Solution {
         Ok(self.series(node)?.last().copied().unwrap_or(f64::NAN))
     }
 
-    /// How the temperature of a node changes with a parameter, over the rows in K per SI unit of
-    /// the parameter, all other parameters that were asked for held; `None` if it was not recorded
-    /// or not among [`crate::Transient::sensitivities`].
+    /// Sensitivity of the temperature of a node to a parameter, over the rows in K per SI unit of
+    /// the parameter, all other requested parameters fixed; `None` if it was not recorded or not
+    /// among [`crate::Transient::sensitivities`].
     ///
     /// Its error against the exact derivative obeys the tolerance over the size of the parameter,
     /// as that of the temperature obeys the tolerance.
@@ -184,13 +184,13 @@ impl Solution {
         self.values(Quantity::BoundaryTemperature(id))
     }
 
-    /// Heat of a source over the rows in W; of one that depends on temperatures NaN unless every
-    /// node was recorded.
+    /// Heat of a source over the rows in W; if it depends on temperatures NaN unless every node was
+    /// recorded.
     pub fn source_heat(&self, id: SourceId) -> Vec<f64> {
         self.values(Quantity::Heat(HeatOf::Source(id)))
     }
 
-    /// A signal over the rows in SI units; NaN where one that nothing uses has no value.
+    /// A signal over the rows in SI units; NaN if an unused one has no value.
     pub fn signal(&self, id: SignalId) -> Vec<f64> {
         self.values(Quantity::Signal(id))
     }
@@ -200,8 +200,8 @@ impl Solution {
         self.values(Quantity::Report(id))
     }
 
-    /// An expression of results over the rows in SI units, compiled for this network; NaN where it
-    /// has no value, and unless every node was recorded.
+    /// An expression of results over the rows in SI units, compiled for this network; NaN if it has
+    /// no value, and unless every node was recorded.
     pub fn result(&self, value: &Value) -> Vec<f64> {
         let mut values = Vec::with_capacity(self.times.len());
         self.replay(|at| values.push(at.result(value)));
@@ -211,7 +211,7 @@ impl Solution {
     /// Temperatures and heat flows at a row; `None` unless every node was recorded.
     ///
     /// # Panics
-    /// For a row that there is not.
+    /// For a row that does not exist.
     pub fn snapshot(&self, row: usize) -> Option<Snapshot> {
         let mut found = None;
         if self.is_whole() {
@@ -235,14 +235,13 @@ impl Solution {
         values
     }
 
-    /// Whether every node was recorded, so that heat flows can be had.
+    /// True if every node was recorded, so that heat flows can be computed.
     pub fn is_whole(&self) -> bool {
         self.recorded.len() == self.network().nodes().len()
     }
 
     /// Visits every row in order. Inputs and heat could be read there during the run, so they can
-    /// be again; a row at which that should fail has no values (NaN), for columns have to be of one
-    /// length.
+    /// be again; if that fails a row has no values (NaN), for columns have to be of one length.
     pub(crate) fn replay(&self, visit: impl FnMut(&mut Replay<'_>)) {
         self.replay_rows(0..self.times.len(), visit);
     }
@@ -274,23 +273,23 @@ impl Solution {
         }
     }
 
-    /// What was seen of the watched nodes between the rows too, in the order they were named.
+    /// Results of the watched nodes, between the rows too, in the order they were named.
     pub fn watched(&self) -> &[Watched] {
         &self.seen
     }
 
-    /// How each limit of the network fared up to the end that was reached, between the rows too.
+    /// Result of each limit of the network up to the end that was reached, between the rows too.
     pub fn limits(&self) -> &[LimitSeen] {
         &self.limits
     }
 
-    /// What happened at times that were not known beforehand, in the order of time: controls that
+    /// Events at times that were not known in advance, in the order of time: controls that
     /// switched, comparisons of temperatures that changed, limits that were broken.
     pub fn events(&self) -> &[Event] {
         &self.events
     }
 
-    /// Where the controls stand at the end that was reached, in the order of their ids.
+    /// States of the controls at the end that was reached, in the order of their ids.
     pub fn controls(&self) -> &[ControlState] {
         &self.controls
     }
@@ -300,22 +299,22 @@ impl Solution {
         self.values(Quantity::Control(id))
     }
 
-    /// Where laws were outside the ranges in which they are known, in the order of the conductors.
+    /// Laws outside their ranges of validity, in the order of the conductors.
     pub fn out_of_range(&self) -> &[OutOfRange] {
         &self.out_of_range
     }
 
-    /// Means and extremes over the windows that were asked for, as far as the run came.
+    /// Means and extremes over the requested windows, as far as the run came.
     pub fn windows(&self) -> &[WindowSeen] {
         &self.windows
     }
 
-    /// The heat balance of the node or boundary that was asked for.
+    /// The requested heat balance of a node or boundary.
     pub fn balance(&self) -> Option<&Balance> {
         self.balance.as_ref()
     }
 
-    /// Where the run ended, every node included, recorded or not: what another run can start from.
+    /// The end of the run, every node included, recorded or not: another run can start from it.
     pub fn last(&self) -> &LastState {
         &self.last
     }
@@ -325,7 +324,7 @@ impl Solution {
         &self.ledger
     }
 
-    /// The state at the end that was reached, where another run may begin.
+    /// The state at the end that was reached, from which another run may begin.
     pub fn last_state(&self) -> &State {
         &self.end_state
     }
@@ -335,12 +334,12 @@ impl Solution {
         &self.statistics
     }
 
-    /// How much was looked at.
+    /// Counters of evaluations.
     pub fn looks(&self) -> Looks {
         self.looks
     }
 
-    /// How the run ended.
+    /// The way the run ended.
     pub fn end(&self) -> RunStatus {
         self.end
     }
@@ -350,18 +349,18 @@ impl Solution {
         self.tolerance
     }
 
-    /// Whether the error stays within ten times the tolerance (for tolerances from 1e-3 to 1e-5 K).
+    /// True if the error stays within ten times the tolerance (for tolerances from 1e-3 to 1e-5 K).
     pub fn error_is_bounded(&self) -> bool {
         self.why_unbounded().is_none()
     }
 
-    /// By how much an error of a temperature has grown along the run at most; 1 where errors are
-    /// forgotten, and where it is not known because inputs change with time.
+    /// Largest growth of an error of a temperature along the run; 1 if errors decay, and if it is
+    /// not known because inputs change with time.
     pub fn growth(&self) -> f64 {
         self.growth
     }
 
-    /// Why the tolerance does not bound the error, if it does not.
+    /// The reason why the tolerance does not bound the error, if it does not.
     pub fn why_unbounded(&self) -> Option<Unbounded> {
         let ungrounded: Vec<NodeId> = self.network().ungrounded().into_iter().flatten().collect();
         if !ungrounded.is_empty() {
@@ -383,36 +382,35 @@ impl Solution {
     }
 }
 
-/// Why the tolerance does not bound the error of a run: errors of the steps add up.
+/// Reason why the tolerance does not bound the error of a run: errors of the steps add up.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unbounded {
-    /// These nodes lead to no boundary, so that nothing is forgotten.
+    /// These nodes lead to no boundary, so that errors do not decay.
     NoBoundary(Vec<NodeId>),
     /// The network remembers very many steps of inputs that keep exciting it.
     LongMemory {
-        /// How many.
+        /// Number of these steps.
         steps: f64,
     },
-    /// Heat grows faster with temperature than it is carried off, or is carried off the better the
-    /// colder a body is: errors grow with it.
+    /// Heat grows faster with temperature than it is carried off, or is carried off better when a
+    /// body is colder: errors grow with it.
     Grows {
-        /// By how much at most.
+        /// The largest growth factor.
         factor: f64,
     },
     /// Steps over a bend of something that reads a temperature could not be made short enough.
     Unresolved {
-        /// When that was first, in s.
+        /// The first such time in s.
         at: f64,
     },
-    /// What switches decides by itself when it does: an error in the time of one switch is not
-    /// forgotten but moves all that follow. There were more of them than the tolerance is tightened
-    /// for.
+    /// Switch times depend on the solution: an error in the time of one switch does not decay but
+    /// moves all that follow. There were more of them than the tolerance is tightened for.
     Switches {
-        /// How many there were.
+        /// Number of switches.
         count: usize,
     },
 }
 
-/// So many switches add less than the ten tolerances that are promised, with the share that the
-/// integrator gets of them.
+/// This number of switches adds less than the promised ten tolerances, with the integrator's share
+/// of them.
 const FEW_SWITCHES: usize = 100;

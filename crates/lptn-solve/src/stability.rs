@@ -1,15 +1,15 @@
-//! Whether a steady state stays where it is.
+//! Stability of a steady state.
 //!
-//! Let `A = -J` on the unknowns solved for. Where warming one of them never cools another directly
+//! Let `A = -J` on the unknowns solved for. If warming one of them never cools another directly
 //! (off the diagonal `A` has no positive entry), the state is stable exactly if `A` is an M-matrix:
 //! if some positive `x` has a positive `A x` (A. Berman and R. J. Plemmons, Nonnegative Matrices in
 //! the Mathematical Sciences, SIAM 1994, chapter 6, theorem 2.3, conditions I27 and G20), whatever
 //! the capacities are. The same test on `A` with the magnitudes of these entries is sufficient for
-//! any other network (H-matrices, the same, exercise 5.13). Where that leaves it open, the capacities
-//! decide: up to [`DENSE`] unknowns by powers of a step of the trapezoidal rule (`powers.rs`), beyond
-//! that by following a disturbance in steps of many lengths until it has grown beyond all that a
-//! disturbance that turns and dies does on its way. Massless nodes follow at once; what they follow
-//! rests as long as the determinant of their own balances has not changed its sign.
+//! any other network (H-matrices, the same, exercise 5.13). If that leaves it open, the capacities
+//! decide. Up to [`DENSE`] unknowns powers of a step of the trapezoidal rule do (`powers.rs`).
+//! Beyond that, a disturbance is followed in steps of many lengths until it has grown beyond the
+//! transient growth of any that dies. Massless nodes follow at once; their balances rest as long as
+//! their determinant has not changed its sign.
 //!
 //! Newton's method finds unstable states as well. An unstable state is replaced by the state to
 //! which pseudo-time leads from the start, or refused. Plain loops decide, in the same way on every
@@ -21,25 +21,25 @@ use crate::newton::Newton;
 use crate::newton_error::NewtonError;
 use crate::powers::Square;
 
-/// Up to so many unknowns nothing is left open.
+/// Up to this number of unknowns nothing is left open.
 const DENSE: usize = 100;
 
-/// Steps that a disturbance is followed for before its growth counts, and at least afterwards.
+/// Steps for which a disturbance is followed before its growth counts, and at least afterwards.
 const FOLLOWED: usize = 100;
 
-/// Steps that one that grows is followed for at most.
+/// Most steps for which a growing disturbance is followed.
 const LONGEST: usize = 20_000;
 
-/// From one length of steps to the next.
+/// Ratio of one length of steps to the one before.
 const LONGER: f64 = 4.0;
 
 /// A disturbance that grows by less than this in as many steps is not followed further.
 const GROWTH: f64 = 1.5;
 
-/// One that has grown by this grows for ever: no disturbance that dies turns so far out of its way.
+/// A disturbance that has grown by this grows without end: no transient growth reaches it.
 const FOR_EVER: f64 = 1e6;
 
-/// Lengths of steps that are tried at most.
+/// Most lengths of steps that are tried.
 const LENGTHS: usize = 60;
 
 impl Newton<'_> {
@@ -68,8 +68,8 @@ impl Newton<'_> {
         }
     }
 
-    /// The place that shows that the values are no M-matrix; `None` if they are one. `new`: they
-    /// are not factorised yet.
+    /// An index at which the values fail to be an M-matrix; `None` if they are one. `new`: they are
+    /// not factorised yet.
     pub(crate) fn runs_away(&mut self, new: bool) -> Option<usize> {
         let diagonal = self.pattern.diagonal();
         if let Some(place) = diagonal.iter().position(|&slot| self.values[slot] <= 0.0) {
@@ -84,7 +84,7 @@ impl Newton<'_> {
         least.filter(|(_, x)| x.is_nan() || **x <= 0.0).map(|(place, _)| place)
     }
 
-    /// The place that moves most in a disturbance that grows.
+    /// The index of the largest move in a disturbance that grows.
     fn grows(&mut self, exact: &[f64]) -> Option<usize> {
         let mass: Vec<f64> = self.free.iter().map(|&i| self.system.mass()[i]).collect();
         let small = mass.len() <= DENSE;
@@ -117,8 +117,8 @@ impl Newton<'_> {
         None
     }
 
-    /// A place among the massless nodes if the determinant of their own balances is not positive:
-    /// it is where they rest, and changes its sign where a solution ends.
+    /// The index of a massless node if the determinant of their own balances is not positive: it is
+    /// positive at rest, and changes its sign at the end of a solution.
     fn massless_grow(&self, exact: &[f64], mass: &[f64]) -> Option<usize> {
         let massless: Vec<usize> = (0..mass.len()).filter(|&i| mass[i] <= 0.0).collect();
         let mut own = Square::zero(massless.len());
@@ -132,8 +132,8 @@ impl Newton<'_> {
         (own.sign() <= 0.0).then(|| massless[0])
     }
 
-    /// Whether what grows at these temperatures (all unknowns, in K) swings: where warming one node
-    /// cools another, an even number of disturbances grows if the determinant of `A` is positive.
+    /// True if a growing disturbance (all unknowns, in K) oscillates: if warming one node cools
+    /// another, an even number of them grows if the determinant of `A` is positive.
     pub(crate) fn swings(
         &mut self,
         work: &mut Workspace,
@@ -153,7 +153,7 @@ impl Newton<'_> {
         Ok(cools && all.sign() > 0.0)
     }
 
-    /// Makes `M + h/2 A` the matrix that is solved with; `None` where that fails.
+    /// Sets `M + h/2 A` as the matrix that is solved with; `None` if that fails.
     fn factorize_step(&mut self, step: f64, exact: &[f64], mass: &[f64]) -> Option<()> {
         self.values.iter_mut().zip(exact).for_each(|(value, exact)| *value = 0.5 * step * exact);
         for (&slot, mass) in self.pattern.diagonal().iter().zip(mass) {
@@ -162,8 +162,8 @@ impl Newton<'_> {
         self.factors.factorize(&self.values).ok()
     }
 
-    /// The step of one length in s that takes every disturbance further, in the roots of the heats
-    /// that the temperatures hold, which stand for them as far as they are massless.
+    /// The step of one length in s that advances every disturbance, in the square roots of the
+    /// capacities in J/K, or for massless nodes of their heat per K in a step.
     fn step_of_all(&mut self, step: f64, exact: &[f64], mass: &[f64]) -> Option<Square> {
         self.factorize_step(step, exact, mass)?;
         let stands = |(mass, &slot): (&f64, &usize)| match *mass {
@@ -178,7 +178,7 @@ impl Newton<'_> {
             for slot in self.pattern.column(j) {
                 column[self.pattern.row_indices()[slot]] -= 0.5 * step * exact[slot];
             }
-            // the balances of massless nodes hold at the end of every step
+            // the balances of massless nodes are solved at the end of every step
             column
                 .iter_mut()
                 .zip(mass)
@@ -190,7 +190,7 @@ impl Newton<'_> {
         Some(all)
     }
 
-    /// The place that moves most in a disturbance that grows in steps of one length in s.
+    /// The index of the largest move in a disturbance that grows in steps of one length in s.
     fn grows_in(&mut self, step: f64, exact: &[f64], mass: &[f64]) -> Option<usize> {
         self.factorize_step(step, exact, mass)?;
         // no pattern that a network is likely to have is orthogonal to this one

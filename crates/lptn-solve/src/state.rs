@@ -1,35 +1,35 @@
-//! What a network remembers: where a run can begin and where it ended, to the last digit.
+//! State of a network: the start or end of a run, to the last digit.
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::InputError;
 
 use crate::unfold::carried;
 
-/// The state of a network at one time: everything that its future depends on beside its inputs.
+/// The state of a network at one time: all that its future depends on in addition to its inputs.
 ///
-/// For every node with capacity it holds what an integrator carries, in K, in the order of
-/// [`ThermalSystem::states`]: the temperature of a node with a constant capacity; for one whose
-/// capacity depends on its temperature `T0 + H / C0` with H the heat content over that at the start
-/// of the network in J, T0 the temperature and C0 the capacity there, since a node that melts at
-/// one temperature is not told by that temperature. The state at the end of a run also knows which
-/// of several solutions each massless node has.
+/// For every node with capacity it contains the integrator's variable, in K, in the order of
+/// [`ThermalSystem::states`]. For a constant capacity that is the temperature. For a capacity that
+/// depends on temperature it is `T0 + H / C0` with H the heat content over that at the start of the
+/// network in J, T0 the temperature and C0 the capacity there. The temperature of a node that melts
+/// at one temperature does not determine it. An end state also contains the solution of each
+/// massless node with several.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
     carried: Vec<f64>,
-    /// Temperatures in K of the massless nodes that may have several solutions; empty where they
-    /// are not known, or do not.
+    /// Temperatures in K of the massless nodes that may have several solutions; empty if they are
+    /// not known, or do not.
     stood: Vec<f64>,
 }
 
 impl State {
-    /// The start that the network itself says.
+    /// The network's own start.
     pub fn initial(system: &ThermalSystem) -> Self {
         Self::of_carried(system.initial())
     }
 
     /// The state in which every node has the temperature given for it in K, in the order of the
-    /// network's nodes; those of massless nodes are not looked at. A node that melts at one
-    /// temperature has that as a solid.
+    /// network's nodes; those of massless nodes are ignored. A node that melts at one temperature
+    /// has that as a solid.
     ///
     /// # Errors
     /// [`InputError`] for a temperature outside the range for which a capacity is known.
@@ -43,13 +43,12 @@ impl State {
         Ok(Self::of_carried(carried?))
     }
 
-    /// What is carried for every state in K, see [`State`].
+    /// The variable of every state in K, see [`State`].
     pub fn carried(&self) -> &[f64] {
         &self.carried
     }
 
-    /// A state that was saved: what was carried, and where massless nodes of several solutions
-    /// stood, as [`State::carried`] and [`State::stood`] gave them.
+    /// A saved state: the values of [`State::carried`] and [`State::stood`].
     pub fn restored(carried: Vec<f64>, stood: Vec<f64>) -> Self {
         Self { carried, stood }
     }
@@ -68,8 +67,7 @@ impl State {
         &self.stood
     }
 
-    /// Temperature in K of one of the states; `None` where its heat content is one that it cannot
-    /// have.
+    /// Temperature in K of one of the states; `None` if its heat content is impossible.
     pub fn temperature(&self, system: &ThermalSystem, state: usize) -> Option<f64> {
         let id = *system.states().get(state)?;
         let carried = *self.carried.get(state)?;

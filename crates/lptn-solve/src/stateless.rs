@@ -12,8 +12,8 @@ use crate::solution::{RunStatus, Solution};
 use crate::stop_reason::StopReason;
 use crate::times::Segment;
 
-/// Looks at every part of the inputs and evaluates every row; what is seen between rows, and the
-/// ledger, do not depend on them.
+/// Evaluates every part of the inputs and every row; the results between rows, and the ledger, do
+/// not depend on the rows.
 pub(crate) fn solve(
     mut recorder: Recorder<'_>,
     segments: &[Segment],
@@ -71,12 +71,12 @@ fn rows(
     Ok(())
 }
 
-/// Whether a row is the last of all and at the end of the part that ends at `to`.
+/// True if a row is the last of all and at the end of the part that ends at `to`.
 fn is_end(times: &[f64], row: usize, to: f64) -> bool {
     row + 1 == times.len() && times[row] <= to
 }
 
-/// Adds the running integrals of the books over a part of a segment.
+/// Adds the running integrals of the ledger and balance over a part of a segment.
 fn integrate(
     recorder: &mut Recorder<'_>,
     (from, to): (f64, f64),

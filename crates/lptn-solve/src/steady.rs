@@ -23,33 +23,33 @@ use crate::times::just_after;
 use crate::transient::{FINE, MOVED, ROUGH, Way, rest};
 use crate::unsolved::Unsolved;
 
-/// The temperatures at which nothing is stored any more.
+/// The temperatures at which no node stores heat any more.
 #[derive(Clone, Debug)]
 pub struct SteadyState {
     /// Its temperatures and heat flows, with the time at which its inputs were read. A steady state
     /// lends its fields.
     pub state: Snapshot,
-    /// Heat flow of each conductor in W, positive from `from` to `to`: what `to` receives.
+    /// Heat flow of each conductor in W, positive from `from` to `to`, as received by `to`.
     pub conductor_heat: Vec<f64>,
     /// Heat that each stream brings to its two ends together in W, in the order of the conductors.
     pub stream_heat: Vec<f64>,
-    /// The nodes that no path leads from to a boundary: their temperatures follow from the energy
-    /// at their start.
+    /// The nodes without a path to a boundary: their temperatures follow from the energy at their
+    /// start.
     pub adiabatic: Vec<NodeId>,
-    /// What is known of other steady states with the same inputs.
+    /// Knowledge of other steady states with the same inputs.
     pub others: Others,
 }
 
-/// How far heat in and heat out of a steady state may differ, relative to the heat turned over.
+/// Largest difference of heat in and heat out of a steady state, relative to the total heat.
 const BALANCE: f64 = 1e-9;
 
-/// What a network does from its start on.
+/// Outcome of a network from its start on.
 enum Reached {
-    /// It comes to this state.
+    /// It reaches this state.
     Rests(Box<SteadyState>),
-    /// It becomes hotter for ever.
+    /// It becomes hotter without end.
     Runs(Runaway),
-    /// That is not known.
+    /// The outcome is not known.
     Lost,
 }
 
@@ -74,7 +74,7 @@ impl std::ops::Index<NodeId> for SteadyState {
 }
 
 impl SteadyState {
-    /// The margin of each limit in SI units, positive while it is kept, zero where a temperature
+    /// The margin of each limit in SI units, positive while it is kept, zero if a temperature
     /// passes it by rounding only, NaN if it cannot be [judged](Network::is_judged); `t` in the
     /// limits is `time` in s, that of the steady state's inputs.
     ///
@@ -86,13 +86,13 @@ impl SteadyState {
         limit::margins(network, &mut scope)
     }
 
-    /// Solves `G T = q` with the inputs as they are at `time` in s. Where something switches, a
-    /// state is sought in which nothing has to, from the positions at the start on.
+    /// Solves `G T = q` with the inputs as they are at `time` in s. If something switches, it finds
+    /// a state in which nothing has to, from the positions at the start on.
     ///
-    /// Unless the form of the network tells that there is one steady state at most, the network is
-    /// followed from its start, and the state is the one that it comes to; others are looked for
-    /// from hotter and colder temperatures: see [`SteadyState::others`]. Where there are several the
-    /// network is followed with less error.
+    /// Unless the form of the network excludes several steady states, the network is followed from
+    /// its start, and the state is the one that it reaches. Others are searched for from hotter and
+    /// colder temperatures: see [`SteadyState::others`]. If there are several the network is
+    /// followed with less error.
     ///
     /// # Errors
     /// [`SteadyError`], in particular for nodes without a path to a boundary, and for networks that
@@ -109,8 +109,8 @@ impl SteadyState {
         }
     }
 
-    /// As [`SteadyState::solve`], with the network followed from its start to one tolerance in K,
-    /// which has to be positive: where it goes is that of a run with this tolerance.
+    /// The same as [`SteadyState::solve`], with the network followed from its start to one
+    /// tolerance in K, which has to be positive: it goes where a run with this tolerance does.
     ///
     /// # Errors
     /// As [`SteadyState::solve`].
@@ -151,7 +151,7 @@ impl SteadyState {
         }
     }
 
-    /// The steady state that the network comes to from its start, if it could be followed there.
+    /// The steady state that the network reaches from its start, if it could be followed there.
     fn reached(system: &ThermalSystem, time: f64, tolerance: f64) -> Reached {
         let rest = match rest(system, time, tolerance) {
             Way::Rests(rest) => rest,
@@ -169,8 +169,8 @@ impl SteadyState {
         if moved <= MOVED { Reached::Rests(Box::new(steady)) } else { Reached::Lost }
     }
 
-    /// The same, with what a search tells of others: where something switches or energy is kept
-    /// there are others by design.
+    /// The same, with a search for others: if something switches or energy is kept there are others
+    /// by design.
     fn searched(self, system: &ThermalSystem) -> Self {
         if !self.adiabatic.is_empty() {
             return self;
@@ -186,12 +186,12 @@ impl SteadyState {
         unknowns
     }
 
-    /// Whether it is the same state but for rounding.
+    /// True if it is the same state but for rounding.
     fn is_near(&self, other: &Self) -> bool {
         same(&self.temperatures, &other.temperatures)
     }
 
-    /// The steady state with these positions, whether or not something has to switch there.
+    /// The steady state with these positions, even if something has to switch there.
     ///
     /// # Errors
     /// As [`SteadyState::solve`].
@@ -203,7 +203,7 @@ impl SteadyState {
         Self::from_start(system, time, positions, None)
     }
 
-    /// The same, sought from these temperatures of the unknowns in K in place of those at the
+    /// The same, with a search from these temperatures of the unknowns in K instead of those at the
     /// start.
     fn from_start(
         system: &ThermalSystem,
@@ -266,8 +266,8 @@ impl SteadyState {
     }
 }
 
-/// What a search around these unknowns tells, with the inputs at `time` in s; where something
-/// switches there are several steady states by design.
+/// Result of a search around these unknowns, with the inputs at `time` in s; if something switches
+/// there are several steady states by design.
 fn elsewhere(
     system: &ThermalSystem,
     time: f64,
@@ -282,15 +282,15 @@ fn elsewhere(
     Others::search(system, &mut work, &around)
 }
 
-/// What the last digit of the temperatures does to the balance in W: a network at one temperature
+/// Effect of the last digit of the temperatures on the balance in W: a network at one temperature
 /// carries heat of this size and nothing else.
 fn rounding(system: &ThermalSystem, steady: &SteadyState) -> f64 {
     let all = steady.temperatures.iter().chain(&steady.boundary_temperatures);
     4.0 * f64::EPSILON * system.boundary_conductance() * all.copied().fold(0.0, f64::max)
 }
 
-/// The heat in W that the last corrections of Newton's method leave in the balances: where nothing
-/// heats a network that is not linear, it is all the heat there is.
+/// The heat in W that the last corrections of Newton's method leave in the balances: if nothing
+/// heats a nonlinear network, it is all the heat there is.
 fn unsettled(
     system: &ThermalSystem,
     work: &mut Workspace,
@@ -302,7 +302,7 @@ fn unsettled(
     let mut values = vec![0.0; system.pattern().entries()];
     system.jacobian_at(work, unknowns, JacobianForm::Exact, &mut values)?;
     let pattern = Pattern::from_symbolic(system.pattern().symbolic());
-    // what leaves the network altogether for 1 K more of one unknown
+    // heat out of the network altogether for 1 K more of one unknown
     let out = |i| values[pattern.column(i)].iter().sum::<f64>().abs();
     Ok(SMALL * (0..unknowns.len()).map(out).sum::<f64>())
 }
@@ -337,8 +337,7 @@ fn balanced(
     Ok(temperatures)
 }
 
-/// Newton's method may find a state at which nothing stays; then the network is followed from its
-/// start.
+/// Newton's method may find an unstable state; then the network is followed from its start.
 fn stable(
     newton: &mut Newton<'_>,
     work: &mut Workspace,
@@ -356,7 +355,7 @@ fn stable(
     }
 }
 
-/// Temperatures of the states, sought as a rise over one boundary.
+/// Temperatures of the states, solved for as a rise over one boundary.
 fn states(system: &ThermalSystem, work: &Workspace) -> Result<Vec<f64>, FactorError> {
     let start = system.boundary_temperatures(work).first().copied().unwrap_or(0.0);
     Conductances::new(system)?.states(work, start, Conductances::REFINEMENTS)

@@ -1,4 +1,4 @@
-//! The integrator of runs: the one-step method where it serves, else CVODES, unless the crate is
+//! The integrator of runs: the one-step method if it applies, else CVODES, unless the crate is
 //! built without the feature `cvodes`.
 //!
 //! Runs reach the integrator through `Box<dyn Integrator>`, and this file alone names both. A
@@ -14,11 +14,11 @@ use crate::heat::Heat;
 use crate::method::Method;
 use crate::settings_error::SettingsError;
 
-/// What steps a run.
+/// The integrator of a run.
 pub(crate) type Stepper<'a> = Box<dyn Integrator<Heat<'a>> + 'a>;
 
-/// Parts of a run between breakpoints of inputs from which on BDF, which begins anew in each of
-/// them, takes more steps than a Runge-Kutta method.
+/// Number of parts of a run between breakpoints of inputs from which on BDF, which restarts in each
+/// of them, takes more steps than a Runge-Kutta method.
 const MANY_PARTS: usize = 20;
 
 /// The inputs of a run.

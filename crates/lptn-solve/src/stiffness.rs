@@ -1,4 +1,4 @@
-//! How far the time constants of the nodes of a network are apart.
+//! Ratio of the time constants of the nodes of a network.
 
 use lptn_network::{ConductorFlow, End, Network, NodeId};
 
@@ -13,12 +13,12 @@ pub struct Stiffness {
 }
 
 impl Stiffness {
-    /// Of the nodes with a capacity and a path or stream of constant conductance; `None` without
-    /// any.
+    /// Considers the nodes with a capacity and a path or stream of constant conductance; `None`
+    /// without any.
     ///
     /// These are the time constants that each node would have if its neighbours kept their
     /// temperatures, the diagonal of the system, and not those of the network (its modes); but
-    /// their ratio says what an explicit method would suffer from.
+    /// their ratio shows the difficulty for an explicit method.
     pub fn of(network: &Network) -> Option<Self> {
         let mut conductance = vec![0.0; network.nodes().len()];
         for (id, conductor) in network.conductor_ids().zip(network.conductors()) {

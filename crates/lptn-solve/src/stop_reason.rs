@@ -1,4 +1,4 @@
-//! What breaks a run off.
+//! Reasons why a run breaks off.
 
 use lptn_integrate::IntegrateError;
 use lptn_network::{Field, InputError, Item, ZERO_CELSIUS, list_of};
@@ -7,7 +7,7 @@ use lptn_units::format_six as six_digits;
 use crate::unsolved::Unsolved;
 
 lptn_units::errors! {
-/// What broke a run off.
+/// Reason why a run broke off.
 #[derive(Debug)]
 pub enum StopReason {
     /// A source or boundary has no value.
@@ -19,8 +19,8 @@ pub enum StopReason {
         cold(name, *temperature),
         help COLD;
     /// A comparison of temperatures changes again and again between two rows: with either truth the
-    /// temperatures go to where it is the other one. The element and field it stands in, in words
-    /// and as they are.
+    /// temperatures lead to the other one. The element and field it is in, in words and as they
+    /// are.
     Chatter { name: String, changes: usize, place: (Item, Field) } = "run::chatter",
         format!(
             "a comparison in `{name}` changed {changes} times between two rows: the temperatures \
@@ -29,7 +29,7 @@ pub enum StopReason {
         help "give it a dead band: a [control] with `on_above` and `off_below`, or `on_below` and \
             `off_above`, whose name is 0 or 1 in expressions; or a gradual change, `0.5 * (1 + \
             tanh((T - 80 [degC]) / 1 [K]))`";
-    /// What switches back and forth at one moment, without time going on: controls by name,
+    /// Elements switch back and forth at one moment, without progress in time: controls by name,
     /// comparisons by element and field.
     Restless { names: Vec<String> } = "run::restless",
         match names.as_slice() {
@@ -54,7 +54,7 @@ pub enum StopReason {
     Runaway { node: String, source: String, from: f64 } = "run::runaway",
         runaway(node, source, *from),
         help RUNS_AWAY;
-    /// The integrator gave up; the node with the largest error, where that is known.
+    /// The integrator gave up; the node with the largest error, if it is known.
     Integrator { error: IntegrateError, node: Option<String> } = "run::integrator",
         match node {
             Some(node) => format!("{error} (largest error at node `{node}`)"),

@@ -1,4 +1,4 @@
-//! What an engineer asks first of a run: start, end, peak, steady state, time to 95 % of the rise.
+//! Summary of a run: start, end, peak, steady state, time to 95 % of the rise.
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::NodeId;
@@ -14,7 +14,7 @@ use crate::watch::Watch;
 /// The share of the rise whose time is given: three time constants of a single exponential.
 const SHARE: f64 = 0.95;
 
-/// A steady rise smaller than this, in K, is no rise: its 95 % would be noise.
+/// A steady rise smaller than this, in K, does not count: its 95 % would be noise.
 const LEAST_RISE: f64 = 1e-6;
 
 /// One node of a summary. Temperatures in K, times in s.
@@ -28,7 +28,7 @@ pub struct NodeSummary {
     pub end: f64,
     /// Highest temperature and when it was first there.
     pub peak: (f64, f64),
-    /// Temperature in steady state, where inputs are constant and there is one.
+    /// Temperature in steady state, if inputs are constant and there is one.
     pub steady: Option<f64>,
     /// Time from the start to 95 % of the way from start to steady state; `None` if that is not
     /// known or was not reached.
@@ -36,8 +36,8 @@ pub struct NodeSummary {
 }
 
 impl NodeSummary {
-    /// The share of the way from start to steady state that the record covers; `None` where there
-    /// is not a way.
+    /// The share of the way from start to steady state that the record covers; `None` if there is
+    /// no such way.
     pub fn reached(&self) -> Option<f64> {
         let rise = self.steady? - self.start;
         (rise.abs() > LEAST_RISE).then(|| (self.end - self.start) / rise)
@@ -55,8 +55,8 @@ impl Summary {
     /// The watches that a summary of `nodes` needs, to be put into [`crate::Transient::watch`].
     ///
     /// # Errors
-    /// [`Unsolved`] if a value cannot be had at the start, or the balances of massless nodes have
-    /// no solution there.
+    /// [`Unsolved`] if a value cannot be computed at the start, or the balances of massless nodes
+    /// have no solution there.
     pub fn watches(
         system: &ThermalSystem,
         start: f64,

@@ -36,15 +36,15 @@ pub struct LabelColumn {
     pub cells: Vec<String>,
 }
 
-/// Columns of equal length with unique names; those of words stand before those of numbers.
+/// Columns of equal length with unique names; those of words come before those of numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     labels: Vec<LabelColumn>,
     columns: Vec<Column>,
 }
 
-/// A table under way, with one row for each item of a list. A column is told how to read one item,
-/// and so is as long as all others.
+/// A table under construction, with one row for each item of a list. A column receives a function
+/// of one item, and so is as long as all others.
 #[derive(Debug)]
 pub struct TableOf<'a, T> {
     items: &'a [T],
@@ -103,8 +103,8 @@ impl Table {
         self.columns.iter().map(move |column| column.values[row])
     }
 
-    /// The time and the selected columns of a run, temperatures in `unit`. A column of something
-    /// that was not recorded holds no numbers (NaN): see [`Selection::record`].
+    /// The time and the selected columns of a run, temperatures in `unit`. A column that was not
+    /// recorded contains NaN: see [`Selection::record`].
     pub fn of_solution(solution: &Solution, selection: &Selection, unit: &Unit) -> Self {
         let network = solution.network();
         let time =
@@ -130,7 +130,7 @@ impl Table {
         Self { labels: Vec::new(), columns }
     }
 
-    /// The same with its first column, times in s, in a unit of so many seconds.
+    /// The same with its first column, times in s, in a unit of `seconds`.
     #[must_use]
     pub fn with_times_in(mut self, unit: &str, seconds: f64) -> Self {
         if let Some(time) = self.columns.first_mut() {

@@ -1,12 +1,12 @@
-//! Sensitivities: how temperatures change with parameters, along with the temperatures themselves.
+//! Sensitivities of temperatures to parameters, along with the temperatures themselves.
 //!
-//! What is carried for a node is `s = (dH/dp) / C0` in K per SI unit of the parameter, H its heat
+//! The variable of a node is `s = (dH/dp) / C0` in K per SI unit of the parameter, H its heat
 //! content over its start and C0 its capacity there: then `C0 ds/dt = dq/dp` whatever depends on
-//! the parameter, and `s = 0` at the start. The temperature follows from
-//! `dH/dp = C dT/dp + (change of H at held T)`. Heat flows change by their derivatives at held
-//! temperatures, which the network takes from its own laws on dual numbers, and by the exact
-//! Jacobian times `dT/dp` (forward sensitivity analysis; A. C. Hindmarsh and R. Serban, User
-//! Documentation for CVODES, section 2.6).
+//! the parameter, and `s = 0` at the start. The temperature follows from `dH/dp = C dT/dp + (change
+//! of H at fixed T)`. Heat flows change by their derivatives at fixed temperatures, which the
+//! network takes from its own laws on dual numbers, and by the exact Jacobian times `dT/dp`
+//! (forward sensitivity analysis; A. C. Hindmarsh and R. Serban, User Documentation for CVODES,
+//! section 2.6).
 //!
 //! This is valid whether the parameter is a capacity, a start temperature, a heat transfer
 //! coefficient or the temperature of a boundary. Nothing is written twice: a new law has
@@ -32,9 +32,9 @@ pub(crate) struct Tangent<'a> {
     /// The exact Jacobian in W/K; empty until it is needed.
     jacobian: Vec<f64>,
     algebraic: Option<Newton<'a>>,
-    /// Change of the heat into every vertex at held temperatures.
+    /// Change of the heat into every vertex at fixed temperatures.
     heat: Vec<f64>,
-    /// Change of the heat content of every node at its held temperature.
+    /// Change of the heat content of every node at its fixed temperature.
     contents: Vec<f64>,
     /// Sensitivity of the temperature of every unknown.
     unknowns: Vec<f64>,
@@ -43,10 +43,10 @@ pub(crate) struct Tangent<'a> {
 }
 
 impl<'a> Tangent<'a> {
-    /// Ready for some parameters, none of which is there twice.
+    /// Set up for some parameters without duplicates.
     ///
     /// # Errors
-    /// [`SettingsError::Sensitivity`] where the network has no derivatives by them.
+    /// [`SettingsError::Sensitivity`] if the network has no derivatives by them.
     pub(crate) fn new(
         system: &'a ThermalSystem,
         parameters: &[ParameterId],
@@ -79,9 +79,8 @@ impl<'a> Tangent<'a> {
         self.tangents.parameters()
     }
 
-    /// What is carried at the start, where every node has the temperature that `work` holds:
-    /// nothing if that is the start of the network, whose temperatures may depend on the
-    /// parameters; else those temperatures do not.
+    /// The variables at a start at the temperatures in `work`, which do not depend on the
+    /// parameters. At the network's own start, whose temperatures may do so, they are zero.
     pub(crate) fn carried_at(&mut self, work: &Workspace, out: &mut [f64]) {
         self.take_contents(work);
         let system = self.system;
@@ -129,7 +128,7 @@ impl<'a> Tangent<'a> {
         Ok(())
     }
 
-    /// Takes what is carried, from inputs read and nodes recovered in `work`;
+    /// Takes the variables, from inputs read and nodes recovered in `work`;
     /// [`Tangent::vertices_of`] then gives the sensitivities of all nodes.
     pub(crate) fn recover(
         &mut self,
@@ -198,8 +197,8 @@ impl<'a> Tangent<'a> {
         taken.map_err(NewtonError::Input)
     }
 
-    /// Sensitivities of the massless nodes that were not eliminated: their balances hold whatever
-    /// the parameters are.
+    /// Sensitivities of the massless nodes that were not eliminated: their balances are fulfilled
+    /// for all parameters.
     fn solve_algebraic(
         &mut self,
         work: &mut Workspace,

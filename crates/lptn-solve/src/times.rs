@@ -4,8 +4,8 @@ use lptn_network::OutputTimes;
 
 use crate::settings_error::SettingsError;
 
-/// A time at which comparisons of `t` have the truth that holds from `time` on: a jump at the start
-/// is over, as it is in the first row of a run. The distance is far below any thermal time.
+/// A time at which comparisons of `t` have their truth from `time` on: a jump at the start is over,
+/// as it is in the first row of a run. The distance is far below any thermal time.
 pub(crate) fn just_after(time: f64) -> f64 {
     time + 1e-12 * time.abs().max(1.0)
 }
@@ -46,8 +46,8 @@ fn regular(every: f64, start: f64, stop: f64) -> Result<Vec<f64>, SettingsError>
     Ok((0..).map(time).take_while(|&t| t < stop - margin).collect())
 }
 
-/// Moves breakpoints of a run that are a row's time but for rounding onto it, so that the row is
-/// after the jump.
+/// Moves breakpoints of a run to the time of a row that differs by rounding only, so that the row
+/// is after the jump.
 pub(crate) fn snap(breakpoints: &mut [f64], rows: &[f64], (start, stop): (f64, f64)) {
     for time in breakpoints {
         let after = rows.partition_point(|row| row < time);
@@ -62,12 +62,12 @@ pub(crate) fn snap(breakpoints: &mut [f64], rows: &[f64], (start, stop): (f64, f
     }
 }
 
-/// Doubles that a run has to have between its start and its stop where something depends on the
-/// time: a step of a three-hundredth of it is then still a hundred thousand of them.
+/// Doubles that a run has to have between its start and its stop if something depends on the time:
+/// a step of a three-hundredth of it is then still a hundred thousand of them.
 const LEAST_DOUBLES: f64 = 3e7;
 
-/// Refuses a run so far from 0 that times inside it cannot be told apart well enough for what
-/// depends on them.
+/// Refuses a run so far from 0 that the resolution of times inside it is too coarse for inputs that
+/// depend on them.
 pub(crate) fn check_resolution(start: f64, stop: f64) -> Result<(), SettingsError> {
     let far = start.abs().max(stop.abs());
     let resolution = far.next_up() - far;
@@ -83,7 +83,7 @@ pub(crate) struct Segment {
 }
 
 impl Segment {
-    /// A time inside it, where comparisons of `t` are read.
+    /// A time inside it, at which comparisons of `t` are read.
     pub(crate) fn inside(self) -> f64 {
         0.5 * (self.from + self.to)
     }

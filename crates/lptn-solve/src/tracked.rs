@@ -16,13 +16,13 @@ use crate::zeros::share_above;
 /// there.
 const SAME: f64 = 1e-9;
 
-/// A window with what was seen so far.
+/// A window with its results so far.
 #[derive(Clone, Debug)]
 pub(crate) struct Tracked {
     pub(crate) window: Window,
-    /// Where its columns bend.
+    /// Bends of its columns.
     bends: Bends,
-    /// What stands still while they are looked at.
+    /// Values that are constant during the evaluation.
     slots: Vec<f64>,
     reached: f64,
     sums: Quadrature,
@@ -33,8 +33,8 @@ pub(crate) struct Tracked {
     last: Vec<f64>,
 }
 
-/// Writes the value of every column of a window at a time inside the present step, then what tells
-/// where they bend.
+/// Writes the value of every column of a window at a time inside the present step, then the
+/// quantities that determine their bends.
 pub(crate) type Columns<'a> =
     dyn FnMut(f64, (&Selection, &Bends), &mut Vec<f64>) -> Result<(), StopReason> + 'a;
 
@@ -59,7 +59,7 @@ impl Tracked {
         }
     }
 
-    /// Takes what stands still from where results are read.
+    /// Takes these constant values from the state of `scope`.
     pub(crate) fn stand(&mut self, scope: &mut Evaluation) {
         self.slots = self.bends.slots(scope);
     }
@@ -98,7 +98,7 @@ impl Tracked {
         Ok(())
     }
 
-    /// What was seen; `None` where the run did not come so far.
+    /// The results; `None` if the run did not reach the window.
     pub(crate) fn into_seen(self, network: &Network, tolerance: f64) -> Option<WindowSeen> {
         let length = self.reached - self.window.from;
         let (from, to) = (self.window.from, self.reached);
@@ -150,7 +150,7 @@ fn look(interval: &Interval, told: bool, min: &mut [(f64, f64)], max: &mut [(f64
         }
         let smooth = told && interval.is_smooth(column);
         let of = Curve { interval, column, times: &times, values: &values, smooth };
-        // no curve that its points tell leaves their range by as much again
+        // no curve that its points resolve leaves their range by as much again
         if high + (high - low) > max.0 {
             of.extreme(1.0, high, max);
         }
@@ -160,13 +160,13 @@ fn look(interval: &Interval, told: bool, min: &mut [(f64, f64)], max: &mut [(f64
     }
 }
 
-/// For how long a column is above zero in an interval.
+/// Time in s for which a column is above zero in an interval.
 fn above_zero(interval: &Interval, told: bool, column: usize) -> f64 {
     let values: [f64; POINTS] = std::array::from_fn(|point| interval.values[point][column]);
     let range = |(low, high): (f64, f64), value: f64| (low.min(value), high.max(value));
     let (low, high) = values.into_iter().fold((f64::INFINITY, f64::NEG_INFINITY), range);
     let length = interval.time(POINTS - 1) - interval.time(0);
-    // no curve that its points tell leaves their range by as much again
+    // no curve that its points resolve leaves their range by as much again
     if low - (high - low) > 0.0 {
         return length;
     } else if high + (high - low) < 0.0 {
@@ -193,12 +193,12 @@ struct Curve<'a> {
     column: usize,
     times: &'a [f64; POINTS],
     values: &'a [f64; POINTS],
-    /// Whether the points tell the curve.
+    /// True if the points resolve the curve.
     smooth: bool,
 }
 
 impl Curve<'_> {
-    /// Takes in the largest value (`sign` 1) or the least (-1) of the points; where they tell the
+    /// Takes in the largest value (`sign` 1) or the least (-1) of the points; if they resolve the
     /// curve also the top of parabolas through it and its neighbours.
     fn extreme(&self, sign: f64, value: f64, best: &mut (f64, f64)) {
         let same = |other: &f64| (other - value).abs() <= LASTS * value.abs();

@@ -37,8 +37,8 @@ impl Transient {
     /// Runs to the stop.
     ///
     /// # Errors
-    /// [`TransientError`]; a run that breaks off hands over what it computed, and so does one whose
-    /// energy balance does not close: no solution that reached its stop has an open one.
+    /// [`TransientError`]; a run that breaks off hands over its results so far, and so does one
+    /// whose energy balance does not close: no solution that reached its stop has an open one.
     pub fn solve(&self, system: &ThermalSystem) -> Result<Solution, TransientError> {
         self.solve_observed(system, &mut |_| Proceed::Continue)
     }
@@ -56,10 +56,10 @@ impl Transient {
         self.solve_from(system, &State::initial(system), observer)
     }
 
-    /// As [`Transient::solve_observed`] from another state than the network's own start.
+    /// [`Transient::solve_observed`] from another state than the network's own start.
     ///
     /// # Errors
-    /// As [`Transient::solve`]; a state of another network is a fault of the settings.
+    /// As [`Transient::solve`]; a state of another network is an error of the settings.
     pub fn solve_from(
         &self,
         system: &ThermalSystem,
@@ -122,8 +122,8 @@ impl Transient {
     }
 }
 
-/// A run, if it did not reach its stop or its energy balance closes: of what was interrupted nobody
-/// claims that.
+/// A run that did not reach its stop or whose energy balance closes; no one relies on the balance
+/// of an interrupted run.
 fn closed(solution: Solution) -> Result<Solution, TransientError> {
     match solution.ledger().check() {
         Err(open) if solution.end() == RunStatus::Reached => {
@@ -133,24 +133,23 @@ fn closed(solution: Solution) -> Result<Solution, TransientError> {
     }
 }
 
-/// How well the times have to be known at which massless nodes leap.
+/// Required accuracy of the times at which massless nodes jump.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Care {
-    /// Nothing is known to leap: at the sight of a fold the run ends, to be done again with care.
-    /// Errors in front of it are made already: as with a switch, they move the leap and all that
-    /// follows, and where heat changes as the root of the time that is left all steps err to one
-    /// side.
+    /// No jump is known: at a fold the run ends, and is repeated with care. Errors before it are
+    /// made already: as with a switch, they move the jump and all that follows. If heat changes as
+    /// the root of the time that is left, all steps err to one side.
     Untried,
-    /// As well as those of switches.
+    /// The accuracy of the times of switches.
     Leaps,
-    /// Not at all: only where they lead to is asked.
+    /// No accuracy: only the result of the jump is needed.
     Way,
 }
 
-/// What ends a run before its stop.
+/// Reason why a run ends before its stop.
 enum Break {
     Interrupted,
-    /// A fold is in sight of a run that nobody knew to have one.
+    /// A fold is ahead of a run that was not known to have one.
     Fold,
     Failed(StopReason),
 }
@@ -163,24 +162,24 @@ pub(crate) struct Run<'a> {
     initial: Vec<f64>,
     books: Books,
     tolerance: f64,
-    /// What has to switch when the next segment begins.
+    /// Positions that have to switch when the next segment begins.
     due: Vec<usize>,
-    /// Only where an input curves.
+    /// `None` unless an input curves.
     curved: Option<Curved>,
-    /// Only where tables, kinks or functions that turn read temperatures.
+    /// `None` unless tables, kinks or functions that turn read temperatures.
     guard: Option<Guard>,
-    /// Only where errors may grow.
+    /// `None` unless errors may grow.
     growth: Option<Growth>,
-    /// The growth that the tolerance makes up for.
+    /// The growth that the tolerance allows for.
     grows: f64,
-    /// Only where something switches.
+    /// `None` unless something switches.
     switching: Option<Switching<'a>>,
-    /// Steps in a row that were refused before they became so short that they lead nowhere.
+    /// Steps in a row, each after refused ones, that are too short to make progress.
     crawled: usize,
-    /// Attempts in a row that failed in front of a fold.
+    /// Attempts in a row that failed before a fold.
     stuck: usize,
     care: Care,
-    /// The last time in s and state at which massless nodes of several solutions were seen to stay.
+    /// The last time in s and state at which massless nodes of several solutions were stable.
     stood: Option<(f64, Vec<f64>)>,
 }
 
@@ -290,7 +289,7 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    /// Goes over to the inputs of a segment.
+    /// Changes to the inputs of a segment.
     fn begin(&mut self, segment: Segment, first: bool) -> Result<(), Break> {
         self.integrator.system_mut().enter(segment.inside());
         let due = std::mem::take(&mut self.due);
@@ -301,7 +300,7 @@ impl<'a> Run<'a> {
         self.enter(segment)
     }
 
-    /// Enters a segment, or what an event left of it.
+    /// Enters a segment, or the rest of it after an event.
     fn enter(&mut self, segment: Segment) -> Result<(), Break> {
         self.stand()?;
         self.begin_to_guard();
@@ -363,7 +362,7 @@ impl<'a> Run<'a> {
         self.stand_or_leap(segment)
     }
 
-    /// What has to switch inside a step or at its end, and when that is.
+    /// Positions that have to switch inside a step or at its end, and the time in s.
     fn crossings(&mut self, step: &Step) -> Result<(Vec<usize>, f64), Break> {
         if self.switching.is_none() {
             return Ok((Vec::new(), step.to));
@@ -374,7 +373,7 @@ impl<'a> Run<'a> {
         })
     }
 
-    /// Switches what is due and what follows from it; true if something is different afterwards.
+    /// Switches what is due and everything that follows; true if anything changed.
     fn switch(&mut self, due: &[usize], first: bool) -> Result<bool, Break> {
         let Some(switching) = &mut self.switching else { return Ok(false) };
         let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());

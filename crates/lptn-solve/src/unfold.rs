@@ -1,9 +1,9 @@
-//! From what the integrator carries to temperatures.
+//! From the integrator's variables to temperatures.
 //!
-//! A node with a constant capacity is carried by its temperature. One whose capacity depends on its
-//! temperature is carried by its heat content H over its capacity at the start, `y = T0 + H / C0`
-//! in K, so that heat is never lost to the approximation of a changing capacity. Algebraic unknowns
-//! are solved for.
+//! The variable of a node with a constant capacity is its temperature. If the capacity depends on
+//! temperature, the variable is the heat content H over the capacity at the start, `y = T0 + H /
+//! C0` in K, so that heat is never lost to the approximation of a changing capacity. Algebraic
+//! unknowns are solved for.
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{Enthalpy, Field, InputError, InputProblem, Item};
@@ -12,22 +12,22 @@ use crate::between::SHORT;
 use crate::newton::Newton;
 use crate::newton_error::NewtonError;
 
-/// Temperatures of all unknowns of a system, from those that are carried.
+/// Temperatures of all unknowns of a system, from the integrator's variables.
 pub(crate) struct Unfold<'a> {
     system: &'a ThermalSystem,
-    /// The states that are carried by their heat content, with their start in K.
+    /// The states whose variable is their heat content, with their start in K.
     contents: Vec<(usize, &'a Enthalpy, f64)>,
     algebraic: Option<Newton<'a>>,
-    /// Temperature of every unknown in K. Algebraic ones begin where the last solution was.
+    /// Temperature of every unknown in K. Algebraic ones begin at the last solution.
     temperatures: Vec<f64>,
-    /// Derivative of the temperature of every unknown by what is carried for it.
+    /// Derivative of the temperature of every unknown by its variable.
     slopes: Vec<f64>,
-    /// Whether the algebraic unknowns may leap to another solution at the next look, because what
-    /// they depend on has.
+    /// True if the algebraic unknowns may jump to another solution at the next evaluation, because
+    /// their inputs have.
     leaps: bool,
 }
 
-/// A capacity of which nothing is left to tell: melting at one temperature.
+/// Least slope of a temperature over its variable: melting at one temperature.
 const LEAST_SLOPE: f64 = 1e-12;
 
 impl<'a> Unfold<'a> {
@@ -46,7 +46,7 @@ impl<'a> Unfold<'a> {
         algebraic.iter_mut().for_each(|newton| newton.guarded = !system.is_monotone());
         let mut temperatures = system.initial();
         let mean = guess(system);
-        // where a solution is the only one, it is found as well from where the others are
+        // if a solution is the only one, it is found as well from the start of the others
         let guarded = algebraic.as_ref().is_some_and(|newton| newton.guarded);
         let begins = |id: &lptn_network::NodeId| {
             let stood = network.nodes()[id.index()].stood.is_some();
@@ -65,12 +65,12 @@ impl<'a> Unfold<'a> {
         })
     }
 
-    /// Whether what is carried is not the temperature somewhere.
+    /// True if a variable is not the temperature somewhere.
     pub(crate) fn carries_heat(&self) -> bool {
         !self.contents.is_empty()
     }
 
-    /// Derivatives of the temperatures of all unknowns by what is carried for them.
+    /// Derivatives of the temperatures of all unknowns by their variables.
     pub(crate) fn slopes(&self) -> &[f64] {
         &self.slopes
     }
@@ -105,13 +105,12 @@ impl<'a> Unfold<'a> {
         Ok(&self.temperatures)
     }
 
-    /// Whether algebraic unknowns may have several solutions, so that it matters which one is
-    /// followed.
+    /// True if algebraic unknowns may have several solutions, so that the choice of one matters.
     pub(crate) fn is_guarded(&self) -> bool {
         self.algebraic.as_ref().is_some_and(|newton| newton.guarded)
     }
 
-    /// Lets the algebraic unknowns leap at the next look: inputs or positions have.
+    /// Lets the algebraic unknowns jump at the next evaluation: inputs or positions have.
     pub(crate) fn may_leap(&mut self) {
         self.leaps = true;
     }
@@ -121,20 +120,20 @@ impl<'a> Unfold<'a> {
         &self.temperatures[self.system.states().len()..]
     }
 
-    /// Begins a run at these temperatures of the algebraic unknowns; they may have ended meanwhile.
+    /// Begins a run at these temperatures in K of the algebraic unknowns, which may have ended.
     pub(crate) fn stand_at(&mut self, algebraic: &[f64]) {
         self.seed(algebraic);
         self.may_leap();
     }
 
-    /// Begins the next look at these temperatures of the algebraic unknowns.
+    /// Begins the next evaluation at these temperatures of the algebraic unknowns, in K.
     pub(crate) fn seed(&mut self, algebraic: &[f64]) {
         let states = self.system.states().len();
         self.temperatures[states..].copy_from_slice(algebraic);
         self.leaps = false;
     }
 
-    /// Begins the next look at these temperatures; where the unknowns may leap they still may.
+    /// The same, but if the unknowns may jump they still may.
     pub(crate) fn begin(&mut self, algebraic: impl Iterator<Item = f64>) {
         let states = self.system.states().len();
         self.temperatures[states..].iter_mut().zip(algebraic).for_each(|(t, at)| *t = at);
@@ -160,8 +159,7 @@ impl<'a> Unfold<'a> {
         self.algebraic.iter_mut().for_each(Newton::lean);
     }
 
-    /// Whether the algebraic unknowns are elsewhere than at these temperatures in K by more than
-    /// rounding.
+    /// True if the algebraic unknowns differ from these temperatures in K by more than rounding.
     pub(crate) fn is_apart(&self, from: &[f64]) -> bool {
         self.algebraic().iter().zip(from).any(|(a, b)| (a - b).abs() > SHORT)
     }
@@ -184,7 +182,7 @@ fn guess(system: &ThermalSystem) -> f64 {
     if mean.is_finite() { mean } else { lptn_network::ZERO_CELSIUS + 25.0 }
 }
 
-/// What is carried in K for one of the states at a temperature in K.
+/// The variable in K of one of the states at a temperature in K.
 pub(crate) fn carried(
     system: &ThermalSystem,
     state: usize,

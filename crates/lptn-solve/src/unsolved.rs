@@ -8,7 +8,7 @@ use lptn_units::format_six as six_digits;
 use crate::newton_error::NewtonError;
 
 lptn_units::errors! {
-/// Why balances could not be solved, and the node at which it failed.
+/// Reason why balances could not be solved, and the node at which it failed.
 #[derive(Clone, Debug)]
 pub enum Unsolved {
     /// A value of an element fails.
@@ -121,7 +121,7 @@ impl Unsolved {
         }
     }
 
-    /// The name of the node at which it failed; empty where that is not known.
+    /// The name of the node at which it failed; empty if that is not known.
     pub fn node(&self) -> &str {
         match self {
             Self::Input(error) => &error.name,

@@ -1,4 +1,4 @@
-//! What happens to some nodes between the rows: peaks, and the time at which a level is crossed.
+//! Results of some nodes between the rows: peaks, and the time at which a level is crossed.
 
 use lptn_network::NodeId;
 
@@ -9,11 +9,11 @@ use crate::interval::{POINTS, interpolated};
 pub struct Watch {
     /// The node.
     pub node: NodeId,
-    /// A temperature in K whose first crossing is sought.
+    /// A temperature in K whose first crossing is searched for.
     pub level: Option<f64>,
 }
 
-/// What was seen of a watched node.
+/// Results of a watched node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Watched {
     /// The node and the level.
@@ -26,17 +26,17 @@ pub struct Watched {
     last: (f64, f64),
 }
 
-/// How often the top of a curve is approached by another parabola.
+/// Number of parabolas that approach the top of a curve after the first.
 pub(crate) const REFINEMENTS: usize = 4;
 
 /// Values that differ by less than this share are one and the same but for rounding: an extreme
 /// that lasts, in a node that nothing delays, has it over and over.
 pub(crate) const LASTS: f64 = 16.0 * f64::EPSILON;
 
-/// When an extreme (value, time) was first there, of a curve that begins and ends with these values
-/// at these times. An extreme that differs from the first value by no more than `margin` cannot be
-/// told from it, and is there. One that differs from the last value by no more than that is there,
-/// unless it is the last value to rounding: then it has lasted until the end and was there before.
+/// The first time of an extreme (value, time) of a curve with these values at its ends. An extreme
+/// within `margin` of the first value cannot be distinguished from it, and is there. One that
+/// differs from the last value by no more than that is there, unless it is the last value to
+/// rounding: then it has lasted until the end and was there before.
 pub fn first_there((value, time): (f64, f64), [first, last]: [(f64, f64); 2], margin: f64) -> f64 {
     let apart = |end: f64| (end - value).abs();
     if apart(first.0) <= margin {
@@ -69,8 +69,7 @@ impl Watched {
         self.last.1
     }
 
-    /// Takes in the temperatures at successive points of a step, the first being where the curve
-    /// stands.
+    /// Takes in the temperatures at successive points of a step, the first being the present one.
     pub(crate) fn look(&mut self, points: &[(f64, f64)]) {
         for (k, &point) in points.iter().enumerate() {
             self.peak_at(point);
@@ -91,9 +90,9 @@ impl Watched {
         }
     }
 
-    /// A time inside the points where the curve promises to be higher than the peak so far: the top
-    /// of a parabola near the highest of them. No curve that its points tell leaves their range by
-    /// as much again.
+    /// A time inside the points at which the curve promises to be higher than the peak so far: the
+    /// top of a parabola near the highest of them. No curve that its points resolve leaves their
+    /// range by as much again.
     pub(crate) fn promising(&self, points: &[(f64, f64)]) -> Option<f64> {
         let (mut low, mut high, mut at) = (f64::INFINITY, f64::NEG_INFINITY, 0);
         for (k, &(_, temperature)) in points.iter().enumerate() {
@@ -113,23 +112,23 @@ impl Watched {
         (height > self.peak.0 && !known).then_some(time)
     }
 
-    /// Whether its peak so far is at least this temperature in K.
+    /// True if its peak so far is at least this temperature in K.
     pub(crate) fn is_above(&self, temperature: f64) -> bool {
         temperature <= self.peak.0
     }
 
-    /// Whether the level may first be reached by a curve in this range.
+    /// True if the level may first be reached by a curve in this range.
     pub(crate) fn may_cross(&self, low: f64, high: f64) -> bool {
         let (Some(level), None) = (self.watch.level, self.crossed) else { return false };
         low <= level && level <= high
     }
 
-    /// Goes on to where the curve stands now.
+    /// Goes on to the present point of the curve.
     pub(crate) fn go_to(&mut self, point: (f64, f64)) {
         self.last = point;
     }
 
-    /// The highest temperature of a step and its time, where the polynomial through its points is
+    /// The highest temperature of a step and its time, if the polynomial through its points is
     /// higher than the peak so far between them.
     pub(crate) fn top(
         &self,
@@ -152,7 +151,7 @@ impl Watched {
         (!best.1.is_nan()).then_some(best)
     }
 
-    /// Takes in the temperature after a jump: a massless node may leap over its level in no time.
+    /// Takes in the temperature after a jump: a massless node may jump over its level.
     pub(crate) fn jump(&mut self, time: f64, temperature: f64) {
         if self.crosses((time, temperature)) {
             self.crossed = Some(self.straight((time, temperature)));
@@ -161,14 +160,14 @@ impl Watched {
         self.last = (time, temperature);
     }
 
-    /// Whether the level is first reached between the last point and this one.
+    /// True if the level is first reached between the last point and this one.
     fn crosses(&self, (_, temperature): (f64, f64)) -> bool {
         let (Some(level), None) = (self.watch.level, self.crossed) else { return false };
         let (before, after) = (self.last.1 - level, temperature - level);
         (before > 0.0) != (after > 0.0) || after == 0.0
     }
 
-    /// When it is, on the line from the last point to this one.
+    /// The time in s of that, on the line from the last point to this one.
     fn straight(&self, (time, temperature): (f64, f64)) -> f64 {
         let level = self.watch.level.unwrap_or(temperature);
         let (before, after) = (self.last.1 - level, temperature - level);
@@ -176,13 +175,13 @@ impl Watched {
     }
 }
 
-/// Points on either side of a crossing whose polynomial stands for the curve between them.
+/// Points on either side of a crossing whose polynomial represents the curve between them.
 const BESIDE: usize = 3;
 
 /// Halvings of the interval between two points: to the rounding of its length.
 const HALVINGS: usize = 53;
 
-/// When a curve through successive points of a step reaches a level between point `k - 1` and `k`.
+/// The time at which a curve through points of a step reaches a level between `k - 1` and `k`.
 fn on_the_curve(points: &[(f64, f64)], k: usize, level: f64) -> f64 {
     let near = &points[k.saturating_sub(BESIDE)..(k + BESIDE).min(points.len())];
     let above = |time: f64| polynomial(near, time) > level;
@@ -218,7 +217,7 @@ pub(crate) fn put_in(points: &mut Vec<(f64, f64)>, point: (f64, f64)) {
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
 }
 
-/// Whether two times between these ends are one: far from 0 those of a short step are all near each
+/// True if two times between these ends are one: far from 0 those of a short step are all near each
 /// other.
 pub(crate) fn is_same(a: f64, b: f64, (from, to): (f64, f64)) -> bool {
     (a - b).abs() <= (1e-12 * b.abs()).min(1e-9 * (to - from))

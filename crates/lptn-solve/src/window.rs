@@ -1,4 +1,4 @@
-//! Windows of time, and what was seen over them.
+//! Windows of time, and their results.
 
 use lptn_units::{Type, Unit};
 
@@ -10,15 +10,15 @@ use crate::selection::Selection;
 pub struct Window {
     /// Its name.
     pub name: String,
-    /// When it begins, in s.
+    /// Its start in s.
     pub from: f64,
-    /// When it ends, in s; after `from`.
+    /// Its end in s; after `from`.
     pub to: f64,
     /// The columns.
     pub of: Selection,
 }
 
-/// What was seen of a column over a window, in SI units.
+/// Results of a column over a window, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ColumnSeen {
     /// The name of the column, `steel.T`.
@@ -27,16 +27,16 @@ pub struct ColumnSeen {
     pub ty: Type,
     /// The mean over time.
     pub mean: f64,
-    /// The least value and when it was first there, in s; at a jump both sides count.
+    /// The least value and its first time in s; at a jump both sides count.
     pub min: (f64, f64),
-    /// The largest value and when it was first there, in s.
+    /// The largest value and its first time in s.
     pub max: (f64, f64),
     /// The value at the end of the window.
     pub last: f64,
-    /// For how long it is above zero, in s.
+    /// Time in s for which it is above zero.
     pub positive: f64,
-    /// The share of it by which the mean may be off beside the error of the run, because it changes
-    /// faster than steps are looked at.
+    /// Possible relative error of the mean in addition to the error of the run, because it changes
+    /// faster than steps resolve.
     pub open: f64,
     pub(crate) shown: Shown,
 }
@@ -45,7 +45,7 @@ impl ColumnSeen {
     /// The share of a mean that is rounding.
     const ROUNDED: f64 = 1e-6;
 
-    /// Whether it changes faster than steps are looked at, so that the mean may be off by more than
+    /// True if it changes faster than steps resolve, so that the mean may be off by more than
     /// rounding.
     pub fn is_open(&self) -> bool {
         self.open > Self::ROUNDED
@@ -63,14 +63,14 @@ impl ColumnSeen {
     }
 }
 
-/// What was seen over a window.
+/// Results over a window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WindowSeen {
     /// Its name.
     pub name: String,
-    /// When it begins, in s.
+    /// Its start in s.
     pub from: f64,
-    /// When it ends, in s; where the run broke off earlier, that time.
+    /// Its end in s; if the run broke off earlier, that time.
     pub to: f64,
     /// Each of its columns.
     pub columns: Vec<ColumnSeen>,

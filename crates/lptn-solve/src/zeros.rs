@@ -1,4 +1,4 @@
-//! Where the polynomial through the points of an interval passes zero.
+//! Zeros of the polynomial through the points of an interval.
 
 use crate::interval::{NODES, POINTS};
 
@@ -19,8 +19,8 @@ pub(crate) fn share_above(values: &[f64; POINTS]) -> f64 {
     0.5 * edges.windows(2).filter(above).map(|part| part[1] - part[0]).sum::<f64>()
 }
 
-/// Of the polynomial through values at the points on (-1, 1), by Newton's divided differences; the
-/// constant one first.
+/// Coefficients of the polynomial through values at the points on (-1, 1), by Newton's divided
+/// differences; the constant one first.
 pub(crate) fn coefficients(values: &[f64; POINTS]) -> [f64; POINTS] {
     let mut differences = *values;
     for order in 1..POINTS {

@@ -1,4 +1,4 @@
-//! Where looks begin.
+//! Starting points of evaluations.
 #![allow(
     clippy::unwrap_used,
     clippy::float_cmp,
@@ -10,7 +10,7 @@ use lptn_assembly::ThermalSystem;
 use super::*;
 use crate::scripted::{bodies, workspace};
 
-/// What keeps a massless node among the unknowns: constant conductances alone are reduced.
+/// Keeps a massless node among the unknowns: constant conductances alone are reduced.
 const OWN: &str = "-1 [W/K] * (T - absolute(300 [K]))";
 
 /// A body of 100 J/K joined to a massless node by 2 W/K.
@@ -60,8 +60,8 @@ fn a_look_at_one_of_several_solutions_begins_at_the_one_before() {
     });
 }
 
-/// The massless node is balanced by 2 + 2 + 1 W/K: a correction at 320 K beside 300 K with factors of
-/// so much, or of twice as much.
+/// The massless node is balanced by 2 + 2 + 1 W/K. A correction from 320 K next to 300 K uses
+/// factors of this matrix, or of twice as much.
 #[test]
 fn a_look_leans_on_the_matrix_that_it_was_given() {
     with(OWN, |system| {
@@ -95,7 +95,7 @@ fn a_look_leans_on_the_matrix_that_it_was_given() {
         assert!(!newton.leans);
         newton.lean();
         assert!(!newton.ready && newton.matrix().is_empty() && newton.leans);
-        // and what cannot be factorised is none
+        // and a matrix that cannot be factorised counts as none
         newton.lean_on(&[0.0]);
         newton.lean();
         assert!(!newton.ready);

@@ -10,8 +10,8 @@ use lptn_assembly::ThermalSystem;
 use super::*;
 use crate::scripted::{bodies, workspace};
 
-/// A massless node with 2 W/K to air, 2 W/K to a body at 300 K and a heat: what a way from one
-/// temperature in K to another is.
+/// A massless node with 2 W/K to air, 2 W/K to a body at 300 K and a heat. Checks the way from one
+/// temperature in K to another.
 fn stays(heat: &str, (start, end): (f64, f64)) -> Result<(), NewtonError> {
     let network = bodies(&[(100.0, "1 [W]"), (0.0, heat)], Some("2 [W/K]"));
     let system = ThermalSystem::assemble(&network).unwrap();
@@ -30,7 +30,7 @@ fn folds(heat: &str, way: (f64, f64)) -> bool {
     }
 }
 
-/// What keeps a massless node among the unknowns: constant conductances alone are reduced.
+/// Keeps a massless node among the unknowns: constant conductances alone are reduced.
 const OWN: &str = "1 [W/K] * (T - absolute(300 [K]))";
 
 /// Its slope at 340 K is its height over its width.
@@ -53,7 +53,7 @@ fn a_way_over_temperatures_at_which_nothing_rests_leads_to_another_branch() {
     assert!(!folds(&step(10.0, 2.0), (330.0, 330.0)));
 }
 
-/// Far narrower than a sixteenth of the way, wherever it is in it.
+/// Far narrower than a sixteenth of the way, wherever it is.
 #[test]
 fn a_narrow_stretch_at_which_nothing_rests_is_not_stepped_over() {
     for width in [1.0, 0.1, 0.01] {
@@ -66,7 +66,7 @@ fn a_narrow_stretch_at_which_nothing_rests_is_not_stepped_over() {
     }
 }
 
-/// Two places a unit of the way apart, between which the heat left over changes by so much; the
+/// Two points a share of the way apart, between which the heat left over changes by `change`; the
 /// slopes predict 10 W.
 #[test]
 fn balances_bend_if_slopes_mispredict_by_more_than_a_fiftieth() {
@@ -87,7 +87,7 @@ fn balances_bend_if_slopes_mispredict_by_more_than_a_fiftieth() {
         assert!(bends(0.5, -sign * 10.0, [sign * 10.0, sign * 30.0]));
     }
     assert!(!bends(0.5, 0.0, [0.0, 0.0]) && bends(0.5, 1e-9, [0.0, 0.0]));
-    // of several balances the largest counts
+    // with several balances the largest counts
     let place = |left: [f64; 2]| Place {
         share: left[0] / 100.0,
         left: left.to_vec(),
@@ -112,8 +112,8 @@ fn a_place_on_a_way_is_a_share_of_it_and_so_many_kelvin_further() {
     assert_eq!(newton.on(&none, 1.0, 0.5), [300.0, 310.5, 320.5]);
 }
 
-/// What is left over at a place, and its slope along the way: a heat of 40 W, and 4 - 1 W/K lost
-/// from 300 K on.
+/// Heat left over at a point, and its slope along the way: a heat of 40 W, and 4 - 1 W/K lost from
+/// 300 K on.
 #[test]
 fn a_place_has_the_heat_left_over_and_its_slope() {
     let network = bodies(
@@ -131,7 +131,7 @@ fn a_place_has_the_heat_left_over_and_its_slope() {
     assert!((place.slope[0] + 60.0).abs() < 1e-9, "{:?}", place.slope);
 }
 
-/// The corner lies a third of a kelvin behind a place, so that it is at a third or two thirds of
+/// The corner lies a third of a kelvin after a point, so that it is at a third or two thirds of
 /// every stretch around it: twenty halvings of 1 K come to less than 1e-6 K.
 #[test]
 fn a_corner_is_closed_in_to_what_is_rounding() {
@@ -149,12 +149,12 @@ fn a_corner_is_closed_in_to_what_is_rounding() {
     assert_eq!(left(&mut newton, [300.0, 316.0], MORE), MORE - 20);
     assert_eq!(left(&mut newton, [316.0, 300.0], MORE), MORE - 20);
     assert_eq!(left(&mut newton, [296.0, 328.0], MORE), MORE - 21);
-    // as far as places are left, and none where nothing bends
+    // as many as are left, and none if nothing bends
     assert_eq!(left(&mut newton, [300.0, 316.0], 7), 0);
     assert_eq!(left(&mut newton, [310.0, 326.0], MORE), MORE);
 }
 
-/// A place is refused if nothing rests within 1e-6 K to either side, and a narrower stretch is
+/// A point is refused if nothing rests within 1e-6 K to either side, and a narrower stretch is
 /// rounding.
 #[test]
 fn a_place_is_refused_unless_something_rests_on_both_sides_of_it() {

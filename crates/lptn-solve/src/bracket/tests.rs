@@ -1,9 +1,9 @@
-//! Moments of quantities that are known: how close, and after how many looks.
+//! Moments of known quantities: how close, and after how many evaluations.
 #![allow(clippy::float_cmp, reason = "numbers that are given")]
 
 use super::*;
 
-/// The moment between 0 and 8 s at which a quantity becomes positive, and the looks for it.
+/// The moment between 0 and 8 s at which a quantity becomes positive, and its evaluations.
 fn moment(of: impl Fn(f64) -> f64, enough: f64) -> (f64, usize) {
     let ends = [0.0, 8.0].map(|time| (time, of(time)));
     let straight = Bracket::straight(ends).next;
@@ -20,8 +20,8 @@ fn moment(of: impl Fn(f64) -> f64, enough: f64) -> (f64, usize) {
     (found, looks)
 }
 
-/// A halving of 8 s to the rounding of a second takes 54 looks; a jump, in which secants deceive, three
-/// times as many.
+/// A halving of 8 s to the rounding of a second takes 54 evaluations. A jump, which deceives
+/// secants, takes three times as many.
 #[test]
 fn moments_are_closed_in_to_rounding() {
     type Row<'a> = (&'a dyn Fn(f64) -> f64, f64, usize);
@@ -61,11 +61,11 @@ fn no_closer_than_what_is_enough() {
         "{found} {looks}"
     );
     assert!(Bracket::new([(1.0, -1.0), (1.005, 1.0)], 1.0, 0.01).next().is_none());
-    // one that is zero at its end has its moment there
+    // a quantity that is zero at the end has its moment there
     assert!(Bracket::new([(1.0, -1.0), (2.0, 0.0)], 1.5, 0.0).next().is_none());
 }
 
-/// What is not a number, and what jumps from look to look, ends.
+/// A quantity that is not a number, or that jumps at every evaluation, ends.
 #[test]
 fn what_makes_no_sense_ends() {
     for of in [|_: f64| f64::NAN, |t: f64| (1e9 * t).sin(), |_| f64::INFINITY] {

@@ -1,4 +1,4 @@
-//! Stretches of runs in which a heat follows a course over time that is written down.
+//! Stretches of runs in which the time history of a heat is given.
 #![allow(clippy::float_cmp, reason = "numbers that are given")]
 
 use super::*;
@@ -52,7 +52,7 @@ fn steps_around_values_that_are_not_predicted_are_halved() {
     assert_eq!((at(&found, 3.0).from, at(&found, 299.0).to), (0.0, 300.0));
 }
 
-/// A bell of a height in W on a million: its sixteen samples a step sum up to 2.27 of it, and the
+/// A bell of a height in W on a million W: its sixteen samples a step sum up to 2.27 of it, and the
 /// rounding of seven steps is a part in 1e10 of each sample of the million.
 #[test]
 fn what_is_rounding_beside_the_largest_value_is_not_looked_into() {

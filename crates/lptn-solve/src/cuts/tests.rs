@@ -35,7 +35,7 @@ fn near(found: &[f64], expected: &[f64]) {
     found.iter().zip(expected).for_each(|(a, b)| assert!((a - b).abs() < 1e-12, "{a} for {b}"));
 }
 
-/// Where the points tell the curve the guess is the time: a look to each side of it.
+/// If the points resolve the curve, the guess is the time: one evaluation on each side of it.
 #[test]
 fn each_passage_of_each_level_is_found_in_two_looks() {
     for sign in [1.0, -1.0] {
@@ -67,7 +67,7 @@ fn a_top_between_the_points_is_looked_at() {
     }
 }
 
-/// An end that stands at a level was cut there already.
+/// An end at a level was cut there already.
 #[test]
 fn an_end_at_a_level_is_no_cut() {
     for sign in [1.0, -1.0] {
@@ -77,7 +77,7 @@ fn an_end_at_a_level_is_no_cut() {
     }
 }
 
-/// A curve that its points do not tell is closed in by secants and halvings.
+/// A curve that its points do not resolve is closed in by secants and halvings.
 #[test]
 fn a_steep_passage_is_closed_in() {
     for at in [0.7, 3.0, 8.8] {
@@ -90,8 +90,8 @@ fn a_steep_passage_is_closed_in() {
     }
 }
 
-/// Levels within a part in 1e9 of the curve's range of an end were passed before or will be
-/// passed behind it.
+/// Levels within a part in 1e9 of the curve's range from an end were passed before or will be
+/// passed after it.
 #[test]
 fn an_end_stands_at_a_level_to_a_part_in_a_thousand_million() {
     for scale in [1e-6, 1.0, 1e6] {
@@ -105,7 +105,7 @@ fn an_end_stands_at_a_level_to_a_part_in_a_thousand_million() {
     }
 }
 
-/// Cuts nearer than 1e-12 of the interval to an end or to each other are none of their own.
+/// Cuts nearer than 1e-12 of the interval to an end or to each other are not separate.
 #[test]
 fn cuts_that_rounding_cannot_tell_apart_are_one() {
     let jump = |at: f64| cut(move |t| if t < at { -1.0 } else { 1.0 }, &[0.0]).0;
@@ -138,8 +138,8 @@ fn a_level_that_is_touched_from_below_is_not_passed() {
     assert_eq!(cut(|t| 7.0 - (t - 5.0) * (t - 5.0), &[7.0]).0, [0.0; 0]);
 }
 
-/// The top is 9 at 3.6 s and the highest point 7.33 at 2.31 s: half of the difference above it
-/// is looked for.
+/// The top is 9 at 3.6 s and the highest point 7.33 at 2.31 s: levels are searched up to half of
+/// the difference above it.
 #[test]
 fn a_top_is_looked_at_as_far_as_it_may_reach() {
     let highest = 9.0 - (3.6 - 5.0 * (1.0 + NODES[2])) * (3.6 - 5.0 * (1.0 + NODES[2]));
@@ -153,7 +153,7 @@ fn a_top_is_looked_at_as_far_as_it_may_reach() {
     }
 }
 
-/// The times at which a curve is looked at to find where it passes a level.
+/// The times at which a curve is evaluated to find where it passes a level.
 fn passed(
     curve: impl Fn(f64) -> f64,
     (level, [from, to], guess): (f64, [f64; 2], f64),
@@ -170,7 +170,7 @@ fn passed(
     (time, looks)
 }
 
-/// On a line the first secant is exact: a look there, and one behind it.
+/// On a line the first secant is exact: one evaluation there, and one after it.
 #[test]
 fn a_line_is_passed_at_its_first_secant() {
     let enough = 1.0 / 64.0;
@@ -180,9 +180,9 @@ fn a_line_is_passed_at_its_first_secant() {
             let from = |guess: f64| passed(line, (level, [2.0, 6.0], guess), enough);
             assert_eq!(from(3.0), (4.0 + enough / 2.0, vec![3.0, 4.0, 4.0 + enough / 2.0]));
             assert_eq!(from(4.0), (4.0 + enough / 2.0, vec![4.0, 4.0 + enough / 2.0]));
-            // a guess behind it is closed in from its other side
+            // a guess after it is closed in from its other side
             assert_eq!(from(5.0).1[..2], [5.0, 4.0]);
-            // one beside the gap is none
+            // a guess outside the gap is not used
             assert_eq!([from(7.0).1[0], from(1.0).1[0]], [4.0, 4.0]);
             assert_eq!([from(2.0).1[0], from(6.0).1[0]], [2.0 + enough / 2.0, 6.0 - enough / 2.0]);
         }
@@ -193,7 +193,7 @@ fn a_line_is_passed_at_its_first_secant() {
 fn a_gap_that_ends_at_the_level_or_is_short_enough_is_its_end() {
     assert_eq!(passed(|t| t - 6.0, (0.0, [2.0, 6.0], 4.0), 0.0), (6.0, vec![6.0]));
     assert_eq!(passed(|t| t - 4.0, (0.0, [3.5, 4.5], 4.0), 1.0), (4.5, vec![4.5]));
-    // rounding ends it where nothing else does
+    // rounding ends it if nothing else does
     let (time, looks) = passed(|t| t - 1e6 - 0.3, (0.0, [1e6, 1e6 + 1.0], 1e6 + 0.5), 0.0);
     assert!((time - 1e6 - 0.3).abs() < 1e-9 && looks.len() <= 4, "{looks:?}");
 }
@@ -201,8 +201,8 @@ fn a_gap_that_ends_at_the_level_or_is_short_enough_is_its_end() {
 /// A curve over time.
 type Curve<'a> = &'a dyn Fn(f64) -> f64;
 
-/// What secants close in from one side only is halved. These curves know nothing but sums,
-/// products and quotients, so that the looks are the same on every machine.
+/// An interval that secants close in from one side only is halved. These curves use only sums,
+/// products and quotients, so that the evaluations are the same on every machine.
 #[test]
 fn curves_that_deceive_secants_are_closed_in() {
     let curves: [(Curve<'_>, f64, usize); 8] = [

@@ -34,7 +34,7 @@ fn the_highest_of_a_curve_is_at_the_top_of_a_parabola() {
     assert_eq!(of(|_| 3.0), (3.0, POINTS));
     // a top at a point is known
     assert_eq!(of(|t| 5.0 - (t - 7.0) * (t - 7.0)), (5.0, POINTS));
-    // of two the higher one
+    // the higher of two
     let two = |t: f64| 3.0 - (t - 4.0) * (t - 4.0) * (t - 10.0) * (t - 10.0) * 1e-2 + 0.1 * t;
     let (found, calls) = of(two);
     let exact = (900..1100).map(|k| two(f64::from(k) * 0.01)).fold(0.0, f64::max);
@@ -71,14 +71,14 @@ fn the_largest_input_is_found_between_the_ends_of_a_run() {
     near(largest(wave, (12.0, 28.0)), 5.0 + 3.0 * (2.0 * PI * 0.3).sin());
     near(largest(wave, (31.0, 37.0)), 5.0 - 3.0 * (2.0 * PI * 3.0 / 40.0).sin());
     assert_eq!(largest(wave, (10.0, 10.0)), (8.0, 1));
-    // a jump belongs to the segment behind it, a ramp to its ends
+    // a jump belongs to the segment after it, a ramp to its ends
     assert_eq!(largest("if(t < 5 [s], 9 [W], 2 [W])", (0.0, 10.0)).0, 9.0);
     assert_eq!(largest("if(t < 5 [s], 9 [W], 2 [W])", (5.0, 10.0)).0, 2.0);
     assert_eq!(largest("2 [W/s] * t", (3.0, 10.0)).0, 20.0);
 }
 
-/// Where nothing curves and the balances are linear a segment is one part; of straight inputs
-/// to balances that bend it is eight.
+/// If nothing curves and the balances are linear, a segment is one part. With straight inputs to
+/// balances that bend there are eight.
 #[test]
 fn segments_are_parted_where_what_follows_may_curve() {
     let parts = |heat: &str, air: Option<&str>| {
@@ -95,7 +95,7 @@ fn segments_are_parted_where_what_follows_may_curve() {
     };
     let bent = "1 [W/K] * (1 + (T_mean - absolute(300 [K])) / 100 [K])";
     assert_eq!(parts("2 [W/s] * t", Some(bent)), [eighths(0.0, 1.0), eighths(8.0, 0.5)]);
-    // a curved input has parts of its own, with the ends of segments among them
+    // a curved input has its own parts, with the ends of segments among them
     let curved = parts("5 [W] * sin(2 * pi * t / 7 [s])", None);
     assert_eq!(curved.len(), 2);
     for (parts, ends) in curved.iter().zip([(0.0, 8.0), (8.0, 12.0)]) {

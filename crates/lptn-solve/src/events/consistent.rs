@@ -13,8 +13,8 @@ use crate::times::just_after;
 /// The most positions that are tried.
 const MOST: usize = 64;
 
-/// Seeks positions in whose steady state nothing has to switch. From the start on, what has to
-/// switch does; when that comes back to where it was, all other positions are tried in turn.
+/// Finds positions in whose steady state nothing has to switch. From the start on, everything that
+/// has to switch does. If that returns to earlier positions, all other positions are tried in turn.
 pub(crate) fn find(system: &ThermalSystem, time: f64) -> Result<SteadyState, SteadyError> {
     let mut search =
         Search { system, time, tried: HashSet::new(), failure: None, restless: Vec::new() };
@@ -48,10 +48,10 @@ fn every(system: &ThermalSystem) -> impl Iterator<Item = Positions> + use<> {
     })
 }
 
-/// What became of one try.
+/// Result of one attempt.
 enum Attempt {
     Settled(Box<SteadyState>),
-    /// What has to switch there leads to these.
+    /// The switches that are due there lead to these positions.
     Leads(Positions),
     /// They were tried before, have no steady state, or too many were tried.
     Nowhere,
@@ -61,9 +61,9 @@ struct Search<'a> {
     system: &'a ThermalSystem,
     time: f64,
     tried: HashSet<(Vec<bool>, Vec<bool>)>,
-    /// Why positions have no steady state at all.
+    /// Reason why positions have no steady state at all.
     failure: Option<SteadyError>,
-    /// What had to switch in the steady states of other positions, by name.
+    /// Names of the elements that had to switch in the steady states of other positions.
     restless: Vec<String>,
 }
 
@@ -102,7 +102,7 @@ impl Search<'_> {
         Ok(Attempt::Leads(next))
     }
 
-    /// What has to switch in a steady state: controls, then comparisons.
+    /// Positions that have to switch in a steady state: controls, then comparisons.
     fn beyond(&self, steady: &SteadyState) -> Result<Vec<usize>, InputError> {
         let (system, gates) = (self.system, Gates::new(self.system));
         let mut work = system.workspace();

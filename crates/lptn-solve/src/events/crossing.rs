@@ -1,4 +1,4 @@
-//! When something has to switch inside a step.
+//! Times inside a step at which something has to switch.
 //!
 //! CVODES finds roots at the ends of its steps; lptn searches inside too. It evaluates three
 //! places, and more wherever the second difference leaves room for a maximum above the threshold. A
@@ -15,16 +15,16 @@ use crate::stop_reason::StopReason;
 /// An integrator on the way.
 type Stepping<'a> = dyn Integrator<Heat<'a>> + 'a;
 
-/// Parts of a step at whose ends is looked first.
+/// Parts of a step at whose ends the excess is evaluated first.
 const PARTS: usize = 4;
 
-/// Halvings of such a part in search of what comes and goes within it ..
+/// Most halvings of such a part in search of an excess that comes and goes within it.
 const HALVINGS: usize = 40;
 
-/// .. and looks into one step for that, at most.
+/// Most evaluations inside one step in that search.
 const LOOKS: usize = 400;
 
-/// Why a step could not be looked into.
+/// Reason why a step could not be searched.
 pub(crate) enum Trouble {
     Integrator(IntegrateError),
     Stop(StopReason),
@@ -42,11 +42,11 @@ impl From<StopReason> for Trouble {
     }
 }
 
-/// What has to switch inside a step or at its end, by its position, and when that is; nothing at
-/// the end of a step without an event.
+/// Positions that have to switch inside a step or at its end, and the time in s; none at the end of
+/// a step without an event.
 ///
-/// What begins to be due and ends again between two looks is searched: where an excess may have a
-/// top above zero, as its second difference tells, is looked closer.
+/// An excess that becomes positive and ends again between two evaluations is searched for: more are
+/// made if its second difference allows a top above zero.
 pub(crate) fn find(
     integrator: &mut Stepping<'_>,
     step: &Step,
@@ -60,7 +60,7 @@ pub(crate) fn find(
     for k in (2..=PARTS).step_by(2) {
         let middle = search.at(integrator, place(k - 1))?;
         let after = search.at(integrator, place(k))?;
-        // at a root the integrator knows better
+        // at a root the integrator's result is better
         let counts = !(k == PARTS && step.roots);
         let found = search.first([&before, &middle, &after], (HALVINGS, counts), integrator)?;
         if let Some(between) = found {
@@ -74,7 +74,7 @@ pub(crate) fn find(
     Ok((due, step.to))
 }
 
-/// How far everything that switches is beyond the point where it does at a time.
+/// Excess of everything that switches over its switching point at a time.
 #[derive(Clone)]
 struct Look {
     time: f64,
@@ -96,10 +96,10 @@ impl Look {
     }
 }
 
-/// Evaluates what switches inside a step.
+/// Evaluates the excess inside a step.
 struct Search {
     state: Vec<f64>,
-    /// What is less than this does not count.
+    /// Bends below this do not count.
     rooms: Vec<f64>,
     looks: usize,
 }
@@ -118,8 +118,8 @@ impl Search {
         Ok(Look { time, excess })
     }
 
-    /// Two looks between which something begins to be due: not at the first, but at the second.
-    /// Whether the last of three looks at even distances counts is said.
+    /// Two evaluations between which something becomes due: not at the first, but at the second.
+    /// `counts` is false if the last of three evaluations at even distances does not count.
     fn first(
         &mut self,
         [before, middle, after]: [&Look; 3],
@@ -140,8 +140,8 @@ impl Search {
         Ok(due.map(|(before, after, _)| (before.clone(), after.clone())))
     }
 
-    /// Whether something that is due at none of three looks may be due between them. A parabola
-    /// through them rises above the highest by no more than an eighth of their second difference.
+    /// True if something that is due at none of three evaluations may be due between them. A
+    /// parabola rises above the highest by no more than an eighth of their second difference.
     fn may_rise(&self, [before, middle, after]: [&Look; 3]) -> bool {
         let one = |(i, room): (usize, &f64)| {
             let [a, b, c] = [before, middle, after].map(|look| look.excess[i]);

@@ -1,12 +1,12 @@
-//! How far everything that switches is beyond the point where it does.
+//! Excess of everything that switches over its switching point.
 
 use std::sync::Arc;
 
 use lptn_assembly::{ThermalSystem, Workspace};
 use lptn_network::{Acts, ControlId, End, InputError, Positions};
 
-/// A comparison changes only when its sides are apart by what this part of the tolerance makes of
-/// them: without it rounding at the moment of an event would decide which side it is on.
+/// A comparison changes only if its sides differ by this part of the tolerance times the slope of
+/// their difference. Otherwise rounding at the moment of an event would decide which side it is on.
 const MARGIN: f64 = 0.01;
 
 /// A thermostat with constant thresholds that feels a node with capacity.
@@ -14,7 +14,7 @@ const MARGIN: f64 = 0.01;
 struct Plain {
     state: usize,
     acts: Acts,
-    /// Where it switches on and off, in K.
+    /// Temperatures at which it switches on and off, in K.
     thresholds: [f64; 2],
 }
 
@@ -31,14 +31,14 @@ impl Plain {
     }
 }
 
-/// What everything that switches waits for: controls in their order, then comparisons.
+/// Conditions of everything that switches: controls in their order, then comparisons.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Gates {
-    /// For each control whether it may switch; not while it has to stay as it is.
+    /// For each control true if it may switch; false while it has to stay as it is.
     pub(crate) armed: Vec<bool>,
-    /// For each comparison how far its sides have to be apart.
+    /// For each comparison the least difference of its sides.
     pub(crate) margins: Vec<f64>,
-    /// What a control is beyond its threshold by less than this, in K, does not count.
+    /// An excess of a control below this, in K, does not count.
     room: f64,
     /// Every control, if all that switches are plain thermostats.
     plain: Arc<Vec<Plain>>,
@@ -57,12 +57,12 @@ impl Gates {
         }
     }
 
-    /// Whether the temperatures of the states tell all that [`Gates::excess`] does.
+    /// True if the temperatures of the states determine all of [`Gates::excess`].
     pub(crate) fn are_plain(&self) -> bool {
         !self.plain.is_empty()
     }
 
-    /// As [`Gates::excess`] for plain thermostats, from the temperatures of the states in K.
+    /// [`Gates::excess`] for plain thermostats, from the temperatures of the states in K.
     pub(crate) fn plain_excess(&self, positions: &Positions, states: &[f64], out: &mut [f64]) {
         let controls = self.plain.iter().zip(&positions.controls).zip(&self.armed);
         for (((plain, is_on), armed), out) in controls.zip(out) {
@@ -71,19 +71,19 @@ impl Gates {
         }
     }
 
-    /// How many there are.
+    /// Number of controls and comparisons.
     pub(crate) fn count(&self) -> usize {
         self.armed.len() + self.margins.len()
     }
 
-    /// The excess of each below which nothing is looked for.
+    /// The excess of each below which no search is made.
     pub(crate) fn rooms(&self) -> Vec<f64> {
         let controls = self.armed.iter().map(|_| self.room);
         controls.chain(self.margins.iter().copied()).collect()
     }
 
-    /// Writes how far each is beyond the point where it switches, positive if it has to; from the
-    /// inputs, the positions and the temperatures that `work` holds.
+    /// Writes the excess of each over its switching point, positive if it has to switch; from the
+    /// inputs, the positions and the temperatures in `work`.
     pub(crate) fn excess(
         &self,
         system: &ThermalSystem,
@@ -108,7 +108,7 @@ impl Gates {
         Ok(())
     }
 
-    /// Sets how far the sides of each comparison have to be apart, for this tolerance in K.
+    /// Sets the least difference of the sides of each comparison, for this tolerance in K.
     pub(crate) fn set_margins(
         &mut self,
         system: &ThermalSystem,
@@ -118,7 +118,7 @@ impl Gates {
         self.room = MARGIN * tolerance;
         for (id, margin) in system.network().switch_ids().zip(&mut self.margins) {
             let (difference, slope) = system.switch_difference(work, id)?;
-            // a side that hardly depends on temperature here still has digits to lose
+            // a side that hardly depends on temperature here still has rounding
             *margin = (MARGIN * tolerance * slope).max(4.0 * f64::EPSILON * difference.abs());
         }
         Ok(())

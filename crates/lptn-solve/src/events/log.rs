@@ -1,35 +1,35 @@
-//! What happened in a run, and when.
+//! Events of a run and their times.
 
 use lptn_network::{ControlId, LimitId, Network, SwitchId};
 
-/// Something that happened at a time that was not known beforehand.
+/// An event at a time that was not known in advance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Event {
-    /// When, in s.
+    /// Its time in s.
     pub time: f64,
-    /// What.
+    /// Its kind.
     pub kind: EventKind,
-    /// 1 if it was on, held or was broken before, else 0.
+    /// 1 if it was on, true or broken before, else 0.
     pub before: u8,
     /// The same afterwards.
     pub after: u8,
 }
 
-/// Where a control stands.
+/// State of a control.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ControlState {
-    /// Whether it is on.
+    /// True if it is on.
     pub on: bool,
-    /// When it switched last, in s; minus infinity if it never did.
+    /// Time of its last switch in s; minus infinity if it never switched.
     pub since: f64,
 }
 
-/// What an event is about.
+/// Subject of an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EventKind {
     /// A control switched: 0 is off, 1 is on.
     Control(ControlId),
-    /// A comparison of temperatures changed: 1 if it holds.
+    /// A comparison of temperatures changed: 1 if it is true.
     Comparison(SwitchId),
     /// A limit was broken for the first time: 1 if it is broken.
     Limit(LimitId),
@@ -42,7 +42,7 @@ impl Event {
 }
 
 impl EventKind {
-    /// Everything of a network that switches at times that are not known beforehand: controls, then
+    /// Everything of a network that switches at times not known in advance: controls, then
     /// comparisons.
     pub fn switching(network: &Network) -> impl Iterator<Item = Self> + use<> {
         let controls = network.control_ids().map(Self::Control);
@@ -58,8 +58,7 @@ impl EventKind {
         }
     }
 
-    /// What it is about by name; a comparison by the element and the field it stands in,
-    /// `heater.P`.
+    /// Its subject by name; a comparison by its element and field, `heater.P`.
     pub fn name(self, network: &Network) -> String {
         match self {
             Self::Control(id) => network.controls()[id.index()].name.clone(),

@@ -1,7 +1,7 @@
-//! The positions in a run: what switches, when, and whether it gets anywhere.
+//! Positions of everything that switches in a run, and checks that the run still makes progress.
 //!
-//! Conditions are read at the start, after every event, where inputs jump and where a dwell ends,
-//! until nothing has to switch.
+//! Conditions are read at the start, after every event, at jumps of inputs and at the end of a
+//! dwell, until nothing has to switch.
 //!
 //! The integrator gets a hundredth of the tolerance if something switches, because an error in the
 //! time of one switch moves all later ones. A hundred switches with a remote sensor then stay
@@ -14,13 +14,13 @@ use crate::events::{ControlState, Event, EventKind, Gates};
 use crate::heat::Heat;
 use crate::stop_reason::StopReason;
 
-/// The most rounds in which what switches makes other things switch at one moment.
+/// The most rounds of switches that cause others at one moment.
 const ROUNDS: usize = 64;
 
 /// The most changes of one comparison between two rows.
 const CHATTER: usize = 20;
 
-/// Parts of a run in which changes are counted where rows are rare.
+/// Parts of a run in which changes are counted if rows are rare.
 const PARTS: f64 = 300.0;
 
 /// The most events of a run.
@@ -30,7 +30,7 @@ const MOST_EVENTS: usize = 1_000_000;
 pub(crate) struct Switching<'a> {
     network: &'a Network,
     pub(crate) positions: Positions,
-    /// When each control switched last, in s.
+    /// Time of the last switch of each control, in s.
     since: Vec<f64>,
     gates: Gates,
     excess: Vec<f64>,
@@ -40,12 +40,12 @@ pub(crate) struct Switching<'a> {
     changes: Vec<usize>,
     /// The part of the run that was reached.
     part: f64,
-    /// What stands at each position: controls, then comparisons.
+    /// Kind of each position: controls, then comparisons.
     kinds: Vec<EventKind>,
 }
 
 impl<'a> Switching<'a> {
-    /// Begins with these states of the controls, or as the network does if there are none.
+    /// Begins with these states of the controls, or with those of the network if there are none.
     pub(crate) fn new(
         system: &'a ThermalSystem,
         controls: &[ControlState],
@@ -72,8 +72,8 @@ impl<'a> Switching<'a> {
         }
     }
 
-    /// Finds the positions at the start: comparisons as they stand, controls outside their dead
-    /// band by their condition.
+    /// Finds the positions at the start: comparisons as they are, controls outside their dead band
+    /// by their condition.
     pub(crate) fn begin(
         &mut self,
         heat: &mut Heat<'_>,
@@ -100,7 +100,7 @@ impl<'a> Switching<'a> {
         Err(self.restless(&changed))
     }
 
-    /// Switches what is due, by its position, and whatever follows from that at the same moment.
+    /// Switches what is due, by its position, and all that follows from it at the same moment.
     pub(crate) fn settle(
         &mut self,
         heat: &mut Heat<'_>,
@@ -146,7 +146,7 @@ impl<'a> Switching<'a> {
         heat.gates.clone_from(&self.gates);
     }
 
-    /// Lets those switch whose time to stay is over.
+    /// Arms the controls whose time to stay is over.
     fn arm(&mut self, time: f64) {
         for (i, id) in self.network.control_ids().enumerate() {
             self.gates.armed[i] = time >= self.since[i] + self.network.min_dwell(id);
@@ -161,14 +161,14 @@ impl<'a> Switching<'a> {
         ends.fold(f64::INFINITY, f64::min)
     }
 
-    /// Where the controls stand.
+    /// The states of the controls.
     pub(crate) fn controls(&self) -> Vec<ControlState> {
         let states = self.positions.controls.iter().zip(&self.since);
         states.map(|(&on, &since)| ControlState { on, since }).collect()
     }
 
-    /// The run goes on to `time`. What happened before a row, or before the present part of the run
-    /// where rows are rare, counts no longer.
+    /// The run goes on to `time`. Changes before a row no longer count, nor, if rows are rare,
+    /// those before the present part of the run.
     pub(crate) fn reach(&mut self, time: f64, (start, stop): (f64, f64), row: bool) {
         let part = (PARTS * (time - start) / (stop - start)).floor();
         if row || part > self.part {
@@ -177,7 +177,7 @@ impl<'a> Switching<'a> {
         }
     }
 
-    /// Whether the run still gets anywhere.
+    /// Refuses a run that makes no more progress.
     fn check_count(&self) -> Result<(), StopReason> {
         if let Some(switch) = self.changes.iter().position(|&changes| changes > CHATTER) {
             let name = self.kinds[self.positions.controls.len() + switch].name(self.network);
@@ -191,7 +191,7 @@ impl<'a> Switching<'a> {
         }
     }
 
-    /// What switches back and forth at one moment.
+    /// Error of elements that switch back and forth at one moment.
     fn restless(&self, flips: &[usize]) -> StopReason {
         let names = flips.iter().map(|&position| self.kinds[position].name(self.network));
         StopReason::Restless { names: names.collect() }

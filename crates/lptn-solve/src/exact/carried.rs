@@ -7,7 +7,7 @@ use super::chain::{Chain, Wanted};
 use super::inputs::Panel;
 use super::reduced::Reduced;
 
-/// The lengths of panels that are to be expected, and the terms of their series.
+/// The expected lengths of panels, and the terms of their series.
 #[derive(Clone, Copy)]
 pub(crate) struct Lengths {
     /// The most frequent one in s.
@@ -21,16 +21,16 @@ pub(crate) struct Lengths {
 struct Way {
     chain: Chain,
     rises: Mat<f64>,
-    /// What is still to go in s, from the rounding of times.
+    /// Time still to go in s, from the rounding of times.
     owed: f64,
 }
 
-/// States that streams join, with what is carried of them.
+/// States that streams join, with their rises.
 pub(crate) struct Carried<'a> {
     reduced: &'a Reduced,
     members: Vec<usize>,
-    /// By the length of a panel, and by thirds of it: matrices that no product has in common, so
-    /// that their difference shows what rounding makes.
+    /// By the length of a panel, and by thirds of it: matrices without a common product, so that
+    /// their difference shows the effect of rounding.
     ways: [Way; 2],
     rates: Mat<f64>,
     drive: Mat<f64>,
@@ -97,8 +97,8 @@ impl<'a> Carried<'a> {
         }
     }
 
-    /// The most that heat into each state in W, of either sign, for the whole time can do to a
-    /// member: no element of the exponential is negative.
+    /// The most that heat into each state in W, of either sign, can do to a member over the whole
+    /// time: no element of the exponential is negative.
     pub(crate) fn largest_rise(&self, heat: &[f64]) -> f64 {
         let rates = Mat::from_fn(self.members.len(), 1, |row, _| {
             let i = self.members[row];
@@ -108,12 +108,12 @@ impl<'a> Carried<'a> {
         (0..self.members.len()).map(|i| rises[(i, 0)]).fold(0.0, f64::max)
     }
 
-    /// What rounding has made, as the two ways differ, in K.
+    /// Effect of rounding so far in K, by the difference of the two ways.
     pub(crate) fn rounding(&self) -> f64 {
         self.apart
     }
 
-    /// How many states there are.
+    /// Number of states.
     pub(crate) fn states(&self) -> usize {
         self.members.len()
     }

@@ -7,11 +7,11 @@
 //! of phi functions (Skaflestad and Wright, Appl. Numer. Math. 59 (2009) 783) in a basis in which
 //! nothing cancels. No eigenvector is asked for, so a defective matrix is like any other.
 //!
-//! **Rows that sum to a leak.** In a thermal network all elements of `exp(h A)` are positive, and
-//! a row sums to 1 less the share of the boundaries. So squaring adds positive numbers only, and the
-//! diagonal, the one place where 1 hides what is small, is taken from the sum of the rest (the
+//! **Rows that sum to a leak.** In a thermal network all elements of `exp(h A)` are positive, and a
+//! row sums to 1 less the share of the boundaries. So squaring adds positive numbers only, and the
+//! diagonal, the one place where 1 hides small terms, is taken from the sum of the rest (the
 //! elimination of Grassmann, Taksar and Heyman, Oper. Res. 33 (1985) 1107, for the exponentials of
-//! Xue and Ye, Math. Comp. 82 (2013) 1577): slow nodes keep their digits beside fast ones.
+//! Xue and Ye, Math. Comp. 82 (2013) 1577): slow nodes keep their digits next to fast ones.
 //!
 //! A chain of equal cells has one eigenvector. The matrices on the way up serve every length.
 //! `impedance` uses them if modes coincide.
@@ -22,13 +22,13 @@ use lptn_integrate::dense;
 use super::legendre::{Rule, TERMS, value};
 use super::taylor::{SMALL, add, answer, exponential};
 
-/// The system and for how long it is wanted.
+/// The system and the lengths of time that are wanted.
 pub(crate) struct Wanted {
     /// A in 1/s.
     pub(crate) rates: Mat<f64>,
-    /// B: what a unit of each input (column) does to each state, per s.
+    /// B: rate of each state for a unit of each input (column), per s.
     pub(crate) drive: Mat<f64>,
-    /// By how much each row of A sums to less than 0, where it has no negative elements beside its
+    /// Amount by which each row of A sums to less than 0, if it has no negative elements except its
     /// diagonal.
     pub(crate) leak: Option<Vec<f64>>,
     /// Length in s that is asked for most often, and the longest of all.
@@ -38,12 +38,12 @@ pub(crate) struct Wanted {
     pub(crate) terms: usize,
 }
 
-/// What carries a state on by a length in s.
+/// Matrices that advance a state by a length in s.
 #[derive(Clone, Debug, PartialEq)]
 struct Level {
     length: f64,
     carried: Mat<f64>,
-    /// For each term of a series what the inputs leave behind, per s of the length; empty above the
+    /// For each term of a series the effect of the inputs, per s of the length; empty above the
     /// unit.
     forced: Vec<Mat<f64>>,
 }
@@ -61,7 +61,7 @@ pub(crate) struct Chain {
 const MOST_LEVELS: i32 = 120;
 
 impl Chain {
-    /// `None` if the rates span more than the numbers can hold.
+    /// `None` if the rates span more than doubles can represent.
     pub(crate) fn new(wanted: Wanted) -> Option<Self> {
         let Wanted { rates, drive, leak, unit, longest, terms } = wanted;
         let terms = terms.max(1); // without inputs too: what is forced marks lengths up to the unit
@@ -94,7 +94,7 @@ impl Chain {
         Some(chain)
     }
 
-    /// The shortest level, by power series, and what its boundaries have taken.
+    /// The shortest level, by power series, and the share that its boundaries have taken.
     fn first(
         &self,
         length: f64,
@@ -115,8 +115,8 @@ impl Chain {
         (Level { length, carried, forced }, leaked)
     }
 
-    /// Carries a state on by `length` in s under inputs whose Legendre series hold over it, to
-    /// within `slack` in s; what is still to go, which may be negative.
+    /// Advances a state by `length` in s, to within `slack` in s, under inputs with these Legendre
+    /// series over it. Returns the time in s still to go, which may be negative.
     pub(crate) fn advance(
         &self,
         x: &mut Mat<f64>,
@@ -154,7 +154,7 @@ impl Chain {
         }
     }
 
-    /// Adds what a state was one, two, .. units before and has become: `x = sum_k exp(k unit A) x`, as
+    /// Adds the effects of the states one, two, .. units before: `x = sum_k exp(k unit A) x`, as
     /// `(1 + E)(1 + E^2)(1 + E^4) ..`.
     pub(crate) fn add_repeats(&self, x: &mut Mat<f64>, unit: f64) {
         for level in self.levels.iter().filter(|level| level.length >= 0.75 * unit) {
@@ -163,7 +163,7 @@ impl Chain {
         }
     }
 
-    /// What lasts of these rates of change (columns, per s) if they last for the longest time.
+    /// Effect of these rates of change (columns, per s) if they last for the longest time.
     pub(crate) fn lasting(&self, rates: &Mat<f64>) -> Mat<f64> {
         let first = self.levels.first().map_or(0.0, |level| level.length);
         let mut mean = answer(scaled(&self.rates, first).as_ref(), rates.clone(), 0);
@@ -176,7 +176,7 @@ impl Chain {
         scaled(&mean, last.first().map_or(0.0, |level| level.length))
     }
 
-    /// Series on a part of where they hold, `from` to `to` of 0 to 1.
+    /// Series on a part of their range, `from` to `to` of 0 to 1.
     fn part(&self, series: &[Vec<f64>], (from, to): (f64, f64)) -> Vec<Vec<f64>> {
         if from == 0.0 && (to - 1.0).abs() < 1e-15 {
             return series.to_vec();
@@ -191,7 +191,7 @@ impl Chain {
     }
 }
 
-/// How polynomials on a whole are made of polynomials on its halves.
+/// Polynomials on a whole, made of polynomials on its halves.
 struct Halves {
     /// For each `P_n` the coefficients on the first half and on the second.
     first: Vec<[f64; TERMS]>,
@@ -213,7 +213,7 @@ impl Halves {
         Self { first: on(-1.0), second: on(1.0) }
     }
 
-    /// What inputs leave behind over twice the length of a level.
+    /// Effect of inputs over twice the length of a level.
     fn double(&self, level: &Level) -> Vec<Mat<f64>> {
         let sum = |weights: &[f64]| {
             let mut sum = Mat::zeros(level.carried.nrows(), level.forced[0].ncols());
@@ -246,8 +246,8 @@ fn norm(a: &Mat<f64>) -> f64 {
     (0..a.nrows()).map(row).fold(0.0, f64::max)
 }
 
-/// A row and what the boundaries took sum to 1; where the diagonal is most of that, it is what the
-/// others leave.
+/// A row and the share of the boundaries sum to 1. If the diagonal is most of that, it is the rest
+/// after the others.
 fn right_the_diagonal(carried: &mut Mat<f64>, leaked: &Mat<f64>) {
     for i in 0..carried.nrows() {
         let beside = (0..carried.ncols()).filter(|&j| j != i);

@@ -5,7 +5,7 @@ use lptn_units::Degree;
 
 use super::legendre::{Rule, TERMS, value};
 
-/// Where a series is compared with its input: the ends, and places that no rule has.
+/// Points at which a series is compared with its input: the ends, and points that no rule has.
 const CHECKS: [f64; 5] = [-1.0, -0.8372, -0.1193, 0.5741, 1.0];
 
 /// The boundaries, as rises over one temperature, and the sources of a network.
@@ -24,7 +24,7 @@ pub(crate) struct Inputs<'a> {
 pub(crate) struct Panel {
     /// For every input the coefficients of its Legendre series.
     pub(crate) series: Vec<Vec<f64>>,
-    /// How far a series may be from its input; 0 for a constant and for a straight line.
+    /// Largest distance of a series from its input; 0 for a constant and for a straight line.
     pub(crate) errors: Vec<f64>,
 }
 
@@ -44,7 +44,7 @@ impl<'a> Inputs<'a> {
         Self { network, scope: network.evaluation(), reference, forms, rule, inside: 0.0 }
     }
 
-    /// Whether some input is neither constant nor a straight line between its breakpoints.
+    /// True if some input is neither constant nor a straight line between its breakpoints.
     pub(crate) fn need_quadrature(&self) -> bool {
         self.forms.contains(&Degree::Nonlinear)
     }
@@ -59,7 +59,7 @@ impl<'a> Inputs<'a> {
         self.forms.iter().map(of).max().unwrap_or(0)
     }
 
-    /// How many of them are boundaries; they come first.
+    /// Number of boundaries; they come first.
     pub(crate) fn boundaries(&self) -> usize {
         self.network.boundaries().len()
     }
@@ -92,7 +92,7 @@ impl<'a> Inputs<'a> {
         Ok(panel)
     }
 
-    /// Replaces the straight lines of inputs that are none by longer series.
+    /// Replaces the straight lines of curved inputs by longer series.
     fn fit(&mut self, span: (f64, f64), panel: &mut Panel) -> Result<(), InputError> {
         let points = self.rule.points;
         let samples = self.sample(span, &points)?;

@@ -1,6 +1,6 @@
-//! Inputs as Legendre series on a panel, and what a mode makes of them in closed form.
+//! Inputs as Legendre series on a panel, and the response of a mode to them in closed form.
 //!
-//! A mode of rate `r` answers to `u = sum c_n P_n(x)`, x from -1 to 1 over a panel of length h,
+//! A mode of rate `r` responds to `u = sum c_n P_n(x)`, x from -1 to 1 over a panel of length h,
 //! with `int exp(-r (h - s)) u(s) ds = h sum c_n w_n(r h / 2)`, where `w_n(a) = exp(-a) i_n(a)` and
 //! i_n is the modified spherical Bessel function of the first kind: from
 //! `2 i_n(a) = int exp(a x) P_n(x) dx` over (-1, 1) (Abramowitz and Stegun, Handbook of
@@ -68,7 +68,7 @@ pub(crate) fn value(series: &[f64], x: f64) -> f64 {
 /// less than two digits.
 const LARGE: f64 = 60.0;
 
-/// Terms above [`TERMS`] at which the downward recurrence starts: what is wrong at the start has
+/// Terms above [`TERMS`] at which the downward recurrence starts: the error at the start has
 /// decayed by `exp(-n^2 / a)`, 1e-40 at [`LARGE`].
 const MARGIN: usize = 60;
 

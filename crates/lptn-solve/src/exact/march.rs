@@ -1,4 +1,4 @@
-//! From row to row: every part of a network answers to the inputs of a panel in closed form.
+//! From row to row: every part of a network responds to the inputs of a panel in closed form.
 
 use lptn_network::InputError;
 
@@ -9,13 +9,13 @@ use super::modal::Modal;
 use super::reduced::Reduced;
 use super::spectrum::{Island, groups};
 
-/// What the series in place of the inputs may cost, in K.
+/// Allowed error of the series instead of the inputs, in K.
 const TARGET: f64 = 1e-10;
 
 /// Panels in all; more are a sign of an input that no series follows.
 const MOST_PANELS: u64 = 5_000_000;
 
-/// Panels at least, where a series stands for an input.
+/// Fewest panels, if a series represents an input.
 const LEAST_PANELS: f64 = 300.0;
 
 /// States that are joined to each other and to no others.
@@ -64,7 +64,7 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// The most that heat into each state in W for `duration` in s can do to one of them.
+    /// The largest effect of heat into each state in W for `duration` in s on one of them.
     fn largest_rise(&self, duration: f64, heat: &[f64]) -> f64 {
         match self {
             Self::Modal(part) => part.largest_rise(duration, heat),
@@ -73,7 +73,7 @@ impl<'a> Part<'a> {
     }
 }
 
-/// What one unit of an input's error can do to a temperature.
+/// Effect of one unit of an input's error on a temperature.
 #[derive(Clone, Copy)]
 struct Gain {
     /// K per unit that lasts.
@@ -89,7 +89,7 @@ pub(crate) struct March<'a> {
     gains: Vec<Gain>,
     duration: f64,
     panels: u64,
-    /// No panel is longer where a series stands for an input: what is between its points might be
+    /// No panel is longer if a series represents an input: changes between its points might be
     /// missed.
     longest: f64,
     /// Largest error of the series so far, in K: that of panels on which it lasts, and the sum of
@@ -143,8 +143,8 @@ impl<'a> March<'a> {
         self.inputs.at(time)
     }
 
-    /// What series in place of inputs may have cost so far, in K; `None` where every input is
-    /// constant or a straight line, so that there is no such error.
+    /// Error of the series instead of the inputs so far, in K; `None` if every input is constant or
+    /// a straight line, so that there is no such error.
     pub(crate) fn series_error(&self) -> Option<f64> {
         self.inputs.need_quadrature().then_some(self.lasting + self.summed)
     }
@@ -168,8 +168,8 @@ impl<'a> March<'a> {
         Ok(())
     }
 
-    /// Whether the series are good enough: they cost little however long, or so little in this
-    /// short time.
+    /// True if the series are good enough: their error is small for any duration, or very small
+    /// over this short time.
     fn accepts(&mut self, panel: &Panel, length: f64) -> bool {
         if length > self.longest {
             return false;
@@ -189,14 +189,14 @@ impl<'a> March<'a> {
         true
     }
 
-    /// Forgets everything that a boundary takes: a start from which a cycle shows what it brings.
-    /// Cycles are asked of networks without streams.
+    /// Forgets everything that a boundary takes: from this start the effect of a cycle shows. It is
+    /// for networks without streams only.
     pub(crate) fn forget(&mut self) {
         self.modal().for_each(Modal::forget);
     }
 
-    /// After a cycle of `period` in s from [`March::forget`]: the amplitudes that it leads back to.
-    /// With what the cycle brings, c, they obey `y = exp(-r period) y + c`.
+    /// The amplitudes that a cycle of `period` in s leads back to, after one cycle from
+    /// [`March::forget`]. With the effect c of the cycle, they obey `y = exp(-r period) y + c`.
     pub(crate) fn repeat(&mut self, period: f64) {
         self.modal().for_each(|part| part.repeat(period));
     }
@@ -213,7 +213,7 @@ impl<'a> March<'a> {
         })
     }
 
-    /// How many states go on by the exponential of a matrix, and what rounding made of them in K.
+    /// Number of states that advance by the exponential of a matrix, and their rounding in K.
     pub(crate) fn carried(&self) -> (usize, f64) {
         let carried = self.parts.iter().filter_map(|part| match part {
             Part::Modal(_) => None,
@@ -229,10 +229,9 @@ impl<'a> March<'a> {
         sum
     }
 
-    /// What is wrong with the modes and matrices, in K: the rates of change that they give at `time`
-    /// are put into the heat balance of every node, path by path, and what is left over is taken as
-    /// heat that lasts for the whole run. An eigenvector or a rate that is off shows here, whatever
-    /// the reason.
+    /// Error of the modes and matrices, in K. Their rates of change at `time` are put into the heat
+    /// balance of every node, path by path. The residual counts as heat that lasts for the whole
+    /// run. An eigenvector or a rate that is off shows here, whatever the reason.
     pub(crate) fn defect(&mut self, time: f64) -> Result<f64, InputError> {
         let inputs = self.inputs.at(time)?;
         let rises = self.rises();

@@ -47,7 +47,7 @@ pub struct ExactSolution {
     rounding: f64,
 }
 
-/// Where two solutions of one network differ most.
+/// The largest difference of two solutions of one network.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
     /// Largest absolute difference in K.
@@ -65,40 +65,39 @@ pub(crate) const MERGE: &str = "merge the nodes that the largest conductances jo
 const CONSTANTS: &str = "only a network of constants has modes; `lptn run` follows it over time";
 
 lptn_units::errors! {
-/// Why a network has no exact solution, or no modes.
+/// Reason why a network has no exact solution, or no modes.
 #[derive(Clone, Debug)]
 pub enum ExactError {
-    /// More nodes than dense matrices are for.
+    /// More nodes than dense matrices can handle.
     TooLarge { nodes: usize } = "modes::too_large",
         format!("{nodes} nodes are more than the {} that are solved by modes", Reduced::MOST_NODES),
         help "lump nodes until there are at most 2000, or let `lptn run` show how long each node \
             takes";
-    /// The times are none, do not increase, or begin before the start.
+    /// There are no times, they do not increase, or they begin before the start.
     Times = "exact::times", "the times must increase and begin at the start or after it";
     /// A source or boundary has no value.
     Input => InputError;
     /// A constant has no value.
     Value(error: EvalError) = "solve::input", error, source error, help Problem::help(error);
-    /// It is not linear with constant coefficients; the name of the first item that makes it so.
+    /// It is not linear with constant coefficients; the name of the first such item.
     NotLinear { name: String } = "exact::not_linear",
         format!("`{name}` makes the network more than constant capacities and conductances"),
         help CONSTANTS;
-    /// It switches at times that are not known beforehand; the name of the first control or
-    /// comparison.
+    /// It switches at times not known in advance; the name of the first control or comparison.
     Switches { name: String } = "exact::switches",
         format!("`{name}` switches at times that depend on the temperatures"), help CONSTANTS;
-    /// The conductances of the massless nodes span more than the numbers can hold.
+    /// The conductances of the massless nodes span more than doubles can represent.
     Singular = "exact::singular",
         "the conductances of the massless nodes span more than floating-point numbers can",
         help MERGE, class Class::Numbers;
-    /// Rates of nodes that streams join span more than the numbers can hold.
+    /// Rates of nodes that streams join span more than doubles can represent.
     Rates = "exact::singular",
         "the rates of the nodes that streams join span more than floating-point numbers can",
         help MERGE, class Class::Numbers;
     /// The eigenvalues were not found.
     Modes = "exact::modes", "the eigenvalues of the network were not found", help MERGE,
         class Class::Numbers;
-    /// An input changes too fast for any series; where the attempt was given up, in s.
+    /// An input changes too fast for any series; the time in s at which the attempt was given up.
     Quadrature { time: f64 } = "exact::quadrature",
         format!("an input changes too fast at {time} s to be integrated"), help MERGE,
         class Class::Numbers;
@@ -159,34 +158,35 @@ impl ExactSolution {
         (0..self.times.len()).map(|row| self.row(row)[node.index()]).collect()
     }
 
-    /// Number of nodes with capacity, which is the number of modes where no stream flows.
+    /// Number of nodes with capacity, which is the number of modes if no stream flows.
     pub fn states(&self) -> usize {
         self.states
     }
 
-    /// How many of them streams join: they are solved by the exponential of a matrix, the others by
-    /// modes.
+    /// Number of them that streams join: they are solved by the exponential of a matrix, the others
+    /// by modes.
     pub fn carried(&self) -> usize {
         self.carried
     }
 
-    /// What integrating inputs that are neither constant nor straight may have cost, in K; `None`
-    /// where there are none, so that everything is in closed form.
+    /// Error of integrating inputs that are neither constant nor straight, in K; `None` if there
+    /// are none, so that everything is in closed form.
     pub fn quadrature_error(&self) -> Option<f64> {
         self.quadrature
     }
 
-    /// An estimate of its own error in K: quadrature and rounding. The latter is what the modes
-    /// miss of the start, a few units in the last place of a temperature, and what is left over
-    /// when the rates of change that the modes give are put into the heat balance of every node at
-    /// some 32 of the rows after the start, taken as heat that lasts for the whole run. Where streams
-    /// flow, also how far apart two ways of the matrix exponential come, by steps of a row and of a
-    /// third of it.
+    /// An estimate of its own error in K: quadrature and rounding. The latter is the miss of the
+    /// modes at the start, a few units in the last place of a temperature, and a residual. For it,
+    /// the rates of change of the modes are put into the heat balance of every node at some 32 of
+    /// the rows after the start. The rest counts as heat that lasts for the whole run. With
+    /// streams, it adds the distance of two ways of the matrix exponential, by steps of a row and
+    /// of a third of it.
     pub fn own_error(&self) -> f64 {
         self.quadrature.unwrap_or(0.0) + self.rounding
     }
 
-    /// Where a run differs most from this; `None` unless it kept every node and has these times.
+    /// The largest difference of a run from this; `None` unless it recorded every node at these
+    /// times.
     pub fn difference(&self, solution: &Solution) -> Option<Difference> {
         let same = solution.recorded().len() == self.nodes && solution.times() == self.times;
         same.then(|| Difference::largest(solution, |row| self.row(row))).flatten()
@@ -194,7 +194,7 @@ impl ExactSolution {
 }
 
 impl Difference {
-    /// The largest difference between the rows of a run that kept every node and those of a
+    /// The largest difference between the rows of a run that recorded every node and those of a
     /// reference; `None` for a run without rows.
     pub(crate) fn largest<'a>(
         solution: &Solution,
@@ -211,13 +211,13 @@ impl Difference {
         Some(found)
     }
 
-    /// Nothing seen yet of so many nodes.
+    /// No difference seen yet, of this number of nodes.
     pub(crate) fn unseen(node: NodeId, time: f64, nodes: usize) -> Self {
         Self { largest: -1.0, node, time, by_node: vec![0.0; nodes] }
     }
 
-    /// Takes note of the difference in K of a node, the so manieth of those compared; in total
-    /// order, so that one that is not a number is larger than any.
+    /// Takes in the difference in K of a node, at `place` among those compared; in total order, so
+    /// that a NaN is larger than any number.
     pub(crate) fn see(&mut self, (place, node): (usize, NodeId), time: f64, difference: f64) {
         let most = &mut self.by_node[place];
         if difference.total_cmp(most).is_gt() {
@@ -238,7 +238,7 @@ fn usual(start: f64, times: &[f64]) -> f64 {
     distances.get(distances.len() / 2).copied().unwrap_or(1.0)
 }
 
-/// Rows, about, at which the modes are put to the test.
+/// Approximate number of rows at which the modes are tested.
 const DEFECTS: usize = 31;
 
 /// The rows, written in order.
@@ -255,7 +255,7 @@ struct Rows<'a> {
     nodes: usize,
     /// Largest rise so far.
     span: f64,
-    /// What the modes miss of the start, and their largest defect so far, in K.
+    /// Miss of the modes at the start, and their largest defect so far, in K.
     missed: f64,
     defect: f64,
 }
@@ -332,15 +332,15 @@ impl<'a> Rows<'a> {
         Ok(())
     }
 
-    /// Whether the modes are put to the test at the next row, which is at `time`. Not at the start:
-    /// rounding of rates of change that are gone at once would count as heat that lasts. What is
-    /// left of them shows at the second row.
+    /// True if the modes are tested at the next row, which is at `time`. The start is not tested:
+    /// rates of change that vanish at once would count, by their rounding, as heat that lasts. The
+    /// rest of them shows at the second row.
     fn is_tested(&self, time: f64) -> bool {
         let regular = self.next.is_multiple_of(self.times.len() / DEFECTS + 1);
         time > self.begin && (regular || self.next == 1 || self.next + 1 == self.times.len())
     }
 
-    /// Compares the start as the modes have it with what it is.
+    /// Compares the start of the modes with the actual one.
     fn start(&mut self, march: &March<'_>) {
         let found = march.rises();
         let missed = found.iter().zip(&self.rises).map(|(a, b)| (a - b).abs());

@@ -1,11 +1,11 @@
-//! An island without streams between its nodes: every mode answers by itself in closed form.
+//! An island without streams between its nodes: every mode responds by itself in closed form.
 
 use super::inputs::Panel;
 use super::legendre::{TERMS, responses};
 use super::reduced::Reduced;
 use super::spectrum::Island;
 
-/// An island with what the inputs do to its modes.
+/// An island with the effects of the inputs on its modes.
 pub(crate) struct Modal {
     island: Island,
     /// Mode (row) per unit of each input (column).
@@ -51,7 +51,7 @@ impl Modal {
         }
     }
 
-    /// Forgets everything that a boundary takes: a start from which a cycle shows what it brings.
+    /// Forgets everything that a boundary takes: from this start the effect of a cycle shows.
     pub(crate) fn forget(&mut self) {
         let forgetful = self.island.rates.iter().zip(&mut self.amplitude);
         forgetful.filter(|(rate, _)| **rate > 0.0).for_each(|(_, y)| *y = 0.0);
@@ -75,7 +75,7 @@ impl Modal {
         self.superpose(sum, |k| self.amplitude[k]);
     }
 
-    /// The rates of change that the modes give.
+    /// The rates of change of the modes.
     pub(crate) fn add_slopes(&self, inputs: &[f64], sum: &mut [f64]) {
         self.superpose(sum, |k| {
             let heat: f64 = self.drive[k].iter().zip(inputs).map(|(f, u)| f * u).sum();
@@ -83,7 +83,7 @@ impl Modal {
         });
     }
 
-    /// The modes times what `value` gives for each.
+    /// Adds the modes times `value` of each.
     fn superpose(&self, sum: &mut [f64], value: impl Fn(usize) -> f64) {
         for k in 0..self.amplitude.len() {
             let y = value(k);
@@ -93,7 +93,7 @@ impl Modal {
         }
     }
 
-    /// The most that heat into each state in W for `duration` can do to a member.
+    /// The largest effect of heat into each state in W for `duration` in s on a member.
     pub(crate) fn largest_rise(&self, duration: f64, heat: &[f64]) -> f64 {
         let mut weight = [0.0];
         let members = &self.island.members;

@@ -14,13 +14,13 @@ pub(crate) struct ExactCycle {
     pub(crate) temperatures: Vec<f64>,
     /// The part of a disturbance that one cycle leaves over: that of the slowest mode.
     pub(crate) multiplier: f64,
-    /// What rounding and series in place of inputs may have cost, in K.
+    /// Error of rounding and of the series instead of inputs, in K.
     pub(crate) error: f64,
 }
 
 impl ExactCycle {
-    /// The cycle from `start` on, both in s. What nothing carries away stays as the network's own
-    /// start has it.
+    /// The cycle from `start` on, both in s. A mean that nothing carries away stays at the
+    /// network's own start.
     pub(crate) fn solve(network: &Network, start: f64, period: f64) -> Result<Self, ExactError> {
         let stop = start + period;
         let breakpoints = network.breakpoints(start, stop)?;

@@ -1,13 +1,13 @@
-//! A network as its element list says it, massless nodes eliminated by dense algebra.
+//! A network read from its element list, massless nodes eliminated by dense algebra.
 //!
 //! Written apart from `lptn-assembly` on purpose: it reads the laws of the conductors and the parts
-//! of the nodes anew and eliminates with a Cholesky factorisation, where the assembly uses the
+//! of the nodes again and eliminates with a Cholesky factorisation, while the assembly uses the
 //! star-mesh transformation. With m the massless nodes, r the others, u the boundaries and g >= 0
-//! the conductances between two vertices, the balance of the massless nodes is
-//! `G_mm T_m = g_mr T_r + g_mu T_u + q_m`. Put into the balances of the others it adds
-//! `g_rm G_mm^-1 g_mr` to the conductances between them: sums and products of numbers that are not
-//! negative, so that nothing cancels. A stream of constant capacity rate is a conductance that only
-//! the node it flows into feels; with one `G_mm` is not symmetric, and LU takes Cholesky's place.
+//! the conductances between two vertices, the balance of the massless nodes is `G_mm T_m = g_mr
+//! T_r + g_mu T_u + q_m`. Put into the balances of the others it adds `g_rm G_mm^-1 g_mr` to the
+//! conductances between them: sums and products of numbers that are not negative, so that nothing
+//! cancels. A stream of constant capacity rate is a conductance that only the node it flows into
+//! feels; with one `G_mm` is not symmetric, and LU replaces Cholesky.
 
 use faer::Mat;
 use lptn_integrate::dense;
@@ -16,7 +16,7 @@ use lptn_units::EvalError;
 
 use super::ExactError;
 
-/// Nodes with capacity (states), what joins them, and what the inputs do to them. The inputs are
+/// Nodes with capacity (states), their links, and the effects of the inputs on them. The inputs are
 /// the boundaries, then the sources.
 #[derive(Clone, Debug)]
 pub(crate) struct Reduced {
@@ -25,7 +25,7 @@ pub(crate) struct Reduced {
     pub(crate) capacity: Vec<f64>,
     /// Conductances in W/K between states, `a < b`, positive.
     pub(crate) links: Vec<(usize, usize, f64)>,
-    /// What flows one way in W/K, beside the links: into the first state, from the second.
+    /// One-way flows in W/K in addition to the links: into the first state, from the second.
     pub(crate) streams: Vec<(usize, usize, f64)>,
     /// Heat into a state (row) per K of a boundary above it, or its share of a source (columns).
     pub(crate) feeds: Mat<f64>,
@@ -34,14 +34,14 @@ pub(crate) struct Reduced {
     pub(crate) recovery: Mat<f64>,
 }
 
-/// What the element list holds: conductances, and where the inputs act.
+/// Content of the element list: conductances, and where the inputs act.
 struct Elements {
     /// Heat into a node (row) per K of another; zero on the diagonal, symmetric without streams.
     among: Mat<f64>,
     /// For each node (row) conductances to the boundaries, then 1 for the sources that heat it.
     inputs: Mat<f64>,
     boundaries: usize,
-    /// Whether some stream flows between nodes.
+    /// True if some stream flows between nodes.
     streams: bool,
 }
 
@@ -57,7 +57,7 @@ impl Reduced {
         }
     }
 
-    /// The same, or one with streams of constant capacity rates too.
+    /// The same, or a network that also has streams of constant capacity rates.
     pub(crate) fn with_streams(network: &Network) -> Result<Self, ExactError> {
         let nodes = network.nodes().len();
         if nodes > Self::MOST_NODES {
@@ -142,7 +142,7 @@ impl Elements {
         Ok(Self { among, inputs, boundaries, streams })
     }
 
-    /// `G_mm^-1` times what the massless nodes (rows) get from each state and input (columns).
+    /// `G_mm^-1` times the conductances of massless nodes (rows) to states and inputs (columns).
     fn recovery(&self, massless: &[NodeId], states: &[NodeId]) -> Option<Mat<f64>> {
         let inputs = self.inputs.ncols();
         let given = Mat::from_fn(massless.len(), states.len() + inputs, |i, j| {
@@ -169,8 +169,8 @@ impl Elements {
         }
     }
 
-    /// Conductances between the states, and what the inputs do to them, with the massless nodes
-    /// gone.
+    /// Conductances between the states, and the effects of the inputs on them, without the massless
+    /// nodes.
     fn eliminate(
         &self,
         massless: &[NodeId],
@@ -208,7 +208,7 @@ fn capacities(network: &Network) -> Result<Vec<f64>, EvalError> {
     Ok(capacity)
 }
 
-/// Conductances between two states, of what each feels of the other.
+/// Conductances between two states, from the coupling in both directions.
 fn links(coupling: &Mat<f64>, both: fn(f64, f64) -> f64) -> Vec<(usize, usize, f64)> {
     let n = coupling.nrows();
     let pairs = (0..n).flat_map(|a| (a + 1..n).map(move |b| (a, b)));
@@ -218,7 +218,7 @@ fn links(coupling: &Mat<f64>, both: fn(f64, f64) -> f64) -> Vec<(usize, usize, f
         .collect()
 }
 
-/// What one state feels of another more than that of it.
+/// Excess of the coupling of one state to another over that in the other direction.
 fn streams(coupling: &Mat<f64>) -> Vec<(usize, usize, f64)> {
     let n = coupling.nrows();
     let pairs = (0..n).flat_map(|to| (0..n).map(move |from| (to, from)));

@@ -72,7 +72,7 @@ fn numbering(reduced: &Reduced) -> Vec<usize> {
     numbers
 }
 
-/// Modes slower than this share of the fastest are told apart anew: the eigenvectors of a dense
+/// Modes slower than this share of the fastest are separated again: the eigenvectors of a dense
 /// solver are right to rounding of the fastest rate over the distance of two rates.
 const SLOW: f64 = 1e-2;
 
@@ -133,11 +133,11 @@ impl Part {
         a
     }
 
-    /// Tells slow modes apart that the dense solver has mixed. Rounding mixes little of the fast
-    /// modes into the slow ones, as much as a rounding error, but slow ones among each other if
+    /// Separates slow modes that the dense solver has mixed. Rounding mixes little of the fast
+    /// modes into the slow ones, as much as a rounding error. It mixes slow ones with each other if
     /// their rates differ by less than rounding of the fastest. So `x' G x` of the slow ones,
-    /// summed over paths, where nothing fast is left that could drown them, is diagonalised by
-    /// itself; and again the slow ones among these, until one is left.
+    /// summed over paths and free of fast terms, is diagonalised by itself; and again the slow ones
+    /// among these, until one is left.
     fn sharpen(&self, vectors: &mut Mat<f64>) -> Result<(), ExactError> {
         let mut count = vectors.ncols();
         loop {
@@ -175,7 +175,7 @@ impl Part {
         sum
     }
 
-    /// The slowest mode of an island that nothing leaves is known: all at one temperature. The
+    /// The slowest mode of an island without an exit for heat is known: all at one temperature. The
     /// others are made orthogonal to it, so that they carry no heat to the last digit.
     fn take_out_the_mean(&self, vectors: &mut Mat<f64>) {
         let size = self.root.iter().map(|r| r * r).sum::<f64>().sqrt();
@@ -192,7 +192,7 @@ impl Part {
     }
 
     /// Rayleigh's quotient as a sum of the heat of every path: positive terms, so that slow modes
-    /// keep their digits beside fast ones, which the eigenvalues of a dense solver do not.
+    /// keep their digits next to fast ones, unlike the eigenvalues of a dense solver.
     fn rate(&self, shapes: &Mat<f64>, k: usize) -> f64 {
         let x = |i: usize| shapes[(i, k)];
         let links: f64 =

@@ -1,14 +1,14 @@
-//! `exp(Z)` and the answers to Legendre polynomials for a matrix of small norm, by power series.
+//! `exp(Z)` and the responses to Legendre polynomials for a matrix of small norm, by power series.
 //!
-//! What a constant input leaves behind is `phi_1(Z) = sum Z^j / (j + 1)!`, and what `P_n(x)`, x from
-//! -1 to 1 over a panel, leaves behind is its sibling
+//! The effect of a constant input is `phi_1(Z) = sum Z^j / (j + 1)!`. That of `P_n(x)`, x from -1
+//! to 1 over a panel, is its sibling
 //!
 //! `W_n(Z) = 1/2 int exp(Z (1 - x) / 2) P_n(x) dx = sum_j (-1)^n j! / ((j - n)! (j + n + 1)!) Z^j`
 //!
 //! from `int_0^1 s^j P_n(2 s - 1) ds = j!^2 / ((j - n)! (j + n + 1)!)` (Rodrigues' formula and the
 //! beta integral), zero for j < n. `W_0` is `phi_1` and `W_1` is `2 phi_2 - phi_1` (phi functions:
-//! Hochbruck and Ostermann, Acta Numerica 19 (2010) 209, section 2); of a number -2a it is
-//! `exp(-a) i_n(a)`, what a mode does.
+//! Hochbruck and Ostermann, Acta Numerica 19 (2010) 209, section 2); of a number -2a it is `exp(-a)
+//! i_n(a)`, the response of a mode.
 
 use faer::{Mat, MatRef};
 use lptn_integrate::dense;
@@ -18,7 +18,7 @@ use super::legendre::TERMS;
 /// The largest norm of a matrix that the series are for.
 pub(crate) const SMALL: f64 = 1.0 / 16.0;
 
-/// The last power: what is left out is 4e-19 of the first power.
+/// The last power: the omitted terms are 4e-19 of the first power.
 const POWERS: usize = 10;
 
 /// `exp(Z) R`

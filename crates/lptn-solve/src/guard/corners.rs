@@ -1,4 +1,4 @@
-//! Kinks over temperature: where the heat bends within a step by more than the tolerance bears.
+//! Kinks over temperature: the heat bends within a step by more than the tolerance allows.
 
 use lptn_assembly::{JacobianForm, ThermalSystem};
 use lptn_integrate::{OdeSystem, Step};
@@ -12,10 +12,10 @@ const SAMPLES: usize = 7;
 /// The share of the tolerance by which a kink within a step may disturb a temperature.
 const BORNE: f64 = 0.25;
 
-/// A kink so near to the start of a step, as a share of it, is at its start.
+/// A kink nearer to the start of a step than this share of it is at its start.
 const AT_START: f64 = 0.02;
 
-/// A kink is borne by steps that are shorter by this factor at most, rather than met.
+/// A kink is met exactly if the steps would have to be shorter than by this factor.
 const SHORTER: f64 = 0.125;
 
 /// Halvings in search of a kink.
@@ -32,12 +32,12 @@ pub(super) struct Corners {
     tolerance: f64,
 }
 
-/// Where the heat bends.
+/// The position of a bend of the heat.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Bend {
-    /// Within the step, which has to end there, or be so short.
+    /// Within the step, which has to end there, or be at most this long in s.
     In { kink: f64, longest: f64 },
-    /// Just behind it.
+    /// Just after it.
     Behind,
 }
 
@@ -63,25 +63,24 @@ impl Corners {
         self.elements.is_empty()
     }
 
-    /// Takes the pieces of the state that was looked at last.
+    /// Takes the pieces of the state that was evaluated last.
     pub(super) fn begin(&mut self, heat: &mut Heat<'_>) {
         for (&element, pieces) in self.elements.iter().zip(&mut self.pieces) {
             *pieces = heat.pieces(element);
         }
     }
 
-    /// The step that was looked at last stands.
+    /// The last step is accepted.
     pub(super) fn accept(&mut self) {
         self.pieces.copy_from_slice(&self.ahead);
     }
 
-    /// Whether an element goes through another piece at the end of the step that was looked at last
-    /// than at its start.
+    /// True if an element is in another piece at the end of the last step than at its start.
     pub(super) fn has_changed(&self) -> bool {
         self.pieces != self.ahead
     }
 
-    /// Where the heat bends within the step whose end was looked at last, if it does.
+    /// The bend of the heat within the step whose end was evaluated last, if there is one.
     pub(super) fn bend(
         &mut self,
         integrator: &mut Stepping<'_>,
@@ -116,9 +115,9 @@ impl Corners {
         })
     }
 
-    /// By how much the bends of some elements disturb a temperature, in K, if they were not seen:
-    /// those around the start of the step, within it and around its end. From the fourth
-    /// differences of their heat, which are small where it is smooth.
+    /// Disturbance of a temperature by the bends of some elements, in K, if they were missed:
+    /// around the start of the step, within it and around its end. It follows from the fourth
+    /// differences of their heat, which are small if it is smooth.
     fn disturbance(
         &self,
         integrator: &mut Stepping<'_>,
@@ -135,7 +134,7 @@ impl Corners {
         let mut capacity = self.capacity.clone();
         let mut found = fourth_differences(&heats, (length, &capacity));
         if found.iter().any(|d| *d > BORNE * self.tolerance) {
-            // what a vertex gives off meanwhile
+            // heat that a vertex gives off during the step
             heat.add_slopes(length, &mut capacity);
             found = fourth_differences(&heats, (length, &capacity));
         }
@@ -212,7 +211,7 @@ fn fourth_differences(heats: &[Vec<f64>], (length, capacity): (f64, &[f64])) -> 
 }
 
 impl Heat<'_> {
-    /// Adds to the capacity of every node in J/K the heat that it gives off in so many s, per K.
+    /// Adds to the capacity of every node in J/K the heat per K that it gives off in `length` s.
     fn add_slopes(&mut self, length: f64, capacity: &mut [f64]) {
         let pattern = self.pattern().clone();
         let mut values = vec![0.0; pattern.len()];

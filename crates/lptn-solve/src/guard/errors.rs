@@ -1,26 +1,26 @@
-//! How an error of one state grows by itself, and how massless nodes magnify it.
+//! Growth of an error of one state by itself, and its magnification by massless nodes.
 //!
-//! Where a node loses the less heat the warmer it is, its error grows at its own rate, be the rest
-//! of the network as fast as it likes: the largest speed ([`growth`](crate::growth)) tells nothing
-//! of it then. In a network in which heat flows from warm to cold the errors grow at least as fast
-//! as the largest of these rates, and in one that comes to rest none of them is positive.
+//! If a node loses less heat when it is warmer, its error grows at its own rate, however fast the
+//! rest of the network is. The largest speed ([`growth`](crate::growth)) does not show it then. In
+//! a network in which heat flows from warm to cold the errors grow at least as fast as the largest
+//! of these rates, and in one that comes to rest none of them is positive.
 //!
 //! This takes a Jacobian, 40 % of a step of 400 nodes. It is therefore evaluated only if a kink was
 //! passed or a temperature becomes faster, and in every 16th step, or every 4th if something turns.
-//! Where the form of the network tells that no error grows it is not evaluated at all.
+//! If the form of the network excludes a growth of errors it is not evaluated at all.
 
 use lptn_assembly::{JacobianForm, ThermalSystem};
 use lptn_integrate::{OdeSystem, Pattern};
 
 use crate::heat::Heat;
 
-/// A massless node magnifies no more than this: where more would come out it is about to leap.
+/// A massless node magnifies no more than this: beyond it the node is about to jump.
 const MOST: f64 = 100.0;
 
-/// Where nothing asks for it, every so many steps are looked at: the first where something turns.
+/// Every 4th step is evaluated if something turns, else every 16th, if nothing asks for it.
 const SELDOM: [usize; 2] = [4, 16];
 
-/// A temperature whose speed grows by more than this in a step asks for it, where something turns.
+/// If something turns, a speed that grows by more than this in a step asks for an evaluation.
 const FASTER: f64 = 1.02;
 
 /// The growth of the error of each state, as far as it is that state's own.
@@ -31,15 +31,15 @@ pub(super) struct Errors {
     /// State, massless node that is solved for, and the slots in which each receives heat by the
     /// other's temperature.
     pairs: Vec<(usize, usize, [usize; 2])>,
-    /// At what rate each error grows, in 1/s, and the slope of each temperature over its state.
+    /// Rate of growth of each error, in 1/s, and the slope of each temperature over its state.
     rates: Vec<f64>,
     slopes: Vec<f64>,
-    /// By how much each error has grown since it was smallest, and the most of it.
+    /// Growth of each error since it was smallest, and its maximum.
     now: Vec<f64>,
     most: f64,
     /// The speeds of all vertices in the last step in K/s.
     speeds: Vec<f64>,
-    /// Whether something grew or was magnified when it was looked at last, and steps since then.
+    /// True if something grew or was magnified in the last evaluation, and steps since then.
     grows: bool,
     unseen: usize,
     /// Time since then in s.
@@ -83,14 +83,14 @@ impl Errors {
         }
     }
 
-    /// By how much an error has grown at most.
+    /// The largest growth of an error.
     pub(super) fn most(&self) -> f64 {
         self.most
     }
 
-    /// Takes in a step of so many s between temperatures of all vertices, and whether anything turns
-    /// and whether a kink was passed; tells whether its end has to be looked at. Where errors grow a
-    /// temperature becomes faster sooner or later, or a kink was passed.
+    /// Takes in a step of `length` in s between temperatures of all vertices. The flags say if
+    /// anything turns and if a kink was passed. Returns true if its end has to be evaluated. If
+    /// errors grow, a temperature becomes faster sooner or later, or a kink was passed.
     pub(super) fn goes_on(
         &mut self,
         [before, after]: [&[f64]; 2],
@@ -105,7 +105,7 @@ impl Errors {
         self.grows || changed || turns && faster || self.unseen >= SELDOM[usize::from(!turns)]
     }
 
-    /// Takes in the state that was looked at last.
+    /// Takes in the state that was evaluated last.
     pub(super) fn step(&mut self, heat: &mut Heat<'_>) {
         if heat.jacobian_here(JacobianForm::Exact, &mut self.values).is_err() {
             return;

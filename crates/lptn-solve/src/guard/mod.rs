@@ -1,14 +1,13 @@
-//! What depends on temperature is looked at after each step and before the next.
+//! Laws that depend on temperature are checked after each step and before the next.
 //!
 //! The integrator sees a law at the ends of its steps. A peak of a table over temperature that has
 //! passed by the end of a step was never evaluated, and a kink inside a step leaves an error that
-//! the integrator's own estimate takes for a smaller one. So, as with what curves over time
-//! (`curved.rs`),
+//! the integrator underestimates. So, as with inputs that curve over time (`curved.rs`),
 //!
-//! - no step carries what an expression reads past a place where the expression turns (`turns.rs`),
+//! - no step carries the variables of an expression past a point where it turns (`turns.rs`),
 //!   and
-//! - where the heat bends within a step by more than the tolerance bears, the run goes back to the
-//!   start of the step, ends a step at the kink and begins anew there (`corners.rs`).
+//! - if the heat bends within a step by more than the tolerance allows, the run goes back to the
+//!   start of the step, ends a step at the kink and restarts there (`corners.rs`).
 //!
 //! Networks without tables, kinks and functions that turn have no guard.
 //!
@@ -33,49 +32,49 @@ use turns::Turns;
 /// An integrator on the way.
 pub(crate) type Stepping<'a> = dyn Integrator<Heat<'a>> + 'a;
 
-/// So many times in a row a step is taken back at most.
+/// Most attempts in a row of one step.
 const ATTEMPTS: usize = 40;
 
-/// Steps are not held shorter than this share of the time.
+/// Steps are not limited to less than this share of the time.
 const ROUNDING: f64 = 512.0 * f64::EPSILON;
 
-/// By how much a step that was held short may grow from one to the next.
+/// Growth of a limited step from one to the next.
 const GROWTH: f64 = 1.5;
 
-/// The part of a step over which the rates at its end are taken, where something turns within so
-/// many steps.
+/// The part of a step over which the rates at its end are taken, if something turns within `NEAR`
+/// steps.
 const END: f64 = 0.05;
 const NEAR: f64 = 4.0;
 
-/// A guard of what depends on temperature.
+/// A guard of laws that depend on temperature.
 pub(crate) struct Guard {
     corners: Corners,
     turns: Turns,
     errors: Option<Errors>,
     /// True if the error of a state may grow by itself.
     grow: bool,
-    /// Temperatures of all vertices at the start of the next step in K, and how they change in K/s.
+    /// Temperatures of all vertices at the start of the next step in K, and their rates in K/s.
     now: Vec<f64>,
     rates: Vec<f64>,
-    /// Where the next step has to end at the latest, because a kink is there, in s.
+    /// Latest end of the next step in s, because a kink is there.
     kink: f64,
-    /// How long it may be, in s.
+    /// Longest next step in s.
     longest: f64,
-    /// Whether the integrator has begun anew there.
+    /// True if the integrator has restarted there.
     fresh: bool,
     /// Length of the last step in s; 0 if there is none.
     last: f64,
     attempts: usize,
-    /// When a step first stood that should have been taken back, in s.
+    /// The first time in s at which a step was accepted that should have been taken back.
     unresolved: Option<f64>,
 }
 
-/// What is to be done about a step.
+/// Verdict on a step.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(crate) enum Verdict {
-    /// It stands.
+    /// It is accepted.
     Stands,
-    /// It stands, and the integrator has to begin anew at its end.
+    /// It is accepted, and the integrator has to restart at its end.
     BeginsAnew,
     /// It has to be taken back.
     Back,
@@ -103,7 +102,7 @@ impl Guard {
         })
     }
 
-    /// Looks at the state in which the integrator begins, anew or for the first time.
+    /// Evaluates the state in which the integrator starts or restarts.
     pub(crate) fn begin(&mut self, integrator: &mut Stepping<'_>) {
         let (time, state) = (integrator.time(), integrator.state().to_vec());
         self.fresh = true;
@@ -119,14 +118,14 @@ impl Guard {
         if let Some(temperatures) = heat.look(time, &state) {
             self.now.copy_from_slice(temperatures);
             self.corners.begin(heat);
-            // of a single state the speed tells all
+            // for a single state its speed suffices
             if self.grow && heat.pattern().size() > 1 {
                 self.errors.get_or_insert_with(|| Errors::of(heat)).step(heat);
             }
         }
     }
 
-    /// When the next step has to end at the latest, in s.
+    /// Latest end of the next step in s.
     pub(crate) fn end_of_step(&mut self, integrator: &mut Stepping<'_>) -> f64 {
         let time = integrator.time();
         let mut longest = self.longest;
@@ -135,26 +134,26 @@ impl Guard {
             let scope = integrator.system_mut().scope();
             longest = longest.min(self.turns.longest(course, scope));
         }
-        // the integrator takes a stop that is nearer than its own rounding for reached
+        // the integrator treats a stop that is nearer than its own rounding as reached
         self.kink.min(time + longest).max(time + ROUNDING * time.abs())
     }
 
-    /// Whether something was so narrow that steps would have passed it whole.
+    /// True if something was so narrow that steps would have passed it whole.
     pub(crate) fn met_narrow(&self) -> bool {
         self.turns.were_narrow()
     }
 
-    /// By how much the error of a single state has grown at most.
+    /// The largest growth of the error of a single state.
     pub(crate) fn grown(&self) -> f64 {
         self.errors.as_ref().map_or(1.0, Errors::most)
     }
 
-    /// When the guard first gave up on a step, in s.
+    /// The time in s at which the guard first gave up on a step.
     pub(crate) fn unresolved(&self) -> Option<f64> {
         self.unresolved
     }
 
-    /// What is to be done about the step that was taken last.
+    /// Verdict on the step that was taken last.
     pub(crate) fn judge(&mut self, integrator: &mut Stepping<'_>, step: &Step) -> Verdict {
         let length = step.to - step.from;
         let state = integrator.state().to_vec();

@@ -1,4 +1,4 @@
-//! The guard along courses that are written down.
+//! The guard along given time histories.
 #![allow(
     clippy::unwrap_used,
     clippy::float_cmp,
@@ -16,7 +16,7 @@ const BELL: &str = "100 [W] + 1e-3 [W] * exp(-((T - absolute(340 [K])) / 2 [K])^
 /// A kink at 310 K, of 10 W/K.
 const KINK: &str = "10 [W/K] * max(T - absolute(310 [K]), 0 [K])";
 
-/// A body of 100 J/K with a heat along a course, guarded to a tolerance in K from 0 s on.
+/// A body of 100 J/K with a heat along a time history, guarded to a tolerance in K from 0 s on.
 fn guarded<T>(
     heat: &str,
     (tolerance, course): (f64, impl Fn(f64) -> f64 + 'static),
@@ -58,7 +58,7 @@ fn the_first_step_ends_where_the_bell_is_at_the_rate_of_the_start() {
     });
 }
 
-/// Behind a step the rates are those of the step, and of its last twentieth if something turns
+/// After a step the rates are those of the step, and of its last twentieth if something turns
 /// within the next four.
 #[test]
 fn the_next_step_is_as_long_as_the_last_one_tells() {
@@ -103,7 +103,7 @@ fn a_step_past_a_turn_is_taken_back() {
     });
 }
 
-/// What is held short grows by a half from step to step.
+/// A limited step grows by a half from step to step.
 #[test]
 fn a_step_that_was_held_short_grows_by_a_half() {
     guarded(BELL, (1e-3, |t| 300.0 + 1e-3 * t), |guard, integrator| {
@@ -119,7 +119,7 @@ fn a_step_that_was_held_short_grows_by_a_half() {
     });
 }
 
-/// The kink is met at 10 s: the step is taken back, ends there, and the integrator begins anew.
+/// The kink is met at 10 s: the step is taken back, ends there, and the integrator restarts.
 #[test]
 fn a_kink_ends_a_step_and_begins_the_next() {
     guarded(KINK, (1e-3, |t| 300.0 + t), |guard, integrator| {
@@ -138,7 +138,7 @@ fn a_kink_ends_a_step_and_begins_the_next() {
         let step = integrator.goes_to(15.0);
         assert_eq!(guard.judge(integrator, &step), Verdict::Stands);
     });
-    // one that is given up on tells when
+    // a step that is given up on gives its time
     guarded(KINK, (1e-3, |t| 300.0 + t), |guard, integrator| {
         let step = integrator.goes_to(20.0);
         for _ in 0..40 {
@@ -147,7 +147,7 @@ fn a_kink_ends_a_step_and_begins_the_next() {
         assert_ne!(guard.judge(integrator, &step), Verdict::Back);
         assert_eq!(guard.unresolved(), Some(0.0));
     });
-    // a kink that is behind is forgotten
+    // a kink that was passed is forgotten
     guarded(KINK, (1e-3, |t| 300.0 + t), |guard, integrator| {
         guard.kink = 5.0;
         guard.begin(integrator);
@@ -158,8 +158,8 @@ fn a_kink_ends_a_step_and_begins_the_next() {
     });
 }
 
-/// Errors are followed where there are several states: the heat of the first rises by 3 W/K where
-/// 2 W/K are lost.
+/// Errors are followed if there are several states: the heat of the first rises by 3 W/K where 2
+/// W/K are lost.
 #[test]
 fn errors_of_single_states_are_followed() {
     let heats = [(100.0, "3 [W/K] * (T - absolute(300 [K]))"), (100.0, KINK)];
@@ -176,7 +176,7 @@ fn errors_of_single_states_are_followed() {
     guarded(KINK, (1e-3, |t| 300.0 + t), |guard, _| near(guard.grown(), 1.0, 0.0));
 }
 
-/// Of a single state the speed tells how its error grows, so that the guard does not.
+/// The speed of a single state shows how its error grows, so that the guard does not follow it.
 #[test]
 fn errors_of_a_single_state_are_left_to_its_speed() {
     let heat = "3 [W/K] * (T - absolute(300 [K])) + 1e-3 [W/K] * max(T - absolute(390 [K]), 0 [K])";
@@ -219,7 +219,7 @@ fn a_later_step_past_a_turn_is_taken_back_as_far() {
     });
 }
 
-/// A step without a length tells nothing of how fast temperatures change.
+/// A step without a length does not show how fast temperatures change.
 #[test]
 fn a_step_without_a_length_keeps_the_rates() {
     guarded(BELL, (1e-3, |t| 300.0 + t + 0.01 * t * t), |guard, integrator| {

@@ -1,27 +1,26 @@
-//! Places where an expression of temperatures turns: no step goes past one unseen.
+//! Turning points of expressions of temperatures: no step goes past one undetected.
 
 use lptn_assembly::ThermalSystem;
 use lptn_network::{Evaluation, Network, Reader};
 
-/// How far to both sides of a temperature turns are looked for, in K, and as a share of it where it
-/// is far from all that a machine has.
+/// Range of the search for turns to both sides of a temperature, in K, and as a share of it if it
+/// is far from usual temperatures.
 const AROUND: f64 = 100.0;
 const FAR: f64 = 0.3;
 
-/// The narrowest that is looked for there, in K.
+/// The narrowest turn that is searched for there, in K.
 const NARROWEST: f64 = 1e-3;
 
-/// What changes by less than this in the next steps, in K, passes nothing.
+/// Temperatures that change by less than this in the next steps, in K, pass nothing.
 const STILL: f64 = 0.01;
 
-/// The longest way of a temperature in the first step, in K, if something else than one number is
-/// read.
+/// The longest way of a temperature in the first step, in K, if more than one number is read.
 const FIRST: f64 = 5.0;
 
-/// How many times as long as the last step the next may be there ..
+/// Longest next step there, over the last one.
 const LONGER: f64 = 2.0;
 
-/// .. and how much further is looked.
+/// Range of the search, over that step.
 const FURTHER: f64 = 1.5;
 
 /// The expressions that turn.
@@ -32,21 +31,21 @@ pub(super) struct Turns {
     families: Vec<Family>,
     /// All others.
     several: Vec<Reader>,
-    /// Whether a step as long as the one before would have passed a turn whole.
+    /// True if a step as long as the one before would have passed a turn whole.
     narrow: bool,
 }
 
-/// Where the expressions of a family turn.
+/// Turns of the expressions of a family.
 #[derive(Clone, Debug)]
 struct Family {
     reader: Reader,
-    /// Looked at from here to there.
+    /// Searched from here to there.
     range: [f64; 2],
     /// Ascending.
     turns: Vec<[f64; 2]>,
 }
 
-/// How temperatures go on.
+/// Present temperatures and their rates.
 #[derive(Clone, Copy)]
 pub(super) struct Course<'a> {
     pub(super) now: &'a [f64],
@@ -68,7 +67,7 @@ impl Turns {
         };
         let mut known = std::collections::BTreeMap::new();
         for reader in turns.network.readers() {
-            // of temperatures that are given those over time take care
+            // expressions of given temperatures are covered as those over time
             if reader.reads_only(|vertex| vertex >= given) {
                 continue;
             }
@@ -91,7 +90,7 @@ impl Turns {
         self.single.is_empty() && self.several.is_empty()
     }
 
-    /// How long the next step may be in s, so that it ends where something turns.
+    /// The longest next step in s, so that it ends where something turns.
     pub(super) fn longest(&mut self, course: Course<'_>, scope: &Evaluation) -> f64 {
         let mut longest = f64::INFINITY;
         for (reader, family) in &self.single {
@@ -100,7 +99,7 @@ impl Turns {
             family.reach(&self.network, scope, number);
             if rate != 0.0 {
                 let [from, to] = family.next(number, rate > 0.0).map(|end| (end - number) / rate);
-                // the end of what was looked at has no width
+                // the end of the searched range has no width
                 self.narrow |= from.to_bits() != to.to_bits() && from.max(to) < course.last;
                 longest = longest.min(from.midpoint(to));
             }
@@ -108,7 +107,7 @@ impl Turns {
         if self.several.is_empty() { longest } else { longest.min(self.of_several(course, scope)) }
     }
 
-    /// Whether a step as long as the one before would have passed a turn whole.
+    /// True if a step as long as the one before would have passed a turn whole.
     pub(super) fn were_narrow(&self) -> bool {
         self.narrow
     }
@@ -133,7 +132,7 @@ impl Turns {
         longest
     }
 
-    /// If a step has carried something past a turn: the share of the step after which it was there.
+    /// The share of a step after which a turn was reached that it went past, if it did.
     pub(super) fn passed(&self, [before, after]: [&[f64]; 2]) -> Option<f64> {
         let mut first: Option<f64> = None;
         for (reader, family) in &self.single {
@@ -151,7 +150,7 @@ impl Turns {
 }
 
 impl Family {
-    /// Looks for turns around a number, unless that was done.
+    /// Searches for turns around a number, unless that was done.
     fn reach(&mut self, network: &Network, scope: &Evaluation, number: f64) {
         let [low, high] = self.range;
         let around = AROUND.max(FAR * number.abs());
@@ -166,7 +165,7 @@ impl Family {
         self.range = range;
     }
 
-    /// The next turn, or the end of the range that was looked at.
+    /// The next turn, or the end of the searched range.
     fn next(&self, number: f64, rises: bool) -> [f64; 2] {
         let next = match rises {
             true => self.turns.iter().find(|turn| turn[0] > number),

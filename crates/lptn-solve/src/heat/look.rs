@@ -1,4 +1,4 @@
-//! Looks at states beside those that the integrator asks for. They change nothing of a run.
+//! Evaluations of states other than those of the integrator. They change nothing of a run.
 
 use lptn_assembly::JacobianForm;
 use lptn_integrate::{OdeSystem, Retry};
@@ -7,8 +7,8 @@ use lptn_network::{Evaluation, InputError};
 use super::Heat;
 
 impl Heat<'_> {
-    /// Temperatures of all vertices in K, nodes then boundaries, at a state that a step went
-    /// through; `None` where it has none.
+    /// Temperatures of all vertices in K, nodes then boundaries, at a state within a step; `None`
+    /// if they cannot be computed.
     pub(crate) fn look(&mut self, time: f64, y: &[f64]) -> Option<&[f64]> {
         let kept = (self.failure.take(), self.refused.take(), self.fold);
         let stood = self.unfold.is_guarded().then(|| self.unfold.algebraic().to_vec());
@@ -20,14 +20,14 @@ impl Heat<'_> {
         seen.then(|| self.system.vertex_temperatures(&self.work))
     }
 
-    /// A number for the pieces of an element at the state that was looked at last; 0 where it has
-    /// no heat.
+    /// A number for the pieces of an element at the state that was evaluated last; 0 if it has no
+    /// heat.
     pub(crate) fn pieces(&mut self, element: usize) -> u64 {
         self.system.pieces(&mut self.work, element).unwrap_or(0)
     }
 
-    /// Adds the heat of some elements to that of every vertex in W, at a time in s and
-    /// temperatures of all vertices in K; `None` where one has no heat.
+    /// Adds the heat of some elements to that of every vertex in W, at a time in s and temperatures
+    /// of all vertices in K; `None` if one has no heat.
     pub(crate) fn heat_of(
         &mut self,
         mut elements: impl Iterator<Item = usize>,
@@ -40,7 +40,7 @@ impl Heat<'_> {
         elements.try_for_each(|i| self.system.add_heat_of(&mut self.work, i, heat)).ok()
     }
 
-    /// The Jacobian at the temperatures that were unfolded last.
+    /// The Jacobian at the temperatures of the last evaluation.
     pub(crate) fn jacobian_here(
         &mut self,
         form: JacobianForm,
@@ -49,12 +49,12 @@ impl Heat<'_> {
         self.system.jacobian_at(&mut self.work, self.unfold.last(), form, values)
     }
 
-    /// What expressions read beside temperatures.
+    /// Inputs of expressions other than temperatures.
     pub(crate) fn scope(&mut self) -> &Evaluation {
         self.system.scope(&mut self.work)
     }
 
-    /// How the temperatures of all vertices change at a state in K/s; 0 where that is not known.
+    /// Rates of the temperatures of all vertices at a state in K/s; 0 if they are not known.
     pub(crate) fn rates(&mut self, time: f64, y: &[f64], rates: &mut [f64]) {
         let mut flow = vec![0.0; y.len()];
         let kept = (self.failure.take(), self.refused.take(), self.fold);

@@ -8,8 +8,8 @@ use super::*;
 use crate::interval::NODES;
 use crate::reading::Reading;
 
-/// How much hides in an interval in which two temperatures go by so much to both sides of 400 K,
-/// behind two other curves, where the eighth powers of both are reported.
+/// Hidden share in an interval in which two temperatures move by `halves` in K to both sides of 400
+/// K, after two other curves; the eighth powers of both are reported.
 fn wanting(halves: [f64; 2]) -> f64 {
     let power = |node: &str| format!("(kelvin({node}.T) / 1 [K])^8");
     let text = format!(

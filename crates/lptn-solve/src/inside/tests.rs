@@ -17,7 +17,7 @@ fn system(of: &str) -> ThermalSystem {
     system_of(of, "1 [W/K]")
 }
 
-/// The same with a path from the joint to the body, whose table holds from 300 to 900 K.
+/// The same with a path from the joint to the body, whose table is valid from 300 to 900 K.
 fn system_of(of: &str, path: &str) -> ThermalSystem {
     let text = format!(
         "format = 1\n[node]\nbody = {{ C = \"1 J/K\", T0 = \"300 K\" }}\njoint = {{ massless = true }}\n[boundary]\nair = {{ T = \
@@ -49,7 +49,7 @@ fn a_value_lacks_what_brings_it_a_twentieth_inside_its_range() {
     near(fluid(450.0), -55.0);
 }
 
-/// The table holds from 293.15 to 393.15 K; five kelvin inside is where the search begins.
+/// The table is valid from 293.15 to 393.15 K; the search begins five kelvin inside.
 #[test]
 fn temperatures_are_brought_into_the_range_of_a_table() {
     let brought = |of: &str, from: f64| {
@@ -66,12 +66,12 @@ fn temperatures_are_brought_into_the_range_of_a_table() {
     near(brought("T", 250.0), 298.15);
     near(brought("T", 450.0), 388.15);
     near(brought("T", 350.0), 350.0);
-    // half as far: the first move does not do, then 5 K times 1.5 and so on
+    // half as far: the first move does not suffice, then 5 K times 1.5 and so on
     let (found, at) = brought("absolute(150 [K]) + 0.5 * (T - absolute(0 [K]))", 250.0);
     assert!(found && at > 286.3 && at < 330.0, "{at}");
-    // what moves the other way is never brought there
+    // a value that moves the other way is never brought there
     assert!(!brought("absolute(0 [K]) + (absolute(600 [K]) - T) * 2", 150.0).0);
-    // nor what depends on nothing that is free
+    // nor one that depends on nothing that is free
     assert!(!brought("body.T - 100 [K]", 250.0).0);
 }
 

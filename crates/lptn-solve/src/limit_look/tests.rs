@@ -11,8 +11,8 @@ use super::*;
 use crate::interval::POINTS;
 use crate::limit_seen::tests::unseen;
 
-/// What is seen of margins in some steps, and how often they were evaluated beside
-/// the points of each step.
+/// Results of margins in some steps, and their number of evaluations in addition to the points of
+/// each step.
 fn look<const N: usize>(
     (steps, of_mean): (&[(f64, f64)], [bool; N]),
     margins: impl Fn(f64) -> [f64; N],
@@ -35,8 +35,8 @@ fn look<const N: usize>(
 
 const TWO: [(f64, f64); 2] = [(0.0, 10.0), (11.0, 21.0)];
 
-/// One limit over one step from 0 to 10 s: its least margin, when that is, when it is broken, and
-/// the looks.
+/// One limit over one step from 0 to 10 s: its least margin, the time of it, the time when it is
+/// broken, and the evaluations.
 fn one(margin: impl Fn(f64) -> f64) -> (f64, f64, Option<f64>, usize) {
     let (look, looks) = look((&TWO[..1], [false]), |time| [margin(time)], [10.0]);
     let seen = look.seen[0];
@@ -101,13 +101,13 @@ fn the_first_of_two_valleys_breaks_and_the_deeper_one_is_the_worst() {
     assert!(turned(first).abs() < 1e-10 && first < 5.0 && turned(first - 1e-3) > 0.0, "{first}");
 }
 
-/// What was lower before, or is far from what was, is not looked at.
+/// A part that was lower before, or is far from the least, is not evaluated.
 #[test]
 fn what_cannot_count_costs_no_look() {
     let valley = |t: f64| [if t <= 10.0 { 1.0 + t } else { 2.5 + (t - 13.6) * (t - 13.6) }];
     let (found, looks) = look((&TWO, [false]), valley, [10.0]);
     assert_eq!((found.seen[0].margin, looks), (1.0, 0));
-    // a valley that no point shows to be below what was
+    // a valley that no point shows to be below the least so far
     let valley = |t: f64| [if t <= 10.0 { 1.0 + t } else { 0.5 + (t - 13.6) * (t - 13.6) }];
     let (found, looks) = look((&TWO, [false]), valley, [10.0]);
     near(found.seen[0].margin, 0.5);
@@ -132,13 +132,13 @@ fn a_mean_is_integrated_and_asks_for_halvings_of_its_own() {
     let (found, looks) = look((&TWO, [false, true]), margins, [10.0; 2]);
     assert!((found.integral(1).unwrap() - 4.0 * 3.3 - 9.0 * 16.7).abs() < 1e-9);
     assert!(found.integral(0).is_none() && looks <= 440, "{looks}");
-    // above what was, a jump is none of a limit that holds
+    // above the least so far, the jump of an unbroken limit is ignored
     let margins = |t: f64| [if t <= 10.0 { 0.0 } else { 1.0 + jump(t - 10.0) }];
     let (found, looks) = look((&TWO, [false]), margins, [10.0]);
     assert_eq!((found.seen[0].margin, looks), (0.0, 0));
 }
 
-/// Noise of a part in 1e13 of what is compared is rounding, and not looked into.
+/// Noise of a part in 1e13 of the sides is rounding, and not resolved.
 #[test]
 fn rounding_of_what_is_compared_is_not_looked_into() {
     let noise = |t: f64| if (1e6 * t).sin() > 0.0 { 1.0 } else { -1.0 };
@@ -153,8 +153,8 @@ fn rounding_of_what_is_compared_is_not_looked_into() {
     }
 }
 
-/// Noise that no halving settles leaves open by how much a margin may be off: the range of what was
-/// seen, where that may count.
+/// Noise that no halving resolves leaves the margin open by the range of its values, if that may
+/// count.
 #[test]
 fn noise_leaves_a_margin_open_by_what_was_seen_of_it() {
     let mut state = 1_u32;
@@ -190,13 +190,13 @@ fn what_is_left_open_is_the_range_of_the_margins_or_all_where_something_hides() 
     assert!(open(&[4.0, 5.0], (10.0, false), held) == 0.0);
     near(open(&[2.9, 5.0], (10.0, false), held), 2.1);
     near(open(&[4.0, 5.0], (10.0, true), held), 10.0);
-    // a change of a part in 1e6 of what is compared is rounding
+    // a change of a part in 1e6 of the sides is rounding
     assert!(open(&[2.0, 2.0 + 9e-6], (10.0, false), unseen()) == 0.0);
     near(open(&[2.0, 2.0 + 1.1e-5], (10.0, false), unseen()), 1.1e-5);
     assert!(open(&[2.0, 2.0 + 9e-4], (1e3, false), unseen()) == 0.0);
 }
 
-/// No curve that its points tell leaves their range by as much again.
+/// No curve that its points resolve leaves their range by as much again.
 #[test]
 fn a_margin_counts_if_it_may_be_the_least_or_the_first_below_zero() {
     let seen = |margin: f64, broken_at| LimitSeen { margin, broken_at, ..unseen() };
@@ -228,13 +228,13 @@ fn a_valley_is_promising_if_it_is_deeper_than_all_or_the_first_below_zero() {
     assert_eq!(valley(&points(-0.1, 1.4), &held(0.0, Some(0.0)), 1.0), None);
     assert_eq!(valley(&points(-0.1, 1.4), &held(-0.05, None), 1.0), None);
     assert_eq!(valley(&points(0.0, 1.4), &unseen(), 1.0), None);
-    // of two the deeper one
+    // the deeper of two
     let two = |t: f64| (t - 1.4) * (t - 1.4) * (t - 4.5) * (t - 4.5) + 0.1 * t;
     let points: Vec<Point> = (0..13).map(|k| f64::from(k) * 0.5).map(|t| (t, two(t))).collect();
     assert!((valley(&points, &unseen(), 0.0).unwrap() - 1.4).abs() < 0.1);
 }
 
-/// An interval over which one curve is 2 but for its first inner point, where it is more.
+/// An interval over which one curve is 2 but for its first inner point, where it is higher.
 fn bumped(ends: (f64, f64), by: f64) -> Interval {
     let mut values: [Vec<f64>; POINTS] = std::array::from_fn(|_| vec![2.0]);
     values[1][0] += by;
@@ -242,7 +242,7 @@ fn bumped(ends: (f64, f64), by: f64) -> Interval {
 }
 
 /// The Gauss rule gives the first inner point its weight, the other rule none; a part in 1e10 of
-/// the integral of the absolute value is allowed, or one in 1e12 of the size of what is compared.
+/// the integral of the absolute value is allowed, or one in 1e12 of the size of the sides.
 #[test]
 fn what_is_wanting_is_the_difference_of_both_rules_over_what_is_allowed() {
     let weight = crate::interval::GAUSS[0].1;
@@ -265,7 +265,7 @@ fn what_is_wanting_is_the_difference_of_both_rules_over_what_is_allowed() {
     }
 }
 
-/// A limit that is far from counting wants nothing, the mean of one always may.
+/// A limit that is far from counting wants nothing; the mean of one always may.
 #[test]
 fn what_cannot_count_wants_nothing_but_for_a_mean() {
     let wanting = |of_mean: bool, seen: LimitSeen| {
@@ -278,8 +278,7 @@ fn what_cannot_count_wants_nothing_but_for_a_mean() {
     assert!(wanting(false, unseen()) > 0.0);
 }
 
-/// A valley that is deeper than the points by less than a part in 1e12 of what is compared is
-/// rounding.
+/// A valley that is deeper than the points by less than a part in 1e12 of the sides is rounding.
 #[test]
 fn a_valley_within_the_rounding_of_what_is_compared_is_not_looked_for() {
     let looks =

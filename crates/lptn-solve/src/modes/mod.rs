@@ -12,28 +12,28 @@ use crate::exact::{ExactError, Island, Reduced, islands};
 use crate::linearised::{LinearisedError, Tried};
 use crate::table::Table;
 
-/// One way in which a network forgets: a pattern of temperatures that keeps its shape and dies away
-/// as `exp(-t / tau)`.
+/// One decay of a network: a pattern of temperatures that keeps its shape and dies away as `exp(-t
+/// / tau)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
-    /// 1/tau in 1/s; exactly 0 where heat cannot leave, negative where a disturbance grows.
+    /// 1/tau in 1/s; exactly 0 if heat cannot leave, negative if a disturbance grows.
     pub rate: f64,
-    /// How fast it swings in rad/s: 0 but for a pair of modes that streams or slopes make swing,
-    /// `exp(-t / tau) cos(omega t + phase)`.
+    /// Angular frequency in rad/s: 0 except for a pair of modes that oscillate by streams or
+    /// slopes, `exp(-t / tau) cos(omega t + phase)`.
     pub omega: f64,
     /// Temperature of every node relative to the largest, which is 1; massless nodes follow their
-    /// neighbours. Amplitudes where it swings.
+    /// neighbours. Amplitudes if it oscillates.
     pub shape: Vec<f64>,
-    /// How far each node is ahead of that with the largest amplitude, in rad from -pi to pi; empty
-    /// where nothing swings.
+    /// Lead of each node over that with the largest amplitude, in rad from -pi to pi; empty if
+    /// nothing oscillates.
     pub phase: Vec<f64>,
     /// The part of every node, from 0 to 1: `C x^2` over its sum, x the shape. Over the nodes of a
     /// mode it sums to 1, and over all modes of a node with capacity too; massless nodes have none.
     ///
     /// This is the participation factor of Pérez-Arriaga, Verghese and Schweppe (Selective modal
     /// analysis, part I, IEEE Trans. PAS-101 (1982) 3117): the product of an entry of the right
-    /// eigenvector, x, and of the left one, C x where the network is symmetric. Where it is not,
-    /// the magnitudes of the products, over their sum.
+    /// eigenvector, x, and of the left one, C x if the network is symmetric. If it is not, the
+    /// magnitudes of the products, over their sum.
     pub participation: Vec<f64>,
 }
 
@@ -48,19 +48,19 @@ impl Mode {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Modes {
     modes: Vec<Mode>,
-    /// How many there are, found or not.
+    /// Number of all modes, computed or not.
     all: usize,
-    /// How far the linear network they are of was tried, if it stands for another near a state.
+    /// Comparison with the full network, if the linear network represents another near a state.
     tried: Option<Tried>,
 }
 
 lptn_units::errors! {
-/// Why the modes of a network near a state are not known.
+/// Reason why the modes of a network near a state are not known.
 #[derive(Clone, Debug)]
 pub enum ModesError {
     /// The dense eigenproblem of a network of constants.
     Exact => ExactError;
-    /// It cannot be taken for a linear one there.
+    /// It cannot be linearised there.
     Linearised => LinearisedError;
     /// Too many nodes with capacity for a network without symmetry.
     TooLarge { nodes: usize } = "modes::too_large",
@@ -101,8 +101,8 @@ impl From<FactorError> for ModesError {
 const EQUAL: f64 = 1e-9;
 
 impl Modes {
-    /// Eigenvalues and vectors of `C^-1/2 G C^-1/2`, massless nodes eliminated. Inputs play no
-    /// part.
+    /// Eigenvalues and vectors of `C^-1/2 G C^-1/2`, massless nodes eliminated. Inputs have no
+    /// effect.
     ///
     /// # Errors
     /// [`ExactError::TooLarge`] for more than 2000 nodes; [`ExactError`] if the numbers fail.
@@ -121,13 +121,13 @@ impl Modes {
         &self.modes
     }
 
-    /// How many there are: those that swing counted once.
+    /// Number of all modes: a pair that oscillates counts once.
     pub fn all(&self) -> usize {
         self.all
     }
 
-    /// How far the linear network whose modes these are was tried against the full one; `None` for
-    /// a network that is linear itself.
+    /// Comparison of the linear network of these modes with the full one; `None` for a network that
+    /// is linear itself.
     pub fn tried(&self) -> Option<Tried> {
         self.tried
     }
@@ -137,13 +137,13 @@ impl Modes {
         self.modes.truncate(count);
     }
 
-    /// Whether one of them swings.
+    /// True if one of them oscillates.
     pub fn swing(&self) -> bool {
         self.modes.iter().any(|mode| mode.omega != 0.0)
     }
 
-    /// One row a mode: `tau`, then `NAME.shape` and `NAME.participation` of every node; where one
-    /// swings also `omega`, and `NAME.phase` behind the shapes.
+    /// One row per mode: `tau`, then `NAME.shape` and `NAME.participation` of every node. If one
+    /// oscillates also `omega`, and `NAME.phase` after the shapes.
     pub fn table(&self, network: &Network) -> Table {
         let mut table = Table::of(&self.modes);
         let swing = self.swing();

@@ -1,5 +1,5 @@
-//! Modes of a network near a state: dense where it is small, the slowest few by Lanczos iteration
-//! where it is large and symmetric.
+//! Modes of a network near a state: dense if it is small, the slowest few by Lanczos iteration if
+//! it is large and symmetric.
 
 use faer::Mat;
 use lptn_assembly::ThermalSystem;
@@ -12,20 +12,20 @@ use crate::exact::Reduced;
 use crate::linearised::Linearised;
 use crate::snapshot::Snapshot;
 
-/// Modes slower than the fastest by more than this are computed from the inverse, where rounding
-/// is relative to the slowest.
+/// Modes slower than the fastest by more than this are computed from the inverse, whose rounding is
+/// relative to the slowest.
 const SPREAD: f64 = 1e6;
 
-/// The largest condition number of an eigenvalue: beyond it, the modes of a chain of equal cells,
-/// which are none (the matrix is defective), cannot be told from others.
+/// The largest condition number of an eigenvalue. Beyond it, the false modes of a chain of equal
+/// cells (the matrix is defective) cannot be distinguished from others.
 const DEFECTIVE: f64 = 1e7;
 
 impl Modes {
     /// The modes of a network, slowest first: the slowest `count` of a large one (more than 2000
     /// nodes), else all. A network that is not linear has them near a state, `at`.
     ///
-    /// Where streams or slopes make a network lack symmetry, modes may swing: a pair of them is one
-    /// [`Mode`] with its [`Mode::omega`].
+    /// If streams or slopes make a network lack symmetry, modes may oscillate: a pair of them is
+    /// one [`Mode`] with its [`Mode::omega`].
     ///
     /// # Errors
     /// [`ModesError`]; large networks without symmetry are refused.
@@ -66,7 +66,7 @@ struct Dense {
     left: Mat<Complex>,
     /// `C^1/2`
     root: Vec<f64>,
-    /// What the massless nodes that are solved for (rows) follow of each state (columns).
+    /// Shares by which the massless nodes that are solved for (rows) follow each state (columns).
     follow: Mat<f64>,
 }
 
@@ -116,20 +116,20 @@ fn dense_modes(linear: &Linearised<'_>) -> Result<Modes, ModesError> {
     Ok(Modes { all: modes.len(), modes, tried: None })
 }
 
-/// What the answer to a step is made of: `x_k` and `y_k` with `y_j x_k = 1` for `j = k`, else 0, and
-/// both of a pair that swings.
+/// Parts of the response to a step: `x_k` and `y_k` with `y_j x_k = 1` for `j = k`, else 0, and
+/// both of a pair that oscillates.
 pub(crate) struct Shapes {
     /// `-lambda_k` in 1/s.
     pub(crate) rates: Vec<Complex>,
     /// Temperatures of all nodes in each mode.
     pub(crate) right: Vec<Vec<Complex>>,
-    /// By how much each mode is in temperatures of the states.
+    /// Share of each mode in temperatures of the states.
     pub(crate) left: Vec<Vec<Complex>>,
 }
 
 impl Shapes {
-    /// Temperatures of all nodes in the slowest mode, the largest of their size; real parts of one
-    /// that swings.
+    /// Temperatures of all nodes in the slowest mode, the largest of their size; real parts if it
+    /// oscillates.
     pub(crate) fn slowest(&self) -> Vec<f64> {
         let modes = self.rates.iter().zip(&self.right);
         let slowest = modes.min_by(|a, b| a.0.re.total_cmp(&b.0.re));
@@ -138,7 +138,7 @@ impl Shapes {
 }
 
 /// All modes of a network near a state; those of constants from their own matrices, which keep slow
-/// ones beside much faster ones.
+/// ones next to much faster ones.
 pub(crate) fn shapes(linear: &Linearised<'_>) -> Result<Shapes, ModesError> {
     let (system, states) = (linear.system(), linear.capacity().len());
     if states > Reduced::MOST_NODES {
@@ -158,7 +158,7 @@ pub(crate) fn shapes(linear: &Linearised<'_>) -> Result<Shapes, ModesError> {
     })
 }
 
-/// Where conductances are symmetric, `y` is `C x` over `x' C x`.
+/// With symmetric conductances, `y` is `C x` over `x' C x`.
 fn of_constants(modes: &Modes, linear: &Linearised<'_>) -> Shapes {
     let real = |x: f64| Complex::new(x, 0.0);
     let states = linear.system().states();
@@ -284,7 +284,7 @@ fn slowest(linear: &Linearised<'_>, count: usize) -> Result<Modes, ModesError> {
 }
 
 /// `C^1/2` times the even temperatures of each part that no path joins to a boundary, of length 1:
-/// modes that last for ever, known without looking.
+/// modes that last without end, known in advance.
 fn lasting(linear: &Linearised<'_>, root: &[f64]) -> Vec<Vec<f64>> {
     let system = linear.system();
     let islands = system.network().ungrounded();
@@ -299,8 +299,8 @@ fn lasting(linear: &Linearised<'_>, root: &[f64]) -> Vec<Vec<f64>> {
     islands.into_iter().map(of_island).collect()
 }
 
-/// In 1/s, far below the slowest rate that is not zero (about a typical rate over the number of
-/// nodes squared for a chain), so that it costs no digits.
+/// Shift in 1/s, far below the slowest rate that is not zero (about a typical rate over the number
+/// of nodes squared for a chain), so that it costs no digits.
 fn shift(diagonal: &[usize], values: &[f64], capacity: &[f64]) -> f64 {
     let mut rates: Vec<f64> =
         diagonal.iter().zip(capacity).map(|(&slot, c)| values[slot] / c).collect();

@@ -11,16 +11,16 @@ use lptn_network::{Context, HeatCapacity, HeatFlow, NetworkBuilder, Path, Temper
 use super::*;
 use crate::scripted::{bodies, workspace};
 
-/// `10 W tanh((T - 340 K) / 2 K) = 2 W/K (T - 300 K) + 2 W/K (T - T_body)` has three solutions where
-/// the body is between 379.7 and 380.3 K, one elsewhere.
+/// `10 W tanh((T - 340 K) / 2 K) = 2 W/K (T - 300 K) + 2 W/K (T - T_body)` has three solutions if
+/// the body is between 379.7 and 380.3 K, else one.
 const STEP: &str = "10 [W] * tanh((T - absolute(340 [K])) / 2 [K])";
 
-/// The body in K at which the massless node rests at a temperature in K.
+/// The temperature of the body in K for a massless node at rest at a temperature in K.
 fn body(massless: f64) -> f64 {
     massless - 0.5 * (10.0 * ((massless - 340.0) / 2.0).tanh() - 2.0 * (massless - 300.0))
 }
 
-/// Where the massless node comes to from a temperature in K, with the body at another.
+/// New temperature in K of the massless node from an old one, with the body at another.
 fn follows(guarded: bool, (body, from): (f64, f64)) -> Result<f64, NewtonError> {
     let system =
         ThermalSystem::assemble(&bodies(&[(100.0, "1 [W]"), (0.0, STEP)], Some("2 [W/K]")));
@@ -48,7 +48,7 @@ fn a_massless_node_stays_on_its_branch_and_ends_with_it() {
             assert!((found - massless).abs() < 1e-7, "{massless}: {found}");
         }
     }
-    // behind the end of the lower and of the upper branch
+    // beyond the end of the lower and of the upper branch
     for (at, from) in [(381.0, 338.9), (379.0, 341.1)] {
         let found = follows(true, (at, from));
         assert!(matches!(found, Err(NewtonError::Fold { unknown: 1 })), "{at}");
@@ -57,7 +57,7 @@ fn a_massless_node_stays_on_its_branch_and_ends_with_it() {
     }
 }
 
-/// With the factors at hand it goes on in corrections alone, as long as they shrink.
+/// With its present factors it goes on in corrections alone, as long as they shrink.
 #[test]
 fn a_massless_node_follows_with_the_factors_at_hand() {
     let system =
@@ -114,7 +114,7 @@ fn a_film_without_a_slope_is_left_from_warmer_temperatures() {
     assert!((temperatures[0] - 300.0 - rise).abs() < 1e-8, "{temperatures:?} {rise}");
 }
 
-/// Of several solutions a warmer start may find another one.
+/// If there are several solutions, a warmer start may find another one.
 #[test]
 fn several_solutions_are_not_sought_from_warmer_temperatures() {
     let system =
@@ -126,8 +126,8 @@ fn several_solutions_are_not_sought_from_warmer_temperatures() {
     assert_eq!(temperatures, [380.0, 300.0]);
 }
 
-/// With factors that are too large by a fiftieth each correction leaves a part in 51 of what was
-/// left. The one that predicts less than 1e-10 K, four times over, is the last.
+/// With factors that are too large by a fiftieth each correction leaves a part in 51 of the error.
+/// The one that predicts less than 1e-10 K, four times over, is the last.
 #[test]
 fn corrections_end_if_the_next_one_is_predicted_to_be_small() {
     let own = "-1 [W/K] * (T - absolute(300 [K]))";

@@ -1,15 +1,14 @@
-//! Newton's method from warmer temperatures, where it does not matter from where a solution is
-//! found.
+//! Newton's method from warmer temperatures, if the start of the search does not matter.
 //!
-//! A film that convects freely carries nothing where a body is as warm as the air, and its slope is
-//! 0 there too. A network that begins so has a singular Jacobian, and pseudo-time took 250 steps to
-//! leave it. From warmer temperatures Newton's method takes a few iterations.
+//! Free convection carries nothing if a body is as warm as the air, and its slope is 0 there too. A
+//! network that begins so has a singular Jacobian, and pseudo-time took 250 steps to leave it. From
+//! warmer temperatures Newton's method takes a few iterations.
 
 use lptn_assembly::Workspace;
 
 use super::Newton;
 
-/// By how much warmer, in K, all free unknowns begin.
+/// Rises in K at which all free unknowns begin.
 const WARMER: [f64; 2] = [30.0, 300.0];
 
 impl Newton<'_> {

@@ -11,7 +11,7 @@ use crate::settings::{Proceed, Progress, Transient};
 use crate::solution::{RunStatus, Solution};
 use crate::state::State;
 
-/// What watches and may interrupt.
+/// An observer that may interrupt.
 pub(super) type Observer<'a> = dyn FnMut(Progress) -> Proceed + 'a;
 
 /// Integrates cycles and counts them.
@@ -27,16 +27,16 @@ pub(super) struct Cycles<'a> {
     pub(super) flow_evaluations: u64,
     /// Start less end of the last cycle in K.
     last: Option<f64>,
-    /// Where the controls stand when the next cycle begins.
+    /// States of the controls at the start of the next cycle.
     controls: Vec<ControlState>,
-    /// And the massless nodes of several solutions, in K.
+    /// Temperatures of massless nodes of several solutions there, in K.
     stood: Vec<f64>,
-    /// Whether they stood there too at the start of the last one, and everything switched as in the
-    /// cycle before it.
+    /// True if the controls had these states at the start of the last cycle too, and everything
+    /// switched as in the cycle before it.
     pub(super) repeats: bool,
-    /// Whether they then had as long to stay as they are.
+    /// True if their remaining dwell times were the same then.
     pub(super) same_times: bool,
-    /// What switched in the last cycle, in order.
+    /// Switches of the last cycle, in order.
     switched: Vec<(EventKind, u8)>,
 }
 
@@ -92,7 +92,7 @@ impl<'a> Cycles<'a> {
         }
     }
 
-    /// Integrates one cycle as it was asked for, but to this tolerance in K.
+    /// Integrates one cycle with all requested results, but to this tolerance in K.
     pub(super) fn record(
         &mut self,
         start: Vec<f64>,
@@ -126,13 +126,13 @@ impl<'a> Cycles<'a> {
         Ok((shot, solution))
     }
 
-    /// Whether controls end where they began, with as long to stay there, and what switched is what
-    /// did before.
+    /// Compares the states of controls at the end with those at the start, their remaining dwell
+    /// times, and the switches with those before.
     fn compare(&mut self, settings: &Transient, solution: &Solution) {
         let (network, period) = (self.system.network(), settings.stop - settings.start);
         let back = |state: &ControlState| ControlState { since: state.since - period, ..*state };
         let next: Vec<ControlState> = solution.controls().iter().map(back).collect();
-        // what is left of the time for which each has to stay
+        // the rest of the time for which each has to stay
         let rest = |(id, state): (ControlId, &ControlState)| {
             (state.since + network.min_dwell(id) - settings.start).max(0.0)
         };
@@ -156,5 +156,5 @@ impl<'a> Cycles<'a> {
     }
 }
 
-/// Times of controls are the same that differ by this part of a cycle for each K of tolerance.
+/// Times of controls that differ by at most this part of a cycle per K of tolerance are the same.
 const SAME_TIME: f64 = 0.1;

@@ -1,4 +1,4 @@
-//! Why there is no periodic state.
+//! Reasons why there is no periodic state.
 
 use lptn_network::{InputError, NodeId, NotPeriodic, list_of_names};
 use lptn_units::{Class, format_number, format_six as six_digits};
@@ -6,7 +6,7 @@ use lptn_units::{Class, format_number, format_six as six_digits};
 use crate::error::TransientError;
 
 lptn_units::errors! {
-/// Why no periodic state was found.
+/// Reason why no periodic state was found.
 #[derive(Debug)]
 pub enum PeriodicError {
     /// An input is not the same one period later.
@@ -27,22 +27,22 @@ pub enum PeriodicError {
             six_digits(*heat)
         ),
         help "add a path to a boundary, or use `lptn run`";
-    /// The cycles do not come to the same state; the smallest difference in K between the start of
-    /// a cycle and its end.
+    /// The cycles do not reach the same state; the smallest difference in K between the start of a
+    /// cycle and its end.
     NotFound { cycles: usize, residual: f64 } = "periodic::not_found",
         format!(
             "{cycles} cycles reached no periodic state; the best one was off by {residual:.1e} K"
         ),
         help "simulate some cycles one after the other: `lptn run`", class Class::Numbers;
-    /// What switches never does so in one cycle as in the next.
+    /// No two cycles in a row switch alike.
     Switches { cycles: usize } = "periodic::switches",
         format!("in {cycles} cycles controls and comparisons did not switch alike twice in a row"),
         help "the controls have their own rhythm: use `lptn run`, and means over many \
             cycles", class Class::No;
     /// A cycle could not be integrated.
     Cycle => TransientError as Class::of_numbers;
-    /// The observer asked for an end, after so many whole cycles; the last difference in K between
-    /// the start of a cycle and its end, if there was one.
+    /// The observer asked for an end, after this number of whole cycles; the last difference in K
+    /// between the start of a cycle and its end, if there was one.
     Interrupted { cycles: usize, residual: Option<f64> } = "periodic::interrupted",
         format!("interrupted after {cycles} cycles"), class Class::Interrupted;
 }

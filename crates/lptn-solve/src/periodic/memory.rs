@@ -1,4 +1,4 @@
-//! How long a network remembers, from its balances at one moment.
+//! The memory of a network, from its balances at one moment.
 
 use lptn_assembly::ThermalSystem;
 
@@ -12,9 +12,9 @@ const ITERATIONS: usize = 100;
 /// More states than these are not factorised for an estimate.
 const MOST_STATES: usize = 20_000;
 
-/// The slowest time constant in s of small disturbances of a state at a time in s, everything held
-/// as it is there, by inverse iteration with the capacities. `None` where nothing is forgotten, and
-/// for very many states.
+/// The slowest time constant in s of small disturbances of a state at a time in s, with everything
+/// fixed as it is there, by inverse iteration with the capacities. `None` if nothing is forgotten,
+/// and for very many states.
 pub(super) fn slowest(system: &ThermalSystem, time: f64, carried: &[f64]) -> Option<f64> {
     if system.states().len() > MOST_STATES || !system.network().ungrounded().is_empty() {
         return None;

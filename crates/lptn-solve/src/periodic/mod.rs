@@ -21,7 +21,7 @@ use cycle::{Cycles, Observer};
 pub use error::PeriodicError;
 use search::{Found, Search};
 
-/// How a periodic state was found.
+/// Method by which a periodic state was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CycleMethod {
     /// In closed form, mode by mode: a linear network.
@@ -32,14 +32,14 @@ pub enum CycleMethod {
     Stateless,
 }
 
-/// The cycle of a network that has settled.
+/// The periodic steady state of a network.
 #[derive(Clone, Debug)]
 pub struct Periodic {
     /// The state at the start of the cycle.
     pub state: State,
-    /// The cycle from there on, as the settings asked for.
+    /// The cycle from there on, as the settings require.
     pub solution: Solution,
-    /// How it was found.
+    /// The method that found it.
     pub method: CycleMethod,
     /// Cycles that were integrated, that of the solution included.
     pub cycles: usize,
@@ -48,17 +48,17 @@ pub struct Periodic {
     /// Evaluations of the heat flows in all cycles.
     pub flow_evaluations: u64,
     /// The largest difference in K between the start of the cycle and its end, as integrated, of
-    /// what is carried (see [`State`]).
+    /// the state variables (see [`State`]).
     pub residual: f64,
-    /// The largest part of a disturbance that one cycle leaves over, from 0 to 1; for a network
-    /// that is not linear an estimate, the larger one of what the cycles integrated show and of
-    /// what the slowest time constant of its balances, as they are at the start and in the middle
-    /// of the cycle, makes of it. `None` without states, or where nothing forgets.
+    /// The largest part of a disturbance that one cycle leaves over, from 0 to 1. For a network
+    /// that is not linear it is an estimate: the larger of the value from the integrated cycles and
+    /// that from the slowest time constant of its balances, at the start and in the middle of the
+    /// cycle. `None` without states, or if nothing decays.
     pub multiplier: Option<f64>,
-    /// By how much in K the state may differ from one that repeats itself exactly. By modes:
-    /// rounding, and series in place of inputs. By shooting: residual and rounding over
-    /// `1 - multiplier`, what all later cycles would add up to if the slowest part of the network
-    /// had all of the residual. The error of the integration, ten tolerances, comes on top.
+    /// Possible difference in K of the state from one that repeats itself exactly. By modes:
+    /// rounding, and series instead of inputs. By shooting: residual and rounding over `1 -
+    /// multiplier`, the sum over all later cycles if the slowest part of the network had all of the
+    /// residual. The error of the integration, ten tolerances, comes on top.
     pub error: f64,
 }
 
@@ -67,10 +67,9 @@ impl Periodic {
     /// and the cycle from there on.
     ///
     /// A linear network of up to 2000 nodes is solved in closed form. Others are integrated cycle
-    /// by cycle from the network's own start (which a network with several periodic states leads to
-    /// one of them), coarsely at first, each cycle beginning where those before it make the next
-    /// difference smallest; until the error is below ten tolerances, or the residual is and comes
-    /// no further.
+    /// by cycle, coarsely at first. They start from the network's own start, which selects one of
+    /// several periodic states. Each cycle begins where those before it make the next difference
+    /// smallest; until the error is below ten tolerances, or the residual is and no longer shrinks.
     ///
     /// # Errors
     /// [`PeriodicError`].
@@ -78,8 +77,8 @@ impl Periodic {
         Self::find_observed(system, settings, &mut |_| Proceed::Continue)
     }
 
-    /// As [`Periodic::find`], with an observer that is called after every step of every cycle and
-    /// may interrupt.
+    /// The same as [`Periodic::find`], with an observer that is called after every step of every
+    /// cycle and may interrupt.
     ///
     /// # Errors
     /// As [`Periodic::find`].
@@ -144,7 +143,7 @@ impl Periodic {
     }
 }
 
-/// A linear network in closed form; `None` where it is too large for that, or its inputs are.
+/// A linear network in closed form; `None` if it or its inputs exceed that method.
 fn exact(system: &ThermalSystem, settings: &Transient) -> Option<(Vec<f64>, ExactCycle)> {
     let period = settings.stop - settings.start;
     let exact = ExactCycle::solve(system.network(), settings.start, period).ok()?;
@@ -153,7 +152,7 @@ fn exact(system: &ThermalSystem, settings: &Transient) -> Option<(Vec<f64>, Exac
     usable.then(|| (start.carried().to_vec(), exact))
 }
 
-/// The cycle is integrated from the state in closed form: its end tells whether both agree.
+/// Integrates the cycle from the state in closed form: its end shows whether both agree.
 fn by_modes(
     cycles: &mut Cycles<'_>,
     start: Vec<f64>,
@@ -169,11 +168,11 @@ fn by_modes(
     })
 }
 
-/// Heat that a cycle leaves in nodes without a way out is real if it is so many times what the
-/// books leave open.
+/// Heat that a cycle leaves in nodes without an exit is real if it is this many times the residual
+/// of the energy balance.
 const REAL: f64 = 10.0;
 
-/// Refuses nodes that lead to no boundary and that a cycle does not leave with the heat they had.
+/// Refuses nodes that lead to no boundary if a cycle changes their heat.
 fn check_balance(cycles: &mut Cycles<'_>) -> Result<(), PeriodicError> {
     let islands = Island::all_of(cycles.system);
     if islands.is_empty() {

@@ -10,15 +10,15 @@ use super::secants::{Secants, Shot};
 use crate::error::TransientError;
 use crate::solution::Solution;
 
-/// The search begins with this tolerance in K ..
+/// The search begins with this tolerance in K.
 const COARSEST: f64 = 1e-3;
 
-/// .. and goes on with this part of it, ..
+/// It goes on with this part of it ..
 const FINER: f64 = 1e-2;
 
-/// .. unless the tolerance asked for is within this of the next one. A network that hardly forgets
-/// anything in a cycle adds up what the integrator leaves over in very many: then the search goes
-/// on beyond that tolerance, ..
+/// .. unless the requested tolerance is within this of the next one. A network that hardly forgets
+/// anything in a cycle adds up the integrator's errors over very many: then the search goes on
+/// beyond that tolerance, ..
 const NEAR: f64 = 20.0;
 
 /// .. but not below this in K: near 300 K the last digit is 6e-14 K.
@@ -27,47 +27,46 @@ const FINEST: f64 = 1e-11;
 /// Cycles of one search.
 const MOST_CYCLES: usize = 300;
 
-/// The error of a cycle is so many tolerances.
+/// The error of a cycle in tolerances.
 const ERROR: f64 = 10.0;
 
-/// Cycles without a residual smaller by half, after which it is held to be what the integrator
-/// makes up.
+/// Cycles without a residual smaller by half, after which it counts as the integrator's error.
 const PATIENCE: usize = 2;
 
-/// No next cycle begins further from the end of the last one than this times what later cycles
-/// would add up to; ..
+/// No next cycle begins further from the end of the last one than this times the sum of later
+/// cycles, ..
 const REACH: f64 = 2.0;
 
 /// .. less by this factor after each step that led nowhere, ..
 const SHORTER: f64 = 0.25;
 
-/// .. until so little is left that the place where it led is taken as it is.
+/// .. until so little is left that the last cycle is accepted as it is.
 const LEAST_REACH: f64 = 0.02;
 
-/// A cycle whose residual is so many times that of the best one has led nowhere; ..
+/// A cycle whose residual is this many times that of the best one has led nowhere, ..
 const ASTRAY: f64 = 3.0;
 
-/// .. and so has every one after so many without progress.
+/// .. and so has every one after this number without progress.
 const MOST_IDLE: usize = 8;
 
-/// Cycles that begin where the last one ended, after one with a larger residual: what is fast
-/// settles by itself.
+/// Cycles that begin at the end of the last one, after one with a larger residual: fast parts
+/// settle by themselves.
 const RELAXED: usize = 2;
 
-/// What is taken for the largest part of a disturbance that a cycle leaves over, as long as nothing
-/// shows it.
+/// The assumed largest part of a disturbance that a cycle leaves over, as long as it is not known,
+/// ..
 const UNKNOWN: f64 = 0.9;
 
-/// .. and where cycles seem to forget nothing.
+/// .. and if cycles seem to forget nothing.
 const SLOWEST: f64 = 1.0 - 1e-7;
 
 /// The last digits of a temperature of some 300 K, in K.
 const ROUNDING: f64 = 2e-13;
 
-/// A disturbance in K that shows what a cycle leaves over of it.
+/// A disturbance in K that shows the part that a cycle leaves of it.
 const PROBE: f64 = 1.0;
 
-/// What a search comes to.
+/// Result of a search.
 pub(super) struct Found {
     pub(super) shot: Shot,
     pub(super) solution: Solution,
@@ -88,27 +87,27 @@ pub(super) struct Search<'a, 'b> {
     idle: usize,
     /// The last that was known.
     multiplier: Option<f64>,
-    /// What the network itself says of it; 0 as long as it is not asked.
+    /// The multiplier from the network's own balances; 0 as long as it is not computed.
     frozen: f64,
     /// The cycle integrated last, if it was not the best.
     astray: Option<Shot>,
-    /// How many of these there were one after the other.
+    /// Number of these in a row.
     strayed: usize,
     reach: f64,
 }
 
-/// Where a cycle is to begin.
+/// The start of the next cycle.
 struct Next {
     start: Vec<f64>,
     /// No difference between cycles had a part in it.
     blind: bool,
 }
 
-/// What to do after a cycle.
+/// The next action after a cycle.
 enum Verdict {
     Settled,
     GoOn,
-    /// What switches did so in another way than in the cycle before.
+    /// The switches differ from those of the cycle before.
     Switches,
 }
 
@@ -143,7 +142,7 @@ impl<'a, 'b> Search<'a, 'b> {
         }
     }
 
-    /// What the best state says of the slowest part of the network, at two moments of the cycle.
+    /// Takes the slowest part of the network from the best state, at two moments of the cycle.
     fn remember(&mut self) {
         let Some(best) = &self.best else { return };
         let (start, period) = self.cycles.span();
@@ -155,13 +154,13 @@ impl<'a, 'b> Search<'a, 'b> {
         self.multiplier = self.multiplier.map(|rho| rho.max(self.frozen));
     }
 
-    /// Whether the best cycle is as good as it is to be.
+    /// True if the best cycle is good enough.
     fn is_good(&self) -> bool {
         let best = self.best.as_ref().map_or(f64::INFINITY, Shot::residual);
         amplified(best, self.multiplier) <= ERROR * self.tolerance
     }
 
-    /// Cycles at one tolerance until they settle; returns where the next one had best begin.
+    /// Runs cycles at one tolerance until they settle; returns the best start of the next one.
     fn settle(&mut self, mut start: Vec<f64>, level: f64) -> Result<Vec<f64>, PeriodicError> {
         (self.best, self.idle) = (None, 0);
         (self.astray, self.strayed, self.reach) = (None, 0, REACH);
@@ -188,8 +187,7 @@ impl<'a, 'b> Search<'a, 'b> {
         }
     }
 
-    /// The last cycle is integrated with everything that was asked for; if it is not the last,
-    /// others follow.
+    /// Integrates the last cycle with all requested results; if it is not the last, others follow.
     fn record(mut self, mut start: Vec<f64>, level: f64) -> Result<Found, PeriodicError> {
         loop {
             self.check_count()?;
@@ -217,8 +215,8 @@ impl<'a, 'b> Search<'a, 'b> {
         Err(PeriodicError::NotFound { cycles: self.cycles.count, residual: self.least })
     }
 
-    /// Integrates a cycle. One that begins where no cycle came to may begin where none can: then
-    /// from where the best one ended.
+    /// Integrates a cycle. If it begins at a state that no cycle reached, it may not be solvable:
+    /// then it begins at the end of the best one.
     fn shoot(&mut self, start: Vec<f64>, level: f64) -> Result<Shot, PeriodicError> {
         match (self.cycles.shoot(start, level), &self.best) {
             (Err(PeriodicError::Cycle(TransientError::Stopped { .. })), Some(best)) => {
@@ -236,7 +234,7 @@ impl<'a, 'b> Search<'a, 'b> {
         self.idle = if residual < 0.5 * best { 0 } else { self.idle + 1 };
         let noise = ERROR * shot.noise;
         if !self.cycles.repeats {
-            // another cycle than the one before: what was learnt from that says nothing of this one
+            // another cycle than before: its differences say nothing about this one
             self.secants.forget();
             (self.best, self.multiplier, self.idle) = (Some(shot), None, 0);
             return Verdict::Switches;
@@ -258,7 +256,7 @@ impl<'a, 'b> Search<'a, 'b> {
         if (settled || stuck) && self.cycles.same_times { Verdict::Settled } else { Verdict::GoOn }
     }
 
-    /// Where the next cycle begins: after the best one, unless the last one may become better by
+    /// The start of the next cycle: after the best one, unless the last one may become better by
     /// itself.
     fn next(&mut self) -> Result<Next, PeriodicError> {
         if let Some(last) = self.astray.take() {
@@ -281,7 +279,7 @@ impl<'a, 'b> Search<'a, 'b> {
     }
 }
 
-/// Whether a cycle maps its start to its end by a matrix and an offset, streams of constant
+/// True if a cycle maps its start to its end by a matrix and an offset, streams of constant
 /// capacity included.
 fn linear(system: &ThermalSystem) -> bool {
     let network = system.network();
@@ -295,8 +293,8 @@ fn linear(system: &ThermalSystem) -> bool {
         && network.node_ids().all(|id| network.enthalpy(id).is_none())
 }
 
-/// What a residual and the rounding of a temperature add up to if all of it fades as slowly as the
-/// slowest part; infinite where that is not known or does not fade.
+/// Sum of a residual and the rounding of a temperature if all of it decays as slowly as the slowest
+/// part; infinite if that is not known or does not decay.
 fn amplified(residual: f64, multiplier: Option<f64>) -> f64 {
     match multiplier {
         Some(rho) if rho < 1.0 => (residual + ROUNDING) / (1.0 - rho),
@@ -309,7 +307,7 @@ fn first(tolerance: f64) -> f64 {
     if COARSEST > NEAR * tolerance { COARSEST } else { tolerance }
 }
 
-/// The tolerance that follows on another.
+/// The tolerance after another.
 fn finer(level: f64, tolerance: f64) -> f64 {
     let next = level * FINER;
     if level > tolerance && next <= NEAR * tolerance { tolerance } else { next }

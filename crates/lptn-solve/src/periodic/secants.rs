@@ -1,11 +1,11 @@
-//! What the cycles integrated so far tell about the map from the start of a cycle to its end.
+//! The map from the start of a cycle to its end, by differences of the cycles so far.
 //!
-//! With `f = g - y`, y the start of a cycle and g its end, the next start is `g - dG c`, where c
+//! With `f = g - y`, y the start of a cycle and g its end, the next start is `g - dG c`, in which c
 //! makes `f - dF c` smallest and dG, dF are the differences between cycles: Anderson's mixing (D.
 //! G. Anderson, J. ACM 12 (1965) 547) in its multisecant form (H. Fang and Y. Saad, Numer. Linear
 //! Algebra Appl. 16 (2009) 197). For a linear map it is GMRES on `y - Phi(y) = 0` (H. F. Walker and
-//! P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715), and it needs no differences that are taken for
-//! their own sake. Norms are weighted by capacity: a conductive network forgets in that norm.
+//! P. Ni, SIAM J. Numer. Anal. 49 (2011) 1715), and it needs no extra differences.
+//! Norms are weighted by capacity: a conductive network forgets in that norm.
 
 use std::collections::VecDeque;
 
@@ -15,10 +15,10 @@ use lptn_integrate::dense;
 /// Differences that are kept.
 const MOST: usize = 30;
 
-/// A difference counts if what is new in it is so many times what may be wrong with it.
+/// A difference counts if its new part is this many times its possible error.
 const CLEAR: f64 = 3.0;
 
-/// The map of a network that is not linear bends: over a difference of so many K its slope is
+/// The map of a network that is not linear bends: over a difference of this size in K its slope is
 /// another one.
 const BEND: f64 = 300.0;
 
@@ -54,17 +54,17 @@ pub(super) struct Secants {
     last: Option<Shot>,
 }
 
-/// One of several orthonormal vectors, with what goes with it.
+/// One of several orthonormal vectors, with its partner.
 struct Direction {
     vector: Vec<f64>,
-    /// The same combination of what was given with each.
+    /// The same combination of the given partners.
     partner: Vec<f64>,
-    /// What may be wrong with it, as a part of its length.
+    /// Its possible error, as a part of its length.
     doubt: f64,
 }
 
 impl Secants {
-    /// Of a network with these capacities of its states; `bends` if it is not linear.
+    /// For a network with these capacities of its states in J/K; `bends` if it is not linear.
     pub(super) fn new(capacity: &[f64], bends: bool) -> Self {
         let total: f64 = capacity.iter().sum();
         let weights = capacity.iter().map(|c| c / total).collect();
@@ -72,7 +72,7 @@ impl Secants {
         Self { weights, bend, pairs: VecDeque::new(), last: None }
     }
 
-    /// Begins anew.
+    /// Restarts without any differences.
     pub(super) fn forget(&mut self) {
         self.pairs.clear();
         self.last = None;
@@ -88,8 +88,8 @@ impl Secants {
         self.last = Some(shot);
     }
 
-    /// Where the next cycle had best begin, after this one: no further away from its end than
-    /// `most` in K. `None` where no difference helps.
+    /// The best start of the next cycle, after this one: no further away from its end than `most`
+    /// in K. `None` if no difference helps.
     pub(super) fn next(&self, shot: &Shot, most: f64) -> Option<Vec<f64>> {
         let directions = self.directions(|pair| (minus(&pair.end, &pair.start), pair.end.clone()));
         let residual = minus(&shot.end, &shot.start);
@@ -108,7 +108,7 @@ impl Secants {
         None
     }
 
-    /// The residual of a cycle in the norm that is made small, in K.
+    /// The residual of a cycle in the norm that is minimised, in K.
     pub(super) fn size(&self, shot: &Shot) -> f64 {
         self.length(&minus(&shot.end, &shot.start))
     }
@@ -129,8 +129,8 @@ impl Secants {
         largest.is_finite().then_some(largest)
     }
 
-    /// Orthonormal combinations of what `of` takes first from each difference, the latest first,
-    /// without those that may be made up of what is wrong with the differences.
+    /// Orthonormal combinations of the first value of `of` for each difference, the latest first,
+    /// without those that may consist of the errors of the differences.
     fn directions(&self, of: impl Fn(&Pair) -> (Vec<f64>, Vec<f64>)) -> Vec<Direction> {
         let mut known: Vec<Direction> = Vec::new();
         for pair in &self.pairs {

@@ -1,4 +1,4 @@
-//! Whether anything reads temperatures where results are read.
+//! Cases in which results read temperatures.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_assembly::ThermalSystem;
@@ -6,7 +6,7 @@ use lptn_assembly::ThermalSystem;
 use super::{Reading, reads_temperatures};
 use crate::scripted::bodies;
 
-/// Of a body that a heat enters, with further sections.
+/// True for a body that a heat enters, with further sections, if temperatures are read.
 fn reads(sections: &str) -> bool {
     let text = format!(
         "format = 1\n[node]\nbody = {{ C = \"1 J/K\", T0 = \"400 K\" }}\n[boundary]\nair = {{ T \
@@ -28,7 +28,7 @@ fn results_read_temperatures_and_laws_that_tell_nothing_do_not() {
     assert!(reads(&format!("{limit}{RUN}report = {{ loss = \"skin.Q\" }}\n")));
 }
 
-/// Expressions that the network does not hold may read them too.
+/// Expressions that are not part of the network may read them too.
 #[test]
 fn a_reading_of_any_expression_takes_temperatures() {
     let system = ThermalSystem::assemble(&bodies(&[(1.0, "1 [W]")], None)).unwrap();

@@ -1,22 +1,22 @@
-//! What is looked at between the rows: watched nodes, limits and windows.
+//! Evaluations between the rows: watched nodes, limits and windows.
 
 use super::{Recorder, StateAt};
 use crate::interval::{Interval, POINTS, time_of};
 use crate::readings::pieces;
 use crate::stop_reason::StopReason;
 
-/// Nodes that are placed to find the tops of watched ones in a step: where there are more of both,
-/// what the points of the step tell is taken for it.
+/// Nodes that are placed to find the tops of watched ones in a step. If there are more of both, the
+/// interpolation through the points of the step is used.
 const MOST_PLACED: usize = 4096;
 
 impl Recorder<'_> {
-    /// Whether something is to be looked at between the rows.
+    /// True if something has to be evaluated between the rows.
     fn looks(&self) -> bool {
         !(self.lookout.is_empty() && self.limits.is_empty() && self.ranges.is_empty())
     }
 
-    /// Looks at watched nodes and limits and into the windows between two times, anew where results
-    /// may jump.
+    /// Evaluates watched nodes, limits and windows between two times, with a restart wherever
+    /// results may jump.
     pub(super) fn look_between(
         &mut self,
         step: (f64, f64),
@@ -79,8 +79,8 @@ impl Recorder<'_> {
         self.look_at_limits(Interval { from: step.0, to: step.1, values }, state_at)
     }
 
-    /// Looks at one point of a step, and before it, for laws that may leave their range in between,
-    /// at the middle of a wide gap; gives what limits say.
+    /// Evaluates one point of a step, and before it, for laws that may leave their range in
+    /// between, the middle of a wide gap; returns the values of the limits.
     fn look_at(
         &mut self,
         step: (f64, f64),
@@ -126,7 +126,7 @@ impl Recorder<'_> {
         Ok(())
     }
 
-    /// Looks at the limits over a step whose points are known.
+    /// Evaluates the limits over a step whose points are known.
     fn look_at_limits(
         &mut self,
         step: Interval,

@@ -11,25 +11,25 @@ use crate::interval::{POINTS, time_of};
 use crate::settings::Transient;
 use crate::watch::{LASTS, Watch, Watched};
 
-/// The share of its temperature by which a node has to stay below the hottest to be passed over: more
+/// The share of its temperature by which a node has to stay below the hottest to be skipped: more
 /// than peaks leave out as rounding.
 const BELOW: f64 = 4.0 * LASTS;
 
-/// The watched nodes, and what they are in the present step.
+/// The watched nodes, and their temperatures in the present step.
 pub(super) struct Lookout {
     watch: Vec<Watch>,
-    /// What was seen of each but for where it stands.
+    /// Results of each, except for its present temperature.
     seen: Vec<Watched>,
-    /// Up to when in s.
+    /// End of these results in s.
     time: f64,
-    /// The temperatures of all in K at each point of the present step, of which the first is where
-    /// they stand.
+    /// The temperatures of all in K at each point of the present step; the first is the present
+    /// state.
     points: [Vec<f64>; POINTS],
-    /// Whether a level is sought.
+    /// True if a level is searched for.
     levels: bool,
-    /// Where only the hottest counts: the highest temperature in K of all so far.
+    /// The highest temperature in K of all so far, if only the hottest counts.
     highest: Option<f64>,
-    /// In how many steps a node was looked at more closely.
+    /// Number of steps in which a node was evaluated more closely.
     sought: u64,
 }
 
@@ -46,7 +46,7 @@ impl Lookout {
         }
     }
 
-    /// Whether no node is watched.
+    /// True if no node is watched.
     pub(super) fn is_empty(&self) -> bool {
         self.watch.is_empty()
     }
@@ -76,8 +76,8 @@ impl Lookout {
         }
     }
 
-    /// Takes in the points of the step, and gives the tops between them: which node, and what the
-    /// points tell of its height in K and its time in s.
+    /// Takes in the points of the step, and returns the tops between them: the node, and the
+    /// interpolated height in K with its time in s.
     pub(super) fn tops(&mut self, step: (f64, f64)) -> Vec<(usize, (f64, f64))> {
         let times: [f64; POINTS] = std::array::from_fn(|point| time_of(step, point));
         let (floor, levels) = (self.floor(), self.levels);
@@ -100,13 +100,13 @@ impl Lookout {
         tops
     }
 
-    /// No peak up to this temperature in K counts: where only the hottest does, one that another
-    /// node exceeds in this step or did before. A node that gets hotter later is seen then.
+    /// No peak up to this temperature in K counts: if only the hottest does, one that another node
+    /// exceeds in this step or did before. A node that gets hotter later is seen then.
     fn floor(&self) -> f64 {
         self.highest.map_or(f64::NEG_INFINITY, |highest| highest - BELOW * highest.abs())
     }
 
-    /// In how many steps a node was looked at more closely.
+    /// Number of steps in which a node was evaluated more closely.
     pub(super) fn sought(&self) -> u64 {
         self.sought
     }
@@ -120,7 +120,7 @@ impl Lookout {
         self.seen[watched].peak_at((time, temperature));
     }
 
-    /// Says of all where they stand.
+    /// Sets the present temperature of all.
     fn settle(&mut self) {
         let stand = self.seen.iter_mut().zip(&self.points[0]);
         stand.for_each(|(seen, &temperature)| seen.go_to((self.time, temperature)));
@@ -132,7 +132,7 @@ impl Lookout {
     }
 }
 
-/// The lowest of some temperatures, and up to where a curve reaches that they tell: none leaves
+/// The lowest of some temperatures, and the upper limit of a curve that they resolve: none leaves
 /// their range by as much again.
 fn range(values: &[f64; POINTS]) -> (f64, f64) {
     let (mut low, mut high) = (values[0], values[0]);

@@ -1,4 +1,4 @@
-//! Brings the workspace to a time inside the present step, whatever was looked at before.
+//! Brings the workspace to a time inside the present step, whatever was evaluated before.
 
 use lptn_assembly::Workspace;
 
@@ -10,18 +10,18 @@ use crate::stop_reason::StopReason;
 use crate::unsolved::Unsolved;
 
 impl Recorder<'_> {
-    /// Says where the massless nodes of several solutions stand now, in K.
+    /// Sets the present temperatures of the massless nodes of several solutions, in K.
     pub(crate) fn set_branch(&mut self, branch: Vec<f64>) {
         self.branch.clone_from(&branch);
         self.branch_ahead = branch;
     }
 
-    /// Says where they stand at the end of the step that is to be written, in K.
+    /// Sets their temperatures at the end of the step that has to be written, in K.
     pub(crate) fn set_branch_ahead(&mut self, branch: Vec<f64>) {
         self.branch_ahead = branch;
     }
 
-    /// As they were said last.
+    /// The temperatures that were set last, in K.
     pub(crate) fn branch(&self) -> &[f64] {
         &self.branch
     }
@@ -34,7 +34,7 @@ impl Recorder<'_> {
         Ok(&mut self.work)
     }
 
-    /// The workspace at a time and state; as it was where these cannot be had.
+    /// The workspace at a time and state; unchanged if these cannot be computed.
     pub(crate) fn at_state(&mut self, (time, state): (f64, &[f64])) -> &mut Workspace {
         self.state.copy_from_slice(state);
         self.inside = self.readings.inside_before(time);
@@ -64,10 +64,10 @@ impl Recorder<'_> {
         Ok(())
     }
 
-    /// Finds the temperatures of massless nodes from where they stood when the step began, or where
-    /// they stand when it ends: near the end of a branch it is the nearer of the two that leads
-    /// there. The run has gone through the step, so that a node that comes from neither without a
-    /// leap leaps on the way, by less than the run has to see.
+    /// Finds the temperatures of massless nodes from those at the start of the step, or from those
+    /// at its end: near the end of a branch the nearer of the two leads there. The run has gone
+    /// through the step. A node that needs a jump from both therefore jumps on the way, by less
+    /// than the run has to resolve.
     fn unfold(&mut self, time: f64) -> Result<(), NewtonError> {
         if self.branch.is_empty() {
             self.anchor.begin(time, &mut self.unfold);
@@ -90,7 +90,7 @@ impl Recorder<'_> {
         failed.map_or(Ok(()), Err)
     }
 
-    /// Takes from what the integrator found at the end of a step where looks into it begin.
+    /// Sets the start of evaluations inside a step from the integrator's solution at its end.
     pub(super) fn lean_on(&mut self, heat: &Heat<'_>, (from, to): (f64, f64)) {
         if heat.algebraic().is_empty() {
             return;
@@ -100,8 +100,8 @@ impl Recorder<'_> {
         self.unfold.lean_on(heat.matrix());
     }
 
-    /// The same for a system without state: goes through a part by itself, in small steps where
-    /// there may be several solutions. Where it does not get through, a look tells.
+    /// The same for a system without state: goes through a part by itself, in small steps if there
+    /// may be several solutions. If it fails, an evaluation reports that.
     pub(super) fn walk(&mut self, part: (f64, f64)) {
         if self.system.algebraic().is_empty() {
             return;

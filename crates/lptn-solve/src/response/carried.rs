@@ -1,4 +1,4 @@
-//! The answer to a step of a network whose modes coincide: by the exponential of its matrix.
+//! Response to a step of a network whose modes coincide: by the exponential of its matrix.
 
 use faer::Mat;
 
@@ -8,13 +8,13 @@ use crate::linearised::{Linearised, LinearisedError};
 /// Rises of the states after a step, without modes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct CarriedAnswer {
-    /// A in 1/s, and by how much each row sums to less than 0, where its other elements are not
-    /// negative.
+    /// A in 1/s, and the amount by which each row sums to less than 0, if its other elements are
+    /// not negative.
     rates: Mat<f64>,
     leak: Option<Vec<f64>>,
     /// Rates of change at the step in K/s per unit.
     start: Mat<f64>,
-    /// Over all times that something changes in.
+    /// Covers all times in which something changes.
     chain: Chain,
     longest: f64,
     /// Temperature of each node (row) that follows from those of the states.
@@ -24,11 +24,11 @@ pub(super) struct CarriedAnswer {
 /// Doublings of the fastest time after which everything has to be over, tried in this order.
 const DOUBLINGS: [i32; 5] = [10, 20, 30, 40, 50];
 
-/// What may be left of a rise then, as its share.
+/// The share of a rise that may be left then.
 const LEFT: f64 = 1e-9;
 
 impl CarriedAnswer {
-    /// With the rises of the states that stay; `None` where they are never reached.
+    /// With the rises of the states that stay; `None` if they are never reached.
     pub(super) fn new(
         linear: &Linearised<'_>,
         settled: &[f64],
@@ -74,7 +74,7 @@ impl CarriedAnswer {
         self.of_states(node, rises.col_as_slice(0))
     }
 
-    /// The first time in s, to a thousandth, at which a node has risen to a value that it comes to.
+    /// The first time in s, to a thousandth, at which a node has risen to a value that it reaches.
     pub(super) fn reached(&self, node: usize, value: f64) -> f64 {
         let there = |time: f64| self.value(node, time) / value >= 1.0;
         let mut early = self.longest;
@@ -92,14 +92,14 @@ impl CarriedAnswer {
     fn rises(&self, time: f64) -> Mat<f64> {
         let mut rises = Mat::zeros(self.start.nrows(), 1);
         if time > 0.0 {
-            // what is over by then does not change any more
+            // later there is no further change
             let time = time.min(8.0 * self.longest);
             self.chain.advance(&mut rises, &[vec![1.0]], (time, 1e-15 * time));
         }
         rises
     }
 
-    /// What a node follows of temperatures of the states.
+    /// Rise of a node for temperatures of the states.
     pub(super) fn of_states(&self, node: usize, states: &[f64]) -> f64 {
         states.iter().enumerate().map(|(j, t)| self.nodes[(node, j)] * t).sum()
     }
@@ -114,7 +114,7 @@ fn wanted(
     Wanted { rates, drive, leak, unit, longest, terms: 1 }
 }
 
-/// What the rows of a matrix lack to 0, where its elements are those of a thermal network.
+/// Shortfall of each row sum below 0, if the elements are those of a thermal network.
 fn leak(rates: &Mat<f64>) -> Option<Vec<f64>> {
     let size = rates.nrows();
     let thermal = (0..size).all(|i| (0..size).all(|j| i == j || rates[(i, j)] >= 0.0));
@@ -127,7 +127,7 @@ fn leak(rates: &Mat<f64>) -> Option<Vec<f64>> {
     (thermal && leak.iter().all(|lacks| *lacks >= 0.0)).then_some(leak)
 }
 
-/// What every node follows of a unit of each state.
+/// Response of every node to a unit of each state.
 fn nodes(linear: &Linearised<'_>, follow: &Mat<f64>, states: usize) -> Mat<f64> {
     let columns: Vec<Vec<f64>> = (0..states)
         .map(|state| {

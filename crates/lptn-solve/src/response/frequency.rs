@@ -1,4 +1,4 @@
-//! Amplitudes and phases of all nodes where one input swings.
+//! Amplitudes and phases of all nodes if one input oscillates.
 
 use std::fmt;
 
@@ -18,7 +18,7 @@ pub struct FrequencyResponse<'a, 'b> {
     effect: Effect,
     pattern: Pattern,
     factors: Box<dyn Factorization>,
-    /// With `G` in both blocks and nothing beside them.
+    /// Values with `G` in both blocks and zeros next to them.
     values: Vec<f64>,
     /// Slots of `-omega C` and `omega C` of each state.
     beside: Vec<[usize; 2]>,
@@ -31,7 +31,7 @@ impl fmt::Debug for FrequencyResponse<'_, '_> {
 }
 
 impl<'a, 'b> FrequencyResponse<'a, 'b> {
-    /// The answers of a network to an input.
+    /// The responses of a network to an input.
     ///
     /// # Errors
     /// [`ResponseError`]
@@ -61,7 +61,7 @@ impl<'a, 'b> FrequencyResponse<'a, 'b> {
         Ok(Self { linear, effect, pattern, factors, values, beside })
     }
 
-    /// Answer of every node at an angular frequency in rad/s, 0 or above: in K per unit of the
+    /// Response of every node at an angular frequency in rad/s, 0 or above: in K per unit of the
     /// input, the input being `cos(omega t)` and the node `|x| cos(omega t + arg x)`.
     ///
     /// # Errors
@@ -89,7 +89,7 @@ impl<'a, 'b> FrequencyResponse<'a, 'b> {
         Ok(real.into_iter().zip(imaginary).map(|(re, im)| Complex::new(re, im)).collect())
     }
 
-    /// Makes the blocks of islands without a boundary regular: nothing is put in there.
+    /// Makes the blocks of islands without a boundary regular: no heat enters them.
     fn tie_down(&self, values: &mut [f64]) {
         let system = self.linear.system();
         for loose in system.network().ungrounded().into_iter().flatten() {

@@ -1,4 +1,4 @@
-//! How a linear network answers one input: swinging at a frequency, or stepping from 0 to 1.
+//! Response of a linear network to one input: an oscillation at a frequency, or a step from 0 to 1.
 
 mod carried;
 mod frequency;
@@ -17,28 +17,28 @@ use crate::exact::ExactError;
 use crate::linearised::{Linearised, LinearisedError};
 use crate::modes::ModesError;
 
-/// What a network answers to.
+/// The input of a response.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Drive {
-    /// Heat into a node in W: answers are in K/W.
+    /// Heat into a node in W: responses are in K/W.
     Node(NodeId),
-    /// The heat of a source in W, to all that it heats: answers are in K/W.
+    /// The heat of a source in W, to all that it heats: responses are in K/W.
     Source(SourceId),
-    /// The temperature of a boundary in K: answers are in K/K.
+    /// The temperature of a boundary in K: responses are in K/K.
     Boundary(BoundaryId),
 }
 
 lptn_units::errors! {
-/// Why an answer is not known.
+/// Reason why a response is not known.
 #[derive(Clone, Debug)]
 pub enum ResponseError {
-    /// It cannot be taken for a linear network.
+    /// The network cannot be linearised.
     Linearised => LinearisedError;
-    /// An element has no value beside the state.
+    /// An element has no value next to the state.
     Input => InputError;
-    /// Its modes cannot be had.
+    /// Its modes cannot be computed.
     Modes => ModesError;
-    /// Heat is put in where no path leads to a boundary: it never settles.
+    /// Heat enters nodes from which no path leads to a boundary: it never settles.
     NoGround { names: Vec<String> } = "response::no_ground",
         format!("no path leads to a boundary from {}", list_of_names(names)),
         help "add a path to a boundary, or ask at frequencies above 0: without one, a constant heat \
@@ -64,7 +64,7 @@ impl From<ExactError> for ResponseError {
     }
 }
 
-/// What a unit of an input does by itself.
+/// Direct effect of a unit of an input.
 struct Effect {
     /// Heat into each node in W.
     heat: Vec<f64>,
@@ -74,7 +74,7 @@ struct Effect {
     flow: Vec<f64>,
 }
 
-/// Half the change of a boundary in K over which elements that are not linear are told apart.
+/// Half the change of a boundary in K over which the slope of nonlinear elements is taken.
 const NEAR: f64 = 0.01;
 
 impl Effect {
@@ -98,7 +98,7 @@ impl Effect {
         Ok(Self { heat, boundaries, flow })
     }
 
-    /// Of heat into each node in W.
+    /// The effect of heat into each node in W.
     fn of_heat(system: &ThermalSystem, heat: Vec<f64>) -> Self {
         let boundaries = vec![0.0; system.network().boundaries().len()];
         let flow = handed_on(system, &heat, &boundaries);
@@ -140,7 +140,7 @@ fn of_boundary(linear: &Linearised<'_>, of: BoundaryId) -> Result<Vec<f64>, Resp
     Ok(above.iter().zip(&below).map(|(a, b)| (a - b) / (2.0 * near)).collect())
 }
 
-/// Refuses heat that is put into nodes that no path joins to a boundary.
+/// Refuses heat into nodes that no path joins to a boundary.
 fn grounded(system: &ThermalSystem, effect: &Effect) -> Result<(), ResponseError> {
     let network = system.network();
     for island in network.ungrounded() {

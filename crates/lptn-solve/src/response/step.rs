@@ -7,26 +7,26 @@ use super::{Drive, Effect, FrequencyResponse, ResponseError, grounded};
 use crate::linearised::Linearised;
 use crate::modes::{ModesError, Shapes, shapes};
 
-/// The share of the largest from which on a mode is seen.
+/// The share of the largest above which a mode is visible.
 const VISIBLE: f64 = 1e-6;
 
-/// `T(t) = T_direct + sum of Re(c_k x_k (1 - exp(-t s_k)))`, the modes `x_k` over all nodes, from the
-/// dense eigenproblem: exact to rounding. Where modes coincide, as in a chain of equal cells that a
-/// stream passes, the exponential of the matrix stands in for their sum.
+/// `T(t) = T_direct + sum of Re(c_k x_k (1 - exp(-t s_k)))`, the modes `x_k` over all nodes, from
+/// the dense eigenproblem: exact to rounding. If modes coincide, as in a chain of equal cells that
+/// a stream passes, the exponential of the matrix replaces their sum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepAnswer {
-    /// Rise of each node once it has settled, in K per unit.
+    /// Steady rise of each node, in K per unit.
     pub settled: Vec<f64>,
-    /// What comes at once: nothing where heat is stored.
+    /// Immediate rise: zero for nodes that store heat.
     direct: Vec<f64>,
-    /// For each mode its rate `s_k` in 1/s, and what is still missing of each node at time 0.
+    /// For each mode its rate `s_k` in 1/s, and the missing rise of each node at time 0.
     terms: Vec<(Complex, Vec<Complex>)>,
-    /// In place of the terms.
+    /// Replaces the terms.
     carried: Option<CarriedAnswer>,
 }
 
 impl StepAnswer {
-    /// The answer to an input, of a network of at most 2000 nodes with capacity.
+    /// The response to an input, of a network of at most 2000 nodes with capacity.
     ///
     /// # Errors
     /// [`ResponseError`]
@@ -75,8 +75,8 @@ impl StepAnswer {
         Ok(Self { settled, direct, terms: Vec::new(), carried: Some(carried) })
     }
 
-    /// Rise of a node (its number) in K per unit, at a time in s after the step; at 0 what comes at
-    /// once.
+    /// Rise of a node (its number) in K per unit, at a time in s after the step; at 0 the immediate
+    /// rise.
     pub fn value(&self, node: usize, time: f64) -> f64 {
         if let Some(carried) = &self.carried {
             return self.direct[node] + carried.value(node, time);
@@ -103,25 +103,25 @@ impl StepAnswer {
         self.direct[node] + self.terms.iter().map(of).sum::<f64>()
     }
 
-    /// What a node answers at once, in K per unit.
+    /// Immediate rise of a node, in K per unit.
     pub fn direct(&self, node: usize) -> f64 {
         self.direct[node]
     }
 
-    /// Whether it is a sum over modes; else [`StepAnswer::terms`] has none.
+    /// True if it is a sum over modes; else [`StepAnswer::terms`] has none.
     pub fn has_terms(&self) -> bool {
         self.carried.is_none()
     }
 
-    /// The rate in 1/s of each mode, with what it is still missing of a node's rise at time 0, in K
-    /// per unit; the real parts of all and what comes at once make the settled rise.
+    /// The rate in 1/s of each mode, with its missing part of a node's rise at time 0, in K per
+    /// unit; the real parts of all and the immediate rise make the steady rise.
     pub fn terms(&self, node: usize) -> impl Iterator<Item = (Complex, Complex)> {
         self.terms.iter().map(move |(rate, nodes)| (*rate, nodes[node]))
     }
 
     /// The shortest and the longest time constant in s that a node sees: those of the modes with at
-    /// least a millionth of its largest share. Where modes coincide, those of exponentials that reach
-    /// a tenth, or all but exp(-5), as soon as the node does. `None` if it answers at once, or not
+    /// least a millionth of its largest share. If modes coincide, those of exponentials that reach
+    /// a tenth, or all but exp(-5), as soon as the node does. `None` if it responds at once, or not
     /// at all.
     pub fn span(&self, node: usize) -> Option<(f64, f64)> {
         if let Some(carried) = &self.carried {

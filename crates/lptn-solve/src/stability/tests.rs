@@ -10,9 +10,9 @@ use lptn_assembly::ThermalSystem;
 use super::*;
 use crate::scripted::{bodies, workspace};
 
-/// Pairs of bodies: the first gains 1 W/K net by itself, the second loses 3 W/K; the first cools
-/// by `b` W/K as the second gets warmer, and heats it by as much. The second of each has a capacity
-/// in J/K (0: massless), the first 100 J/K. What grows, and whether it swings.
+/// Pairs of bodies: the first gains 1 W/K net by itself, the second loses 3 W/K; the first cools by
+/// `b` W/K as the second gets warmer, and heats it by as much. The second of each has a capacity in
+/// J/K (0: massless), the first 100 J/K. Returns the node that grows, and if it oscillates.
 fn pairs(b: f64, capacities: &[f64]) -> (Option<usize>, bool) {
     let heats: Vec<(f64, String)> = (capacities.iter().enumerate())
         .flat_map(|(i, capacity)| {
@@ -72,7 +72,7 @@ fn a_massless_node_follows_at_once() {
     assert_eq!(judged(&[(100.0, cooled), (0.0, own)]).0, None);
 }
 
-/// What is on the way to rest by itself, or grows by itself.
+/// Bodies that rest or grow by themselves.
 #[test]
 fn bodies_that_do_not_cool_each_other_are_judged_by_their_slopes() {
     let gains = |gain: f64| format!("{gain:?} [W/K] * (T - absolute(300 [K]))");
@@ -100,9 +100,9 @@ fn one_of_many_pairs_that_swings_up_is_found() {
     assert!(matches!(pairs(2.0, &capacities).0, Some(80 | 81)));
 }
 
-/// The first gains 1 W/K net and feels nothing of the second, which it cools: that moves by
-/// `-b / (C / 100 s + 3 W/K)` of the first, and counts by the root of its capacity, or of what it
-/// gives off in a step if it has none.
+/// The first gains 1 W/K net and feels nothing of the second, which it cools: that moves by `-b /
+/// (C / 100 s + 3 W/K)` of the first. It counts by the root of its capacity, or of its heat in a
+/// step if it has none.
 #[test]
 fn what_grows_is_where_most_heat_moves() {
     let place = |b: f64, capacity: f64| {
@@ -120,7 +120,7 @@ fn what_grows_is_where_most_heat_moves() {
     assert_eq!([place(48.16, 1.0), place(24.08, 1.0)], [Some(1), Some(0)]);
 }
 
-/// Joined bodies warm each other: what grows there runs away, though the determinant be positive.
+/// Joined bodies warm each other: any growth runs away, even if the determinant is positive.
 #[test]
 fn what_warms_each_other_does_not_swing() {
     let gains = |gain: f64| format!("{gain:?} [W/K] * (T - absolute(300 [K]))");

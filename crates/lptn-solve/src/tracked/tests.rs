@@ -33,13 +33,13 @@ fn a_top_between_the_points_counts_where_they_tell_the_column() {
         let (value, time) = extremes(false, curve)[place];
         near(value, curve(NODES[4]));
         near(time, 7.0 + 5.0 * NODES[4]);
-        // as of a kink, which no polynomial tells
+        // as with a kink, which no polynomial resolves
         let kink = |x: f64| sign * (1.0 - (x - 0.3).abs());
         near(extremes(true, kink)[place].0, kink(NODES[4]));
     }
 }
 
-/// Of `x - 0.3` and its square less 0.04, for 10 s: by the polynomial, or on the chords.
+/// For `x - 0.3` and its square less 0.04, for 10 s: by the polynomial, or on the chords.
 #[test]
 fn the_time_above_zero_is_that_of_the_polynomial_or_of_the_chords() {
     let above = |told: bool, curve: &dyn Fn(f64) -> f64| above_zero(&interval(curve), told, 0);

@@ -1,4 +1,4 @@
-//! Why a run breaks off.
+//! Reasons why a run breaks off.
 
 use lptn_integrate::{FactorError, IntegrateError};
 
@@ -8,22 +8,21 @@ use crate::runaway::Runaway;
 use crate::stop_reason::StopReason;
 use crate::unsolved::Unsolved;
 
-/// Steps shorter than this part of the run, each after others that were refused, get nowhere ..
+/// Steps shorter than this part of the run, each after refused ones, make no progress ..
 const CRAWL: f64 = 1e-9;
 
-/// .. if there are so many of them. The first step of a segment may be one of them by chance.
+/// .. if there are this many. The first step of a segment may be one of them by chance.
 const PATIENCE: usize = 8;
 
-/// The same in front of the end of a branch.
+/// The same before the end of a branch.
 const FOLD_PATIENCE: usize = 400;
 
 impl Run<'_> {
-    /// Breaks off a run that only creeps up to where its heat can be had no longer, with ever
-    /// smaller steps.
+    /// Breaks off a run that only creeps, with ever smaller steps, up to where its heat fails.
     pub(super) fn check_crawl(&mut self, step: f64) -> Result<(), Break> {
         let (start, stop) = self.recorder.span();
         let refused = self.integrator.system_mut().refused.take();
-        // a fold is approached in short steps before it is leapt over
+        // a fold is approached in short steps before the jump over it
         let patience = match refused {
             Some(NewtonError::Fold { .. }) => FOLD_PATIENCE,
             _ => PATIENCE,
@@ -46,7 +45,7 @@ impl Run<'_> {
         }
     }
 
-    /// That the network became hotter and hotter, if that is why no step succeeds.
+    /// The runaway of a network that became hotter and hotter, if that is why no step succeeds.
     fn runaway(&mut self) -> Option<StopReason> {
         let (time, last) = (self.integrator.time(), self.unknowns()?);
         let system = self.recorder.system();
@@ -55,7 +54,7 @@ impl Run<'_> {
         Some(runaway.reason(system))
     }
 
-    /// The reason of a failure: what the system knows goes before what the integrator says.
+    /// The reason of a failure: that of the system has precedence over that of the integrator.
     pub(super) fn failed(&mut self, error: IntegrateError) -> Break {
         if let Some(failure) = self.integrator.system_mut().failure.take() {
             return Break::Failed(self.reason(failure));

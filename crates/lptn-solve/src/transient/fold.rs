@@ -1,11 +1,11 @@
-//! Folds: where the solution that a massless node follows ends, so that it leaps to another one.
+//! Folds: the solution that a massless node follows ends, so that it jumps to another one.
 //!
 //! Heat refuses to leave the branch (`branch.rs`), so that the integrator gets to the fold in ever
-//! shorter steps. So near that it does not matter when, the state is taken a little further along
-//! its present course, the node leaps there, and the run goes on from where it was.
+//! shorter steps. At a distance too small to matter, the state is extrapolated a little further,
+//! the node jumps there, and the run goes on from where it was.
 //!
 //! The first fold ends a run, which is repeated with a hundredth of the tolerance (`Care` in
-//! `transient.rs`). Errors before a fold have one sign and are made before anyone sees it, and runs
+//! `transient.rs`). Errors before a fold have one sign and are made before it is detected, and runs
 //! without folds must not pay for it. A saved state contains the temperatures of massless nodes.
 //! The search begins there if the form of the network does not show uniqueness.
 
@@ -16,28 +16,28 @@ use crate::times::Segment;
 use crate::transient::{Break, Care, Run};
 use crate::unsolved::Unsolved;
 
-/// How late a massless node may be at a fold: the share of the tolerance by which another node
-/// moves meanwhile.
+/// Largest delay of a massless node at a fold: the share of the tolerance by which another node
+/// moves in that time.
 const LATE: f64 = 1e-2;
 
-/// How far a state stays in front of a fold, as a share of that: the last digits of the balances
-/// tell the same there to everyone who looks.
+/// Distance of a state before a fold, as a share of that: the last digits of the balances are the
+/// same there for every evaluation.
 const MARGIN: f64 = 0.1;
 
-/// The shortest distance to a fold that is looked beyond, as a part of the longest.
+/// The shortest distance to a fold that is extrapolated beyond, as a part of the longest.
 const LEAST: f64 = 1e-3;
 
-/// Attempts in a row that fail in front of a fold: steps, and leaps at the end of one.
+/// Attempts in a row that fail before a fold: steps, and jumps at the end of one.
 const ATTEMPTS: usize = 40;
 
 /// Halvings of a step in search of the fold in it.
 const BISECTIONS: usize = 50;
 
-/// How often the distance to a fold is doubled in search of what lies beyond it.
+/// Most doublings of the distance to a fold in search of the solution beyond it.
 const DOUBLINGS: usize = 16;
 
 impl Run<'_> {
-    /// Remembers where massless nodes of several solutions stand.
+    /// Remembers the temperatures of massless nodes of several solutions.
     pub(super) fn stand(&mut self) -> Result<(), Break> {
         if !self.integrator.system().is_guarded() {
             return Ok(());
@@ -49,7 +49,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// A small stretch along the course of a step.
+    /// A small stretch along the direction of a step.
     fn margin(&mut self, from: f64, to: f64) -> Result<Vec<f64>, Break> {
         let mut ahead = self.integrator.state().to_vec();
         let mut before = ahead.clone();
@@ -61,8 +61,8 @@ impl Run<'_> {
         Ok(ahead)
     }
 
-    /// How far a step gets, up to `to`, before a massless node is at the end of its branch. What
-    /// the last correction of a step adds may lie beyond it.
+    /// The time in s that a step reaches, up to `to`, before a massless node is at the end of its
+    /// branch. The last correction of a step may lie beyond it.
     pub(super) fn reaches(&mut self, from: f64, to: f64) -> Result<f64, Break> {
         if !self.integrator.system().is_guarded() {
             return Ok(to);
@@ -101,7 +101,7 @@ impl Run<'_> {
         Ok(good)
     }
 
-    /// The same; where a node does not stay, for it is at a fold, it leaps.
+    /// The same; if a node does not stay, because it is at a fold, it jumps.
     pub(super) fn stand_or_leap(&mut self, segment: Segment) -> Result<(), Break> {
         let reason = match self.stand() {
             Ok(()) => return self.leap(segment).map(drop),
@@ -119,7 +119,7 @@ impl Run<'_> {
         Err(Break::Failed(reason))
     }
 
-    /// A step that failed in front of a fold leaps, or is tried again nearer to it.
+    /// A step that failed before a fold jumps, or is tried again nearer to it.
     pub(super) fn leap_or_fail(
         &mut self,
         segment: Segment,
@@ -139,7 +139,7 @@ impl Run<'_> {
         self.integrator.restart(None).map_err(|e| self.failed(e))
     }
 
-    /// Where a massless node cannot go on a moment later, it leaps; whether it did.
+    /// Lets a massless node jump that cannot go on a moment later; true if it did.
     pub(super) fn leap(&mut self, segment: Segment) -> Result<bool, Break> {
         let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());
         let mass = self.integrator.system().capacities().to_vec();
@@ -151,7 +151,7 @@ impl Run<'_> {
         if fold < time {
             return Ok(false);
         }
-        // no other look may decide where the search begins
+        // no other evaluation may affect the start of the search
         heat.seed(self.recorder.branch());
         let mut rates = vec![0.0; state.len()];
         if heat.flow(time, &state, &mut rates).is_ok() {
@@ -165,7 +165,7 @@ impl Run<'_> {
         }
         let fastest = rates.iter().fold(0.0, |most: f64, rate| most.max(rate.abs()));
         let late = LATE * self.tolerance / fastest;
-        // where nothing moves, nothing gets to a fold
+        // if nothing moves, nothing gets to a fold
         if !late.is_finite() || fold - time > late {
             return Ok(false);
         }

@@ -1,4 +1,4 @@
-//! How a run guards what depends on temperature, and what it makes up for.
+//! Guards of a run against laws that depend on temperature, and against growing errors.
 
 use lptn_integrate::{OdeSystem, Step};
 
@@ -8,16 +8,16 @@ use crate::settings::Transient;
 use crate::solution::{RunStatus, Solution};
 use crate::transient::{Break, Care, Run};
 
-/// How much a run has to make up for.
+/// Effort against errors of a run.
 #[derive(Clone, Copy)]
 pub(super) struct Effort {
     pub(super) care: Care,
-    /// By how much errors grow, as far as that is known.
+    /// Growth of errors, as far as that is known.
     pub(super) grows: f64,
 }
 
 impl Transient {
-    /// Whether errors of a run grow by more than is borne, and a smaller tolerance makes up for it.
+    /// True if errors of a run grow by more than allowed, and a smaller tolerance can correct it.
     pub(super) fn can_make_up_for(&self, solution: &Solution) -> bool {
         let needed = growth::share(solution.growth);
         needed < 1.0 && needed >= self.finest() && solution.end() == RunStatus::Reached
@@ -25,7 +25,7 @@ impl Transient {
 }
 
 impl Run<'_> {
-    /// Says when the next step has to end at the latest, `stop` among other reasons.
+    /// Sets the latest end of the next step, for `stop` among other reasons.
     pub(super) fn hold_step(&mut self, stop: f64) {
         let mut stop = stop;
         if let Some(guard) = &mut self.guard {
@@ -37,8 +37,8 @@ impl Run<'_> {
         }
     }
 
-    /// What is to be done about a step, for the sake of what depends on temperature; a step that
-    /// does not stand is taken back.
+    /// Verdict on a step, for laws that depend on temperature; a step that is not accepted is taken
+    /// back.
     pub(super) fn judged(&mut self, step: &Step) -> Result<Verdict, Break> {
         let Some(guard) = &mut self.guard else { return Ok(Verdict::Stands) };
         let verdict = guard.judge(self.integrator.as_mut(), step);
@@ -50,14 +50,14 @@ impl Run<'_> {
         Ok(verdict)
     }
 
-    /// The integrator begins, anew or for the first time.
+    /// Prepares the guard for a start or restart of the integrator.
     pub(super) fn guard_begins(&mut self) {
         if let Some(guard) = &mut self.guard {
             guard.begin(self.integrator.as_mut());
         }
     }
 
-    /// The same behind a jump, or for the first time: the speed is another one.
+    /// The same after a jump, or for the first time: the speed is another one.
     pub(super) fn begin_to_guard(&mut self) {
         self.guard_begins();
         if let Some(growth) = &mut self.growth {
@@ -65,7 +65,7 @@ impl Run<'_> {
         }
     }
 
-    /// Follows errors over a step of so many s.
+    /// Follows errors over a step of `length` in s.
     pub(super) fn errors_go_on(&mut self, length: f64) {
         let Some(growth) = &mut self.growth else { return };
         let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());
@@ -79,7 +79,7 @@ impl Run<'_> {
         growth.step(length, &state);
     }
 
-    /// By how much errors have grown. Those of the steps through something narrow add up too.
+    /// Growth of errors. Those of the steps through something narrow add up too.
     pub(super) fn errors_grow(&self) -> f64 {
         let growth = self.growth.as_ref().map_or(1.0, Growth::most);
         let growth = growth.max(self.guard.as_ref().map_or(1.0, Guard::grown));

@@ -1,6 +1,6 @@
-//! Where a network comes to rest from its start while its inputs are held.
+//! Steady state that a network reaches from its start while its inputs are fixed.
 //!
-//! Newton's method finds one of several steady states, not the one that the network comes to. The
+//! Newton's method finds one of several steady states, not the one that the network reaches. The
 //! integrator follows the network with its capacities, folds and switches; its steps grow as it
 //! settles, so that this costs little more than the way itself.
 
@@ -16,11 +16,10 @@ use crate::state::State;
 use crate::times::{Segment, just_after};
 use crate::transient::{Care, Effort, Run};
 
-/// Tolerance in K of a first look: what it decides is which way the network goes, not where it comes
-/// to rest.
+/// Tolerance in K of a first attempt: it decides which way the network goes, not its exact rest.
 pub(crate) const ROUGH: f64 = 1e-4;
 
-/// The same where there are several ways.
+/// The same if there are several ways.
 pub(crate) const FINE: f64 = 1e-8;
 
 /// Longer than any network takes, in s.
@@ -29,37 +28,37 @@ const FOR_EVER: f64 = 1e12;
 /// The most steps.
 const STEPS: usize = 20_000;
 
-/// The most switches: what switches more often than this does not come to rest.
+/// The most switches: a network with more does not come to rest.
 const SWITCHES: usize = 100;
 
 /// A step that moves no node by more than this, in K, may be one of the last.
 const SLOW: f64 = 0.1;
 
-/// So near to where it rests, in K, a network goes there.
+/// At this distance from a stable state, in K, a network goes there.
 const NEAR: f64 = 1e-3;
 
-/// How far from where the network was left it may come to rest, in K.
+/// Largest distance between the last temperatures of the network and its rest, in K.
 pub(crate) const MOVED: f64 = 0.01;
 
-/// Steps between two looks at whether it rests.
+/// Steps between two checks for rest.
 const EVERY: usize = 4;
 
 /// No more of it: see [`Care::Way`].
 const EFFORT: Effort = Effort { care: Care::Way, grows: 1.0 };
 
-/// Where a network is.
+/// Temperatures and positions of a network.
 pub(crate) struct Rest {
     /// Temperatures of all unknowns in K.
     pub(crate) temperatures: Vec<f64>,
-    /// Which controls are on and which comparisons hold.
+    /// Controls that are on and comparisons that are true.
     pub(crate) positions: Positions,
 }
 
-/// Where following a network ended.
+/// End of following a network.
 pub(crate) enum Way {
     /// It rests.
     Rests(Rest),
-    /// It moves on and could not be followed further than to there.
+    /// It moves on and could not be followed further than this.
     Left(Rest),
     /// It cannot be followed, or does not settle.
     Lost,
@@ -101,7 +100,7 @@ fn followed(system: &ThermalSystem, time: f64, tolerance: f64) -> Option<Way> {
 }
 
 impl<'a> Run<'a> {
-    /// A run that writes nothing and has the inputs of one time for ever, with its one segment.
+    /// A run that writes nothing and has the inputs of one time without end, with its one segment.
     fn held(system: &'a ThermalSystem, time: f64, tolerance: f64) -> Option<(Segment, Self)> {
         let segment = Segment { from: time, to: time + FOR_EVER };
         let settings = Transient {
@@ -138,7 +137,7 @@ impl<'a> Run<'a> {
             .map(|(temperatures, _)| temperatures.to_vec())
     }
 
-    /// Whether it is so near to a state that is stable that it goes there.
+    /// True if it is so near to a stable state that it goes there.
     fn rests(&mut self, newton: &mut Newton<'_>, temperatures: &[f64]) -> Option<bool> {
         let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());
         let (_, work) = self.integrator.system_mut().temperatures(time, &state).ok()?;
@@ -149,7 +148,7 @@ impl<'a> Run<'a> {
         if !near || !matches!(newton.unstable(work, temperatures), Ok(None)) {
             return Some(false);
         }
-        // beside the end of two steady states that meet a network all but rests, and goes on
+        // near the end of two steady states that meet a network all but rests, and goes on
         let mut found = temperatures.to_vec();
         let solved = newton.damped(work, &mut found).is_ok();
         let there = solved && newton.moved(temperatures, &found) <= MOVED;

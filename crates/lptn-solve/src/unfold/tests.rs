@@ -1,4 +1,4 @@
-//! What a massless node at 2 + 2 + 1 W/K is found with.
+//! Solution of a massless node at 2 + 2 + 1 W/K, and its matrix.
 #![allow(
     clippy::unwrap_used,
     clippy::float_cmp,

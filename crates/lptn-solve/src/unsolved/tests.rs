@@ -1,4 +1,4 @@
-//! Balances that could not be solved name their node, and what reads it.
+//! Balances that could not be solved name their node, and the elements that read it.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use lptn_network::{Field, InputProblem, NetworkBuilder, Temperature};
@@ -23,7 +23,7 @@ fn the_node_at_which_a_search_failed_is_named() {
     assert_eq!(name(NewtonError::Stalled { unknown: 1, change: 2.0 }), "n1");
     assert_eq!(name(NewtonError::Singular { unknown: 0 }), "n0");
     assert_eq!(name(NewtonError::Input(input("air"))), "air");
-    // where it is not known
+    // empty if it is not known
     assert_eq!(name(NewtonError::Factorization(FactorError::Singular { index: 0 })), "");
     assert_eq!(name(NewtonError::Fold { unknown: 7 }), "");
 }

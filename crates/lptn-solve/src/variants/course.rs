@@ -1,7 +1,7 @@
-//! The course of one quantity over a stretch in which all inputs are straight lines: a sum of
+//! The time history of one quantity over a stretch in which all inputs are straight lines: a sum of
 //! exponentials and a straight line, whose extremes and crossings are found to rounding.
 
-/// What was seen of a quantity over a run, in SI units.
+/// Results of a quantity over a run, in SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CourseSeen {
     /// Its last value.
@@ -10,9 +10,9 @@ pub struct CourseSeen {
     pub min: f64,
     /// Its largest value.
     pub max: f64,
-    /// Its integral over time, where that was asked for.
+    /// Its integral over time, if it was requested.
     pub integral: f64,
-    /// For how long it was above zero, in s.
+    /// Time in s for which it was above zero.
     pub positive: f64,
 }
 
@@ -31,14 +31,14 @@ impl CourseSeen {
     }
 }
 
-/// What is asked of a course; its end is always seen.
+/// Requested results of a quantity; its end is always included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Look {
     /// Nothing more.
     End,
     /// Its integral.
     Integral,
-    /// Its extremes and for how long it is above zero.
+    /// Its extremes and the time for which it is above zero.
     Extremes,
 }
 
@@ -52,20 +52,19 @@ pub(crate) struct Course<'a> {
     pub(crate) length: f64,
 }
 
-/// What all courses of a stretch share.
+/// Data shared by all quantities of a stretch.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Stretch {
-    /// What is left of each mode at its end.
+    /// Remaining share of each mode at its end.
     pub(crate) ends: Vec<f64>,
-    /// The integral of what it loses, in s.
+    /// Integral over the stretch of each mode from a start of 1, in s.
     pub(crate) lost: Vec<f64>,
-    /// What a step of each length leaves of each mode, as far as such steps were taken.
+    /// Remaining share of each mode after a step of each length, as far as such steps were taken.
     factors: Vec<f64>,
 }
 
 impl Stretch {
-    /// Begins with a stretch of this length in s.
-    /// `integrated` is whether integrals are asked for.
+    /// Begins with a stretch of this length in s. `integrated`: integrals are requested.
     pub(crate) fn begin(&mut self, rates: &[f64], length: f64, integrated: bool) {
         self.factors.clear();
         self.ends.clear();
@@ -77,12 +76,12 @@ impl Stretch {
         }
     }
 
-    /// What steps of the `level`-th length leave of the modes; `doubled` is whether they are twice
-    /// as long as those before them.
+    /// Remaining shares of the modes after steps of the `level`-th length; `doubled`: they are
+    /// twice as long as those before them.
     fn factors(&mut self, level: usize, (rates, step): (&[f64], f64), doubled: bool) -> &[f64] {
         let (place, n) = (level * rates.len(), rates.len());
         if self.factors.len() <= place && doubled {
-            // ten doublings cost 1000 roundings: nothing beside what is looked for
+            // ten doublings cost 1000 roundings: negligible next to the required accuracy
             self.factors.extend_from_within(place - n..place);
             self.factors[place..].iter_mut().for_each(|factor| *factor *= *factor);
         } else if self.factors.len() <= place {
@@ -95,19 +94,19 @@ impl Stretch {
 /// Steps of one length.
 const STEPS: usize = 4;
 
-/// How often a step that may turn twice is halved.
+/// Most halvings of a step that may turn twice.
 const HALVES: usize = 6;
 
-/// Of the fastest mode a step is this part of its time constant at first.
+/// The first step over the time constant of the fastest mode.
 const FIRST: f64 = 0.5;
 
-/// A turn is found to this share of a step: what the value misses is the square of that.
+/// A turn is found to this share of a step: the error of the value is the square of that.
 const TURNED: f64 = 1e-8;
 
 /// Steps towards a zero.
 const MOST_NEWTON: usize = 60;
 
-/// A point of a course: where, value and slope.
+/// A point of the time history: time in s from the start, value and slope.
 type Point = (f64, f64, f64);
 
 impl Course<'_> {
@@ -123,7 +122,7 @@ impl Course<'_> {
         [value, slope, curvature]
     }
 
-    /// Whether it does not turn any more, where the modes have come to `parts`. The slope is
+    /// True if it does not turn any more when the modes are at `parts`. The slope is
     /// `q - sum of r_k e_k exp(-r_k s)`: with its sums from the slowest part on, it is a sum of those
     /// times differences of exponentials that are not negative (Abel's summation), so it keeps its
     /// sign if they all have one.
@@ -136,7 +135,7 @@ impl Course<'_> {
         least >= 0.0 || most <= 0.0
     }
 
-    /// Takes the stretch in.
+    /// Takes in the stretch.
     pub(crate) fn see(&self, stretch: &mut Stretch, look: Look, seen: &mut CourseSeen) {
         let (mut first, mut slope) = (self.p, self.q);
         let (mut value, mut end_slope) = (self.p + self.q * self.length, self.q);
@@ -161,7 +160,7 @@ impl Course<'_> {
         }
     }
 
-    /// Looks at steps that grow with the time constants of what is left, until it turns no more.
+    /// Evaluates steps that grow with the time constants that remain, until it turns no more.
     fn step_by_step(
         &self,
         (begin, end): (Point, Point),
@@ -191,7 +190,7 @@ impl Course<'_> {
         self.piece(from, end, seen);
     }
 
-    /// Takes in a step, in halves where it may turn twice.
+    /// Takes in a step, in halves if it may turn twice.
     fn piece(&self, from: Point, to: Point, seen: &mut CourseSeen) {
         self.halved(from, to, HALVES, seen);
     }
@@ -218,7 +217,7 @@ impl Course<'_> {
         seen.positive += self.positive(from, turn) + self.positive(turn, to);
     }
 
-    /// For how long it is above zero between two points between which it does not turn.
+    /// Time in s for which it is above zero between two points without a turn between them.
     fn positive(&self, from: Point, to: Point) -> f64 {
         let length = to.0 - from.0;
         match (from.1 > 0.0, to.1 > 0.0) {
@@ -234,8 +233,8 @@ impl Course<'_> {
         }
     }
 
-    /// Where the value (`of` 0) or the slope (1) passes zero that begins above it, or below, to
-    /// `enough`: Newton's method inside an interval that shrinks. Also what is there.
+    /// The zero of the value (`of` 0) or the slope (1) that begins above it, or below, to `enough`:
+    /// Newton's method inside an interval that shrinks. Also the values there.
     fn zero(
         &self,
         of: usize,
@@ -262,9 +261,9 @@ impl Course<'_> {
     }
 }
 
-/// Whether the cubic through both points with their slopes, which have one sign, does not turn
+/// True if the cubic through both points with their slopes, which have one sign, does not turn
 /// between them (F. N. Fritsch and R. E. Carlson, SIAM J. Numer. Anal. 17 (1980) 238: it does not
-/// where neither slope is more than three times that of the chord).
+/// if neither slope is more than three times that of the chord).
 fn goes_one_way(from: Point, to: Point) -> bool {
     let three = 3.0 * (to.1 - from.1) / (to.0 - from.0);
     match three > 0.0 {
@@ -273,8 +272,8 @@ fn goes_one_way(from: Point, to: Point) -> bool {
     }
 }
 
-/// Takes parts a step on: what they are together, and how much they lose in a second. In four
-/// partial sums, for one would wait for every addition.
+/// Advances parts by a step: returns their sum, and their loss per second. It uses four partial
+/// sums, for one would wait for every addition.
 fn decay(parts: &mut [f64], factors: &[f64], rates: &[f64]) -> (f64, f64) {
     const LANES: usize = 4;
     let (mut sum, mut lost) = ([0.0; LANES], [0.0; LANES]);
@@ -297,7 +296,7 @@ fn decay(parts: &mut [f64], factors: &[f64], rates: &[f64]) -> (f64, f64) {
     (all, all_lost)
 }
 
-/// Where the straight line between two values of different sign passes zero.
+/// The zero of the straight line between two values of different sign.
 fn between((from, to): (f64, f64), (first, last): (f64, f64)) -> f64 {
     let share = first / (first - last);
     let share = if share > 0.0 && share < 1.0 { share } else { 0.5 };

@@ -1,11 +1,11 @@
-//! Runs of networks of hundreds of nodes: as few vectors as it takes to hold what decays, by the
+//! Runs of networks of hundreds of nodes: the fewest vectors that represent the decay, by the
 //! Lanczos method for `(1 + gamma A)^-1` with `A = C^-1 K` (J. van den Eshof and M. Hochbruck,
 //! Preconditioning Lanczos approximations to the matrix exponential, SIAM J. Sci. Comput. 27 (2006)
 //! 1438).
 //!
 //! With `B V = V T + beta v e^T` for the operator `B` and `H = (T^-1 - 1)/gamma` the approximation
-//! `y = V g`, `g(s) = exp(-s H) g(0)` leaves `-y' - A y = (1 + gamma A) v phi(s)`, with
-//! `phi = beta/gamma e^T T^-1 g`. The error is the answer of the network to that, and by parts
+//! `y = V g`, `g(s) = exp(-s H) g(0)` leaves `-y' - A y = (1 + gamma A) v phi(s)`, with `phi =
+//! beta/gamma e^T T^-1 g`. The error is the response of the network to that, and by parts
 //!
 //! `|error| <= |v| (integral |phi| ds + gamma (|phi(0)| + |phi(s)| + integral |phi'| ds))`
 //!
@@ -19,8 +19,8 @@ use lptn_integrate::dense::Symmetric;
 use super::modes::Modes;
 use super::star::{Plan, Star};
 
-/// The step of the operator over the longest stretch between bends of the inputs: about where the
-/// start and the end of a stretch take as many vectors.
+/// The step of the operator over the longest stretch between bends of the inputs: for about this
+/// value the start and the end of a stretch take as many vectors.
 const STEP: f64 = 0.03;
 
 /// Vectors at first, how many more at a time, and at most.
@@ -31,11 +31,11 @@ const MOST: usize = 62;
 /// A norm below this share of the first is rounding: the space is whole.
 const WHOLE: f64 = 1e-14;
 
-/// The first step at which the error is looked at, over the time constant of the fastest part.
+/// The first step at which the error is evaluated, over the time constant of the fastest part.
 const EARLY: f64 = 0.1;
 
-/// What leaves of the equation is looked at after 1, 2, 4, .. steps: what it does between them is
-/// allowed for by this.
+/// The residual of the equation is evaluated after 1, 2, 4, .. steps: this factor allows for the
+/// values in between.
 const SAMPLED: f64 = 2.0;
 
 /// A space of one candidate.
@@ -46,8 +46,8 @@ pub(crate) struct Krylov {
     /// `C / gamma` of each node in W/K.
     weight: Vec<f64>,
     gamma: f64,
-    /// Vectors with `sum of C v^2 = 1`, node by node, one after the other; the last is the one that
-    /// is left over.
+    /// Vectors with `sum of C v^2 = 1`, node by node, one after the other; the last is the
+    /// remainder.
     vectors: Vec<f64>,
     diagonal: Vec<f64>,
     beside: Vec<f64>,
@@ -128,7 +128,7 @@ impl Krylov {
         (dot(&self.weight, v, v) * self.gamma).sqrt()
     }
 
-    /// Goes on by a vector; whether that was all there are.
+    /// Adds a vector; returns true if there are no more.
     fn extend(&mut self, plan: &Plan) -> bool {
         let n = self.weight.len();
         let last = self.vectors.len() - n;
@@ -136,7 +136,7 @@ impl Krylov {
             self.weight.iter().zip(&self.vectors[last..]).map(|(c, v)| c * v).collect();
         self.shifted.solve(plan, &mut next);
         self.diagonal.push(dot(&self.weight, &self.vectors[last..], &next) * self.gamma);
-        // what is left over is small, so that once would leave as much of the others in it
+        // the remainder is small, so that one pass would leave as much of the others in it
         for _ in 0..2 {
             for v in self.vectors.chunks_exact(n).rev() {
                 let part = dot(&self.weight, v, &next) * self.gamma;
@@ -151,7 +151,7 @@ impl Krylov {
         whole
     }
 
-    /// Rates of the space, and what they leave.
+    /// Rates of the space, and their residuals.
     fn decompose(&mut self, modes: &mut Modes, whole: bool) -> Option<()> {
         let (n, count) = (self.weight.len(), self.diagonal.len());
         self.ritz.tridiagonal(&self.diagonal, &self.beside)?;
@@ -170,7 +170,7 @@ impl Krylov {
         modes.rates.iter().all(|rate| rate.is_finite() && *rate > 0.0).then_some(())
     }
 
-    /// How far temperatures may be wrong within `length` s in K, where the modes begin with `left`.
+    /// Largest error of temperatures within `length` s in K, if the modes begin with `left`.
     pub(crate) fn error(&mut self, rates: &[f64], left: &[f64], length: f64) -> f64 {
         let mut parts: Vec<f64> = self.residual.iter().zip(left).map(|(r, y)| r * y).collect();
         let mut step = (EARLY / rates.last().copied().unwrap_or(1.0)).min(length);

@@ -1,5 +1,5 @@
 //! Many candidates of one linear network, without a system for each: steady states by elimination,
-//! runs in closed form by all modes of small networks and by as many vectors as it takes of others.
+//! runs in closed form by all modes of small networks and by enough vectors for others.
 //!
 //! Plain loops over small dense matrices, in one order: nothing here depends on the processor.
 //!
@@ -26,7 +26,7 @@ use krylov::Krylov;
 use modes::Modes;
 use star::{Link, Plan, Star};
 
-/// Nodes with capacity beyond which not all modes are looked for.
+/// Nodes with capacity beyond which not all modes are computed.
 const MOST_MODES: usize = 48;
 
 /// Nodes beyond which candidates are assembled one by one.
@@ -36,7 +36,7 @@ const MOST_NODES: usize = 2000;
 pub struct LinearVariants<'a> {
     variants: Variants<'a>,
     network: &'a Network,
-    /// Whether inputs change with time.
+    /// True if inputs change with time.
     timed: bool,
     plan: Plan,
     star: Star,
@@ -47,25 +47,25 @@ pub struct LinearVariants<'a> {
     powers: Vec<f64>,
     /// Temperatures of the nodes in K.
     temperatures: Vec<f64>,
-    /// What expressions of results name.
+    /// Heat flows that expressions of results name.
     heats: Vec<HeatOf>,
     named: Vec<f64>,
     march: March,
 }
 
-/// A quantity whose course is followed: an expression that goes in a straight line with one
-/// temperature or heat flow.
+/// A quantity whose time history is followed: an expression that is linear in one temperature or
+/// heat flow.
 #[derive(Clone, Copy, Debug)]
 pub struct Quantity<'a> {
     /// The expression.
     pub value: &'a Value,
-    /// What it goes with, [`Network::follows`].
+    /// The temperature or heat flow, [`Network::follows`].
     pub with: Followed,
-    /// What is asked of it.
+    /// Its requested results.
     pub look: Look,
 }
 
-/// What goes on from segment to segment of a run.
+/// State that passes from segment to segment of a run.
 #[derive(Clone, Debug, Default)]
 struct March {
     /// Rise of each node over the reference in K.
@@ -73,7 +73,7 @@ struct March {
     /// The straight line that each node tends to, in K and K/s.
     level: Vec<f64>,
     slope: Vec<f64>,
-    /// What is left of the way to it, and that as a sum of modes.
+    /// Difference of the state from it, and that as a sum of modes.
     rest: Vec<f64>,
     left: Vec<f64>,
     stretch: Stretch,
@@ -87,7 +87,7 @@ struct March {
 }
 
 impl<'a> LinearVariants<'a> {
-    /// For candidates in which these parameters differ; `None` for a network that this is not for.
+    /// For candidates in which these parameters differ; `None` for an unsuitable network.
     pub fn new(network: &'a Network, changed: &[ParameterId]) -> Option<Self> {
         let variants = network.variants(changed)?;
         let heats: Vec<HeatOf> = network.named_heats().collect();
@@ -118,18 +118,18 @@ impl<'a> LinearVariants<'a> {
         })
     }
 
-    /// Gives the parameters these values in SI units: `false` where the network refuses them.
+    /// Gives the parameters these values in SI units: `false` if the network refuses them.
     pub fn set(&mut self, values: &[f64]) -> bool {
         self.variants.set(values)
     }
 
-    /// Where expressions of results find what was computed last.
+    /// The scope in which expressions of results find the last solution.
     pub fn scope(&mut self) -> &mut lptn_network::Evaluation {
         self.variants.scope()
     }
 
-    /// Solves the steady state with inputs as they are at `time` in s, for [`LinearVariants::scope`].
-    /// `None` where a number fails or a node leads to no boundary.
+    /// Solves the steady state with inputs as they are at `time` in s, for
+    /// [`LinearVariants::scope`]. `None` if a number fails or a node leads to no boundary.
     pub fn steady(&mut self, time: f64) -> Option<()> {
         self.inputs(time, time)?;
         let reference = self.boundaries[0];
@@ -165,14 +165,14 @@ impl<'a> LinearVariants<'a> {
         self.network.source_powers(scope, &mut self.powers).ok()
     }
 
-    /// Puts temperatures and heat flows where expressions read them.
+    /// Puts temperatures and heat flows into the scope of expressions.
     fn place(&mut self) {
         for named in 0..self.heats.len() {
             self.named[named] = match self.heats[named] {
                 HeatOf::Conductor(id) => self.flow(id.index()),
                 HeatOf::Source(id) => self.powers[id.index()],
                 HeatOf::Boundary(id) => self.given(End::Boundary(id)),
-                // there are no others: `new` has looked
+                // there are no others: `new` has checked
                 _ => f64::NAN,
             };
         }

@@ -17,7 +17,7 @@ pub(crate) struct Modes {
 }
 
 impl Modes {
-    /// All modes of a candidate whose nodes without capacity are taken out; `None` where the numbers
+    /// All modes of a candidate whose nodes without capacity are taken out; `None` if the numbers
     /// fail.
     pub(crate) fn find(&mut self, plan: &Plan, star: &Star, capacity: &[f64]) -> Option<()> {
         let massless = plan.massless;
@@ -62,7 +62,7 @@ impl Modes {
         }
     }
 
-    /// Keeps none.
+    /// Deletes all modes.
     pub(crate) fn forget(&mut self) {
         self.rates.clear();
         self.shapes.clear();
@@ -75,8 +75,8 @@ impl Modes {
     }
 }
 
-/// Rayleigh's quotient, but for its norm, as a sum of the heat of every path: positive terms, so that
-/// slow modes keep their digits beside fast ones, which the eigenvalues of a dense solver do not.
+/// Rayleigh's quotient, but for its norm, as a sum of the heat of every path: positive terms, so
+/// that slow modes keep their digits next to fast ones, unlike the eigenvalues of a dense solver.
 fn rate(plan: &Plan, star: &Star, shape: &[f64]) -> f64 {
     let massful = plan.massless..plan.order.len();
     let ground = massful.map(|k| star.ground[k] * shape[plan.order[k]] * shape[plan.order[k]]);

@@ -12,14 +12,14 @@ const SIZE: f64 = 1e3;
 const LARGE: f64 = 8.0;
 
 impl LinearVariants<'_> {
-    /// Whether runs of this network can be followed in closed form at all.
+    /// True if runs of this network can be followed in closed form at all.
     pub fn runs(&self) -> bool {
         self.network.inputs_are_straight() && self.plan.massless < self.plan.order.len()
     }
 
     /// Follows quantities over the run from `start` to `stop` in s, whose inputs bend at
-    /// `breakpoints` alone: [`Network::breakpoints`](lptn_network::Network::breakpoints). `None`
-    /// where a number fails or temperatures may be wrong by more than a tenth of `tolerance` in K.
+    /// `breakpoints` alone: [`Network::breakpoints`](lptn_network::Network::breakpoints). `None` if
+    /// a number fails or temperatures may be wrong by more than a tenth of `tolerance` in K.
     pub fn run(
         &mut self,
         (start, stop): (f64, f64),
@@ -52,7 +52,7 @@ impl LinearVariants<'_> {
         self.variants.initial[self.plan.order[self.plan.massless]]
     }
 
-    /// Takes the network apart, and puts the start into the march.
+    /// Decomposes the network, and puts the start into the march.
     fn begin(&mut self, longest: f64, allowed: f64) -> Option<()> {
         let (plan, star) = (&self.plan, &mut self.star);
         let (conductance, capacity) = (&self.variants.conductance, &self.variants.capacity);
@@ -83,7 +83,7 @@ impl LinearVariants<'_> {
         Some(())
     }
 
-    /// Reads the inputs of a segment, and what they do to every node.
+    /// Reads the inputs of a segment, and their effects on every node.
     fn segment(&mut self, segment: Segment, allowed: f64) -> Option<()> {
         let (inside, length) = (segment.inside(), segment.to - segment.from);
         self.inputs(segment.from, inside)?;
@@ -129,7 +129,7 @@ impl LinearVariants<'_> {
         size
     }
 
-    /// What is left of the way to it.
+    /// The difference of the state from that line.
     fn rest(&mut self) {
         let march = &mut self.march;
         march.rest.clear();
@@ -137,7 +137,7 @@ impl LinearVariants<'_> {
         self.star.recover(&self.plan, &mut march.rest);
     }
 
-    /// That as a sum of modes.
+    /// The same difference as a sum of modes.
     fn project(&mut self) {
         let (march, capacity) = (&mut self.march, &self.variants.capacity);
         let part = |shape: &[f64]| -> f64 {
@@ -148,7 +148,7 @@ impl LinearVariants<'_> {
         march.left.extend(self.modes.shapes.chunks_exact(capacity.len()).map(part));
     }
 
-    /// Finds modes that hold what is left, unless those of the segment before do.
+    /// Finds modes that represent the rest, unless those of the segment before do.
     fn span(&mut self, length: f64, allowed: f64) -> Option<()> {
         if self.error(length)? <= allowed {
             return Some(());
@@ -159,8 +159,8 @@ impl LinearVariants<'_> {
         (self.error(length)? <= allowed).then_some(())
     }
 
-    /// How far temperatures of the segment may be wrong in K: by what the modes miss of the start,
-    /// and by what they leave of the equation.
+    /// Largest error of the temperatures of the segment in K: the miss of the modes at the start,
+    /// and their residual of the equation.
     fn error(&mut self, length: f64) -> Option<f64> {
         let march = &self.march;
         let mut missed = march.rest.clone();
@@ -172,7 +172,7 @@ impl LinearVariants<'_> {
         Some(missed + left)
     }
 
-    /// Takes a segment of a quantity in.
+    /// Takes in a segment of a quantity.
     fn see(&mut self, quantity: &Quantity<'_>, length: f64, seen: &mut CourseSeen) -> Option<()> {
         let (at_zero, gain) = self.straight(quantity)?;
         let (constant, growth) = self.as_sum(quantity.with, length);
@@ -194,7 +194,7 @@ impl LinearVariants<'_> {
         Some(())
     }
 
-    /// The quantity where what it goes with is 0, and its gain.
+    /// The quantity if its temperature or heat flow is 0, and its gain.
     fn straight(&mut self, quantity: &Quantity<'_>) -> Option<(f64, f64)> {
         /// A power of two, so that the difference is divided without rounding.
         const FAR: f64 = 1024.0;
@@ -274,7 +274,7 @@ impl LinearVariants<'_> {
         for (t, rise) in self.temperatures.iter_mut().zip(&march.state) {
             *t = reference + rise;
         }
-        // what is colder than that is for the integrator to refuse
+        // a colder temperature is for the integrator to refuse
         self.temperatures.iter().all(|t| *t >= 0.0 && t.is_finite()).then_some(())
     }
 }

@@ -6,11 +6,11 @@ use std::collections::BTreeSet;
 
 use lptn_network::{Conductor, End};
 
-/// Conductances beside each other at all eliminations together beyond which a network is not for
-/// this.
+/// Most pairs of neighbours in all eliminations together; beyond that a network is not for this
+/// method.
 const MOST_PAIRS: usize = 400_000;
 
-/// Where a conductor leads.
+/// The link of a conductor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Link {
     /// Between two nodes, by its place in [`Star::among`].
@@ -21,27 +21,27 @@ pub(crate) enum Link {
     Nothing,
 }
 
-/// What all candidates share: the order in which nodes are taken out, and what that fills in.
+/// Data shared by all candidates: the order in which nodes are taken out, and its fill.
 #[derive(Clone, Debug)]
 pub(crate) struct Plan {
     /// The node at each place of the order, those without capacity first.
     pub(crate) order: Vec<usize>,
     /// The place of each node.
     pub(crate) place: Vec<usize>,
-    /// How many have no capacity.
+    /// Number of nodes without capacity.
     pub(crate) massless: usize,
-    /// Where the neighbours of each place that are taken out later begin, in `later`.
+    /// Start, in `later`, of the neighbours of each place that are taken out later.
     start: Vec<usize>,
     later: Vec<usize>,
-    /// What the conductances between every two of those go to, and where each place's begin.
+    /// Slots of the conductances between every two of those, and where each place's begin.
     pairs: Vec<usize>,
     pairs_start: Vec<usize>,
-    /// Where each conductor leads.
+    /// The link of each conductor.
     pub(crate) links: Vec<Link>,
 }
 
 impl Plan {
-    /// The order of a network of conductors; `None` where too much would be filled in.
+    /// The order of a network of conductors; `None` if too much would be filled in.
     pub(crate) fn new(massless: &[bool], conductors: &[Conductor]) -> Option<Self> {
         let n = massless.len();
         let mut around = vec![BTreeSet::new(); n];
@@ -101,22 +101,22 @@ impl Plan {
         later.iter().enumerate().flat_map(with).collect()
     }
 
-    /// Where the conductance between two places is kept, the earlier one first.
+    /// The slot of the conductance between two places, the earlier one first.
     fn between(&self, a: usize, b: usize) -> usize {
         let later = &self.later[self.start[a]..self.start[a + 1]];
         self.start[a] + later.partition_point(|place| *place < b)
     }
 
-    /// The places of both ends of every conductance between nodes from this place on, with where it
-    /// is kept.
+    /// The places of both ends of every conductance between nodes from this place on, with its
+    /// slot.
     pub(crate) fn between_all(&self, from: usize) -> impl Iterator<Item = (usize, usize, usize)> {
         let column = |k: usize| (self.start[k]..self.start[k + 1]).map(move |slot| (k, slot));
         (from..self.order.len()).flat_map(column).map(|(k, slot)| (k, self.later[slot], slot))
     }
 }
 
-/// The order with the fewest neighbours first, those without capacity before all others, and which
-/// neighbours each has when it is taken out.
+/// The order with the fewest neighbours first, those without capacity before all others, and the
+/// neighbours of each when it is taken out.
 fn eliminated(
     massless: &[bool],
     mut around: Vec<BTreeSet<usize>>,
@@ -146,11 +146,11 @@ fn eliminated(
 #[derive(Clone, Debug)]
 pub(crate) struct Star {
     /// Conductance in W/K between every two places; once the earlier one is taken out, its share of
-    /// what that had to all others.
+    /// that place's total.
     pub(crate) among: Vec<f64>,
     /// Conductance of each place to all surroundings in W/K.
     pub(crate) ground: Vec<f64>,
-    /// What each place had to all others together when it was taken out, in W/K.
+    /// Total conductance of each place when it was taken out, in W/K.
     total: Vec<f64>,
     work: Vec<f64>,
 }
@@ -218,14 +218,14 @@ impl Star {
         }
     }
 
-    /// Gives nodes without capacity and without heat the rises that their neighbours make.
+    /// Gives nodes without capacity and without heat their rises from those of their neighbours.
     pub(crate) fn recover(&self, plan: &Plan, rises: &mut [f64]) {
         for k in (0..plan.massless).rev() {
             rises[plan.order[k]] = self.shared(plan, k, |place| rises[plan.order[place]]);
         }
     }
 
-    /// What the later neighbours of a place make of it.
+    /// The rise of a place from those of its later neighbours.
     fn shared(&self, plan: &Plan, k: usize, rise: impl Fn(usize) -> f64) -> f64 {
         let slots = plan.start[k]..plan.start[k + 1];
         let later = plan.later[slots.clone()].iter();

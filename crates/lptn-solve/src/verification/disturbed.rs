@@ -13,18 +13,18 @@ use crate::stop_reason::StopReason;
 use crate::times::just_after;
 use crate::unsolved::Unsolved;
 
-/// The full network with inputs and switches held, less the heat that its nodes store in the state
-/// itself: left alone, it stays there.
+/// The full network with inputs and switches fixed, less the heat that its nodes store in the state
+/// itself: undisturbed, it stays there.
 pub(crate) struct Disturbed<'a> {
     heat: Heat<'a>,
-    /// Heat that each state receives in W where it is not disturbed.
+    /// Heat that each undisturbed state receives in W.
     stored: Vec<f64>,
     /// Temperatures of all nodes there in K.
     at: &'a [f64],
 }
 
 impl<'a> Disturbed<'a> {
-    /// The system, and what an integrator carries where its states are warmer than in `state` by
+    /// The system, and the integrator's variables if its states are warmer than in `state` by
     /// `rises` in K.
     pub(crate) fn new(
         system: &'a ThermalSystem,
@@ -47,7 +47,7 @@ impl<'a> Disturbed<'a> {
         Ok((Self { heat, stored, at: &state.temperatures }, start))
     }
 
-    /// How much warmer every node is than in the state, in K.
+    /// Rises of all nodes over the state, in K.
     pub(crate) fn rises(&mut self, y: &[f64]) -> Result<Vec<f64>, StopReason> {
         let system = self.heat.system();
         let (_, work) = self.heat.temperatures(0.0, y)?;

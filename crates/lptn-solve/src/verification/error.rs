@@ -1,4 +1,4 @@
-//! Why a network near a state cannot be compared with its linear one.
+//! Reasons why a network near a state cannot be compared with its linear one.
 
 use lptn_network::InputError;
 
@@ -8,7 +8,7 @@ use crate::modes::ModesError;
 use crate::stop_reason::StopReason;
 
 lptn_units::errors! {
-/// Why a network near a state cannot be compared with its linear one.
+/// Reason why a network near a state cannot be compared with its linear one.
 #[derive(Debug)]
 pub enum NearError {
     /// Its modes.

@@ -1,4 +1,4 @@
-//! A run against a solution found another way.
+//! Comparison of a run with an independent solution.
 
 mod disturbed;
 mod error;
@@ -17,19 +17,19 @@ use crate::settings::{Proceed, Progress, Transient};
 use crate::solution::{RunStatus, Solution};
 use crate::table::Table;
 
-/// How far runs of a network are from its exact solution.
+/// Comparison of runs of a network with its exact solution.
 #[derive(Clone, Debug)]
 pub struct Verification {
-    /// What they are compared with.
+    /// The reference of the comparison.
     pub reference: Reference,
     /// One comparison a run, the coarsest tolerance first.
     pub comparisons: Vec<RunComparison>,
 }
 
-/// What runs are compared with.
+/// A reference for runs.
 #[derive(Clone, Debug)]
 pub enum Reference {
-    /// The solution by modes, and by the exponential of a matrix where streams flow.
+    /// The solution by modes, and by the exponential of a matrix if streams flow.
     Exact {
         /// Number of nodes with capacity.
         states: usize,
@@ -44,44 +44,44 @@ pub enum Reference {
     FinerRun {
         /// Its tolerance in K.
         tolerance: f64,
-        /// Why.
+        /// The reason.
         reason: NoReference,
     },
 }
 
-/// Why a network has no independent solution.
+/// Reason why a network has no independent solution.
 #[derive(Clone, Debug)]
 pub enum NoReference {
     /// It cannot be solved exactly.
     Unsolved(ExactError),
-    /// Its exact solution is not better than what is to be verified: its rates span too much.
+    /// Its exact solution is not better than the run to be verified: its rates span too much.
     TooStiff {
         /// The error of the exact solution in K.
         own_error: f64,
     },
 }
 
-/// One run beside the reference.
+/// One run and its reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunComparison {
     /// Tolerance of the run in K.
     pub tolerance: f64,
-    /// Where it differs most.
+    /// Its largest difference.
     pub difference: Difference,
     /// The largest error that is allowed, in K: [`allowed_error`].
     pub allowed: f64,
-    /// What the reference itself may be off, in K.
+    /// Possible error of the reference itself, in K.
     pub reference_error: f64,
 }
 
-/// No run is asked for less than this, in K: temperatures near 300 K have a last digit of 6e-14 K,
-/// and the integrator needs room above it.
+/// No run is requested for less than this, in K: temperatures near 300 K have a last digit of 6e-14
+/// K, and the integrator needs room above it.
 pub const LEAST_TOLERANCE: f64 = 1e-10;
 
 /// Part of the allowed error that a reference may have itself and still judge a run.
 const MOST_OWN_ERROR: f64 = 0.1;
 
-/// What the error of a run may be, in K: ten times its tolerance down to 1e-5 K, fifty times below
+/// Largest allowed error of a run, in K: ten times its tolerance down to 1e-5 K, fifty times below
 /// that.
 pub fn allowed_error(tolerance: f64) -> f64 {
     let coarse = tolerance >= 1e-5 * (1.0 - 1e-9);
@@ -89,7 +89,7 @@ pub fn allowed_error(tolerance: f64) -> f64 {
 }
 
 impl RunComparison {
-    /// Whether the run can be as good as it has to be.
+    /// True if the run may be as accurate as required.
     pub fn passes(&self) -> bool {
         self.difference.largest <= self.allowed + self.reference_error
     }
@@ -97,11 +97,11 @@ impl RunComparison {
 
 impl Verification {
     /// Runs `system` as `settings` say, at their tolerance and at a hundredth of it, and compares
-    /// every node at every row with the exact solution; where there is none, the two runs with each
+    /// every node at every row with the exact solution; if there is none, the two runs with each
     /// other.
     ///
     /// # Errors
-    /// What a run reports.
+    /// The error of a run.
     pub fn of(system: &ThermalSystem, settings: &Transient) -> Result<Self, TransientError> {
         let runs = runs(system, settings, &mut |_, _| Proceed::Continue)?;
         Ok(Self::of_runs(system, settings, &runs))
@@ -111,7 +111,7 @@ impl Verification {
     /// interrupt it. Then there is nothing to judge, and the result is `None`.
     ///
     /// # Errors
-    /// What a run reports.
+    /// The error of a run.
     pub fn observed(
         system: &ThermalSystem,
         settings: &Transient,
@@ -159,12 +159,12 @@ impl Verification {
         }
     }
 
-    /// Whether every difference is allowed, and there is one to judge.
+    /// True if every difference is allowed, and there is one to judge.
     pub fn passes(&self) -> bool {
         !self.comparisons.is_empty() && self.comparisons.iter().all(RunComparison::passes)
     }
 
-    /// One row a run: `tolerance`, `difference` (the largest), `allowed`, `time` (of the largest
+    /// One row per run: `tolerance`, `difference` (the largest), `allowed`, `time` (of the largest
     /// difference), and `NAME.difference` of every node.
     pub fn table(&self, network: &Network) -> Table {
         let mut table = Table::of(&self.comparisons);

@@ -1,5 +1,5 @@
-//! A network near one of its states, against the exact solution of the linear network that stands
-//! for it there.
+//! A network near one of its states, against the exact solution of the linear network that
+//! represents it there.
 //!
 //! The full network, less the heat that it stores at the state anyway, is compared with modes for
 //! disturbances of three sizes. The check is that the difference falls with the size, not that it
@@ -18,8 +18,8 @@ use crate::linearised::{Linearised, Tried};
 use crate::modes::{Shapes, shapes};
 use crate::snapshot::Snapshot;
 
-/// Temperatures of the disturbances in K; the largest less where the network is colder than twice
-/// as much.
+/// Temperatures of the disturbances in K; the largest less if the network is colder than twice as
+/// much.
 const SIZES: [f64; 3] = [10.0, 1.0, 0.1];
 
 /// The size of a disturbance over the tolerance of its runs.
@@ -36,25 +36,26 @@ const MOMENTS: usize = 61;
 /// Time constants of the slowest mode that a comparison lasts.
 const LONG: f64 = 5.0;
 
-/// How a disturbance begins.
+/// Start of a disturbance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DisturbanceShape {
-    /// Every node with capacity is warmer by as much.
+    /// Every node with capacity is warmer by the same temperature.
     Even,
     /// Nodes with capacity are warmer and colder in turn, in the order of the file.
     InTurn,
 }
 
-/// Runs from a disturbed state, to both sides, beside the linear network.
+/// Runs from a disturbed state, to both sides, and the linear network.
 #[derive(Clone, Debug)]
 pub struct Disturbance {
-    /// How it begins.
+    /// The shape of its start.
     pub shape: DisturbanceShape,
-    /// By how much, in K.
+    /// Its size in K.
     pub size: f64,
-    /// Where the full network differs most from the linear one; times in s from the disturbance on.
+    /// Largest difference of the full network from the linear one; times in s from the disturbance
+    /// on.
     pub difference: Difference,
-    /// What the runs themselves may be off, in K: [`allowed_error`].
+    /// Allowed error of the runs themselves, in K: [`allowed_error`].
     pub allowed: f64,
 }
 
@@ -65,25 +66,25 @@ impl Disturbance {
     }
 }
 
-/// How far the linear network near a state follows the full one.
+/// Comparison of the linear network near a state with the full one.
 #[derive(Clone, Debug)]
 pub struct NearState {
-    /// How long they were compared, in s: five time constants of the slowest mode, or until one
-    /// that grows has grown by `e`.
+    /// Compared time in s: five time constants of the slowest mode, or until one that grows has
+    /// grown by `e`.
     pub span: f64,
     /// Number of modes.
     pub modes: usize,
-    /// Of both shapes, the largest first.
+    /// Results of both shapes, the largest disturbance first.
     pub disturbances: Vec<Disturbance>,
-    /// The heat that a disturbance along the slowest mode misses; `None` where the network is
-    /// linear itself.
+    /// The missed heat of a disturbance along the slowest mode; `None` if the network is linear
+    /// itself.
     pub tried: Option<Tried>,
 }
 
 impl NearState {
-    /// Disturbs `state`, follows the full network with inputs and switches held as they are there
-    /// and without the heat that it stores there already, and compares every node with
-    /// `C dx/dt = J x`, solved by its modes.
+    /// Disturbs `state`, follows the full network with inputs and switches fixed as they are there
+    /// and without the heat that it already stores there, and compares every node with `C dx/dt = J
+    /// x`, solved by its modes.
     ///
     /// # Errors
     /// [`NearError`]; more than 2000 nodes with capacity are refused.
@@ -114,14 +115,13 @@ impl NearState {
         Ok(Self { span, modes: shapes.rates.len(), disturbances, tried })
     }
 
-    /// Whether every node is within what runs may be off, as that of a linear network is.
+    /// True if every node is within the error of runs, as that of a linear network is.
     pub fn is_linear(&self) -> bool {
         self.disturbances.iter().all(|d| d.difference.largest <= d.allowed)
     }
 
-    /// The disturbance whose differences do not shrink as they have to where heat flows have slopes:
-    /// ten times less of the size for a tenth of it, at least five times, or within what runs may
-    /// be off.
+    /// The disturbance whose differences do not shrink as they must if heat flows have slopes: ten
+    /// times less of the size for a tenth of it, at least five times, or within the error of runs.
     pub fn failing(&self) -> Option<&Disturbance> {
         let of_shape = self.disturbances.chunks(SIZES.len());
         let small = of_shape.filter_map(|sizes| Some((sizes.get(1)?, sizes.get(2)?)));
@@ -148,7 +148,7 @@ fn moments(rates: &[Complex]) -> Vec<f64> {
     (0..MOMENTS).map(|k| span * 10f64.powf(decades(k))).collect()
 }
 
-/// A state, and what the linear network does at some times after a disturbance of it.
+/// A state, and the response of the linear network at some times after a disturbance of it.
 struct Beside<'a> {
     system: &'a ThermalSystem,
     state: &'a Snapshot,

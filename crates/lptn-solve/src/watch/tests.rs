@@ -38,7 +38,7 @@ fn an_extreme_is_at_an_end_from_which_it_cannot_be_told() {
     let there = |value: f64, margin: f64| first_there((value, 5.0), ends, margin);
     assert_eq!([there(300.5, 0.5), there(299.5, 0.5), there(300.6, 0.5)], [1.0, 1.0, 5.0]);
     assert_eq!([there(310.5, 0.5), there(309.5, 0.5), there(309.4, 0.5)], [9.0, 9.0, 5.0]);
-    // what is the last value to rounding has lasted
+    // a value that is the last one to rounding has lasted
     assert_eq!([there(310.0, 0.5), there(310.0 + 1e-12, 0.5)], [5.0, 5.0]);
     assert_eq!([there(310.0 + 2e-12, 0.5), there(310.0 - 2e-12, 0.5)], [9.0, 9.0]);
 }
@@ -66,7 +66,7 @@ fn a_level_may_be_reached_within_a_range_and_once() {
     assert_eq!(may(&watched(None, 300.0)), [false; 5]);
 }
 
-/// On the line to a point at which a step begins or to which it leaps, on the curve otherwise.
+/// On the line to a point at which a step begins or to which it jumps, on the curve otherwise.
 #[test]
 fn a_level_is_reached_from_either_side_once() {
     for sign in [1.0, -1.0] {
@@ -94,7 +94,7 @@ fn a_level_is_reached_from_either_side_once() {
     }
 }
 
-/// Of a parabola through the highest point and its neighbours, if it is above the peak so far.
+/// By a parabola through the highest point and its neighbours, if it is above the peak so far.
 #[test]
 fn a_top_is_promising_above_the_peak_so_far() {
     let points = |at: f64, height: f64| -> Vec<(f64, f64)> {
@@ -109,7 +109,7 @@ fn a_top_is_promising_above_the_peak_so_far() {
     }
     // known already
     assert_eq!(promises(299.0, 3.0, 300.0), None);
-    // of two the higher one, and none where the range does not reach
+    // the higher of two, and none if the range does not reach
     let mut two = points(1.4, 300.0);
     two.extend(points(2.4, 301.0).iter().map(|(t, value)| (t + 7.0, *value)));
     assert!((watched(None, 290.0).promising(&two).unwrap() - 9.4).abs() < 1e-9);
@@ -131,7 +131,7 @@ fn the_top_of_a_step_is_that_of_its_polynomial() {
     let (height, time) = watched(None, 290.0).top(step, &values, &points).unwrap();
     assert!((height - 305.0).abs() < 1e-5 && (time - 8.0).abs() < 2e-3, "{height} {time}");
     assert_eq!(watched(None, 305.1).top(step, &values, &points), None);
-    // what it promises and does not keep
+    // a promise that is not kept
     let parabola = NODES.map(|x| 300.0 - x.abs());
     let points: Vec<(f64, f64)> =
         (0..POINTS).map(|point| (time_of(step, point), parabola[point])).collect();
@@ -162,7 +162,7 @@ fn a_point_comes_where_its_time_is() {
 #[test]
 fn a_monotonic_curve_has_no_inner_top() {
     assert_eq!(top([(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)]), None);
-    // a bottom, and tops before the first and behind the last point or at it
+    // a bottom, and tops before the first and after the last point or at it
     let parabola =
         |at: f64, sign: f64| top([1.0, 2.0, 3.0].map(|t: f64| (t, -sign * (t - at) * (t - at))));
     assert!(parabola(2.5, 1.0).is_some() && parabola(2.5, -1.0).is_none());

@@ -1,4 +1,4 @@
-//! What switches along courses that are written down.
+//! Switches along given time histories.
 #![allow(
     clippy::unwrap_used,
     clippy::float_cmp,
@@ -16,8 +16,8 @@ const ABOVE: &str = "if(T > absolute(310 [K]), 1 [W], 0 [W])";
 /// The same below 290 K.
 const BELOW: &str = "if(T < absolute(290 [K]), 1 [W], 0 [W])";
 
-/// What has to switch in a step from 0 to 8 s in which bodies are so much warmer than 310 K, and how
-/// often the step was read for that.
+/// Positions that switch in a step from 0 to 8 s in which bodies exceed 310 K by `course`, and the
+/// times at which the step was read for that.
 fn found<const N: usize>(
     heats: [&str; N],
     course: impl Fn(f64) -> [f64; N],
@@ -55,17 +55,17 @@ fn the_first_moment_is_found_to_rounding() {
         let ((due, time), looks) = alone(|t| t - at);
         assert_eq!(due, [0]);
         assert!(time >= at && time - at < 1e-12, "{time} for {at}");
-        // up to the part that has it, where a straight line is met and its rounding closed in
+        // up to the part that contains it, where a straight line is met and its rounding closed in
         let before = if at < 4.0 { 3 } else { 5 };
         assert!(looks.len() <= before + 16, "{at}: {}", looks.len());
         assert!(looks.iter().all(|look| *look <= if at < 4.0 { 4.0 } else { 8.0 }));
     }
 }
 
-/// Where a bend may rise above zero between two reads is read more closely.
+/// A bend that may rise above zero between two reads is read more closely.
 #[test]
 fn what_comes_and_goes_between_two_reads_is_found() {
-    // the reads as measured; these courses know nothing but sums and products
+    // the reads as measured; these histories use only sums and products
     for (middle, most, without) in [
         (0.9, [36, 50, 70], 59),
         (2.7, [29, 40, 74], 65),
@@ -97,7 +97,7 @@ fn what_only_touches_is_given_up() {
 /// A bend within the room of a comparison is not followed.
 #[test]
 fn a_bend_within_the_room_of_a_comparison_is_not_followed() {
-    // 0.001 K below what counts, with a second difference of 0.008 K
+    // 0.001 K below the room, with a second difference of 0.008 K
     let looks = |margin: f64| {
         let course = |t: f64| [margin - 1e-3 - 1e-3 * (t - 1.0) * (t - 1.0)];
         let (due, looks) = found([ABOVE], course, (margin, None));
@@ -119,14 +119,14 @@ fn all_that_is_due_at_that_moment_is_told() {
     assert!((time - 2.0).abs() < 1e-12);
 }
 
-/// At a root at its end the integrator says what rises there.
+/// At a root at its end the integrator reports what rises there.
 #[test]
 fn at_a_root_the_integrator_tells_what_is_due() {
     let course = |t: f64| [t - 8.0 + 1e-9, -1.0, -10.0, -1.0];
     let heats = [ABOVE, ABOVE, BELOW, ABOVE];
     let (due, looks) = found(heats, course, (0.0, Some([1, 0, -1, 1])));
     assert_eq!((due, looks.len()), ((vec![0, 3], 8.0), 5));
-    // what is due before is found nevertheless
+    // anything due before is found nevertheless
     let early = |t: f64| [t - 5.0, -1.0];
     let ((due, time), _) = found([ABOVE, ABOVE], early, (0.0, Some([0, 1])));
     assert!(due == [0] && (time - 5.0).abs() < 1e-12);

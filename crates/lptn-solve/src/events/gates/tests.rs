@@ -1,4 +1,4 @@
-//! The room of what switches, as a share of the tolerance.
+//! The room of everything that switches, as a share of the tolerance.
 #![allow(
     clippy::unwrap_used,
     clippy::float_cmp,
@@ -33,7 +33,7 @@ fn a_hundredth_of_the_tolerance_is_the_room_of_what_switches() {
     }
 }
 
-/// A fan, a heater, and a body of their own each.
+/// A fan and a heater, each with its own body.
 fn thermostats(more: &str) -> ThermalSystem {
     let text = format!(
         "format = 1\n[node]\nengine = {{ C = \"1 J/K\", T0 = \"320 K\" }}\ncabin = {{ C = \"2 J/K\", \
@@ -50,7 +50,7 @@ fn thermostats(more: &str) -> ThermalSystem {
     ThermalSystem::assemble(&netlist.network).unwrap()
 }
 
-/// The temperatures of the states tell the same as the network does, on and off, armed or waiting.
+/// The temperatures of the states give the same as the network does, on and off, armed or waiting.
 #[test]
 fn plain_thermostats_are_read_from_the_states() {
     let system = thermostats("");

@@ -1,4 +1,4 @@
-//! Kinks along courses that are written down.
+//! Kinks along given time histories.
 #![allow(
     clippy::unwrap_used,
     clippy::float_cmp,
@@ -13,7 +13,7 @@ use crate::scripted::{Scripted, bodies};
 /// Capacity in J/K.
 const C: f64 = 1000.0;
 
-/// So many W/K on either side of a kink at 310 K.
+/// Slope in W/K on either side of a kink at 310 K.
 const K: f64 = 5.0;
 
 const KINK: &str = "5 [W/K] * abs(T - absolute(310 [K]))";
@@ -48,9 +48,9 @@ fn on_the_way<T>(
     then(&mut corners, &mut integrator, &step, [first, last])
 }
 
-/// Half of the fourth difference of `5 |T - 310 K|`, 20 s long, over what the body takes up and,
-/// where it loses more the warmer it is, gives off in that time. The state that was read last is
-/// that at 15 s.
+/// Half of the fourth difference of `5 |T - 310 K|`, 20 s long, over the heat that the body stores.
+/// A body that loses more when it is warmer also gives heat off in that time. The state that was
+/// read last is that at 15 s.
 fn disturbance(at: f64) -> [f64; 3] {
     let heat = |k: f64| K * ((k - 1.0) * 5.0 - at).abs();
     let loses = if at < 15.0 { 0.0 } else { 20.0 * (2.0 + K) };
@@ -78,7 +78,7 @@ fn a_kink_disturbs_by_its_fourth_differences() {
             assert!((found - expected).abs() < 1e-9, "{at}: {found} for {expected}");
         }
     }
-    // what is borne anyway is not weighed by what is given off
+    // below the allowed disturbance, the heat given off is not weighed
     let found = on_the_way(16.0, 1e3, |corners, integrator, step, ends| {
         let samples = samples(integrator, step, [&ends[0], &ends[1]]).unwrap();
         corners.disturbance(integrator, step, (&samples, &[0])).unwrap()
@@ -87,7 +87,7 @@ fn a_kink_disturbs_by_its_fourth_differences() {
     assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-9), "{found:?}");
 }
 
-/// Five points of a course that is a polynomial of degree 4 tell it a quarter beyond both ends.
+/// Five points of a polynomial of degree 4 extrapolate it by a quarter beyond both ends.
 #[test]
 fn a_course_is_followed_a_quarter_of_a_step_beyond_its_ends() {
     let network = bodies(&[(C, KINK)], None);
@@ -105,12 +105,12 @@ fn a_course_is_followed_a_quarter_of_a_step_beyond_its_ends() {
     assert!(samples(&mut integrator, &step, [&ends[0], &ends[1]]).is_none());
 }
 
-/// A kink that disturbs by much is met; one that a shorter step bears is not; one right at the
+/// A kink that disturbs by much is met; one that a shorter step allows is not; one right at the
 /// start of a step that goes on halves it.
 #[test]
 fn a_step_ends_at_a_kink_or_is_short_enough_to_bear_it() {
     let worst = disturbance(9.0)[..2].iter().fold(0.0, |most: f64, d| most.max(*d));
-    // borne by a step shorter by the root
+    // allowed in a step shorter by the root
     for share in [0.2, 0.5, 0.9] {
         let tolerance = 4.0 * worst * share * share;
         let found = bend(9.0, (tolerance, false));
@@ -127,12 +127,12 @@ fn a_step_ends_at_a_kink_or_is_short_enough_to_bear_it() {
     assert_eq!(at_start, Some(Bend::In { kink: f64::INFINITY, longest: 10.0 }));
     let found = bend(0.5, (1e-6, false));
     assert!(matches!(found, Some(Bend::In { kink, .. }) if (kink - 0.5).abs() < 1e-9), "{found:?}");
-    // where the integrator has begun anew nothing before counts, and a step ends at the kink
+    // if the integrator has restarted nothing before counts, and a step ends at the kink
     let found = bend(0.3, (1e-6, true));
     assert!(matches!(found, Some(Bend::In { kink, .. }) if (kink - 0.3).abs() < 1e-9), "{found:?}");
 }
 
-/// A kink that disturbs before a step or behind it only.
+/// A kink that disturbs only before a step or after it.
 #[test]
 fn a_kink_beside_a_step_counts_unless_the_integrator_begins_there() {
     // at the end: the samples within are straight
@@ -170,7 +170,7 @@ fn a_kink_is_found_by_halvings() {
         let kink = corners.first_kink(integrator, step, &[0]);
         assert!(kink >= 7.3 && kink - 7.3 < 1e-10, "{kink}");
         assert_eq!(integrator.looks.len(), BISECTIONS);
-        // where a step cannot be read it is its end
+        // if a step cannot be read it is its end
         integrator.from = 15.0;
         assert_eq!(corners.first_kink(integrator, step, &[0]).to_bits(), 20.0_f64.to_bits());
     });

@@ -26,7 +26,7 @@ fn with<T>(
     then(&mut errors, &mut heat)
 }
 
-/// Goes on by so many s.
+/// Goes on by `length` in s.
 fn goes(errors: &mut Errors, heat: &mut Heat<'_>, length: f64, changed: bool) {
     errors.goes_on([&[300.0; 3], &[300.0; 3]], (length, [true, changed]));
     errors.step(heat);
@@ -55,7 +55,7 @@ fn an_error_grows_at_the_rate_of_its_own() {
     });
 }
 
-/// The rate changes straight from one look to the next; behind a kink it is that of the last step.
+/// The rate changes linearly between evaluations; after a kink it is that of the last step.
 #[test]
 fn a_rate_is_the_mean_of_both_ends() {
     // the slope is 2 (T - 300) - 2 W/K
@@ -97,14 +97,14 @@ fn a_massless_node_magnifies_errors_and_gives_heat_back() {
         assert!(errors.grows);
         goes(errors, heat, 10.0, false);
         near(errors.most(), 6.0 * 1.3_f64.exp());
-        // beyond a hundredfold it is about to leap: not told
+        // beyond a hundredfold it is about to jump: not reported
         goes(errors, heat, 20.0, false);
         near(errors.most(), 3.9_f64.exp());
     });
 }
 
-/// A body whose capacity falls from 100 J/K at 300 K to 50 J/K at 350 K, where it holds 3750 J more:
-/// an error of the heat in it is one of twice as many kelvin there.
+/// A body whose capacity falls from 100 J/K at 300 K to 50 J/K at 350 K, where it stores 3750 J
+/// more: an error of its heat is twice as many kelvin there.
 #[test]
 fn an_error_of_the_heat_is_larger_in_kelvin_where_the_capacity_has_fallen() {
     let text = "format = 1\n[table]\nfactor = { x = [200, 300, 400], x_unit = \"K\", y = [1, 1, 0.0001], outside = \
@@ -133,9 +133,8 @@ fn an_error_of_the_heat_is_larger_in_kelvin_where_the_capacity_has_fallen() {
     near(errors.most(), grown);
 }
 
-/// Every fourth step is looked at where something turns, every sixteenth elsewhere; each where
-/// errors grow, a kink was passed, or a temperature becomes faster by a fiftieth where something
-/// turns.
+/// Every fourth step is evaluated if something turns, else every sixteenth. Each step is if errors
+/// grow, a kink was passed, or, if something turns, a temperature becomes faster by a fiftieth.
 #[test]
 fn a_step_is_looked_at_if_something_asks_for_it() {
     let asks = |ways: &[f64], turns: bool, changed: bool| -> Vec<bool> {
@@ -164,7 +163,7 @@ fn a_step_is_looked_at_if_something_asks_for_it() {
     });
 }
 
-/// Whether an error of a state may grow at its own rate, or be magnified.
+/// True if an error of a state may grow at its own rate, or be magnified.
 fn may_grow(text: &str) -> bool {
     let netlist = lptn_netlist::parse("grows.toml", text).unwrap_or_else(|r| panic!("{r}"));
     Errors::may_grow(&ThermalSystem::assemble(&netlist.network).unwrap())
@@ -194,7 +193,7 @@ fn errors_may_grow_where_the_form_of_the_network_does_not_exclude_it() {
     assert!(may_grow(&body(falls, "2 W/K", own)));
 }
 
-/// A massless node with 2 W/K to air and 2.5 W/K of its own, joined by 1 W/K: it follows by
+/// A massless node with 2 W/K to air and 2.5 W/K from its own heat, joined by 1 W/K: it follows by
 /// 1 / (2 + 1 - 2.5) = 2 of the state's error, which dies at 2 + 1 - 2 W/K.
 #[test]
 fn what_is_magnified_asks_for_looks_though_it_dies() {
@@ -231,7 +230,7 @@ fn a_longer_step_at_the_same_speed_is_not_faster() {
     });
 }
 
-/// Steps that nobody looked at are one: of 5 and 7 s at -0.02 and 0.04 1/s.
+/// Steps without an evaluation are one: of 5 and 7 s at -0.02 and 0.04 1/s.
 #[test]
 fn steps_that_were_not_looked_at_are_taken_together() {
     let network: &[_] = &[(100.0, "1 [W/K^2] * (T - absolute(300 [K]))^2")];

@@ -1,4 +1,4 @@
-//! Turns of expressions on a straight course.
+//! Turns of expressions on a straight time history.
 #![allow(
     clippy::unwrap_used,
     clippy::float_cmp,
@@ -10,13 +10,13 @@ use crate::balance::Books;
 use crate::heat::Heat;
 use crate::scripted::bodies;
 
-/// A bell of 2 K about 340 K: its top is told to some tenths of a kelvin.
+/// A bell of 2 K about 340 K: its top is found to some tenths of a kelvin.
 const BELL: &str = "1 [W] * exp(-((T - absolute(340 [K])) / 2 [K])^2)";
 
-/// Of two temperatures.
+/// A bell over two temperatures.
 const BOTH: &str = "1 [W] * exp(-((T + (n1.T - absolute(300 [K])) - absolute(340 [K])) / 2 [K])^2)";
 
-/// The turns of a network of two bodies of 100 J/K, with what they read.
+/// The turns of a network of two bodies of 100 J/K, with the inputs they read.
 fn with<T>(heats: [&str; 2], then: impl FnOnce(&mut Turns, &Evaluation) -> T) -> T {
     let network = bodies(&heats.map(|heat| (100.0, heat)), None);
     let system = ThermalSystem::assemble(&network).unwrap();
@@ -26,8 +26,7 @@ fn with<T>(heats: [&str; 2], then: impl FnOnce(&mut Turns, &Evaluation) -> T) ->
     then(&mut Turns::of(&system), heat.scope())
 }
 
-/// How long the next step may be where the first body goes on from a temperature in K at a rate in
-/// K/s.
+/// The longest next step in s if the first body goes on from a temperature in K at a rate in K/s.
 fn longest(heat: &str, (from, rate): (f64, f64), last: f64) -> (f64, bool) {
     with([heat, "1 [W]"], |turns, scope| {
         let course = Course { now: &[from, 300.0, 300.0], rates: &[rate, 0.0, 0.0], last };
@@ -47,7 +46,7 @@ fn a_step_ends_where_something_turns() {
         near(found, (340.0 - from) / rate, 0.3 / rate.abs());
         assert!(!narrow);
     }
-    // behind it: to the end of what was looked at, 0.3 of a temperature or 100 K away
+    // after it: to the end of the searched range, 0.3 of a temperature or 100 K away
     near(longest(BELL, (350.0, 2.0), 0.0).0, 52.5, 1e-9);
     near(longest(BELL, (330.0, -2.0), 0.0).0, 50.0, 1e-9);
     near(longest(BELL, (2000.0, 2.0), 0.0).0, 300.0, 1e-9);
@@ -55,18 +54,18 @@ fn a_step_ends_where_something_turns() {
     assert_eq!(longest("1 [W]", (300.0, 1.0), 0.0), (f64::INFINITY, false));
 }
 
-/// What a step as long as the last one would have passed whole, with both its sides, is narrow.
+/// A turn that a step as long as the last one would have passed whole, with both sides, is narrow.
 #[test]
 fn what_the_last_step_would_have_passed_whole_is_narrow() {
     let narrow = |last: f64| longest(BELL, (330.0, 2.0), last).1;
     assert_eq!([4.5, 5.5].map(narrow), [false, true]);
     let falling = |last: f64| longest(BELL, (350.0, -2.0), last).1;
     assert_eq!([4.5, 5.5].map(falling), [false, true]);
-    // the end of what was looked at is none
+    // the end of the searched range is not a turn
     assert!(!longest(BELL, (350.0, 2.0), 1e3).1);
 }
 
-/// Around a number is looked again when it comes near to the end of what was looked at.
+/// The search is repeated when a number comes near to the end of the searched range.
 #[test]
 fn turns_are_looked_for_around_a_temperature_once() {
     with([BELL, "1 [W]"], |turns, scope| {
@@ -135,7 +134,7 @@ fn a_step_that_went_past_a_turn_is_told_the_share_before_it() {
     });
 }
 
-/// Readers of one number of their own, of several, and of none that change.
+/// Readers of one separate number, of several, and of numbers that do not change.
 #[test]
 fn readers_are_told_apart() {
     let counts = |heats| {
@@ -151,8 +150,8 @@ fn readers_are_told_apart() {
     assert_eq!(counts([given, "2 [W]"]), (0, 0, 0, true));
 }
 
-/// Of several temperatures: twice the last step at most, and not past a turn that is ahead of it,
-/// to a half more.
+/// With several temperatures: twice the last step at most, and not past a turn ahead of it, to a
+/// half more.
 #[test]
 fn a_turn_of_several_temperatures_is_looked_for_ahead() {
     let of = |now: [f64; 2], rates: [f64; 2], last: f64| {
@@ -174,15 +173,15 @@ fn a_turn_of_several_temperatures_is_looked_for_ahead() {
         near(found, 20.0, 0.2);
         assert_eq!(was, narrow, "{last}");
     }
-    // 27 s are looked ahead, and 18 s are the longest
+    // the search covers 27 s, and 18 s are the longest
     near(of([300.0, 300.0], [1.0, 1.0], 9.0).0, 18.0, 1e-9);
     near(of([301.0, 300.0], [1.0, 1.0], 6.0).0, 12.0, 1e-9);
-    // what changes by less than 0.01 K passes nothing
+    // a temperature that changes by less than 0.01 K passes nothing
     near(of([300.0, 300.0], [1e-4, 2e-4], 10.0).0, 50.0, 1e-9);
     near(of([300.0, 300.0], [1e-4, 2e-4], 40.0).0, 80.0, 1e-9);
     assert_eq!(of([300.0, 300.0], [0.0, 0.0], 10.0).0, f64::INFINITY);
     assert_eq!(of([300.0, 300.0], [0.0, 0.0], 0.0).0, f64::INFINITY);
-    // and right at a turn a step moves by so much at least
+    // and right at a turn a step still moves by that
     let (found, _) = of([320.0, 319.8], [1.0, 1.0], 5.0);
     assert!((0.01..0.3).contains(&found), "{found}");
 }
@@ -191,8 +190,8 @@ fn a_turn_of_several_temperatures_is_looked_for_ahead() {
 const NARROW_BOTH: &str =
     "1 [W] * exp(-((T + (n1.T - absolute(300 [K])) - absolute(340 [K])) / 0.01 [K])^2)";
 
-/// What is narrow among several temperatures is found to a thousandth of a kelvin, not to a share
-/// of the way.
+/// A narrow turn of several temperatures is found to a thousandth of a kelvin, not to a share of
+/// the way.
 #[test]
 fn a_narrow_turn_of_several_temperatures_is_found_where_it_is() {
     with([NARROW_BOTH, "1 [W]"], |turns, scope| {
@@ -216,7 +215,7 @@ fn right_at_a_turn_a_step_moves_by_a_hundredth_of_a_kelvin() {
     });
 }
 
-/// A bell of 5 mK is bracketed to far less than a share of what is looked at.
+/// A bell of 5 mK is bracketed to far less than a share of the searched range.
 #[test]
 fn a_narrow_turn_of_one_temperature_is_bracketed_closely() {
     let bell = "1 [W] * exp(-((T - absolute(340 [K])) / 0.005 [K])^2)";

@@ -12,7 +12,7 @@ use crate::balance::Books;
 use crate::scripted::bodies;
 
 /// A body of 400 J/K at 310 K with 30 W loses 2 W/K to air at 300 K and 3 W/K to one of 50 J/K at
-/// 305 K, which loses 2 W/K and has 1 W of its own.
+/// 305 K, which loses 2 W/K and has its own 1 W.
 #[test]
 fn rates_are_heats_over_capacities() {
     let network = bodies(&[(400.0, "30 [W]"), (50.0, "1 [W]")], Some("3 [W/K]"));
@@ -25,8 +25,8 @@ fn rates_are_heats_over_capacities() {
     assert!(rates.iter().zip(exact).all(|(a, b)| (a - b).abs() < 1e-12), "{rates:?}");
 }
 
-/// Of a body that carries its heat content the rate is that of its temperature: 100 J/K at 300 K,
-/// half of it at 350 K.
+/// If a body carries its heat content, the rate is that of its temperature: 100 J/K at 300 K, half
+/// of it at 350 K.
 #[test]
 fn the_rate_of_a_body_whose_capacity_falls_is_that_of_its_temperature() {
     let text = "format = 1\n[table]\nfactor = { x = [200, 300, 400], x_unit = \"K\", y = [1, 1, \

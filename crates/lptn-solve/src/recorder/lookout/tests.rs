@@ -37,7 +37,7 @@ fn a_curve_reaches_as_far_beyond_its_highest_point_as_its_points_are_apart() {
     assert_eq!(range(&[-5.0; POINTS]), (-5.0, -5.0));
 }
 
-/// One with a top between its points, one that stands, one that falls.
+/// One with a top between its points, one constant, one that falls.
 #[test]
 fn tops_are_sought_where_a_curve_may_be_higher_than_it_was() {
     let mut watched = lookout([None; 3], false);
@@ -49,7 +49,7 @@ fn tops_are_sought_where_a_curve_may_be_higher_than_it_was() {
     let (height, time) = tops[0].1;
     assert!((height - 310.0).abs() < 1e-9 && (time - 8.0).abs() < 1e-6, "{height} {time}");
     watched.peak_at(0, (time, height));
-    // all fall: of these only the second may be higher than it was
+    // all fall: only the second may be higher than it was
     let falls =
         |x: f64| [309.3 - 0.1 * (x + 1.0), 301.0 - 0.1 * (x + 1.0), 298.0 - 0.1 * (x + 1.0)];
     assert!(step(&mut watched, (12.0, 20.0), falls).is_empty());
@@ -66,7 +66,7 @@ fn tops_are_sought_where_a_curve_may_be_higher_than_it_was() {
     assert!(none.is_empty());
 }
 
-/// A level is sought where it may be crossed, however far below its peak a node is.
+/// A level is searched for if it may be crossed, however far below its peak a node is.
 #[test]
 fn a_level_is_sought_where_it_may_be_crossed() {
     let mut watched = lookout([Some(305.0), None, Some(280.0)], false);
@@ -84,7 +84,7 @@ fn a_level_is_sought_where_it_may_be_crossed() {
     assert_eq!((seen[1].crossed, seen[2].crossed), (None, None));
 }
 
-/// Where only the hottest counts, one that another has exceeded is passed over.
+/// If only the hottest counts, one that another has exceeded is skipped.
 #[test]
 fn only_what_may_be_the_hottest_is_sought() {
     let rising = |x: f64| [300.0 + 5.0 * (x + 1.0), 340.0, 335.0 + (x + 1.0)];
@@ -106,7 +106,7 @@ fn only_what_may_be_the_hottest_is_sought() {
     assert!(floor(-2.0) < -2.0 && lookout([None; 3], false).floor() == f64::NEG_INFINITY);
 }
 
-/// A massless node leaps at a jump: from where it stood at the end of the last step.
+/// A massless node jumps from its temperature at the end of the last step.
 #[test]
 fn a_jump_goes_on_from_where_the_last_step_ended() {
     let mut watched = lookout([Some(305.0), None, None], false);

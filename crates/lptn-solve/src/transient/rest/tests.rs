@@ -1,4 +1,4 @@
-//! Where networks come to rest, and that they are not followed further than that.
+//! Steady states of networks, and that they are not followed further than that.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use super::*;
@@ -23,10 +23,10 @@ fn a_network_is_followed_until_it_is_a_thousandth_of_a_kelvin_from_rest() {
     assert!(off.abs() <= 1e-3 && off.abs() > 1e-9, "{off:e}");
 }
 
-/// From where it stands it moves on, though slowly: a state at which nothing stays is no rest.
+/// From there it moves on, though slowly: an unstable state is not a rest.
 #[test]
 fn what_moves_away_slowly_does_not_rest_where_it_is() {
-    // grows from 0.01 K by 1 W/K up to where 0.1 W/K^2 hold it, at 10 K
+    // grows from 0.01 K by 1 W/K up to a balance with 0.1 W/K^2, at 10 K
     let heat =
         "0.01 [W] + 3 [W/K] * (T - absolute(300 [K])) - 0.1 [W/K^2] * (T - absolute(300 [K]))^2";
     let found = rests(&[(100.0, heat)]).unwrap()[0];
@@ -40,7 +40,7 @@ fn what_runs_away_does_not_rest() {
     assert!(rests(&[(100.0, heat)]).is_none());
 }
 
-/// Beside 305 K two steady states have met and gone: 1e-8 W are left over there, by which the body
+/// Near 305 K two steady states have met and gone: 1e-8 W are left over there, by which the body
 /// creeps through in some months. It rests at 320 K.
 #[test]
 fn what_creeps_past_the_end_of_two_states_does_not_rest_there() {
