@@ -27,8 +27,7 @@ const FLAT: f64 = 1e-30;
 /// of the tolerance, so the energy balance is off by at most 1e-5 of the tolerance.
 const SHARE: f64 = 1e-4;
 
-/// Data of the callbacks. Reached through one raw pointer only, see the crate
-/// documentation.
+/// Data of the callbacks. Reached through one raw pointer only, see the crate documentation.
 pub(crate) struct Shared<S> {
     pub(crate) system: S,
     /// Origin of CVODES' time.
@@ -289,8 +288,8 @@ impl<S: OdeSystem> Shared<S> {
 }
 
 impl<S> Shared<S> {
-    /// Solves with the Newton matrix: to the last digits if it is constant, so that one iteration is
-    /// enough.
+    /// Solves with the Newton matrix: to the last digits if it is constant, so that one iteration
+    /// is enough.
     fn correct(&mut self, b: &mut [f64]) -> Result<(), Cause> {
         let solved = match self.jacobian_is_current {
             true => self.factors.solve_in_place(b),

@@ -1,18 +1,18 @@
 //! Elementary functions that give the same digits on every processor.
 //!
 //! The C library chooses its `exp` and `pow` by the processor, with or without fused
-//! multiplication, and they differ in the last digit; results would differ too, and shards of a study
-//! from a mixed cluster would not merge. These definitions take the place of those of the C library in
-//! the whole program, in Rust and in SUNDIALS alike. Those of the crate `pxfm` are correctly rounded
-//! (after CORE-MATH: A. Sibidanov, P. Zimmermann, S. Glondu, ARITH 2022), so there is one answer;
-//! those of `libm`, after FreeBSD's, have an error below one unit in the last place and are the same
-//! arithmetic everywhere.
+//! multiplication, and they differ in the last digit; results would differ too, and shards of a
+//! study from a mixed cluster would not merge. These definitions take the place of those of the C
+//! library in the whole program, in Rust and in SUNDIALS alike. Those of the crate `pxfm` are
+//! correctly rounded (after CORE-MATH: A. Sibidanov, P. Zimmermann, S. Glondu, ARITH 2022), so
+//! there is one answer; those of `libm`, after FreeBSD's, have an error below one unit in the last
+//! place and are the same arithmetic everywhere.
 //!
 //! It is a feature (`portable`) because the program decides, not a library that it uses.
 //!
 //! # Safety
-//! A linker takes the definition of a program before that of a library, so those of the C
-//! library are not used. The signatures are those of C11 (7.12) and, for `sincos`, of the GNU C library.
+//! A linker takes the definition of a program before that of a library, so those of the C library
+//! are not used. The signatures are those of C11 (7.12) and, for `sincos`, of the GNU C library.
 
 /// A power. The correctly rounded one takes three times as long as that of `libm`, which is the
 /// same on every processor. A quarter power, as in natural convection, is two square roots. Each is

@@ -9,8 +9,8 @@ use crate::{callback, linear_solver};
 use crate::{callback::Shared, linear_solver::SolverHandles, vector::Vector, vectors::Vectors};
 use lptn_integrate::{Allowance, IntegrateError, OdeSystem};
 
-/// An owned CVODES object. Its methods take the data that must be alive for the call; the owner keeps
-/// it alive until the object is dropped.
+/// An owned CVODES object. Its methods take the data that must be alive for the call; the owner
+/// keeps it alive until the object is dropped.
 pub(crate) struct Memory {
     raw: *mut c_void,
 }

@@ -58,8 +58,8 @@ impl Symmetry {
     }
 
     /// True if CVODES gave up a step for a reason that better Newton iterates may remove. CVODES
-    /// counts all these failures together. Each must be listed here, or it would end the integration
-    /// sooner than without a switch.
+    /// counts all these failures together. Each must be listed here, or it would end the
+    /// integration sooner than without a switch.
     pub(crate) fn is_to_blame(&self, flag: &Flag) -> bool {
         let reasons = [
             sys::CV_CONV_FAILURE,

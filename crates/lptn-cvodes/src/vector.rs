@@ -1,10 +1,10 @@
 //! The `N_Vector` of this crate: a Rust allocation with SUNDIALS' table of operations.
 //!
 //! There are two reasons for it. Debian compiles SUNDIALS without optimisation, so its own vector
-//! loops are 8 to 60 times slower. And `nvwrmsnorm` here is the weighted maximum, see the crate documentation.
-//! Not implemented: the wrapping of foreign arrays (only difference quotients use it), printing,
-//! parallel reductions, and the operations on arrays of vectors, for which SUNDIALS falls back to
-//! the ones here.
+//! loops are 8 to 60 times slower. And `nvwrmsnorm` here is the weighted maximum, see the crate
+//! documentation. Not implemented: the wrapping of foreign arrays (only difference quotients use
+//! it), printing, parallel reductions, and the operations on arrays of vectors, for which SUNDIALS
+//! falls back to the ones here.
 //!
 //! CVODE's own norm is a mean over the components, so idle nodes would dilute the tolerance. With
 //! the maximum, the gearbox takes the same steps with 0 and with 10 000 idle nodes
