@@ -39,8 +39,7 @@ impl JacobianPattern {
             at
         };
         // pairs are sorted by (a, b), so each column gets its rows in order: those above the
-        // diagonal are the `a` of earlier pairs, then the diagonal, then the `b` of the column's
-        // pairs
+        // diagonal are the `a` of earlier pairs, then the diagonal, then the `b` of this column
         let mut diagonal = vec![0; size];
         let mut k = 0;
         for (column, slot) in diagonal.iter_mut().enumerate() {

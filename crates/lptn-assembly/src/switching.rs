@@ -9,7 +9,7 @@ use crate::workspace::Workspace;
 
 impl ThermalSystem {
     /// Excess of a control over the threshold at which it leaves its state, in K, from the inputs
-    ///  and temperatures last read and recovered; see [`Network::control_excess`].
+    /// and temperatures last read and recovered; see [`Network::control_excess`].
     ///
     /// # Errors
     /// [`InputError`] if a threshold cannot be evaluated.

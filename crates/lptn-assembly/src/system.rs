@@ -36,7 +36,7 @@ pub struct ThermalSystem {
     pub(crate) link_slots: Arc<Vec<[u32; 2]>>,
     /// Those from an unknown (`a`) to a vertex that is a boundary (`b`).
     pub(crate) ties: Arc<Vec<Link>>,
-    /// Those between two boundaries, by vertex: they enter the energy balance, but no unknown.
+    /// Those between two boundaries, by vertex: they affect the energy balance, but no unknown.
     pub(crate) bridges: Arc<Vec<Link>>,
     pub(crate) radiation: Arc<Vec<Radiation>>,
     /// Everything else.

@@ -110,8 +110,8 @@ impl Failure {
     fn code(&self) -> c_int {
         match self.cause {
             Cause::Panic(_) | Cause::Retry(Retry::Stop) => GIVE_UP,
-            // A smaller gamma makes the matrix positive definite, and after a smaller step the flow
-            // may not overflow.
+            // A smaller gamma makes the matrix positive definite, and a smaller step may avoid an
+            // overflow of the flow.
             Cause::NotFinite(_) | Cause::Retry(Retry::SmallerStep) | Cause::Linear(_) => {
                 SMALLER_STEP
             }

@@ -17,16 +17,16 @@
 //!    [`Cvodes`] declares its fields in the order in which SUNDIALS must free them, the context
 //!    last. Raw handles never leave the crate.
 //! 2. *Aliasing.* The data of the callbacks is one heap allocation, reached only through the raw
-//!    pointer made when it was allocated. While a C function runs that may call back, no
-//!    Rust reference into it exists: `&mut Cvodes` guarantees that no one else reads
-//!    it, and the callback makes the only reference, for its own duration.
+//!    pointer made when it was allocated. While a C function runs that may call back, no Rust
+//!    reference into it exists: `&mut Cvodes` guarantees that no one else reads it, and the
+//!    callback makes the only reference, for its own duration.
 //! 3. *Vectors.* The contents of a vector are a Rust allocation of known length. If SUNDIALS
 //!    passes one vector twice (in-place operations), the operation is dispatched to an in-place
 //!    kernel before any reference is made, so a mutable slice never overlaps another slice. The
 //!    kernels are safe Rust.
 //! 4. *Unwinding.* Every callback into user code is wrapped in `catch_unwind`; a panic becomes an
 //!    error after the C frames have returned.
-//! 5. *Threads.* Each integrator has its own SUNDIALS context and has raw pointers, so it is
+//! 5. *Threads.* Each integrator has its own SUNDIALS context and raw pointers, so it is
 //!    neither `Send` nor `Sync`; nothing is shared between two of them.
 #![allow(unsafe_code)]
 

@@ -55,9 +55,8 @@ const _: () = assert!(
 pub fn linked() -> Linked {
     let headers = text_of(sundials_sys::SUNDIALS_VERSION);
     let mut buffer = [0_u8; 32];
-    // SAFETY: the buffer is writable for the length passed on, and 32 bytes are enough for any
-    // version text with its final zero; a longer one makes the function return an error and write
-    // nothing.
+    // SAFETY: the buffer is writable for the length passed on, and 32 bytes suffice for a version
+    // text with its final zero; a longer one makes the function return an error and write nothing.
     let flag = unsafe { SUNDIALSGetVersion(buffer.as_mut_ptr().cast(), 32) };
     let version = if flag == 0 { text_of(&buffer) } else { headers.clone() };
     let linkage = if cfg!(feature = "bundled") { Linkage::Bundled } else { Linkage::System };

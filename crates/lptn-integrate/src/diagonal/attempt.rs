@@ -9,7 +9,7 @@ use crate::{Callback, FactorError, IntegrateError, OdeSystem, Retry, kernels};
 /// The share of the tolerance that the error of a step may have; CVODE takes a third as well.
 const SHARE: f64 = 1.0 / 3.0;
 
-/// The share of the tolerance that the residual of Newton's method may have.
+/// The share of the tolerance that the error of Newton's method may have.
 const LEFT: f64 = 1e-6;
 
 /// Rounding errors of a state that Newton's method cannot go below.
