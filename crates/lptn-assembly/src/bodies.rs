@@ -2,7 +2,7 @@
 //!
 //! Their paths are elements like others. Heat and derivatives of all of them come from one
 //! potential a cell (Kirchhoff's transformation), a tenth of the time that as many means along
-//! paths take. If the conductivity is not known at a cell, each path is asked for its own heat and
+//! paths take. If the conductivity is not known at a cell, each path evaluates its own heat and
 //! reports its error.
 
 use std::collections::{BTreeMap, HashSet};
@@ -141,7 +141,7 @@ impl Path {
 }
 
 impl Body {
-    /// Counts the ends of paths among the vertices of the body, which were those of the network.
+    /// Renumbers the ends of paths from the vertices of the network to those of the body.
     fn number_vertices(&mut self) {
         self.vertices = self.paths.iter().flat_map(|path| path.ends).collect();
         self.vertices.sort_unstable();

@@ -7,7 +7,7 @@ use crate::pattern::JacobianPattern;
 use crate::slopes::Slopes;
 use crate::workspace::Workspace;
 
-/// How an element's heat is computed.
+/// Kind of an element, by which its heat is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
     /// A stream of this constant capacity rate in W/K.
@@ -37,7 +37,7 @@ pub(crate) struct Element {
 /// No place in the Jacobian.
 pub(crate) const NOWHERE: usize = usize::MAX;
 
-/// Which Jacobian is asked for.
+/// Form of the Jacobian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum JacobianForm {
     /// The derivatives as they are.
@@ -48,7 +48,7 @@ pub enum JacobianForm {
 }
 
 impl Element {
-    /// Whether it is a stream of a constant capacity rate.
+    /// True if it is a stream of a constant capacity rate.
     pub(crate) fn is_constant_stream(&self) -> bool {
         matches!(self.kind, Kind::Stream(_))
     }
@@ -115,7 +115,7 @@ impl Element {
         self.slots = slots;
     }
 
-    /// Whether its derivatives have a symmetric form: a conductor between its ends, or one node's
+    /// True if its derivatives have a symmetric form: a conductor between its ends, or one node's
     /// own heat.
     pub(crate) fn is_symmetric(&self, network: &Network) -> bool {
         match self.kind {
@@ -206,9 +206,8 @@ impl Element {
         }
     }
 
-    /// The conductance in W/K that stands for both derivatives of a conductor: their mean, or the
-    /// one that is exact where the other end is given. Never negative, so that the matrix stays
-    /// definite.
+    /// The conductance in W/K that replaces both derivatives of a conductor: their mean, or the
+    /// exact one if the other end is given. Never negative, so that the matrix stays definite.
     fn symmetric_conductance(&self, ends: &[Received]) -> f64 {
         let given = |k: usize| self.slots[3 * k] == NOWHERE; // its place on the diagonal
         let g = match (given(0), given(1)) {

@@ -40,7 +40,7 @@ struct Star {
     /// The neighbour with the largest weight: temperatures are averaged as differences to it, so
     /// that a vertex between equal temperatures has that temperature to the last digit.
     nearest: u32,
-    /// Where its weights stand among those of all.
+    /// Positions of its weights in those of all stars.
     weights: Range<usize>,
 }
 
@@ -48,7 +48,7 @@ struct Star {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Elimination {
     stars: Vec<Star>,
-    /// The weights of all, in one piece: they are read at every time that is looked at.
+    /// The weights of all stars in one piece: they are read at every evaluated time.
     weights: Vec<(u32, f64)>,
 }
 
@@ -58,13 +58,13 @@ pub(crate) struct TooMany {
     pub(crate) neighbours: usize,
 }
 
-/// How many links the elimination may add to those that are given: up to about 50 bytes each, so at
+/// Number of links that the elimination may add to the given ones: up to about 50 bytes each, so at
 /// most 1 GB.
 const FILL_LIMIT: usize = 20_000_000;
 
 impl Elimination {
-    /// Eliminates the vertices marked in `massless` from `links`; what remains is returned merged
-    /// and sorted.
+    /// Eliminates the vertices marked in `massless` from `links`; returns the remaining links
+    /// merged and sorted.
     pub(crate) fn new(links: Vec<Link>, massless: &[bool]) -> Result<(Self, Vec<Link>), TooMany> {
         Self::within(FILL_LIMIT, links, massless)
     }
@@ -115,10 +115,10 @@ impl Elimination {
         });
     }
 
-    /// Hands the heat put into massless vertices on to those that remain.
+    /// Passes the heat put into massless vertices on to those that remain.
     ///
-    /// `heat` holds one entry a vertex; afterwards an eliminated vertex holds the heat it had at
-    /// its turn, which [`Elimination::recover`] needs.
+    /// `heat` has one entry per vertex. Afterwards that of an eliminated vertex is the heat it had
+    /// at its turn, which [`Elimination::recover`] needs.
     pub(crate) fn distribute(&self, heat: &mut [f64]) {
         for star in &self.stars {
             let q = heat[star.vertex as usize];
@@ -151,7 +151,7 @@ struct Graph<'a> {
     stars: BTreeMap<u32, BTreeMap<u32, f64>>,
     /// Links between vertices that stay.
     kept: Vec<Link>,
-    /// How many links were added; one between two massless vertices counts twice.
+    /// Number of added links; one between two massless vertices counts twice.
     added: usize,
     is_massless: &'a dyn Fn(u32) -> bool,
 }
@@ -174,7 +174,7 @@ impl Graph<'_> {
         }
     }
 
-    /// Takes a vertex out, and gives the neighbours that it had.
+    /// Takes a vertex out, and returns the neighbours that it had.
     fn eliminate(&mut self, vertex: u32) -> Vec<(u32, f64)> {
         let neighbours = self.stars.remove(&vertex).unwrap_or_default();
         let total: f64 = neighbours.values().sum();

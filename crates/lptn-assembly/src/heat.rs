@@ -70,7 +70,7 @@ impl ThermalSystem {
     pub fn linear_boundary_heat(&self, work: &Workspace, y: &[f64], heat: &mut [f64]) {
         let nodes = self.network.nodes().len();
         for (q, share) in heat.iter_mut().zip(&work.heat[nodes..]) {
-            *q = -share; // what massless nodes hand on to it
+            *q = -share; // the heat that massless nodes pass on to it
         }
         for tie in self.ties.iter() {
             let boundary = tie.b as usize;
@@ -134,8 +134,8 @@ impl ThermalSystem {
         self.elements[place].received(&self.network, work)
     }
 
-    /// What the groups of a conductor's or source's law are, as [`Network::groups`]; temperatures and inputs as
-    /// in [`ThermalSystem::received`].
+    /// Values of the groups of a conductor's or source's law, as [`Network::groups`]; temperatures
+    /// and inputs as in [`ThermalSystem::received`].
     ///
     /// # Errors
     /// [`InputError`] if a value fails.

@@ -2,8 +2,7 @@
 //!
 //! [`ThermalSystem`] is assembled once: capacities, links, the pattern of the Jacobian with its
 //! full diagonal. Massless nodes are eliminated exactly (star-mesh) and recovered in every output,
-//! so that the state holds only nodes with capacity. This crate knows nothing of time stepping and
-//! of files.
+//! so that the state has only nodes with capacity. Time stepping and files are not in this crate.
 //!
 //! Units: SI, temperatures in K. Heat is positive into a node.
 

@@ -1,4 +1,4 @@
-//! Whether balances have one solution at most, as far as the form of the network tells.
+//! Networks whose form excludes a second solution of the balances.
 //!
 //! A Jacobian that is an M-matrix everywhere excludes a second steady state; the signs of its
 //! entries follow from the form of the network. Otherwise the network is followed from its start
@@ -8,21 +8,21 @@ use lptn_network::{ConductorFlow, End, Network};
 
 use crate::system::ThermalSystem;
 
-/// By how much more than enters a node may leave it, relative, and still be the same stream.
+/// Relative excess of the outflow of a node over its inflow that still counts as rounding.
 const SAME: f64 = 1e-12;
 
 impl ThermalSystem {
-    /// Whether its flow is known to be monotone: with inputs and the positions of controls held,
+    /// True if the flow is known to be monotone: with fixed inputs and positions of controls,
     /// warming one node never cools another, and takes from the node itself at least the heat that
-    /// the others receive. All temperatures that balance, of the whole network or of some nodes
-    /// with the others held, are then the only ones: the negative Jacobian is an M-matrix
+    /// the others receive. The balances of the whole network, or of some nodes with the others
+    /// fixed, then have at most one solution: the negative Jacobian is an M-matrix
     /// everywhere, hence a P-matrix, and a map whose Jacobian is that on a rectangle takes no value
     /// twice (D. Gale and H. Nikaido, Math. Annalen 159 (1965) 81, theorem 4).
     ///
-    /// Known are constant conductances and exchange areas, film coefficients that rise with `|dT|`,
-    /// heat that falls with the temperature of its own node, and constant streams of which no node
-    /// gives more than it gets. `false` for everything else, and where a balance really has several
-    /// solutions.
+    /// Known are constant conductances and exchange areas, heat transfer coefficients that rise
+    /// with `|dT|`, heat that falls with its node's temperature, and constant streams of which no
+    /// node gives more than it gets. `false` for everything else, and if a balance really has
+    /// several solutions.
     pub fn is_monotone(&self) -> bool {
         self.is_linear() || elements_are_monotone(self.network())
     }

@@ -1,4 +1,4 @@
-//! Elements that the heat of boundaries comes from.
+//! Elements that give heat to boundaries.
 
 use crate::element::{Element, Kind};
 use crate::positions::chosen;
@@ -6,7 +6,7 @@ use crate::radiation::Radiation;
 
 /// Radiation and elements that give heat to boundaries, and sources that depend on temperatures, by
 /// their positions in the lists of the system. The heat of boundaries is integrated over every step
-/// and asks no others.
+/// and needs no others.
 #[derive(Clone, Debug)]
 pub(crate) struct Outer {
     pub(crate) radiation: Vec<u32>,

@@ -2,7 +2,7 @@
 //! others.
 //!
 //! The massless surfaces of a body are balanced at every evaluation of its heat, in a few rounds
-//! each, and again for every row. The paths inside the body say nothing of them. They made up 70 %
+//! each, and again for every row. The paths inside the body do not matter. They made up 70 %
 //! of a run of 10 x 10 x 10 cells whose conductivity depends on temperature.
 //!
 //! Sums run in the order of the whole system, so that both give the same numbers.
@@ -31,12 +31,12 @@ pub struct Part {
     radiation: Vec<u32>,
     bodies: Bodies,
     together: Together,
-    /// Those in no body, and whether each is evaluated together with others.
+    /// Those in no body, each with true if it is evaluated together with others.
     elements: Vec<(u32, bool)>,
 }
 
 impl ThermalSystem {
-    /// The part of the system that tells the balances of these unknowns, by their numbers.
+    /// The part of the system with the balances of these unknowns, given by their numbers.
     pub fn part(&self, unknowns: &[usize]) -> Part {
         let mut known = vec![false; self.unknowns.len()];
         let mut meets = vec![false; self.network.nodes().len() + self.network.boundaries().len()];
@@ -71,7 +71,7 @@ impl ThermalSystem {
         Part { unknowns, given, links, ties, radiation, bodies, together, elements }
     }
 
-    /// As [`ThermalSystem::flow`] for the unknowns of a part; those of the others are not whole.
+    /// Like [`ThermalSystem::flow`] for the unknowns of a part; the other values are incomplete.
     ///
     /// # Errors
     /// As [`ThermalSystem::flow`], of the elements that meet the part.
@@ -109,8 +109,8 @@ impl ThermalSystem {
         Ok(())
     }
 
-    /// As [`ThermalSystem::jacobian_at`] for the derivatives of the part and for all derivatives by
-    /// its unknowns; the others are not whole.
+    /// Like [`ThermalSystem::jacobian_at`] for the derivatives of the part and for all derivatives
+    /// by its unknowns; the others are incomplete.
     ///
     /// # Errors
     /// As [`ThermalSystem::flow_of`].

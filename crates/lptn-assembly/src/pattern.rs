@@ -1,4 +1,4 @@
-//! The pattern of the Jacobian and where each value goes in it.
+//! The pattern of the Jacobian, with a slot for each value.
 
 use std::sync::Arc;
 
@@ -39,7 +39,7 @@ impl JacobianPattern {
             at
         };
         // pairs are sorted by (a, b), so each column gets its rows in order: those above the
-        // diagonal are the `a` of earlier pairs, then the diagonal, then the `b` of its own pairs
+        // diagonal are the `a` of earlier pairs, then the diagonal, then the `b` of this column
         let mut diagonal = vec![0; size];
         let mut k = 0;
         for (column, slot) in diagonal.iter_mut().enumerate() {

@@ -1,5 +1,5 @@
-//! What a step that carries temperatures over a range is to be asked: which pieces of tables and
-//! kinks its elements go through, and their heat.
+//! Heat of elements and the pieces of tables and kinks that they go through, for steps that carry
+//! temperatures over a range.
 
 use std::sync::Arc;
 
@@ -11,13 +11,12 @@ use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
 
 impl ThermalSystem {
-    /// How many elements there are that are neither a constant conductance nor radiation of a
-    /// constant area.
+    /// Number of elements that are neither a constant conductance nor radiation of a constant area.
     pub fn element_count(&self) -> usize {
         self.elements.len()
     }
 
-    /// Whether the heat of an element may have kinks over temperature.
+    /// True if the heat of an element may have kinks over temperature.
     pub fn has_pieces(&self, element: usize) -> bool {
         let law = match self.elements[element].kind {
             Kind::Stream(_) => return false,
@@ -98,7 +97,7 @@ impl ThermalSystem {
         work.temperature.copy_from_slice(temperatures);
     }
 
-    /// What expressions read beside temperatures, as last read.
+    /// Values that expressions read in addition to temperatures, as last read.
     pub fn scope<'a>(&self, work: &'a mut Workspace) -> &'a Evaluation {
         work.current().0
     }

@@ -1,4 +1,4 @@
-//! How far what switches is from switching.
+//! Distances of controls and switches from their thresholds.
 
 #[cfg(doc)]
 use lptn_network::Network;
@@ -8,11 +8,11 @@ use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
 
 impl ThermalSystem {
-    /// How far a control is beyond the threshold at which it leaves its state, in K, from the
-    /// inputs and temperatures last read and recovered; see [`Network::control_excess`].
+    /// Excess of a control over the threshold at which it leaves its state, in K, from the inputs
+    /// and temperatures last read and recovered; see [`Network::control_excess`].
     ///
     /// # Errors
-    /// [`InputError`] if a threshold cannot be had.
+    /// [`InputError`] if a threshold cannot be evaluated.
     pub fn control_excess(&self, work: &mut Workspace, id: ControlId) -> Result<f64, InputError> {
         let (scope, temperature) = work.current();
         self.network().control_excess(id, scope, temperature)
@@ -22,7 +22,7 @@ impl ThermalSystem {
     /// last read and recovered; see [`Network::switch_difference`].
     ///
     /// # Errors
-    /// [`InputError`] if a side cannot be had.
+    /// [`InputError`] if a side cannot be evaluated.
     pub fn switch_difference(
         &self,
         work: &mut Workspace,

@@ -26,7 +26,7 @@ pub struct ThermalSystem {
     pub(crate) network: Network,
     /// Node of each unknown.
     pub(crate) unknowns: Arc<Vec<NodeId>>,
-    /// How many of them are states.
+    /// Number of unknowns that are states.
     pub(crate) states: usize,
     /// Capacity of each state in J/K at its start, then zeros.
     pub(crate) mass: Arc<Vec<f64>>,
@@ -36,7 +36,7 @@ pub struct ThermalSystem {
     pub(crate) link_slots: Arc<Vec<[u32; 2]>>,
     /// Those from an unknown (`a`) to a vertex that is a boundary (`b`).
     pub(crate) ties: Arc<Vec<Link>>,
-    /// Those between two boundaries, by vertex: no unknown feels them, the ledger does.
+    /// Those between two boundaries, by vertex: they affect the energy balance, but no unknown.
     pub(crate) bridges: Arc<Vec<Link>>,
     pub(crate) radiation: Arc<Vec<Radiation>>,
     /// Everything else.
@@ -47,7 +47,7 @@ pub struct ThermalSystem {
     /// Elements that are evaluated together.
     pub(crate) together: Arc<Together>,
     pub(crate) streams: Arc<Vec<ConductorId>>,
-    /// Whether every element has a symmetric form.
+    /// True if every element has a symmetric form.
     pub(crate) symmetric: bool,
     pub(crate) elimination: Arc<Elimination>,
     pub(crate) pattern: JacobianPattern,
@@ -144,18 +144,18 @@ impl ThermalSystem {
         self.states().iter().map(|&id| self.network.initial(id)).collect()
     }
 
-    /// Whether its flow is linear in the unknowns with constant coefficients, and symmetric.
+    /// True if the flow is linear in the unknowns with constant coefficients, and symmetric.
     pub fn is_linear(&self) -> bool {
         self.elements.is_empty() && self.radiation.is_empty()
     }
 
-    /// Whether its temperatures rise in proportion to the heat: constant streams may be among its
+    /// True if the temperatures rise in proportion to the heat: constant streams may be among the
     /// paths, which only make it lack symmetry.
     pub fn is_proportional(&self) -> bool {
         self.radiation.is_empty() && self.elements.iter().all(Element::is_constant_stream)
     }
 
-    /// Whether the Jacobian has a symmetric form that Newton's method may use.
+    /// True if the Jacobian has a symmetric form that Newton's method may use.
     pub fn is_symmetric(&self) -> bool {
         self.symmetric
     }
@@ -174,10 +174,10 @@ impl ThermalSystem {
         Workspace::new(&self.network)
     }
 
-    /// Reads the inputs at `time` \[s\], comparisons of `t` as they stand at `segment` \[s\].
+    /// Reads the inputs at `time` \[s\], comparisons of `t` as they are at `segment` \[s\].
     ///
     /// # Errors
-    /// [`InputError`] naming the source or boundary whose value cannot be had.
+    /// [`InputError`] naming the source or boundary whose value cannot be evaluated.
     pub fn read_inputs(
         &self,
         work: &mut Workspace,
@@ -202,8 +202,8 @@ impl ThermalSystem {
         Ok(())
     }
 
-    /// The same to the last digit, even where the inputs are taken for straight lines
-    /// ([`Workspace::draw_line`]). They count until they are read again.
+    /// Reads the inputs exactly, even if they are taken for straight lines
+    /// ([`Workspace::draw_line`]). They are valid until the next read.
     ///
     /// # Errors
     /// As [`ThermalSystem::read_inputs`].
@@ -216,8 +216,8 @@ impl ThermalSystem {
         work.off_line(|work| self.read_inputs(work, time, segment))
     }
 
-    /// Takes these heats into the nodes in W and these temperatures of the boundaries in K in place
-    /// of the network's own inputs, until those are read again: the response to a heat that no
+    /// Takes these heats into the nodes in W and these temperatures of the boundaries in K instead
+    /// of the network's own inputs, until those are read again: for the response to a heat that no
     /// source puts in.
     pub fn apply(&self, work: &mut Workspace, heat: &[f64], boundaries: &[f64]) {
         work.forget();
@@ -231,7 +231,7 @@ impl ThermalSystem {
     /// `y` of the unknowns in K.
     ///
     /// # Errors
-    /// [`InputError`] naming the element whose heat cannot be had; never for a linear system.
+    /// [`InputError`] naming the element whose heat cannot be evaluated; never for a linear system.
     pub fn flow(
         &self,
         work: &mut Workspace,
@@ -281,8 +281,8 @@ impl ThermalSystem {
     /// Writes the derivative of [`ThermalSystem::flow`] by the unknowns in W/K into the slots of
     /// the pattern.
     ///
-    /// It is constant and symmetric for a linear system; otherwise symmetric if that form is asked
-    /// for.
+    /// It is constant and symmetric for a linear system; otherwise symmetric if that form is
+    /// requested.
     ///
     /// # Errors
     /// As [`ThermalSystem::flow`].

@@ -1,8 +1,8 @@
-//! What drives the sensitivities of a system to parameters of its network.
+//! Heat that drives the sensitivities of a system to parameters of its network.
 //!
 //! Temperatures that change by `s` per unit of a parameter obey the balances with the Jacobian as
-//! conductances and with the change of every heat flow at held temperatures as a source: massless
-//! nodes hand on that source as they do heat.
+//! conductances and with the change of every heat flow at fixed temperatures as a source: massless
+//! nodes pass that source on as they do heat.
 
 use lptn_network::{InputError, Tangents};
 
@@ -10,9 +10,9 @@ use crate::system::ThermalSystem;
 use crate::workspace::Workspace;
 
 impl ThermalSystem {
-    /// Writes by how much the heat into every vertex changes in W per SI unit of each parameter,
-    /// temperatures held, that of eliminated nodes handed on: blocks of as many values as there are
-    /// vertices. From inputs read and nodes recovered.
+    /// Writes the change of the heat into every vertex in W per SI unit of each parameter, at fixed
+    /// temperatures, with that of eliminated nodes passed on: a block per parameter, a value per
+    /// vertex. From inputs read and nodes recovered.
     ///
     /// # Errors
     /// [`InputError`] for a value that has no finite derivative here.
@@ -28,7 +28,7 @@ impl ThermalSystem {
         Ok(())
     }
 
-    /// Whether temperatures of nodes follow from others without storage: then their sensitivities
+    /// True if temperatures of nodes follow from others without storage: then their sensitivities
     /// need [`ThermalSystem::tangent_heat`] too.
     pub fn has_massless(&self) -> bool {
         !(self.elimination().is_empty() && self.algebraic().is_empty())
@@ -36,7 +36,7 @@ impl ThermalSystem {
 
     /// Writes the sensitivities of all vertices in K per SI unit of one parameter from those of the
     /// unknowns, and from the block of [`ThermalSystem::tangent_heat`] that belongs to it.
-    /// Boundaries are given: theirs stand in that block.
+    /// Boundaries get 0: their changes are in that block.
     pub fn recover_tangent(&self, heat: &[f64], unknowns: &[f64], out: &mut [f64]) {
         out.fill(0.0);
         unknowns.iter().zip(self.unknowns()).for_each(|(s, id)| out[id.index()] = *s);

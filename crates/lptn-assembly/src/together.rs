@@ -1,6 +1,6 @@
 //! Elements whose laws are alike, evaluated together.
 //!
-//! Their heats are known before the elements are gone through, and are added in the order of the
+//! Their heats are evaluated before those of the other elements, and are added in the order of the
 //! elements, so that sums are the same to the last digit.
 
 use lptn_network::{Alike, Network};
@@ -16,7 +16,7 @@ const LEAST: usize = 8;
 /// All groups of a network.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Together {
-    /// Those of which the boundaries receive heat come first.
+    /// Groups that give heat to boundaries come first; `outer` is their number.
     groups: Vec<Group>,
     outer: usize,
 }

@@ -1,5 +1,4 @@
-//! What evaluating a system needs besides the system: one per thread, so that evaluating allocates
-//! nothing.
+//! Memory for the evaluation of a system: one per thread, so that evaluating allocates nothing.
 //!
 //! Inputs that are straight lines are read at the ends of a segment (`Workspace::draw_line`), not
 //! at every step and row. Expressions that read the time in another way are updated on request.
@@ -11,16 +10,16 @@ use crate::slopes::Slopes;
 /// Inputs at one time, and the temperatures of all vertices.
 #[derive(Clone, Debug)]
 pub struct Workspace {
-    /// Where the inputs were read, but for a system with a line: see [`Workspace::current`].
+    /// Values that expressions read; older than the inputs if there is a line, see `behind`.
     pub(crate) scope: Evaluation,
     /// Heat of every source in W.
     pub(crate) power: Vec<f64>,
-    /// The sources to evaluate again when the time changes; the others only where something
+    /// The sources to evaluate again when the time changes; the others only when something
     /// switches.
     timed: Vec<SourceId>,
-    /// True if `power` holds the heat of the other sources, too.
+    /// True if `power` includes the heat of the other sources.
     settled: bool,
-    /// Heat put into every vertex in W, that of massless nodes handed on.
+    /// Heat put into every vertex in W, that of massless nodes passed on.
     pub(crate) heat: Vec<f64>,
     /// Heat that elements other than constant conductances bring to every vertex in W.
     pub(crate) element_heat: Vec<f64>,
@@ -31,15 +30,15 @@ pub struct Workspace {
     pub(crate) potentials: Vec<f64>,
     /// Heat of the elements that were evaluated together in W, by their positions; NaN for others.
     pub(crate) together: Vec<f64>,
-    /// Which controls are on and which comparisons hold.
+    /// States of the controls and truth of the comparisons.
     positions: Positions,
-    /// Whether the inputs have to be evaluated again when the time changes.
+    /// True if the inputs must be evaluated again when the time changes.
     varies: bool,
     /// The time and segment that the inputs were read for.
     read_at: Option<(f64, f64)>,
     /// The inputs of the present segment, if they are straight lines in time.
     line: Option<Line>,
-    /// Whether `scope` is behind `read_at`.
+    /// True if `scope` is not at the time of `read_at`.
     behind: bool,
 }
 
@@ -48,7 +47,7 @@ pub struct Workspace {
 struct Line {
     from: f64,
     to: f64,
-    /// Where comparisons of `t` were read; they have the same truth between the ends.
+    /// Time of the comparisons of `t` in s; they have the same truth between the ends.
     segment: f64,
     /// Heat of every source in W, temperatures of the boundaries in K, at the two ends.
     power: [Vec<f64>; 2],
@@ -56,7 +55,7 @@ struct Line {
 }
 
 impl Line {
-    /// The share of the way at a time, if it is on it.
+    /// The share of the line at a time, if the time is on it.
     fn share(&self, time: f64, segment: f64) -> Option<f64> {
         let inside = self.from < segment && segment < self.to;
         let same = inside || self.segment.to_bits() == segment.to_bits();
@@ -65,7 +64,7 @@ impl Line {
     }
 }
 
-/// Writes what is between two ends.
+/// Interpolates between two ends.
 fn between([first, last]: &[Vec<f64>; 2], share: f64, out: &mut [f64]) {
     for ((out, a), b) in out.iter_mut().zip(first).zip(last) {
         *out = a + share * (b - a);
@@ -94,7 +93,7 @@ impl Workspace {
         }
     }
 
-    /// Reads sources and boundaries at `time` [s] unless that was done; says whether they are new.
+    /// Reads sources and boundaries at `time` [s] unless that was done; true if they are new.
     pub(crate) fn read(
         &mut self,
         network: &Network,
@@ -137,16 +136,16 @@ impl Workspace {
         Ok(())
     }
 
-    /// Takes the inputs between two times of a segment for straight lines, which the caller knows:
-    /// a system with many sources is read at two times, not at every step and row. For linear
-    /// systems; forgotten where something switches or another line is drawn.
+    /// Treats the inputs between two times of a segment as straight lines, which the caller must
+    /// know: a system with many sources is read at two times, not at every step and row. For
+    /// linear systems; forgotten when something switches or another line is drawn.
     pub fn draw_line(&mut self, network: &Network, (from, to): (f64, f64), segment: f64) {
         self.forget();
         if !self.varies || from >= to {
             return;
         }
         let mut ends = [from, to].into_iter().map_while(|time| {
-            // a failure is met again, and told, where the input is read
+            // a failure occurs again, and is reported, when the input is read
             self.read(network, time, segment).ok()?;
             Some((self.power.clone(), self.temperature[network.nodes().len()..].to_vec()))
         });
@@ -164,8 +163,8 @@ impl Workspace {
         self.line = line;
     }
 
-    /// Does something with inputs that are read themselves, not taken from a line; afterwards they
-    /// have to be read again.
+    /// Runs `act` with inputs that are read themselves, not taken from a line; afterwards they must
+    /// be read again.
     pub(crate) fn off_line<T>(&mut self, act: impl FnOnce(&mut Self) -> T) -> T {
         let Some(line) = self.line.take() else { return act(self) };
         self.read_at = None;
@@ -174,7 +173,7 @@ impl Workspace {
         done
     }
 
-    /// What expressions read, where the inputs were read last, and the temperatures.
+    /// Values that expressions read, at the time of the inputs last read, and the temperatures.
     pub(crate) fn current(&mut self) -> (&mut Evaluation, &[f64]) {
         if let (true, Some((time, segment))) = (self.behind, self.read_at) {
             self.scope.set_time(time, segment);
@@ -183,8 +182,8 @@ impl Workspace {
         (&mut self.scope, &self.temperature)
     }
 
-    /// Sets which controls are on and which comparisons hold, as the network begins with
-    /// [`Network::initial_positions`]; inputs have to be read again.
+    /// Sets the states of the controls and the truth of the comparisons, at the start
+    /// [`Network::initial_positions`]; inputs must be read again.
     pub fn set_positions(&mut self, positions: &Positions) {
         self.scope.set_positions(positions);
         self.positions.clone_from(positions);
@@ -192,12 +191,12 @@ impl Workspace {
         self.forget();
     }
 
-    /// Which controls are on and which comparisons hold.
+    /// States of the controls and truth of the comparisons.
     pub fn positions(&self) -> &Positions {
         &self.positions
     }
 
-    /// What was read holds no longer.
+    /// Discards the inputs that were read.
     pub(crate) fn forget(&mut self) {
         self.read_at = None;
         self.line = None;

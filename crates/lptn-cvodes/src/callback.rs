@@ -1,4 +1,4 @@
-//! From CVODES into the system and back, without letting a panic or a NaN through.
+//! Callbacks from CVODES into the system, which let no panic and no NaN through.
 
 use std::any::Any;
 use std::ffi::{c_int, c_void};
@@ -13,29 +13,28 @@ use crate::vectors;
 use lptn_integrate::linear::Factorization;
 use lptn_integrate::{Callback, FactorError, IntegrateError, OdeSystem, Retry, kernels};
 
-/// What CVODES understands: done, try a smaller step, give up.
+/// Return values for CVODES: done, try a smaller step, give up.
 pub(crate) const DONE: c_int = 0;
 const SMALLER_STEP: c_int = 1;
 const GIVE_UP: c_int = -1;
 
-/// Slopes below this count as this, so that a state whose `T` stands still divides nothing by zero.
-/// It is far below all that matters next to another term, and far above what would overflow.
+/// Smallest slope: a state whose `T` is constant must not cause a division by zero. It is far below
+/// all that matters next to another term, and large enough not to overflow.
 const FLAT: f64 = 1e-30;
 
-/// The share of a residual that may be left over where the Jacobian changes. A Newton matrix of an
-/// earlier step, or a symmetric one, leaves more. CVODES takes a correction for the last that is at
-/// most a tenth of the tolerance, so the books feel 1e-5 of that and no more.
+/// The share of a residual that may remain if the Jacobian changes. A Newton matrix of an earlier
+/// step, or a symmetric one, leaves more. The last correction that CVODES takes is at most a tenth
+/// of the tolerance, so the energy balance is off by at most 1e-5 of the tolerance.
 const SHARE: f64 = 1e-4;
 
-/// Everything the callbacks work on. Reached through one raw pointer only, see the crate
-/// documentation.
+/// Data of the callbacks. Reached through one raw pointer only, see the crate documentation.
 pub(crate) struct Shared<S> {
     pub(crate) system: S,
-    /// What CVODES' time is counted from.
+    /// Origin of CVODES' time.
     pub(crate) origin: f64,
     /// The matrix of [`OdeSystem::jacobian`] in the slots of the pattern.
     pub(crate) jacobian: Vec<f64>,
-    /// Whether `jacobian` is that of a constant matrix and need not be asked for again.
+    /// True if `jacobian` is constant and need not be read again.
     pub(crate) jacobian_is_current: bool,
     /// The Newton matrix in the slots of the pattern.
     pub(crate) matrix: Vec<f64>,
@@ -44,8 +43,8 @@ pub(crate) struct Shared<S> {
     pub(crate) slopes: Vec<f64>,
     /// States and algebraic unknowns during a solve; empty if there are none of the latter.
     pub(crate) work: Vec<f64>,
-    /// The sensitivities that go into a call of [`OdeSystem::sensitivity_flow`] and their flows
-    /// that come out of it, the blocks one behind the other; empty if there are none.
+    /// Input of [`OdeSystem::sensitivity_flow`], block after block; its output is in
+    /// `sensitivity_flows`. Both are empty if there are no sensitivities.
     pub(crate) sensitivities: Vec<f64>,
     pub(crate) sensitivity_flows: Vec<f64>,
     pub(crate) factors: Box<dyn Factorization>,
@@ -62,7 +61,7 @@ pub(crate) struct Shared<S> {
     pub(crate) overcome: Option<Failure>,
 }
 
-/// What CVODES does not count, or forgets at a restart.
+/// Counts that CVODES does not keep, or forgets at a restart.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Counts {
     pub(crate) flow: u64,
@@ -72,7 +71,7 @@ pub(crate) struct Counts {
     pub(crate) setups: u64,
     pub(crate) factorizations: u64,
     pub(crate) solves: u64,
-    /// Of linear solvers that were given up.
+    /// Iterations of linear solvers that were given up.
     pub(crate) iterations: u64,
 }
 
@@ -84,7 +83,7 @@ pub(crate) struct Failure {
     cause: Cause,
 }
 
-/// Why it failed.
+/// Reason of the failure.
 #[derive(Clone, Debug)]
 pub(crate) enum Cause {
     Panic(String),
@@ -99,8 +98,7 @@ impl Failure {
         match cause {
             Cause::Panic(message) => IntegrateError::Panic { callback, time, message },
             Cause::NotFinite(index) => IntegrateError::NotFinite { callback, time, index },
-            // The state was accepted before the roots were looked for: there is no smaller step to
-            // try.
+            // The state was accepted before the search for roots: there is no smaller step to try.
             Cause::Retry(Retry::SmallerStep) if callback != Callback::Roots => {
                 IntegrateError::Refused { callback, time }
             }
@@ -112,8 +110,8 @@ impl Failure {
     fn code(&self) -> c_int {
         match self.cause {
             Cause::Panic(_) | Cause::Retry(Retry::Stop) => GIVE_UP,
-            // A matrix that is not positive definite becomes so as gamma shrinks, and a flow that
-            // overflows may not.
+            // A smaller gamma makes the matrix positive definite, and a smaller step may avoid an
+            // overflow of the flow.
             Cause::NotFinite(_) | Cause::Retry(Retry::SmallerStep) | Cause::Linear(_) => {
                 SMALLER_STEP
             }
@@ -135,8 +133,8 @@ impl<S: OdeSystem> Shared<S> {
         time: f64,
         work: impl FnOnce(&mut Self) -> Result<(), Cause>,
     ) -> c_int {
-        // What a panic may leave half done is the system, which no callback enters again, and
-        // arrays that are written before they are read.
+        // A panic may leave the system half changed, but no callback enters it again. Arrays are
+        // written before they are read.
         let outcome = catch_unwind(AssertUnwindSafe(|| work(self)));
         let cause = match outcome {
             Ok(Ok(())) => {
@@ -162,9 +160,9 @@ impl<S: OdeSystem> Shared<S> {
         expect_finite(out)
     }
 
-    /// The weights of the error test: the tolerance is one of `T`, where a state is carried as
-    /// another variable. Where `T` moves less than the state, it is one of the state: what is
-    /// carried must not get lost either.
+    /// The weights of the error test. The tolerance is one of `T` if a state is carried as another
+    /// variable. If `T` moves less than the state, it is one of the state, which must not get lost
+    /// either.
     fn weights(&self, out: &mut [f64]) {
         out.fill(1.0 / self.absolute);
         if let Some(slopes) = self.system.slope() {
@@ -196,7 +194,7 @@ impl<S: OdeSystem> Shared<S> {
         expect_finite(out)
     }
 
-    /// Forms the Newton matrix; says whether the Jacobian was asked for anew.
+    /// Forms the Newton matrix; returns true if the Jacobian was read again.
     ///
     /// CVODE asks for the solution `x` of `(M - gamma J) x = r` with `r = M b`, where `J` is the
     /// derivative of `f(t, y, z(t, y))`. With `0 = g(t, y, z)` and subscripts for derivatives, a
@@ -212,7 +210,7 @@ impl<S: OdeSystem> Shared<S> {
     /// `[y, z]`: eliminating `w` gives back `M - gamma J` exactly. The matrix is symmetric if `K`
     /// is, and positive definite if `-K` is.
     ///
-    /// Where `K` is written by `T(y)` with the slopes `S = diag(dT/dy)`, it stands for `K S`. With
+    /// If `K` is written by `T(y)` with the slopes `S = diag(dT/dy)`, the Jacobian is `K S`. With
     /// `u = S x` the equation `(M - gamma K S) x = r` becomes `(M / S - gamma K) u = r`, symmetric
     /// again, and `x = u / S`.
     pub(crate) fn form_matrix(
@@ -253,8 +251,7 @@ impl<S: OdeSystem> Shared<S> {
         Ok(())
     }
 
-    /// From now on with these factors, which must be for any values, and with the system's exact
-    /// Jacobian.
+    /// Goes on with these factors, which must be for any values, and with the exact Jacobian.
     pub(crate) fn leave_symmetry(&mut self, factors: Box<dyn Factorization>) {
         self.counts.iterations += self.factors.iterations();
         self.factors = factors;
@@ -284,15 +281,15 @@ impl<S: OdeSystem> Shared<S> {
             corrected?;
             x.copy_from_slice(&self.work[..x.len()]);
         }
-        // Nothing happens where there are no slopes.
+        // Nothing happens if there are no slopes.
         kernels::zip_in_place(x, &self.slopes, |u, slope| u / slope);
         Ok(())
     }
 }
 
 impl<S> Shared<S> {
-    /// Solves with the Newton matrix: to the last digits where it is constant, so that one iteration
-    /// does.
+    /// Solves with the Newton matrix: to the last digits if it is constant, so that one iteration
+    /// is enough.
     fn correct(&mut self, b: &mut [f64]) -> Result<(), Cause> {
         let solved = match self.jacobian_is_current {
             true => self.factors.solve_in_place(b),
@@ -359,18 +356,18 @@ pub(crate) unsafe extern "C" fn sensitivities<S: OdeSystem>(
         let shared = &mut *data.cast::<Shared<S>>();
         (shared, values(y), slice::from_raw_parts(s, count), slice::from_raw_parts(out, count))
     };
-    // SAFETY: nobody writes to the vectors of `s` meanwhile.
+    // SAFETY: no one writes to the vectors of `s` during the call.
     unsafe { vectors::gather(s, &mut shared.sensitivities) };
     let t = shared.origin + t;
     let flag = shared.guard(Callback::Sensitivity, t, |shared| shared.sensitivity_flow(t, y));
     if flag == DONE {
-        // SAFETY: nobody else uses the vectors of `out` meanwhile; none of them is `y`.
+        // SAFETY: no one else uses the vectors of `out` now; none of them is `y`.
         unsafe { vectors::scatter(&shared.sensitivity_flows, out) };
     }
     flag
 }
 
-/// The functions whose roots are looked for, for CVodeRootInit.
+/// The functions whose roots are searched for, for CVodeRootInit.
 pub(crate) unsafe extern "C" fn roots<S: OdeSystem>(
     t: realtype,
     y: N_Vector,

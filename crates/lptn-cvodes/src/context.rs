@@ -38,7 +38,7 @@ impl Context {
         self.message.borrow().clone()
     }
 
-    /// What the error handlers get as their `data`.
+    /// The `data` of the error handlers.
     fn handler_data(&self) -> *mut c_void {
         ptr::from_ref::<LastMessage>(&self.message).cast_mut().cast()
     }
@@ -48,7 +48,7 @@ impl Context {
     #[cfg(sundials7)]
     fn silence(&self) {
         // SAFETY: the context is alive, and the data outlives it: `drop` frees the context before
-        // the box. Without a logger, messages to it return an error that CVODES does not look at.
+        // the box. Without a logger, messages to it return an error that CVODES ignores.
         unsafe {
             sys::SUNContext_ClearErrHandlers(self.raw);
             sys::SUNContext_PushErrHandler(self.raw, Some(keep_message), self.handler_data());

@@ -1,24 +1,23 @@
 //! Elementary functions that give the same digits on every processor.
 //!
 //! The C library chooses its `exp` and `pow` by the processor, with or without fused
-//! multiplication, and they differ in the last digit; so would results, and shards of a study from
-//! a mixed cluster would not merge. These definitions take the place of those of the C library in
-//! the whole program, in Rust and in SUNDIALS alike. Those of the crate `pxfm` are correctly rounded
-//! (after CORE-MATH: A. Sibidanov, P. Zimmermann, S. Glondu, ARITH 2022), so there is one answer;
-//! those of `libm`, after FreeBSD's, have an error below one unit in the last place and are the same
-//! arithmetic everywhere.
+//! multiplication, and they differ in the last digit; results would differ too, and shards of a
+//! study from a mixed cluster would not merge. These definitions take the place of those of the C
+//! library in the whole program, in Rust and in SUNDIALS alike. Those of the crate `pxfm` are
+//! correctly rounded (after CORE-MATH: A. Sibidanov, P. Zimmermann, S. Glondu, ARITH 2022), so
+//! there is one answer; those of `libm`, after FreeBSD's, have an error below one unit in the last
+//! place and are the same arithmetic everywhere.
 //!
-//! It is a feature (`portable`) because a program decides for itself, not a library for the
-//! programs that use it.
+//! It is a feature (`portable`) because the program decides, not a library that it uses.
 //!
 //! # Safety
-//! A linker takes the definition of a program before that of a library, so the C library's are not
-//! looked at. The signatures are those of C11 (7.12) and, for `sincos`, of the GNU C library.
+//! A linker takes the definition of a program before that of a library, so those of the C library
+//! are not used. The signatures are those of C11 (7.12) and, for `sincos`, of the GNU C library.
 
-/// A power. The correctly rounded one takes three times as long as that of `libm`, which knows no
-/// other processor. A quarter power, as films of natural convection have it, is two square roots:
-/// each is correctly rounded and the second halves the error of the first, 3/4 of a unit in the last
-/// place in all.
+/// A power. The correctly rounded one takes three times as long as that of `libm`, which is the
+/// same on every processor. A quarter power, as in natural convection, is two square roots. Each is
+/// correctly rounded and the second halves the error of the first: 3/4 of a unit in the last place
+/// in all.
 #[expect(clippy::float_cmp, reason = "a quarter is this number and no other")]
 fn power(x: f64, y: f64) -> f64 {
     if y == 0.25 && x > 0.0 { x.sqrt().sqrt() } else { libm::pow(x, y) }
@@ -57,7 +56,7 @@ elementary! {
     hypot(x, y) = libm::hypot;
 }
 
-/// Both at once: compilers call it where a program asks for both.
+/// Both at once: compilers call it if a program needs both.
 #[unsafe(no_mangle)]
 unsafe extern "C" fn sincos(x: f64, sine: *mut f64, cosine: *mut f64) {
     let (s, c) = pxfm::f_sincos(x);

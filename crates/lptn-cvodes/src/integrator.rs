@@ -38,8 +38,8 @@ pub struct Cvodes<S: OdeSystem> {
     sensitivities: Sensitivities,
     context: Context,
     shared: SharedBox<S>,
-    /// What CVODES counts its time from. It begins at 0: a step may be shorter than what a double
-    /// tells of a time far from 0.
+    /// Origin of CVODES' time, which begins at 0: a step may be shorter than the spacing of doubles
+    /// at a time far from 0.
     origin: f64,
     /// In CVODES' time.
     time: f64,
@@ -56,7 +56,7 @@ pub struct Cvodes<S: OdeSystem> {
     first_step: f64,
     symmetry: Symmetry,
     roots: Roots,
-    /// What CVODES had counted when it was last restarted.
+    /// Totals of CVODES' counters at its last restart.
     before: Counters,
     restarts: u64,
     /// Steps in a row that did not move the time.
@@ -163,7 +163,7 @@ impl<S: OdeSystem> Cvodes<S> {
         if self.roots.are_none() { reached } else { self.look_for_roots(towards, reached) }
     }
 
-    /// From the last good state on with LU; false if that cannot be had.
+    /// Goes on from the last good state with LU; returns false if that is not possible.
     fn leave_symmetry(&mut self) -> bool {
         let choice = self.symmetry.leave();
         let Ok(factors) = linear::new(self.system().pattern(), false, choice) else { return false };
@@ -173,7 +173,7 @@ impl<S: OdeSystem> Cvodes<S> {
             && self.begin_anew().and_then(|()| self.memory.set_attempts(ATTEMPTS)).is_ok()
     }
 
-    /// CVODES goes on for ever with steps that are lost in the rounding of the time.
+    /// Fails after `STALLED` steps that are lost in the rounding of the time: CVODES would go on.
     fn watch_progress(&mut self, moved: bool) -> Result<(), IntegrateError> {
         if moved {
             self.still = 0;

@@ -1,5 +1,4 @@
-//! CVODES with own vectors and with faer as its linear solver, behind the trait of
-//! `lptn-integrate`.
+//! CVODES with its own vectors and faer as linear solver, for `lptn-integrate`.
 //!
 //! [`Cvodes`] is an [`Integrator`](lptn_integrate::Integrator). Its error norm is a maximum where
 //! CVODE's own is a mean, which idle components would dilute.
@@ -11,23 +10,23 @@
 //!
 //! # Why this crate may use `unsafe`
 //!
-//! It is the only one of the workspace that calls C, and that stands in for it (`elementary`). The
-//! argument that it is sound has five parts:
+//! It is the only crate of the workspace that calls C or replaces functions of the C library
+//! (`elementary`). The argument that it is sound has five parts:
 //!
 //! 1. *Lifetimes.* Every object made by SUNDIALS belongs to exactly one Rust value with a `Drop`;
 //!    [`Cvodes`] declares its fields in the order in which SUNDIALS must free them, the context
 //!    last. Raw handles never leave the crate.
-//! 2. *Aliasing.* What the callbacks need lives in one heap allocation that is reached only through
-//!    the raw pointer made when it was allocated. While a C function runs that may call back, no
-//!    Rust reference into it exists: `&mut Cvodes` guarantees that nobody else looks, and the
+//! 2. *Aliasing.* The data of the callbacks is one heap allocation, reached only through the raw
+//!    pointer made when it was allocated. While a C function runs that may call back, no Rust
+//!    reference into it exists: `&mut Cvodes` guarantees that no one else reads it, and the
 //!    callback makes the only reference, for its own duration.
-//! 3. *Vectors.* The contents of a vector are a Rust allocation of known length. Where SUNDIALS
-//!    hands over one vector twice (in-place operations), the operation is dispatched to an in-place
+//! 3. *Vectors.* The contents of a vector are a Rust allocation of known length. If SUNDIALS
+//!    passes one vector twice (in-place operations), the operation is dispatched to an in-place
 //!    kernel before any reference is made, so a mutable slice never overlaps another slice. The
 //!    kernels are safe Rust.
 //! 4. *Unwinding.* Every callback into user code is wrapped in `catch_unwind`; a panic becomes an
 //!    error after the C frames have returned.
-//! 5. *Threads.* Each integrator has its own SUNDIALS context and holds raw pointers, so it is
+//! 5. *Threads.* Each integrator has its own SUNDIALS context and raw pointers, so it is
 //!    neither `Send` nor `Sync`; nothing is shared between two of them.
 #![allow(unsafe_code)]
 

@@ -9,8 +9,8 @@ use crate::{callback, linear_solver};
 use crate::{callback::Shared, linear_solver::SolverHandles, vector::Vector, vectors::Vectors};
 use lptn_integrate::{Allowance, IntegrateError, OdeSystem};
 
-/// An owned CVODES object. Its methods ask for what must be alive for the call; the owner keeps it
-/// alive until the object is dropped.
+/// An owned CVODES object. Its methods take the data that must be alive for the call; the owner
+/// keeps it alive until the object is dropped.
 pub(crate) struct Memory {
     raw: *mut c_void,
 }
@@ -26,7 +26,7 @@ pub(crate) struct Memory {
 /// | 100 nodes in a row | 275, 313, 1550, 16 ms | 279, 585, 1546, 15 ms |
 /// | 1000 nodes in a row | 365, 408, 2025, 120 ms | 370, 773, 2027, 153 ms |
 ///
-/// Staggered, a flow that fails behind the error test also leaves the history in the middle of the
+/// Staggered, a flow that fails after the error test also leaves the history in the middle of the
 /// step.
 const STRATEGY: c_int = sys::CV_SIMULTANEOUS;
 
@@ -40,10 +40,10 @@ pub(crate) struct Flag {
     pub(crate) value: c_int,
 }
 
-/// Where a step ended.
+/// End of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Reached {
-    /// Where the error allowed it to.
+    /// At the size that the error test allowed.
     Step,
     /// At the stop time.
     Stop,
@@ -55,7 +55,7 @@ fn check(function: &'static str, value: c_int) -> Result<(), Flag> {
     if value < 0 { Err(Flag { function, value }) } else { Ok(()) }
 }
 
-/// What CVODES counts since its last (re)initialisation.
+/// Counters of CVODES since its last (re)initialisation.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct Counters {
     pub(crate) steps: u64,
@@ -124,11 +124,11 @@ impl Memory {
                 "CVodeQuadInit",
                 sys::CVodeQuadInit(self.raw, Some(callback::integrands::<S>), q0.raw()),
             )?;
-            // They take part in the error test even where nothing is asked of them. Left out of it
-            // altogether, CVODES raises the order of their formula with the correction of the
-            // wrong step (cvChooseEta saves it only if they are in the test), and the books are off
-            // by an amount that grows with the tolerance: 4.5e-8 of the heat on a plate at 1e-5,
-            // instead of 1e-13.
+            // They take part in the error test even if nothing is asked of them. Otherwise CVODES
+            // raises the order of their formula with the correction of the wrong step (cvChooseEta
+            // saves it only if they are in the test). The energy balance is then off by an amount
+            // that grows with the tolerance: 4.5e-8 of the heat on a plate at 1e-5, instead of
+            // 1e-13.
             check(
                 "CVodeQuadSStolerances",
                 sys::CVodeQuadSStolerances(self.raw, allowed.share, amount),
@@ -183,9 +183,9 @@ impl Memory {
         check("CVodeGetSensDky", unsafe { sys::CVodeGetSensDky(self.raw, t, 0, s.raw()) })
     }
 
-    /// Looks for the roots of `count` functions, all of them taken for active: CVODES leaves a
-    /// function that was exactly zero at a start out of the search, and forgets to take it up again
-    /// at a restart. Only another number of functions makes it forget.
+    /// Starts the search for roots of `count` functions, all of them active. CVODES leaves out a
+    /// function that was exactly zero at a start, and keeps doing so at a restart. Only another
+    /// number of functions resets this.
     pub(crate) fn start_roots<S: OdeSystem>(&self, count: c_int) -> Result<(), Flag> {
         // SAFETY: the object is alive.
         unsafe {
@@ -198,7 +198,7 @@ impl Memory {
         }
     }
 
-    /// Which functions have a root at the end of the last step: 1 rising, -1 falling, 0 none.
+    /// Root of each function at the end of the last step: 1 rising, -1 falling, 0 none.
     ///
     /// `directions` must be as long as the number of functions.
     pub(crate) fn root_directions(&self, directions: &mut [c_int]) -> Result<(), Flag> {
@@ -208,7 +208,7 @@ impl Memory {
         })
     }
 
-    /// The end of the last internal step, which lies behind the present time after a root.
+    /// The end of the last internal step, which is after the present time if a root was met.
     pub(crate) fn internal_time(&self) -> Result<f64, Flag> {
         let mut t = 0.0;
         // SAFETY: the object is alive and writes to the place given.
@@ -268,7 +268,7 @@ impl Memory {
         check("CVodeSetMaxStep", unsafe { sys::CVodeSetMaxStep(self.raw, step) })
     }
 
-    /// How many attempts at one step may fail, other than by its error, before CVODES gives it up.
+    /// Sets the number of failed attempts, other than by the error, before CVODES gives a step up.
     pub(crate) fn set_attempts(&self, attempts: c_int) -> Result<(), Flag> {
         // SAFETY: the object is alive.
         check("CVodeSetMaxConvFails", unsafe { sys::CVodeSetMaxConvFails(self.raw, attempts) })
@@ -281,8 +281,8 @@ impl Memory {
 
     /// One internal step, or the part of it up to the next root; `t` becomes the time reached.
     pub(crate) fn step(&self, towards: f64, y: &mut Vector, t: &mut f64) -> Result<Reached, Flag> {
-        // SAFETY: the object and all that its callbacks reach are alive; `y` is its output and not
-        // one of its own vectors.
+        // SAFETY: the object and all that its callbacks reach are alive; `y` is its output and
+        // not one of its vectors.
         let flag = unsafe { sys::CVode(self.raw, towards, y.raw(), t, sys::CV_ONE_STEP) };
         check("CVode", flag)?;
         Ok(match flag {

@@ -18,7 +18,7 @@ impl<S> SharedBox<S> {
 
     pub(crate) fn get(&self) -> &Shared<S> {
         // SAFETY: allocated by `new`; callbacks run only inside methods that borrow the integrator
-        // for writing and that hold no reference from here meanwhile.
+        // for writing and that keep no reference from here during the call.
         unsafe { self.0.as_ref() }
     }
 
@@ -31,8 +31,8 @@ impl<S> SharedBox<S> {
     pub(crate) fn into_inner(self) -> Shared<S> {
         let pointer = self.0;
         std::mem::forget(self);
-        // SAFETY: allocated by `new` with `Box`, and the owner was forgotten, so nobody frees it
-        // again.
+        // SAFETY: allocated by `new` with `Box`, and the owner was forgotten, so no one
+        // frees it again.
         *unsafe { Box::from_raw(pointer.as_ptr()) }
     }
 }

@@ -1,18 +1,17 @@
-//! What an integration needs before its first step: the data of the callbacks and the setting of
-//! Newton's method.
+//! Data of the callbacks and settings of Newton's method, made before the first step.
 
 use crate::callback::{Counts, Shared};
 use lptn_integrate::{FactorError, IntegrateError, OdeSystem, Options, linear};
 
 /// Stopping test of Newton's method for a constant Jacobian: CVODES' own. With factors that match
-/// gamma the first iteration is exact whatever the test, so the books close to rounding, and a
-/// sharper test only buys iterations that change nothing.
+/// gamma the first iteration is exact whatever the test, so the energy balance closes to
+/// rounding. A sharper test only adds iterations that change nothing.
 const NEWTON_LINEAR: f64 = 1e-1;
 
 /// The same for a Jacobian that depends on the state. Measured by `benches/grid.rs` (60 by 60 cells
-/// with radiation, tolerance 1e-5; books relative to the heat turned over):
+/// with radiation, tolerance 1e-5; energy balance relative to the total heat exchanged):
 ///
-/// | coefficient | steps | factorisations | solves | s | books |
+/// | coefficient | steps | factorisations | solves | s | balance |
 /// |---|---|---|---|---|---|
 /// | 1e-1 | 2312 | 198 | 3104 | 0.82 | 1.8e-10 |
 /// | 1e-2 | 1736 | 126 | 2667 | 0.68 | 4.5e-11 |
@@ -20,7 +19,7 @@ const NEWTON_LINEAR: f64 = 1e-1;
 /// | 1e-4 | 1753 | 161 | 4399 | 0.88 | 9.9e-13 |
 /// | 1e-6 | 3415 | 2961 | 14180 | 6.56 | 1.6e-12 |
 ///
-/// CVODES' 1e-1 is worst in everything but the books: what Newton leaves over passes for local
+/// CVODES' 1e-1 is slower than 1e-2 and less exact: the residual of Newton's method counts as local
 /// error and costs steps. Below 1e-4 convergence failures begin. 1e-3 costs up to a quarter more
 /// than 1e-2 on other networks.
 const NEWTON_NONLINEAR: f64 = 1e-2;

@@ -1,4 +1,4 @@
-//! When symmetric Newton matrices are given up for LU.
+//! The rule by which LU replaces symmetric Newton matrices.
 //!
 //! Symmetric Newton matrices are abandoned, never repaired. Radiation and G(T) enter with the mean
 //! of their two derivatives, so that Cholesky serves. After three failed attempts in a row, or 15
@@ -12,7 +12,7 @@ use sundials_sys as sys;
 use crate::memory::Flag;
 use lptn_integrate::{LinearSolver, OdeSystem, Statistics};
 
-/// Attempts at one step that may fail before the symmetric matrices are held to be the reason.
+/// Attempts at one step that may fail before the symmetric matrices count as the reason.
 pub(crate) const SYMMETRIC_ATTEMPTS: c_int = 3;
 
 /// CVODES' own number of attempts at one step.
@@ -20,18 +20,18 @@ pub(crate) const ATTEMPTS: c_int = 10;
 
 /// Steps over which failures are counted. A matrix that makes Newton's method diverge above some
 /// step size is not a failure of any one step: the step shrinks by four, succeeds, grows, fails.
-/// That is one failure in three steps (measured on a stream with the Jacobian 0); radiating plates
+/// This is one failure in three steps (measured on a stream with the Jacobian 0); radiating plates
 /// with symmetrised Jacobians stay below one in ten.
 const WINDOW: u64 = 60;
 
 /// Failures in a window that give the symmetric values up.
 const TOO_MANY: u64 = 15;
 
-/// Whether the values of the Newton matrix are treated as symmetric.
+/// Decides if the values of the Newton matrix are treated as symmetric.
 pub(crate) struct Symmetry {
     /// The linear solver asked for.
     choice: LinearSolver,
-    /// Whether there is something to give up.
+    /// True while there are symmetric values to give up.
     held: bool,
     switched: Option<f64>,
     /// Steps and failures at the start of the window.
@@ -39,7 +39,7 @@ pub(crate) struct Symmetry {
 }
 
 impl Symmetry {
-    /// A constant Jacobian has nothing to give up: nobody symmetrised it.
+    /// A constant Jacobian has nothing to give up: no one symmetrised it.
     pub(crate) fn of(system: &impl OdeSystem, choice: LinearSolver) -> Self {
         let held = system.symmetric() && !system.jacobian_is_constant();
         Self { choice, held, switched: None, window: (0, 0) }
@@ -57,9 +57,9 @@ impl Symmetry {
         self.switched = Some(time);
     }
 
-    /// Whether CVODES gave up a step for a reason that better Newton iterates may remove. All of
-    /// these are counted together, so that each must be forgiven here or would end the integration
-    /// sooner than without a switch.
+    /// True if CVODES gave up a step for a reason that better Newton iterates may remove. CVODES
+    /// counts all these failures together. Each must be listed here, or it would end the
+    /// integration sooner than without a switch.
     pub(crate) fn is_to_blame(&self, flag: &Flag) -> bool {
         let reasons = [
             sys::CV_CONV_FAILURE,
@@ -70,7 +70,7 @@ impl Symmetry {
         self.held && reasons.contains(&flag.value)
     }
 
-    /// Whether Newton's method fails again and again, each time a few steps after the last.
+    /// True if a window of steps ends with at least `TOO_MANY` failures of Newton's method.
     pub(crate) fn stalls(&mut self, so_far: &Statistics) -> bool {
         let (steps, failures) = self.window;
         if !self.held || so_far.steps < steps + WINDOW {
@@ -80,7 +80,7 @@ impl Symmetry {
         so_far.newton_failures >= failures + TOO_MANY
     }
 
-    /// Nothing is held any more; returns the linear solver to take instead.
+    /// Gives the symmetric values up; returns the linear solver to use instead.
     pub(crate) fn leave(&mut self) -> LinearSolver {
         self.held = false;
         match self.choice {

@@ -1,10 +1,10 @@
-//! The `N_Vector` of this crate: a Rust allocation behind SUNDIALS' table of operations.
+//! The `N_Vector` of this crate: a Rust allocation with SUNDIALS' table of operations.
 //!
-//! Two reasons for it: Debian compiles SUNDIALS without optimisation, so its own vector loops are 8
-//! to 60 times slower, and `nvwrmsnorm` here is the weighted maximum, see the crate documentation.
-//! Not implemented: the wrapping of foreign arrays (only difference quotients use it), printing,
-//! parallel reductions, and the operations on arrays of vectors, for which SUNDIALS falls back to
-//! the ones here.
+//! There are two reasons for it. Debian compiles SUNDIALS without optimisation, so its own vector
+//! loops are 8 to 60 times slower. And `nvwrmsnorm` here is the weighted maximum, see the crate
+//! documentation. Not implemented: the wrapping of foreign arrays (only difference quotients use
+//! it), printing, parallel reductions, and the operations on arrays of vectors, for which SUNDIALS
+//! falls back to the ones here.
 //!
 //! CVODE's own norm is a mean over the components, so idle nodes would dilute the tolerance. With
 //! the maximum, the gearbox takes the same steps with 0 and with 10 000 idle nodes
@@ -44,7 +44,7 @@ impl Vector {
     }
 
     pub(crate) fn as_slice(&self) -> &[f64] {
-        // SAFETY: the vector is one of ours, and nobody writes to it while `self` is borrowed.
+        // SAFETY: the vector is one of ours, and no one writes to it while `self` is borrowed.
         unsafe { values(self.raw) }
     }
 
@@ -64,7 +64,7 @@ impl Drop for Vector {
 /// The values of a vector.
 ///
 /// # Safety
-/// `v` was made by `create`, and nobody writes to it during `'a`.
+/// `v` was made by `create`, and no one writes to it during `'a`.
 pub(crate) unsafe fn values<'a>(v: N_Vector) -> &'a [f64] {
     // SAFETY: `content` is the `Vec` that `create` boxed.
     unsafe { (*(*v).content.cast::<Vec<f64>>()).as_slice() }
@@ -73,7 +73,7 @@ pub(crate) unsafe fn values<'a>(v: N_Vector) -> &'a [f64] {
 /// The values of a vector, to be written.
 ///
 /// # Safety
-/// `v` was made by `create`, and nobody else reads or writes it during `'a`.
+/// `v` was made by `create`, and no one else reads or writes it during `'a`.
 pub(crate) unsafe fn values_mut<'a>(v: N_Vector) -> &'a mut [f64] {
     // SAFETY: `content` is the `Vec` that `create` boxed.
     unsafe { (*(*v).content.cast::<Vec<f64>>()).as_mut_slice() }
@@ -165,7 +165,7 @@ unsafe extern "C" fn space(v: N_Vector, reals: *mut sunindextype, integers: *mut
 }
 
 unsafe extern "C" fn array_pointer(v: N_Vector) -> *mut realtype {
-    // SAFETY: `v` is ours; the pointer is used while nobody else uses the vector.
+    // SAFETY: `v` is ours; the pointer is used while no one else uses the vector.
     unsafe { values_mut(v).as_mut_ptr() }
 }
 
@@ -175,7 +175,7 @@ unsafe extern "C" fn length(v: N_Vector) -> sunindextype {
 }
 
 unsafe extern "C" fn linear_sum(a: realtype, x: N_Vector, b: realtype, y: N_Vector, z: N_Vector) {
-    // SAFETY: the in-place cases are told apart before any slice is made, so the mutable one is the
+    // SAFETY: the in-place cases are separated before any slice is made, so the mutable one is the
     // only one of `z`.
     unsafe {
         match (z == x, z == y) {
@@ -306,7 +306,7 @@ unsafe extern "C" fn inverse_tested(x: N_Vector, z: N_Vector) -> sys_boolean {
 }
 
 unsafe extern "C" fn constraint_mask(c: N_Vector, x: N_Vector, mask: N_Vector) -> sys_boolean {
-    // SAFETY: three different vectors; SUNDIALS writes the mask into a temporary of its own.
+    // SAFETY: three different vectors; SUNDIALS writes the mask into its own temporary.
     unsafe { c_int::from(kernels::constraints_hold(values(c), values(x), values_mut(mask))) }
 }
 

@@ -3,7 +3,7 @@
 
 use super::*;
 
-/// Longer than two blocks, and no multiple of anything.
+/// Longer than 20 blocks, and a prime.
 const N: usize = 1301;
 
 fn vector(context: &Context, f: impl Fn(f64) -> f64) -> Vector {
@@ -21,7 +21,7 @@ fn sums_and_products_in_place_and_not() {
     let context = Context::new().unwrap();
     let (x, y, z) =
         (vector(&context, |i| i), vector(&context, |i| i + 1.0), vector(&context, |_| 0.0));
-    // SAFETY: vectors of this crate, alive, and no slice of them is held.
+    // SAFETY: vectors of this crate, alive, and no slice of them exists.
     unsafe {
         sys::N_VLinearSum(2.0, x.raw(), 3.0, y.raw(), z.raw());
         assert!(is(&z, |i| 2.0 * i + 3.0 * (i + 1.0)));

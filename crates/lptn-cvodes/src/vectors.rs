@@ -47,7 +47,7 @@ impl Vectors {
 
     /// Writes the vectors into the blocks of a slice.
     pub(crate) fn copy_to(&self, blocks: &mut [f64]) {
-        // SAFETY: the vectors are ours, and nobody writes to them while `self` is borrowed.
+        // SAFETY: the vectors are ours, and no one writes to them while `self` is borrowed.
         unsafe { gather(&self.raw, blocks) };
     }
 }
@@ -55,7 +55,7 @@ impl Vectors {
 /// Writes the vectors into the blocks of a slice.
 ///
 /// # Safety
-/// The vectors were made by this crate, and nobody writes to them meanwhile.
+/// The vectors were made by this crate, and no one writes to them during the call.
 pub(crate) unsafe fn gather(vectors: &[N_Vector], blocks: &mut [f64]) {
     let length = blocks.len() / vectors.len().max(1);
     for (&vector, block) in vectors.iter().zip(blocks.chunks_exact_mut(length.max(1))) {
@@ -67,7 +67,7 @@ pub(crate) unsafe fn gather(vectors: &[N_Vector], blocks: &mut [f64]) {
 /// Writes the blocks of a slice into the vectors.
 ///
 /// # Safety
-/// The vectors were made by this crate, are different ones, and nobody else uses them meanwhile.
+/// The vectors were made by this crate, are different, and no one else uses them now.
 pub(crate) unsafe fn scatter(blocks: &[f64], vectors: &[N_Vector]) {
     let length = blocks.len() / vectors.len().max(1);
     for (&vector, block) in vectors.iter().zip(blocks.chunks_exact(length.max(1))) {

@@ -1,8 +1,8 @@
-//! Which SUNDIALS this is.
+//! Version and linkage of SUNDIALS.
 
 use std::ffi::{CStr, c_char, c_int};
 
-/// How SUNDIALS was linked.
+/// Linkage of SUNDIALS.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Linkage {
     /// The shared libraries of the system.
@@ -18,7 +18,7 @@ pub struct Linked {
     pub version: String,
     /// Version of the headers this crate was compiled against.
     pub headers: String,
-    /// How it was linked.
+    /// Linkage of the library.
     pub linkage: Linkage,
 }
 
@@ -27,8 +27,8 @@ unsafe extern "C" {
     fn SUNDIALSGetVersion(version: *mut c_char, len: c_int) -> c_int;
 }
 
-/// Compares at compile time: `found` is what the build script read, or empty; `bindings` what
-/// sundials-sys translated.
+/// Compares at compile time: the build script read `found`, which may be empty; sundials-sys
+/// translated `bindings`.
 const fn same_version(found: &[u8], bindings: &[u8]) -> bool {
     let mut i = 0;
     while i < found.len() {
@@ -55,8 +55,8 @@ const _: () = assert!(
 pub fn linked() -> Linked {
     let headers = text_of(sundials_sys::SUNDIALS_VERSION);
     let mut buffer = [0_u8; 32];
-    // SAFETY: the buffer is writable for the length passed on, and 32 bytes hold any version text
-    // with its final zero; a longer one makes the function return an error and write nothing.
+    // SAFETY: the buffer is writable for the length passed on, and 32 bytes suffice for a version
+    // text with its final zero; a longer one makes the function return an error and write nothing.
     let flag = unsafe { SUNDIALSGetVersion(buffer.as_mut_ptr().cast(), 32) };
     let version = if flag == 0 { text_of(&buffer) } else { headers.clone() };
     let linkage = if cfg!(feature = "bundled") { Linkage::Bundled } else { Linkage::System };

@@ -1,4 +1,4 @@
-//! Calls of a system, with what fails in them as an error of the integrator.
+//! Calls of a system, with their failures as errors of the integrator.
 
 use crate::{Callback, FactorError, IntegrateError, OdeSystem, Retry, Statistics, kernels};
 

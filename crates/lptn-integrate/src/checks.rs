@@ -1,4 +1,4 @@
-//! What every integrator checks of its arguments.
+//! Checks of the arguments of every integrator.
 
 use crate::{Allowance, IntegrateError, OdeSystem, Options, kernels};
 
@@ -70,7 +70,7 @@ pub fn system(system: &impl OdeSystem, y0: &[f64]) -> Result<(), IntegrateError>
     masses(system.mass(), system.size())
 }
 
-/// Positive for the `size` states, 0 for the algebraic rows behind them.
+/// Positive for the `size` states, 0 for the algebraic rows after them.
 fn masses(mass: &[f64], size: usize) -> Result<(), IntegrateError> {
     let (states, algebraic) = mass.split_at(size);
     if let Some(index) = states.iter().position(|&mass| !(mass > 0.0 && mass.is_finite())) {

@@ -2,14 +2,14 @@
 
 use crate::{IntegrateError, Step};
 
-/// The time of an integrator begins at 0 where the run does: far from 0 a step may be shorter than
-/// the distance of two doubles. The caller sees the last double that is not after it, so that one is
+/// The time of an integrator begins at 0 with the run: far from 0 a step may be shorter than the
+/// distance of two doubles. The caller sees the last double that is not after it, so that one is
 /// before the stop as long as the other is.
 pub(crate) struct Clock {
     origin: f64,
-    /// Since the start.
+    /// Present time since the start.
     pub(crate) now: f64,
-    /// Where the last step began.
+    /// Start of the last step.
     from: f64,
     pub(crate) stop: f64,
     pub(crate) shown: f64,
@@ -76,13 +76,13 @@ impl Clock {
         }
     }
 
-    /// Begins anew at a time inside the last step.
+    /// Restarts at a time inside the last step.
     pub(crate) fn begin_at(&mut self, time: f64, shown: f64) {
         (self.now, self.shown) = (time, shown);
         self.begin();
     }
 
-    /// Begins anew here: nothing but the present time is inside the last step.
+    /// Restarts here: nothing but the present time is inside the last step.
     pub(crate) fn begin(&mut self) {
         (self.from, self.shown_from) = (self.now, self.shown);
     }

@@ -1,4 +1,4 @@
-//! What can go wrong, with the numbers that say where.
+//! Errors, with numbers that show where they occurred.
 
 use std::fmt;
 
@@ -54,7 +54,7 @@ pub enum FactorError {
 pub enum IntegrateError {
     /// A slice or a pattern does not fit the size of the system.
     WrongLength {
-        /// What has the wrong length.
+        /// Name of the slice or pattern.
         what: &'static str,
         /// Length that fits.
         expected: usize,
@@ -112,7 +112,7 @@ pub enum IntegrateError {
         /// Steps taken.
         steps: u64,
     },
-    /// The tolerance is below what rounding allows for a state of this size.
+    /// The tolerance is below the rounding of a state of this size.
     ToleranceTooSmall {
         /// Time reached.
         time: f64,
@@ -144,19 +144,19 @@ pub enum IntegrateError {
         time: f64,
         /// Size of the last step tried.
         step: f64,
-        /// Component with the largest residual estimate.
+        /// Component with the largest estimated error.
         index: usize,
     },
     /// The Newton matrix cannot be factorised however small the step.
     Linear {
         /// Time of the attempt.
         time: f64,
-        /// Why.
+        /// Reason.
         cause: FactorError,
     },
     /// A callback wrote a value that is not finite, however small the step.
     NotFinite {
-        /// Which callback.
+        /// The callback.
         callback: Callback,
         /// Time of the call.
         time: f64,
@@ -166,7 +166,7 @@ pub enum IntegrateError {
     },
     /// A callback asked for smaller steps until none was left.
     Refused {
-        /// Which callback.
+        /// The callback.
         callback: Callback,
         /// Time of the last call.
         time: f64,
@@ -174,21 +174,21 @@ pub enum IntegrateError {
     /// A callback returned [`crate::Retry::Stop`], or [`crate::OdeSystem::roots`] failed, for which
     /// there is no smaller step to try.
     Stopped {
-        /// Which callback.
+        /// The callback.
         callback: Callback,
         /// Time of the call.
         time: f64,
     },
     /// A callback panicked.
     Panic {
-        /// Which callback.
+        /// The callback.
         callback: Callback,
         /// Time of the call.
         time: f64,
         /// Text of the panic.
         message: String,
     },
-    /// SUNDIALS could not allocate.
+    /// SUNDIALS or the linear solver could not allocate.
     OutOfMemory {
         /// Function that failed.
         function: &'static str,
@@ -238,7 +238,7 @@ impl fmt::Display for FactorError {
     }
 }
 
-/// A number in a message: with an exponent where it would be long.
+/// A number in a message: with an exponent if it would be long.
 struct Short(f64);
 
 impl fmt::Display for Short {
@@ -297,7 +297,7 @@ impl fmt::Display for IntegrateError {
 }
 
 impl IntegrateError {
-    /// The component of the state that the failure is about, where one is known to be worst.
+    /// The component of the state that caused the failure, if one is known to be worst.
     #[must_use]
     pub fn component(&self) -> Option<usize> {
         match self {

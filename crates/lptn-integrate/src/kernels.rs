@@ -48,8 +48,8 @@ pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     dot_in::<LANES>(x, y)
 }
 
-/// The same in so many partial sums: few for short slices. Always inlined, so that callers which are
-/// compiled for the vectors of one processor have it in them.
+/// The same in `LANES` partial sums: few for short slices. Always inlined, so that callers which
+/// are compiled for the vectors of one processor have it in them.
 #[inline(always)]
 pub fn dot_in<const LANES: usize>(x: &[f64], y: &[f64]) -> f64 {
     let mut lanes = [0.0; LANES];
@@ -206,7 +206,7 @@ pub fn first_not_finite(x: &[f64]) -> Option<usize> {
 }
 
 /// CVODE's constraint test: 2 means positive, 1 not negative, -1 not positive, -2 negative. Writes
-/// 1 into `mask` where a constraint is broken, else 0, and says whether all hold.
+/// 1 into `mask` if a constraint is broken, else 0; returns true if none is broken.
 pub fn constraints_hold(constraint: &[f64], x: &[f64], mask: &mut [f64]) -> bool {
     let mut all = true;
     for ((mask, &c), &x) in mask.iter_mut().zip(constraint).zip(x) {

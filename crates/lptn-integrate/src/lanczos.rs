@@ -3,8 +3,8 @@
 //! problems, SIAM J. Matrix Anal. Appl. 22 (2000) 602) and full orthogonalisation.
 //!
 //! One sequence of vectors sees one vector of each eigenspace, so symmetric bodies would lose half
-//! of their modes. What was found is therefore locked away, and the method begins again with another
-//! vector, until the largest that is left is below all that were wanted.
+//! of their modes. Vectors that were found are therefore locked away. The method begins again with
+//! another vector, until the largest remaining value is below all that were wanted.
 //!
 //! Square bodies have their modes in pairs, and faer's partial eigensolver has no such restart.
 
@@ -26,7 +26,7 @@ pub struct Eigenpair {
 /// A symmetric operator: replaces a vector by its product with it.
 pub type Operator<'a> = dyn FnMut(&mut [f64]) -> Result<(), FactorError> + 'a;
 
-/// What ends a search without a result.
+/// Reason for a search without a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LanczosError {
     /// The operator failed.
@@ -41,14 +41,14 @@ impl From<FactorError> for LanczosError {
     }
 }
 
-/// A pair is found when its residual is below this share of the largest eigenvalue: the error of its
-/// own is the square of it over the distance to the next.
+/// A pair is found when its residual is below this share of the largest eigenvalue: the error of
+/// the eigenvalue is the square of the residual over the distance to the next one.
 const CONVERGED: f64 = 1e-10;
 
 /// Vectors beyond those wanted that are kept at a restart.
 const SPARE: usize = 6;
 
-/// Products with the operator in one search.
+/// Most products with the operator in one search.
 const MOST_PRODUCTS: usize = 3000;
 
 /// The `count` largest eigenvalues, largest first, those of several vectors as often as they have
@@ -100,7 +100,7 @@ fn start(size: usize, pass: usize) -> Vec<f64> {
     (0..size).map(|_| next()).collect()
 }
 
-/// One sequence of vectors, orthogonal to what is locked.
+/// One sequence of vectors, orthogonal to the locked ones.
 struct Search<'a> {
     locked: &'a [Vec<f64>],
     /// Orthonormal.
@@ -115,7 +115,7 @@ impl<'a> Search<'a> {
         Self { locked, basis: Vec::new(), rows: Vec::new(), next: start }
     }
 
-    /// The `count` largest pairs of what is not locked.
+    /// The `count` largest pairs apart from the locked ones.
     fn run(
         mut self,
         count: usize,
@@ -159,7 +159,7 @@ impl<'a> Search<'a> {
         next
     }
 
-    /// Takes off the next vector what is along others, and gives the length that is left.
+    /// Makes the next vector orthogonal to the others, and returns its remaining length.
     fn orthogonalise(&mut self) -> f64 {
         for _ in 0..2 {
             take_off(&mut self.next, self.locked.iter().chain(&self.basis));
@@ -180,7 +180,7 @@ impl<'a> Search<'a> {
         Eigenpair { value, vector }
     }
 
-    /// Goes on with the pairs from `first` on; the next vector stays what it is.
+    /// Goes on with the pairs from `first` on; the next vector stays.
     fn restart(&mut self, values: &[f64], vectors: &Mat<f64>, first: usize) {
         let kept = first..values.len();
         self.basis = kept.clone().map(|k| self.pair(values[k], vectors, k).vector).collect();
@@ -197,7 +197,7 @@ impl<'a> Search<'a> {
 mod tests {
     use super::*;
 
-    /// The operator of a square plate of `n` by `n` equal cells with its edge held at zero,
+    /// The operator of a square plate of `n` by `n` equal cells with its edge fixed at zero,
     /// inverted in closed form by its sines.
     fn plate(n: usize) -> (Vec<f64>, impl FnMut(&mut [f64]) -> Result<(), FactorError>) {
         let angle = move |k: usize| std::f64::consts::PI * k as f64 / (n + 1) as f64;

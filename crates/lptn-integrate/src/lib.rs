@@ -1,12 +1,12 @@
-//! Stiff systems, what integrates them, and the linear algebra that both need.
+//! Stiff systems, their integrators, and the linear algebra that both need.
 //!
 //! A system `M y' = f(t, y)` with a diagonal, positive `M` is described by the trait [`OdeSystem`];
-//! an [`Integrator`] owns the system, steps it from one discontinuity to the next, keeps its books
-//! ([`OdeSystem::quadrature`]) and carries the derivatives of the state by parameters along with it
-//! ([`OdeSystem::sensitivity_flow`]). `lptn-cvodes` is one, and nothing here knows of it. Algebraic
-//! unknowns are the system's to solve; the Newton matrix holds them beside the states, see
-//! [`OdeSystem`]. The crate knows nothing of what the numbers mean: "units of y" below is whatever
-//! unit the system uses.
+//! an [`Integrator`] owns the system, steps it from one discontinuity to the next, keeps running
+//! integrals ([`OdeSystem::quadrature`]) and carries the derivatives of the state by parameters
+//! along with it ([`OdeSystem::sensitivity_flow`]). `lptn-cvodes` has one, on which nothing here
+//! depends. The system solves its algebraic unknowns; the Newton matrix contains them after the
+//! states, see [`OdeSystem`]. The crate does not know the meaning of the numbers: "units of y"
+//! below is the unit that the system uses.
 //!
 //! Errors are local: the tolerance is one absolute number and the error norm is the weighted
 //! *maximum* over the components, so adding a million idle components changes neither the steps nor

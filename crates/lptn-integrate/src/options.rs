@@ -2,16 +2,16 @@
 
 use crate::linear::LinearSolver;
 
-/// Settings of an [`crate::Integrator`]; take [`Options::default`] and change what is needed.
+/// Settings of an [`crate::Integrator`]; take [`Options::default`] and change some fields.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
     /// Absolute tolerance in units of y, positive; there is no relative one, because `y` may have
     /// an arbitrary zero. CVODE works with a third of it. For stable systems the error of every
     /// component stays below ten times the tolerance (a rule from measurement, not a bound).
     pub tolerance: f64,
-    /// Running integrals err by at most this in a step: a share of what they have gathered and, in
-    /// their own unit, an amount that is of no interest; not negative, not both 0. Tighter than what
-    /// the error of the state alone asks for, it makes steps smaller.
+    /// Largest error of running integrals in a step: a share of their value and, in their own unit,
+    /// an amount that is of no interest; not negative, not both 0. If it is tighter than the error
+    /// of the state requires, steps become smaller.
     pub integrals: Allowance,
     /// Largest number of steps over the life of the integrator, restarts included.
     pub max_steps: usize,
@@ -23,11 +23,11 @@ pub struct Options {
     /// The linear solver.
     pub linear_solver: LinearSolver,
     /// Newton's method stops when its estimated error is below this fraction of the local
-    /// tolerance; positive. `None`: a choice by linear solver that closes the books, see
-    /// [`crate::Integrator`].
+    /// tolerance; positive. `None`: a choice by kind of Jacobian that closes the energy balance,
+    /// see [`crate::Integrator`].
     pub newton_coefficient: Option<f64>,
-    /// What size each parameter of [`crate::OdeSystem::sensitivity_flow`] is of, positive, in units
-    /// of `p_i`: the error allowed in `s_i` is the tolerance over this, so that `s_i` times the
+    /// Size of each parameter of [`crate::OdeSystem::sensitivity_flow`], positive, in units of
+    /// `p_i`: the error allowed in `s_i` is the tolerance over this, so that `s_i` times the
     /// scale, a change of y, is as accurate as y. As many as there are parameters; empty: all 1.
     pub sensitivity_scales: Vec<f64>,
 }
@@ -47,11 +47,11 @@ impl Default for Options {
     }
 }
 
-/// What a running integral may err by.
+/// Error that a running integral may have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Allowance {
-    /// Of what has been gathered.
+    /// Share of the value of the integral.
     pub share: f64,
-    /// In the unit of the integral; infinite where nothing is asked.
+    /// Amount in the unit of the integral; infinite if there is no requirement.
     pub amount: f64,
 }

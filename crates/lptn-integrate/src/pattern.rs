@@ -1,4 +1,4 @@
-//! Where a square sparse matrix can be nonzero.
+//! Possible nonzeros of a square sparse matrix.
 
 use std::sync::Arc;
 
@@ -43,8 +43,8 @@ impl Pattern {
         Self::from_symbolic([pointers, indices, diagonal].map(Arc::new))
     }
 
-    /// A pattern that somebody else made and shares: the slot at which each column begins with the
-    /// number of slots behind them, the row of each slot, the slot of each diagonal entry.
+    /// A pattern from shared arrays: the slot at which each column begins and then the number of
+    /// all slots, the row of each slot, the slot of each diagonal entry.
     #[must_use]
     pub fn from_symbolic([column_pointers, row_indices, diagonal]: [Arc<Vec<usize>>; 3]) -> Self {
         Self { column_pointers, row_indices, diagonal }
@@ -62,7 +62,7 @@ impl Pattern {
         self.row_indices.len()
     }
 
-    /// Whether the matrix is 0 by 0.
+    /// True if the matrix is 0 by 0.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.row_indices.is_empty()
@@ -87,7 +87,7 @@ impl Pattern {
         self.column_pointers[column]..self.column_pointers[column + 1]
     }
 
-    /// The slot of an entry, or `None` where the matrix is zero by structure or the indices are out
+    /// The slot of an entry, or `None` if the matrix is zero by structure or the indices are out
     /// of range.
     #[must_use]
     pub fn slot(&self, row: usize, column: usize) -> Option<usize> {

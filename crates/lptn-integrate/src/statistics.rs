@@ -13,7 +13,7 @@ pub struct Statistics {
     pub quadrature_evaluations: u64,
     /// Calls of [`crate::OdeSystem::sensitivity_flow`].
     pub sensitivity_evaluations: u64,
-    /// Times CVODE asked for a new Newton matrix.
+    /// Times that the integrator asked for a Newton matrix.
     pub linear_setups: u64,
     /// Numerical factorisations.
     pub factorizations: u64,

@@ -16,9 +16,9 @@ pub fn add(sum: &mut [f64], factor: f64, x: &[f64]) {
     sum.iter_mut().zip(x).for_each(|(sum, x)| *sum += factor * x);
 }
 
-/// Takes the parts along orthonormal vectors off `x`, one after the other. Rounding leaves a part of
-/// what was taken off; a second time removes it ("twice is enough": B. N. Parlett, The Symmetric
-/// Eigenvalue Problem (1998), section 6.9).
+/// Takes the parts along orthonormal vectors off `x`, one after the other. Rounding leaves a part
+/// of them; a second time removes it ("twice is enough": B. N. Parlett, The Symmetric Eigenvalue
+/// Problem (1998), section 6.9).
 pub fn take_off<'a>(x: &mut [f64], basis: impl IntoIterator<Item = &'a Vec<f64>>) {
     basis.into_iter().for_each(|vector| add(x, -dot(vector, x), vector));
 }

@@ -1,4 +1,4 @@
-//! What a step that CVODES gave up is reported as.
+//! Errors for the steps that CVODES gave up.
 
 use sundials_sys as sys;
 

@@ -1,8 +1,8 @@
 //! The first step after a start, whose length is a guess.
 //!
-//! CVODES makes that guess from the flow some way ahead. Where this cannot be had there, it gives
-//! up after four looks, with the last state that it looked at in the output: that must not be taken
-//! for the present one, and nothing says that a shorter step would fail as well.
+//! CVODES makes that guess from the flow some way ahead. If the flow cannot be evaluated there, it
+//! gives up after four tries and leaves the last state tried in the output. That is not the present
+//! state, and a shorter step may still succeed.
 //!
 //! The start is restored and shorter first steps are tried.
 
@@ -12,13 +12,13 @@ use super::Cvodes;
 use crate::memory::{Flag, Reached};
 use lptn_integrate::OdeSystem;
 
-/// How often a shorter first step is tried.
+/// Largest number of shorter first steps that are tried.
 const ATTEMPTS: usize = 6;
 
-/// Its length, as a part of the way to where the flow could not be had.
+/// Length of such a step, as a part of the time up to the failed evaluation.
 const PART: f64 = 0.1;
 
-/// CVODES' flags for a flow that cannot be had.
+/// CVODES' flags for a flow that cannot be evaluated.
 const REFUSED: [i32; 3] =
     [sys::CV_REPTD_RHSFUNC_ERR, sys::CV_REPTD_QRHSFUNC_ERR, sys::CV_REPTD_SRHSFUNC_ERR];
 
@@ -47,7 +47,7 @@ impl<S: OdeSystem> Cvodes<S> {
         reached
     }
 
-    /// A step that stays well in front of where a callback failed last.
+    /// Length of a step that ends well before the time at which a callback failed last.
     fn shorter(&self) -> Option<f64> {
         let failed = self.shared.get().failure.as_ref()?.time;
         let length = PART * (failed - self.origin - self.time);

@@ -15,14 +15,13 @@ const SAME: f64 = 100.0 * f64::EPSILON;
 /// CVODES refuses to start so close to a stop time, relative to the time.
 const TOO_CLOSE: f64 = 4.0 * f64::EPSILON;
 
-/// What is known about the functions whose roots end a step.
+/// State of the functions whose roots end a step.
 pub(super) struct Roots {
     /// 1 rising, -1 falling, 0 none; for the last step that ended at a root.
     pub(super) directions: Vec<c_int>,
-    /// Whether the last step ended at a root.
+    /// True if the last step ended at a root.
     met: bool,
-    /// CVODES has to begin anew before it goes on, because what it knows about the functions is out
-    /// of date.
+    /// True if CVODES must restart before it goes on: its values of the functions are outdated.
     stale: bool,
     before: Vec<f64>,
     now: Vec<f64>,
@@ -42,8 +41,7 @@ impl Roots {
         self.met
     }
 
-    /// Whether a function has a root on the way from `before` to `now`; if so, the directions are
-    /// set.
+    /// True if a function has a root between `before` and `now`; then the directions are set.
     fn compare(&mut self) -> bool {
         let pairs = || self.before.iter().zip(&self.now);
         let met = pairs().any(|(&before, &now)| direction(before, now) != 0);
@@ -62,7 +60,7 @@ fn direction(before: f64, now: f64) -> c_int {
     }
 }
 
-/// False where one is infinite.
+/// False if one is infinite.
 fn is_within(part: f64, a: f64, b: f64) -> bool {
     (a - b).abs() < part * a.abs().max(b.abs())
 }
@@ -109,9 +107,8 @@ impl<S: OdeSystem> Cvodes<S> {
         self.start_roots()
     }
 
-    /// After a root, CVODES stands at the end of its own step and returns that next. If a stop time
-    /// comes first, or if what it knows about the functions is out of date, it begins anew at the
-    /// root.
+    /// After a root, CVODES is at the end of its internal step and returns that end next. If a stop
+    /// time comes first, or if its values of the functions are outdated, it restarts at the root.
     pub(super) fn leave_rest(&mut self) -> Result<(), Flag> {
         if self.roots.are_none() {
             return Ok(());
@@ -123,7 +120,7 @@ impl<S: OdeSystem> Cvodes<S> {
         Ok(())
     }
 
-    /// What came of a step of CVODES with roots.
+    /// Handles the result of a step of CVODES with roots.
     pub(super) fn look_for_roots(
         &mut self,
         towards: f64,
@@ -134,8 +131,8 @@ impl<S: OdeSystem> Cvodes<S> {
         if given_up == Some(sys::CV_RTFUNC_FAIL) {
             self.put_state_back()?;
         } else if was_met && given_up == Some(sys::CV_ILL_INPUT) {
-            // A function that stays exactly zero behind its root: a start leaves it out, CVODES
-            // itself gives up.
+            // A function stays exactly zero after its root: a start leaves it out, CVODES itself
+            // gives up.
             self.put_state_back()?;
             self.read_running()?;
             self.begin_anew()?;

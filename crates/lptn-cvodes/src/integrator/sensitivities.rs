@@ -12,7 +12,7 @@ use lptn_integrate::{IntegrateError, OdeSystem, Options};
 /// Sensitivities as last read or set.
 pub(super) struct Sensitivities {
     pub(super) vectors: Vectors,
-    /// The same values, block behind block.
+    /// The same values, block after block.
     pub(super) blocks: Vec<f64>,
 }
 

@@ -10,8 +10,8 @@ use lptn_integrate::{IntegrateError, OdeSystem};
 /// A step that is longer than the longest by this factor is so by rounding.
 const ROOM: f64 = 1.0 + 1e-9;
 
-/// Times as the caller counts them: the last double that is not after what CVODES says, so that one
-/// is before the stop as long as the other is.
+/// Times as the caller counts them: the last double that is not after CVODES' time. So one is
+/// before the stop as long as the other is.
 #[derive(Clone, Copy)]
 pub(super) struct Shown {
     pub(super) time: f64,
@@ -41,8 +41,8 @@ impl<S: OdeSystem> Cvodes<S> {
         self.shown.time = not_after.min(stop.next_down()).max(time);
     }
 
-    /// The stop time, or an earlier one where CVODES would take a step that is too long: it chose
-    /// the size when the step before ended, by what was the longest then. After a root it first
+    /// The stop time, or an earlier one if CVODES would take a step that is too long: it chose the
+    /// size at the end of the step before, with the limit of that moment. After a root it first
     /// takes the rest of a step.
     pub(super) fn held_stop(&self) -> f64 {
         let Counters { steps, current_step, .. } = self.memory.counters();

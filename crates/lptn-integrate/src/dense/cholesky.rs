@@ -7,7 +7,7 @@ use super::columns::{Columns, add, dot};
 /// Columns that are eliminated before the others follow: those stay in the cache.
 const AT_ONCE: usize = 16;
 
-/// L in the lower triangle of A, which alone is read; `None` where a pivot is not positive.
+/// L in the lower triangle of A, which alone is read; `None` if a pivot is not positive.
 pub(super) fn factor(a: Columns<f64>) -> Option<Columns<f64>> {
     Arch::new().dispatch(Factor(a))
 }

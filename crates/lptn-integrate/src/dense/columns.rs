@@ -1,4 +1,4 @@
-//! A matrix whose columns stand one after the other, and loops along them. The loops are compiled
+//! A matrix stored column after column, and loops along its columns. The loops are compiled
 //! for the vectors that a processor has; the order of every sum is the same for all.
 
 use std::ops::{Index, IndexMut};
@@ -54,7 +54,7 @@ impl Columns<f64> {
         Mat::from_fn(self.rows, self.count, |i, j| self[(i, j)])
     }
 
-    /// The largest magnitude; infinity or not a number where an element is.
+    /// The largest magnitude; infinity or not a number if an element is.
     pub(super) fn largest(&self) -> f64 {
         self.values.iter().fold(0.0, |most, x| if x.abs() <= most { most } else { x.abs() })
     }

@@ -10,9 +10,9 @@ use super::columns::Columns;
 /// Columns that are eliminated before the others follow: those stay in the cache.
 const AT_ONCE: usize = 16;
 
-/// What a matrix may be made of.
+/// Type of the elements of a matrix.
 pub(super) trait Number: Copy + Mul<Output = Self> + Div<Output = Self> + SubAssign {
-    /// To choose a pivot by.
+    /// Magnitude by which a pivot is chosen.
     fn size(self) -> f64;
 }
 
@@ -28,7 +28,7 @@ impl Number for Complex {
     }
 }
 
-/// `A^-1 B` for a square matrix A; not finite where it is singular.
+/// `A^-1 B` for a square matrix A; not finite if it is singular.
 pub(super) fn solve<T: Number>(a: Columns<T>, b: Columns<T>) -> Columns<T> {
     Arch::new().dispatch(Solve { a, b, rows: Vec::new() })
 }

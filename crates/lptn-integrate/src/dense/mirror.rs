@@ -11,7 +11,7 @@ pub(super) struct Mirror {
 }
 
 impl Mirror {
-    /// The mirror that takes `x` to its first axis, and takes it there; `None` where it lies on it.
+    /// The mirror that takes `x` to its first axis, and takes it there; `None` if it lies on it.
     pub(super) fn of(x: &mut [f64]) -> Option<Self> {
         let scale = x.iter().skip(1).fold(0.0, |most: f64, x| f64::max(most, x.abs()));
         if scale == 0.0 {
@@ -43,12 +43,12 @@ impl Mirror {
         }
     }
 
-    /// How many axes it has.
+    /// Number of axes.
     pub(super) fn size(&self) -> usize {
         self.u.len()
     }
 
-    /// What becomes of the first axis, along itself.
+    /// Component of the mirrored first axis along itself.
     pub(super) fn first(&self) -> f64 {
         1.0 - self.beta * self.u[0] * self.u[0]
     }

@@ -1,5 +1,5 @@
-//! What is asked of dense matrices. A library would choose its kernels by the processor, and with
-//! them the last digits: here every sum has one order. Its loops run along columns and are compiled
+//! Operations on dense matrices. A library would choose its kernels by the processor, and with
+//! them the last digits: here every sum has one order. The loops run along columns and are compiled
 //! for wider vectors too, which changes no sum; nothing is fused.
 //!
 //! The forms are those of EISPACK and JAMA, with Jacobi's method for singular values. Residuals are
@@ -28,15 +28,15 @@ use schur::Schur;
 
 pub use symmetric::Symmetric;
 
-/// Eigenvalues of a symmetric matrix, ascending, and its orthonormal eigenvectors in the columns
-/// that go with them; the lower triangle is read. `None` where they are not found.
+/// Eigenvalues of a symmetric matrix, ascending, and its orthonormal eigenvectors in the
+/// corresponding columns; the lower triangle is read. `None` if they are not found.
 #[must_use]
 pub fn symmetric_eigen(a: MatRef<'_, f64>) -> Option<(Vec<f64>, Mat<f64>)> {
     let (n, mut room) = (a.nrows(), Symmetric::default());
     if n == 0 {
         return Some((Vec::new(), Mat::zeros(0, 0)));
     }
-    // from small to large, as the method wants it where rates are decades apart
+    // from small to large, as the method needs it if rates are decades apart
     let mut rows: Vec<usize> = (0..n).collect();
     rows.sort_by(|&i, &j| a[(i, i)].abs().total_cmp(&a[(j, j)].abs()));
     let entry = |i: usize, j: usize| a[(rows[i].max(rows[j]), rows[i].min(rows[j]))];
@@ -52,7 +52,7 @@ pub fn symmetric_eigen(a: MatRef<'_, f64>) -> Option<(Vec<f64>, Mat<f64>)> {
     finite.then(|| (values, Mat::from_fn(n, n, |i, k| room.vector(order[k])[place[i]])))
 }
 
-/// Magnitudes of the eigenvalues of a square matrix. `None` where they are not found.
+/// Magnitudes of the eigenvalues of a square matrix. `None` if they are not found.
 #[must_use]
 pub fn eigenvalue_magnitudes(a: MatRef<'_, f64>) -> Option<Vec<f64>> {
     Some(Schur::of(Columns::of(a))?.values.iter().map(|z| z.re.hypot(z.im)).collect())
@@ -61,8 +61,8 @@ pub fn eigenvalue_magnitudes(a: MatRef<'_, f64>) -> Option<Vec<f64>> {
 /// A complex number.
 pub type Complex = num_complex::Complex<f64>;
 
-/// Eigenvalues of a square matrix with their vectors in the columns that go with them; those of a
-/// pair stand beside each other, the one with the positive imaginary part first.
+/// Eigenvalues of a square matrix with their vectors in the corresponding columns; those of a
+/// pair are adjacent, the one with the positive imaginary part first.
 pub struct GeneralEigen {
     /// Eigenvalues.
     pub values: Vec<Complex>,
@@ -82,13 +82,13 @@ impl GeneralEigen {
     }
 }
 
-/// Eigenvalues and right eigenvectors of a square matrix. `None` where they are not found.
+/// Eigenvalues and right eigenvectors of a square matrix. `None` if they are not found.
 #[must_use]
 pub fn general_eigen(a: MatRef<'_, f64>) -> Option<GeneralEigen> {
     Schur::of(Columns::of(a))?.vectors()
 }
 
-/// The inverse of a square matrix. `None` where it is singular to rounding.
+/// The inverse of a square matrix. `None` if it is singular to rounding.
 #[must_use]
 pub fn complex_inverse(a: &Mat<Complex>) -> Option<Mat<Complex>> {
     let size = a.nrows();
@@ -99,14 +99,14 @@ pub fn complex_inverse(a: &Mat<Complex>) -> Option<Mat<Complex>> {
     inverse.is_all_finite().then_some(inverse)
 }
 
-/// `A^-1 B` for a square matrix. `None` where it is singular to rounding.
+/// `A^-1 B` for a square matrix. `None` if it is singular to rounding.
 #[must_use]
 pub fn solve(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Option<Mat<f64>> {
     let x = lu::solve(Columns::of(a), Columns::of(b));
     x.is_finite().then(|| x.matrix())
 }
 
-/// `A^-1 B` for a symmetric matrix A, of which the lower triangle is read. `None` where it is not
+/// `A^-1 B` for a symmetric matrix A, of which the lower triangle is read. `None` if it is not
 /// positive definite.
 #[must_use]
 pub fn cholesky_solve(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Option<Mat<f64>> {
@@ -122,7 +122,7 @@ pub fn product(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
 }
 
 /// The diagonal of the Cholesky factor of a symmetric matrix, of which the lower triangle is read.
-/// `None` where it is not positive definite.
+/// `None` if it is not positive definite.
 #[must_use]
 pub fn cholesky_diagonal(a: MatRef<'_, f64>) -> Option<Vec<f64>> {
     let factor = cholesky::factor(Columns::of(a))?;
@@ -138,7 +138,7 @@ pub fn triangle(a: MatRef<'_, f64>) -> Mat<f64> {
     Mat::from_fn(size, a.ncols(), |i, j| if i <= j { r[(i, j)] } else { 0.0 })
 }
 
-/// The x that makes `|A x - b|` least, for A with at least as many rows as columns, by QR.
+/// The x that minimises `|A x - b|`, for A with at least as many rows as columns, by QR.
 #[must_use]
 pub fn least_squares(a: MatRef<'_, f64>, b: MatRef<'_, f64>) -> Mat<f64> {
     let (mut r, mut x) = (Columns::of(a), Columns::of(b));
@@ -158,7 +158,7 @@ pub struct Singular {
     pub v: Mat<f64>,
 }
 
-/// The singular values of a matrix with their vectors. `None` where they are not found.
+/// The singular values of a matrix with their vectors. `None` if they are not found.
 #[must_use]
 pub fn singular(a: MatRef<'_, f64>) -> Option<Singular> {
     if a.nrows() < a.ncols() {

@@ -7,7 +7,7 @@ use super::columns::Columns;
 /// Columns of the left factor that are added at once.
 const AT_ONCE: usize = 8;
 
-/// So many rows and columns of the left factor stay in the cache.
+/// Numbers of rows and columns of the left factor that stay in the cache.
 const ROWS: usize = 256;
 const DEPTH: usize = 128;
 

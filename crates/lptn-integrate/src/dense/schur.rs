@@ -8,7 +8,7 @@ use super::mirror::Mirror;
 use super::product::product;
 use super::{Complex, GeneralEigen};
 
-/// Steps that one eigenvalue may take, and those after which the shift is another.
+/// Steps that one eigenvalue may take, and those after which the shift changes.
 const MOST_STEPS: usize = 60;
 const UNUSUAL: usize = 10;
 
@@ -19,7 +19,7 @@ pub(super) struct Schur {
     q: Columns<f64>,
     /// Eigenvalues; of a pair the one with the positive imaginary part first.
     pub(super) values: Vec<Complex>,
-    /// What counts as zero beside the matrix.
+    /// Magnitude that counts as zero next to the matrix.
     small: f64,
 }
 
@@ -28,7 +28,7 @@ fn real(x: f64) -> Complex {
 }
 
 impl Schur {
-    /// `None` where the steps do not end.
+    /// `None` if the steps do not end.
     pub(super) fn of(a: Columns<f64>) -> Option<Self> {
         let n = a.rows;
         let small = f64::EPSILON * (n as f64).sqrt() * a.largest();
@@ -222,7 +222,7 @@ impl Schur {
         finite.then_some(GeneralEigen { values: self.values, vectors })
     }
 
-    /// The vector of T for the value in row `last`, the second of a pair, of whose first it is.
+    /// The vector of T for the value in row `last`; of a pair, whose second row this is, the first.
     fn vector(&self, last: usize) -> Vec<Complex> {
         let t = &self.t;
         let mut x = vec![real(0.0); last + 1];
@@ -256,7 +256,7 @@ impl Schur {
         }
     }
 
-    /// Solves the last row above `top`, or the last two of a pair; gives the row that is next.
+    /// Solves the last row above `top`, or the last two of a pair; returns the next row.
     fn substitute(&self, x: &mut [Complex], top: usize, value: Complex) -> usize {
         let (t, i) = (&self.t, top - 1);
         let rest = if self.values[i].im == 0.0 {

@@ -8,7 +8,7 @@ use super::columns::{Columns, add, dot, turn};
 /// Rounds through all pairs.
 const MOST_ROUNDS: usize = 60;
 
-/// Of a matrix with at least as many rows as columns, whose squares are numbers.
+/// For a matrix with at least as many rows as columns, whose squares are numbers.
 pub(super) fn singular(a: Columns<f64>) -> Option<Singular> {
     let (mut w, mut v) = (a.clone(), Columns::identity(a.count));
     let squares: f64 = (0..w.count).map(|k| dot(w.column(k), w.column(k))).sum();
@@ -18,7 +18,7 @@ pub(super) fn singular(a: Columns<f64>) -> Option<Singular> {
     Some(sorted(&w, &v, small))
 }
 
-/// Whether a pair had to be turned.
+/// Turns all pairs once; true if a pair had to be turned.
 fn all_pairs((w, v): (&mut Columns<f64>, &mut Columns<f64>), rounding: f64, small: f64) -> bool {
     let mut turned = false;
     for q in 1..w.count {
@@ -33,7 +33,7 @@ fn all_pairs((w, v): (&mut Columns<f64>, &mut Columns<f64>), rounding: f64, smal
     turned
 }
 
-/// Cosine and sine of the turn that makes two columns orthogonal; `None` where they are to
+/// Cosine and sine of the turn that makes two columns orthogonal; `None` if they are to
 /// rounding, or one is nothing but rounding.
 fn angle(x: &[f64], y: &[f64], (rounding, small): (f64, f64)) -> Option<(f64, f64)> {
     let (xx, yy, xy) = (dot(x, x), dot(y, y), dot(x, y));
@@ -74,8 +74,8 @@ fn sorted(w: &Columns<f64>, v: &Columns<f64>, small: f64) -> Singular {
     }
 }
 
-/// A direction that is orthogonal to those that are known, for a value that is nothing but
-/// rounding: what is left of the axis of which most is left.
+/// A direction that is orthogonal to the known ones, for a value that is nothing but rounding:
+/// the remainder of the axis with the largest remainder.
 fn another(known: &[Vec<f64>], rows: usize) -> Vec<f64> {
     let left = |axis: usize| 1.0 - known.iter().map(|u| u[axis] * u[axis]).sum::<f64>();
     let more = |best: usize, axis: usize| if left(axis) > left(best) { axis } else { best };

@@ -10,10 +10,10 @@ use crate::kernels::dot_in;
 /// Partial sums of products of short rows.
 const LANES: usize = 4;
 
-/// Rotations that an eigenvalue may take.
+/// Largest number of QL steps for an eigenvalue.
 const MOST_ITERATIONS: usize = 60;
 
-/// So many turns are taken together, by so many elements of the vectors.
+/// Number of turns that are taken together, and of elements of the vectors that take them at once.
 const MOST_TURNS: usize = 8192;
 const AT_ONCE: usize = 64;
 
@@ -25,7 +25,7 @@ pub struct Symmetric {
     pub vectors: Vec<f64>,
     /// The eigenvalue of each, in no order.
     pub values: Vec<f64>,
-    /// What stands beside the diagonal.
+    /// Elements next to the diagonal.
     beside: Vec<f64>,
     /// Turns that the vectors still have to take: the first of two, cosine and sine.
     turns: Vec<(usize, f64, f64)>,
@@ -75,14 +75,15 @@ impl Symmetric {
         }
     }
 
-    /// Finds values and vectors; `None` where that does not come to an end.
+    /// Finds values and vectors; `None` if there is no convergence.
     #[must_use]
     pub fn solve(&mut self) -> Option<()> {
-        // wider vectors where the processor has them: the same sums in the same order
+        // wider vectors if the processor has them: the same sums in the same order
         Arch::new().dispatch(Whole(self))
     }
 
-    /// Finds those of a tridiagonal matrix, `None` where that does not come to an end; what is `beside` the last element does not belong to it.
+    /// Finds those of a tridiagonal matrix, `None` if there is no convergence. `beside[k]` is the
+    /// element between rows `k` and `k + 1`; the last one is not used.
     pub fn tridiagonal(&mut self, diagonal: &[f64], beside: &[f64]) -> Option<()> {
         self.begin(diagonal.len());
         self.values.copy_from_slice(diagonal);
@@ -134,8 +135,8 @@ impl Symmetric {
         self.turns.clear();
     }
 
-    /// To a tridiagonal matrix, from the last row on: each row is taken to two elements by a mirror,
-    /// whose vector stays in the row with half its square in `values`.
+    /// Reduces the matrix to a tridiagonal one, from the last row on: each row is taken to two
+    /// elements by a mirror, whose vector stays in the row with half its square in `values`.
     #[inline(always)]
     fn reduce(&mut self) {
         let n = self.n;
@@ -182,7 +183,7 @@ impl Symmetric {
         }
     }
 
-    /// Rotates until the `l`-th value stands alone.
+    /// Rotates until the `l`-th value is isolated.
     #[inline(always)]
     fn isolate(&mut self, l: usize, size: f64, shift: &mut f64) -> Option<()> {
         let small = f64::EPSILON * size;
@@ -252,8 +253,8 @@ fn reflect(rows: &mut [f64], (n, h): (usize, f64), mirror: &[f64], q: &mut [f64]
 mod tests {
     use super::Symmetric;
 
-    /// The second difference of n points has the values 2 - 2 cos(k pi / (n + 1)); with a far
-    /// larger element beside them, and for matrices that are diagonal already.
+    /// The second difference of n points has the values 2 - 2 cos(k pi / (n + 1)). Also with a far
+    /// larger last element, and for a matrix that is diagonal already (n = 1).
     #[test]
     fn values_that_are_known_and_vectors_that_have_them() {
         let mut room = Symmetric::default();

@@ -17,7 +17,7 @@ fn noise(i: usize, j: usize) -> f64 {
     (12.9898 * (i + 1) as f64 + 78.233 * (j + 1) as f64).sin() * 43758.5453 % 1.0
 }
 
-/// One number beside the diagonal, another on it, a third below it.
+/// One number above the diagonal, another on it, a third below it.
 fn three(n: usize, [above, on, below]: [f64; 3]) -> Mat<f64> {
     Mat::from_fn(n, n, |i, j| match (i + 1).cmp(&(j + 1)) {
         std::cmp::Ordering::Equal => on,
@@ -71,8 +71,8 @@ fn symmetric_matrices_with_known_values() {
     assert!(symmetric_eigen(Mat::from_fn(3, 3, |_, _| f64::NAN).as_ref()).is_none());
 }
 
-/// Of `below, on, above` they are `on + 2 sqrt(above below) cos(k pi / (n + 1))`: real ones, or
-/// pairs where the two sides have other signs.
+/// The values for `below, on, above` are `on + 2 sqrt(above below) cos(k pi / (n + 1))`: real ones,
+/// or pairs if the signs of the two sides differ.
 #[test]
 fn matrices_of_three_diagonals_with_known_values() {
     for n in SIZES {
@@ -92,7 +92,7 @@ fn matrices_of_three_diagonals_with_known_values() {
     }
 }
 
-/// Around a ring they are the roots of unity; a pair stands together, the positive one first.
+/// The values of a ring are the roots of unity; a pair is adjacent, the positive one first.
 #[test]
 fn a_ring_has_the_roots_of_unity() {
     for n in SIZES {

@@ -9,7 +9,7 @@ use crate::{Callback, FactorError, IntegrateError, OdeSystem, Retry, kernels};
 /// The share of the tolerance that the error of a step may have; CVODE takes a third as well.
 const SHARE: f64 = 1.0 / 3.0;
 
-/// The share of the tolerance that Newton's method may leave over.
+/// The share of the tolerance that the error of Newton's method may have.
 const LEFT: f64 = 1e-6;
 
 /// Rounding errors of a state that Newton's method cannot go below.
@@ -40,9 +40,9 @@ impl<S: OdeSystem> Esdirk<S> {
         self.read_integrands(0, time)
     }
 
-    /// Tries a step of this length: its error over the one allowed. The error is not damped by the
-    /// matrix of the stages: a stiff state that follows its input is right at the end of any step,
-    /// but not inside a long one.
+    /// Tries a step of this length; returns its error over the one allowed. The error is not damped
+    /// by the matrix of the stages: a stiff state that follows its input is right at the end of any
+    /// step, but not inside a long one.
     pub(super) fn attempt(&mut self, h: f64) -> Result<f64, Failed> {
         self.prepare(h)?;
         for stage in 1..STAGES {
@@ -75,7 +75,7 @@ impl<S: OdeSystem> Esdirk<S> {
         (0..self.integrals.len()).map(of).fold(0.0, f64::max)
     }
 
-    /// Reads the Jacobian if it is due, and factorises the matrix.
+    /// Reads the Jacobian if needed, and factorises the matrix.
     fn prepare(&mut self, h: f64) -> Result<(), Failed> {
         let time = self.clock.shown;
         if self.newton.stale && !self.newton.fresh {

@@ -1,7 +1,7 @@
 //! An integrator for inputs that bend or jump often: a drive cycle of many points, say.
 //!
-//! BDF methods begin anew at order one with tiny steps wherever an input has a kink. A Runge-Kutta
-//! method needs nothing of what was before: a step reaches from kink to kink at its full order. The
+//! BDF methods restart at order one with tiny steps wherever an input has a kink. A Runge-Kutta
+//! method needs no history: a step reaches from kink to kink at its full order. The
 //! method is singly diagonally implicit with an explicit first stage ([`tableau`]): five stages
 //! share one matrix, whose factors last while the step does ([`newton`]).
 //!
@@ -22,10 +22,10 @@ use tableau::STAGES;
 /// The least and the largest change of the step size.
 const CHANGE: (f64, f64) = (0.2, 5.0);
 
-/// The share that is taken of the size which the error would allow.
+/// Size of a step over the size that the error would allow.
 const HOPED: f64 = 0.9;
 
-/// A step that did not come about becomes this share of itself.
+/// A failed step is shortened to this share.
 const SHORTER: f64 = 0.25;
 
 /// Tries of a step with symmetric values before they are given up.
@@ -36,8 +36,8 @@ const FIRST: f64 = 0.1;
 
 /// Integrates `M y' = f(t, y)` with a constant `M` by an implicit Runge-Kutta method of order 4.
 ///
-/// There are no sensitivities, no roots and no slope: steps end where they end, and whoever looks
-/// for events has [`crate::Integrator::interpolate`] and [`crate::Integrator::rewind`].
+/// There are no sensitivities, no roots and no slope: steps do not end at events. To find an
+/// event, use [`crate::Integrator::interpolate`] and [`crate::Integrator::rewind`].
 pub struct Esdirk<S> {
     system: S,
     clock: Clock,
@@ -49,10 +49,10 @@ pub struct Esdirk<S> {
     /// The size of the next step; `None` before the first.
     hoped: Option<f64>,
     newton: Newton,
-    /// Tries in a row that did not come about.
+    /// Failed tries in a row.
     short: u32,
     stages: Stages,
-    /// The component that held the last try back.
+    /// The component with the largest error in the last try.
     worst: usize,
     /// Length of the last step; none between a start and the first step.
     length: Option<f64>,
@@ -63,30 +63,30 @@ pub struct Esdirk<S> {
 
 /// The stages of the last step.
 struct Stages {
-    /// The state where it began.
+    /// The state at the start of the step.
     begin: Vec<f64>,
     /// State of each stage.
     y: [Vec<f64>; STAGES],
     /// Rate of change of each, in units of y per time.
     rate: [Vec<f64>; STAGES],
-    /// The integrands at each, and the integrals where the step began.
+    /// The integrands at each, and the integrals at the start of the step.
     integrands: [Vec<f64>; STAGES],
     integrals: Vec<f64>,
-    /// Whether the last stage is the first of the next step.
+    /// True if the last stage is the first of the next step.
     follows: bool,
     work: Vec<f64>,
 }
 
-/// Why a step did not come about.
+/// Failure of a step.
 enum Failed {
-    /// A shorter one may.
+    /// A shorter step may succeed.
     Shorter,
-    /// None can.
+    /// No step can succeed.
     Ended(IntegrateError),
 }
 
 impl<S: OdeSystem> Esdirk<S> {
-    /// Whether a system can be integrated: without sensitivities, and with states that are carried
+    /// True if a system can be integrated: without sensitivities, and with states that are carried
     /// as themselves.
     pub fn suits(system: &S) -> bool {
         system.slope().is_none() && system.sensitivity_count() == 0
@@ -137,7 +137,7 @@ impl<S: OdeSystem> Esdirk<S> {
         self.system
     }
 
-    /// Finds a step that the error allows; its length.
+    /// Finds a step that the error allows; returns its length.
     fn find_step(&mut self) -> Result<f64, IntegrateError> {
         let way = self.clock.stop - self.clock.now;
         let first = || if way.is_finite() { FIRST * way } else { 1.0 };
@@ -165,7 +165,7 @@ impl<S: OdeSystem> Esdirk<S> {
             let change = (HOPED * error.powf(-0.25)).clamp(CHANGE.0, CHANGE.1);
             self.short = 0;
             if error <= 1.0 {
-                // a stop or a longest step that cuts a step short says nothing of the next one
+                // a stop or a longest step that cuts a step short does not limit the next one
                 let next = if refused { h * change.min(1.0) } else { h * change };
                 self.hoped = Some(if h < hoped && !refused { next.max(hoped) } else { next });
                 return Ok(h);
@@ -175,7 +175,7 @@ impl<S: OdeSystem> Esdirk<S> {
         }
     }
 
-    /// Counts a step that did not come about. The third one in a row gives up symmetric values of
+    /// Counts a failed step. The third one in a row gives up symmetric values of
     /// the Jacobian, which leave out a part of it.
     fn fall_short(&mut self) -> Result<(), IntegrateError> {
         self.counts.newton_failures += 1;

@@ -18,11 +18,11 @@ pub(super) struct Newton {
     pub(super) jacobian: Vec<f64>,
     /// `g` of the factors, in units of t.
     factored: Option<f64>,
-    /// Whether the Jacobian was read in this step.
+    /// True if the Jacobian was read in this step.
     pub(super) fresh: bool,
-    /// Whether it is to be read before the next step.
+    /// True if it must be read before the next step.
     pub(super) stale: bool,
-    /// Error left over of error found, in the last iteration.
+    /// Rate of convergence: the last change over the one before.
     rate: f64,
     right: Vec<f64>,
     pub(super) factorizations: u64,

@@ -65,7 +65,7 @@ pub(super) fn weights(share: f64) -> [f64; STAGES] {
     DENSE.map(|[a, b, c, d]| share * (a + share * (b + share * (c + share * d))))
 }
 
-/// In the middle of a step: what it gives less the cubic through the ends with their slopes. Both
+/// Weights in the middle of a step less those of the cubic through the ends with their slopes. Both
 /// are of order 3, so the difference is of order 4; a fast decay that a long step skips makes it
 /// large.
 pub(super) fn inside() -> [f64; STAGES] {

@@ -19,27 +19,27 @@ use crate::{FactorError, Pattern};
 
 /// Sparse Cholesky with approximate minimum degree ordering.
 ///
-/// One thread: on two cores faer's parallel factorisation costs more processor time and gains next
-/// to nothing.
+/// One thread: on two cores faer's parallel factorisation costs more processor time and gains
+/// almost nothing.
 pub struct SparseCholesky {
     analysis: Arc<Analysis>,
     factors: Vec<f64>,
-    /// To solve in: about a number per row, in the first where faer solves, else in the second.
+    /// Memory for solves, about a number per row: this if faer solves, else `work`.
     memory: Option<MemBuffer>,
     work: Vec<f64>,
     ready: bool,
 }
 
-/// What the matrices of one pattern have in common.
+/// Data that the matrices of one pattern share.
 pub(super) struct Analysis {
     lower: SymbolicSparseColMat<usize>,
     /// Slot in the full pattern of every entry of `lower`.
     source: Vec<usize>,
     symbolic: SymbolicCholesky<usize>,
-    /// Where columns are taken one by one.
+    /// Present if columns are taken one by one.
     columns: Option<Columns>,
     full_length: usize,
-    /// To factorise in, when nobody does.
+    /// Memory for a factorisation, if no one uses it.
     spare: Mutex<Option<Workspace>>,
 }
 
@@ -57,8 +57,8 @@ impl SparseCholesky {
         Self::of(Arc::new(Analysis::new(pattern)?))
     }
 
-    /// Factors of their own for other values in the same pattern. The analysis is shared, and so is
-    /// the memory to factorise in.
+    /// Separate factors for other values in the same pattern. The analysis is shared, and so is the
+    /// memory for factorisations.
     ///
     /// # Errors
     /// [`FactorError::OutOfMemory`].
@@ -97,7 +97,7 @@ impl Analysis {
         self.symbolic.len_val()
     }
 
-    /// Whether columns are taken one by one.
+    /// True if columns are taken one by one.
     pub(super) fn simplicial(&self) -> bool {
         matches!(self.symbolic.raw(), SymbolicCholeskyRaw::Simplicial(_))
     }
@@ -120,7 +120,7 @@ impl Analysis {
         }
     }
 
-    /// The memory to factorise in, anew where another thread has it.
+    /// Memory for a factorisation; new if another thread has the shared one.
     fn workspace(&self) -> Result<Workspace, FactorError> {
         if let Some(spare) = taken(&self.spare) {
             return Ok(spare);

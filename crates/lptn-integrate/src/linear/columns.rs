@@ -1,25 +1,25 @@
-//! Solves with factors whose columns stand one by one, several times as fast as faer's, which are
-//! written for every kind of number and for many right sides.
+//! Solves with factors stored column by column, several times as fast as faer's, which are written
+//! for every kind of number and for many right sides.
 //!
 //! The factors are rearranged after each factorisation. A run of equal columns is one loop. If
-//! neighbouring columns have the same rows below them, those rows are looked up once.
+//! neighbouring columns have the same rows below them, those rows are read once.
 
 use faer::sparse::linalg::cholesky::{SymbolicCholesky, SymbolicCholeskyRaw};
 
-/// Where the numbers of such factors are: block by block, in each what stands inside column by
-/// column, the diagonal first, then the rows below.
+/// Layout of such factors, block by block: first the inside of the block, column by column with the
+/// diagonal first, then the rows below.
 pub(super) struct Columns {
     runs: Vec<Run>,
-    /// For each block the rows below the last of its columns.
+    /// For each block the number of rows below the last of its columns.
     below: Vec<u32>,
     /// Those rows, one block after another.
     rows: Vec<u32>,
-    /// The row of the matrix that each position of the factors stands for.
+    /// The row of the matrix at each position of the factors.
     order: Vec<u32>,
 }
 
 /// Blocks that follow each other and are taken alike. A block is neighbouring columns with the same
-/// rows below them, which are then looked up once for all.
+/// rows below them, which are then read once for all.
 #[derive(Clone, Copy)]
 struct Run {
     kind: Kind,
@@ -31,10 +31,10 @@ struct Run {
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
-    /// Single columns with so many rows below: in a chain all, in a body of cells those that are
-    /// eliminated first.
+    /// Single columns with this number of rows below: in a chain all, in a body of cells those
+    /// that are eliminated first.
     Short(usize),
-    /// So many columns each, with any rows below.
+    /// This number of columns each, with any rows below.
     Wide(usize),
 }
 
@@ -44,7 +44,7 @@ const WIDEST: usize = 4;
 /// The most rows below a single column for which its loop is unrolled.
 const SHORT: usize = 4;
 
-/// What a run is solved with: its numbers, the rows below each of its blocks, and these rows.
+/// Data of a run: its numbers, the number of rows below each of its blocks, and these rows.
 #[derive(Clone, Copy)]
 struct Part<'a> {
     entries: &'a [f64],
@@ -94,8 +94,8 @@ impl Columns {
         }
     }
 
-    /// Brings factors that stand column by column into the order of [`Columns::solve`], with the
-    /// reciprocals of the diagonal in its place.
+    /// Brings factors that are stored column by column into the order of [`Columns::solve`], with
+    /// the reciprocals of the diagonal in its place.
     pub(super) fn arrange(&self, mut factors: &mut [f64]) {
         let (mut below, mut work) = (self.below.iter(), Vec::new());
         for run in &self.runs {
@@ -160,14 +160,14 @@ impl Columns {
 }
 
 impl Run {
-    /// How many columns it has.
+    /// Number of columns.
     fn columns(&self) -> usize {
         self.blocks * self.kind.width()
     }
 }
 
 impl Kind {
-    /// How many columns each block has.
+    /// Number of columns of each block.
     fn width(self) -> usize {
         match self {
             Self::Short(_) => 1,
@@ -177,7 +177,7 @@ impl Kind {
 }
 
 impl<'a> Part<'a> {
-    /// So many numbers, blocks and rows from the front, and what is behind them.
+    /// The given counts of numbers, blocks and rows from the front, and the rest.
     fn split(self, numbers: usize, blocks: usize, rows: usize) -> (Self, Self) {
         let (own, entries) = self.entries.split_at(numbers);
         let (own_below, below) = self.below.split_at(blocks);
@@ -185,14 +185,14 @@ impl<'a> Part<'a> {
         (Self { entries: own, below: own_below, rows: own_rows }, Self { entries, below, rows })
     }
 
-    /// What is before so many at the end, and these.
+    /// The same from the end: the rest, and the part at the end.
     fn split_end(self, numbers: usize, blocks: usize, rows: usize) -> (Self, Self) {
         let Part { entries, below, rows: all } = self;
         self.split(entries.len() - numbers, below.len() - blocks, all.len() - rows)
     }
 }
 
-/// How many columns from this one on have the rows of the one before without its first.
+/// Number of columns from this one on that have the rows of the one before without its first.
 fn width_of_block(starts: &[usize], rows: &[usize], first: usize) -> usize {
     let column = |c: usize| starts.get(c + 1).map(|&end| &rows[starts[c]..end]);
     let follows = |c: usize| match (column(c - 1), column(c)) {
@@ -202,7 +202,7 @@ fn width_of_block(starts: &[usize], rows: &[usize], first: usize) -> usize {
     1 + (first + 1..first + WIDEST).take_while(|&c| follows(c)).count()
 }
 
-/// How many numbers a block has.
+/// Count of the numbers of a block.
 fn numbers(width: usize, below: usize) -> usize {
     width * (width + 1) / 2 + width * below
 }
@@ -225,7 +225,7 @@ fn arrange_block((width, below): (usize, usize), columns: &[f64], block: &mut [f
 mod wide {
     use super::{Part, numbers};
 
-    // each in a function of its own, whose few variables fit into registers
+    // each in its own function, whose few variables fit into registers
     #[inline(never)]
     pub(super) fn forward<const W: usize>(part: Part<'_>, first: usize, work: &mut [f64]) {
         let (mut entries, mut rows, mut first) = (part.entries, part.rows, first);

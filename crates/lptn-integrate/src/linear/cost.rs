@@ -1,18 +1,17 @@
-//! What solvers cost, foretold by counts: the same matrix always gets the same solver.
+//! Cost of solvers, predicted by counts: the same matrix always gets the same solver.
 //!
 //! Times in ns are those of one core of a server of 2023; only their ratios decide. Measured on
 //! bodies of cells in the plane (32 x 32 to 1000 x 1000) and in space (5^3 to 40^3) with
-//! `examples/solvers.rs`; they hold within a factor of 1.5:
+//! `examples/solvers.rs`; they are right within a factor of 1.5:
 //!
-//! - exact factors: 5 ns for each number and 0.45 ns for each product, or 10 ns and 0.035 ns where
+//! - exact factors: 5 ns for each number and 0.45 ns for each product, or 10 ns and 0.035 ns if
 //!   faer takes columns together;
 //! - a solve with them: 1.5 ns for each number;
 //! - an iteration of conjugate gradients: 2.5 ns for each row and 1.2 ns for each link. A solve has
 //!   one and a half more, to begin and to see the end.
 //!
-//! Where [`Shape::products`] says that exact factors are out of the question nothing is ordered at
-//! all. Large matrices are ordered and counted first, since an analysis that is not used would take
-//! more memory than all else.
+//! If [`Shape::products`] excludes exact factors, nothing is ordered. Large matrices are ordered
+//! and counted first, since an analysis that is not used would take more memory than all else.
 //!
 //! Counts choose the solver, never a clock. If iterations turn out slower than predicted, exact
 //! factors take over. This happens when one set of values has cost as much as the factors and their
@@ -29,14 +28,14 @@ use super::shape::Shape;
 use super::{Factorization, Krylov, Multigrid, SparseLu};
 use crate::{FactorError, Pattern};
 
-/// What the factors of one set of values are for.
+/// Use of the factors of one set of values.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Demand {
     /// Solves with them.
     solves: f64,
     /// Iterations of each.
     iterations: f64,
-    /// Whether heat has to cross the body, which takes an iteration for each of its levels.
+    /// True if heat has to cross the body, which takes an iteration for each of its levels.
     crosses: bool,
 }
 
@@ -47,29 +46,30 @@ pub(super) const NEWTON: Demand = Demand { solves: 5.0, iterations: 20.0, crosse
 /// The matrices of a one-step method with few step sizes, solved from a guess to a tolerance.
 pub(super) const STAGES: Demand = Demand { solves: 30.0, iterations: 6.0, crosses: false };
 
-/// From so many rows on the width is looked at before the matrix is ordered.
+/// Number of rows above which the width is evaluated before the matrix is ordered.
 const LARGE: usize = 20_000;
 
 /// The matrix of a steady state, solved once and refined.
 const STEADY: Demand = Demand { solves: 1.6, iterations: 15.0, crosses: true };
 
-/// Below so many rows a steady state is solved exactly whatever it costs.
+/// Number of rows below which a steady state, or a matrix that is not symmetric, is solved exactly
+/// at any cost.
 const SOON_DONE: usize = 5000;
 
-/// From so many rows on a steady state in space is solved on several levels.
+/// Number of rows above which a steady state in space is solved on several levels.
 const MANY: usize = 30_000;
 
 /// Iterations that the levels of a multigrid method and its cycles cost.
 const MULTIGRID: f64 = 400.0;
 
-/// LU over Cholesky: twice the products, and its rows are found while it runs.
+/// Cost of LU over that of Cholesky: twice the products, and its rows are found while it runs.
 const LU: f64 = 6.0;
 
-/// What it takes to order a row, in ns.
+/// Cost of ordering a row, in ns.
 const ORDER: f64 = 1000.0;
 
-/// Exact factors that hold more than so many times the numbers of the matrix are not made to save
-/// time, since there is one of them for every step size.
+/// Exact factors with more than this multiple of the numbers of the matrix are not made to save
+/// time, since every step size has its own.
 const MOST_FILL: usize = 25;
 
 /// Costs of exact factors in ns.
@@ -86,18 +86,18 @@ impl Exact {
         Self { factorize: number * fill + product * products, solve: 1.5 * fill }
     }
 
-    /// Of factors that are only counted: as faer takes the columns that way which costs less.
+    /// Costs of factors that are only counted: faer takes the columns in the cheaper way.
     fn counted(counts: &Counts) -> Self {
         let of = |number: f64, product: f64| number * counts.fill + product * counts.products;
         Self { factorize: of(5.0, 0.45).min(of(10.0, 0.035)), solve: 1.5 * counts.fill }
     }
 
-    /// With so many solves.
+    /// Cost in ns with this number of solves.
     fn whole(&self, solves: f64) -> f64 {
         self.factorize + solves * self.solve
     }
 
-    /// The same in iterations.
+    /// The costs in iterations.
     fn patience(&self, iteration: f64) -> Patience {
         let [factorize, solve] =
             [self.factorize, self.solve].map(|cost| (cost / iteration).ceil() as usize);
@@ -111,7 +111,7 @@ fn iteration(pattern: &Pattern) -> f64 {
     2.5 * rows as f64 + 1.2 * ((pattern.len() - rows) / 2) as f64
 }
 
-/// What exact factors cost at least, in ns.
+/// Least cost of exact factors, in ns.
 fn least(shape: &Shape) -> f64 {
     0.035 * shape.products()
 }

@@ -1,4 +1,4 @@
-//! How large exact factors would be, without where their numbers are.
+//! Size of exact factors, without the positions of their numbers.
 
 use faer::dyn_stack::MemStack;
 use faer::sparse::SymbolicSparseColMatRef;
@@ -8,7 +8,7 @@ use super::allocated;
 use super::shape::short;
 use crate::{FactorError, Pattern};
 
-/// From so many slots on nothing is ordered: the indices of the order have 31 bits.
+/// Number of slots above which nothing is ordered: the indices of the order have 31 bits.
 const MOST: usize = 1 << 29;
 
 /// The size of a Cholesky decomposition in approximate minimum degree order, as the ordering

@@ -13,8 +13,8 @@ pub struct Diagonal {
 }
 
 impl Diagonal {
-    /// For matrices with this pattern; `None` if it has entries beside the diagonal. `symmetric`
-    /// ones have to be positive.
+    /// For matrices with this pattern; `None` if it has entries off the diagonal. `symmetric`
+    /// ones must be positive.
     #[must_use]
     pub fn of(pattern: &Pattern, symmetric: bool) -> Option<Self> {
         let size = pattern.size();
@@ -22,7 +22,7 @@ impl Diagonal {
         diagonal.then(|| Self { values: vec![0.0; size], symmetric, ready: false })
     }
 
-    /// Whether it cannot be divided by; NaN counts.
+    /// True if it cannot be a pivot; NaN counts.
     fn fails(&self, value: f64) -> bool {
         let size = if self.symmetric { value } else { value.abs() };
         size.is_nan() || size <= 0.0

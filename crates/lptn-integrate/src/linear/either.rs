@@ -1,11 +1,11 @@
-//! A symmetric solver where it can be, another one where it must be.
+//! A symmetric solver if possible, another one if necessary.
 
 use super::{Factorization, LinearSolverKind, cost, expect_length};
 use crate::{FactorError, Pattern};
 
 /// A solver for values that are symmetric and positive definite, another one for the rest.
 ///
-/// Looked at anew with every set of values: the Jacobian of a body that radiates to its
+/// The values are checked again with every set: the Jacobian of a body that radiates to its
 /// surroundings is symmetric, that of one whose conductivity depends on temperature is not, and LU
 /// of a large body takes many times as long. Each is analysed when it is first needed.
 pub struct Either {
@@ -14,9 +14,9 @@ pub struct Either {
     mirrored: Vec<(usize, usize)>,
     cholesky: Option<Box<dyn Factorization>>,
     lu: Option<Box<dyn Factorization>>,
-    /// Which of them holds the factors.
+    /// True if `cholesky` has the factors, else `lu` has them.
     symmetric: bool,
-    /// The values, where iterations may yet find that they are not positive definite.
+    /// The values, if iterations may still find that they are not positive definite.
     values: Vec<f64>,
 }
 
@@ -39,7 +39,7 @@ impl Either {
         Self { pattern, mirrored, cholesky: None, lu: None, symmetric: false, values }
     }
 
-    /// Whether the values are symmetric but for the rounding of sums.
+    /// True if the values are symmetric apart from the rounding of sums.
     fn is_symmetric(&self, values: &[f64]) -> bool {
         self.mirrored.iter().all(|&(a, b)| {
             let (a, b) = (values[a], values[b]);
@@ -47,7 +47,7 @@ impl Either {
         })
     }
 
-    /// Whether the values are positive definite, as far as factors tell.
+    /// True if the values are positive definite, as far as factors show.
     fn is_definite(&mut self, values: &[f64]) -> bool {
         if self.cholesky.is_none() {
             self.cholesky = cost::steady(&self.pattern).ok();

@@ -1,4 +1,4 @@
-//! Exact factors that take over where iterations fail.
+//! Exact factors that take over if iterations fail.
 
 use super::Factorization;
 use super::shape::Shape;
@@ -15,11 +15,11 @@ pub(super) struct Fallback {
 }
 
 impl Fallback {
-    /// Factorises `S A S` with these values in the slots of the pattern; `scale` stands in the
+    /// Factorises `S A S` with these values in the slots of the pattern; `scale` is in the
     /// order of the shape.
     ///
     /// # Errors
-    /// [`FactorError`]: singular, not positive definite, or factors that no memory holds.
+    /// [`FactorError`]: singular, not positive definite, or factors that no memory can store.
     pub(super) fn new(
         shape: &Shape,
         (values, scale): (Vec<f64>, &[f64]),
@@ -38,7 +38,7 @@ impl Fallback {
     /// Writes the solution of `A x = b`.
     ///
     /// # Errors
-    /// [`FactorError::Singular`] where it is not finite.
+    /// [`FactorError::Singular`] if it is not finite.
     pub(super) fn solve(&mut self, b: &[f64], x: &mut [f64]) -> Result<(), FactorError> {
         kernels::zip(b, &self.scale, x, |b, scale| scale * b);
         self.factors.solve_in_place(x)?;

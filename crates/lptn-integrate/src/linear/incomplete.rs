@@ -1,12 +1,12 @@
-//! An incomplete factor without fill, and the matrix behind it.
+//! An incomplete factor without fill, and its matrix.
 //!
 //! The factor is `(D + L) D^-1 (D + U)` with the matrix's own strict triangles `L` and `U` and a
-//! diagonal `D` with which the product has the diagonal of the matrix: where no three nodes are
-//! linked with each other, as in a body of cells, that is the incomplete factor itself. So nothing
-//! is kept beside the matrix, and its product with a vector costs no more than the sweeps of the
-//! factor (S. C. Eisenstat, SIAM J. Sci. Stat. Comput. 2 (1981) 1). J. A. Meijerink and H. A. van
-//! der Vorst, Math. Comp. 31 (1977) 148, prove that it exists for the M-matrices that conductances
-//! and streams make.
+//! diagonal `D` with which the product has the diagonal of the matrix. If no three nodes are linked
+//! with each other, as in a body of cells, that is the incomplete factor itself. So nothing is
+//! stored in addition to the matrix, and its product with a vector costs no more than the sweeps of
+//! the factor (S. C. Eisenstat, SIAM J. Sci. Stat. Comput. 2 (1981) 1). J. A. Meijerink and H. A.
+//! van der Vorst, Math. Comp. 31 (1977) 148, prove that it exists for the M-matrices that
+//! conductances and streams make.
 //!
 //! The factor keeps hubs linear in memory, and the same code serves streams.
 
@@ -22,7 +22,7 @@ const LEAST_PIVOT: f64 = 1e-3;
 /// A matrix `S A S` in the order of a shape, with the `S` for which `D` is 1 everywhere.
 pub(super) struct Incomplete {
     pub(super) shape: Arc<Shape>,
-    /// `L`, and the transpose of `U` where that is another one.
+    /// `L`, and the transpose of `U` if that is another one.
     lower: Vec<f64>,
     upper: Option<Vec<f64>>,
     /// The diagonal less 2.
@@ -33,10 +33,10 @@ pub(super) struct Incomplete {
 /// Vectors in the order of the shape.
 #[derive(Default)]
 pub(super) struct Work {
-    /// The solution, and what is left of the right side, behind `(I + L)^-1` once iterations begin.
+    /// The solution and the residual, which is multiplied by `(I + L)^-1` once iterations begin.
     pub(super) solution: Vec<f64>,
     pub(super) left: Vec<f64>,
-    /// Where the next step goes, the same behind `(I + U)^-1`, and what the matrix makes of it.
+    /// Direction of the next step, its product with `(I + U)^-1`, and that with the matrix.
     pub(super) direction: Vec<f64>,
     pub(super) step: Vec<f64>,
     pub(super) product: Vec<f64>,
@@ -103,7 +103,7 @@ impl Incomplete {
         Ok(())
     }
 
-    /// Takes the right side and the guess, and says how much of the right side is left.
+    /// Takes the right side and the guess, and returns the largest residual over the diagonal.
     pub(super) fn begin(&self, b: &[f64], x: Option<&[f64]>, work: &mut Work) -> f64 {
         let Work { solution, left, product, .. } = work;
         let rows = self.shape.order.iter().map(|&row| row as usize).zip(&self.scale);
@@ -128,13 +128,13 @@ impl Incomplete {
         self.over_diagonal(left)
     }
 
-    /// Puts what is left over behind `(I + L)^-1`.
+    /// Multiplies the residual by `(I + L)^-1`.
     pub(super) fn precondition(&self, left: &mut [f64]) {
         self.lower().forward(left);
     }
 
-    /// Replaces `step`, a direction, by what it adds to the solution, and writes what that adds to
-    /// the right side, behind `(I + L)^-1`.
+    /// Replaces `step`, a direction, by the change of the solution. Writes the change of the right
+    /// side, multiplied by `(I + L)^-1`.
     pub(super) fn apply(&self, direction: &[f64], step: &mut [f64], product: &mut [f64]) {
         self.upper().backward(step);
         let parts = product.iter_mut().zip(direction).zip(&*step).zip(&self.excess);
@@ -145,14 +145,14 @@ impl Incomplete {
         product.iter_mut().zip(&*step).for_each(|(product, step)| *product += step);
     }
 
-    /// The largest component of what is left over, over the diagonal of `A`.
+    /// The largest component of the residual over the diagonal of `A`.
     fn over_diagonal(&self, left: &[f64]) -> f64 {
         kernels::largest_of(left, [&self.excess, &self.scale], |left, [excess, scale]| {
             left * scale / (excess + 2.0)
         })
     }
 
-    /// The same where `left` is behind `(I + L)^-1`; `work` is lost.
+    /// The same if `left` is multiplied by `(I + L)^-1`; `work` is overwritten.
     pub(super) fn left_over(&self, left: &[f64], work: &mut [f64]) -> f64 {
         let mut rows = work.iter_mut().zip(left);
         self.lower().times(left, |others| {
@@ -167,8 +167,8 @@ impl Incomplete {
         rows.for_each(|((&row, scale), solution)| x[row as usize] = scale * solution);
     }
 
-    /// The values of `S A S` in the slots of the pattern, and `S`. What is above the diagonal of a
-    /// symmetric matrix is left 0.
+    /// The values of `S A S` in the slots of the pattern, and `S`. Those above the diagonal of a
+    /// symmetric matrix are 0.
     pub(super) fn values(&self) -> (Vec<f64>, &[f64]) {
         let mut values = vec![0.0; self.shape.slots];
         let mut put = |slots: &[u32], entries: &[f64]| {

@@ -1,8 +1,8 @@
-//! Krylov methods behind an incomplete factor, for large bodies and steps that are short.
+//! Krylov methods with an incomplete factor, for large bodies and short steps.
 //!
 //! For the Newton matrices `M - gamma J` of bodies that are cut into cells along three axes: their
-//! exact factors hold sixty times as many numbers as the matrix (40 x 40 x 40 cells), and the steps
-//! of a run are short enough for a few dozen iterations to do.
+//! exact factors have sixty times as many numbers as the matrix (40 x 40 x 40 cells), and the steps
+//! of a run are short enough for a few dozen iterations to suffice.
 
 use std::sync::{Arc, Mutex};
 
@@ -15,21 +15,21 @@ use super::{Factorization, LinearSolverKind, SparseCholesky, SparseLu, checked, 
 use super::{put, taken};
 use crate::{FactorError, Pattern, kernels};
 
-/// What is left over of a right side, relative, both over the diagonal (for a network: in K) and in
-/// the maximum norm, in which CVODES measures errors too. CVODES solves to 1e-2 and less of a
-/// tolerance, so the books of a run do not feel it.
+/// Remaining residual, relative to the right side, both over the diagonal (for a network: in K) and
+/// in the maximum norm, in which CVODES measures errors too. CVODES solves to 1e-2 and less of a
+/// tolerance, so the energy balance of a run is not affected.
 const LEFT_OVER: f64 = 1e-9;
 
 /// The end of iterations.
 #[derive(Clone, Copy, Debug)]
 enum Goal {
-    /// From 0 on: this share of the right side is left over.
+    /// From 0: this share of the right side remains.
     Share(f64),
-    /// From a guess on: so much is left over.
+    /// From a guess: this residual remains.
     Rest(f64),
 }
 
-/// Conjugate gradients or, for matrices that are not symmetric, BiCGStab. Where they do not
+/// Conjugate gradients or, for matrices that are not symmetric, BiCGStab. If they do not
 /// converge, exact factors take over until there are other values.
 pub struct Krylov {
     family: Arc<Family>,
@@ -38,12 +38,12 @@ pub struct Krylov {
     ready: bool,
     /// Iterations of all solves.
     iterations: u64,
-    /// Those that exact factors of the values at hand would have cost, less those spent.
+    /// Cost of exact factors of the present values in iterations, less those spent.
     left: usize,
 }
 
-/// What exact factors would have cost, in iterations: once as much was spent on one set of values,
-/// they take over, so the price is at most twice the least.
+/// Cost of exact factors in iterations: once as much was spent on one set of values, they take
+/// over, so the price is at most twice the least.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patience {
     pub(super) factorize: usize,
@@ -54,13 +54,13 @@ impl Patience {
     const ENDLESS: Self = Self { factorize: usize::MAX, solve: 0 };
 }
 
-/// What the matrices of one pattern have in common.
+/// Data that the matrices of one pattern share.
 struct Family {
     symmetric: bool,
     patience: Patience,
-    /// To solve in, when nobody does.
+    /// Memory for a solve, if no one uses it.
     spare: Mutex<Option<Work>>,
-    /// For exact factors, where they were analysed to choose.
+    /// Analysis for exact factors, if it was made to choose the solver.
     analysis: Option<Arc<Analysis>>,
 }
 
@@ -68,7 +68,7 @@ impl Krylov {
     /// For matrices with this pattern.
     ///
     /// # Panics
-    /// If the matrix has 2^32 entries or more, which no memory holds.
+    /// If the matrix has 2^32 entries or more, which no memory can store.
     #[must_use]
     pub fn new(pattern: &Pattern, symmetric: bool) -> Self {
         let shape = Shape::new(pattern);
@@ -80,8 +80,8 @@ impl Krylov {
         Self::of(Arc::new(Family { symmetric, patience, spare, analysis }), Arc::new(shape))
     }
 
-    /// For symmetric matrices of a known shape, with what exact factors cost and their analysis if
-    /// it is there.
+    /// For symmetric matrices of a known shape, with the cost of exact factors and their analysis
+    /// if it is there.
     pub(super) fn symmetric(
         shape: Shape,
         exact: Option<(Patience, Option<Arc<Analysis>>)>,
@@ -92,7 +92,7 @@ impl Krylov {
     }
 
     /// A solver for other values in the same pattern, whose analysis is shared, and so is the
-    /// memory to solve in.
+    /// memory for solves.
     #[must_use]
     pub fn sibling(&self) -> Self {
         Self::of(Arc::clone(&self.family), Arc::clone(&self.matrix.shape))
@@ -126,7 +126,7 @@ impl Krylov {
         kernels::first_not_finite(x).is_none()
     }
 
-    /// The solution by iterations or, where they fail, by exact factors.
+    /// The solution by iterations or, if they fail, by exact factors.
     fn solve(&mut self, b: &[f64], x: &mut [f64], goal: Goal) -> Result<(), FactorError> {
         if let Some(index) = kernels::first_not_finite(b) {
             return Err(FactorError::Singular { index });

@@ -36,7 +36,7 @@ impl SparseLu {
         Self::of(Arc::new((structure, symbolic)))
     }
 
-    /// Factors of their own for other values in the same pattern, whose analysis is shared.
+    /// Separate factors for other values in the same pattern, whose analysis is shared.
     ///
     /// # Errors
     /// [`FactorError::OutOfMemory`].

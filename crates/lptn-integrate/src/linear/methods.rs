@@ -1,4 +1,4 @@
-//! Iterations behind an incomplete factor: conjugate gradients for symmetric matrices,
+//! Iterations with an incomplete factor: conjugate gradients for symmetric matrices,
 //! BiCGStab for others.
 
 use super::incomplete::{Incomplete, Work};
@@ -7,24 +7,24 @@ use crate::kernels;
 /// More iterations than this cost more than exact factors.
 const MOST: usize = 1000;
 
-/// When iterations end.
+/// Limits of the iterations.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End {
-    /// What may be left over, over the diagonal.
+    /// Largest residual allowed, over the diagonal.
     pub(super) allowed: f64,
-    /// How many iterations there may be.
+    /// Largest number of iterations.
     pub(super) most: usize,
 }
 
-/// Foretells from a square when it is worth asking how much is left over: by and large the square
-/// falls as that does.
+/// Predicts from a square when it is worth computing the residual: by and large the square falls as
+/// that does.
 struct Watch {
     size: f64,
     square: f64,
 }
 
 impl Watch {
-    /// Whether no more than `allowed` is left over; `left` is what is left behind the factor.
+    /// True if the residual is at most `allowed`; `left` is the residual times `(I + L)^-1`.
     fn sees_the_end(
         &mut self,
         (matrix, allowed): (&Incomplete, f64),
@@ -41,7 +41,7 @@ impl Watch {
 }
 
 /// Conjugate gradients (M. R. Hestenes and E. Stiefel, J. Res. Natl. Bur. Stand. 49 (1952) 409),
-/// from what [`Incomplete::begin`] left; how many iterations, and whether they reached the end.
+/// after [`Incomplete::begin`]; the number of iterations, and true if they reached the end.
 pub(super) fn conjugate(
     matrix: &Incomplete,
     work: &mut Work,
@@ -77,7 +77,7 @@ pub(super) fn conjugate(
     (end.most.min(MOST), false)
 }
 
-/// BiCGStab (H. A. van der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631), as [`conjugate`].
+/// BiCGStab (H. A. van der Vorst, SIAM J. Sci. Stat. Comput. 13 (1992) 631), like [`conjugate`].
 pub(super) fn stabilized(
     matrix: &Incomplete,
     work: &mut Work,
@@ -97,7 +97,7 @@ pub(super) fn stabilized(
         let length = along / kernels::dot(first, product);
         kernels::scale_and_add(1.0, solution, length, step);
         kernels::scale_and_add(1.0, left, -length, product);
-        // the same once more, along what is left
+        // the same once more, along the residual
         step.copy_from_slice(left);
         matrix.apply(left, step, second);
         let further = kernels::dot(second, left) / kernels::dot(second, second);

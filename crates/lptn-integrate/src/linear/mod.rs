@@ -1,7 +1,7 @@
 //! Solvers for `A x = b` with one sparsity pattern and many sets of values.
 //!
-//! Used for the Newton matrices `M - gamma J` of the integrator, and by others for steady states
-//! `G x = b`. The analysis of the pattern happens once, in `new`; [`Factorization::factorize`] and
+//! They serve the Newton matrices `M - gamma J` of the integrator, and steady states `G x = b`. The
+//! analysis of the pattern happens once, in `new`; [`Factorization::factorize`] and
 //! [`Factorization::solve_in_place`] work in memory kept between calls.
 //!
 //! Up to 30 unknowns the solver is dense, for one and two unknowns too. A closed form for these is
@@ -48,14 +48,14 @@ pub const DENSE_LIMIT: usize = 30;
 /// singular.
 const SINGULAR: f64 = 1e15;
 
-/// The share of the probe that may be left over: no more than its size is asked for.
+/// The share of the probe that may remain: only the size of the solution matters.
 const PROBED: f64 = 1e-3;
 
-/// Which solver to use.
+/// Choice of the solver.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum LinearSolver {
-    /// Dense up to [`DENSE_LIMIT`] components, else what costs least for what the matrix is for:
-    /// exact sparse factors or iterations.
+    /// Dense up to [`DENSE_LIMIT`] components, else the cheapest for the use of the matrix: exact
+    /// sparse factors or iterations.
     #[default]
     Auto,
     /// Dense Cholesky for symmetric matrices, else dense LU with partial pivoting.
@@ -94,7 +94,7 @@ pub trait Factorization {
     /// Number of rows.
     fn size(&self) -> usize;
 
-    /// Which solver this is.
+    /// Kind of this solver.
     fn kind(&self) -> LinearSolverKind;
 
     /// Numbers stored for the factors (for sparse LU: of the matrix, its factors being sized on the
@@ -106,8 +106,8 @@ pub trait Factorization {
         0
     }
 
-    /// A solver for other matrices with the same pattern, with factors of its own and none yet. The
-    /// analysis of the pattern is shared.
+    /// A solver for other matrices with the same pattern, without factors yet. The analysis of the
+    /// pattern is shared.
     ///
     /// # Errors
     /// [`FactorError::OutOfMemory`].
@@ -128,8 +128,8 @@ pub trait Factorization {
     /// component of the solution that is not finite.
     fn solve_in_place(&mut self, b: &mut [f64]) -> Result<(), FactorError>;
 
-    /// Writes the solution of `A x = b` to `x`, which holds a guess. Solvers that iterate begin
-    /// there and stop where every component of `b - A x` is at most `allowed` of the diagonal entry
+    /// Writes the solution of `A x = b` to `x`, which contains a guess. Solvers that iterate begin
+    /// there and stop when every component of `b - A x` is at most `allowed` of the diagonal entry
     /// of its row (for a network: `allowed` is in K); the others solve exactly.
     ///
     /// # Errors
@@ -141,9 +141,9 @@ pub trait Factorization {
         self.solve_in_place(x)
     }
 
-    /// Replaces `b` by a solution of `A x = b` for a Newton iteration that errs itself. Solvers that
-    /// iterate stop where every component of what is left of `b`, over the diagonal, is at most
-    /// this share of the largest of them; the others solve exactly.
+    /// Replaces `b` by a solution of `A x = b` for a Newton iteration that errs itself. Solvers
+    /// that iterate stop when every component of the residual, over the diagonal, is at most this
+    /// share of the largest of `b`; the others solve exactly.
     ///
     /// # Errors
     /// Those of [`Factorization::solve_in_place`].
@@ -152,13 +152,13 @@ pub trait Factorization {
         self.solve_in_place(b)
     }
 
-    /// Whether the factors are usable: sparse elimination may pass a singular matrix with a pivot
-    /// of rounding errors only. Solves once, with the diagonal as right side, so that the solution
-    /// is of the order of 1 for a matrix that is dominated by its diagonal.
+    /// Checks that the factors are usable: sparse elimination may pass a singular matrix with a
+    /// pivot of rounding errors only. Solves once, with the diagonal as right side, so that the
+    /// solution is of the order of 1 for a matrix that is dominated by its diagonal.
     ///
     /// # Errors
-    /// [`FactorError::Singular`] with the component that is largest: for a network one of an island
-    /// that leads nowhere.
+    /// [`FactorError::Singular`] with the largest component: for a network one of an island
+    /// without a path to ground.
     fn check(&mut self, pattern: &Pattern, values: &[f64]) -> Result<(), FactorError> {
         probe(pattern, values, |b| self.solve_share(b, PROBED))
     }
@@ -179,7 +179,7 @@ fn probe(
     }
 }
 
-/// Whether [`new`] gives a dense solver.
+/// True if [`new`] returns a dense solver.
 pub fn is_dense(choice: LinearSolver, size: usize) -> bool {
     choice == LinearSolver::Dense || (choice == LinearSolver::Auto && size <= DENSE_LIMIT)
 }
@@ -213,8 +213,8 @@ pub fn new(
     Ok(Box::new(SparseLu::new(pattern)?))
 }
 
-/// As [`new`], for the matrices `M - gamma J` of a multistep method, which change with every step
-/// size: [`LinearSolver::Auto`] takes [`Krylov`] where exact factors would cost more.
+/// Like [`new`], for the matrices `M - gamma J` of a multistep method, which change with every step
+/// size: [`LinearSolver::Auto`] takes [`Krylov`] if exact factors would cost more.
 ///
 /// # Errors
 /// As [`new`].
@@ -226,8 +226,8 @@ pub fn for_steps(
     cheapest(pattern, symmetric, (choice, cost::NEWTON))
 }
 
-/// As [`new`], for the matrices of a one-step method with few step sizes, of which each is solved
-/// with many times by [`Factorization::solve_from`].
+/// Like [`new`], for the matrices of a one-step method with few step sizes, each of which serves
+/// many calls of [`Factorization::solve_from`].
 ///
 /// # Errors
 /// As [`new`].
@@ -239,8 +239,8 @@ pub fn for_stages(
     cheapest(pattern, symmetric, (choice, cost::STAGES))
 }
 
-/// As [`new`], for the symmetric matrix of a steady state, which is badly conditioned:
-/// [`LinearSolver::Auto`] takes [`Krylov`] or [`Multigrid`] where exact factors would cost more.
+/// Like [`new`], for the symmetric matrix of a steady state, which is badly conditioned:
+/// [`LinearSolver::Auto`] takes [`Krylov`] or [`Multigrid`] if exact factors would cost more.
 ///
 /// # Errors
 /// As [`new`].
@@ -266,11 +266,11 @@ fn cheapest(
     cheapest(pattern, demand)
 }
 
-/// From so many rows on the exact Jacobians of Newton's method are looked at for symmetry: below it
-/// LU is soon done.
+/// Number of rows from which the exact Jacobians of Newton's method are checked for symmetry: below
+/// it LU takes little time.
 const LARGE: usize = 2000;
 
-/// As [`new`], for exact Jacobians: not symmetric in general, but often by their values.
+/// Like [`new`], for exact Jacobians: not symmetric in general, but often by their values.
 ///
 /// # Errors
 /// As [`new`].
@@ -282,8 +282,8 @@ pub fn for_exact(pattern: &Pattern) -> Result<Box<dyn Factorization>, FactorErro
 }
 
 /// Solves `A x = b` with `steps` steps of iterative refinement, for which `A` (pattern and values)
-/// is needed beside its factors. Writes the solution to `x` and returns the largest `|b - A x|`
-/// that is left.
+/// is needed in addition to its factors. Writes the solution to `x` and returns the largest
+/// remaining `|b - A x|`.
 ///
 /// # Errors
 /// Those of [`Factorization::solve_in_place`].
@@ -323,8 +323,7 @@ fn expect_length(expected: usize, found: usize) -> Result<(), FactorError> {
     if expected == found { Ok(()) } else { Err(FactorError::WrongLength { expected, found }) }
 }
 
-/// A solve by factors of this size that are there or not, with what every solve begins and ends
-/// with.
+/// Solves with factors of this size if they are `ready`, with the checks that every solve has.
 fn checked(
     (size, ready): (usize, bool),
     b: &mut [f64],
@@ -349,7 +348,7 @@ fn allocated(needed: StackReq) -> Result<MemBuffer, FactorError> {
     MemBuffer::try_new(needed).map_err(|_| FactorError::OutOfMemory)
 }
 
-/// What lies on a shelf that siblings share; whoever finds it empty makes another one.
+/// Takes the item of a shelf that siblings share; `None` if another one has it.
 fn taken<T>(shelf: &Mutex<Option<T>>) -> Option<T> {
     shelf.lock().ok().and_then(|mut shelf| shelf.take())
 }

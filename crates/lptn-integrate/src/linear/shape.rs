@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use crate::Pattern;
 
-/// The strict lower triangle of a symmetric pattern by rows, in an order of its own.
+/// The strict lower triangle of a symmetric pattern by rows, in its own order.
 ///
 /// The order is that of a breadth-first search (E. Cuthill and J. McKee, Proc. 24th Nat. Conf. ACM
 /// (1969) 157). In a body of cells the rows of one level are not linked, so that the processor
-/// works at several rows of a triangular sweep at a time, and what a row reads is near. In a level
-/// rows with the same number of entries stand together.
+/// works at several rows of a triangular sweep at a time, and the values that a row reads are near.
+/// In a level rows with the same number of entries are adjacent.
 #[derive(Debug)]
 pub(super) struct Shape {
     /// The row of the pattern at each place.
@@ -31,7 +31,7 @@ pub(super) struct Shape {
     pub(super) depth: usize,
 }
 
-/// Where a strict lower triangle has entries.
+/// Positions of the entries of a strict lower triangle.
 #[derive(Debug, Default)]
 pub(super) struct Triangle {
     /// Rows with the same number of entries together.
@@ -45,7 +45,7 @@ pub(super) struct Triangle {
 pub(super) struct Run {
     /// The first of them.
     pub(super) first: u32,
-    /// How many.
+    /// Number of rows.
     pub(super) rows: u32,
     /// The first entry.
     pub(super) begin: u32,
@@ -88,7 +88,7 @@ impl Triangle {
 
 impl Shape {
     /// # Panics
-    /// If the pattern has 2^32 slots or more, which no memory holds.
+    /// If the pattern has 2^32 slots or more, which no memory can store.
     pub(super) fn new(pattern: &Pattern) -> Self {
         let (order, [width, depth]) = breadth_first(pattern);
         let mut place = vec![0; order.len()];
@@ -169,7 +169,7 @@ fn breadth_first(pattern: &Pattern) -> (Vec<u32>, [usize; 2]) {
     let neighbours = |row: u32| &pattern.row_indices()[pattern.column(row as usize)];
     let mut starts: Vec<u32> = (0..short(pattern.size())).collect();
     starts.sort_by_key(|&row| neighbours(row).len());
-    // for each row how many of its neighbours stand in levels before its own, once it is found
+    // for each row, once it is found, the number of its neighbours in earlier levels
     let mut behind = vec![0_u32; starts.len()];
     let mut order = Vec::with_capacity(starts.len());
     let (mut width, mut depth) = (0, 0);

@@ -10,7 +10,7 @@ pub(super) struct Lower<'a> {
     entries: &'a [f64],
 }
 
-/// Does something with the columns and entries of the rows of a run. Rows of cells have one, two or
+/// Runs `$body` on the columns and entries of the rows of a run. Rows of cells have one, two or
 /// three entries: their loops are unrolled, which halves the instructions of a sweep.
 macro_rules! unrolled {
     ($lower:ident, $run:ident, $rows:ident => $body:expr) => {{
@@ -30,7 +30,7 @@ macro_rules! unrolled {
                 $body
             })+
             many => {
-                // chunks of a length that is not known divide
+                // chunks of an unknown length need a division
                 let own = |row: usize| row * many..row * many + many;
                 let $rows = (0..$run.rows as usize)
                     .map(|row| (&$columns[own(row)], &$entries[own(row)]));
@@ -76,7 +76,7 @@ impl<'a> Lower<'a> {
         }
     }
 
-    /// Tells each component of `L x` to `with`.
+    /// Passes each component of `L x` to `with`.
     pub(super) fn times(self, x: &[f64], mut with: impl FnMut(f64)) {
         for run in self.runs {
             unrolled!(self, run, rows => {
@@ -132,7 +132,7 @@ impl<'a> Lower<'a> {
         }
     }
 
-    /// Replaces `x` by `(I + L')^-1 (b - L x)`; `b` is lost.
+    /// Replaces `x` by `(I + L')^-1 (b - L x)`; `b` is overwritten.
     pub(super) fn ascend(self, x: &mut [f64], b: &mut [f64]) {
         for run in self.runs.iter().rev() {
             unrolled!(self, run, rows => {

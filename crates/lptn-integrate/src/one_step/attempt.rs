@@ -7,12 +7,12 @@ use super::levels::{Levels, step_of};
 use super::series::{self, FEWEST, MOST, POLE, Weights};
 use crate::{FactorError, kernels};
 
-/// What the solver of a term may leave over, as a share of the tolerance: errors of the terms add
+/// Residual allowed to the solver of a term, as a share of the tolerance: errors of the terms add
 /// up with weights of the order of 1/8.
 const SOLVED_TO: f64 = 0.02;
 
-/// The terms that a step is to take when its size is chosen: longer ones would need less work per
-/// time still, but the forecast is not sharp.
+/// The terms that a step is to take when its size is chosen: longer ones would need even less
+/// work per time, but the prediction is not sharp.
 const WANTED: f64 = 9.0;
 
 /// Values per turn in which terms are added up: they stay in the nearest cache.
@@ -24,14 +24,14 @@ const FEW: usize = 8;
 /// The right side at the start of a step, in units of `M` times y per time.
 pub(super) struct Drive<'a> {
     pub(super) flow: &'a [f64],
-    /// Its change per time while the state stands still.
+    /// Its change per time at a constant state.
     pub(super) slope: &'a [f64],
 }
 
 /// The constant system.
 pub(super) struct Body<'a> {
     pub(super) mass: &'a [f64],
-    /// What leaves each row for a rise of all by 1.
+    /// Decrease of the flow of each row if all components rise by 1.
     pub(super) loss: &'a [f64],
 }
 
@@ -48,15 +48,15 @@ pub(super) struct Series {
     balance: Vec<f64>,
 }
 
-/// How a step went.
+/// Result of a step.
 pub(super) enum Outcome {
     Accepted(Forecast),
     Rejected(Forecast),
 }
 
-/// What the sizes of the terms say of steps of other sizes.
+/// Prediction for steps of other sizes, from the sizes of the terms.
 pub(super) struct Forecast {
-    /// The estimated error over the tolerance, with so many terms.
+    /// The estimated error over the tolerance, with `count` terms.
     error: f64,
     count: usize,
     /// The last term over the one before.
@@ -84,7 +84,7 @@ impl Series {
             self.guess(n, ratio);
             let term = &mut self.terms[n - 1];
             factors.solve_from(&self.right, term, SOLVED_TO * tolerance)?;
-            // what the solver has lost of the heat is put back, evenly
+            // heat that the solver has lost is put back, evenly
             let lost = (put - kernels::dot(&self.balance, term)) / whole;
             self.finish_term(n, lost);
             let size = kernels::max_norm(&self.terms[n - 1]);
@@ -125,7 +125,7 @@ impl Series {
         }
     }
 
-    /// Where a solver that iterates begins: terms alternate and shrink by about the same ratio.
+    /// Guess for a solver that iterates: terms alternate and shrink by about the same ratio.
     fn guess(&mut self, n: usize, ratio: f64) {
         if self.terms.len() < n {
             self.terms.push(vec![0.0; self.start.len()]);
@@ -173,7 +173,7 @@ impl Series {
         }
     }
 
-    /// The same for a few components, where loops over them would hardly have begun.
+    /// The same for a few components, for which the loops are too short.
     fn add_few(&self, weights: &Weights, out: &mut [f64]) {
         for (term, weight) in self.terms[..self.count].iter().zip(weights) {
             for i in 0..out.len().min(term.len()) {
@@ -192,9 +192,9 @@ impl Series {
 }
 
 impl Forecast {
-    /// How many terms a step would need that is longer by this factor.
+    /// Number of terms for a step that is longer by this factor.
     ///
-    /// Where a term is a share r of the one before, `r = g h l / (1 + g h l)` with the rate l of
+    /// If a term is a share r of the one before, `r = g h l / (1 + g h l)` with the rate l of
     /// the modes that matter.
     fn terms_needed(&self, factor: f64) -> f64 {
         let ratio = self.ratio.clamp(1e-9, 1.0 - 1e-9);
@@ -209,17 +209,17 @@ impl Forecast {
     }
 
     fn is_hopeless(&self) -> bool {
-        // what is foretold is not sharp
+        // the prediction is not sharp
         self.terms_needed(1.0) > 2.0 * MOST as f64
     }
 
-    /// How many levels higher the next step may be.
+    /// Number of levels by which the next step may rise.
     pub(super) fn rise(&self) -> i32 {
         let fits = |levels: &i32| self.terms_needed(step_of(*levels)) <= WANTED;
         (1..=3).rev().find(fits).unwrap_or(0)
     }
 
-    /// How many levels lower the same step has to be, at least 1.
+    /// Number of levels by which the same step must fall, at least 1.
     pub(super) fn fall(&self) -> i32 {
         let fits = |levels: &i32| self.terms_needed(step_of(-*levels)) <= MOST as f64 - 1.0;
         (1..=3).find(fits).unwrap_or(4)

@@ -1,4 +1,4 @@
-//! How long the first step behind a start may be.
+//! Limit of the first step after a start.
 
 /// A flow and its change per time.
 #[derive(Clone, Debug)]
@@ -16,7 +16,7 @@ impl Jump {
     }
 
     /// The longest step whose sixth term is not above the tolerance, by each row alone: infinite
-    /// where nothing jumps. Rows are masses and diagonal entries of the Jacobian.
+    /// if nothing jumps. Rows are masses and diagonal entries of the Jacobian.
     ///
     /// A row with the time constant `c = M / |J|` that is to move by `d` has terms of the order of
     /// `d (h / 8c)^n`.

@@ -5,11 +5,10 @@ use std::collections::BTreeMap;
 use crate::linear::Factorization;
 use crate::{FactorError, LinearSolverKind};
 
-/// Numbers that the factors of all levels may hold together: 256 MB. Those used longest ago go
-/// first.
+/// Limit of the numbers in the factors of all levels: 256 MiB. Those used longest ago go first.
 const ROOM: usize = 32 << 20;
 
-/// The same for incomplete factors, which are made anew in the time of an iteration or two.
+/// The same for incomplete factors, which are made again in the time of an iteration or two.
 const ROOM_TO_ITERATE: usize = ROOM / 4;
 
 /// The size of the steps of a level, `4^level`: exact.
@@ -35,7 +34,7 @@ pub(super) struct Levels {
     /// Analysed, never factorised.
     analysed: Box<dyn Factorization>,
     kept: BTreeMap<i32, Kept>,
-    /// How often factors were asked for.
+    /// Number of requests for factors.
     pub(super) asked: u64,
     pub(super) factorizations: u64,
     /// Iterations of factors that are gone.
@@ -57,7 +56,7 @@ impl Levels {
         self.kept.values().next_back().map_or(self.analysed.kind(), |kept| kept.factors.kind())
     }
 
-    /// Numbers that all factors hold together.
+    /// Count of the numbers in all factors.
     pub(super) fn fill(&self) -> usize {
         self.kept.values().map(|kept| kept.factors.fill()).sum()
     }
@@ -66,7 +65,7 @@ impl Levels {
         self.iterations + self.kept.values().map(|kept| kept.factors.iterations()).sum::<u64>()
     }
 
-    /// Whether the factors of a level are there, for one who asks for them.
+    /// True if the factors of a level are there; counts as a request.
     pub(super) fn are_ready(&mut self, level: i32) -> bool {
         self.asked += 1;
         self.kept.contains_key(&level)
@@ -78,7 +77,7 @@ impl Levels {
         self.factorizations += 1;
         self.make_room(factors.fill());
         factors.factorize(values)?;
-        self.make_room(factors.fill()); // of some the size is only known now
+        self.make_room(factors.fill()); // the size of some is only known now
         self.kept.insert(level, Kept { factors, used: self.asked });
         Ok(())
     }

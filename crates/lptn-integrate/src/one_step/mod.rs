@@ -1,12 +1,12 @@
 //! An integrator for linear systems with constant coefficients.
 //!
 //! BDF methods factorise a matrix whenever their step changes, some hundred times in a run, and
-//! begin anew with tiny steps after every event. Here a step is a series whose terms all take one
-//! solve with the same matrix ([`series`]), its size is a power of four, so that some ten factors
-//! serve a whole run with all its events ([`levels`]), and so many terms are taken as the tolerance
-//! needs ([`attempt`]): the order follows the tolerance, up to 11. The time of an event need not be
-//! the end of a step: a step reaches beyond it as if the inputs went on, and what lies behind the
-//! event is not used.
+//! restart with tiny steps after every event. Here a step is a series whose terms all take one
+//! solve with the same matrix ([`series`]). Its size is a power of four, so that some ten factors
+//! serve a whole run with all its events ([`levels`]). The number of terms, and with it the order,
+//! follows the tolerance, up to order 11 ([`attempt`]). The time of an event need not be the end of
+//! a step: a step reaches beyond it as if the inputs went on, and the part after the event is not
+//! used.
 //!
 //! The method replaces ARKODE. SDIRK of order 4, which ARKODE offers, takes twice as many solves at
 //! 1e-4 of the range, and 2.5 times as many at 1e-6. Its stages are not needed for a linear right
@@ -35,23 +35,23 @@ use first::Jump;
 use levels::{Levels, level_within, step_of};
 use series::POLE;
 
-/// Terms of a step for each part that is handed out: a polynomial of that degree has no more to
-/// hide between two looks than a step of a multistep method.
+/// Terms of a step for each part that is handed out: between two samples a polynomial of that
+/// degree hides no more than a step of a multistep method.
 const TERMS_OF_PART: usize = 4;
 
-/// The rounding of a number, times the largest difference of states that one expects: so much, in
-/// units of y, is what the rounding of a coefficient does through one that is as large.
+/// The rounding of a number times the largest expected difference of states: the effect, in units
+/// of y, of the rounding of a coefficient on one that is as large.
 const ROUNDED: f64 = f64::EPSILON * 1000.0;
 
-/// The flow is asked for so much later where no stop is set.
+/// Least time to the second evaluation of the flow if no stop is set, in units of t.
 const LATER: f64 = 1.0;
 
 /// Integrates `M y' = q(t) + J y` with a constant `J` and inputs `q` that are straight lines in
-/// time between two starts: [`crate::Integrator::restart`] is due wherever one of them jumps or has a
+/// time between two starts: [`crate::Integrator::restart`] is due when one of them jumps or has a
 /// kink.
 ///
-/// There are no sensitivities and no roots: steps end where they end, and whoever looks for events
-/// has [`crate::Integrator::interpolate`] and [`crate::Integrator::rewind`].
+/// There are no sensitivities and no roots: steps do not end at events. To find an event, use
+/// [`crate::Integrator::interpolate`] and [`crate::Integrator::rewind`].
 pub struct OneStep<S> {
     system: S,
     clock: Clock,
@@ -63,17 +63,17 @@ pub struct OneStep<S> {
     /// The level of the next step.
     level: i32,
     jacobian: Vec<f64>,
-    /// What leaves each row for a rise of all by 1.
+    /// Decrease of the flow of each row if all components rise by 1.
     loss: Vec<f64>,
-    /// The flow at the start of the step, and its change per time while the state stands still.
+    /// The flow at the start of the step, and its change per time at a constant state.
     flow: Vec<f64>,
     slope: Vec<f64>,
-    /// Whether the system may have changed since it was read.
+    /// True if the system may have changed since it was read.
     is_new: bool,
-    /// What the flow and its change were when the last start ended.
+    /// The flow just before the last restart; its change per time is still in `slope`.
     before: Option<Jump>,
     series: Series,
-    /// When the series begins; none between a start and the first step.
+    /// Start of the series; none between a start and the first step.
     begun: Option<f64>,
     /// The running integrals when the series began, and at `settled`.
     earlier: Vec<f64>,
@@ -85,10 +85,10 @@ pub struct OneStep<S> {
 }
 
 impl<S: OdeSystem> OneStep<S> {
-    /// Whether a system can be integrated, its inputs aside: linear with constant coefficients,
-    /// without algebraic unknowns, without sensitivities, and none of its coefficients so large
-    /// that the rounding of its row makes others worth more than the tolerance. At a time and in a
-    /// state of the system.
+    /// True if a system can be integrated, apart from its inputs: linear with constant
+    /// coefficients, without algebraic unknowns and sensitivities, and with no coefficient so large
+    /// that its rounding changes the effect of others by more than the tolerance. `at` is a time
+    /// and a state of the system.
     pub fn suits(system: &mut S, at: (f64, &[f64]), tolerance: f64) -> bool {
         system.jacobian_is_constant()
             && system.slope().is_none()
@@ -177,7 +177,7 @@ impl<S: OdeSystem> OneStep<S> {
         });
         if let Err(FactorError::NotPositiveDefinite { .. } | FactorError::Singular { .. }) = outcome
         {
-            // next to a long step a small mass is lost in the rounding
+            // in a long step a small mass is lost in the rounding
             self.counts.error_test_failures += 1;
             self.level -= 1;
             return Ok(false);
@@ -215,7 +215,7 @@ impl<S: OdeSystem> OneStep<S> {
         Ok(made)
     }
 
-    /// Reads what the series needs to know of the system, and chooses the first level.
+    /// Reads the data of the system for the series, and chooses the first level.
     fn read_system(&mut self, time: f64) -> Result<(), IntegrateError> {
         self.read_jacobian(time)?;
         let then = match self.clock.shown_stop {
@@ -239,7 +239,7 @@ impl<S: OdeSystem> OneStep<S> {
         Ok(())
     }
 
-    /// Reads the Jacobian; what was factorised is kept if it is the same.
+    /// Reads the Jacobian; the factors are kept if it is the same.
     fn read_jacobian(&mut self, time: f64) -> Result<(), IntegrateError> {
         let before = self.jacobian.clone();
         self.counts.jacobian_evaluations += 1;
@@ -292,8 +292,7 @@ impl<S: OdeSystem> OneStep<S> {
         self.series.add_up(&series::change(self.series.count, share), y);
     }
 
-    /// Brings the running integrals to the present time. They are due before anybody changes the
-    /// system.
+    /// Brings the running integrals to the present time, as needed before the system is changed.
     fn settle(&mut self) -> Result<(), IntegrateError> {
         let Some(begun) = self.begun.filter(|_| self.settled < self.clock.now) else {
             return Ok(());
@@ -318,7 +317,7 @@ impl<S: OdeSystem> OneStep<S> {
         Ok(())
     }
 
-    /// Begins anew here; the running integrals are settled.
+    /// Restarts here, after `settle`.
     fn begin_anew(&mut self) {
         if let Some(begun) = self.begun.take() {
             let share = self.share(begun, self.clock.now);

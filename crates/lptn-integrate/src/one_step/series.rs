@@ -10,17 +10,17 @@
 //! so that, with the terms `u_1 = v (h y' + g h^2 y'')` and `u_(n+1) = (v - 1) u_n`, the solution
 //! after a share `s` of the step is a weighted sum of terms, each of which takes one solve with the
 //! same matrix `M - g h J`. `|v - 1| < 1` for every decaying mode however fast, so errors of a term
-//! do not grow in the next ones. The sum that is cut off after `n` terms is the restricted Padé
+//! do not grow in the next ones. The sum truncated after `n` terms is the restricted Padé
 //! approximation of S. P. Nørsett (SIAM J. Numer. Anal. 15 (1978) 1008): of order `n`, but at
-//! infinity it is `L_n(1/g)`. The last weight is changed such that this is 0, which costs an order:
-//! `n - 1`, and modes that are too fast for the step are gone behind it.
+//! infinity it is `L_n(1/g)`. The last weight is changed such that this is 0. The order is then
+//! `n - 1`, and modes that are too fast for the step are gone after it.
 
 /// The pole g: a power of two, so that `g h` is exact. With this value the sums of 4 to 12
 /// terms damp all decaying modes (the tests sample them).
 pub(super) const POLE: f64 = 0.125;
 
-/// The fewest terms of a step: with three some modes would grow, and the books of fewer do not
-/// close, see [`mean`].
+/// The fewest terms of a step: with three some modes would grow, and with fewer the energy balance
+/// does not close, see [`mean`].
 pub(super) const FEWEST: usize = 4;
 
 /// The most terms of a step.
@@ -29,8 +29,8 @@ pub(super) const MOST: usize = 12;
 /// One weight per term.
 pub(super) type Weights = [f64; MOST];
 
-/// `L_0` to `L_(MOST + 1)` at `x`, as far as `last`. A row of a run asks for them, so nothing is
-/// divided.
+/// `L_0` to `L_(MOST + 1)` at `x`, as far as `last`. They are needed in every row of a run, so
+/// nothing is divided.
 const fn laguerre(x: f64, last: usize) -> [f64; MOST + 2] {
     let mut values = [1.0; MOST + 2];
     values[1] = 1.0 - x;
@@ -56,7 +56,7 @@ const STEPS: [[f64; 2]; MOST + 1] = {
     steps
 };
 
-/// What is left of an infinitely fast mode at the end of a step by a series that is only cut off,
+/// Remainder of an infinitely fast mode at the end of a step of the series that is only truncated,
 /// by the number of its terms.
 const AT_INFINITY: [f64; MOST + 2] = laguerre(1.0 / POLE, MOST + 1);
 
@@ -75,7 +75,7 @@ pub(super) fn change(terms: usize, share: f64) -> Weights {
         factor = -factor;
         *weight = factor * (ends[1] - ends[0]);
     }
-    // rounding of the polynomial would be a rate that the books do not know
+    // rounding of the polynomial would be a rate outside the energy balance
     weights[0] = share;
     let smooth = share * share * (3.0 - 2.0 * share);
     weights[terms - 1] -= POLE * sign(terms) * AT_INFINITY[terms] * smooth;
@@ -83,8 +83,8 @@ pub(super) fn change(terms: usize, share: f64) -> Weights {
 }
 
 /// The weights of the change of the *mean* state over a share of the step, above 0 to 1, for which
-/// the flow in the middle of that time is exactly the change of `M y` over the time: what makes the
-/// books close.
+/// the flow in the middle of that time is exactly the change of `M y` over the time, so that the
+/// energy balance closes.
 ///
 /// It follows from `(g z) u_(n+1) v = ..`: dividing the series by `z` takes a term into the mean of
 /// itself and the one before. Valid from three terms on, whose first two weights are exact.
@@ -100,8 +100,8 @@ pub(super) fn mean(terms: usize, share: f64) -> Weights {
     weights
 }
 
-/// The weights of the rate of change behind a share of the step, times its length; of the series
-/// that is only cut off.
+/// The weights of the rate of change after a share of the step, times its length, for the series
+/// that is only truncated.
 pub(super) fn rate(terms: usize, share: f64) -> Weights {
     let values = laguerre(share / POLE, terms);
     let mut weights = [0.0; MOST];
@@ -111,8 +111,8 @@ pub(super) fn rate(terms: usize, share: f64) -> Weights {
     weights
 }
 
-/// The error of a step of so many terms over the size of its last one: the change of the last
-/// weight and the first two that are left out, whichever is largest, so that no zero of a polynomial
+/// The error of a step over the size of its last term, by the number of terms: the change of the
+/// last weight or the first two that are left out, whichever is largest. So no zero of a polynomial
 /// feigns an accuracy.
 pub(super) fn error_constants() -> [f64; MOST + 1] {
     let values = AT_INFINITY.map(f64::abs);

@@ -1,9 +1,9 @@
-//! How far the coefficients of a system are apart.
+//! Ratio of the largest to the smallest coefficient of a system.
 
 use crate::{OdeSystem, Retry, kernels};
 
-/// What leaves each row for a rise of all components by 1, from the flows themselves: what the rows
-/// of the Jacobian leave of it is rounded by their largest entry.
+/// Decrease of the flow of each row if all components rise by 1, from the flows themselves: sums of
+/// the rows of the Jacobian have the rounding of their largest entry.
 pub(super) fn loss(system: &mut impl OdeSystem, time: f64) -> Result<Vec<f64>, Retry> {
     let size = system.size();
     let (mut low, mut high) = (vec![0.0; size], vec![0.0; size]);
@@ -13,8 +13,8 @@ pub(super) fn loss(system: &mut impl OdeSystem, time: f64) -> Result<Vec<f64>, R
     Ok(low)
 }
 
-/// The largest entry of the Jacobian over the smallest one that is not zero, or the smallest loss of
-/// a row; `None` if they cannot be had.
+/// The largest entry of the Jacobian over the smallest one that is not zero, or the smallest loss
+/// of a row; `None` if they cannot be evaluated.
 pub(super) fn of(system: &mut impl OdeSystem, (time, y): (f64, &[f64])) -> Option<f64> {
     let mut values = vec![0.0; system.pattern().len()];
     system.jacobian(time, y, &mut values).ok()?;

@@ -1,46 +1,46 @@
-//! Which nodes of a network are taken together on the next coarser level.
+//! Groups of nodes of a network that form the next coarser level.
 //!
 //! Nodes are paired along strong links, the pairs again and again: Y. Notay, Electron. Trans.
 //! Numer. Anal. 37 (2010) 123. Temperatures in a group are corrected together, so at least one end
-//! of a link has to follow the other one. What results is a network again: links between groups
+//! of a link has to follow the other one. The result is a network again: links between groups
 //! are the sums of those between their nodes.
 
 use std::sync::Arc;
 
 use super::super::shape::{Triangle, short};
 
-/// The least strength of a link between two nodes that are paired: its conductance over all that
-/// each of them is linked with, summed. The condition of two levels is then 8 at most (section 3 of
+/// The least strength of a link between two nodes that are paired: its conductance over the
+/// diagonal of each of them, summed. The condition of two levels is then 8 at most (section 3 of
 /// Notay's paper).
 const STRONG: f64 = 0.25;
 
-/// Weaker links do where neither end has one that is stronger than this: in a uniform body all of
-/// them are alike.
+/// Weaker links are allowed if neither end has one that is stronger by more than this factor: in a
+/// uniform body all links are alike.
 const ALIKE: f64 = 2.0;
 
-/// A node joins a group behind a link that is this part of all that it is linked with.
+/// A node joins the group at the end of a link that is at least this part of its diagonal.
 const JOINS: f64 = 0.5;
 
 /// A node whose links are less than this part of its path to ground needs no correction.
 const LOOSE: f64 = 0.2;
 
-/// Rounds in which nodes choose each other before what is left is paired as it comes.
+/// Rounds in which nodes choose each other before the others are paired in order.
 const ROUNDS: usize = 3;
 
 /// The group of a node that is in none.
 pub(super) const NONE: u32 = u32::MAX;
 
-/// A network: links below the diagonal and what each node is linked with besides, in W/K.
+/// A network: links below the diagonal and the path of each node to ground, in W/K.
 pub(super) struct Network {
     pub(super) triangle: Arc<Triangle>,
-    /// The conductance of each link, negative where the matrix has a positive entry.
+    /// The conductance of each link, negative if the matrix has a positive entry.
     pub(super) links: Vec<f64>,
     /// From each node to ground.
     pub(super) ground: Vec<f64>,
 }
 
 impl Network {
-    /// Tells all links: row, column, conductance.
+    /// Passes all links to `tell`: row, column, conductance.
     pub(super) fn each_link(&self, mut tell: impl FnMut(usize, usize, f64)) {
         for run in &self.triangle.runs {
             for row in run.places() {
@@ -98,8 +98,8 @@ impl Network {
         (groups, coarse)
     }
 
-    /// The partner of each node, `NONE` where it stays alone. The partner of one that joins another
-    /// one may have a partner of its own.
+    /// The partner of each node, `NONE` if it stays alone. A node may join one that has another
+    /// partner.
     fn partners(&self, diagonal: &[f64], loose: &[bool]) -> Vec<u32> {
         let inverse: Vec<f64> = diagonal.iter().map(|d| d.recip()).collect();
         let takes_part = |row: usize, column: usize| !loose[row] && !loose[column];
@@ -160,7 +160,7 @@ impl Network {
                 ground[group as usize] += own;
             }
         }
-        // links sorted by row: where each row begins, then the links themselves
+        // links sorted by row: the start of each row, then the links themselves
         let mut begins = vec![0_u32; count + 1];
         self.each_link(|row, column, link| match (groups[row], groups[column]) {
             (NONE, NONE) => {}

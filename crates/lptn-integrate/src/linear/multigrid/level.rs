@@ -8,7 +8,7 @@ use super::super::shape::Triangle;
 use super::super::sweeps::Lower;
 use crate::kernels;
 
-/// A second step on a coarser level is spared where the first left less than this part.
+/// A second step on a coarser level is skipped if the first left less of the residual than this.
 const ENOUGH: f64 = 0.25;
 
 /// One level: a matrix scaled to a diagonal of 1.
@@ -19,14 +19,14 @@ pub(super) struct Level {
     /// The node of the next level that corrects each row, and with which weight: 0 for none.
     pub(super) group: Vec<u32>,
     pub(super) weight: Vec<f64>,
-    /// Whether the next level is small enough to be visited twice.
+    /// True if the next level is small enough to be visited twice.
     pub(super) twice: bool,
     pub(super) work: Vec<f64>,
     pub(super) coarse: Coarse,
 }
 
-/// Vectors of the next level: what is to be solved there, the two steps of its solution and what
-/// they make of its matrix.
+/// Vectors of the next level: the right side, the two steps of its solution and their products with
+/// its matrix.
 #[derive(Default)]
 pub(super) struct Coarse {
     right: Vec<f64>,

@@ -21,13 +21,13 @@ use super::shape::Shape;
 use super::{Factorization, LinearSolverKind, SparseCholesky, checked, expect_length, probe};
 use crate::{FactorError, Pattern, kernels};
 
-/// Paths to ground below this part of all that a node is linked with are rounding.
+/// Paths to ground below this part of the diagonal are rounding.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// What is left over of a right side, relative, over the diagonal (for a network: in K).
+/// Remaining residual, relative to the right side, over the diagonal (for a network: in K).
 const LEFT_OVER: f64 = 1e-9;
 
-/// More cycles than this do not lead anywhere.
+/// More cycles than this do not converge.
 const MOST_CYCLES: usize = 150;
 
 /// Levels up to this size are solved exactly.
@@ -43,7 +43,7 @@ const STALLED: f64 = 0.7;
 /// Products of exact factors of the last level, at most.
 const MOST_PRODUCTS: f64 = 3e10;
 
-/// Multigrid-preconditioned conjugate gradients. Where they do not converge, exact factors take
+/// Multigrid-preconditioned conjugate gradients. If they do not converge, exact factors take
 /// over until there are other values.
 pub struct Multigrid {
     shape: Arc<Shape>,
@@ -60,7 +60,7 @@ impl Multigrid {
     /// For symmetric matrices with this pattern.
     ///
     /// # Panics
-    /// If the matrix has 2^32 entries or more, which no memory holds.
+    /// If the matrix has 2^32 entries or more, which no memory can store.
     #[must_use]
     pub fn new(pattern: &Pattern) -> Self {
         Self::with(Arc::new(Shape::new(pattern)))
@@ -86,7 +86,7 @@ impl Multigrid {
             linked[row] += link;
             linked[column] += link;
         });
-        // what is below the rounding of the diagonal is not there
+        // paths below the rounding of the diagonal are dropped
         for (ground, linked) in ground.iter_mut().zip(linked) {
             let rest = *ground - linked;
             *ground = if rest.abs() > ROUNDING * *ground { rest } else { 0.0 };
@@ -94,7 +94,7 @@ impl Multigrid {
         Ok(Network { ground, ..network })
     }
 
-    /// Builds the levels, the first one of this network; whether that is of use.
+    /// Builds the levels, the first one of this network; false if there is only one.
     fn build(&mut self, mut network: Network) -> Result<bool, FactorError> {
         let mut scale = self.scale.clone();
         let mut visited = network.size();
@@ -113,8 +113,8 @@ impl Multigrid {
         Ok(!self.levels.is_empty())
     }
 
-    /// Adds to `x` what is missing, in the order and scale of the first level, where `left` is left
-    /// over; false if that is not reached.
+    /// Solves for the residual `left` and adds the solution to `x`, in the order and scale of the
+    /// first level; false if `allowed` is not reached.
     fn iterate(&mut self, mut left: Vec<f64>, x: &mut [f64], allowed: f64) -> bool {
         let Some(last) = &mut self.last else { return false };
         let vector = || vec![0.0; x.len()];
@@ -142,7 +142,7 @@ impl Multigrid {
         false
     }
 
-    /// Whether cycles lead from the guess to what is allowed, or from 0 to the usual part.
+    /// True if cycles reach `allowed` from the guess, or the usual part from 0.
     fn converges(&mut self, b: &[f64], x: &mut [f64], allowed: Option<f64>) -> bool {
         let Some(level) = self.levels.first() else { return false };
         let rows = || self.shape.order.iter().map(|&row| row as usize).zip(&self.scale);
@@ -163,7 +163,7 @@ impl Multigrid {
         true
     }
 
-    /// The solution by cycles or, where they fail, by exact factors.
+    /// The solution by cycles or, if they fail, by exact factors.
     fn solve(&mut self, b: &[f64], x: &mut [f64], allowed: Option<f64>) -> Result<(), FactorError> {
         if let Some(index) = kernels::first_not_finite(b) {
             return Err(FactorError::Singular { index });
@@ -202,7 +202,7 @@ fn scales(network: &Network) -> Result<Vec<f64>, FactorError> {
     }
 }
 
-/// The entries of the scaled matrix in place of the links.
+/// Replaces the links by the entries of the scaled matrix.
 fn scaled(network: &mut Network, scale: &[f64]) {
     let Network { triangle, links, .. } = network;
     for (row, own) in triangle.rows() {
@@ -213,7 +213,7 @@ fn scaled(network: &mut Network, scale: &[f64]) {
 }
 
 /// The level of a network whose nodes are corrected by these groups of a network with the scale
-/// `below`, and whether that is visited twice.
+/// `below`, which is visited twice if `twice` is true.
 fn level(
     mut network: Network,
     scale: &[f64],
@@ -294,7 +294,7 @@ impl Factorization for Multigrid {
         Ok(())
     }
 
-    /// The last level shows what hangs on nothing: its factors are checked when they are made.
+    /// The last level shows nodes without a path to ground: its factors are checked when made.
     fn check(&mut self, pattern: &Pattern, values: &[f64]) -> Result<(), FactorError> {
         if self.exact.is_none() {
             return Ok(());
