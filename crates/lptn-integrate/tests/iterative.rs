@@ -142,7 +142,7 @@ fn a_good_guess_saves_iterations() {
     let (mut cold, mut warm) = (vec![0.0; n], vec![300.0; n]);
     let (coarse, near) = (solved(&mut cold, 1e-3), solved(&mut warm, 1e-3));
     assert!(near < coarse && coarse <= 20, "{near} {coarse}");
-    assert_eq!(solved(&mut warm, 1e-3), 0, "it was good enough");
+    assert!(solved(&mut warm, 1e-3) <= 1, "it was good enough");
     assert!(solved(&mut warm, 1e-9) > 0);
     let error = warm.iter().zip(&exact).map(|(x, e)| (x - e).abs()).fold(0.0, f64::max);
     assert!(error < 1e-6, "{error:e}");
@@ -152,6 +152,25 @@ fn a_good_guess_saves_iterations() {
     cholesky.solve_from(&b, &mut cold, 1.0).unwrap();
     let error = cold.iter().zip(&exact).map(|(x, e)| (x - e).abs()).fold(0.0, f64::max);
     assert!(error < 1e-8, "{error:e}");
+}
+
+/// A guess that errs by the same amount everywhere leaves hardly a residual in a body with little
+/// mass. The error is corrected all the same.
+#[test]
+fn smooth_errors_of_a_guess_are_corrected() {
+    let (pattern, values) = cube(16, 1e-3);
+    let n = pattern.size();
+    let exact: Vec<f64> = (0..n).map(|i| 300.0 + (i % 16) as f64).collect();
+    let mut b = vec![0.0; n];
+    pattern.multiply(&values, &exact, &mut b);
+    let mut solver = linear::new(&pattern, true, LinearSolver::Pcg).unwrap();
+    solver.factorize(&values).unwrap();
+    for (shift, allowed) in [(1.0, 1e-3), (0.1, 1e-2), (-5.0, 0.1)] {
+        let mut x: Vec<f64> = exact.iter().map(|x| x + shift).collect();
+        solver.solve_from(&b, &mut x, allowed).unwrap();
+        let error = x.iter().zip(&exact).map(|(x, e)| (x - e).abs()).fold(0.0, f64::max);
+        assert!(error < 2.0 * allowed, "{shift}, {allowed}: {error:e}");
+    }
 }
 
 /// A network of links `(from, to, conductance)` and paths to ground.

@@ -72,6 +72,9 @@ const ORDER: f64 = 1000.0;
 /// time, since every step size has its own.
 const MOST_FILL: usize = 25;
 
+/// Exact factors with more numbers than this, 256 MB, are not made to save time.
+const MOST_NUMBERS: usize = 32 << 20;
+
 /// Costs of exact factors in ns.
 #[derive(Clone, Copy, Debug)]
 struct Exact {
@@ -134,7 +137,7 @@ pub(super) fn cheapest(
         let counts = Counts::of(pattern)?;
         let exact = Exact::counted(&counts);
         if exact.whole(demand.solves) > iterated {
-            let fits = counts.fill <= (MOST_FILL * pattern.len()) as f64;
+            let fits = counts.fill <= (MOST_FILL * pattern.len()).min(MOST_NUMBERS) as f64;
             let exact = fits.then(|| (exact.patience(iteration), None));
             return Ok(Box::new(Krylov::symmetric(shape, exact)));
         }

@@ -28,6 +28,8 @@ pub(super) struct Incomplete {
     /// The diagonal less 2.
     excess: Vec<f64>,
     scale: Vec<f64>,
+    /// Sum of all entries of `A`: the square of a vector of ones in the energy norm.
+    pub(super) whole: f64,
 }
 
 /// Vectors in the order of the shape.
@@ -48,7 +50,8 @@ impl Incomplete {
     pub(super) fn new(shape: Arc<Shape>) -> Self {
         let (lower, size) = (vec![0.0; shape.source.len()], shape.order.len());
         let upper = (!shape.mirror.is_empty()).then(|| lower.clone());
-        Self { shape, lower, upper, excess: vec![0.0; size], scale: vec![0.0; size] }
+        let (excess, scale) = (vec![0.0; size], vec![0.0; size]);
+        Self { shape, lower, upper, excess, scale, whole: 0.0 }
     }
 
     pub(super) fn size(&self) -> usize {
@@ -75,15 +78,18 @@ impl Incomplete {
     /// [`FactorError::NotPositiveDefinite`] with the row of a diagonal entry that is not positive.
     pub(super) fn factorize(&mut self, values: &[f64]) -> Result<(), FactorError> {
         let Shape { triangle, source, mirror, diagonal, order, .. } = &*self.shape;
+        self.whole = 0.0;
         for (row, own) in triangle.rows() {
             let diagonal = values[diagonal[row] as usize];
             if !(diagonal > 0.0 && diagonal.is_finite()) {
                 return Err(FactorError::NotPositiveDefinite { index: order[row] as usize });
             }
             let mut pivot = diagonal;
+            let mut others = 0.0; // entries of the row and of its column
             for at in own.clone() {
                 let scale = self.scale[triangle.columns[at] as usize];
                 let lower = values[source[at] as usize] * scale;
+                others += 2.0 * values[source[at] as usize];
                 let upper = self.upper.as_mut().map_or(lower, |upper| {
                     upper[at] = values[mirror[at] as usize] * scale;
                     upper[at]
@@ -98,6 +104,7 @@ impl Incomplete {
                 upper[own].iter_mut().for_each(|entry| *entry *= scale);
             }
             self.scale[row] = scale;
+            self.whole += diagonal + others;
             self.excess[row] = diagonal * scale * scale - 2.0;
         }
         Ok(())

@@ -107,15 +107,19 @@ impl Krylov {
     fn iterate(&mut self, b: &[f64], x: &mut [f64], goal: Goal, work: &mut Work) -> bool {
         let guess = matches!(goal, Goal::Rest(_)).then_some(&*x);
         let size = self.matrix.begin(b, guess, work);
-        let allowed = match goal {
-            Goal::Share(share) => share * size,
-            Goal::Rest(allowed) => allowed,
+        let (allowed, energy) = match goal {
+            // an error of `allowed` everywhere has this energy
+            Goal::Rest(allowed) if self.family.symmetric => {
+                (allowed, allowed * allowed * self.matrix.whole)
+            }
+            Goal::Rest(allowed) => (allowed, f64::INFINITY),
+            Goal::Share(share) => (share * size, f64::INFINITY),
         };
         self.left = self.left.saturating_add(self.family.patience.solve);
-        if size > allowed {
+        if size > allowed || (size > 0.0 && energy.is_finite()) {
             let most = self.left;
             let method = if self.family.symmetric { conjugate } else { stabilized };
-            let (count, done) = method(&self.matrix, work, size, End { allowed, most });
+            let (count, done) = method(&self.matrix, work, size, End { allowed, energy, most });
             self.iterations += count as u64;
             self.left = self.left.saturating_sub(count);
             if !done {

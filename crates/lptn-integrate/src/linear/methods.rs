@@ -12,6 +12,9 @@ const MOST: usize = 1000;
 pub(super) struct End {
     /// Largest residual allowed, over the diagonal.
     pub(super) allowed: f64,
+    /// Largest square allowed of the last correction in the energy norm `x' A x`, for conjugate
+    /// gradients. The residual alone does not see smooth errors.
+    pub(super) energy: f64,
     /// Largest number of iterations.
     pub(super) most: usize,
 }
@@ -63,7 +66,10 @@ pub(super) fn conjugate(
         kernels::scale_and_add(1.0, solution, length, step);
         kernels::scale_and_add(1.0, left, -length, product);
         let next = kernels::dot(left, left);
-        if watch.sees_the_end((matrix, end.allowed), next, left, product) {
+        // the square of the correction in the energy norm, which is that of the error before it less
+        // that of the error after it
+        let small = length * square <= end.energy;
+        if small && watch.sees_the_end((matrix, end.allowed), next, left, product) {
             return (count, true);
         }
         let share = next / square;

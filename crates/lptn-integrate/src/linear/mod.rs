@@ -130,7 +130,9 @@ pub trait Factorization {
 
     /// Writes the solution of `A x = b` to `x`, which contains a guess. Solvers that iterate begin
     /// there and stop when every component of `b - A x` is at most `allowed` of the diagonal entry
-    /// of its row (for a network: `allowed` is in K); the others solve exactly.
+    /// of its row (for a network: `allowed` is in K). Conjugate gradients also correct until a
+    /// correction is smaller, in the energy norm of `A`, than `allowed` everywhere. The others
+    /// solve exactly.
     ///
     /// # Errors
     /// Those of [`Factorization::solve_in_place`].
