@@ -23,12 +23,13 @@ fn main() -> Result<(), lptn::Error> {
         }
     }
 
-    let fans = "networks/gearbox_fan.toml";
-    let steady = SteadyQuestion::default().ask(Arc::new(Input::read(fans)?), &Nobody)?;
+    // a fan that a thermostat switches has no steady state
+    let still = Input::read("networks/gearbox.toml")?;
+    let steady = SteadyQuestion::default().ask(Arc::new(still), &Nobody)?;
     println!("--- steady state as JSON\n{}", steady.to_json());
 
     // a controller that the netlist does not know: less power if the steel is warm
-    let input = Input::read(fans)?;
+    let input = Input::read("networks/gearbox_fan.toml")?;
     let Some(settings) = &input.netlist.run else { return Ok(()) };
     let mut simulation = Simulation::new(&input.netlist.network, settings)?;
     println!("{:>8}{:>12}{:>10}", "time", "steel", "power");
