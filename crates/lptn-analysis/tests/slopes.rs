@@ -4,7 +4,7 @@
 //! A network in thermal equilibrium with constant conductances has `C_i dT_i/dt = sum G_ij (T_j -
 //! T_i)`, so that `J_ij = G_ij / C_i`. Radiation at T has the slope `4 sigma eps A T^3`.
 
-use lptn_analysis::{Simulation, SimulationError};
+use lptn_analysis::{SavedSimulation, Simulation, SimulationError};
 use lptn_network::{
     Acts, Conductance, ConductorKind, Context, End, HeatCapacity, HeatFlow, Input,
     IntegratorChoice, Network, NetworkBuilder, NodeId, OutputTimes, Path, RunSettings, Temperature,
@@ -242,7 +242,11 @@ const INPUTS: [&str; 3] = ["drive", "G", "scale"];
 #[test]
 fn the_columns_of_a_closed_network_sum_to_zero_with_capacities() {
     let simulation = simulation(&everything(false));
-    let dense = dense(&simulation.slopes(&[]).unwrap());
+    let slopes = simulation.slopes(&[]).unwrap();
+    let places: Vec<_> =
+        slopes.jacobian().entries().map(|(_, row, column)| (column, row)).collect();
+    assert!(places.windows(2).all(|pair| pair[0] < pair[1]), "column by column, rows ascending");
+    let dense = dense(&slopes);
     let network = simulation.network();
     let capacity = |row: usize| network.capacity(simulation.states()[row]);
     for column in 0..dense.len() {
@@ -382,4 +386,32 @@ fn slopes_are_sent_to_another_thread() {
     let slopes = simulation(&two_nodes()).slopes(&["P"]).unwrap();
     let found = std::thread::spawn(move || dense(&slopes)[0][0]).join().unwrap();
     assert_near(found, -3.0 / 200.0, 1e-14);
+}
+
+/// A massless node with the balance `G (T - m) + 20 W (x - x^3) = 0`, `x = (m - 300 K) / 10 K`, at T
+/// = 300 K and G = 1 W/K: `x = 0` or `x = +- sqrt(1/2)`. There `dm/dT = G / (G + 1 W/K) = 1/2`.
+#[test]
+fn a_massless_node_with_several_solutions_keeps_its_solution() {
+    let mut b = NetworkBuilder::new();
+    let body = b.node("body", HeatCapacity(100.0), Temperature(300.0));
+    let m = b.massless("m");
+    b.start_at(m, Temperature(308.0));
+    b.resistor("joint", body, m, Conductance(1.0));
+    let x = "(kelvin(T) - 300 [K]) / (10 [K])";
+    let power = format!("20 [W] * ({x} - ({x})^3)");
+    let power = b.expression_in(Context::Source, &power, None).unwrap();
+    b.source("bent", m, power);
+    let mut simulation = simulation(&b.build().unwrap());
+    for side in [-1.0, 1.0] {
+        let rise = side * 10.0 * 0.5_f64.sqrt();
+        let saved = SavedSimulation { stood: vec![300.0 + rise], ..simulation.save() };
+        simulation.restore(&saved).unwrap();
+        let rates = simulation.rates().unwrap();
+        assert_near(rates.nodes[m.index()], 300.0 + rise, 1e-9);
+        assert_near(rates.states[0], rise / 100.0, 1e-7);
+        let slopes = simulation.slopes(&[]).unwrap();
+        assert_near(dense(&slopes)[0][0], -0.5 / 100.0, 1e-7);
+    }
+    let foreign = SavedSimulation { stood: vec![300.0; 2], ..simulation.save() };
+    assert!(matches!(simulation.restore(&foreign), Err(SimulationError::Foreign)));
 }
