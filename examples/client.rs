@@ -1,11 +1,12 @@
 //! A client of the library: candidates of one netlist with their table, doubts and verdict, one of
-//! them as JSON, and a controller of its own that steps a simulation.
+//! them as JSON, a controller that steps a simulation, and the derivatives for other simulators.
 //! `cargo run --release --example client`
 #![allow(clippy::print_stdout)]
 
 use std::sync::Arc;
 
 use lptn::prelude::*;
+use lptn::{Direction, EventIndicator};
 
 fn main() -> Result<(), lptn::Error> {
     let question = RunQuestion { select: vec!["*.T".into()], ..RunQuestion::default() };
@@ -22,12 +23,13 @@ fn main() -> Result<(), lptn::Error> {
         }
     }
 
-    let fans = "networks/gearbox_fan.toml";
-    let steady = SteadyQuestion::default().ask(Arc::new(Input::read(fans)?), &Nobody)?;
+    // a fan that a thermostat switches has no steady state
+    let still = Input::read("networks/gearbox.toml")?;
+    let steady = SteadyQuestion::default().ask(Arc::new(still), &Nobody)?;
     println!("--- steady state as JSON\n{}", steady.to_json());
 
     // a controller that the netlist does not know: less power if the steel is warm
-    let input = Input::read(fans)?;
+    let input = Input::read("networks/gearbox_fan.toml")?;
     let Some(settings) = &input.netlist.run else { return Ok(()) };
     let mut simulation = Simulation::new(&input.netlist.network, settings)?;
     println!("{:>8}{:>12}{:>10}", "time", "steel", "power");
@@ -40,5 +42,18 @@ fn main() -> Result<(), lptn::Error> {
             println!("{minute:>4} min{warm:>7.2} degC{power:>8.1} W");
         }
     }
+
+    // for a simulator that integrates the states itself: events and exact derivatives
+    for indicator in simulation.event_indicators()? {
+        let EventIndicator { name, value, unit, positive, .. } = indicator;
+        println!("{name:>10}{value:>8.2} {unit} above 0: {positive:?}");
+    }
+    let slopes = simulation.slopes(&["P_7000"])?;
+    for (value, row, column) in slopes.jacobian().entries() {
+        println!("d(rate {row})/d(state {column}) = {value:.6} 1/s");
+    }
+    let states = vec![0.0; simulation.states().len()];
+    let along = slopes.along(&Direction { states, inputs: vec![1.0] })?;
+    println!("1 W more: {:?} K/s", along.states);
     Ok(())
 }

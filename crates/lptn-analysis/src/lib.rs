@@ -4,7 +4,8 @@
 //! settles to. [`Analysis::ask`] gives a result with the [`Trust`] in it. No other crate above the
 //! solver starts a run, solves a steady state or searches a cycle.
 //!
-//! A [`Simulation`] is stepped from outside, with inputs that its client sets between the steps.
+//! A [`Simulation`] is stepped from outside, with inputs that its client sets between the steps. It
+//! gives rates, event indicators and derivatives to simulators that integrate its states themselves.
 //!
 //! An answer exists only if its energy balance closes, its ranges of validity could be checked and
 //! nothing interrupted it. Its rows decide nothing: peaks, limits, heats and windows are evaluated

@@ -3,8 +3,13 @@
 use std::collections::BTreeMap;
 
 use lptn_assembly::ThermalSystem;
-use lptn_network::{Network, ParameterId, RunSettings, SignalId, Temperature, Time};
-use lptn_solve::{ControlState, Proceed, Rates, Solution, State, StateRates, Transient};
+use lptn_network::{
+    Network, NodeId, ParameterId, RunSettings, SignalId, Temperature, Time, Variable,
+};
+use lptn_solve::{
+    ControlState, EventIndicator, Proceed, RateSlopes, Rates, Solution, State, StateRates,
+    Transient,
+};
 use serde::{Deserialize, Serialize};
 
 use crate::run::RunAnalysis;
@@ -28,12 +33,6 @@ pub struct Simulation {
     state: State,
     controls: Vec<ControlState>,
     temperatures: Vec<f64>,
-}
-
-/// An input that a client may set.
-enum Input {
-    Parameter(ParameterId),
-    Signal(SignalId),
 }
 
 /// The state of a simulation, to be kept and restored.
@@ -110,20 +109,20 @@ impl Simulation {
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), SimulationError> {
         let (mut parameters, mut signals) = (self.parameters.clone(), self.signals.clone());
         match self.input(name)? {
-            Input::Parameter(id) => drop(parameters.insert(name.to_owned(), (id, value))),
-            Input::Signal(id) => drop(signals.insert(name.to_owned(), (id, value))),
+            Variable::Parameter(id) => drop(parameters.insert(name.to_owned(), (id, value))),
+            Variable::Signal(id) => drop(signals.insert(name.to_owned(), (id, value))),
         }
         self.change(parameters, signals)
     }
 
-    fn input(&self, name: &str) -> Result<Input, SimulationError> {
+    fn input(&self, name: &str) -> Result<Variable, SimulationError> {
         let unknown = match self.network.parameter(name) {
-            Ok(id) => return Ok(Input::Parameter(id)),
+            Ok(id) => return Ok(Variable::Parameter(id)),
             Err(unknown) => unknown,
         };
         let mut signals = self.network.signal_ids().zip(self.network.signals());
         if let Some((id, _)) = signals.find(|(_, signal)| signal.name == name) {
-            return Ok(Input::Signal(id));
+            return Ok(Variable::Signal(id));
         }
         match self.network.item(name) {
             Ok(_) => Err(SimulationError::NotAnInput(name.to_owned())),
@@ -192,12 +191,65 @@ impl Simulation {
         Ok(answer)
     }
 
-    /// Rates of the states in K/s and temperatures of the nodes, just after the present time.
+    /// Rates of the states in K/s and temperatures of the nodes, just after the present time. The
+    /// order is that of [`Simulation::states`] and of the network.
+    ///
+    /// Controls keep their positions. One that has to switch does so when the simulation steps.
     ///
     /// # Errors
     /// [`SimulationError::Rates`] if an input has no value.
     pub fn rates(&self) -> Result<Rates, SimulationError> {
-        Ok(StateRates::new(&self.system)?.at(self.time, self.state.carried())?)
+        Ok(self.state_rates()?.at(self.time, self.state.carried())?)
+    }
+
+    /// The node of each state, in the order of rates, of the Jacobian and of what is saved.
+    ///
+    /// A state is in K: the temperature of a node with a constant capacity. A node whose capacity
+    /// depends on its temperature, such as one that melts, has its enthalpy as a state instead: its
+    /// temperature at the start plus its heat over the capacity there. Nodes without capacity have
+    /// no state.
+    pub fn states(&self) -> &[NodeId] {
+        self.system.states()
+    }
+
+    /// The present event indicators: a signed number for each control, each comparison of
+    /// temperatures and each limit. It is zero at the event and continuous between two events. A
+    /// comparison changes within a hundredth of the tolerance of its zero.
+    ///
+    /// Jumps of inputs at known times have no indicator.
+    ///
+    /// # Errors
+    /// [`SimulationError::Rates`] if an input, a threshold or a limit has no value.
+    pub fn event_indicators(&self) -> Result<Vec<EventIndicator>, SimulationError> {
+        Ok(self.state_rates()?.indicators(self.time, self.state.carried())?)
+    }
+
+    /// The derivatives of [`Simulation::rates`] at the present time and state: the Jacobian in 1/s,
+    /// directional and adjoint derivatives. They are exact, from the derivatives of every law.
+    /// Controls and comparisons keep their positions, massless nodes are eliminated.
+    ///
+    /// The variables are the states, then these parameters and signals in this order. A derivative
+    /// by an input describes a small [`Simulation::set`] of it: the states stay the same. A signal
+    /// that was not set counts as a constant with its present value.
+    ///
+    /// # Errors
+    /// [`SimulationError`] for a name that cannot be set or occurs twice, and for a parameter that
+    /// changes the enthalpy of a node.
+    pub fn slopes(&self, inputs: &[&str]) -> Result<RateSlopes, SimulationError> {
+        let mut variables = Vec::with_capacity(inputs.len());
+        for name in inputs {
+            let variable = self.input(name)?;
+            if variables.contains(&variable) {
+                return Err(SimulationError::Twice { name: (*name).to_owned() });
+            }
+            variables.push(variable);
+        }
+        let at = (self.time, self.state.carried());
+        Ok(self.state_rates()?.slopes(at, &variables)?)
+    }
+
+    fn state_rates(&self) -> Result<StateRates<'_>, SimulationError> {
+        Ok(StateRates::new(&self.system)?.standing(&self.state, &self.controls))
     }
 
     /// The data that its future depends on in addition to the network.
@@ -227,16 +279,16 @@ impl Simulation {
         for (name, value) in &saved.inputs {
             next.set(name, *value)?;
         }
-        let (states, controls) = (next.system.states().len(), next.network().controls().len());
+        let controls = next.network().controls().len();
         let control = |saved: &SavedControl| ControlState {
             on: saved.on,
             since: saved.since.unwrap_or(f64::NEG_INFINITY),
         };
         let stands = saved.controls.is_empty() || saved.controls.len() == controls;
-        if saved.carried.len() != states || !stands {
+        next.state = State::restored(saved.carried.clone(), saved.stood.clone());
+        if !next.state.fits(&next.system) || !stands {
             return Err(SimulationError::Foreign);
         }
-        next.state = State::restored(saved.carried.clone(), saved.stood.clone());
         next.controls = saved.controls.iter().map(control).collect();
         next.time = saved.time;
         next.temperatures = next.rates()?.nodes;

@@ -1,8 +1,8 @@
 //! Why a simulation does not go on.
 
 use lptn_assembly::{AssemblyError, ChangeError};
-use lptn_network::{BuildErrors, UnknownName};
-use lptn_solve::Unsolved;
+use lptn_network::{BuildErrors, NoTangents, UnknownName};
+use lptn_solve::{RateSlopesError, Unsolved};
 
 use crate::error::RunError;
 
@@ -18,6 +18,10 @@ pub enum SimulationError {
     NotAnInput(name: String) = "simulation::not_an_input",
         format!("`{name}` is neither a parameter nor a signal"),
         help "write the value as a parameter of [param] and use its name";
+    /// A derivative is asked for twice by this input.
+    Twice { name: String } = "simulation::twice",
+        format!("`{name}` occurs twice among the inputs of a derivative"),
+        help "name it once";
     /// The network refuses the value.
     Refused => BuildErrors;
     /// The value changes the enthalpy of this node, whose state it is.
@@ -30,7 +34,19 @@ pub enum SimulationError {
     Run => RunError;
     /// The rates have no value.
     Rates => Unsolved;
+    /// The rates have no derivatives by one of the parameters.
+    Tangents => NoTangents;
 }
+}
+
+impl From<RateSlopesError> for SimulationError {
+    fn from(error: RateSlopesError) -> Self {
+        match error {
+            RateSlopesError::Unsolved(error) => Self::Rates(error),
+            RateSlopesError::Tangents(error) => Self::Tangents(error),
+            RateSlopesError::Melts { node } => Self::Melts { node },
+        }
+    }
 }
 
 impl From<ChangeError> for SimulationError {

@@ -42,4 +42,11 @@ impl ThermalSystem {
         unknowns.iter().zip(self.unknowns()).for_each(|(s, id)| out[id.index()] = *s);
         self.elimination().recover(heat, out);
     }
+
+    /// Hands weights of the temperatures of all vertices on to the unknowns. It is the transpose of
+    /// [`ThermalSystem::recover_tangent`] without heat: an eliminated node follows its neighbours by
+    /// the shares in which it hands heat on to them.
+    pub fn hand_on(&self, weights: &mut [f64]) {
+        self.elimination().distribute(weights);
+    }
 }

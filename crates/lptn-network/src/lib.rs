@@ -95,7 +95,7 @@ pub use run::{IntegratorChoice, OutputTimes, RunSettings, Varied, WindowSettings
 pub use scope::{Context, NetworkScope};
 pub use stream::{Outlet, Passing};
 pub use sweeps::Reader;
-pub use tangent::{NoTangents, Tangents};
+pub use tangent::{NoTangents, Tangents, Variable};
 pub use typed::{
     Area, Conductance, FilmCoefficient, HeatCapacity, HeatFlow, Resistance, Temperature, Time,
     ZERO_CELSIUS,

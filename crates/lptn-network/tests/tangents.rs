@@ -7,7 +7,8 @@ use crate::common;
 use common::{celsius, cooled, link, own, power, quantity, time};
 use lptn_network::{
     Acts, Conductance, ConductorKind, Formula, HeatCapacity, Item, Melting, Network,
-    NetworkBuilder, NoTangents, NodeId, ParameterId, Path, Properties, Size, Temperature,
+    NetworkBuilder, NoTangents, NodeId, ParameterId, Path, Positions, Properties, Size,
+    Temperature, Variable,
 };
 
 /// Heat into every vertex in W.
@@ -62,7 +63,7 @@ fn moved(network: &Network, id: ParameterId, by: f64) -> Network {
 /// together.
 fn agrees(network: &Network, ids: &[ParameterId], at: f64, nodes: &[f64]) {
     let mut tangents = network.tangents(ids).unwrap();
-    assert_eq!(tangents.parameters(), ids);
+    assert!(tangents.variables().iter().copied().eq(ids.iter().copied().map(Variable::Parameter)));
     let mut scope = network.evaluation();
     scope.set_time(at, at);
     let vertices = nodes.len() + network.boundaries().len();
@@ -327,4 +328,33 @@ fn what_has_no_tangents() {
     let network = b.build().unwrap();
     assert_eq!(network.tangents(&ids).unwrap_err(), NoTangents::Fluid { fluid });
     assert!(network.tangents(&ids).unwrap_err().describe(&network).contains("`gas`"));
+}
+
+/// At one moment events do not matter, and a signal is a variable: `scale drive (1 + fan)` W.
+#[test]
+fn a_moment_has_tangents_by_signals_in_every_position() {
+    let (mut b, a, _) = cooled();
+    let [scale] = parameters(&mut b, &[("scale", "5 W")])[..] else { panic!("one parameter") };
+    let own = time(&b, "2 + t / 10 [s]");
+    let drive = b.signal_expression("drive", own);
+    let follows = time(&b, "3 * drive");
+    b.signal_expression("follows", follows);
+    let fan = b.control("fan");
+    b.thermostat(fan, common::thermostat(a, Acts::Cooling, 310.0, 300.0));
+    let heat = power(&b, "scale * follows * (1 + fan)");
+    b.source("p", a, heat);
+    let network = b.build().unwrap();
+    let variables = [Variable::Signal(drive), Variable::Parameter(scale)];
+    let mut tangents = network.tangents_at_a_moment(&variables).unwrap();
+    assert_eq!(tangents.variables(), variables);
+    for (is_on, factor) in [(false, 1.0), (true, 2.0)] {
+        let mut scope = network.evaluation();
+        let positions = Positions { controls: vec![is_on], switches: vec![] };
+        scope.set_positions(&positions);
+        scope.set_time(10.0, 10.0);
+        let mut out = vec![0.0; 4];
+        tangents.heat(&network, &scope, &[320.0, 290.0], &mut out).unwrap();
+        assert!((out[0] - 5.0 * 3.0 * factor).abs() < 1e-12, "{out:?}");
+        assert!((out[2] - 9.0 * factor).abs() < 1e-12, "{out:?}");
+    }
 }

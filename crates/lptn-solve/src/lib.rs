@@ -9,6 +9,7 @@
 
 mod adiabatic;
 mod adjoint;
+mod algebraic;
 mod anchor;
 mod balance;
 mod beside;
@@ -51,6 +52,7 @@ mod powers;
 mod quadrature;
 mod quantity;
 mod ranges;
+mod rate_slopes;
 mod rates;
 mod reading;
 mod readings;
@@ -99,7 +101,7 @@ pub use balance::{Balance, Term};
 pub use conductances::Conductances;
 pub use driving::largest_of_inputs;
 pub use error::{SteadyError, TransientError};
-pub use events::{ControlState, Event, EventKind};
+pub use events::{ControlState, Event, EventIndicator, EventKind, PositiveSide};
 pub use exact::{Difference, ExactError, ExactSolution};
 pub use last::LastState;
 pub use ledger::{Ledger, LedgerError};
@@ -117,6 +119,9 @@ pub use modes::{Mode, Modes, ModesError};
 pub use parallel::{available_threads, in_order, in_parallel};
 pub use periodic::{CycleMethod, Periodic, PeriodicError};
 pub use ranges::OutOfRange;
+pub use rate_slopes::{
+    Direction, DirectionError, DirectionPart, RateJacobian, RateSlopes, RateSlopesError,
+};
 pub use rates::{Rates, StateRates};
 pub use response::{Drive, FrequencyResponse, ResponseError, StepAnswer, settled_rises};
 pub use runaway::Feedback;

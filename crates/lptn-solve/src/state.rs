@@ -76,18 +76,17 @@ impl State {
         curve.temperature(heat).map(|content| content.temperature)
     }
 
+    /// True if it can be a state of this system: the number of its values is right, all are finite.
+    pub fn fits(&self, system: &ThermalSystem) -> bool {
+        let (states, massless) = (system.states().len(), system.algebraic().len());
+        self.carried.len() == states
+            && (self.stood.is_empty() || self.stood.len() == massless)
+            && self.carried.iter().chain(&self.stood).all(|y| y.is_finite())
+    }
+
     /// The largest difference to another state of the same network, in K.
     pub fn distance(&self, other: &Self) -> f64 {
         let pairs = self.carried.iter().zip(&other.carried);
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     }
-}
-
-/// Refuses a state of another network.
-pub(crate) fn fits(system: &ThermalSystem, state: &State) -> bool {
-    let states = system.states().len();
-    let massless = system.unknowns().len() - states;
-    state.carried.len() == states
-        && (state.stood.is_empty() || state.stood.len() == massless)
-        && state.carried.iter().chain(&state.stood).all(|y| y.is_finite())
 }

@@ -27,6 +27,7 @@ use crate::unsolved::Unsolved;
 /// Sensitivities of a system at one time. All arrays are blocks, one for each parameter.
 pub(crate) struct Tangent<'a> {
     system: &'a ThermalSystem,
+    parameters: Vec<ParameterId>,
     tangents: Tangents,
     pattern: Pattern,
     /// The exact Jacobian in W/K; empty until it is needed.
@@ -63,6 +64,7 @@ impl<'a> Tangent<'a> {
         let blocks = |length: usize| vec![0.0; length * parameters.len()];
         Ok(Self {
             system,
+            parameters: parameters.to_vec(),
             tangents,
             pattern: Pattern::from_symbolic(system.pattern().symbolic()),
             jacobian: Vec::new(),
@@ -76,7 +78,7 @@ impl<'a> Tangent<'a> {
 
     /// The parameters.
     pub(crate) fn parameters(&self) -> &[ParameterId] {
-        self.tangents.parameters()
+        &self.parameters
     }
 
     /// The variables at a start at the temperatures in `work`, which do not depend on the
@@ -208,7 +210,7 @@ impl<'a> Tangent<'a> {
         newton.factorize(work, unfold.last(), 0.0)?;
         let system = self.system;
         let (states, all) = (system.states().len(), system.unknowns().len());
-        let vertices = self.heat.len() / self.tangents.parameters().len().max(1);
+        let vertices = self.heat.len() / self.parameters.len().max(1);
         for (block, heat) in self.unknowns.chunks_mut(all.max(1)).zip(self.heat.chunks(vertices)) {
             block[states..].fill(0.0);
             self.pattern.multiply(&self.jacobian, block, &mut self.product);

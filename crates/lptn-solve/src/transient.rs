@@ -22,7 +22,7 @@ use crate::recorder::Recorder;
 use crate::settings::{Proceed, Progress, Transient};
 use crate::settings_error::SettingsError;
 use crate::solution::{RunStatus, Solution};
-use crate::state::{self, State};
+use crate::state::State;
 use crate::stateless;
 use crate::stepper::{Inputs, Stepper, stepper};
 use crate::stop_reason::StopReason;
@@ -66,7 +66,7 @@ impl Transient {
         from: &State,
         observer: &mut dyn FnMut(Progress) -> Proceed,
     ) -> Result<Solution, TransientError> {
-        if !state::fits(system, from) {
+        if !from.fits(system) {
             return Err(TransientError::Settings(SettingsError::State));
         }
         let (mut care, mut grows) = (Care::Untried, 1.0);

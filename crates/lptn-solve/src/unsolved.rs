@@ -2,7 +2,7 @@
 
 use lptn_assembly::ThermalSystem;
 use lptn_integrate::FactorError;
-use lptn_network::{InputError, Item};
+use lptn_network::{InputError, Item, list_of};
 use lptn_units::format_six as six_digits;
 
 use crate::newton_error::NewtonError;
@@ -62,6 +62,12 @@ pub enum Unsolved {
             "give `{node}` a small capacity instead of `massless = true`, such as `C = \"1 \
              mJ/K\"`, and a `T0`"
         );
+    /// Comparisons have no truth that agrees with the temperatures at one state, because each changes
+    /// a temperature that is compared; their names.
+    Restless { names: Vec<String> } = "run::restless",
+        format!("at one state {} switch back and forth", list_of(names, "comparisons")),
+        help "a comparison changes the compared value at once: give a capacity to the massless \
+            node that it reads";
     /// No temperatures were found at which heat in and heat out are equal: by how much the node
     /// still moved, in K.
     NotFound { node: String, change: f64 } = "solve::not_found",
@@ -125,7 +131,7 @@ impl Unsolved {
     pub fn node(&self) -> &str {
         match self {
             Self::Input(error) => &error.name,
-            Self::Factorization(_) => "",
+            Self::Factorization(_) | Self::Restless { .. } => "",
             Self::Undetermined { node, .. }
             | Self::Unstable { node, .. }
             | Self::Fold { node }

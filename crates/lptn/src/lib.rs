@@ -26,7 +26,8 @@
 //! A network comes from a TOML netlist ([`Input`], [`read`], [`parse`]) or from a
 //! [`NetworkBuilder`]. A question such as [`RunQuestion`] asks it and gives an [`Answer`]: values
 //! with units, tables, doubts, verdict, figures, in every format of the command line. A
-//! [`RunAnalysis`] gives the numbers alone, a [`Simulation`] is stepped from outside.
+//! [`RunAnalysis`] gives the numbers alone. A [`Simulation`] is stepped from outside and gives its
+//! rates, event indicators and derivatives.
 //!
 //! This crate exports everything a client needs. The crates below it (`lptn-network`, `lptn-solve`,
 //! ..) export the rest; ARCHITECTURE.md lists them. All numbers are in SI units, temperatures in K,
@@ -80,9 +81,10 @@ pub use lptn_analysis::{
 };
 pub use lptn_assembly::{AssemblyError, ThermalSystem};
 pub use lptn_solve::{
-    Event, ExactSolution, Ledger, LimitSeen, Lumping, Modes, Periodic, Proceed, Progress,
-    RecordedNodes, RunStatus, Selection, Snapshot, Solution, Statistics, SteadyError, SteadyState,
-    Table, Transient, TransientError, Window,
+    Direction, DirectionError, DirectionPart, Event, EventIndicator, EventKind, ExactSolution,
+    Ledger, LimitSeen, Lumping, Modes, Periodic, PositiveSide, Proceed, Progress, RateJacobian,
+    RateSlopes, Rates, RecordedNodes, RunStatus, Selection, Snapshot, Solution, Statistics,
+    SteadyError, SteadyState, Table, Transient, TransientError, Window,
 };
 
 /// Networks and netlists.

@@ -90,6 +90,10 @@ impl Content {
         Ok(Self { node, initial, change })
     }
 
+    pub(super) fn node(&self) -> NodeId {
+        self.node
+    }
+
     /// `dH` in J for one pass, at a temperature in K.
     fn at(&self, network: &Network, pass: (usize, &mut Pass), temperature: f64) -> [f64; PASS] {
         let (index, pass) = pass;
@@ -195,6 +199,20 @@ fn integral(
 }
 
 impl Tangents {
+    /// Writes the change of the capacity of every node in J/K per SI unit of each variable: one block
+    /// a variable, one value a node. It is 0 for a capacity over temperature; see
+    /// [`Tangents::enthalpy_that_changes`].
+    pub fn capacities(&self, network: &Network, out: &mut [f64]) {
+        let nodes = network.nodes().len();
+        out.fill(0.0);
+        for (index, (first, count)) in self.spans().enumerate() {
+            for Content { node, change, .. } in &self.contents {
+                let Change::Constant(slopes) = change else { continue };
+                (0..count).for_each(|k| out[(first + k) * nodes + node.index()] = slopes[index][k]);
+            }
+        }
+    }
+
     /// Writes the changes of the heat content of every node over that at its start in J per SI unit
     /// of each parameter, at these temperatures of all nodes in K: blocks of as many values as
     /// there are nodes.

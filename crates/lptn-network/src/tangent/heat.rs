@@ -2,7 +2,7 @@
 
 use lptn_units::Scalar;
 
-use super::{Pass, Tangents};
+use super::{Pass, Tangents, Variable};
 use crate::evaluation::{Evaluation, PASS, Slope};
 use crate::id::{Field, Item};
 use crate::input_error::InputError;
@@ -54,6 +54,14 @@ impl Tangents {
         for id in network.signal_ids() {
             let now = layout.signal(id);
             [now, now + 1].into_iter().for_each(&mut copy);
+        }
+        network.control_ids().for_each(|id| copy(layout.control(id)));
+        network.switch_ids().for_each(|id| copy(layout.switch(id)));
+        for (k, variable) in self.variables.iter().skip(index * PASS).take(PASS).enumerate() {
+            if let Variable::Signal(id) = variable {
+                let now = layout.signal(*id);
+                slots[now as usize] = Slope::variable(scope.slot(now), k);
+            }
         }
         for &id in &self.signals {
             if let Course::Expression(value) = &network.signals()[id.index()].course {

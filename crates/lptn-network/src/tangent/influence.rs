@@ -1,8 +1,7 @@
-//! Dependence of a network on the parameters that it is differentiated by.
+//! The values that depend on the variables of a derivative: parameters and signals.
 
-use crate::id::{
-    BoundaryId, ConductorId, ControlId, Item, NodeId, ParameterId, SignalId, SourceId,
-};
+use super::Variable;
+use crate::id::{BoundaryId, ConductorId, ControlId, Item, NodeId, SignalId, SourceId};
 use crate::network::Network;
 use crate::parts::layout::Holds;
 use crate::parts::signal::Course;
@@ -10,25 +9,31 @@ use crate::parts::substance::Melting;
 use crate::slot;
 use crate::value::{Lump, Value};
 
-/// For each slot whether its number changes with one of the parameters.
+/// For each slot whether its number changes with one of the variables.
 pub(super) struct Influence<'a> {
     network: &'a Network,
     slots: Vec<bool>,
 }
 
 impl<'a> Influence<'a> {
-    pub(super) fn new(network: &'a Network, parameters: &[ParameterId]) -> Self {
+    pub(super) fn new(network: &'a Network, variables: &[Variable]) -> Self {
         let layout = &network.parts.layout;
         let mut influence = Self { network, slots: vec![false; layout.len()] };
         for id in network.parameter_ids() {
             let given = network.numbers.given[id.index()];
             let follows = !given && influence.value(&network.parameters()[id.index()].value);
-            influence.slots[layout.parameter(id) as usize] = follows || parameters.contains(&id);
+            influence.slots[layout.parameter(id) as usize] =
+                follows || variables.contains(&Variable::Parameter(id));
         }
         for id in network.signal_ids() {
+            let now = layout.signal(id) as usize;
+            // comparisons read the second slot, which keeps its value inside a segment
+            influence.slots[now] = variables.contains(&Variable::Signal(id));
+            if influence.slots[now] {
+                continue;
+            }
             if let Course::Expression(value) = &network.signals()[id.index()].course {
                 let follows = influence.value(value);
-                let now = layout.signal(id) as usize;
                 influence.slots[now] = follows;
                 influence.slots[now + 1] = follows; // where comparisons read it
             }

@@ -1,6 +1,9 @@
 //! Derivatives of a network's values by its parameters at fixed temperatures: the right-hand sides
 //! of sensitivities.
 //!
+//! A derivative over a run exists only if no event moves with a parameter. A derivative at one
+//! moment exists at all positions of controls and comparisons, by signals too.
+//!
 //! Each value is evaluated on dual numbers by the same code that evaluates it on numbers, the
 //! parameters being the variables. Only values that depend on one of them are evaluated at all.
 
@@ -10,7 +13,7 @@ mod influence;
 mod refusal;
 
 use crate::evaluation::{PASS, Slope};
-use crate::id::{BoundaryId, ConductorId, ParameterId, SignalId, SourceId};
+use crate::id::{BoundaryId, ConductorId, NodeId, ParameterId, SignalId, SourceId};
 use crate::network::Network;
 use crate::slot;
 use content::Content;
@@ -18,13 +21,22 @@ use influence::Influence;
 
 pub use refusal::NoTangents;
 
-/// Derivatives of a network's heat flows and heat contents by some of its parameters.
+/// A variable that a network is differentiated by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Variable {
+    /// A parameter.
+    Parameter(ParameterId),
+    /// A signal. It counts as a constant with its present value.
+    Signal(SignalId),
+}
+
+/// Derivatives of a network's heat flows and heat contents by some of its parameters or signals.
 ///
-/// All results are in SI units per SI unit of the parameter, in blocks, one for each parameter in
-/// the order in which they were requested. Evaluating allocates nothing.
+/// All results are in SI units per SI unit of the variable, in blocks, one for each variable in
+/// the order in which they were asked for. Evaluating allocates nothing.
 #[derive(Clone, Debug)]
 pub struct Tangents {
-    parameters: Vec<ParameterId>,
+    variables: Vec<Variable>,
     passes: Vec<Pass>,
     conductors: Vec<ConductorId>,
     sources: Vec<SourceId>,
@@ -34,7 +46,7 @@ pub struct Tangents {
     contents: Vec<Content>,
 }
 
-/// Up to [`PASS`] parameters that are followed together.
+/// Up to [`PASS`] variables that are followed together.
 #[derive(Clone, Debug)]
 struct Pass {
     slots: Vec<Slope>,
@@ -50,39 +62,68 @@ impl Network {
     /// # Errors
     /// [`NoTangents`] if a derivative by them does not exist everywhere or cannot be computed.
     pub fn tangents(&self, parameters: &[ParameterId]) -> Result<Tangents, NoTangents> {
-        let influence = Influence::new(self, parameters);
-        refusal::check(self, &influence)?;
-        let chunks = parameters.chunks(PASS);
+        let variables: Vec<Variable> =
+            parameters.iter().copied().map(Variable::Parameter).collect();
+        let influence = Influence::new(self, &variables);
+        refusal::check_events(&influence)?;
+        self.tangents_of(&influence, &variables)
+    }
+
+    /// The same at one moment, and by signals too. Controls and comparisons keep the positions of the
+    /// evaluation. No variable may occur twice.
+    ///
+    /// # Errors
+    /// [`NoTangents`] for how a node melts and for the specific heat of a fluid.
+    pub fn tangents_at_a_moment(&self, variables: &[Variable]) -> Result<Tangents, NoTangents> {
+        self.tangents_of(&Influence::new(self, variables), variables)
+    }
+
+    fn tangents_of(
+        &self,
+        influence: &Influence<'_>,
+        variables: &[Variable],
+    ) -> Result<Tangents, NoTangents> {
+        refusal::check_fluids(self, influence)?;
+        let chunks = variables.chunks(PASS);
         let mut passes: Vec<Pass> = chunks.map(|chunk| Pass::new(self, chunk)).collect();
-        let contents = content::all_of(self, &influence, &mut passes)?;
+        let contents = content::all_of(self, influence, &mut passes)?;
+        let follows =
+            |id: &SignalId| influence.signal(*id) && !variables.contains(&Variable::Signal(*id));
         Ok(Tangents {
-            parameters: parameters.to_vec(),
+            variables: variables.to_vec(),
             passes,
             conductors: self.conductor_ids().filter(|id| influence.conductor(*id)).collect(),
             sources: self.source_ids().filter(|id| influence.source(*id)).collect(),
             boundaries: self.boundary_ids().filter(|id| influence.boundary(*id)).collect(),
-            signals: self.signal_ids().filter(|id| influence.signal(*id)).collect(),
+            signals: self.signal_ids().filter(follows).collect(),
             contents,
         })
     }
 }
 
 impl Tangents {
-    /// The parameters that derivatives are taken by, in this order.
-    pub fn parameters(&self) -> &[ParameterId] {
-        &self.parameters
+    /// The parameters and signals that derivatives are taken by, in this order.
+    pub fn variables(&self) -> &[Variable] {
+        &self.variables
     }
 
-    /// For each pass the number of its first parameter and how many it follows.
+    /// The first node with a capacity over temperature whose heat content changes with one of the
+    /// variables.
+    pub fn enthalpy_that_changes(&self, network: &Network) -> Option<NodeId> {
+        let mut nodes = self.contents.iter().map(Content::node);
+        nodes.find(|id| network.enthalpy(*id).is_some())
+    }
+
+    /// For each pass the number of its first variable and how many it follows.
     fn spans(&self) -> impl Iterator<Item = (usize, usize)> + use<> {
-        let count = self.parameters.len();
+        let count = self.variables.len();
         (0..count).step_by(PASS).map(move |first| (first, PASS.min(count - first)))
     }
 }
 
 impl Pass {
     /// The slots with the parameters in them, the expressions among these evaluated in their order.
-    fn new(network: &Network, variables: &[ParameterId]) -> Self {
+    fn new(network: &Network, variables: &[Variable]) -> Self {
         let layout = &network.parts.layout;
         let mut slots = vec![Slope::constant(f64::NAN); layout.len()];
         slots[slot::TIME as usize] = Slope::constant(0.0);
@@ -90,7 +131,7 @@ impl Pass {
         let mut stack = Vec::new();
         for id in network.parameter_ids() {
             let number = network.parameter_value(id);
-            let own = variables.iter().position(|variable| *variable == id);
+            let own = variables.iter().position(|variable| *variable == Variable::Parameter(id));
             let value = &network.parameters()[id.index()].value;
             let dual = match own {
                 Some(index) => Slope::variable(number, index),

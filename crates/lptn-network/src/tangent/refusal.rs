@@ -44,13 +44,18 @@ pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
 }
 }
 
-pub(super) fn check(network: &Network, influence: &Influence<'_>) -> Result<(), NoTangents> {
+/// Refuses parameters that move events or jumps.
+pub(super) fn check_events(influence: &Influence<'_>) -> Result<(), NoTangents> {
     if let Some(item) = influence.event() {
         return Err(NoTangents::Events { item });
     }
-    if let Some(item) = influence.moving_jump() {
-        return Err(NoTangents::MovingJump { item });
+    match influence.moving_jump() {
+        Some(item) => Err(NoTangents::MovingJump { item }),
+        None => Ok(()),
     }
+}
+
+pub(super) fn check_fluids(network: &Network, influence: &Influence<'_>) -> Result<(), NoTangents> {
     let varying =
         network.fluid_ids().zip(&network.numbers.fluids).filter(|(_, curve)| curve.is_some());
     let mut changing = varying.filter(|(id, _)| influence.value(&network.fluids()[id.index()].cp));
