@@ -4,6 +4,7 @@ two_node  ladder-N  stiff-N  grid2d-N  grid3d-N  radiation-N      runs
 NAME-random          the same with events at random times instead of multiples of t_end/16
 steady-grid2d-N      the steady state under constant heat
 scale2d-N  scale3d-N      10 minutes and 10 rows of a large grid under constant heat
+diffuse2d-N  diffuse3d-N  the same of aluminium, heated in the middle: heat spreads over many cells
 """
 
 import numpy as np
@@ -116,6 +117,30 @@ def scale3d(rng, n):
     return constant(drive(body(rng, (n, n, n)), rng, 600.0, 10, 20.0, 1000))
 
 
+def aluminium(rng, shape):
+    """Cells of 1 mm with films of 50 W/(m^2 K) at all faces, 100 W in the middle, 10 minutes."""
+    net = body(rng, shape)
+    inside = net.ej < net.n
+    net.C = np.full(net.n, 2700 * 900 * 1e-9)
+    film = 1 / (1 / 50e-6 + 0.5e-3 / (237 * 1e-6))  # through half a cell
+    net.G = six_digits(np.where(inside, 237 * 1e-3, film))
+    net.t_end, net.rows, net.events = 600.0, np.linspace(0, 600.0, 11)[1:], np.zeros(1)
+    middle = int(np.ravel_multi_index([cells // 2 for cells in shape], shape))
+    net.sources = [Source(middle, True, [0.0], [100.0])]
+    net.probes = np.unique(np.append(np.linspace(0, net.n - 1, 49, dtype=int), middle))
+    return net
+
+
+def diffuse2d(rng, n):
+    """A plate of n x n cells of aluminium."""
+    return aluminium(rng, (n, n))
+
+
+def diffuse3d(rng, n):
+    """A block of n x n x n cells of aluminium."""
+    return aluminium(rng, (n, n, n))
+
+
 def radiation(rng, n):
     """A plate whose cells all radiate to the sky and every tenth to a far one, up to 800 K."""
     net = drive(body(rng, (n, n)), rng, 2.0 * n * n, 200, 60.0)
@@ -128,5 +153,8 @@ def radiation(rng, n):
 
 
 FAMILIES = {
-    f.__name__: f for f in (two_node, ladder, stiff, grid2d, grid3d, radiation, scale2d, scale3d)
+    family.__name__: family
+    for family in (
+        two_node, ladder, stiff, grid2d, grid3d, radiation, scale2d, scale3d, diffuse2d, diffuse3d
+    )
 }

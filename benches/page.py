@@ -16,6 +16,7 @@ import tools
 PAGE = Path(__file__).parent.parent / "docs/speed.md"
 BEGIN, END = "<!-- written by make bench: begin -->", "<!-- written by make bench: end -->"
 ORDER = ["two_node", "ladder", "stiff", "grid2d", "grid3d", "radiation", "scale2d", "scale3d"]
+ORDER += ["diffuse2d", "diffuse3d"]
 ORDER += list(laws.FAMILIES)
 
 

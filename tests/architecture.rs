@@ -111,7 +111,8 @@ fn sources(folder: &Path, found: &mut Vec<PathBuf>) {
     }
 }
 
-fn all_sources() -> Vec<(String, String)> {
+/// Every source file of the crates, the tests and the examples with its path, in order.
+pub(crate) fn all_sources() -> Vec<(String, String)> {
     let mut paths = Vec::new();
     ["crates", "tests", "examples"]
         .iter()

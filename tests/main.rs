@@ -11,6 +11,7 @@ mod analytic;
 mod architecture;
 mod candidates;
 mod circles;
+mod comments;
 mod conservation;
 mod counters;
 mod determinism;

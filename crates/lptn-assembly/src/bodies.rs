@@ -5,7 +5,7 @@
 //! paths take. If the conductivity is not known at a cell, each path evaluates its own heat and
 //! reports its error.
 
-use std::collections::{BTreeMap, HashSet};
+use std::collections::BTreeMap;
 
 use lptn_network::{Conductivity, InputError, Network};
 
@@ -59,24 +59,27 @@ impl Bodies {
         positions: impl Iterator<Item = usize>,
     ) -> Self {
         let (mut bodies, mut places) = (Vec::<Body>::new(), BTreeMap::new());
-        let mut others = Vec::new();
+        // positions with their body, if they have one
+        let mut all = Vec::new();
         for i in positions {
-            others.push(number(i));
+            all.push((number(i), None));
             let element = &elements[i];
-            let known = element.conductor.and_then(|id| network.conductivity(id));
+            let known = element.conductor().and_then(|id| network.conductivity(id));
             let Some((conductivity, shape)) = known else { continue };
             let body = *places.entry(conductivity.key()).or_insert(bodies.len());
             if body == bodies.len() {
                 bodies.push(Body { conductivity, vertices: Vec::new(), paths: Vec::new() });
             }
+            all.last_mut().into_iter().for_each(|(_, own)| *own = Some(number(body)));
             let ends = [element.receivers[0], element.receivers[1]];
             bodies[body].paths.push(Path { element: number(i), ends, shape });
         }
-        bodies.retain(|body| body.paths.len() >= LEAST);
+        let is_body = |body: &Body| body.paths.len() >= LEAST;
+        let alone = |own: Option<u32>| own.is_none_or(|body| !is_body(&bodies[body as usize]));
+        let others = all.into_iter().filter(|(_, own)| alone(*own)).map(|(i, _)| i).collect();
+        bodies.retain(is_body);
+        bodies.iter_mut().for_each(|body| body.paths.shrink_to_fit());
         bodies.iter_mut().for_each(Body::number_vertices);
-        let paths = bodies.iter().flat_map(|body| &body.paths);
-        let within: HashSet<u32> = paths.map(|path| path.element).collect();
-        others.retain(|i| !within.contains(i));
         Self { bodies, others }
     }
 

@@ -1,7 +1,9 @@
 //! Elements that are more than a constant conductance: their heat and its derivatives, with places
 //! in the Jacobian.
 
-use lptn_network::{ConductorFlow, ConductorId, End, InputError, Network, Received, SourceId};
+use lptn_network::{
+    ConductorFlow, ConductorId, End, InputError, Network, Received, SourceId, Vertices,
+};
 
 use crate::pattern::JacobianPattern;
 use crate::slopes::Slopes;
@@ -10,8 +12,8 @@ use crate::workspace::Workspace;
 /// Kind of an element, by which its heat is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kind {
-    /// A stream of this constant capacity rate in W/K.
-    Stream(f64),
+    /// A conductor that is a stream of this constant capacity rate in W/K.
+    Stream(ConductorId, f64),
     /// A conductor as the network evaluates it.
     Conductor(ConductorId),
     /// A source whose heat depends on temperatures.
@@ -22,20 +24,28 @@ pub(crate) enum Kind {
 #[derive(Clone, Debug)]
 pub(crate) struct Element {
     pub(crate) kind: Kind,
-    /// The conductor it is, for those that are.
-    pub(crate) conductor: Option<ConductorId>,
     /// Two ends of a conductor, the nodes of a source.
-    pub(crate) receivers: Vec<u32>,
-    /// Shares of a source; empty for a conductor, whose ends each receive their own heat.
-    pub(crate) shares: Vec<f64>,
-    pub(crate) variables: Vec<u32>,
+    pub(crate) receivers: Few,
     /// Slot of each pair (receiver, variable), receiver by receiver; [`NOWHERE`] if one of them is
     /// given.
-    slots: Vec<usize>,
+    slots: Few,
+    /// `None` for a conductor that depends on its ends alone.
+    more: Option<Box<More>>,
 }
 
+#[derive(Clone, Debug)]
+struct More {
+    variables: Few,
+    /// Shares of a source; empty for a conductor, whose ends each receive their own heat.
+    shares: Vec<f64>,
+}
+
+/// The numbers of a conductor between its ends take no memory of their own: a body of a million
+/// cells has three million conductors.
+pub(crate) type Few = Vertices;
+
 /// No place in the Jacobian.
-pub(crate) const NOWHERE: usize = usize::MAX;
+pub(crate) const NOWHERE: u32 = u32::MAX;
 
 /// Form of the Jacobian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,10 +57,33 @@ pub enum JacobianForm {
     Symmetric,
 }
 
+/// The slot of an entry.
+pub(crate) fn slot(pattern: &JacobianPattern, row: u32, column: u32) -> u32 {
+    u32::try_from(pattern.slot(row, column)).expect("fewer than 2^32 links are in memory")
+}
+
 impl Element {
     /// True if it is a stream of a constant capacity rate.
     pub(crate) fn is_constant_stream(&self) -> bool {
-        matches!(self.kind, Kind::Stream(_))
+        matches!(self.kind, Kind::Stream(..))
+    }
+
+    /// The conductor it is, for those that are.
+    pub(crate) fn conductor(&self) -> Option<ConductorId> {
+        match self.kind {
+            Kind::Stream(id, _) | Kind::Conductor(id) => Some(id),
+            Kind::Source(_) => None,
+        }
+    }
+
+    /// The vertices it depends on.
+    pub(crate) fn variables(&self) -> &[u32] {
+        self.more.as_ref().map_or(&self.receivers, |more| &more.variables)
+    }
+
+    /// Shares of a source; empty for a conductor, whose ends each receive their own heat.
+    pub(crate) fn shares(&self) -> &[f64] {
+        self.more.as_ref().map_or(&[], |more| &more.shares)
     }
 
     /// The elements of a network that are neither constant conductances nor radiation of a constant
@@ -59,38 +92,32 @@ impl Element {
         let vertex = |end: End| u32::try_from(network.vertex(end)).expect("ids are 32 bits wide");
         let conductors =
             network.conductors().iter().zip(network.conductor_ids()).filter_map(|(c, id)| {
-                let ends = || vec![vertex(c.from), vertex(c.to)];
+                let ends = || Few::from_slice(&[vertex(c.from), vertex(c.to)]);
                 let (kind, variables) = match network.flow(id) {
                     ConductorFlow::Conductance(_) | ConductorFlow::Radiation(_) => return None,
-                    ConductorFlow::Stream(mcp) => (Kind::Stream(mcp), ends()),
+                    ConductorFlow::Stream(mcp) => (Kind::Stream(id, mcp), ends()),
                     ConductorFlow::Variable => {
-                        (Kind::Conductor(id), network.conductor_variables(id).to_vec())
+                        (Kind::Conductor(id), network.conductor_variables(id))
                     }
                 };
-                let conductor = Some(id);
-                Some(Self {
-                    kind,
-                    conductor,
-                    receivers: ends(),
-                    shares: vec![],
-                    variables,
-                    slots: vec![],
-                })
+                let receivers = ends();
+                let more = (variables != receivers)
+                    .then(|| Box::new(More { variables, shares: Vec::new() }));
+                Some(Self { kind, receivers, slots: Few::new(), more })
             });
         let sources = network.sources().iter().zip(network.source_ids()).filter_map(|(s, id)| {
-            let variables = network.source_variables(id).to_vec();
+            let variables = Few::from_slice(network.source_variables(id));
             let receivers = s.into.iter().map(|&(node, _)| vertex(End::Node(node))).collect();
             let shares = s.into.iter().map(|&(_, share)| share).collect();
-            (!variables.is_empty()).then(|| Self {
-                kind: Kind::Source(id),
-                conductor: None,
-                receivers,
-                shares,
-                variables,
-                slots: vec![],
+            let kind = Kind::Source(id);
+            (!variables.is_empty()).then(|| {
+                let more = Some(Box::new(More { variables, shares }));
+                Self { kind, receivers, slots: Few::new(), more }
             })
         });
-        conductors.chain(sources).collect()
+        let mut all: Vec<Self> = conductors.chain(sources).collect();
+        all.shrink_to_fit();
+        all
     }
 
     /// The pairs of unknowns that meet in it; `unknown` is `u32::MAX` for a vertex that is given.
@@ -99,17 +126,17 @@ impl Element {
         let all = self
             .receivers
             .iter()
-            .flat_map(move |r| self.variables.iter().map(move |v| (known(r), known(v))));
+            .flat_map(move |r| self.variables().iter().map(move |v| (known(r), known(v))));
         all.filter(|&(r, v)| r != u32::MAX && v != u32::MAX)
     }
 
     pub(crate) fn place(&mut self, unknown: &[u32], pattern: &JacobianPattern) {
-        let mut slots = Vec::with_capacity(self.receivers.len() * self.variables.len());
+        let mut slots = Few::with_capacity(self.receivers.len() * self.variables().len());
         for &receiver in &self.receivers {
-            for &variable in &self.variables {
+            for &variable in self.variables() {
                 let (row, column) = (unknown[receiver as usize], unknown[variable as usize]);
                 let given = row == u32::MAX || column == u32::MAX;
-                slots.push(if given { NOWHERE } else { pattern.slot(row, column) });
+                slots.push(if given { NOWHERE } else { slot(pattern, row, column) });
             }
         }
         self.slots = slots;
@@ -119,11 +146,11 @@ impl Element {
     /// own heat.
     pub(crate) fn is_symmetric(&self, network: &Network) -> bool {
         match self.kind {
-            Kind::Stream(_) => false,
+            Kind::Stream(..) => false,
             Kind::Conductor(id) => {
-                !network.conductors()[id.index()].law.is_stream() && self.variables.len() == 2
+                !network.conductors()[id.index()].law.is_stream() && self.variables().len() == 2
             }
-            Kind::Source(_) => self.variables == self.receivers,
+            Kind::Source(_) => self.variables() == &self.receivers[..],
         }
     }
 
@@ -135,7 +162,7 @@ impl Element {
     ) -> Result<Received, InputError> {
         let at = |k: usize| work.temperature[self.receivers[k] as usize];
         Ok(match self.kind {
-            Kind::Stream(mcp) => {
+            Kind::Stream(_, mcp) => {
                 let (from, to) = (at(0), at(1));
                 // adding 0 leaves no negative zero to be printed
                 [
@@ -157,7 +184,7 @@ impl Element {
         if let Kind::Source(id) = self.kind {
             let power = network.source_heat(id, &mut work.scope, &work.temperature)?;
             work.power[id.index()] = power;
-            for (&vertex, share) in self.receivers.iter().zip(&self.shares) {
+            for (&vertex, share) in self.receivers.iter().zip(self.shares()) {
                 work.element_heat[vertex as usize] += share * power;
             }
             return Ok(());
@@ -189,16 +216,16 @@ impl Element {
         form: JacobianForm,
         values: &mut [f64],
     ) {
-        if form == JacobianForm::Symmetric && self.shares.is_empty() {
+        if form == JacobianForm::Symmetric && self.shares().is_empty() {
             let g = self.symmetric_conductance(&slopes.ends);
             slopes.ends[0] = [-g, g];
             slopes.ends[1] = [g, -g];
         }
         let mut slots = self.slots.iter();
         for row in 0..self.receivers.len() {
-            for column in 0..self.variables.len() {
+            for column in 0..self.variables().len() {
                 let Some(&slot) = slots.next().filter(|slot| **slot != NOWHERE) else { continue };
-                values[slot] += match self.shares.get(row) {
+                values[slot as usize] += match self.shares().get(row) {
                     Some(share) => share * slopes.source[column],
                     None => slopes.ends[column][row],
                 };
@@ -221,7 +248,7 @@ impl Element {
     fn evaluate_slopes(&self, network: &Network, work: &mut Workspace) -> Result<(), InputError> {
         let Workspace { scope, temperature, slopes, .. } = work;
         match self.kind {
-            Kind::Stream(mcp) => {
+            Kind::Stream(_, mcp) => {
                 let (forward, backward) = (mcp.max(0.0), (-mcp).max(0.0));
                 slopes.ends.clear();
                 slopes.ends.extend([[-backward, forward], [backward, -forward]]);

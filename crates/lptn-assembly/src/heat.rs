@@ -130,7 +130,7 @@ impl ThermalSystem {
         if let Ok(place) = self.radiation.binary_search_by_key(&id, |r| r.conductor) {
             return Ok(self.radiation[place].received(&work.temperature));
         }
-        let place = self.elements.partition_point(|e| e.conductor.is_some_and(|c| c < id));
+        let place = self.elements.partition_point(|e| e.conductor().is_some_and(|c| c < id));
         self.elements[place].received(&self.network, work)
     }
 

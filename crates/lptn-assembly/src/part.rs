@@ -48,7 +48,7 @@ impl ThermalSystem {
         let links = chosen(&self.links, |link| known[link.a as usize] || known[link.b as usize]);
         let ties = chosen(&self.ties, |tie| known[tie.a as usize]);
         let radiation = chosen(&self.radiation, |r| meet(&r.ends));
-        let elements = chosen(&self.elements, |e| meet(&e.receivers) || meet(&e.variables));
+        let elements = chosen(&self.elements, |e| meet(&e.receivers) || meet(e.variables()));
         for link in links.iter().map(|&i| &self.links[i as usize]) {
             (known[link.a as usize], known[link.b as usize]) = (true, true);
         }
@@ -56,7 +56,7 @@ impl ThermalSystem {
         let elements_of = || elements.iter().map(|&i| &self.elements[i as usize]);
         let receivers: BTreeSet<u32> =
             ends.chain(elements_of().flat_map(|e| &e.receivers)).copied().collect();
-        let read = elements_of().flat_map(|e| &e.variables).chain(&receivers);
+        let read = elements_of().flat_map(|e| e.variables()).chain(&receivers);
         read.for_each(|&v| meets[v as usize] = true);
         let vertex = |i: usize| self.unknowns[i].index();
         let read = (0..known.len()).filter(|&i| known[i] || meets[vertex(i)]);

@@ -6,7 +6,7 @@
 
 use lptn_network::{ConductorFlow, ConductorId, Network, Received};
 
-use crate::element::{JacobianForm, NOWHERE};
+use crate::element::{JacobianForm, NOWHERE, slot};
 use crate::pattern::JacobianPattern;
 
 /// `q = sigma Gr (Ta^4 - Tb^4)` between two vertices.
@@ -17,7 +17,7 @@ pub(crate) struct Radiation {
     /// Exchange area in m^2.
     area: f64,
     /// Slots of its derivatives by row, then column; [`NOWHERE`] if one of the two is given.
-    slots: [usize; 4],
+    slots: [u32; 4],
 }
 
 impl Radiation {
@@ -31,7 +31,10 @@ impl Radiation {
             }
             _ => None,
         };
-        network.conductors().iter().zip(network.conductor_ids()).filter_map(radiation).collect()
+        let conductors = network.conductors().iter().zip(network.conductor_ids());
+        let mut all: Vec<Self> = conductors.filter_map(radiation).collect();
+        all.shrink_to_fit();
+        all
     }
 
     /// The unknowns that meet in it, if both ends are unknown.
@@ -44,7 +47,7 @@ impl Radiation {
         let [from, to] = self.ends.map(|v| unknown[v as usize]);
         self.slots = [(from, from), (from, to), (to, from), (to, to)].map(|(row, column)| {
             let given = row == u32::MAX || column == u32::MAX;
-            if given { NOWHERE } else { pattern.slot(row, column) }
+            if given { NOWHERE } else { slot(pattern, row, column) }
         });
     }
 
@@ -78,7 +81,7 @@ impl Radiation {
         }
         for (&slot, value) in self.slots.iter().zip([-from, to, from, -to]) {
             if slot != NOWHERE {
-                values[slot] += value;
+                values[slot as usize] += value;
             }
         }
     }

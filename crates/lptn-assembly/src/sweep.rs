@@ -19,7 +19,7 @@ impl ThermalSystem {
     /// True if the heat of an element may have kinks over temperature.
     pub fn has_pieces(&self, element: usize) -> bool {
         let law = match self.elements[element].kind {
-            Kind::Stream(_) => return false,
+            Kind::Stream(..) => return false,
             Kind::Conductor(id) => &self.network.conductors()[id.index()].law,
             Kind::Source(id) => &self.network.sources()[id.index()].law,
         };
@@ -54,7 +54,7 @@ impl ThermalSystem {
         let kind = self.elements[element].kind;
         let (scope, temperature) = work.current();
         match kind {
-            Kind::Stream(_) => Ok(0),
+            Kind::Stream(..) => Ok(0),
             Kind::Conductor(id) => self.network.pieces_of_exchange(id, scope, temperature),
             Kind::Source(id) => self.network.pieces_of_source(id, scope, temperature),
         }
@@ -75,7 +75,7 @@ impl ThermalSystem {
         if let Kind::Source(id) = element.kind {
             let (scope, temperature) = work.current();
             let power = self.network.source_heat(id, scope, temperature)?;
-            for (&vertex, share) in element.receivers.iter().zip(&element.shares) {
+            for (&vertex, share) in element.receivers.iter().zip(element.shares()) {
                 heat[vertex as usize] += share * power;
             }
             return Ok(());

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use lptn_network::{ConductorFlow, ConductorId, InputError, Network, NodeId};
 
 use crate::bodies::Bodies;
-use crate::element::{Element, JacobianForm};
+use crate::element::{Element, JacobianForm, slot};
 use crate::eliminate::{Elimination, Link, TooMany};
 use crate::error::AssemblyError;
 use crate::outer::Outer;
@@ -78,8 +78,7 @@ impl ThermalSystem {
         let pattern = JacobianPattern::new(unknowns.len(), pairs);
         radiation.iter_mut().for_each(|r| r.place(&number, &pattern));
         elements.iter_mut().for_each(|element| element.place(&number, &pattern));
-        let place = |row, column| u32::try_from(pattern.slot(row, column));
-        let place = |row, column| place(row, column).expect("fewer than 2^32 links are in memory");
+        let place = |row, column| slot(&pattern, row, column);
         let link_slots = links.iter().map(|l| [place(l.a, l.b), place(l.b, l.a)]).collect();
         let symmetric = elements.iter().all(|element| element.is_symmetric(network));
         let mass = unknowns.iter().map(|&id| network.capacity(id)).collect();

@@ -80,6 +80,7 @@ pub use network::conductivity::Conductivity;
 pub use network::fields::ValueChange;
 pub use parameters::{ParameterError, Parameters};
 pub use parts::control::{Acts, Control, Thermostat};
+pub use parts::dependence::Vertices;
 pub use parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
 pub use parts::grid::{Face, FacePath, Grid, GridFace, MOST_CELLS, Substance, Terminal};
 pub use parts::grid_value::GridValue;

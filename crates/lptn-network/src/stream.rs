@@ -66,7 +66,7 @@ impl Network {
         for (path, conductor, position) in found {
             let rate = {
                 let (slots, stack) = scope.plain();
-                place(slots, self.parts.dependence(path), &|_| REFERENCE);
+                place(slots, &self.parts.dependence(path), &|_| REFERENCE);
                 At::new((slots, stack)).get(&conductor.law, position)
             };
             let rate = rate.map_err(|failed| self.failed(Item::Conductor(path), failed, &scope))?;

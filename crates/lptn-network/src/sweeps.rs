@@ -1,6 +1,7 @@
 //! Values that read temperatures, sampled before a step carries a temperature past their bends: the
 //! twin of [`Network::curves`](crate::Network::curves).
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -94,12 +95,13 @@ impl Network {
             for (program, end) in
                 value.programs().into_iter().flat_map(|p| ends.iter().map(move |end| (p, *end)))
             {
-                readers.extend(self.reader(program, dependence, end));
+                readers.extend(self.reader(program, &dependence, end));
             }
         }
         // comparisons that switch are sampled too
         let comparing = self.switches().iter().filter_map(|switch| {
-            self.reader(&switch.difference, self.dependence_of(switch.item)?, None)
+            let of = self.dependence_of(switch.item)?;
+            self.reader(&switch.difference, of.as_ref(), None)
         });
         readers.extend(comparing);
         self.group(&mut readers);
@@ -118,10 +120,10 @@ impl Network {
         }
     }
 
-    fn dependence_of(&self, item: Item) -> Option<&Dependence> {
+    fn dependence_of(&self, item: Item) -> Option<Cow<'_, Dependence>> {
         match item {
             Item::Conductor(id) => Some(self.parts.dependence(id)),
-            Item::Source(id) => Some(&self.parts.source_dependence[id.index()]),
+            Item::Source(id) => Some(Cow::Borrowed(&self.parts.source_dependence[id.index()])),
             _ => None,
         }
     }
@@ -212,7 +214,7 @@ impl Network {
         let at = |k: usize| Traced::variable(temperatures[dependence.vertices[k] as usize]);
         let result = {
             let (slots, stack) = scope.traced();
-            place(slots, dependence, &at);
+            place(slots, &dependence, &at);
             self.received(conductor, At::path((slots, stack), self.along(id)), at(0), at(1))
         };
         let [from, to] =
@@ -246,7 +248,7 @@ impl Network {
         }
         let at = |k: usize| temperatures[dependence.vertices[k] as usize];
         let (slots, stack) = scope.plain();
-        place(slots, dependence, &at);
+        place(slots, &dependence, &at);
         let mut number = 0_u64;
         for value in law.values() {
             number = number.rotate_left(7);

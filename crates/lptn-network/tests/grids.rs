@@ -7,8 +7,8 @@ use crate::common;
 use common::{celsius, codes, near, quantity};
 use lptn_network::{
     Conductance, ConductorFlow, ConductorKind, End, Face, Formula, GridBlock, GridFace, GridId,
-    GridValue, HeatFlow, Item, Network, NetworkBuilder, Path, Properties, Size, Substance,
-    Temperature,
+    GridValue, HeatCapacity, HeatFlow, Item, Network, NetworkBuilder, Path, Properties, Resistance,
+    Size, Substance, Temperature,
 };
 
 /// 0.6 m x 0.4 m x 0.2 m, 8e6 J/(m^3 K) / 2, conductivity by axis.
@@ -276,6 +276,40 @@ fn sources_are_shared_by_volume_and_by_area() {
     b.shared_source("sun", &face, HeatFlow(3.0));
     let network = b.build().unwrap();
     assert_eq!(network.sources()[1].into[2].0.index(), 14);
+}
+
+/// Names of cells and inner paths are not stored, but they are found, they are those that the items
+/// have, and they are taken.
+#[test]
+fn names_of_cells_and_inner_paths_are_known() {
+    for counts in [&[3, 4, 2][..], &[5, 2], &[6], &[1, 3, 1]] {
+        let (b, _) = wall(counts);
+        let network = b.build().unwrap();
+        let nodes = network.node_ids().map(Item::Node);
+        let paths = network.conductor_ids().map(Item::Conductor);
+        let mut names = std::collections::HashSet::new();
+        for item in nodes.chain(paths) {
+            let name = network.name_of(item).into_owned();
+            assert_eq!(network.item(&name), Ok(item), "{name}");
+            assert!(names.insert(name));
+        }
+    }
+    let (mut b, _) = wall(&[3, 4]);
+    let air = b.boundary("air", Temperature(290.0));
+    let wrong = ["wall[0,1]", "wall[01,1]", "wall[4,1]", "wall[1]", "wall[1,1,1]", "wall.x[3,1]"];
+    for name in wrong.into_iter().chain(["wall.z[1,1]", "wall.w[1,1]", "wall.x[+1,1]", "air[1]"]) {
+        assert_eq!(b.node_named(name), None, "{name}");
+    }
+    let cell = b.node_named("wall[3,4]").unwrap();
+    b.resistor("wall.y[3,3]", cell, air, Resistance(1.0));
+    assert_eq!(codes(b), ["network::duplicate_name"; 2]);
+    // whichever was first
+    for name in ["wall[2,1]", "wall.x[2,4]"] {
+        let mut b = NetworkBuilder::new();
+        b.node(name, HeatCapacity(1.0), Temperature(290.0));
+        b.grid("wall", block(&[3, 4]));
+        assert_eq!(codes(b), ["network::duplicate_name"], "{name}");
+    }
 }
 
 #[test]

@@ -6,7 +6,7 @@
 //! value would need a second kind of evaluation.
 
 use lptn_assembly::Workspace;
-use lptn_network::{InputError, InputProblem, Item};
+use lptn_network::{InputError, InputProblem, Item, Vertices};
 use lptn_units::EvalError;
 
 use crate::newton::Newton;
@@ -63,8 +63,8 @@ impl Newton<'_> {
         let network = self.system.network();
         let read = match item {
             Item::Conductor(id) => network.conductor_variables(id),
-            Item::Source(id) => network.source_variables(id),
-            _ => &[],
+            Item::Source(id) => network.source_variables(id).into(),
+            _ => Vertices::new(),
         };
         let unknowns = self.system.unknowns();
         let reads = |i: &&usize| read.iter().any(|&v| v as usize == unknowns[**i].index());

@@ -68,6 +68,7 @@ pub(crate) struct Newton<'a> {
     pub(crate) leans: bool,
     /// True if the balances may have several solutions, so that one must not be left for another.
     pub(crate) guarded: bool,
+    /// The whole Jacobian, once it is needed.
     pub(crate) whole: Vec<f64>,
     pub(crate) values: Vec<f64>,
     flow: Vec<f64>,
@@ -89,7 +90,7 @@ impl<'a> Newton<'a> {
         }
         let pattern = Pattern::new(free.len(), entries.into_iter());
         let factors = linear::for_exact(&pattern).map_err(NewtonError::Factorization)?;
-        let (values, whole) = (vec![0.0; pattern.len()], vec![0.0; whole.len()]);
+        let values = vec![0.0; pattern.len()];
         let flow = vec![0.0; system.unknowns().len()];
         let part = (free.len() < flow.len()).then(|| system.part(&free));
         Ok(Self {
@@ -103,7 +104,7 @@ impl<'a> Newton<'a> {
             base: Vec::new(),
             leans: false,
             guarded: false,
-            whole,
+            whole: Vec::new(),
             values,
             flow,
         })

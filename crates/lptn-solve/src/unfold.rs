@@ -15,8 +15,8 @@ use crate::newton_error::NewtonError;
 /// Temperatures of all unknowns of a system, from the integrator's variables.
 pub(crate) struct Unfold<'a> {
     system: &'a ThermalSystem,
-    /// The states whose variable is their heat content, with their start in K.
-    contents: Vec<(usize, &'a Enthalpy, f64)>,
+    /// The states whose variable is their heat content.
+    contents: Vec<Stored<'a>>,
     algebraic: Option<Newton<'a>>,
     /// Temperature of every unknown in K. Algebraic ones begin at the last solution.
     temperatures: Vec<f64>,
@@ -27,6 +27,16 @@ pub(crate) struct Unfold<'a> {
     leaps: bool,
 }
 
+/// A state whose variable is its heat content.
+struct Stored<'a> {
+    state: usize,
+    curve: &'a Enthalpy,
+    /// Its temperature at the start in K.
+    start: f64,
+    /// The panel of the curve at the last call.
+    panel: usize,
+}
+
 /// Least slope of a temperature over its variable: melting at one temperature.
 const LEAST_SLOPE: f64 = 1e-12;
 
@@ -34,10 +44,10 @@ impl<'a> Unfold<'a> {
     pub(crate) fn new(system: &'a ThermalSystem) -> Result<Self, NewtonError> {
         let network = system.network();
         let states = system.states();
-        let contents = states
-            .iter()
-            .enumerate()
-            .filter_map(|(i, &id)| Some((i, network.enthalpy(id)?, network.initial(id))));
+        let contents = states.iter().enumerate().filter_map(|(state, &id)| {
+            let (curve, start) = (network.enthalpy(id)?, network.initial(id));
+            Some(Stored { state, curve, start, panel: 0 })
+        });
         let count = system.unknowns().len();
         let mut algebraic = match states.len() {
             n if n == count => None,
@@ -87,14 +97,15 @@ impl<'a> Unfold<'a> {
         carried: &[f64],
     ) -> Result<&[f64], NewtonError> {
         self.temperatures[..carried.len()].copy_from_slice(carried);
-        for (state, curve, start) in &self.contents {
-            let capacity = self.system.capacity()[*state];
-            let heat = capacity * (carried[*state] - start);
-            let Some(content) = curve.temperature(heat) else {
-                return Err(NewtonError::Input(outside(self.system, *state, curve)));
+        let capacities = self.system.capacity();
+        for Stored { state, curve, start, panel } in &mut self.contents {
+            let (state, capacity) = (*state, capacities[*state]);
+            let heat = capacity * (carried[state] - *start);
+            let Some(content) = curve.temperature_near(heat, panel) else {
+                return Err(NewtonError::Input(outside(self.system, state, curve)));
             };
-            self.temperatures[*state] = content.temperature;
-            self.slopes[*state] = (capacity / content.capacity).max(LEAST_SLOPE);
+            self.temperatures[state] = content.temperature;
+            self.slopes[state] = (capacity / content.capacity).max(LEAST_SLOPE);
         }
         if let Some(newton) = &mut self.algebraic {
             match std::mem::take(&mut self.leaps) && newton.guarded {

@@ -1,13 +1,17 @@
 //! Adds grids: their cells, surfaces and inner paths.
 
+use std::sync::Arc;
+
 use lptn_laws::{Formula, Kind};
 use lptn_units::{Dimension, Type};
 
-use crate::builder::{NetworkBuilder, Path};
+use crate::builder::{NetworkBuilder, Path, make_room};
 use crate::error::BuildErrorKind;
 use crate::id::{ConductorId, End, Field, GridId, Item, NodeId};
 use crate::law::Law;
 use crate::parts::grid::{Face, Grid, Inner, MOST_CELLS, Substance};
+use crate::parts::grid_names::PathNames;
+use crate::parts::label::Label;
 use crate::value::{Input, Size, Value};
 
 /// The input of a grid: see [`NetworkBuilder::grid`].
@@ -44,7 +48,7 @@ pub(crate) fn product(values: Vec<Value>) -> Value {
     Value::Product(values.into())
 }
 
-const LETTERS: [&str; 3] = ["x", "y", "z"];
+const FEW: &str = "a network has fewer than 2^32 conductors";
 
 impl NetworkBuilder {
     /// Adds a block of one material, cut into equal cells.
@@ -73,9 +77,19 @@ impl NetworkBuilder {
         };
         let first =
             u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
-        let (name, surfaces) = (name.to_owned(), [None; 6]);
-        let grid =
-            Grid { name, cells, axes, size, conductivity, substance, initial, first, surfaces };
+        let (name, paths, surfaces) = (name.to_owned(), [None; 3], [None; 6]);
+        let grid = Grid {
+            name,
+            cells,
+            axes,
+            size,
+            conductivity,
+            substance,
+            initial,
+            first,
+            paths,
+            surfaces,
+        };
         self.register(&grid.name, item);
         self.parts.grids.push(grid.clone());
         self.cells(&grid, item, capacity);
@@ -142,10 +156,10 @@ impl NetworkBuilder {
             deviation: None,
             lump: None,
         });
-        self.parts.nodes.reserve(grid.places([0; 3]).count());
+        make_room(&mut self.parts.nodes, grid.count());
         for at in grid.places([0; 3]) {
             let name = format!("{}{}", grid.name, grid.indices(at));
-            self.add_node(&name, Some(capacity.clone()), initial.clone(), false);
+            self.push_node(&name, Some(capacity.clone()), initial.clone(), false);
         }
         let end = grid.first + grid.offset([grid.cells[0], 0, 0]);
         self.parts.inner_nodes.push(Inner { first: grid.first, end, whole });
@@ -154,19 +168,31 @@ impl NetworkBuilder {
     /// The paths between neighbours, axis by axis.
     fn inner_paths(&mut self, grid: &Grid, whole: Item) {
         let first = self.next_conductor();
-        for axis in (0..3).filter(|&axis| grid.cells[axis] > 1) {
-            let law = self.shared_law(&grid.name, grid.path(axis, 1.0));
-            let mut less = [0; 3];
-            less[axis] = 1;
-            self.parts.conductors.reserve(grid.places(less).count());
-            for at in grid.places(less) {
-                let name = format!("{}.{}{}", grid.name, LETTERS[axis], grid.indices(at));
-                let next = [0, 1, 2].map(|other| at[other] + less[other]);
-                let ends = [at, next].map(|at| End::Node(NodeId(grid.first + grid.offset(at))));
-                self.alike(&name, Kind::Conduction, (ends[0], ends[1]), &law);
-            }
+        let axes = (0..3).filter(|&axis| grid.cells[axis] > 1);
+        let count = |axis: usize| grid.paths_along(axis).iter().product::<usize>();
+        make_room(&mut self.parts.conductors, axes.clone().map(count).sum());
+        for axis in axes {
+            self.paths_along(grid, axis);
         }
         self.inner_conductors(first, whole);
+    }
+
+    /// The paths between neighbours along one axis.
+    fn paths_along(&mut self, grid: &Grid, axis: usize) {
+        let law = self.shared_law(&grid.name, grid.path(axis, 1.0));
+        let first = self.next_conductor();
+        if let Some(known) = self.parts.grids.last_mut() {
+            known.paths[axis] = Some(first);
+        }
+        let names = Arc::new(PathNames::new(grid, axis));
+        let mut less = [0; 3];
+        less[axis] = 1;
+        for (place, at) in (0..).zip(grid.places(less)) {
+            let next = [0, 1, 2].map(|other| at[other] + less[other]);
+            let [from, to] = [at, next].map(|at| End::Node(NodeId(grid.first + grid.offset(at))));
+            let label = Label::Inner(Arc::clone(&names), place);
+            self.push_law(label, Kind::Conduction, (from, to), law.clone());
+        }
     }
 
     /// The law of the next conductors, which are alike and share its values.
@@ -194,8 +220,7 @@ impl NetworkBuilder {
     }
 
     pub(crate) fn next_conductor(&self) -> u32 {
-        u32::try_from(self.parts.conductors.len())
-            .expect("a network holds fewer than 2^32 conductors")
+        u32::try_from(self.parts.conductors.len()).expect(FEW)
     }
 
     /// Notes that the conductors from `first` on are parts of `whole`.

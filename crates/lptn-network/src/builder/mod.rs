@@ -106,6 +106,19 @@ impl NetworkBuilder {
         initial: Option<Input>,
         massless: bool,
     ) -> NodeId {
+        let id = self.push_node(name, capacity, initial, massless);
+        self.register(name, Item::Node(id));
+        id
+    }
+
+    /// The same without making its name known.
+    fn push_node(
+        &mut self,
+        name: &str,
+        capacity: Option<Input>,
+        initial: Option<Input>,
+        massless: bool,
+    ) -> NodeId {
         let id = NodeId::from_len(self.parts.nodes.len());
         let at = |field| (name, Item::Node(id), field);
         let lump = capacity.as_ref().and_then(|c| c.lump.clone());
@@ -117,9 +130,9 @@ impl NetworkBuilder {
             Some(lump) => node.of_lump(lump, self.parts.nodes.last()),
             None => node,
         };
+        make_room(&mut self.parts.nodes, 1);
         self.parts.nodes.push(node);
         Arc::make_mut(&mut self.parts.layout).add_node(id);
-        self.register(name, Item::Node(id));
         id
     }
 
@@ -303,6 +316,8 @@ impl NetworkBuilder {
         check::structure(&self.parts, &mut self.errors);
         clash::names(&self.parts, &mut self.errors);
         whole::collapse(&self.parts, &mut self.errors);
+        self.parts.nodes.shrink_to_fit();
+        self.parts.conductors.shrink_to_fit();
         self.parts.settle();
         self.parts.settle_grid_values();
         match Numbers::evaluate(&self.parts, &[]) {
@@ -348,5 +363,13 @@ impl NetworkBuilder {
             self.error(name, BuildErrorKind::WrongType { item, field, wanted, found: input.ty });
         }
         input.value
+    }
+}
+
+/// Room for more elements, an eighth of those there at least: to double the list of a million nodes
+/// for one more would take 70 MB.
+pub(crate) fn make_room<T>(list: &mut Vec<T>, more: usize) {
+    if list.capacity() - list.len() < more {
+        list.reserve_exact(more.max(list.len() / 8).max(8));
     }
 }

@@ -3,7 +3,7 @@
 use lptn_laws::{Formula, Kind};
 use lptn_units::{Dimension, Type};
 
-use crate::builder::{NetworkBuilder, Path};
+use crate::builder::{NetworkBuilder, Path, make_room};
 use crate::error::BuildErrorKind;
 use crate::id::{ConductorId, End, Item, NodeId, SourceId};
 use crate::law::Law;
@@ -72,6 +72,7 @@ impl NetworkBuilder {
         if from == to {
             self.error(&name(), BuildErrorKind::SelfLink { conductor: id });
         }
+        make_room(&mut self.parts.conductors, 1);
         self.parts.conductors.push(Conductor { label, kind, from, to, law });
         id
     }

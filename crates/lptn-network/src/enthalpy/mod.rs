@@ -155,13 +155,26 @@ impl Enthalpy {
 
     /// The temperature of a heat content; `None` outside [`Enthalpy::range`].
     pub fn temperature(&self, heat: f64) -> Option<Content> {
+        self.temperature_near(heat, &mut 0)
+    }
+
+    /// The same, faster if the heat content is on the same panel as that of the last call; `panel`
+    /// is any number at first.
+    pub fn temperature_near(&self, heat: f64, panel: &mut usize) -> Option<Content> {
         let heat = heat / self.scale + self.zero;
-        let last = &self.panels[self.panels.len() - 1];
-        if !(self.panels[0].heat..=last.heat + last.rise).contains(&heat) {
-            return None;
+        let is_below = |panel: &Panel| panel.heat + panel.rise < heat;
+        let inside = match self.panels.get(panel.wrapping_sub(1)..=*panel) {
+            Some([before, here]) => is_below(before) && !is_below(here),
+            _ => false,
+        };
+        if !inside {
+            let last = &self.panels[self.panels.len() - 1];
+            if !(self.panels[0].heat..=last.heat + last.rise).contains(&heat) {
+                return None;
+            }
+            *panel = self.panels.partition_point(is_below).min(self.panels.len() - 1);
         }
-        let after = self.panels.partition_point(|panel| panel.heat + panel.rise < heat);
-        let panel = &self.panels[after.min(self.panels.len() - 1)];
+        let panel = &self.panels[*panel];
         let temperature = panel.invert(heat - panel.heat);
         Some(Content { temperature, capacity: self.scale * panel.capacity_at(temperature) })
     }

@@ -56,7 +56,11 @@ impl Panel {
     }
 
     pub(crate) fn capacity_at(&self, temperature: f64) -> f64 {
-        if self.to > self.from { self.polynomial(self.x(temperature)) } else { f64::INFINITY }
+        match self.to > self.from {
+            true if self.terms == 1 => self.capacity[0],
+            true => self.polynomial(self.x(temperature)),
+            false => f64::INFINITY,
+        }
     }
 
     /// The slope of the capacity in J/K^2.
@@ -113,7 +117,10 @@ impl Panel {
     /// `1 + x` at which the integral of a straight line is `due`: the root of a parabola, in the
     /// form that does not cancel.
     fn straight(&self, due: f64) -> f64 {
-        let slope = if self.terms > 1 { self.capacity[1] } else { 0.0 };
+        if self.terms == 1 {
+            return due / self.capacity[0];
+        }
+        let slope = self.capacity[1];
         let first = self.capacity[0] - slope;
         2.0 * due / (first + (first * first + 2.0 * slope * due).max(0.0).sqrt())
     }

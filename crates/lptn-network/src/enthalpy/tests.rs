@@ -55,6 +55,25 @@ fn heat_content_of_a_linear_capacity_is_its_integral() {
     assert_eq!(curve.heat(50.0), None);
 }
 
+/// Ends of panels, isothermal ones and values outside included.
+#[test]
+fn a_remembered_panel_changes_no_digit() {
+    let at = |solidus: f64, liquidus: f64| Latent { solidus, liquidus, heat: 5000.0 };
+    let curve = curve_of("100 + 0.5 * (x - 300)", &[at(310.0, 312.0), at(330.0, 330.0)]);
+    let ends = curve.panels.iter().flat_map(|p| [p.heat, p.heat + p.rise]);
+    let mut heats: Vec<f64> = ends.flat_map(|h| [h, h.next_up(), h.next_down()]).collect();
+    heats.extend((-40..80).map(|i| 400.0 * f64::from(i)));
+    heats.extend([f64::NAN, f64::INFINITY, f64::NEG_INFINITY]);
+    let bits = |c: Content| (c.temperature.to_bits(), c.capacity.to_bits());
+    for panel in (0..=curve.panels.len()).chain([usize::MAX]) {
+        for &heat in &heats {
+            let (mut near, known) = (panel, curve.temperature(heat).map(bits));
+            assert_eq!(curve.temperature_near(heat, &mut near).map(bits), known, "{heat}");
+            assert_eq!(curve.temperature_near(heat, &mut near).map(bits), known, "{heat}");
+        }
+    }
+}
+
 #[test]
 fn a_curved_capacity_is_met_to_rounding() {
     // C = 50 exp(T / 200): H = 10000 (exp(T / 200) - exp(1.5))

@@ -99,7 +99,7 @@ impl Network {
         };
         let result = {
             let (slots, stack) = scope.plain();
-            place(slots, dependence, &at);
+            place(slots, &dependence, &at);
             surface(&conductor.law, At::new((slots, stack)))
         };
         result.map(Some).map_err(|failed| self.failed(Item::Conductor(id), failed, scope))

@@ -1,5 +1,6 @@
 //! Heat flows of elements with their derivatives: the only place where a law meets temperatures.
 
+use crate::parts::dependence::Vertices;
 use lptn_laws::Carries;
 use lptn_units::{EvalError, Scalar};
 
@@ -30,8 +31,8 @@ impl Network {
 
     /// The vertices (nodes, then boundaries) on whose temperatures a conductor depends: its ends
     /// first.
-    pub fn conductor_variables(&self, id: ConductorId) -> &[u32] {
-        &self.parts.dependence(id).vertices
+    pub fn conductor_variables(&self, id: ConductorId) -> Vertices {
+        self.parts.dependence(id).into_owned().vertices
     }
 
     /// The vertices on whose temperatures a source depends; none if it depends on time at most.
@@ -80,7 +81,7 @@ impl Network {
         }
         let result = {
             let (slots, stack) = scope.plain();
-            place(slots, dependence, &at);
+            place(slots, &dependence, &at);
             self.received(conductor, At::path((slots, stack), along), at(0), at(1))
         };
         result.map_err(|failed| self.failed(Item::Conductor(id), failed, scope))
@@ -108,7 +109,7 @@ impl Network {
                 return Ok([-heat, heat]);
             }
         }
-        self.slopes_by((id, dependence), scope, temperatures, slopes)
+        self.slopes_by((id, &dependence), scope, temperatures, slopes)
     }
 
     /// The same for a conductor of any kind with a given dependence.
@@ -127,7 +128,7 @@ impl Network {
             let at = |k: usize| seeded(temperatures[dependence.vertices[k] as usize], k, first);
             let result = {
                 let (slots, stack) = scope.dual();
-                place(slots, dependence, &at);
+                place(slots, &dependence, &at);
                 self.received(conductor, At::path((slots, stack), along), at(0), at(1))
             };
             let [from, to] =

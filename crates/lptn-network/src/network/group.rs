@@ -104,7 +104,7 @@ impl Network {
                 let ends = [conductor.from, conductor.to].map(|end| self.vertex(end));
                 // a constant conductor has no dependence, but its ends
                 let vertex = |k: usize| of.vertices.get(k).map_or_else(|| ends[k], |&v| v as usize);
-                place(slots, of, &|k| temperature(vertex(k)));
+                place(slots, &of, &|k| temperature(vertex(k)));
             }
             Item::Source(id) => {
                 let of = &self.parts.source_dependence[id.index()];

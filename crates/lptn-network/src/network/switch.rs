@@ -5,12 +5,14 @@
 //! drive each other would go unnoticed. With the margin it switches repeatedly and stops the run as
 //! chatter.
 
+use std::borrow::Cow;
+
 use crate::evaluation::{Evaluation, PASS};
 use crate::id::{Item, SwitchId};
 use crate::input_error::InputError;
 use crate::network::Network;
 use crate::network::flow::{name, place, seeded};
-use crate::parts::dependence::{Dependence, NONE};
+use crate::parts::dependence::Dependence;
 use crate::parts::switch::Switch;
 
 impl Network {
@@ -32,9 +34,9 @@ impl Network {
             let at = |k: usize| seeded(temperatures[dependence.vertices[k] as usize], k, first);
             let (slots, stack) = scope.dual();
             if link {
-                place(slots, dependence, &at)
+                place(slots, &dependence, &at)
             } else {
-                name(slots, dependence, &at)
+                name(slots, &dependence, &at)
             }
             let result = switch.difference.eval(slots, stack);
             let found = self.finite(result, (switch.item, switch.field), scope)?;
@@ -44,11 +46,11 @@ impl Network {
         Ok((value, slope))
     }
 
-    fn switch_dependence(&self, switch: &Switch) -> (&Dependence, bool) {
+    fn switch_dependence(&self, switch: &Switch) -> (Cow<'_, Dependence>, bool) {
         match switch.item {
             Item::Conductor(id) => (self.parts.dependence(id), true),
-            Item::Source(id) => (&self.parts.source_dependence[id.index()], false),
-            _ => (&NONE, false),
+            Item::Source(id) => (Cow::Borrowed(&self.parts.source_dependence[id.index()]), false),
+            _ => (Cow::default(), false),
         }
     }
 }

@@ -1,6 +1,11 @@
 //! The slots that a value reads, and the temperatures that an element depends on.
 
+use smallvec::SmallVec;
+
 use crate::id::End;
+
+/// Vertices that a conductor depends on: seldom more than its two ends, which take no memory.
+pub type Vertices = SmallVec<[u32; 4]>;
 
 /// Kinds of slots that a value reads.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -30,10 +35,24 @@ impl Reads {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Dependence {
     /// Vertices, each once: nodes, then boundaries. Those of a conductor begin with its ends.
-    pub(crate) vertices: Vec<u32>,
+    pub(crate) vertices: Vertices,
     /// Slots with the temperature of `vertices[.1]`.
     pub(crate) named: Vec<(u32, usize)>,
 }
 
-/// The dependence of a conductor that depends on nothing.
-pub(crate) static NONE: Dependence = Dependence { vertices: Vec::new(), named: Vec::new() };
+/// The dependence of a conductor. It takes no memory of its own if the heat depends on nothing but
+/// the temperatures of the ends, as in a body of a million cells.
+#[derive(Clone, Debug)]
+pub(crate) enum OfConductor {
+    Nothing,
+    Ends,
+    /// A position in the list of those that depend on more.
+    More(u32),
+}
+
+impl Dependence {
+    /// True if it names no vertices but two.
+    pub(crate) fn is_ends(&self) -> bool {
+        self.vertices.len() == 2 && self.named.is_empty()
+    }
+}

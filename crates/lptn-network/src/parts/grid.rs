@@ -81,14 +81,25 @@ pub struct Grid {
     pub initial: Option<Value>,
     /// The first of its cells, which follow one another, the last index running fastest.
     pub(crate) first: u32,
+    /// The first inner path along each axis that has one, the last index running fastest.
+    pub(crate) paths: [Option<u32>; 3],
     /// The first surface node of each face that something is attached to.
     pub(crate) surfaces: [Option<u32>; 6],
 }
 
 /// Indices as names end with them: `[1,2]`, nothing without any.
-fn bracketed(indices: impl Iterator<Item = usize>) -> String {
+pub(crate) fn bracketed(indices: impl Iterator<Item = usize>) -> String {
     let list: Vec<String> = indices.map(|index| (index + 1).to_string()).collect();
     if list.is_empty() { String::new() } else { format!("[{}]", list.join(",")) }
+}
+
+/// The place that indices from 1 have, if there are as many as axes and none is too large.
+pub(crate) fn place(indices: &[usize], axes: usize, counts: [usize; 3]) -> Option<[usize; 3]> {
+    let mut at = [0; 3];
+    for (axis, index) in indices.iter().enumerate() {
+        at[axis] = index.checked_sub(1).filter(|i| *i < counts[axis])?;
+    }
+    (indices.len() == axes).then_some(at)
 }
 
 impl Grid {
@@ -119,11 +130,8 @@ impl Grid {
 
     /// The node of a cell, by its indices from 1; `None` if there is no such cell.
     pub fn cell(&self, indices: &[usize]) -> Option<NodeId> {
-        let mut at = [0; 3];
-        for (axis, index) in indices.iter().enumerate() {
-            at[axis] = index.checked_sub(1).filter(|i| *i < self.cells[axis])?;
-        }
-        (indices.len() == self.axes).then(|| NodeId(self.first + self.offset(at)))
+        let at = place(indices, self.axes, self.cells)?;
+        Some(NodeId(self.first + self.offset(at)))
     }
 
     /// The axes that the cells of a face have indices of.

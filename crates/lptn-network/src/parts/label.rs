@@ -1,6 +1,9 @@
 //! Names of conductors and sources: their own, or one made of their number on request.
 
 use std::borrow::Cow;
+use std::sync::Arc;
+
+use crate::parts::grid_names::PathNames;
 
 /// Name of conductors without their own, before their number in brackets.
 pub(crate) const CONDUCTOR: &str = "import.conductor";
@@ -8,11 +11,13 @@ pub(crate) const CONDUCTOR: &str = "import.conductor";
 /// Name of sources without their own.
 const SOURCE: &str = "import.source";
 
-/// Its own name, or a number.
+/// Its own name, a number, or a place in a grid.
 #[derive(Clone, Debug)]
 pub(crate) enum Label {
     Own(Box<str>),
     Number(u32),
+    /// The place among the inner paths of a grid along an axis.
+    Inner(Arc<PathNames>, u32),
 }
 
 impl Label {
@@ -30,6 +35,7 @@ impl Label {
         match self {
             Self::Own(name) => Cow::Borrowed(name),
             Self::Number(number) => Cow::Owned(format!("{kind}[{number}]")),
+            Self::Inner(names, place) => Cow::Owned(names.name(*place)),
         }
     }
 }

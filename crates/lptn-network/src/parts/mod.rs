@@ -9,9 +9,11 @@ pub(crate) mod control;
 pub(crate) mod dependence;
 pub(crate) mod element;
 pub(crate) mod grid;
+pub(crate) mod grid_names;
 pub(crate) mod grid_value;
 pub(crate) mod heat;
 pub(crate) mod hold;
+mod inside;
 pub(crate) mod label;
 pub(crate) mod layout;
 pub(crate) mod named;
@@ -32,7 +34,7 @@ use crate::along::Along;
 use crate::id::{BoundaryId, ConductorId, ControlId, Field, Item, ParameterId, SignalId, SourceId};
 use crate::name_index::NameIndex;
 use crate::parts::control::Control;
-use crate::parts::dependence::Dependence;
+use crate::parts::dependence::{Dependence, OfConductor};
 use crate::parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
 use crate::parts::grid::{FacePath, Grid, Inner};
 use crate::parts::label::{CONDUCTOR, Label, parsed};
@@ -68,9 +70,9 @@ pub(crate) struct Parts {
     pub(crate) tables: Vec<(String, TableSymbol)>,
     /// The signals are here, with the slots of everything that expressions may name.
     pub(crate) layout: Arc<Layout>,
-    /// The temperatures that each conductor depends on, up to the last one that depends on any;
-    /// `None` for a constant one.
-    pub(crate) conductor_dependence: Vec<Option<Box<Dependence>>>,
+    /// The temperatures that each conductor depends on, up to the last one that depends on any.
+    pub(crate) conductor_dependence: Vec<OfConductor>,
+    pub(crate) more_dependences: Vec<Dependence>,
     /// For each conductor the property of which it takes the mean along its path, if that reads no
     /// parameter; up to the last conductor that takes one at all.
     pub(crate) along: Vec<Option<Arc<Along>>>,
@@ -92,12 +94,17 @@ pub(crate) struct Parts {
 impl Parts {
     /// The item of this name among nodes, boundaries and elements.
     pub(crate) fn item(&self, name: &str) -> Option<Item> {
+        self.indexed(name).or_else(|| self.inside_a_grid(name)).or_else(|| self.numbered(name))
+    }
+
+    /// The same, if its name does not follow from that of a grid or from its number.
+    pub(crate) fn indexed(&self, name: &str) -> Option<Item> {
         let is = |item: Item| match item {
             // found most often by far
             Item::Node(id) => self.nodes[id.index()].name == name,
             _ => self.name_of(item) == name,
         };
-        self.names.find(name, is).or_else(|| self.numbered(name))
+        self.names.find(name, is)
     }
 
     /// The names of all nodes, boundaries and elements.

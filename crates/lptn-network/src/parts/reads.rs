@@ -1,5 +1,7 @@
 //! Finds the dependences of values and elements.
 
+use std::borrow::Cow;
+
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -9,7 +11,7 @@ use crate::along::Along;
 use crate::id::{ConductorId, End, Item, SignalId};
 use crate::parts::Parts;
 use crate::parts::control::Control;
-use crate::parts::dependence::{Dependence, NONE, Reads};
+use crate::parts::dependence::{Dependence, OfConductor, Reads, Vertices};
 use crate::parts::element::{Conductor, Source};
 use crate::parts::layout::Holds;
 use crate::slot;
@@ -88,17 +90,22 @@ impl Parts {
     }
 
     /// The temperatures that a conductor was found to depend on; none for a constant one.
-    pub(crate) fn dependence(&self, id: ConductorId) -> &Dependence {
-        let known = self.conductor_dependence.get(id.index());
-        known.and_then(Option::as_deref).unwrap_or(&NONE)
+    pub(crate) fn dependence(&self, id: ConductorId) -> Cow<'_, Dependence> {
+        match self.conductor_dependence.get(id.index()) {
+            None | Some(OfConductor::Nothing) => Cow::default(),
+            Some(OfConductor::Ends) => Cow::Owned(self.ends_of(&self.conductors[id.index()])),
+            Some(OfConductor::More(at)) => Cow::Borrowed(&self.more_dependences[*at as usize]),
+        }
+    }
+
+    fn ends_of(&self, conductor: &Conductor) -> Dependence {
+        let ends = [conductor.from, conductor.to].map(|end| self.vertex(end));
+        Dependence { vertices: Vertices::from_slice(&ends), named: Vec::new() }
     }
 
     /// The temperatures a conductor depends on.
     pub(crate) fn conductor_dependence(&self, conductor: &Conductor) -> Dependence {
-        let mut dependence = Dependence {
-            vertices: vec![self.vertex(conductor.from), self.vertex(conductor.to)],
-            named: Vec::new(),
-        };
+        let mut dependence = self.ends_of(conductor);
         for value in conductor.law.values() {
             self.reads(value).temperatures.into_iter().for_each(|end| dependence.add(self, end));
         }
@@ -163,9 +170,19 @@ impl Parts {
         self.hold_comparisons();
         let last = self.conductors.iter().rposition(|conductor| self.is_variable(conductor));
         let until_last = self.conductors.iter().take(last.map_or(0, |last| last + 1));
-        let conductors =
-            until_last.map(|c| self.is_variable(c).then(|| Box::new(self.conductor_dependence(c))));
-        let conductors = conductors.collect();
+        let mut all = Vec::new();
+        let of = |conductor: &Conductor| match self.is_variable(conductor) {
+            false => OfConductor::Nothing,
+            true => match self.conductor_dependence(conductor) {
+                ends if ends.is_ends() => OfConductor::Ends,
+                more => {
+                    all.push(more);
+                    OfConductor::More(u32::try_from(all.len() - 1).expect("ids are 32 bits wide"))
+                }
+            },
+        };
+        let conductors = until_last.map(of).collect();
+        self.more_dependences = all;
         let sources = self.sources.iter().map(|s| self.source_dependence(s)).collect();
         self.conductor_dependence = conductors;
         self.source_dependence = sources;

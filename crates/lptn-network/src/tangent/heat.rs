@@ -94,7 +94,7 @@ impl Tangents {
             let dependence = network.parts.dependence(id);
             let Pass { slots, stack, boundaries } = pass;
             let dual = |vertex: usize| of_vertex(vertex, network, boundaries, temperatures);
-            place_ends(slots, dependence, ends, &dual);
+            place_ends(slots, &dependence, ends, &dual);
             let (from, to) = (dual(ends[0]), dual(ends[1]));
             let at = At { by_parameters: true, ..At::path((slots, stack), network.along(id)) };
             let received = network.received(conductor, at, from, to);

@@ -15,6 +15,7 @@ impl Newton<'_> {
     ) -> Result<(), NewtonError> {
         (self.ready, self.leans) = (false, false);
         let (system, whole) = (self.system, &mut self.whole);
+        whole.resize(system.pattern().entries(), 0.0);
         let jacobian = match &self.part {
             Some(part) => system.jacobian_of(part, work, temperatures, whole),
             None => system.jacobian_at(work, temperatures, JacobianForm::Exact, whole),
