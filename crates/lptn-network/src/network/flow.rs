@@ -128,7 +128,7 @@ impl Network {
             let at = |k: usize| seeded(temperatures[dependence.vertices[k] as usize], k, first);
             let result = {
                 let (slots, stack) = scope.dual();
-                place(slots, &dependence, &at);
+                place(slots, dependence, &at);
                 self.received(conductor, At::path((slots, stack), along), at(0), at(1))
             };
             let [from, to] =

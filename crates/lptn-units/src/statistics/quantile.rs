@@ -4,9 +4,9 @@ use std::f64::consts::FRAC_1_SQRT_2;
 
 use super::NORMAL_95;
 
-/// The t that a variable of Student's distribution with this number of degrees of freedom (at least
-/// 1) exceeds in size with probability 5 %: 1.96 for many, 12.7 for one. Relative error 1e-4 from 2
-/// on; below, between the two exact values.
+/// The t that a variable of Student's distribution exceeds in size with probability 5 %: 1.96 for
+/// many degrees of freedom, 12.7 for one, the fewest. Relative error 1e-4 from two degrees on;
+/// below, between the two exact values.
 ///
 /// G. W. Hill, Algorithm 396, Communications of the ACM 13 (1970) 619.
 pub fn student_95(degrees: f64) -> f64 {
