@@ -45,7 +45,8 @@ fn scales(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     });
     let odd = boundaries.chain(starts).filter_map(|(item, field, kelvin)| {
         let number = ((kelvin - ZERO_CELSIUS) * 1e9).round() / 1e9;
-        let place = map.get(item, field).filter(|_| is_room_in_kelvin(number))?;
+        // a place in an imported file takes longer than all else
+        let place = is_room_in_kelvin(number).then(|| map.get(item, field))??;
         let number = format_number(number);
         let message = format!("{} `{}` is at {number} degC", map.kind(item), network.name_of(item));
         let warning = Diagnostic::warning("netlist::kelvin_as_celsius", message);
@@ -86,9 +87,8 @@ fn laws(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
             };
             let Value::Constant(value) = value else { continue };
             let item = Item::Conductor(id);
-            let Some(place) = map.get(item, field).filter(|_| *value > usual.most) else {
-                continue;
-            };
+            let unusual = (*value > usual.most).then(|| map.get(item, field));
+            let Some(place) = unusual.flatten() else { continue };
             let message = format!(
                 "`{}` of {} `{}` is {} {}",
                 usual.key,
@@ -133,7 +133,7 @@ fn capacities(network: &Network, map: &SourceMap) -> Option<Diagnostic> {
     let alike = highest <= 10.0 * lowest && others().count() >= 2;
     let fits = (lowest / 3.0..=3.0 * highest).contains(&(1e3 * least)) && lowest > 100.0 * least;
     let item = Item::Node(id);
-    let place = map.get(item, Field::Capacity).filter(|_| alike && fits)?;
+    let place = (alike && fits).then(|| map.get(item, Field::Capacity))??;
     let message = format!(
         "the capacity of node `{}` is {} J/K, but other nodes have {} to {} J/K",
         network.name_of(item),
