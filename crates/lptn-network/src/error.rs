@@ -5,6 +5,7 @@ use lptn_units::{EvalError, Type, format_short};
 
 use crate::error_words::{
     Say, area, by, crossed, evaluation, in_unit, inside, keys, not_positive, unused_name, usable,
+    without_brackets,
 };
 use crate::id::{ConductorId, ControlId, Field, FluidId, GridId, Item, NodeId, SignalId, SourceId};
 use crate::names::list_of_names;
@@ -31,10 +32,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     NameInside { item: Item, whole: Item } = "network::duplicate_name",
         at Some((*item, Field::Name)),
         says inside(say, *item, *whole),
-        help Some(format!(
-            "rename one of them, for example `{}`",
-            say.name.replace(['.', '[', ','], "_").replace(']', "")
-        ));
+        help Some(format!("rename one of them, for example `{}`", without_brackets(say.name)));
     /// A name that is not `[A-Za-z_][A-Za-z0-9_]*`.
     BadName { item: Item } = "network::bad_name", at Some((*item, Field::Name)),
         says format!("{} has an invalid name", say.item(*item)),

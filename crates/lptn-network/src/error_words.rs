@@ -74,7 +74,14 @@ pub(crate) fn unused_name(first: Item, name: &str) -> String {
         | Item::Report(_) => "parameters, signals, controls, tables and reports",
         _ => "nodes and elements",
     };
-    format!("rename one of them, for example `{name}_2`; {kinds} share one set of names")
+    // the name of a part of a grid, such as `wall.y[3,3]`, becomes one that can be written
+    let other = if name.contains('[') { without_brackets(name) } else { format!("{name}_2") };
+    format!("rename one of them, for example `{other}`; {kinds} share one set of names")
+}
+
+/// A name of the parts of a grid as one of its own: `wall.y[3,3]` as `wall_y_3_3`.
+pub(crate) fn without_brackets(name: &str) -> String {
+    name.replace(['.', '[', ','], "_").replace(']', "")
 }
 
 /// Whose part or result has the name of something else.

@@ -302,7 +302,9 @@ fn names_of_cells_and_inner_paths_are_known() {
     }
     let cell = b.node_named("wall[3,4]").unwrap();
     b.resistor("wall.y[3,3]", cell, air, Resistance(1.0));
-    assert_eq!(codes(b), ["network::duplicate_name"; 2]);
+    let errors = b.build().unwrap_err();
+    assert!(errors.0.iter().all(|error| error.code() == "network::duplicate_name"));
+    assert!(errors.0.iter().all(|error| error.help().unwrap().contains("`wall_y_3_3`")));
     // whichever was first
     for name in ["wall[2,1]", "wall.x[2,4]"] {
         let mut b = NetworkBuilder::new();
