@@ -145,8 +145,13 @@ fn iterations_take_the_steps_of_exact_factors() {
         .replace("block.z0", "block[10,10,10]")
         .replace("PULSE", "100 W")
         .replace("1 h", "100 h");
-    let (netlist, system) = support::parsed(&netlist);
-    for tolerance in [1e-2, 1e-4] {
+    // a huge capacity nearby changes nothing
+    let lake = "[node]\nlake = { C = \"1e12 J/K\", T0 = \"25 degC\" }\n[boundary]";
+    let shore = "[convection]\nshore = { from = \"block.x0\", to = \"lake\", h = \"5 W/(m^2 K)\" }";
+    let beside = netlist.replace("100 h", "1e6 h").replace("[boundary]", lake);
+    let beside = beside.replace("[convection]", shore).replace("10 min", "1e5 h");
+    for (netlist, tolerance) in [(&netlist, 1e-2), (&netlist, 1e-4), (&beside, 1e-2)] {
+        let (netlist, system) = support::parsed(netlist);
         let steps = [LinearSolver::Cholesky, LinearSolver::Pcg].map(|linear_solver| {
             let run = Transient { linear_solver, ..transient(&netlist) }.tolerance(tolerance);
             let solution = run.solve(&system).expect("it runs");

@@ -154,6 +154,22 @@ fn a_good_guess_saves_iterations() {
     assert!(error < 1e-8, "{error:e}");
 }
 
+/// Squares of residuals this small are lost to underflow; the solution needs no exact factors.
+#[test]
+fn tiny_right_sides_are_solved_by_iterations() {
+    let (pattern, values) = cube(16, 1e-3);
+    let mut solver = linear::for_stages(&pattern, true, LinearSolver::Auto).unwrap();
+    solver.factorize(&values).unwrap();
+    let light = solver.fill();
+    for right in [1e-100, 1e-155, 1e-170, 1e-200, 1e-307] {
+        let mut b = vec![0.0; pattern.size()];
+        b[1234] = right;
+        let mut x = vec![0.0; b.len()];
+        solver.solve_from(&b, &mut x, 1e-6).unwrap();
+        assert!(x.iter().all(|x| x.abs() < 1e-90) && solver.fill() == light, "{right:e}");
+    }
+}
+
 /// A guess that errs by the same amount everywhere leaves hardly a residual in a body with little
 /// mass. The error is corrected all the same.
 #[test]

@@ -305,6 +305,12 @@ fn names_of_cells_and_inner_paths_are_known() {
     let errors = b.build().unwrap_err();
     assert!(errors.0.iter().all(|error| error.code() == "network::duplicate_name"));
     assert!(errors.0.iter().all(|error| error.help().unwrap().contains("`wall_y_3_3`")));
+    // the names of its cells have to be possible
+    for (name, code) in [("import.conductor", "reserved_name"), ("a[1]", "bad_name")] {
+        let mut b = NetworkBuilder::new();
+        b.grid(name, block(&[4]));
+        assert_eq!(codes(b), [format!("network::{code}")], "{name}");
+    }
     // whichever was first
     for name in ["wall[2,1]", "wall.x[2,4]"] {
         let mut b = NetworkBuilder::new();

@@ -125,6 +125,27 @@ fn three(b: &mut NetworkBuilder) -> [NodeId; 3] {
 
 const AT: [f64; 3] = [350.0, 320.0, 305.0];
 
+/// A variable that is an expression of another one is a separate one, in whichever pass both are.
+#[test]
+fn variables_that_follow_others_are_separate_in_every_order() {
+    let mut b = NetworkBuilder::new();
+    let mut ids = parameters(&mut b, &[("p", "1 W"), ("q", "2 W"), ("r", "3 W"), ("s", "4 W")]);
+    let twice = time(&b, "2 * p");
+    ids.push(b.parameter("double", twice));
+    let x = b.node("x", HeatCapacity(5.0), Temperature(300.0));
+    let sum = power(&b, "p + q + r + s + double");
+    b.source("heat", x, sum);
+    let network = b.build().unwrap();
+    for shift in 0..ids.len() {
+        ids.rotate_left(1);
+        let variables: Vec<Variable> = ids.iter().copied().map(Variable::Parameter).collect();
+        let mut tangents = network.tangents_at_a_moment(&variables).unwrap();
+        let mut found = vec![f64::NAN; ids.len()];
+        tangents.heat(&network, &network.evaluation(), &[300.0], &mut found).unwrap();
+        assert_eq!(found, [1.0; 5], "{shift}");
+    }
+}
+
 /// More parameters than one pass takes, one of them an expression of another.
 #[test]
 fn every_law_by_its_parameters() {

@@ -72,7 +72,7 @@ const ORDER: f64 = 1000.0;
 /// time, since every step size has its own.
 const MOST_FILL: usize = 25;
 
-/// Exact factors with more numbers than this, 256 MB, are not made to save time.
+/// Exact factors with more numbers than this, 256 MB, do not take over from iterations to save time.
 const MOST_NUMBERS: usize = 32 << 20;
 
 /// Costs of exact factors in ns.

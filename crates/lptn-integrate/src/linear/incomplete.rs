@@ -28,7 +28,8 @@ pub(super) struct Incomplete {
     /// The diagonal less 2.
     excess: Vec<f64>,
     scale: Vec<f64>,
-    /// Sum of all entries of `A`: the square of a vector of ones in the energy norm.
+    /// The square of a vector of ones in the energy norm: the sum of all entries of `A`. Rows count
+    /// as much as the median one at most, so that one huge capacity does not hide the others.
     pub(super) whole: f64,
 }
 
@@ -78,18 +79,19 @@ impl Incomplete {
     /// [`FactorError::NotPositiveDefinite`] with the row of a diagonal entry that is not positive.
     pub(super) fn factorize(&mut self, values: &[f64]) -> Result<(), FactorError> {
         let Shape { triangle, source, mirror, diagonal, order, .. } = &*self.shape;
-        self.whole = 0.0;
+        let mut sums = vec![0.0; self.excess.len()];
         for (row, own) in triangle.rows() {
             let diagonal = values[diagonal[row] as usize];
             if !(diagonal > 0.0 && diagonal.is_finite()) {
                 return Err(FactorError::NotPositiveDefinite { index: order[row] as usize });
             }
             let mut pivot = diagonal;
-            let mut others = 0.0; // entries of the row and of its column
+            sums[row] += diagonal;
             for at in own.clone() {
                 let scale = self.scale[triangle.columns[at] as usize];
                 let lower = values[source[at] as usize] * scale;
-                others += 2.0 * values[source[at] as usize];
+                sums[row] += values[source[at] as usize];
+                sums[triangle.columns[at] as usize] += values[source[at] as usize];
                 let upper = self.upper.as_mut().map_or(lower, |upper| {
                     upper[at] = values[mirror[at] as usize] * scale;
                     upper[at]
@@ -104,9 +106,9 @@ impl Incomplete {
                 upper[own].iter_mut().for_each(|entry| *entry *= scale);
             }
             self.scale[row] = scale;
-            self.whole += diagonal + others;
             self.excess[row] = diagonal * scale * scale - 2.0;
         }
+        self.whole = typical_sum(&mut sums);
         Ok(())
     }
 
@@ -187,4 +189,16 @@ impl Incomplete {
         put(&self.shape.diagonal, &diagonal);
         (values, &self.scale)
     }
+}
+
+/// The sum of some numbers, of which each counts as much as their median at most. Their order is
+/// lost.
+fn typical_sum(numbers: &mut [f64]) -> f64 {
+    let middle = numbers.len() / 2;
+    if numbers.is_empty() {
+        return 0.0;
+    }
+    let median = *numbers.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let (low, high) = numbers.split_at(middle);
+    low.iter().sum::<f64>() + high.len() as f64 * median
 }

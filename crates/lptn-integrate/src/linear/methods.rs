@@ -7,6 +7,9 @@ use crate::kernels;
 /// More iterations than this cost more than exact factors.
 const MOST: usize = 1000;
 
+/// Squares below this have lost digits to underflow.
+const LEAST: f64 = f64::MIN_POSITIVE;
+
 /// Limits of the iterations.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct End {
@@ -56,6 +59,9 @@ pub(super) fn conjugate(
     direction.clone_from(left);
     step.clone_from(left);
     let mut square = kernels::dot(left, left);
+    if square < LEAST && size <= end.allowed {
+        return (0, true); // its square is lost to underflow
+    }
     let mut watch = Watch { size, square };
     for count in 1..=end.most.min(MOST) {
         matrix.apply(direction, step, product);
@@ -68,7 +74,7 @@ pub(super) fn conjugate(
         let next = kernels::dot(left, left);
         // the square of the correction in the energy norm, which is that of the error before it less
         // that of the error after it
-        let small = length * square <= end.energy;
+        let small = length * square <= end.energy || next < LEAST;
         if small && watch.sees_the_end((matrix, end.allowed), next, left, product) {
             return (count, true);
         }

@@ -90,7 +90,11 @@ impl NetworkBuilder {
             paths,
             surfaces,
         };
+        let errors = self.errors.len();
         self.register(&grid.name, item);
+        if self.errors.len() == errors {
+            self.check_name(&format!("{}{}", grid.name, grid.indices([0; 3])), item);
+        }
         self.parts.grids.push(grid.clone());
         self.cells(&grid, item, capacity);
         self.inner_paths(&grid, item);

@@ -85,7 +85,7 @@ impl Network {
     ) -> Result<Tangents, NoTangents> {
         refusal::check_fluids(self, influence)?;
         let chunks = variables.chunks(PASS);
-        let mut passes: Vec<Pass> = chunks.map(|chunk| Pass::new(self, chunk)).collect();
+        let mut passes: Vec<Pass> = chunks.map(|chunk| Pass::new(self, chunk, variables)).collect();
         let contents = content::all_of(self, influence, &mut passes)?;
         let follows =
             |id: &SignalId| influence.signal(*id) && !variables.contains(&Variable::Signal(*id));
@@ -123,7 +123,8 @@ impl Tangents {
 
 impl Pass {
     /// The slots with the parameters in them, the expressions among these evaluated in their order.
-    fn new(network: &Network, variables: &[Variable]) -> Self {
+    /// Variables of other passes are constant.
+    fn new(network: &Network, own: &[Variable], all: &[Variable]) -> Self {
         let layout = &network.parts.layout;
         let mut slots = vec![Slope::constant(f64::NAN); layout.len()];
         slots[slot::TIME as usize] = Slope::constant(0.0);
@@ -131,11 +132,12 @@ impl Pass {
         let mut stack = Vec::new();
         for id in network.parameter_ids() {
             let number = network.parameter_value(id);
-            let own = variables.iter().position(|variable| *variable == Variable::Parameter(id));
+            let variable = Variable::Parameter(id);
+            let given = network.numbers.given[id.index()] || all.contains(&variable);
             let value = &network.parameters()[id.index()].value;
-            let dual = match own {
+            let dual = match own.iter().position(|own| *own == variable) {
                 Some(index) => Slope::variable(number, index),
-                None if network.numbers.given[id.index()] => Slope::constant(number),
+                None if given => Slope::constant(number),
                 None => value.on(&slots, &mut stack).unwrap_or(Slope::constant(number)),
             };
             slots[layout.parameter(id) as usize] = dual;
