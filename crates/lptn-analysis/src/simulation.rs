@@ -202,7 +202,7 @@ impl Simulation {
         Ok(self.state_rates()?.at(self.time, self.state.carried())?)
     }
 
-    /// The node of each state, in the order of rates, of the Jacobian and of what is saved.
+    /// The node of each state, in the order of the rates, the Jacobian and the saved states.
     ///
     /// A state is in K: the temperature of a node with a constant capacity. A node whose capacity
     /// depends on its temperature, such as one that melts, has its enthalpy as a state instead: its

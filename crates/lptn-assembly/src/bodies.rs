@@ -62,17 +62,18 @@ impl Bodies {
         // positions with their body, if they have one
         let mut all = Vec::new();
         for i in positions {
-            all.push((number(i), None));
             let element = &elements[i];
             let known = element.conductor().and_then(|id| network.conductivity(id));
-            let Some((conductivity, shape)) = known else { continue };
-            let body = *places.entry(conductivity.key()).or_insert(bodies.len());
-            if body == bodies.len() {
-                bodies.push(Body { conductivity, vertices: Vec::new(), paths: Vec::new() });
-            }
-            all.last_mut().into_iter().for_each(|(_, own)| *own = Some(number(body)));
-            let ends = [element.receivers[0], element.receivers[1]];
-            bodies[body].paths.push(Path { element: number(i), ends, shape });
+            let own = known.map(|(conductivity, shape)| {
+                let body = *places.entry(conductivity.key()).or_insert(bodies.len());
+                if body == bodies.len() {
+                    bodies.push(Body { conductivity, vertices: Vec::new(), paths: Vec::new() });
+                }
+                let ends = [element.receivers[0], element.receivers[1]];
+                bodies[body].paths.push(Path { element: number(i), ends, shape });
+                number(body)
+            });
+            all.push((number(i), own));
         }
         let is_body = |body: &Body| body.paths.len() >= LEAST;
         let alone = |own: Option<u32>| own.is_none_or(|body| !is_body(&bodies[body as usize]));

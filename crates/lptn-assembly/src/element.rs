@@ -40,8 +40,8 @@ struct More {
     shares: Vec<f64>,
 }
 
-/// The numbers of a conductor between its ends take no memory of their own: a body of a million
-/// cells has three million conductors.
+/// Numbers of an element. Those of a conductor between its ends take no further memory: a body of a
+/// million cells has three million conductors.
 pub(crate) type Few = Vertices;
 
 /// No place in the Jacobian.

@@ -102,6 +102,11 @@ pub(crate) fn place(indices: &[usize], axes: usize, counts: [usize; 3]) -> Optio
     (indices.len() == axes).then_some(at)
 }
 
+/// The number of a place, the last index running fastest.
+pub(crate) fn number(at: [usize; 3], counts: [usize; 3]) -> usize {
+    (at[0] * counts[1] + at[1]) * counts[2] + at[2]
+}
+
 impl Grid {
     /// The number of its cells.
     pub fn count(&self) -> usize {
@@ -146,8 +151,7 @@ impl Grid {
     }
 
     pub(crate) fn offset(&self, at: [usize; 3]) -> u32 {
-        let offset = (at[0] * self.cells[1] + at[1]) * self.cells[2] + at[2];
-        u32::try_from(offset).expect("a grid has fewer than 2^32 cells")
+        u32::try_from(number(at, self.cells)).expect("a grid has fewer than 2^32 cells")
     }
 
     /// The places of all cells but the last `less` ones along each axis.

@@ -2,7 +2,7 @@
 //! they are neither stored nor indexed: a body of a million cells has three million paths.
 
 use crate::id::ConductorId;
-use crate::parts::grid::{Grid, bracketed, place};
+use crate::parts::grid::{Grid, bracketed, number, place};
 
 /// Axes of a grid, as they are written in the names of its inner paths.
 pub(crate) const LETTERS: [&str; 3] = ["x", "y", "z"];
@@ -45,8 +45,6 @@ impl Grid {
     pub(crate) fn path_at(&self, axis: usize, indices: &[usize]) -> Option<ConductorId> {
         let (first, counts) = (self.paths[axis]?, self.paths_along(axis));
         let at = place(indices, self.axes, counts)?;
-        Some(ConductorId::from_len(
-            first as usize + (at[0] * counts[1] + at[1]) * counts[2] + at[2],
-        ))
+        Some(ConductorId::from_len(first as usize + number(at, counts)))
     }
 }
