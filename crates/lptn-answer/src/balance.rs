@@ -40,7 +40,7 @@ fn unknown(network: &Network, name: &str, found: Option<Item>) -> Failure {
         format!("no node or boundary is named `{name}`"),
     )
     .at(Span::new(file, 0..name.len()), "");
-    let nodes = network.nodes().iter().map(|node| node.name.as_str());
+    let nodes = network.thermal_nodes().map(|id| network.nodes()[id.index()].name.as_str());
     let names: Vec<&str> =
         nodes.chain(network.boundaries().iter().map(|b| b.name.as_str())).collect();
     const SHOWN: usize = 8;

@@ -20,14 +20,17 @@ pub fn count(n: usize, noun: &str) -> String {
     format!("{n} {noun}{ending}")
 }
 
-/// "2 nodes, 2 boundaries, 3 paths, 1 source", and controls if there are any.
+/// "2 nodes, 2 boundaries, 3 paths, 1 source", and states and controls if there are any.
 pub fn counts(network: &Network) -> String {
     let mut parts = vec![
-        count(network.nodes().len(), "node"),
+        count(network.nodes().len() - network.states().len(), "node"),
         count(network.boundaries().len(), "boundary"),
         count(network.conductors().len(), "path"),
-        count(network.sources().len(), "source"),
+        count(network.sources().len() - network.states().len(), "source"),
     ];
+    if !network.states().is_empty() {
+        parts.push(count(network.states().len(), "state"));
+    }
     if !network.controls().is_empty() {
         parts.push(count(network.controls().len(), "control"));
     }

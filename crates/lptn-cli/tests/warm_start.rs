@@ -115,6 +115,54 @@ fn a_changing_capacity_and_inputs_over_time_go_on_where_they_were() {
     assert_eq!(names, 3, "the junction is there too");
 }
 
+/// An oven under a PI controller, and the energy that it took.
+const OVEN: &str = r#"
+format = 1
+
+[node]
+oven = { C = "2 kJ/K", T0 = "20 degC" }
+
+[boundary]
+room = { T = "20 degC" }
+
+[resistor]
+wall = { from = "oven", to = "room", G = "1 W/K" }
+
+[controller]
+heat = { sense = "oven", setpoint = "180 degC", K_p = "20 W/K", K_i = "0.05 W/(K s)", min = "0 W", max = "800 W" }
+
+[state]
+used = { rate = "heat", start = "0 kJ", size = "1 MJ" }
+
+[source]
+element = { into = "oven", P = "heat" }
+
+[run]
+stop = "25 min"
+"#;
+
+#[test]
+fn states_go_on_where_they_were() {
+    let second = "stop = \"15 min\"\ninitial = \"out/first/state.json\"";
+    let (folder, whole, parts) = whole_and_parts(OVEN, second);
+    same(&whole, &parts);
+    let states = state(&folder, "first")["states"].as_object().unwrap().clone();
+    assert_eq!(states.keys().collect::<Vec<_>>(), ["heat.integral", "used"]);
+    let used = |file: &str| {
+        let run = ["run", file, "--select", "used", "--format", "csv"];
+        csv(&folder.run(&run).exits(0).out).1.pop().unwrap()[1]
+    };
+    let (whole, parts) = (used("whole.toml"), used("second.toml"));
+    assert!((whole - parts).abs() < 1e-6 * whole, "{whole} {parts} kJ");
+    let bare = OVEN.replace(
+        "used = { rate = \"heat\", start = \"0 kJ\", size = \"1 MJ\" }",
+        "lost = { rate = \"heat\", start = \"1 J\" }",
+    );
+    folder.write("bare.toml", &with_stop(&bare, second));
+    let refused = folder.run(&["run", "bare.toml"]).exits(2);
+    refused.says("netlist::state_missing_state").says("netlist::state_unknown_name");
+}
+
 #[test]
 fn wax_goes_on_melting_where_it_was() {
     let second = "stop = \"15 min\"\ninitial = \"out/first/state.json\"";

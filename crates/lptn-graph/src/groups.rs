@@ -76,7 +76,7 @@ fn at_level(network: &Network, level: Level) -> Vec<Group> {
         place
     };
     let mut members: Vec<(usize, Item)> = Vec::new();
-    for id in network.node_ids() {
+    for id in network.thermal_nodes() {
         let name = &network.nodes()[id.index()].name;
         let label = match network.whole(Item::Node(id)) {
             Some(whole) => label(&network.name_of(whole), level),

@@ -303,6 +303,10 @@ impl Netlist {
                 }
             }
             Item::Boundary(id) => vec![&network.boundaries()[id.index()].temperature],
+            Item::State(id) => {
+                let state = &network.states()[id.index()];
+                state.start.iter().chain(state.bounds.iter().flatten()).collect()
+            }
             Item::Control(id) => {
                 let thermostat = network.thermostat(id).into_iter();
                 thermostat.flat_map(|t| [&t.on, &t.off, &t.min_dwell]).collect()
@@ -332,7 +336,7 @@ impl Netlist {
                 joint.area.iter().chain(grids).collect()
             }
             Item::Report(id) => vec![&network.reports()[id.index()].value],
-            Item::Parameter(_) | Item::Table(_) => Vec::new(),
+            Item::Parameter(_) | Item::Table(_) | Item::Value(_) => Vec::new(),
         }
     }
 }

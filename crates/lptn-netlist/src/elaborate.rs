@@ -92,6 +92,8 @@ pub(crate) fn elaborate(
     work.grids(default.initial.as_ref());
     work.boundaries();
     work.import_boundaries(import.as_ref());
+    let states = work.states();
+    work.named_values();
     work.connections();
     work.thermostats(controls);
     work.capacitors();
@@ -99,6 +101,7 @@ pub(crate) fn elaborate(
     work.import_conductors(import.as_ref());
     work.sources();
     work.import_sources(import.as_ref());
+    work.state_laws(states);
     work.check_state();
     work.start_the_others();
     work.limits();
@@ -165,6 +168,7 @@ fn unused(kind: ValueKind, name: &str, span: &Span) -> Diagnostic {
         ValueKind::Signal => "netlist::unused_signal",
         ValueKind::Control => "netlist::unused_control",
         ValueKind::Table => "netlist::unused_table",
+        ValueKind::State | ValueKind::Value => "netlist::unused_value",
     };
     Diagnostic::doubt(
         code,

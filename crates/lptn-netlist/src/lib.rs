@@ -33,6 +33,7 @@ mod assign;
 mod assumed;
 mod believe;
 mod case;
+mod controller;
 mod csv_files;
 mod describe;
 mod duplicate;

@@ -3,6 +3,7 @@
 use lptn_data::{Diagnostic, Span};
 use lptn_network::Context;
 
+use crate::names::ValueKind;
 use crate::place::{Place, Wanted};
 use crate::raw::RawKind;
 
@@ -91,4 +92,22 @@ pub(crate) fn control_not_here(place: Place<'_>, name: &str, at: Span) -> Diagno
     Diagnostic::error("netlist::control_not_here", message)
         .at(at, "0 or 1, as it switches")
         .help(help)
+}
+
+/// Error for a state or a named value in a place that cannot follow the results.
+pub(crate) fn value_not_here(
+    place: Place<'_>,
+    (kind, name): (ValueKind, &str),
+    at: Span,
+) -> Diagnostic {
+    let message = format!("{} cannot use {} `{name}`", place.words(), kind.word());
+    let help = match place.key {
+        "below" | "above" => BOUND_HELP,
+        _ => {
+            "sources, the values of paths, thresholds of controls, rates of states, limits and \
+             reports may use states and values; a constant belongs in [param], a function of \
+             time in [signal]"
+        }
+    };
+    Diagnostic::error("netlist::value_not_here", message).at(at, "").help(help)
 }

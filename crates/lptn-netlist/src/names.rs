@@ -19,6 +19,8 @@ pub(crate) enum ValueKind {
     Parameter = "parameter",
     Signal = "signal",
     Control = "control",
+    State = "state",
+    Value = "value",
     Table = "table",
 }
 /// Its name in messages.
@@ -32,6 +34,8 @@ impl ValueKind {
             Self::Parameter => "param",
             Self::Signal => "signal",
             Self::Control => "control",
+            Self::State => "state",
+            Self::Value => "value",
             Self::Table => "table",
         }
     }
@@ -109,8 +113,10 @@ impl Names {
     pub(crate) fn line<'a>(&self, raw: &'a RawNetlist, name: &str) -> Option<&'a RawEntry> {
         let (kind, _, position) = self.values.get(name)?;
         let entries = match kind {
-            ValueKind::Parameter | ValueKind::Signal => raw.elements(kind.section()),
-            ValueKind::Control | ValueKind::Table => return None,
+            ValueKind::Parameter | ValueKind::Signal | ValueKind::Value => {
+                raw.elements(kind.section())
+            }
+            ValueKind::Control | ValueKind::State | ValueKind::Table => return None,
         };
         entries.get(*position)
     }
@@ -245,6 +251,8 @@ impl Names {
         let unused = self.order.iter().filter(|name| !self.used.contains(*name));
         unused.filter_map(|name| {
             let (kind, span, _) = self.values.get(name)?;
+            // a state is a result by itself
+            (*kind != ValueKind::State).then_some(())?;
             Some((*kind, name.as_str(), span))
         })
     }

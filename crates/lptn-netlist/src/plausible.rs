@@ -78,7 +78,7 @@ const RANGES: [Range; 3] = [
 /// A warning for each property of a material or grid of the file that no solid has at the
 /// temperatures from which nodes start.
 pub(crate) fn materials(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
-    let starts = || network.node_ids().map(|id| network.initial(id)).filter(|t| t.is_finite());
+    let starts = || network.thermal_nodes().map(|id| network.initial(id)).filter(|t| t.is_finite());
     let least = starts().fold(f64::INFINITY, f64::min);
     let temperatures = match least.is_finite() {
         true => [least, starts().fold(least, f64::max)],

@@ -7,7 +7,7 @@ use lptn_network::Context;
 use lptn_units::{Expression, Type, Written, is_function, parse_quantity, parse_value, suggest};
 
 use crate::fields::wrong_shape;
-use crate::misplaced::{LOCAL, control_not_here, depends_on_time, not_here};
+use crate::misplaced::{LOCAL, control_not_here, depends_on_time, not_here, value_not_here};
 use crate::names::{Names, ValueKind, base};
 use crate::place::{Place, Text, Wanted};
 use crate::raw::RawKind;
@@ -84,6 +84,9 @@ impl Names {
                 ValueKind::Signal if !wanted.time => Some(depends_on_time(place, &name, at())),
                 ValueKind::Control if !wanted.controls => {
                     Some(control_not_here(place, &name, at()))
+                }
+                ValueKind::State | ValueKind::Value if !wanted.names_nodes() => {
+                    Some(value_not_here(place, (kind, &name), at()))
                 }
                 _ => None,
             };

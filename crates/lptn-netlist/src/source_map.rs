@@ -1,6 +1,6 @@
 //! The place of each part of a network in its files.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
 use lptn_data::{Files, Span};
@@ -50,6 +50,8 @@ pub struct SourceMap {
     top: Option<Span>,
     /// `T0` of `[default]`.
     default: Option<Span>,
+    /// The nodes of states.
+    states: BTreeSet<NodeId>,
     /// The place at which a part first names its node.
     parts: HashMap<NodeId, Span>,
     /// The places of the elements of CSV files.
@@ -179,6 +181,13 @@ impl SourceMap {
         self.conductors.add(section);
     }
 
+    /// Notes the node of a state, with the places of its start.
+    pub(crate) fn state(&mut self, node: NodeId, name: &Span, start: &RawValue) {
+        self.states.insert(node);
+        self.insert(Item::Node(node), Field::Name, name.clone());
+        self.value(Item::Node(node), Field::Initial, start);
+    }
+
     /// Notes the section of the next source; one that was imported has none.
     pub(crate) fn source(&mut self, section: &'static str) {
         self.sources.add(section);
@@ -243,11 +252,21 @@ impl Naming for SourceMap {
     fn kind(&self, item: Item) -> &'static str {
         match item {
             Item::Node(_) if self.whole(item).is_some() => "grid",
+            Item::Node(id) if self.states.contains(&id) => "state",
             Item::Conductor(id) => self.conductors.of(id.index()).unwrap_or("path"),
             Item::Source(id) => self.sources.of(id.index()).unwrap_or("source"),
             Item::FacePath(id) => self.face_paths.get(id.index()).copied().unwrap_or("path"),
             other => other.word(),
         }
+    }
+
+    fn key(&self, item: Item, field: Field) -> &'static str {
+        let field = match (self.kind(item), field) {
+            ("state", Field::Initial) => Field::Start,
+            ("state", field) if field == Field::POWER => Field::Rate,
+            (_, field) => field,
+        };
+        field.key()
     }
 
     fn elsewhere(&self, item: Item, field: Field) -> Option<&'static str> {

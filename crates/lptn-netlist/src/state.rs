@@ -46,6 +46,8 @@ pub struct SavedState<'a> {
     pub temperatures: Vec<(&'a str, f64)>,
     /// The molten share, from 0 to 1, of each node whose temperature does not determine it.
     pub melted: Vec<(&'a str, f64)>,
+    /// The value of every state of `[state]` by name, in SI units.
+    pub states: Vec<(&'a str, f64)>,
     /// The state of every control.
     pub controls: Vec<StateControl<'a>>,
 }
@@ -79,6 +81,10 @@ impl SavedState<'_> {
         object(out, self.temperatures.iter().map(number))?;
         write!(out, " }},\n  \"melted\": ")?;
         object(out, self.melted.iter().map(number))?;
+        if !self.states.is_empty() {
+            write!(out, ",\n  \"states\": ")?;
+            object(out, self.states.iter().map(number))?;
+        }
         write!(out, ",\n  \"controls\": ")?;
         object(out, self.controls.iter().map(|control| (control.name, control.text())))?;
         writeln!(out, "\n}}")

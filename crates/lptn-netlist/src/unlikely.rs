@@ -40,7 +40,8 @@ fn scales(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
     let boundaries = network.boundary_ids().zip(network.boundaries()).filter_map(|(id, one)| {
         Some((Item::Boundary(id), Field::Temperature, constant(&one.temperature)?))
     });
-    let starts = network.node_ids().zip(network.nodes()).filter_map(|(id, node)| {
+    let starts = network.thermal_nodes().filter_map(|id| {
+        let node = &network.nodes()[id.index()];
         Some((Item::Node(id), Field::Initial, constant(node.initial.as_ref()?)?))
     });
     let odd = boundaries.chain(starts).filter_map(|(item, field, kelvin)| {
@@ -115,11 +116,11 @@ fn laws(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
 
 /// Capacities of nodes, constant and more than zero.
 fn masses(network: &Network) -> Vec<(NodeId, f64)> {
-    let nodes = network.node_ids().zip(network.nodes());
-    let constant = nodes.filter_map(|(id, node)| match node.capacity {
-        Some(Value::Constant(capacity)) if capacity > 0.0 => Some((id, capacity)),
-        _ => None,
-    });
+    let constant =
+        network.thermal_nodes().filter_map(|id| match network.nodes()[id.index()].capacity {
+            Some(Value::Constant(capacity)) if capacity > 0.0 => Some((id, capacity)),
+            _ => None,
+        });
     constant.collect()
 }
 

@@ -75,7 +75,8 @@ impl LeftOut {
             K::NoCapacity { .. } => item || self.parts,
             K::NoInitialTemperature { .. }
             | K::MasslessWithCapacity { .. }
-            | K::NoThermostat { .. } => item,
+            | K::NoThermostat { .. }
+            | K::NoRate { .. } => item,
             K::FloatingIsland { ref nodes, .. } => {
                 self.paths
                     || self.parts

@@ -28,6 +28,9 @@ fn stores_heat(parts: &Parts) -> Vec<bool> {
 fn nodes(parts: &Parts, stores: &[bool], errors: &mut Vec<BuildError>) {
     for (i, node) in parts.nodes.iter().enumerate() {
         let id = NodeId::from_len(i);
+        if parts.state_at(id).is_some() {
+            continue; // its rate and start are checked with the numbers
+        }
         let kind = match (stores[i], node.massless) {
             (false, false) => BuildErrorKind::NoCapacity { node: id },
             (true, true) => BuildErrorKind::MasslessWithCapacity { node: id },

@@ -7,7 +7,9 @@ use crate::error_words::{
     Say, area, by, crossed, evaluation, in_unit, inside, keys, not_positive, unused_name, usable,
     without_brackets,
 };
-use crate::id::{ConductorId, ControlId, Field, FluidId, GridId, Item, NodeId, SignalId, SourceId};
+use crate::id::{
+    ConductorId, ControlId, Field, FluidId, GridId, Item, NodeId, SignalId, SourceId, StateId,
+};
 use crate::names::list_of_names;
 use crate::parts::grid::{GridFace, MOST_CELLS};
 
@@ -121,6 +123,33 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
         ),
         help text("sources and paths may compare temperatures, with `<` or `>`; elsewhere write a \
             smooth change, for example `0.5 * (1 + tanh((T - 80 [degC]) / 1 [K]))`, or a [table]");
+    /// A state whose usual size is not a positive number, in SI units.
+    StateSize { state: StateId, size: f64 } = "network::state_size",
+        at Some((Item::State(*state), Field::UsualSize)),
+        says format!("{} needs a usual size of more than zero", say.item(Item::State(*state))),
+        help text("its tolerance is 1e-7 of `size`, which is `max - min` or the size of `start` if \
+            it is not given: add `size`, the size of a usual change");
+    /// A state whose least value is not below its greatest, in SI units.
+    StateBounds { state: StateId, bounds: [f64; 2] } = "network::state_bounds",
+        at Some((Item::State(*state), Field::Most)),
+        says format!(
+            "`max` of {} is not above `min`: {} and {} (SI units)",
+            say.item(Item::State(*state)), format_short(bounds[1]), format_short(bounds[0])
+        ),
+        help text("exchange the two, or leave one out");
+    /// A state whose start is outside its bounds, in SI units.
+    StateStart { state: StateId, start: f64, bound: f64 } = "network::state_start",
+        at Some((Item::State(*state), Field::Start)),
+        says format!(
+            "`start` of {} is beyond its bound: {} and {} (SI units)",
+            say.item(Item::State(*state)), format_short(*start), format_short(*bound)
+        ),
+        help text("a state stays between `min` and `max`: change `start` or the bound");
+    /// A state without a rate.
+    NoRate { state: StateId } = "network::no_rate",
+        at Some((Item::State(*state), Field::Rate)),
+        says format!("{} has no rate of change", say.item(Item::State(*state))),
+        help text("give it `rate`, in its unit per second");
     /// The threshold at which a control switches on lies beyond that at which it switches off, or
     /// both are one.
     ThresholdsCrossed { control: ControlId, fields: [Field; 2], on: f64, off: f64 } =

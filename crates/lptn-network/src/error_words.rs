@@ -15,6 +15,12 @@ pub trait Naming {
         item.word()
     }
 
+    /// The key of a field of an item.
+    fn key(&self, item: Item, field: Field) -> &'static str {
+        let _ = item;
+        field.key()
+    }
+
     /// The words for a field that is not the item's own, such as a default.
     fn elsewhere(&self, item: Item, field: Field) -> Option<&'static str> {
         let _ = (item, field);
@@ -59,7 +65,7 @@ impl<'a> Say<'a> {
         match (self.naming.elsewhere(item, field), field) {
             (Some(words), _) => words.to_owned(),
             (None, Field::Value | Field::Name) => self.item(item),
-            (None, _) => format!("`{}` of {}", field.key(), self.item(item)),
+            (None, _) => format!("`{}` of {}", self.naming.key(item, field), self.item(item)),
         }
     }
 }
@@ -71,7 +77,9 @@ pub(crate) fn unused_name(first: Item, name: &str) -> String {
         | Item::Signal(_)
         | Item::Control(_)
         | Item::Table(_)
-        | Item::Report(_) => "parameters, signals, controls, tables and reports",
+        | Item::State(_)
+        | Item::Value(_)
+        | Item::Report(_) => "parameters, values, signals, controls, states, tables and reports",
         _ => "nodes and elements",
     };
     // the name of a part of a grid, such as `wall.y[3,3]`, becomes one that can be written

@@ -56,6 +56,10 @@ ids! {
     GridId;
     /// A path that ends at a face of a grid.
     FacePathId;
+    /// A state of one's own.
+    StateId;
+    /// A named value.
+    ValueId;
 }
 
 /// One end of a conductor.
@@ -112,6 +116,10 @@ pub enum Item {
     Grid(GridId),
     /// A path that ends at a face of a grid.
     FacePath(FacePathId),
+    /// A state of one's own.
+    State(StateId),
+    /// A named value.
+    Value(ValueId),
 }
 
 impl From<End> for Item {
@@ -141,6 +149,8 @@ impl Item {
             Self::Report(_) => "report",
             Self::Control(_) => "control",
             Self::Grid(_) => "grid",
+            Self::State(_) => "state",
+            Self::Value(_) => "value",
         }
     }
 }
@@ -212,6 +222,16 @@ pub enum Field {
     Cells,
     /// Characteristic length of a node.
     CharacteristicLength,
+    /// Value of a state at the start.
+    Start,
+    /// Rate of change of a state.
+    Rate,
+    /// Least value of a state.
+    Least,
+    /// Greatest value of a state.
+    Most,
+    /// Usual size of a state.
+    UsualSize,
 }
 
 /// A field of a law; those of one key are one field, whatever the law.
@@ -313,6 +333,11 @@ impl Field {
             Self::Size => "size",
             Self::Cells => "cells",
             Self::CharacteristicLength => "L_char",
+            Self::Start => "start",
+            Self::Rate => "rate",
+            Self::Least => "min",
+            Self::Most => "max",
+            Self::UsualSize => "size",
         }
     }
 }

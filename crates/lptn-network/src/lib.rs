@@ -55,6 +55,7 @@ pub use bends::Bends;
 pub use breakpoints::same_time;
 pub use build_error::{BuildError, BuildErrors};
 pub use builder::grid::GridBlock;
+pub use builder::state::StateLaw;
 pub use builder::substance::{NoMaterial, Properties};
 pub use builder::{NetworkBuilder, Path};
 pub use changing::Changing;
@@ -65,8 +66,8 @@ pub use error_words::{Naming, Say};
 pub use evaluation::Evaluation;
 pub use id::{
     BoundaryId, CapacitorId, ConductorId, ControlId, End, FacePathId, Field, FluidId, GridId, Item,
-    LawField, LimitId, MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId, SwitchId,
-    TableId,
+    LawField, LimitId, MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId, StateId,
+    SwitchId, TableId, ValueId,
 };
 pub use input_error::{InputError, InputProblem};
 pub use ladder::{Cauer, Foster, LadderError};
@@ -86,8 +87,10 @@ pub use parts::grid::{Face, FacePath, Grid, GridFace, MOST_CELLS, Substance, Ter
 pub use parts::grid_value::GridValue;
 pub use parts::heat::HeatOf;
 pub use parts::layout::Followed;
+pub use parts::named_value::NamedValue;
 pub use parts::result::{Bound, Limit, LimitSeverity, Report};
 pub use parts::signal::{AfterEnd, Course, Join, Signal};
+pub use parts::state::State;
 pub use parts::substance::{Fluid, Material, Melting};
 pub use parts::switch::Switch;
 pub use periodicity::{NoCommonPeriod, NotPeriodic};

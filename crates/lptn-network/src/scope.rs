@@ -1,8 +1,10 @@
 //! The names that expressions may use, by context.
 
-use lptn_units::{Dimension, Scope, Symbol, TableSymbol, Type};
+use std::sync::Arc;
 
-use crate::id::{End, Item};
+use lptn_units::{Dimension, Expression, Scope, Symbol, TableSymbol, Type};
+
+use crate::id::{End, Item, NodeId};
 use crate::parts::Parts;
 use crate::slot;
 
@@ -65,6 +67,16 @@ impl<'a> NetworkScope<'a> {
         Some(Symbol { slot, ty: Type::ABSOLUTE_TEMPERATURE, in_comparison: None })
     }
 
+    /// The node of a state, as a temperature difference from 0 K.
+    fn inner(self, name: &str) -> Option<Symbol> {
+        let Item::State(id) = *self.parts.value_names.get(name.strip_suffix('\'')?)? else {
+            return None;
+        };
+        let node = self.parts.states[id.index()].node;
+        let slot = self.parts.layout.temperature(End::Node(node));
+        Some(Symbol { slot, ty: Type::of(Dimension::TEMPERATURE), in_comparison: None })
+    }
+
     /// A heat flow that has a slot: see [`crate::NetworkBuilder::name_heats`].
     fn heat(self, name: &str) -> Option<Symbol> {
         let heat = self.parts.heat(name).filter(|_| self.context == Context::Result)?;
@@ -109,7 +121,16 @@ impl Scope for NetworkScope<'_> {
             Some(_) => self.heat(name).or_else(|| self.grid(name)),
             None => self.local(name),
         };
-        own.or_else(|| self.value(name))
+        own.or_else(|| self.value(name)).or_else(|| self.inner(name))
+    }
+
+    fn meaning(&self, name: &str) -> Option<Arc<Expression>> {
+        let meaning = match *self.parts.value_names.get(name)? {
+            Item::State(id) => &self.parts.states[id.index()].meaning,
+            Item::Value(id) => &self.parts.named_values[id.index()].meaning,
+            _ => return None,
+        };
+        self.names_ends().then(|| Arc::clone(meaning))
     }
 
     fn names(&self) -> Vec<String> {
@@ -121,9 +142,13 @@ impl Scope for NetworkScope<'_> {
         let local = ["T", "T_from", "T_to", "T_mean", "dT"];
         names.extend(local.into_iter().filter(|n| self.local(n).is_some()).map(str::to_owned));
         if self.names_ends() {
-            let nodes = self.parts.nodes.iter().map(|node| &node.name);
+            let is_node = |i: &usize| self.parts.state_at(NodeId::from_len(*i)).is_none();
+            let nodes = (0..self.parts.nodes.len()).filter(is_node);
+            let nodes = nodes.map(|i| &self.parts.nodes[i].name);
             let boundaries = self.parts.boundaries.iter().map(|boundary| &boundary.name);
             names.extend(nodes.chain(boundaries).map(|name| format!("{name}.T")));
+            names.extend(self.parts.states.iter().map(|state| state.name.clone()));
+            names.extend(self.parts.named_values.iter().map(|value| value.name.clone()));
         }
         if self.context == Context::Result {
             names.extend(self.parts.heat_names());

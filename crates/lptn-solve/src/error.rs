@@ -23,6 +23,16 @@ pub enum SteadyError {
             six_digits(*heat)
         ),
         help "add a path to a boundary, or run the network over time: `lptn run`";
+    /// A state changes whatever the temperatures are: its name, its rate in SI units per second,
+    /// and the unit.
+    Drifts { name: String, rate: f64, unit: String } = "steady::drifts",
+        format!(
+            "no steady state: state `{name}` changes without end, by {} {}/s",
+            six_digits(*rate), if unit == "1" { "" } else { unit }
+        ),
+        help "run the network over time, `lptn run`; or let the rate become zero, for example by \
+            `min` or `max` of the state",
+        class Class::No;
     /// A source or boundary has no value.
     Input => InputError;
     /// The balances of a nonlinear network were not solved.

@@ -39,7 +39,8 @@ impl Extremes {
         (network, nodes): (&Network, &[f64]),
         range: Option<(f64, f64)>,
     ) {
-        let all = || network.node_ids().zip(nodes).map(|(id, &t)| (id, t, Some(time)));
+        let all = || network.thermal_nodes().map(|id| (id, nodes[id.index()], Some(time)));
+        let range = range.filter(|_| network.states().is_empty());
         let Some((least, most)) = range else {
             return all().for_each(|place| self.take_in(place));
         };
@@ -62,7 +63,7 @@ impl Extremes {
     /// The hottest or the coldest place, if nothing real is as hot, or nothing else that cold.
     /// `others` are the temperatures of boundaries in K.
     pub(crate) fn odd(self, network: &Network, others: impl Iterator<Item = f64>) -> Option<Place> {
-        let starts = network.node_ids().map(|id| network.initial(id));
+        let starts = network.thermal_nodes().map(|id| network.initial(id));
         let cold_anyway = || others.chain(starts).any(|t| t < COLDEST);
         let hot = self.hottest.filter(|place| place.1 > HOTTEST);
         hot.or_else(|| self.coldest.filter(|place| place.1 < COLDEST).filter(|_| !cold_anyway()))

@@ -36,7 +36,7 @@ impl Ledger {
         let (boundaries, rest) = rest.split_at(network.boundaries().len());
         let (streams, turned) = rest.split_at(system.streams().len());
         let turned_over = turned.iter().sum::<f64>() + stored.iter().map(|q| q.abs()).sum::<f64>();
-        let capacity: f64 = network.node_ids().map(|id| network.capacity(id)).sum();
+        let capacity: f64 = network.thermal_nodes().map(|id| network.capacity(id)).sum();
         let bound = 1e-8 + 10.0 * tolerance * capacity / turned_over;
         let [sources, boundaries, streams] = [sources, boundaries, streams].map(<[f64]>::to_vec);
         Self { sources, boundaries, streams, stored, turned_over, bound }
@@ -113,6 +113,7 @@ pub(crate) fn integrands(
     system.boundary_heat(work, y, boundaries)?;
     system.stream_heat(work, streams)?;
     sources.copy_from_slice(system.source_powers(work));
+    system.network().without_states(sources);
     turned[0] = sources.iter().chain(&*boundaries).chain(&*streams).map(|q| q.abs()).sum();
     Ok(())
 }

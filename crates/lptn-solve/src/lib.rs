@@ -76,6 +76,7 @@ mod snapshot;
 mod solution;
 mod solution_error;
 mod stability;
+mod standing;
 mod state;
 mod stateless;
 mod steady;

@@ -182,7 +182,7 @@ struct Checker<'a> {
 impl<'a> Checker<'a> {
     fn new(system: &'a ThermalSystem) -> Self {
         let network = system.network();
-        let stores = network.node_ids().filter(|id| !network.nodes()[id.index()].massless);
+        let stores = network.thermal_nodes().filter(|id| !network.nodes()[id.index()].massless);
         let mut bodies: Vec<Body> = stores.filter_map(|id| Body::new(network, id)).collect();
         let places: BTreeMap<NodeId, usize> =
             bodies.iter().enumerate().map(|(i, body)| (body.check.node, i)).collect();
@@ -239,7 +239,11 @@ impl<'a> Checker<'a> {
         };
         let shortest = run.filter(|_| !self.bodies.is_empty()).map(|run| shortest(network, run));
         let checks = self.bodies.into_iter().map(|body| body.check).collect();
-        Lumping { checks, without_length: network.node_ids().filter(lacks).collect(), shortest }
+        Lumping {
+            checks,
+            without_length: network.thermal_nodes().filter(lacks).collect(),
+            shortest,
+        }
     }
 }
 

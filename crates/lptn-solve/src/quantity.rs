@@ -2,7 +2,7 @@
 
 use lptn_network::{
     BoundaryId, ConductorId, ControlId, GridValue, HeatOf, Item, Network, NodeId, ReportId,
-    SignalId, SourceId,
+    SignalId, SourceId, StateId,
 };
 use lptn_units::{Type, Unit};
 
@@ -14,6 +14,7 @@ pub(crate) enum Quantity {
     Grid(GridValue),
     BoundaryTemperature(BoundaryId),
     Heat(HeatOf),
+    State(StateId),
     Signal(SignalId),
     Control(ControlId),
     Report(ReportId),
@@ -30,8 +31,9 @@ impl Quantity {
             .chain(network.grid_values().map(Self::Grid))
             .chain(network.boundary_ids().map(Self::BoundaryTemperature))
             .chain(paths.chain(joints).map(Self::Heat))
-            .chain(network.source_ids().flat_map(|id| of_source(network, id)).map(Self::Heat))
+            .chain(network.heat_sources().flat_map(|id| of_source(network, id)).map(Self::Heat))
             .chain(network.boundary_ids().map(|id| Self::Heat(HeatOf::Boundary(id))))
+            .chain(network.state_ids().map(Self::State))
             .chain(network.signal_ids().map(Self::Signal))
             .chain(network.control_ids().map(Self::Control))
             .chain(network.report_ids().map(Self::Report))
@@ -69,9 +71,10 @@ impl Quantity {
             Self::Heat(HeatOf::FacePath(id)) => (4, id.index(), 0),
             Self::Heat(HeatOf::Source(id)) => (5, id.index(), 0),
             Self::Heat(HeatOf::Boundary(id)) => (6, id.index(), 0),
-            Self::Signal(id) => (7, id.index(), 0),
-            Self::Control(id) => (8, id.index(), 0),
-            Self::Report(id) => (9, id.index(), 0),
+            Self::State(id) => (7, id.index(), 0),
+            Self::Signal(id) => (8, id.index(), 0),
+            Self::Control(id) => (9, id.index(), 0),
+            Self::Report(id) => (10, id.index(), 0),
         };
         (inner, kind, index, end)
     }
@@ -97,6 +100,7 @@ impl Quantity {
             Self::Grid(value) => value.name(network),
             Self::BoundaryTemperature(id) => format!("{}.T", network.boundaries()[id.index()].name),
             Self::Heat(heat) => heat.name(network),
+            Self::State(id) => network.states()[id.index()].name.clone(),
             Self::Signal(id) => network.signals()[id.index()].name.clone(),
             Self::Control(id) => network.controls()[id.index()].name.clone(),
             Self::Report(id) => network.reports()[id.index()].name.clone(),
@@ -109,6 +113,7 @@ impl Quantity {
             Self::Node(id) => Item::Node(id),
             Self::BoundaryTemperature(id) => Item::Boundary(id),
             Self::Heat(heat) => heat.item(),
+            Self::State(id) => Item::State(id),
             Self::Signal(id) => Item::Signal(id),
             Self::Report(id) => Item::Report(id),
             Self::Control(id) => Item::Control(id),
@@ -122,15 +127,16 @@ impl Quantity {
                 Type::ABSOLUTE_TEMPERATURE
             }
             Self::Heat(heat) => heat.ty(network),
+            Self::State(id) => network.states()[id.index()].ty,
             Self::Signal(id) => network.signals()[id.index()].ty,
             Self::Control(_) => Type::SCALAR,
             Self::Report(id) => network.reports()[id.index()].ty,
         }
     }
 
-    /// True if it can be computed only if the temperature of every node is known.
+    /// True if it is no recorded temperature, and is read as the run reaches a row.
     pub(crate) fn needs_all(self) -> bool {
-        matches!(self, Self::Heat(_) | Self::Report(_) | Self::Grid(_))
+        matches!(self, Self::Heat(_) | Self::Report(_) | Self::Grid(_) | Self::State(_))
     }
 }
 
@@ -154,6 +160,7 @@ pub(crate) struct Shown {
 impl Shown {
     pub(crate) fn of(quantity: Quantity, network: &Network) -> Self {
         let own = match quantity {
+            Quantity::State(id) => network.states()[id.index()].unit.clone(),
             Quantity::Signal(id) => network.signals()[id.index()].unit.clone(),
             _ => None,
         };

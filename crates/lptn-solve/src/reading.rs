@@ -121,6 +121,9 @@ impl<'a> Reading<'a> {
                 Ok(self.system.boundary_temperatures(work)[id.index()])
             }
             Quantity::Heat(heat) => self.heat(work, heat),
+            Quantity::State(id) => {
+                Ok(self.system.network().state_value(id, self.system.node_temperatures(work)))
+            }
             Quantity::Signal(id) => Ok(self.scope.signal(id)),
             Quantity::Control(id) => Ok(self.scope.control(id)),
             Quantity::Report(id) => self.system.network().report_value(id, &mut self.scope),

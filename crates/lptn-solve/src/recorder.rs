@@ -274,7 +274,7 @@ impl<'a> Recorder<'a> {
         let nodes = self.system.node_temperatures(&self.work);
         let range = kernels::range(nodes);
         if range.is_none_or(|(least, _)| least < 0.0)
-            && let Some(i) = nodes.iter().position(|&t| t < 0.0)
+            && let Some(i) = self.system.network().first_below_zero(nodes)
         {
             let name = self.system.network().nodes()[i].name.clone();
             return Err(StopReason::BelowAbsoluteZero { name, temperature: nodes[i] });

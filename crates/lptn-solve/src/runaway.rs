@@ -210,7 +210,8 @@ impl<'a> Search<'a> {
         let place = |node: usize| system.unknowns().iter().position(|id| id.index() == node);
         let mut found = Vec::new();
         let mut slopes = Vec::new();
-        for source in network.source_ids() {
+        // the rate of a state is part of the way back, not a heat
+        for source in network.heat_sources() {
             let reads = network.source_variables(source);
             let known = network.source_slopes(source, &mut self.scope, &temperatures, &mut slopes);
             if reads.is_empty() || known.is_err() {

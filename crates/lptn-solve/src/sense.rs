@@ -33,7 +33,7 @@ impl Beyond {
         let peaks =
             solution.watched().iter().map(|seen| (seen.watch.node, seen.peak.0, Some(seen.peak.1)));
         let ends =
-            network.node_ids().zip(&last.temperatures).map(|(id, &t)| (id, t, Some(last.time)));
+            network.thermal_nodes().map(|id| (id, last.temperatures[id.index()], Some(last.time)));
         let mut scope = network.evaluation();
         scope.set_time(last.time, just_after(last.time));
         let mut boundaries = vec![f64::NAN; network.boundaries().len()];
@@ -51,7 +51,7 @@ impl Beyond {
 
     /// The implausible result of a steady state, if any: as [`Beyond::of_run`].
     pub fn of_steady(network: &Network, steady: &SteadyState) -> Option<Self> {
-        let nodes = network.node_ids().zip(&steady.temperatures).map(|(id, &t)| (id, t, None));
+        let nodes = network.thermal_nodes().map(|id| (id, steady.temperatures[id.index()], None));
         let boundaries = &steady.boundary_temperatures;
         let place = Extremes::default().with(nodes).odd(network, boundaries.iter().copied())?;
         let temperatures: Vec<f64> =
@@ -70,8 +70,7 @@ impl Beyond {
         let paths =
             paths.map(|(id, conductor)| (id, (at(conductor.from) - at(conductor.to)).abs()));
         let largest = |a: &(SourceId, f64), b: &(SourceId, f64)| a.1.abs().total_cmp(&b.1.abs());
-        let sources =
-            || network.source_ids().zip(heat).filter_map(|(id, heat)| Some((id, (*heat)?)));
+        let sources = || network.heat_sources().filter_map(|id| Some((id, heat[id.index()]?)));
         let heats =
             |id: SourceId| network.sources()[id.index()].into.iter().any(|(into, _)| *into == node);
         let source = sources().filter(|(id, _)| heats(*id)).max_by(largest);

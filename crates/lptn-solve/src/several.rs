@@ -42,7 +42,11 @@ pub(crate) fn start(system: &ThermalSystem, work: &Workspace) -> Vec<f64> {
     let begins = |id: &lptn_network::NodeId| system.network().begins(*id).unwrap_or(sum / count);
     temperatures.extend(system.unknowns()[temperatures.len()..].iter().map(begins));
     // at 0 K radiation shows no direction
-    temperatures.iter_mut().for_each(|t| *t = t.max(COLDEST_START));
+    for (id, t) in system.unknowns().iter().zip(&mut temperatures) {
+        if system.network().is_thermal(*id) {
+            *t = t.max(COLDEST_START);
+        }
+    }
     temperatures
 }
 

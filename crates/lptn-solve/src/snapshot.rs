@@ -50,7 +50,7 @@ impl Snapshot {
             temperatures: system.node_temperatures(work).to_vec(),
             boundary_temperatures: system.boundary_temperatures(work).to_vec(),
             received: received?,
-            source_heat: system.source_powers(work).to_vec(),
+            source_heat: heats(system, work),
             boundary_heat,
             positions: work.positions().clone(),
             settled,
@@ -118,9 +118,17 @@ impl Snapshot {
             Quantity::BoundaryTemperature(id) => Ok(self.boundary_temperatures[id.index()]),
             Quantity::Heat(HeatOf::Told(item, key)) => network.told(item, key, scope),
             Quantity::Heat(heat) => Ok(self.heat(network, heat, scope)),
+            Quantity::State(id) => Ok(network.state_value(id, &self.temperatures)),
             Quantity::Signal(id) => Ok(scope.signal(id)),
             Quantity::Control(id) => Ok(scope.control(id)),
             Quantity::Report(id) => network.report_value(id, scope),
         }
     }
+}
+
+/// The heat of each source in W; none of one that changes a state.
+fn heats(system: &ThermalSystem, work: &Workspace) -> Vec<f64> {
+    let mut heats = system.source_powers(work).to_vec();
+    system.network().without_states(&mut heats);
+    heats
 }

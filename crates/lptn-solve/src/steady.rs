@@ -19,6 +19,7 @@ use crate::newton_error::NewtonError;
 use crate::runaway::Runaway;
 use crate::several::{Others, same, start};
 use crate::snapshot::Snapshot;
+use crate::standing;
 use crate::times::just_after;
 use crate::transient::{FINE, MOVED, ROUGH, Way, rest};
 use crate::unsolved::Unsolved;
@@ -124,12 +125,12 @@ impl SteadyState {
             true => find_consistent(system, time),
             false => Self::with_positions(system, time, &Positions::default()),
         };
-        let decided = matches!(
-            found,
-            Err(SteadyError::NoBoundary { .. }
-                | SteadyError::Input(_)
-                | SteadyError::Cycles { .. })
-        );
+        let decided = match found {
+            Err(SteadyError::NoBoundary { .. } | SteadyError::Input(_)) => true,
+            // a state that rests at the start need not rest on the way
+            Err(SteadyError::Cycles { .. }) => system.network().states().is_empty(),
+            _ => false,
+        };
         let unique = !switches && system.is_monotone();
         if decided || unique || system.states().is_empty() {
             return found;
@@ -218,7 +219,8 @@ impl SteadyState {
         }
         system.read_inputs(&mut work, time, just_after(time))?;
         let islands = Island::all_of(system);
-        let unknowns = if system.is_linear() && islands.is_empty() {
+        let direct = system.is_linear() && islands.is_empty() && network.states().is_empty();
+        let unknowns = if direct {
             states(system, &work).map_err(SteadyError::Factorization)?
         } else {
             balanced(system, &mut work, &islands, start)?
@@ -308,7 +310,7 @@ fn unsettled(
 }
 
 fn check_absolute(network: &Network, temperatures: &[f64]) -> Result<(), SteadyError> {
-    match temperatures.iter().position(|&t| t < 0.0) {
+    match network.first_below_zero(temperatures) {
         Some(i) => Err(SteadyError::BelowAbsoluteZero {
             name: network.nodes()[i].name.clone(),
             temperature: temperatures[i],
@@ -327,9 +329,9 @@ fn balanced(
 ) -> Result<Vec<f64>, SteadyError> {
     let mut temperatures = from.map_or_else(|| start(system, work), <[f64]>::to_vec);
     if islands.is_empty() {
-        let all = (0..temperatures.len()).collect();
+        let free = standing::free(system, work, &temperatures)?;
         let unsolved = |error| SteadyError::Unsolved(Unsolved::new(system, error));
-        let mut newton = Newton::new(system, all).map_err(unsolved)?;
+        let mut newton = Newton::new(system, free).map_err(unsolved)?;
         stable(&mut newton, work, &mut temperatures).map_err(unsolved)?;
     } else {
         adiabatic::solve(system, work, islands, &mut temperatures)?;

@@ -393,7 +393,9 @@ impl<'a> Run<'a> {
         let mut stored = vec![0.0; system.network().nodes().len()];
         let changes = self.integrator.state().iter().zip(&self.initial).zip(system.capacity());
         for (((now, before), capacity), id) in changes.zip(system.states()) {
-            stored[id.index()] = capacity * (now - before);
+            if system.network().is_thermal(*id) {
+                stored[id.index()] = capacity * (now - before);
+            }
         }
         let statistics: Statistics = self.integrator.statistics();
         let integrals = self.integrator.quadratures().map_err(TransientError::Integrator)?;

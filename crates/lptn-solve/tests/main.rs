@@ -31,6 +31,7 @@ mod modes_near;
 mod near_state;
 mod out_of_range;
 mod outputs;
+mod own_states;
 mod periodic;
 mod periodic_events;
 mod response;

@@ -85,7 +85,7 @@ impl Ranking {
     ) -> Result<Self, RankError> {
         let network = system.network();
         let state = &steady.state;
-        let temperatures = network.node_ids().zip(state.temperatures.iter().copied());
+        let temperatures = network.thermal_nodes().map(|id| (id, state.temperatures[id.index()]));
         let node = node.or_else(|| hottest(temperatures).map(|(id, _)| id));
         let node = node.ok_or(RankError::NoNode)?;
         let adjoint = Adjoint::of(system, state, node)?;
@@ -177,7 +177,7 @@ fn highest(
     (run, node): (&RunAnalysis, Option<NodeId>),
     observer: &dyn Fn(Progress) -> Proceed,
 ) -> Result<Highest, RankError> {
-    let nodes = node.map_or_else(|| system.network().node_ids().collect(), |id| vec![id]);
+    let nodes = node.map_or_else(|| system.network().thermal_nodes().collect(), |id| vec![id]);
     let run = run.clone().at(Vec::new()).watching(nodes.iter().copied()).for_the_hottest();
     let seen = run.solve(system, &mut |progress| observer(progress))?;
     let peaks = nodes.iter().zip(seen.watched().iter().map(|watched| watched.peak));

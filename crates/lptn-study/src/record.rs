@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use lptn_network::{Conductor, ConductorKind, Network, Source};
+use lptn_network::{Conductor, ConductorKind, Item, Network, NodeId, SourceId};
 use lptn_solve::{Ledger, Solution};
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -54,16 +54,21 @@ pub struct LedgerRecord {
 impl LedgerRecord {
     /// The ledger of a run of `network`.
     pub fn new(network: &Network, ledger: &Ledger) -> Self {
-        let sources = network.sources().iter().map(Source::name);
+        let heat = |id: &SourceId| ledger.sources[id.index()];
+        let ids: Vec<SourceId> = network.heat_sources().collect();
+        let sources = ids.iter().map(|id| network.name_of(Item::Source(*id)));
+        let given: Vec<f64> = ids.iter().map(heat).collect();
         let boundaries = network.boundaries().iter().map(|b| Cow::from(&b.name));
         let streams = network.conductors().iter().filter(|c| c.kind == ConductorKind::Advection);
         let streams = streams.map(Conductor::name);
-        let nodes = network.nodes().iter().map(|n| Cow::from(&n.name));
+        let ids: Vec<NodeId> = network.thermal_nodes().collect();
+        let nodes = ids.iter().map(|id| network.name_of(Item::Node(*id)));
+        let stored: Vec<f64> = ids.iter().map(|id| ledger.stored[id.index()]).collect();
         Self {
-            sources: by_name(sources, &ledger.sources),
+            sources: by_name(sources, &given),
             boundaries: by_name(boundaries, &ledger.boundaries),
             streams: by_name(streams, &ledger.streams),
-            stored: by_name(nodes, &ledger.stored),
+            stored: by_name(nodes, &stored),
             turned_over: SiValue::new(ledger.turned_over, "J"),
             residual: SiValue::new(ledger.residual(), "J"),
             relative_residual: ledger.relative_residual().map(|r| SiValue::new(r, "1")),

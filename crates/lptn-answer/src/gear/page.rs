@@ -130,7 +130,10 @@ impl GearAnswer {
                 "out_of_range": !part.outside.is_empty(),
             })
         };
-        let nodes = self.task().network.nodes().iter().zip(&state.temperatures);
+        let task = self.task();
+        let thermal = task.network.thermal_nodes();
+        let nodes =
+            thermal.map(|id| (&task.network.nodes()[id.index()], &state.temperatures[id.index()]));
         let nodes: serde_json::Map<String, Value> = nodes
             .map(|(node, &t)| {
                 let value = SiValue::new(self.unit.from_si(t), &self.unit.text);

@@ -158,7 +158,7 @@ fn temperatures(of: &RunAnswer, nodes: &[NodeSummary]) -> TextTable {
         .into()
 }
 
-/// Columns other than temperatures of nodes: every report, the values of grids, and columns
+/// Columns other than temperatures of nodes: reports, states, the values of grids, and columns
 /// that were requested by name.
 fn columns(of: &RunAnswer, text: &mut Text) {
     let network = of.solution.network();
@@ -167,8 +167,10 @@ fn columns(of: &RunAnswer, text: &mut Text) {
         |name: &str| name.strip_suffix(".T").is_some_and(|name| network.node(name).is_ok());
     let of_grids: Vec<String> = network.grid_values().map(|value| value.name(network)).collect();
     let is_of_grid = |name: &str| of_grids.iter().any(|value| value == name);
-    let wanted =
-        |name: &str| is_report(name) || is_of_grid(name) || (of.task.chosen && !is_node(name));
+    let is_state = |name: &str| network.state(name).is_some();
+    let wanted = |name: &str| {
+        is_report(name) || is_state(name) || is_of_grid(name) || (of.task.chosen && !is_node(name))
+    };
     let all = of.table.columns().get(1..).unwrap_or_default();
     let shown: Vec<_> = all.iter().filter(|column| wanted(&column.name)).take(MOST_NODES).collect();
     if shown.is_empty() {
@@ -216,9 +218,9 @@ fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
 fn notes(of: &RunAnswer, nodes: &[NodeSummary]) -> Vec<String> {
     let mut notes: Vec<String> = Vec::new();
     let network = of.solution.network();
-    if nodes.len() < network.nodes().len() && nodes.len() == MOST_NODES {
+    let all = network.nodes().len() - network.states().len();
+    if nodes.len() < all && nodes.len() == MOST_NODES {
         let which = if of.steady.is_ok() { "those that get hottest" } else { "the first ones" };
-        let all = network.nodes().len();
         notes.push(format!(
             "{} of {all} nodes are shown, {which}; --select 'NAME.T' shows others",
             nodes.len()
@@ -269,7 +271,10 @@ fn over(length: f64, clock: Clock) -> String {
 /// The heat of a run of this length in s, and the residual of its energy balance.
 pub(crate) fn heat_over(text: &mut Text, solution: &Solution, (length, clock): (f64, Clock)) {
     let (network, ledger) = (solution.network(), solution.ledger());
-    let sources = network.sources().iter().map(|s| s.name()).zip(&ledger.sources);
+    let heat = |id: lptn_network::SourceId| &ledger.sources[id.index()];
+    let sources = network
+        .heat_sources()
+        .map(|id| (network.name_of(lptn_network::Item::Source(id)), heat(id)));
     let boundaries =
         network.boundaries().iter().map(|b| Cow::from(&b.name)).zip(&ledger.boundaries);
     let flow = |(name, &heat): (Cow<'_, str>, &f64)| Flow { name: name.into_owned(), heat };

@@ -8,8 +8,10 @@ use crate::input::Input;
 
 /// The state at the end that a run reached.
 pub(super) fn of<'a>(input: &'a Input, solution: &'a Solution) -> SavedState<'a> {
-    let nodes = solution.network().nodes();
+    let network = solution.network();
+    let nodes = network.nodes();
     let last = solution.last();
+    let names = network.states().iter().map(|state| state.name.as_str());
     SavedState {
         network: &input.text.stem,
         title: solution.network().title(),
@@ -19,11 +21,11 @@ pub(super) fn of<'a>(input: &'a Input, solution: &'a Solution) -> SavedState<'a>
             RunStatus::Interrupted(_) => StateEnd::Interrupted,
             RunStatus::Failed(_) => StateEnd::Failed,
         },
-        temperatures: nodes
-            .iter()
-            .map(|node| node.name.as_str())
-            .zip(last.temperatures.iter().copied())
+        temperatures: network
+            .thermal_nodes()
+            .map(|id| (nodes[id.index()].name.as_str(), last.temperatures[id.index()]))
             .collect(),
+        states: names.zip(network.state_values(&last.temperatures)).collect(),
         melted: last
             .melted
             .iter()

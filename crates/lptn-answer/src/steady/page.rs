@@ -116,8 +116,11 @@ impl Row {
 impl SteadyAnswer {
     fn temperatures(&self, inside: bool) -> Vec<Row> {
         let network = &self.input.netlist.network;
-        let ids: Box<dyn Iterator<Item = NodeId>> =
-            if inside { Box::new(network.node_ids()) } else { Box::new(network.outer_nodes()) };
+        let ids: Box<dyn Iterator<Item = NodeId>> = if inside {
+            Box::new(network.thermal_nodes())
+        } else {
+            Box::new(network.outer_nodes())
+        };
         let row = |item, value| Row { of: Of::Item(item), value };
         let nodes = ids.map(|id| row(Item::Node(id), self.steady.temperatures[id.index()]));
         let idle = network.idle_grid_values().filter(|_| inside);
@@ -147,7 +150,8 @@ impl SteadyAnswer {
                 row(heat, if heat == HeatOf::ReceivedFrom(id) { back } else { on })
             })
         });
-        let sources = network.source_ids().zip(&self.steady.source_heat);
+        let heat = &self.steady.source_heat;
+        let sources = network.heat_sources().map(|id| (id, &heat[id.index()]));
         let boundaries = network.boundary_ids().zip(&self.steady.boundary_heat);
         let sources = sources.map(|(id, &value)| row(HeatOf::Source(id), value));
         let joints =
@@ -278,7 +282,8 @@ fn coldest(network: &Network, steady: &SteadyState) -> Option<(String, f64)> {
         .boundary_ids()
         .map(Item::Boundary)
         .zip(steady.boundary_temperatures.iter().copied());
-    let nodes = network.node_ids().map(Item::Node).zip(steady.temperatures.iter().copied());
+    let nodes = network.thermal_nodes();
+    let nodes = nodes.map(|id| (Item::Node(id), steady.temperatures[id.index()]));
     let (item, temperature) = boundaries.min_by(coldest).or_else(|| nodes.min_by(coldest))?;
     Some((network.name_of(item).into_owned(), temperature))
 }

@@ -198,7 +198,8 @@ impl Reader<'_> {
                 switches.extend(at.map(Target::Link));
             }
         }
-        for (source, own) in network.sources().iter().zip(sources) {
+        for (id, own) in network.heat_sources().zip(sources) {
+            let source = &network.sources()[id.index()];
             if source.law.values().iter().any(|value| value.slots().contains(&slot)) {
                 switches.extend(own.iter().copied().map(Target::Source));
             }

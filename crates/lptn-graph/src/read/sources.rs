@@ -25,7 +25,7 @@ impl Reader<'_> {
 
     /// Sources for each place that they heat, and those that each source becomes.
     pub(super) fn sources(&self) -> (Vec<Supply>, Vec<Vec<usize>>) {
-        let shares: Vec<_> = self.network.source_ids().map(|id| (id, self.shares(id))).collect();
+        let shares: Vec<_> = self.network.heat_sources().map(|id| (id, self.shares(id))).collect();
         let mut count = vec![0; self.alone.len()];
         for (place, _) in shares.iter().flat_map(|(_, shares)| shares) {
             count[*place] += 1;

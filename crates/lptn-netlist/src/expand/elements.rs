@@ -10,7 +10,8 @@ use crate::toml_text::{TomlFields, like, string, value};
 impl Writer<'_> {
     pub(super) fn nodes(&mut self) {
         let mut section = TomlFields::default();
-        for node in self.network.nodes() {
+        for id in self.network.thermal_nodes() {
+            let node = &self.network.nodes()[id.index()];
             let mut fields = TomlFields::default();
             self.capacity(&mut fields, node.capacity.as_ref(), node.lump.as_ref());
             if node.massless {
@@ -71,7 +72,8 @@ impl Writer<'_> {
             for conductor in conductors.filter(|conductor| conductor.kind == *kind) {
                 section.put(&conductor.name(), self.conductor(conductor));
             }
-            let sources = self.network.sources().iter();
+            let network = self.network;
+            let sources = network.heat_sources().map(|id| &network.sources()[id.index()]);
             for source in sources.filter(|source| source.kind == *kind) {
                 section.put(&source.name(), self.source(source));
             }

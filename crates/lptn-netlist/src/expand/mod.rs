@@ -13,6 +13,7 @@ mod elements;
 mod flat;
 mod proof;
 mod questions;
+mod states;
 mod substances;
 mod values;
 
@@ -145,6 +146,8 @@ impl Writer<'_> {
         self.capacitors();
         self.boundaries();
         self.controls();
+        self.states();
+        self.named_values();
         self.conductors();
         self.limits();
     }

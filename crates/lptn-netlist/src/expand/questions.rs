@@ -31,7 +31,8 @@ impl Writer<'_> {
             fields.put("select", strings(plan.select.iter().map(String::as_str)));
         }
         let mut reports = TomlFields::default();
-        for report in self.network.reports() {
+        let named = |name: &str| self.network.named_values().iter().any(|value| value.name == name);
+        for report in self.network.reports().iter().filter(|report| !named(&report.name)) {
             reports.word(&report.name, &report.text);
         }
         if !reports.is_empty() {

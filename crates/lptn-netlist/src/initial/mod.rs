@@ -2,6 +2,7 @@
 //! run.
 
 mod control;
+mod own;
 mod stand;
 mod start;
 
@@ -32,8 +33,8 @@ const NAMED: NamedFile = NamedFile {
 const ANYWHERE: f64 = 298.15;
 
 /// All members that a state file may have.
-const MEMBERS: [&str; 8] =
-    ["format", "network", "title", "time", "end", "temperatures", "melted", "controls"];
+const MEMBERS: [&str; 9] =
+    ["format", "network", "title", "time", "end", "temperatures", "melted", "states", "controls"];
 
 /// The state that a run starts from.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,6 +79,7 @@ pub(crate) struct StateFile {
     pub(crate) state: InitialState,
     temperatures: Named<f64>,
     melted: Named<f64>,
+    states: Named<f64>,
     controls: Named<Stand>,
     problems: Vec<Diagnostic>,
     /// True if a file was named.
@@ -109,8 +111,9 @@ impl StateFile {
     fn empty(file: String, value: &RawValue) -> Self {
         let place = value.span.clone();
         let state = InitialState { file, time: f64::NAN, end: StateEnd::Reached, place };
-        let (temperatures, melted, controls) = (Named::new(), Named::new(), Named::new());
-        Self { state, temperatures, melted, controls, problems: Vec::new(), usable: true }
+        let (temperatures, melted) = (Named::new(), Named::new());
+        let (states, controls) = (Named::new(), Named::new());
+        Self { state, temperatures, melted, states, controls, problems: Vec::new(), usable: true }
     }
 
     fn take(&mut self, files: &Files, file: crate::FileId) {
@@ -152,6 +155,12 @@ impl StateFile {
         }
         if let Some(melted) = member(&members, "melted") {
             self.melted = self.named(melted, "melted", Self::share);
+        }
+        if let Some(states) = member(&members, "states") {
+            let number = |file: &mut Self, name: &str, value: JsonValue<'_>| {
+                file.number(value, &format!("`{name}` in `states` of the state"))
+            };
+            self.states = self.named(states, "states", number);
         }
         if let Some(controls) = member(&members, "controls") {
             self.controls = self.named(controls, "controls", Self::stand);

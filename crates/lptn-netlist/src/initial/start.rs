@@ -57,7 +57,7 @@ impl<'a> Elaboration<'a> {
         let mut missing = Vec::new();
         for (id, name) in self.builder.node_ids().zip(names) {
             let massless = self.builder.is_massless(id);
-            if written.contains(name.as_str()) && !massless {
+            if (written.contains(name.as_str()) && !massless) || self.builder.is_state(id) {
                 continue;
             }
             match file.temperatures.get(&name) {
@@ -96,6 +96,7 @@ impl<'a> Elaboration<'a> {
             unknown.push(file.unknown(("node", name, place), suggest(name, missing)));
         }
         self.problems.extend(unknown);
+        self.check_states(file);
         self.check_controls(file);
     }
 

@@ -15,11 +15,14 @@ use super::grid::GRID;
 use super::limit::LIMIT;
 use super::lubricant::LUBRICANT;
 use super::material::MATERIAL;
+use super::named_value::VALUE;
 use super::node::NODE;
 use super::path_section::PATHS;
 use super::signal::SIGNAL;
+use super::state::STATE;
 use super::table::TABLE;
 use crate::case::CaseStudy;
+use crate::controller::CONTROLLER;
 use crate::fit::FitStudy;
 use crate::format::{NetlistFormat, SectionDeclaration};
 use crate::foster::FOSTER;
@@ -44,8 +47,19 @@ static BEFORE: [&SectionDeclaration; 13] = [
     &PARAM, &TABLE, &SIGNAL, &DEFAULT, &MATERIAL, &FLUID, &LUBRICANT, &FAN, &NODE, &GRID,
     &CAPACITOR, &BOUNDARY, &FOSTER,
 ];
-static BEHIND: [&SectionDeclaration; 8] =
-    [&GEARBOX, &CONTROL, &IMPORT, &LIMIT, &TEMPLATE, &USE, &RUN, &UNCERTAINTY];
+static BEHIND: [&SectionDeclaration; 11] = [
+    &GEARBOX,
+    &CONTROL,
+    &CONTROLLER,
+    &STATE,
+    &VALUE,
+    &IMPORT,
+    &LIMIT,
+    &TEMPLATE,
+    &USE,
+    &RUN,
+    &UNCERTAINTY,
+];
 
 /// The studies: the field of a netlist with those of a section, and the type of one.
 macro_rules! studies {

@@ -16,6 +16,7 @@ mod limit;
 mod list;
 mod lubricant;
 mod material;
+mod named_value;
 mod node;
 mod path;
 mod path_law;
@@ -23,6 +24,7 @@ mod path_section;
 mod property;
 mod signal;
 mod source;
+mod state;
 mod table;
 mod top;
 
@@ -31,6 +33,8 @@ pub(crate) use default::{Default, Initial};
 pub(crate) use keys::LUBRICANT_OF;
 pub use list::{Studies, format};
 pub(crate) use node::NODE;
+
 pub(crate) use path_section::{PATHS, PathSection};
 pub(crate) use signal::SIGNAL;
+pub(crate) use state::STATE;
 pub(crate) use table::TABLE;

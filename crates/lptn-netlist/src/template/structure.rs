@@ -141,6 +141,11 @@ impl Structure {
         })
     }
 
+    /// Notes a name whose element cannot be read.
+    pub(crate) fn lose(&mut self, name: &str) {
+        self.lost.push(name.to_owned());
+    }
+
     /// True if a use could not be read.
     pub(crate) fn has_lost(&self) -> bool {
         !self.lost.is_empty()

@@ -8,6 +8,7 @@ pub(crate) mod numbered;
 mod register;
 pub(crate) mod result;
 pub(crate) mod signal;
+pub(crate) mod state;
 pub(crate) mod substance;
 
 use std::sync::Arc;

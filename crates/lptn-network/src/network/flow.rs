@@ -231,6 +231,7 @@ impl Network {
             }
             _ => (item, field, problem),
         };
+        let (item, field) = self.parts.as_written(item, field);
         InputError { item, field, name: self.name_of(item).into_owned(), problem }
     }
 

@@ -12,9 +12,9 @@ impl Network {
         self.parts.whole(item)
     }
 
-    /// The independent nodes: all but cells and surfaces of grids.
+    /// The independent nodes: all but cells and surfaces of grids and states.
     pub fn outer_nodes(&self) -> impl Iterator<Item = NodeId> + '_ {
-        self.node_ids().filter(|id| self.whole(Item::Node(*id)).is_none())
+        self.thermal_nodes().filter(|id| self.whole(Item::Node(*id)).is_none())
     }
 
     /// The independent conductors: all but those inside grids and joints.

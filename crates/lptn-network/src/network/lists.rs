@@ -4,14 +4,17 @@ use lptn_units::TableSymbol;
 
 use crate::id::{
     BoundaryId, CapacitorId, ConductorId, ControlId, FacePathId, FluidId, GridId, LimitId,
-    MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId, SwitchId, TableId,
+    MaterialId, NodeId, ParameterId, ReportId, SignalId, SourceId, StateId, SwitchId, TableId,
+    ValueId,
 };
 use crate::network::Network;
 use crate::parts::control::Control;
 use crate::parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Source};
 use crate::parts::grid::{FacePath, Grid};
+use crate::parts::named_value::NamedValue;
 use crate::parts::result::{Limit, Report};
 use crate::parts::signal::Signal;
+use crate::parts::state::State;
 use crate::parts::substance::{Fluid, Material};
 use crate::parts::switch::Switch;
 
@@ -49,6 +52,8 @@ lists! {
     "fluids" fluids: Fluid, fluid_ids: FluidId;
     "grids" grids: Grid, grid_ids: GridId;
     "paths that end at faces of grids" face_paths: FacePath, face_path_ids: FacePathId;
+    "states of one's own" states: State, state_ids: StateId;
+    "named values" named_values: NamedValue, value_ids: ValueId;
 }
 
 impl Network {

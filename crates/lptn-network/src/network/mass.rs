@@ -16,7 +16,7 @@ impl Network {
     /// known.
     pub fn whole_mass(&self) -> Option<f64> {
         let mut scope = self.evaluation();
-        let nodes = self.node_ids().filter(|id| self.capacity(*id) > 0.0);
+        let nodes = self.thermal_nodes().filter(|id| self.capacity(*id) > 0.0);
         let mut all = None;
         for id in nodes {
             all = Some(all.unwrap_or(0.0) + self.mass_in(id, &mut scope)?);

@@ -11,6 +11,7 @@ mod group;
 pub(crate) mod lists;
 pub(crate) mod mass;
 pub(crate) mod result;
+pub(crate) mod state;
 pub(crate) mod switch;
 
 use std::borrow::Cow;
@@ -323,8 +324,13 @@ impl Network {
         let conductor = self.conductor_ids().find(|id| self.conductance(*id).is_none());
         let source = self.source_ids().find(|id| !self.source_variables(*id).is_empty());
         let node = self.node_ids().find(|id| self.enthalpy(*id).is_some());
-        let items =
-            [conductor.map(Item::Conductor), source.map(Item::Source), node.map(Item::Node)];
+        let state = self.state_ids().next();
+        let items = [
+            state.map(Item::State),
+            conductor.map(Item::Conductor),
+            source.map(Item::Source),
+            node.map(Item::Node),
+        ];
         items.into_iter().flatten().next()
     }
 
@@ -333,7 +339,7 @@ impl Network {
         self.parts.inputs()
     }
 
-    /// Sets of connected nodes without a path to a boundary, in order; empty if the network forgets
+    /// Sets of connected nodes without a path to a boundary, in order, states left out; empty if the network forgets
     /// its start. Such a set by itself has no steady state.
     pub fn ungrounded(&self) -> Vec<Vec<NodeId>> {
         let parts = &*self.parts;
@@ -342,7 +348,9 @@ impl Network {
         for node in islands.grounded(parts) {
             grounded[islands.root(node)] = true;
         }
-        let groups = islands.groups().into_iter().filter(|m| !grounded[islands.root(m[0])]);
+        let is_state = |node: usize| parts.state_at(NodeId::from_len(node)).is_some();
+        let groups = islands.groups().into_iter();
+        let groups = groups.filter(|m| !grounded[islands.root(m[0])] && !is_state(m[0]));
         groups.map(|members| members.into_iter().map(NodeId::from_len).collect()).collect()
     }
 }

@@ -4,6 +4,7 @@ pub(crate) mod conductance;
 pub(crate) mod content;
 pub(crate) mod control;
 pub(crate) mod grid;
+pub(crate) mod state;
 pub(crate) mod substance;
 
 use std::sync::Arc;
@@ -44,6 +45,8 @@ pub(crate) struct Numbers {
     pub(crate) shapes: Vec<f64>,
     /// Minimum time in s that each control keeps its state after a switch.
     pub(crate) min_dwell: Vec<f64>,
+    /// Least and greatest value of each state in SI units; infinite without a bound.
+    pub(crate) bounds: Vec<[f64; 2]>,
 }
 
 impl Numbers {
@@ -74,6 +77,7 @@ impl Numbers {
         work.check_sources();
         work.check_limits();
         let min_dwell = work.controls();
+        let bounds = work.check_states();
         whole::collapse(parts, &mut work.errors);
         if !work.errors.is_empty() {
             return Err(work.errors);
@@ -99,6 +103,7 @@ impl Numbers {
                 along,
                 shapes,
                 min_dwell,
+                bounds,
             })
         } else {
             Err(work.errors)
@@ -216,7 +221,7 @@ impl Work<'_> {
                 let item = Item::Node(NodeId::from_len(i));
                 let initial = node.initial.as_ref().filter(|_| !node.massless);
                 initial.map_or(f64::NAN, |t| {
-                    self.constant(item, Field::Initial, t, Range::Temperature)
+                    self.constant(item, Field::Initial, t, self.parts.range_at_start(i))
                 })
             })
             .collect()

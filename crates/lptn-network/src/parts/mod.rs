@@ -17,9 +17,11 @@ mod inside;
 pub(crate) mod label;
 pub(crate) mod layout;
 pub(crate) mod named;
+pub(crate) mod named_value;
 pub(crate) mod reads;
 pub(crate) mod result;
 pub(crate) mod signal;
+pub(crate) mod state;
 pub(crate) mod substance;
 pub(crate) mod switch;
 pub(crate) mod whole;
@@ -31,7 +33,10 @@ use std::sync::Arc;
 use lptn_units::TableSymbol;
 
 use crate::along::Along;
-use crate::id::{BoundaryId, ConductorId, ControlId, Field, Item, ParameterId, SignalId, SourceId};
+use crate::id::{
+    BoundaryId, ConductorId, ControlId, Field, Item, NodeId, ParameterId, SignalId, SourceId,
+    StateId,
+};
 use crate::name_index::NameIndex;
 use crate::parts::control::Control;
 use crate::parts::dependence::{Dependence, OfConductor};
@@ -39,8 +44,10 @@ use crate::parts::element::{Boundary, Capacitor, Conductor, Node, Parameter, Sou
 use crate::parts::grid::{FacePath, Grid, Inner};
 use crate::parts::label::{CONDUCTOR, Label, parsed};
 use crate::parts::layout::Layout;
+use crate::parts::named_value::NamedValue;
 use crate::parts::result::{Limit, Report};
 use crate::parts::signal::Course;
+use crate::parts::state::State;
 use crate::parts::substance::{Fluid, Material};
 use crate::parts::switch::Switch;
 use crate::value::Value;
@@ -59,6 +66,9 @@ pub(crate) struct Parts {
     pub(crate) reports: Vec<Report>,
     pub(crate) controls: Vec<Control>,
     pub(crate) switches: Vec<Switch>,
+    /// In the order of their nodes.
+    pub(crate) states: Vec<State>,
+    pub(crate) named_values: Vec<NamedValue>,
     pub(crate) materials: Vec<Material>,
     pub(crate) fluids: Vec<Fluid>,
     pub(crate) grids: Vec<Grid>,
@@ -92,6 +102,29 @@ pub(crate) struct Parts {
 }
 
 impl Parts {
+    /// The state that a node contains.
+    pub(crate) fn state_at(&self, node: NodeId) -> Option<StateId> {
+        let place = self.states.binary_search_by_key(&node, |state| state.node).ok()?;
+        Some(StateId::from_len(place))
+    }
+
+    /// The state that a source changes.
+    pub(crate) fn state_of(&self, source: SourceId) -> Option<StateId> {
+        let place = self.states.iter().position(|state| state.source == Some(source))?;
+        Some(StateId::from_len(place))
+    }
+
+    /// The item and field that an author wrote: the rate of a state in place of a heat.
+    pub(crate) fn as_written(&self, item: Item, field: Field) -> (Item, Field) {
+        match item {
+            Item::Source(source) => match self.state_of(source) {
+                Some(state) => (Item::State(state), Field::Rate),
+                None => (item, field),
+            },
+            _ => (item, field),
+        }
+    }
+
     /// The item of this name among nodes, boundaries and elements.
     pub(crate) fn item(&self, name: &str) -> Option<Item> {
         self.indexed(name).or_else(|| self.inside_a_grid(name)).or_else(|| self.numbered(name))
@@ -141,6 +174,8 @@ impl Parts {
             Item::Control(id) => &self.controls[id.index()].name,
             Item::Grid(id) => &self.grids[id.index()].name,
             Item::FacePath(id) => &self.face_paths[id.index()].name,
+            Item::State(id) => &self.states[id.index()].name,
+            Item::Value(id) => &self.named_values[id.index()].name,
         };
         name.into()
     }

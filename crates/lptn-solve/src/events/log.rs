@@ -63,8 +63,8 @@ impl EventKind {
         match self {
             Self::Control(id) => network.controls()[id.index()].name.clone(),
             Self::Comparison(id) => {
-                let switch = &network.switches()[id.index()];
-                format!("{}.{}", network.name_of(switch.item), switch.field.key())
+                let (item, field) = network.place_of_switch(id);
+                format!("{}.{}", network.name_of(item), field.key())
             }
             Self::Limit(id) => network.limits()[id.index()].name.clone(),
         }

@@ -12,6 +12,7 @@ use crate::readings::Readings;
 use crate::recorder::Recorder;
 use crate::selection::RecordedNodes;
 use crate::settings::Transient;
+use crate::standing;
 use crate::state::State;
 use crate::times::{Segment, just_after};
 use crate::transient::{Care, Effort, Run};
@@ -70,7 +71,6 @@ pub(crate) fn rest(system: &ThermalSystem, time: f64, tolerance: f64) -> Way {
 }
 
 fn followed(system: &ThermalSystem, time: f64, tolerance: f64) -> Option<Way> {
-    let mut newton = Newton::new(system, (0..system.unknowns().len()).collect()).ok()?;
     let (segment, mut run) = Run::held(system, time, tolerance)?;
     run.begin(segment, true).ok()?;
     let mut before = run.unknowns()?;
@@ -87,7 +87,7 @@ fn followed(system: &ThermalSystem, time: f64, tolerance: f64) -> Option<Way> {
         let over = run.integrator.time() >= segment.to;
         let rests = match over {
             true => moved <= NEAR,
-            false => step % EVERY == 0 && moved <= SLOW && run.rests(&mut newton, &before)?,
+            false => step % EVERY == 0 && moved <= SLOW && run.rests(system, &before)?,
         };
         if rests {
             return Some(Way::Rests(run.at(before)));
@@ -138,9 +138,11 @@ impl<'a> Run<'a> {
     }
 
     /// True if it is so near to a stable state that it goes there.
-    fn rests(&mut self, newton: &mut Newton<'_>, temperatures: &[f64]) -> Option<bool> {
+    fn rests(&mut self, system: &ThermalSystem, temperatures: &[f64]) -> Option<bool> {
         let (time, state) = (self.integrator.time(), self.integrator.state().to_vec());
         let (_, work) = self.integrator.system_mut().temperatures(time, &state).ok()?;
+        let Ok(free) = standing::free(system, work, temperatures) else { return Some(false) };
+        let mut newton = Newton::new(system, free).ok()?;
         let near = newton
             .factorize(work, temperatures, 0.0)
             .and_then(|()| newton.correction(work, temperatures))

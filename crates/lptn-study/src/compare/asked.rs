@@ -12,7 +12,7 @@ pub(crate) fn bare(network: &Network, settings: &RunSettings) -> RunAnalysis {
     RunAnalysis::of(network, settings).bare().at(Vec::new()).over(windows)
 }
 
-/// The nodes of a network, in its order.
+/// The nodes of a network but for states, in its order.
 pub(crate) fn all_nodes(network: &Network) -> Vec<NodeId> {
-    network.node_ids().collect()
+    network.thermal_nodes().collect()
 }

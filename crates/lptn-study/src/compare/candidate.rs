@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use lptn_analysis::{Observer, Trust};
 use lptn_assembly::ThermalSystem;
-use lptn_network::{LimitSeverity, Network, RunSettings};
+use lptn_network::{LimitSeverity, Network, NodeId, RunSettings};
 use lptn_solve::{Looks, Others, PeriodicError, Proceed, Statistics, SteadyState, Summary};
 
 use crate::compare::asked::{all_nodes, bare};
@@ -118,7 +118,7 @@ impl Candidate {
             limits: limits::named(network, limits),
             settled: None,
             heat: HeatOut::default(),
-            capacity: network.node_ids().map(|id| network.capacity(id)).sum(),
+            capacity: network.thermal_nodes().map(|id| network.capacity(id)).sum(),
             // a part of unknown material makes the whole unknown: a sum without it would look light
             mass: network.whole_mass(),
             trust,
@@ -148,7 +148,7 @@ impl Candidate {
         let steady = lptn_analysis::steady(system, 0.0)?;
         let limits = lptn_analysis::LimitResult::of_steady(network, &steady)?;
         let constant = network.changing_inputs().is_empty();
-        let hottest = hottest(network.node_ids().zip(steady.temperatures.iter().copied()));
+        let hottest = hottest(temperatures(network, &steady));
         let temperature = hottest.map(|(_, temperature)| temperature);
         Ok(Self {
             hottest: hottest.map(|(id, _)| network.nodes()[id.index()].name.clone()),
@@ -213,4 +213,12 @@ impl Candidate {
 /// A steady state that may not be the only one.
 fn doubtful(steady: &SteadyState) -> Option<SteadyState> {
     (steady.others != Others::None).then(|| steady.clone())
+}
+
+/// The temperature of every node in K.
+fn temperatures<'a>(
+    network: &'a Network,
+    steady: &'a SteadyState,
+) -> impl Iterator<Item = (NodeId, f64)> + 'a {
+    network.thermal_nodes().map(|id| (id, steady.temperatures[id.index()]))
 }

@@ -11,6 +11,7 @@ mod fix;
 mod fold;
 mod function;
 mod infer;
+mod inline;
 mod lanes;
 mod lexer;
 mod operands;
@@ -116,7 +117,7 @@ impl Expression {
         scope: &dyn Scope,
         expected: Type,
     ) -> Vec<(String, Option<Dimension>)> {
-        infer::unknown_names(&self.tree, scope, expected)
+        infer::unknown_names(&self.inlined(scope).tree, scope, expected)
     }
 
     /// The names that are called and are not functions, in order of appearance: tables, such as
@@ -165,8 +166,9 @@ impl Expression {
         scope: &dyn Scope,
         expected: Option<Type>,
     ) -> Result<Program, Problems<UnitError>> {
-        let checked = check::check(&self.text, &self.tree, scope, expected).map_err(Problems)?;
-        Ok(parts::generate(&self.meant(), &self.tree, checked))
+        let whole = self.inlined(scope);
+        let checked = check::check(&self.text, &whole.tree, scope, expected).map_err(Problems)?;
+        Ok(parts::generate(&self.meant(), &whole.tree, checked))
     }
 
     /// For `a <= b`: the two sides as expressions, and the comparison between them. `None` if the

@@ -1,5 +1,8 @@
 //! The names that an expression may use.
 
+use std::sync::Arc;
+
+use crate::expr::Expression;
 use crate::table::TableSymbol;
 use crate::types::Type;
 
@@ -42,6 +45,12 @@ pub trait Scope {
     fn symbol(&self, name: &str) -> Option<Symbol>;
     /// Every name, for "did you mean"; tables are not among them.
     fn names(&self) -> Vec<String>;
+
+    /// The expression that a name stands for, if any. Its own names stand for no others.
+    fn meaning(&self, name: &str) -> Option<Arc<Expression>> {
+        let _ = name;
+        None
+    }
 
     /// The meaning of a name that is called: `loss(speed)`. No name is both a symbol and a table.
     fn table(&self, name: &str) -> Option<TableSymbol> {

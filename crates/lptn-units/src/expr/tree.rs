@@ -97,6 +97,21 @@ impl Tree {
         self.nodes.len() - 1
     }
 
+    /// Appends the nodes of another tree, each at the place that `at` gives for its own; the index
+    /// of the root.
+    pub(crate) fn append(
+        &mut self,
+        other: &Self,
+        at: impl Fn(&Range<usize>) -> Range<usize>,
+    ) -> Id {
+        let first = self.nodes.len();
+        let places: Vec<Id> = (first..first + other.nodes.len()).collect();
+        for (node, span) in &other.nodes {
+            self.push(node.with_operands(&places), at(span));
+        }
+        self.nodes.len() - 1
+    }
+
     pub(crate) fn node(&self, id: Id) -> &Node {
         &self.nodes[id].0
     }
@@ -148,27 +163,28 @@ impl Tree {
     /// The nodes from `first` to `root`, if these are a separate tree: all operands of a node are
     /// directly before it.
     pub(crate) fn subtree(&self, first: Id, root: Id) -> Self {
-        let mut nodes = self.nodes[first..=root].to_vec();
-        for (node, _) in &mut nodes {
-            node.shift(first);
+        let nodes = self.nodes[first..=root].iter();
+        let places: Vec<Id> = (0..=root).map(|id| id.saturating_sub(first)).collect();
+        Self {
+            nodes: nodes.map(|(node, span)| (node.with_operands(&places), span.clone())).collect(),
         }
-        Self { nodes }
     }
 }
 
 impl Node {
-    /// Lowers the indices of the operands.
-    fn shift(&mut self, by: usize) {
-        match self {
+    /// The same node with its operands at their new places.
+    pub(crate) fn with_operands(&self, place: &[Id]) -> Self {
+        let mut node = self.clone();
+        match &mut node {
             Self::Number { .. } | Self::Literal { .. } | Self::Name(_) => {}
-            Self::Negate(operand) => *operand -= by,
+            Self::Negate(operand) => *operand = place[*operand],
             Self::Binary(_, left, right) | Self::Compare(_, left, right) => {
-                *left -= by;
-                *right -= by;
+                (*left, *right) = (place[*left], place[*right]);
             }
             Self::Call { arguments, .. } => {
-                arguments.iter_mut().for_each(|argument| *argument -= by)
+                arguments.iter_mut().for_each(|argument| *argument = place[*argument])
             }
         }
+        node
     }
 }

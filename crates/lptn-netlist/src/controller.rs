@@ -1,0 +1,306 @@
+//! `[controller.NAME]`: a PI, PD or PID controller, written out as parameters, named values and
+//! states before anything is read.
+//!
+//! The output is `u = min(max(v, min), max)` with `v = K_p e + I - K_d (d sensed/dt)`, and the
+//! integral follows `dI/dt = K_i e + (u - v) / tracking`: at a limit it goes back to the limit
+//! (back-calculation; K. J. Åström and R. M. Murray, Feedback Systems, 2nd edition, Princeton 2021,
+//! section 11.4). Nothing switches, so a controller has no events. The derivative is that of the
+//! sensed temperature behind a lag of first order, so that a step of the set point is no impulse.
+//!
+//! Parameters of a controller have names, `NAME.K_p`, so that sweeps and fits can change them.
+
+use std::sync::Arc;
+
+use lptn_data::Diagnostic;
+use lptn_units::{Dimension, Expression, Type};
+
+use crate::fields::{Fields, Owner};
+use crate::format::{Role, SectionDeclaration, akin, key, text, words, words_of};
+use crate::names::ValueKind;
+use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+use crate::template::Structure;
+
+pub(crate) const CONTROLLER: SectionDeclaration = SectionDeclaration {
+    name: "controller",
+    sentence: "A PI, PD or PID controller; its name is its output.",
+    role: Role::Element,
+    keys: &[
+        text("sense", "name", "the node or boundary that is sensed", "\"sensor\"").needed(),
+        akin(
+            "setpoint",
+            "temperature or expression",
+            "the temperature that is wanted",
+            "\"200 degC\"",
+        )
+        .needed(),
+        akin("K_p", "quantity or expression", "output for an error of 1 K", "\"0.03 1/K\"")
+            .needed(),
+        akin(
+            "K_i",
+            "quantity or expression",
+            "its change per second for an error of 1 K",
+            "\"0.0005 1/(K s)\"",
+        ),
+        akin(
+            "K_d",
+            "quantity or expression",
+            "output for 1 K/s of the sensed temperature",
+            "\"0.1 s/K\"",
+        ),
+        key("lag", "s", "time constant of the derivative", "\"2 s\""),
+        akin("min", "quantity or expression", "the least output", "0").needed(),
+        akin("max", "quantity or expression", "the greatest output", "1").needed(),
+        akin("start", "quantity or expression", "the integral at the start", "0").or("0"),
+        key("tracking", "s", "time in which the integral goes back to a limit", "\"60 s\"")
+            .or("`K_p / K_i`"),
+        words("acts", &words_of(&ACTS), "more output warms or cools", "\"cooling\"")
+            .or("`\"heating\"`"),
+    ],
+    example: "{ sense = \"a\", setpoint = \"60 degC\", K_p = \"5 W/K\", K_i = \"0.1 W/(K s)\", min = \
+        \"0 W\", max = \"100 W\" }",
+    elsewhere: &[
+        ("sensor", "the node or boundary that is sensed is `sense`"),
+        ("input", "the node or boundary that is sensed is `sense`"),
+        ("set", "the temperature that is wanted is `setpoint`"),
+        ("Kp", "the proportional gain is `K_p`"),
+        ("Ki", "the integral gain is `K_i`"),
+        ("Kd", "the derivative gain is `K_d`"),
+        ("T_i", "the integral gain is `K_i`: `K_p / T_i`"),
+        ("T_d", "the derivative gain is `K_d`: `K_p * T_d`"),
+        ("on_above", "a thermostat is a [control]"),
+        ("sampling", "the controller acts at every moment, without samples"),
+    ],
+    ..SectionDeclaration::NEW
+};
+
+/// Direction, by its word: true if more output warms.
+const ACTS: [(&str, bool); 2] = [("heating", true), ("cooling", false)];
+
+/// Keys that become parameters, signals or named values `NAME.KEY`.
+const GIVEN: [&str; 9] =
+    ["setpoint", "K_p", "K_i", "K_d", "lag", "min", "max", "start", "tracking"];
+
+/// Values `NAME.KEY` that are no results.
+pub(crate) const INNER: [&str; 2] = ["error", "demand"];
+
+/// Replaces every controller by its values and states; the types that some of these have to have.
+pub(crate) fn expand(
+    raw: &mut RawNetlist,
+    structure: &mut Arc<Structure>,
+    problems: &mut Vec<Diagnostic>,
+) -> Vec<(String, Type)> {
+    let mut types = Vec::new();
+    for entry in raw.take(CONTROLLER.name) {
+        let owner = Owner::element(CONTROLLER.name, &entry.key);
+        let Some(fields) = Fields::of(&CONTROLLER, owner, &entry, problems) else { continue };
+        match Controller::read((raw, structure), (&entry, &fields), problems) {
+            Some(made) => {
+                let typed = TYPES.map(|(key, ty)| (format!("{}.{key}", entry.key), ty));
+                types.extend(
+                    typed.into_iter().filter(|(name, _)| made.iter().any(|m| m.1.key == *name)),
+                );
+                made.into_iter().for_each(|(section, entry)| raw.push(section, entry));
+            }
+            None => Arc::make_mut(structure).lose(&entry.key),
+        }
+    }
+    types
+}
+
+/// The types of keys that do not follow from those of the output.
+const TYPES: [(&str, Type); 3] = [
+    ("setpoint", Type::ABSOLUTE_TEMPERATURE),
+    ("lag", Type::of(Dimension::TIME)),
+    ("tracking", Type::of(Dimension::TIME)),
+];
+
+/// Elements with their sections.
+type Made = Vec<(&'static str, RawEntry)>;
+
+struct Controller<'r> {
+    raw: &'r RawNetlist,
+    structure: &'r Structure,
+    entry: &'r RawEntry,
+    fields: &'r Fields<'r>,
+    /// Its name where it is written.
+    here: &'r str,
+    sense: &'r str,
+    made: Made,
+}
+
+impl<'r> Controller<'r> {
+    fn read(
+        (raw, structure): (&'r RawNetlist, &'r Structure),
+        (entry, fields): (&'r RawEntry, &'r Fields<'r>),
+        problems: &mut Vec<Diagnostic>,
+    ) -> Option<Made> {
+        let needed = ["sense", "setpoint", "K_p", "min", "max"];
+        let there = needed.map(|key| fields.require(key, problems).is_some());
+        let sense = fields.text("sense", fields.get("sense")?, problems)?;
+        let around = structure.instance_at(&entry.key_span);
+        let here = around.and_then(|path| entry.key.strip_prefix(path)?.strip_prefix('.'));
+        let here = here.unwrap_or(&entry.key);
+        let mut new = Self { raw, structure, entry, fields, here, sense, made: Vec::new() };
+        let warms = new.warms(problems)?;
+        new.pairs(problems)?;
+        if there.contains(&false) {
+            return None;
+        }
+        new.given();
+        new.values(warms);
+        new.states(problems)?;
+        Some(new.made)
+    }
+
+    /// True if more output warms.
+    fn warms(&self, problems: &mut Vec<Diagnostic>) -> Option<bool> {
+        let Some(raw) = self.fields.get("acts") else { return Some(true) };
+        let text = self.fields.text("acts", raw, problems)?;
+        let found = ACTS.iter().find(|(word, _)| *word == text).map(|(_, warms)| *warms);
+        if found.is_none() {
+            let message = format!("{} cannot be \"{text}\"", self.fields.owner.field("acts"));
+            let help = "it is \"heating\" or \"cooling\"";
+            problems.push(Diagnostic::wrong("netlist::unknown_word", message, &raw.span, help));
+        }
+        found
+    }
+
+    /// Refuses keys that have no effect without another one.
+    fn pairs(&self, problems: &mut Vec<Diagnostic>) -> Option<()> {
+        let pairs = [("lag", "K_d"), ("start", "K_i"), ("tracking", "K_i")];
+        let mut right = true;
+        for (key, needs) in pairs {
+            let (Some(at), None) = (self.fields.key(key), self.fields.get(needs)) else { continue };
+            right = false;
+            let message =
+                format!("{} has no effect without `{needs}`", self.fields.owner.field(key));
+            let help = format!("remove `{key}`, or add `{needs}`");
+            problems.push(Diagnostic::wrong("netlist::useless_key", message, at, help));
+        }
+        if self.fields.get("K_d").is_some() {
+            right &= self.fields.require("lag", problems).is_some();
+        }
+        right.then_some(())
+    }
+
+    fn put(&mut self, section: &'static str, name: &str, value: RawValue) {
+        let key = match name {
+            "" => self.entry.key.clone(),
+            name => format!("{}.{name}", self.entry.key),
+        };
+        let key_span = self.entry.key_span.clone();
+        self.made.push((section, RawEntry { key, key_span, value }));
+    }
+
+    fn text(&mut self, section: &'static str, name: &str, text: String) {
+        let value = RawValue::text(text, &self.entry.key_span);
+        self.put(section, name, value);
+    }
+
+    /// The keys that are written, each with a name.
+    fn given(&mut self) {
+        let fields = self.fields;
+        for name in GIVEN {
+            if let Some(value) = fields.get(name) {
+                self.put(self.section_of(value), name, value.clone());
+            }
+        }
+        let (k_i, h) = (fields.get("K_i").is_some(), self.here);
+        if k_i && fields.get("tracking").is_none() {
+            self.text(ValueKind::Parameter.section(), "tracking", format!("{h}.K_p / {h}.K_i"));
+        }
+        if k_i && fields.get("start").is_none() {
+            self.text(ValueKind::Parameter.section(), "start", format!("0 * {h}.max"));
+        }
+    }
+
+    /// A constant is a parameter, a function of time a signal, anything else a named value.
+    fn section_of(&self, value: &RawValue) -> &'static str {
+        let RawKind::String { text, .. } = &value.kind else {
+            return ValueKind::Parameter.section();
+        };
+        let Ok(expression) = Expression::parse(text) else { return ValueKind::Parameter.section() };
+        let is = |section: &str, name: &str| {
+            let full = self.structure.resolve(&value.span, name);
+            self.raw.elements(section).iter().any(|entry| entry.key == full)
+        };
+        let names: Vec<String> = expression.names().into_iter().map(|(name, _)| name).collect();
+        let constant = |name: &String| name == "pi" || is(ValueKind::Parameter.section(), name);
+        let timed = |name: &String| name == "t" || is(ValueKind::Signal.section(), name);
+        let kind = match () {
+            () if names.iter().all(constant) => ValueKind::Parameter,
+            () if names.iter().all(|name| constant(name) || timed(name)) => ValueKind::Signal,
+            () => ValueKind::Value,
+        };
+        kind.section()
+    }
+
+    /// The error, the output before its limits, and the output.
+    fn values(&mut self, warms: bool) {
+        let (h, sense, value) = (self.here, self.sense, ValueKind::Value.section());
+        let error = match warms {
+            true => format!("{h}.setpoint - {sense}.T"),
+            false => format!("{sense}.T - {h}.setpoint"),
+        };
+        let mut demand = format!("{h}.K_p * {h}.error");
+        if self.fields.get("K_i").is_some() {
+            demand += &format!(" + {h}.integral");
+        }
+        if self.fields.get("K_d").is_some() {
+            let sign = if warms { '-' } else { '+' };
+            demand += &format!(" {sign} {h}.K_d * ({sense}.T - {h}.felt) / {h}.lag");
+        }
+        self.text(value, "error", error);
+        self.text(value, "demand", demand);
+        self.text(value, "", format!("min(max({h}.demand, {h}.min), {h}.max)"));
+    }
+
+    fn states(&mut self, problems: &mut Vec<Diagnostic>) -> Option<()> {
+        let (h, sense) = (self.here, self.sense);
+        if self.fields.get("K_i").is_some() {
+            let rate = format!("{h}.K_i * {h}.error + ({h} - {h}.demand) / {h}.tracking");
+            let state = self.state(&[
+                ("rate", rate),
+                ("start", format!("{h}.start")),
+                ("size", format!("{h}.max - {h}.min")),
+            ]);
+            self.put(ValueKind::State.section(), "integral", state);
+        }
+        if self.fields.get("K_d").is_some() {
+            let start = self.sensed_start(problems)?;
+            let mut state = self.state(&[("rate", format!("({sense}.T - {h}.felt) / {h}.lag"))]);
+            if let RawKind::Table(table) = &mut state.kind {
+                table.entries.push(RawEntry::new("start", start));
+            }
+            self.put(ValueKind::State.section(), "felt", state);
+        }
+        Some(())
+    }
+
+    fn state(&self, keys: &[(&str, String)]) -> RawValue {
+        let at = &self.entry.key_span;
+        let entry =
+            |(key, text): &(&str, String)| RawEntry::new(key, RawValue::text(text.clone(), at));
+        let entries = keys.iter().map(entry).collect();
+        RawValue { span: at.clone(), kind: RawKind::Table(RawTable { span: at.clone(), entries }) }
+    }
+
+    /// `T0` of the sensed node, where its derivative begins.
+    fn sensed_start(&self, problems: &mut Vec<Diagnostic>) -> Option<RawValue> {
+        let at = &self.fields.get("sense")?.span;
+        let full = self.structure.resolve(at, self.sense);
+        let node = self.raw.elements("node").iter().find(|entry| entry.key == full);
+        let own = node.and_then(|node| match &node.value.kind {
+            RawKind::Table(table) => table.get("T0"),
+            _ => None,
+        });
+        let default = || self.raw.section("default")?.get("T0");
+        let start = own.or_else(|| node.and_then(|_| default())).map(|entry| entry.value.clone());
+        if start.is_none() {
+            let message = format!("{} has no start for its derivative", self.fields.owner.words());
+            let help = "let `sense` name a [node] with `T0`, or leave `K_d` out";
+            problems.push(Diagnostic::wrong("netlist::controller_start", message, at, help));
+        }
+        start
+    }
+}

@@ -1,0 +1,43 @@
+//! `[state]` and `[value]`.
+
+use lptn_network::State;
+use lptn_units::{Dimension, Type};
+
+use super::Writer;
+use crate::toml_text::{TomlFields, like, string};
+
+impl Writer<'_> {
+    pub(super) fn states(&mut self) {
+        let mut section = TomlFields::default();
+        for state in self.network.states() {
+            section.put(&state.name, self.state(state));
+        }
+        self.section("state", &section);
+    }
+
+    fn state(&self, state: &State) -> String {
+        let mut fields = TomlFields::default();
+        let per_second = state.ty.dimension.checked_div(Dimension::TIME).map_or(state.ty, Type::of);
+        let source = state.source.map(|id| &self.network.sources()[id.index()]);
+        let rate = source.and_then(|source| source.power());
+        rate.into_iter().for_each(|rate| fields.put("rate", like(rate, per_second)));
+        let values =
+            [("start", &state.start), ("min", &state.bounds[0]), ("max", &state.bounds[1])];
+        for (key, given) in values {
+            given.iter().for_each(|given| fields.put(key, like(given, state.ty)));
+        }
+        if !state.ty.is_temperature() {
+            let size = lptn_network::Value::Constant(state.size());
+            fields.put("size", like(&size, Type::of(state.ty.dimension)));
+        }
+        fields.inline()
+    }
+
+    pub(super) fn named_values(&mut self) {
+        let mut section = TomlFields::default();
+        for value in self.network.named_values() {
+            section.put(&value.name, string(&value.text));
+        }
+        self.section("value", &section);
+    }
+}

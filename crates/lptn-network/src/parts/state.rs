@@ -1,0 +1,68 @@
+//! States of one's own: values of any unit with a given rate of change, such as the integral of a
+//! controller, a state of charge or an amount of fuel.
+//!
+//! A state is a node without paths. Its rate, divided by its scale, is the heat of a source into a
+//! capacity of 1 J/K, so 1 K of the node is one scale of the state. Integrators, steady states,
+//! events and sensitivities then need nothing of their own, and one tolerance in K serves all. Its
+//! node and source are no part of the energy balance.
+
+use std::sync::Arc;
+
+use lptn_units::{Expression, Type, Unit};
+
+use crate::id::{NodeId, SourceId};
+use crate::value::Value;
+
+/// A value with a rate of change.
+#[derive(Clone, Debug)]
+pub struct State {
+    /// Its name, unique among parameters, signals, tables, controls, states and reports.
+    pub name: String,
+    /// Its type.
+    pub ty: Type,
+    /// Its change in SI units for 1 K of its node; 1 for a temperature.
+    pub scale: f64,
+    /// The node that contains it.
+    pub node: NodeId,
+    /// The source that changes it; `None` until
+    /// [`NetworkBuilder::state_law`](crate::NetworkBuilder::state_law) sets it.
+    pub source: Option<SourceId>,
+    /// Its value at the start in SI units, an absolute temperature in K.
+    pub start: Option<Value>,
+    /// Its least and its greatest value in SI units, where its rate stops.
+    pub bounds: [Option<Value>; 2],
+    /// The unit in which it is shown; SI if there is none.
+    pub unit: Option<Unit>,
+    /// Its value as an expression of its node.
+    pub(crate) meaning: Arc<Expression>,
+}
+
+impl State {
+    /// Its value in SI units if its node is at `kelvin`.
+    pub fn value(&self, kelvin: f64) -> f64 {
+        self.scale * kelvin
+    }
+
+    /// A usual size in SI units with this scale.
+    pub fn size(&self) -> f64 {
+        64.0 * self.scale
+    }
+
+    /// The temperature of its node in K for a value in SI units.
+    pub fn kelvin(&self, value: f64) -> f64 {
+        value / self.scale
+    }
+}
+
+/// The name of the node of a state in expressions: no name that can be written.
+pub(crate) fn inner_name(state: &str) -> String {
+    format!("{state}'")
+}
+
+/// The scale of a state of this usual size: a power of two, so that nothing is rounded, by which
+/// the size is 64 K to 128 K.
+///
+/// With a tolerance of 1e-5 K the state has an error of about 1e-7 of its size.
+pub(crate) fn scale_of(size: f64, ty: Type) -> f64 {
+    if ty.is_temperature() { 1.0 } else { (size.log2().floor() - 6.0).exp2() }
+}

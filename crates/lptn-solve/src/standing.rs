@@ -1,0 +1,53 @@
+//! States whose rate reads nothing that a steady state determines: an integral behind its bound, a
+//! state of charge at rest.
+//!
+//! Such a state stays where it is if its rate is zero; otherwise it changes without end.
+
+use lptn_assembly::{JacobianForm, ThermalSystem, Workspace};
+use lptn_integrate::Pattern;
+
+use crate::error::SteadyError;
+
+/// A rate in scales of the state per second below this is zero: 1e-12 of its size.
+const AT_REST: f64 = 1e-10;
+
+/// The unknowns that Newton's method solves for at these temperatures of all of them, in K: all but
+/// states at rest whose rate nothing changes.
+///
+/// # Errors
+/// [`SteadyError::Drifts`] for a state that changes whatever the temperatures are.
+pub(crate) fn free(
+    system: &ThermalSystem,
+    work: &mut Workspace,
+    unknowns: &[f64],
+) -> Result<Vec<usize>, SteadyError> {
+    let all = 0..unknowns.len();
+    if system.network().states().is_empty() {
+        return Ok(all.collect());
+    }
+    let mut values = vec![0.0; system.pattern().entries()];
+    system.jacobian_at(work, unknowns, JacobianForm::Exact, &mut values)?;
+    let mut flow = vec![0.0; unknowns.len()];
+    system.flow(work, unknowns, &mut flow)?;
+    let pattern = Pattern::from_symbolic(system.pattern().symbolic());
+    let mut reads = vec![false; unknowns.len()];
+    for column in all.clone() {
+        for slot in pattern.column(column) {
+            reads[pattern.row_indices()[slot]] |= values[slot] != 0.0;
+        }
+    }
+    let mut free = Vec::new();
+    for unknown in all {
+        let state = system.network().state_at(system.unknowns()[unknown]);
+        match state.filter(|_| !reads[unknown]) {
+            None => free.push(unknown),
+            Some(state) if flow[unknown].abs() > AT_REST => {
+                let rate = state.value(flow[unknown]);
+                let unit = state.ty.dimension.si_unit();
+                return Err(SteadyError::Drifts { name: state.name.clone(), rate, unit });
+            }
+            Some(_) => {}
+        }
+    }
+    Ok(free)
+}
