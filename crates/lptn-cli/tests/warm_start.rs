@@ -147,7 +147,7 @@ fn states_go_on_where_they_were() {
     let (folder, whole, parts) = whole_and_parts(OVEN, second);
     same(&whole, &parts);
     let states = state(&folder, "first")["states"].as_object().unwrap().clone();
-    assert_eq!(states.keys().collect::<Vec<_>>(), ["heat.integral", "used"]);
+    assert_eq!(states.keys().collect::<Vec<_>>(), ["used", "heat.integral"]);
     let used = |file: &str| {
         let run = ["run", file, "--select", "used", "--format", "csv"];
         csv(&folder.run(&run).exits(0).out).1.pop().unwrap()[1]

@@ -5,7 +5,7 @@
 //! integral follows `dI/dt = K_i e + (u - v) / tracking`: at a limit it goes back to the limit
 //! (back-calculation; K. J. Åström and R. M. Murray, Feedback Systems, 2nd edition, Princeton 2021,
 //! section 11.4). Nothing switches, so a controller has no events. The derivative is that of the
-//! sensed temperature behind a lag of first order, so that a step of the set point is no impulse.
+//! sensed temperature after a lag of first order, so that a step of the set point is no impulse.
 //!
 //! Parameters of a controller have names, `NAME.K_p`, so that sweeps and fits can change them.
 

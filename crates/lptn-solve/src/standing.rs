@@ -1,4 +1,4 @@
-//! States whose rate reads nothing that a steady state determines: an integral behind its bound, a
+//! States whose rate reads nothing that a steady state determines: an integral at its bound, a
 //! state of charge at rest.
 //!
 //! Such a state stays where it is if its rate is zero; otherwise it changes without end.
