@@ -202,7 +202,9 @@ impl Names {
 
     /// An expression with the names that are meant at its place.
     pub(crate) fn resolved(&self, place: &Span, expression: Expression) -> Expression {
-        expression.renamed(&|name| self.structure.meaning(place, name))
+        let members = |name: &str| self.structure.members(place, name);
+        let each = expression.with_members(&members).into_owned();
+        each.renamed(&|name| self.structure.meaning(place, name))
     }
 
     /// Notes a material or fluid that cannot be read, with its section.

@@ -284,8 +284,8 @@ impl Plant {
             "format = 1\n[default]\nT0 = \"20 degC\"\n[node]\na = {{ C = \"{ca:?} J/K\" }}\nb = {{ C = \"{cb:?} \
              J/K\" }}\n[boundary]\nair = {{ T = \"20 degC\" }}\n[resistor]\nab = {{ from = \"a\", to = \"b\", G = \
              \"{ga:?} W/K\" }}\nout = {{ from = \"b\", to = \"air\", G = \"{gb:?} W/K\" }}\n[value]\nshare = \
-             \"demand / 100 [W]\"\ndemand = \"{kp:?} [W/K] * error + {ki:?} [W/(K s)] * sum\"\nerror = \"60 \
-             [degC] - b.T\"\n[state]\nsum = {{ rate = \"error\", start = \"0 K s\", size = \"1e3 K s\" }}\ncharge = \
+             \"demand / 100 [W]\"\ndemand = \"{kp:?} [W/K] * error + {ki:?} [W/(K s)] * total\"\nerror = \"60 \
+             [degC] - b.T\"\n[state]\ntotal = {{ rate = \"error\", start = \"0 K s\", size = \"1e3 K s\" }}\ncharge = \
              {{ rate = \"-{use_:?} [1/h] * charge * share^2\", start = \"2 A h\" }}\n[source]\nheater = {{ into \
              = \"a\", P = \"demand * charge / 2 [A h]\" }}\n"
         )
@@ -335,7 +335,7 @@ fn random_plants_with_states_are_those_of_runge_and_kutta() {
             for (name, right, scale) in [
                 ("a.T", right[0] + ZERO, 1.0),
                 ("b.T", right[1] + ZERO, 1.0),
-                ("sum", right[2], 8.0),
+                ("total", right[2], 8.0),
             ] {
                 let error = (column(&solution, name)[1] - right).abs() / scale / 1e-5;
                 worst = worst.max(error);

@@ -12,6 +12,7 @@ mod derivatives;
 mod distributions;
 mod enclosures;
 mod expressions;
+mod families;
 mod helps;
 mod inference;
 mod lanes;

@@ -1,11 +1,14 @@
-//! `planet[*].gear`: every instance, in `of` of a limit and in `into` of a source.
+//! `planet[*].gear`: every instance, in `of` of a limit, in `into` of a source and in the ends of a
+//! path; `planet[*-1].gear`: the instance before, in the ends of a path.
 
 use std::ops::Range;
 
 use lptn_data::{Diagnostic, Span};
 use lptn_units::Expression;
 
+use super::plan::BEFORE;
 use super::structure::Structure;
+use crate::section::PATHS;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 
 const STAR: &str = "[*]";
@@ -20,9 +23,22 @@ pub(super) fn expand(raw: &mut RawNetlist, structure: &Structure) -> Vec<Diagnos
             table.entries = entries.into_iter().flat_map(|entry| work.limit(entry)).collect();
         } else if section.key == "source" {
             table.entries.retain_mut(|entry| work.source(entry));
+        } else if is_path(&section.key) {
+            let entries = std::mem::take(&mut table.entries);
+            table.entries = entries.into_iter().flat_map(|entry| work.path(entry)).collect();
         }
     }
     work.problems
+}
+
+/// True for a section of elements between two ends.
+fn is_path(section: &str) -> bool {
+    PATHS.iter().any(|path| path.section.name == section && !path.kind.is_source())
+}
+
+/// A pattern with its `[*-1]` as `[*]`.
+fn plain(pattern: &str) -> String {
+    pattern.replace(BEFORE, STAR)
 }
 
 struct Patterns<'s> {
@@ -42,8 +58,14 @@ impl Patterns<'_> {
             return vec![entry];
         };
         let Ok(expression) = Expression::parse(text) else { return vec![entry] };
+        // those inside `max(..)` and the like are one value
+        let members = |name: &str| self.structure.members(&value.span, name);
+        let expression = expression.with_members(&members);
         let names = expression.names().into_iter().filter(|(name, _)| name.contains(STAR));
         let names: Vec<(String, Range<usize>)> = names.collect();
+        if names.is_empty() {
+            return vec![entry];
+        }
         let mut all: Option<Vec<Indices>> = None;
         for (name, range) in &names {
             let before = self.problems.len();
@@ -65,6 +87,32 @@ impl Patterns<'_> {
             with_of(&entry, key, filled(text, &names, &indices))
         });
         each.collect()
+    }
+
+    /// `side` from `cell[*-1].body` to `cell[*].body` becomes `side[2]`, `side[3]` and so on.
+    fn path(&mut self, entry: RawEntry) -> Vec<RawEntry> {
+        let ends = ["from", "to"].map(|key| {
+            let value = field(&entry, key)?;
+            let RawKind::String { text, .. } = &value.kind else { return None };
+            (text.contains(STAR) || text.contains(BEFORE)).then(|| (text.clone(), value.clone()))
+        });
+        let given: Vec<&(String, RawValue)> = ends.iter().flatten().collect();
+        let Some((_, place)) = given.first() else { return vec![entry] };
+        let mut all: Option<Vec<Indices>> = None;
+        for (pattern, value) in &given {
+            let found = self.instances(&plain(pattern), (&value.span, &value.span));
+            let Some(found) = found else { return Vec::new() };
+            if all.as_ref().is_some_and(|all| *all != found) {
+                let names = given.iter().map(|(text, value)| (text.clone(), value.span.range.clone()));
+                self.problems.push(uneven(&names.collect::<Vec<_>>(), place));
+                return Vec::new();
+            }
+            all = Some(found);
+        }
+        let behind = given.iter().any(|(pattern, _)| pattern.contains(BEFORE));
+        let each = all.unwrap_or_default().into_iter();
+        let each = each.filter(|indices| !behind || indices.iter().all(|index| *index > 1));
+        each.map(|indices| between(&entry, &indices)).collect()
     }
 
     /// `into = "planet[*].gear"` shares the heat equally; `false` after an error.
@@ -191,6 +239,23 @@ fn with_of(entry: &RawEntry, key: String, text: String) -> RawEntry {
         && let Some(of) = table.entries.iter_mut().find(|field| field.key == "of")
     {
         of.value.kind = RawKind::String { text, start: None };
+    }
+    entry
+}
+
+/// The path of one index, with its ends filled.
+fn between(entry: &RawEntry, indices: &[usize]) -> RawEntry {
+    let list: Vec<String> = indices.iter().map(usize::to_string).collect();
+    let mut entry =
+        RawEntry { key: format!("{}[{}]", entry.key, list.join(",")), ..entry.clone() };
+    let RawKind::Table(table) = &mut entry.value.kind else { return entry };
+    for end in table.entries.iter_mut().filter(|field| ["from", "to"].contains(&&*field.key)) {
+        let RawKind::String { text, start } = &mut end.value.kind else { continue };
+        if text.contains(STAR) || text.contains(BEFORE) {
+            let before: Vec<usize> = indices.iter().map(|index| index - 1).collect();
+            let indices = if text.contains(BEFORE) { &before } else { indices };
+            (*text, *start) = (fill(&plain(text), indices), None);
+        }
     }
     entry
 }

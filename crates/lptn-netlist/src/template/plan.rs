@@ -7,6 +7,9 @@ use super::definition::{Parameter, Template};
 use crate::fields::{Fields, Owner, wrong_shape};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
 
+/// In a name of the last entry of a list: the instance before.
+pub(super) const BEFORE: &str = "[*-1]";
+
 /// Most instances of a netlist, nested ones included.
 pub(super) const MOST_INSTANCES: usize = 1_000_000;
 
@@ -129,6 +132,9 @@ fn values(
 ) -> Vec<RawValue> {
     let RawKind::Array(list) = &raw.kind else { return vec![raw.clone()] };
     let wanted = count.unwrap_or(1);
+    if let (Some(all), true) = (chained(list, wanted), count.is_some()) {
+        return all;
+    }
     if list.len() == wanted && count.is_some() {
         return list.clone();
     }
@@ -142,6 +148,20 @@ fn values(
     problems
         .push(problem.help("give one value for each instance in order, or a single one for all"));
     vec![raw.clone()]
+}
+
+/// A list that ends with a rule, `cell[*-1].out`: the instance before, for each that follows.
+fn chained(list: &[RawValue], wanted: usize) -> Option<Vec<RawValue>> {
+    let (rule, first) = list.split_last().filter(|(_, first)| !first.is_empty())?;
+    let RawKind::String { text, .. } = &rule.kind else { return None };
+    if !text.contains(BEFORE) || first.len() > wanted {
+        return None;
+    }
+    let follows = (first.len()..wanted).map(|before| {
+        let text = text.replace(BEFORE, &format!("[{before}]"));
+        RawValue { span: rule.span.clone(), kind: RawKind::String { text, start: None } }
+    });
+    Some(first.iter().cloned().chain(follows).collect())
 }
 
 fn connections<'r>(

@@ -141,6 +141,31 @@ impl Structure {
         })
     }
 
+    /// The full names of all instances of a family, `cell[*].T`, in order; `None` if it is none.
+    pub(crate) fn members(&self, place: &Span, pattern: &str) -> Option<Vec<String>> {
+        if !pattern.contains("[*]") {
+            return None;
+        }
+        let mut found = vec![String::new()];
+        for part in self.resolve(place, pattern).split('.') {
+            found = match part.strip_suffix("[*]") {
+                None => found.iter().map(|before| format!("{before}{part}.")).collect(),
+                Some(name) => {
+                    let used = |before: &String| format!("{before}{name}");
+                    let counts: Option<Vec<(String, usize)>> = found
+                        .iter()
+                        .map(|before| Some((used(before), self.count(&used(before))??)))
+                        .collect();
+                    let all = |(used, count): (String, usize)| {
+                        (1..=count).map(move |index| format!("{used}[{index}]."))
+                    };
+                    counts?.into_iter().flat_map(all).collect()
+                }
+            };
+        }
+        Some(found.into_iter().map(|name| name.trim_end_matches('.').to_owned()).collect())
+    }
+
     /// Notes a name whose element cannot be read.
     pub(crate) fn lose(&mut self, name: &str) {
         self.lost.push(name.to_owned());

@@ -213,7 +213,7 @@ impl Checker<'_> {
         }
         match (function, arguments) {
             (Function::If, [condition, values @ ..]) => self.conditional(*condition, values),
-            (Function::Min | Function::Max | Function::Mean, _) => {
+            (Function::Min | Function::Max | Function::Mean | Function::Sum, _) => {
                 self.several(function, arguments)
             }
             (_, [argument]) => self.single(function, *argument),
@@ -266,9 +266,14 @@ impl Checker<'_> {
         let operation = match function {
             Function::Min => "`min`",
             Function::Max => "`max`",
+            Function::Sum => "`sum`",
             _ => "`mean`",
         };
         let ty = self.common_type(operation, arguments)?;
+        if function == Function::Sum && ty.absolute {
+            let error = self.source.absolute(arguments[0], "added to another one", false);
+            return self.keep(Err(error));
+        }
         let constants: Option<Vec<f64>> = arguments.iter().map(|id| self.constant(*id)).collect();
         let constant = constants.and_then(|values| fold::several(function, &values));
         Some(Checked { constant, ..Checked::of(ty) })

@@ -183,6 +183,7 @@ impl<'a> Generator<'a> {
             }
             (Function::Min, _) => self.fold(Arithmetic::Min, arguments, origin),
             (Function::Max, _) => self.fold(Arithmetic::Max, arguments, origin),
+            (Function::Sum, _) => self.fold(Arithmetic::Add, arguments, origin),
             (Function::Mean, _) => {
                 self.fold(Arithmetic::Add, arguments, origin);
                 let count = u32::try_from(arguments.len()).unwrap_or(u32::MAX);

@@ -41,6 +41,9 @@ pub(crate) fn several(function: Function, values: &[f64]) -> Option<f64> {
         let count = u32::try_from(values.len()).ok()?;
         return finite(values.iter().sum::<f64>() / f64::from(count));
     }
+    if function == Function::Sum {
+        return finite(values.iter().sum());
+    }
     values.iter().copied().reduce(combine).and_then(finite)
 }
 

@@ -7,6 +7,7 @@ pub(crate) enum Function {
     Min,
     Max,
     Mean,
+    Sum,
     Sqrt,
     Exp,
     Ln,
@@ -18,11 +19,12 @@ pub(crate) enum Function {
     Absolute,
 }
 
-const ALL: [(&str, Function); 13] = [
+const ALL: [(&str, Function); 14] = [
     ("abs", Function::Abs),
     ("min", Function::Min),
     ("max", Function::Max),
     ("mean", Function::Mean),
+    ("sum", Function::Sum),
     ("sqrt", Function::Sqrt),
     ("exp", Function::Exp),
     ("ln", Function::Ln),
@@ -55,7 +57,7 @@ impl Function {
     /// The right number of arguments in words, if `count` is wrong.
     pub(crate) fn wrong_arity(self, count: usize) -> Option<&'static str> {
         let (right, words) = match self {
-            Self::Min | Self::Max => (count >= 2, "two or more arguments"),
+            Self::Min | Self::Max | Self::Sum => (count >= 2, "two or more arguments"),
             Self::Mean => (count >= 1, "one or more arguments"),
             Self::If => (count == 3, "three arguments: a comparison and two values"),
             _ => (count == 1, "one argument"),

@@ -118,7 +118,9 @@ impl Inference<'_> {
         match function::find(name) {
             None => self.scope.table(name).map(|table| table.ty.dimension),
             Some(Function::Abs) => of(0),
-            Some(Function::Min | Function::Max | Function::Mean) => (0..count).find_map(of),
+            Some(Function::Min | Function::Max | Function::Mean | Function::Sum) => {
+                (0..count).find_map(of)
+            }
             Some(Function::If) => of(1).or_else(|| of(2)),
             Some(Function::Sqrt) => of(0)?.checked_pow(Rational::HALF),
             Some(Function::Kelvin | Function::Absolute) => Some(Dimension::TEMPERATURE),
@@ -164,7 +166,13 @@ impl Inference<'_> {
             Node::Compare(_, a, b) => vec![(*a, known[*b]), (*b, known[*a])],
             Node::Call { function, arguments, .. } => {
                 let one = match function::find(function) {
-                    Some(Function::Abs | Function::Min | Function::Max | Function::Mean) => due,
+                    Some(
+                        Function::Abs
+                        | Function::Min
+                        | Function::Max
+                        | Function::Mean
+                        | Function::Sum,
+                    ) => due,
                     Some(Function::If) => {
                         return arguments.iter().skip(1).map(|&id| (id, due)).collect();
                     }

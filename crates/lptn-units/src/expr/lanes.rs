@@ -129,6 +129,7 @@ fn call(function: Function, lanes: Lanes) -> Option<Lanes> {
         Function::Min
         | Function::Max
         | Function::Mean
+        | Function::Sum
         | Function::If
         | Function::Kelvin
         | Function::Absolute => lanes,

@@ -7,6 +7,7 @@ mod degree;
 mod enclose;
 mod eval;
 mod eval_error;
+mod families;
 mod fix;
 mod fold;
 mod function;

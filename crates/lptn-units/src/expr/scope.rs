@@ -10,7 +10,7 @@ use crate::types::Type;
 /// `pi`, the temperatures of the element at hand, and all functions.
 pub const RESERVED: &[&str] = &[
     "t", "pi", "T", "T_from", "T_to", "T_mean", "dT", "abs", "min", "max", "mean", "sqrt", "exp",
-    "ln", "sin", "cos", "tanh", "if", "kelvin", "absolute",
+    "ln", "sin", "cos", "tanh", "if", "kelvin", "absolute", "sum",
 ];
 
 /// A name in scope: the slot of its value, and its type.

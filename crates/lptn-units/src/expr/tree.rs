@@ -120,6 +120,20 @@ impl Tree {
         self.nodes[id].1.clone()
     }
 
+    /// The first node of the part below a node: operands are directly before it.
+    pub(crate) fn first(&self, mut id: Id) -> Id {
+        loop {
+            id = match &self.nodes[id].0 {
+                Node::Number { .. } | Node::Literal { .. } | Node::Name(_) => return id,
+                Node::Negate(a) | Node::Binary(_, a, _) | Node::Compare(_, a, _) => *a,
+                Node::Call { arguments, .. } => match arguments.first() {
+                    Some(first) => *first,
+                    None => return id,
+                },
+            };
+        }
+    }
+
     pub(crate) fn root(&self) -> Id {
         self.nodes.len() - 1
     }
