@@ -126,6 +126,7 @@ pub(crate) fn in_unit(value: f64, field: Field) -> String {
         }
         Field::LatentHeat => Dimension::SPECIFIC_ENERGY,
         Field::MinDwell => Dimension::TIME,
+        Field::Sector => return format!("{} deg", format_short(value.to_degrees())),
         _ => return format_short(value),
     };
     format!("{} {}", format_short(value), dimension.si_unit())
