@@ -388,3 +388,84 @@ heater = { into = "hot.z0", P = "10 W" }
     close(celsius(&netlist, &steady, "hot[3,2,1]"), joint + flux * 0.0875 / 15.0, 1e-9);
     close(heat(&netlist, &steady, "joint"), 10.0, 1e-9);
 }
+
+/// A rod of one ring whose radius is a parameter: one exponential, T = P R (1 - exp(-t / (R C)))
+/// over the air, with R = 1 / (2 pi h L r) + ln(2) / (2 pi k L) and C = rho c pi r^2 L.
+#[test]
+fn a_radius_has_the_sensitivity_of_the_closed_form() {
+    let text = r#"
+format = 1
+[param]
+r = "30 mm"
+[grid.rod]
+shape = "cylinder"
+r_out = "r"
+length = "0.5 m"
+cells = [1]
+k = "2 W/(m K)"
+density = "2000 kg/m^3"
+cp = "1000 J/(kg K)"
+T0 = "0 degC"
+[boundary]
+air = { T = "0 degC" }
+[convection]
+skin = { from = "rod.outer", to = "air", h = "20 W/(m^2 K)" }
+[source]
+heat = { into = "rod[1]", P = "40 W" }
+"#;
+    let (netlist, system) = parsed(text);
+    let ids: Vec<_> = netlist.network.parameter_ids().collect();
+    let run = Transient::until(Time(3000.0)).every(Time(500.0)).tolerance(1e-8);
+    let run = run.sensitivities(&ids).solve(&system).unwrap();
+    let node = netlist.network.node("rod[1]").unwrap();
+    let found = run.sensitivity(ids[0], node).unwrap();
+    let (r, l, p) = (0.03, 0.5, 40.0);
+    let film = 1.0 / (2.0 * PI * 20.0 * l * r);
+    let whole = film + 2_f64.ln() / (2.0 * PI * 2.0 * l);
+    let slow = whole * 2e6 * PI * r * r * l;
+    let slope = slow * (2.0 / r - film / r / whole);
+    for (&t, found) in run.times().iter().zip(found) {
+        let e = (-t / slow).exp();
+        let exact = -p * film / r * (1.0 - e) - p * whole * e * t / (slow * slow) * slope;
+        close(found, exact, 1e-6 * p * whole / r);
+    }
+}
+
+/// A rod that is heated evenly and cooled nowhere warms up alike in all rings, also while it melts.
+#[test]
+fn an_even_heat_warms_all_rings_alike() {
+    let text = r#"
+format = 1
+[material.wax]
+density = "900 kg/m^3"
+cp = "2000 J/(kg K)"
+k = "0.3 W/(m K)"
+solidus = "49 degC"
+liquidus = "51 degC"
+latent_heat = "200 kJ/kg"
+[grid.rod]
+shape = "cylinder"
+r_in = "1 cm"
+r_out = "4 cm"
+length = "0.2 m"
+cells = [5, 2]
+material = "wax"
+T0 = "20 degC"
+[source]
+heat = { into = "rod", P = "50 W" }
+"#;
+    let (netlist, system) = parsed(text);
+    let run =
+        Transient::until(Time(4000.0)).every(Time(500.0)).tolerance(1e-7).solve(&system).unwrap();
+    let mass = 900.0 * PI * (0.04 * 0.04 - 0.01 * 0.01) * 0.2;
+    let nodes = ["rod[1,1]", "rod[3,2]", "rod[5,1]"].map(|n| netlist.network.node(n).unwrap());
+    for node in nodes {
+        for (&t, kelvin) in run.times().iter().zip(run.temperature(node).unwrap()) {
+            // J/kg: sensible to 49 degC, then over 2 K the latent heat as well, then sensible
+            let heat = 50.0 * t / mass;
+            let melted = ((heat - 58_000.0) / 204_000.0).clamp(0.0, 1.0);
+            let warm = (heat.min(58_000.0) + (heat - 262_000.0).max(0.0)) / 2000.0;
+            close(kelvin - 273.15, 20.0 + warm + 2.0 * melted, 1e-4);
+        }
+    }
+}

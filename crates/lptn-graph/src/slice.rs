@@ -1,7 +1,8 @@
 //! Draws a slice of a field.
 
+use lptn_network::Form;
 use lptn_plot::font::width;
-use lptn_plot::scene::{Align, Path, Stroke, Text, line, rectangle};
+use lptn_plot::scene::{Align, Path, Stroke, Text, circle, line, rectangle};
 use lptn_plot::{FIELD, Ink, Scene};
 use lptn_report::{plain, prefix, significant};
 use lptn_units::Unit;
@@ -187,8 +188,12 @@ impl<'a> Sheet<'a> {
             let told = rings * around <= MOST_TIPS;
             scene.put(if told { self.tipped(piece, at, words) } else { piece });
         }
-        let frame = whole(self.field).drawn(centre, scale);
-        scene.put(frame.stroked(Stroke::solid(Ink::Frame, 1.0)));
+        let pen = Stroke::solid(Ink::Frame, 1.0);
+        let Form::Cylinder { closed: true, .. } = self.field.form else {
+            return scene.put(whole(self.field).drawn(centre, scale).stroked(pen));
+        };
+        let radii = self.field.ends(0).into_iter().filter(|radius| *radius > 0.0);
+        radii.for_each(|radius| scene.put(circle(centre, radius * scale).stroked(pen)));
     }
 
     /// The name of a side: of a layer of a cylinder x and y, of one of its rings the arc.

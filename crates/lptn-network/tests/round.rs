@@ -284,3 +284,18 @@ fn a_uniform_gradient_is_steady_without_a_hole() {
         assert!((outward - inward - lost).abs() < 1e-4 * outward, "{outward} {inward} {lost}");
     }
 }
+
+/// A derivative by a parameter that changes the ratio of the radii is refused.
+#[test]
+fn a_ratio_of_radii_has_no_derivative() {
+    let tangents = |r_in: &str| {
+        let mut b = NetworkBuilder::new();
+        let r = b.parameter("r", quantity("50 mm"));
+        let expression = |text: &str| Input::from(b.expression(text, None).unwrap());
+        let (r_in, r_out) = (Some(expression(r_in)), expression("r"));
+        b.grid("body", GridCylinder { r_in, r_out, ..pipe(&[3], None) });
+        b.build().unwrap().tangents(&[r]).map(|_| ())
+    };
+    assert!(tangents("0.4 * r").is_ok());
+    assert_eq!(tangents("20 [mm]").unwrap_err().code(), "sensitivity::rings");
+}
