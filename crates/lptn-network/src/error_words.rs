@@ -147,6 +147,7 @@ pub(crate) fn not_positive(field: Field, value: f64) -> &'static str {
         | Field::SpecificHeat
         | Field::Conductivity => "a body has a mass, a volume and properties of more than zero",
         Field::Size | Field::CharacteristicLength => "a body has dimensions of more than zero",
+        Field::Sector => "leave `angle` out for the full circle, or give one above 0 deg",
         Field::LatentHeat => "melting takes up heat: give it as a positive number",
         _ => "check the sign: heat flows from the warm to the cold end, whichever is named first",
     }
