@@ -36,6 +36,7 @@ mod paper;
 mod parameters;
 mod parts;
 mod regression;
+mod round;
 mod runaway;
 mod sections;
 mod sensitivity;

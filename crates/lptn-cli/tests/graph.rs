@@ -302,3 +302,50 @@ fn what_cannot_be_drawn_is_said_before_anything_is_computed() {
     assert!(ran.err.contains("output::cannot_write") && ran.err.contains("-o FILE"), "{}", ran.err);
     assert_eq!(folder.files(), ["file", "rod.toml", "run.toml", "two.toml"]);
 }
+
+const PIPE: &str = r#"
+format = 1
+[grid.pipe]
+shape = "cylinder"
+r_in = "20 mm"
+r_out = "40 mm"
+length = "0.1 m"
+cells = [2, 4, 3]
+material = "aluminium_6061"
+T0 = "20 degC"
+[boundary]
+hot = { T = "80 degC" }
+cold = { T = "20 degC" }
+[convection]
+inside = { from = "hot", to = "pipe.inner", h = "100 W/(m^2 K)" }
+outside = { from = "pipe.outer", to = "cold", h = "100 W/(m^2 K)" }
+"#;
+
+/// A layer along the axis, around it and across it, and all cells with the positions of their nodes.
+#[test]
+fn a_cylinder_is_drawn_in_three_directions() {
+    let folder = Folder::with("pipe.toml", PIPE);
+    for (slice, file, said) in [
+        ("z=50 mm", "pipe_z2.svg", "pipe at z = 50 mm, layer 2 of 3"),
+        ("phi=100 deg", "pipe_phi2.svg", "pipe at phi = 135 deg, layer 2 of 4"),
+        ("r=2", "pipe_r2.svg", "pipe at r = 35 mm, layer 2 of 2"),
+    ] {
+        let ran = folder.run(&["graph", "pipe.toml", "--slice", slice]);
+        assert_eq!(ran.code, Some(0), "{}", ran.err);
+        let picture = folder.read(&format!("out/pipe/{file}"));
+        assert!(picture.contains(said), "{slice}: {picture}");
+        assert!(picture.contains("pipe[2,1,2]: ") || picture.contains("pipe[2,2,1]: "), "{slice}");
+    }
+    let ran = folder.run(&["graph", "pipe.toml", "--slice", "r=1 mm"]);
+    assert!(ran.err.contains("it reaches from 20 mm to 40 mm along r"), "{}", ran.err);
+    let ran = folder.run(&["graph", "pipe.toml", "--slice", "x=1"]);
+    assert!(ran.err.contains("graph::slice"), "{}", ran.err);
+    let table = folder.run(&["graph", "pipe.toml", "--format", "csv"]).out;
+    let mut lines = table.lines();
+    assert_eq!(lines.next(), Some("cell,r [m],phi [deg],z [m],T [degC]"));
+    let first: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let numbers: Vec<f64> = first[3..6].iter().map(|text| text.parse().unwrap()).collect();
+    for (found, exact) in numbers.iter().zip([0.025, 45.0, 0.1 / 6.0]) {
+        assert!((found - exact).abs() < 1e-12, "{numbers:?}");
+    }
+}

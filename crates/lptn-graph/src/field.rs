@@ -1,25 +1,25 @@
 //! The temperature in a grid, and slices through it.
 
-use lptn_network::{GridId, Network};
+use lptn_network::{Form, GridAxis, GridId, Network};
+use lptn_report::significant;
 use lptn_solve::Snapshot;
 use lptn_units::{Dimension, Type, UnitError, parse_quantity};
 
 use crate::words;
-
-/// The letters of the axes.
-pub(crate) const AXES: [char; 3] = ['x', 'y', 'z'];
 
 /// The temperatures of the cells of a grid.
 #[derive(Clone, Debug)]
 pub struct GridField {
     /// The name of the grid.
     pub name: String,
-    /// Number of cells along x, y and z.
+    /// Its directions and faces.
+    pub form: Form,
+    /// Number of cells along each axis.
     pub cells: [usize; 3],
     /// Number of indices of its cells.
     pub axes: usize,
-    /// Its lengths along x, y and z in m.
-    pub size: [f64; 3],
+    /// The positions of its cells along each axis in m, along phi in rad.
+    pub along: [GridAxis; 3],
     /// The temperature of each cell in K, the last index running fastest.
     pub kelvin: Vec<f64>,
     /// Caption below its pictures.
@@ -47,30 +47,49 @@ pub enum NoSlice {
         },
         help "name an axis and the number of a layer, or a place: z=3, or \"z=5 mm\"";
     /// The grid has fewer layers.
-    NoLayer { text: String, grid: String, axis: char, layers: usize } = "graph::slice",
+    NoLayer { text: String, grid: String, axis: &'static str, layers: usize } = "graph::slice",
         format!("`{text}` lies outside of `{grid}`: it has {layers} layers along {axis}"),
         help format!("name one from 1 to {layers}, {axis}={layers}");
-    /// The grid is shorter; `length` is in m.
-    NoPlace { text: String, grid: String, axis: char, length: f64 } = "graph::slice",
-        format!(
-            "`{text}` lies outside of `{grid}`: it is {} long along {axis}",
-            words::si(*length, "m")
-        ),
-        help format!("name a place from 0 to \"{axis}={}\"", words::si(*length, "m"));
+    /// The grid ends before; `ends` in m, along phi in rad.
+    NoPlace { text: String, grid: String, axis: &'static str, ends: [f64; 2] } = "graph::slice",
+        match ends[0] > 0.0 {
+            true => format!(
+                "`{text}` lies outside of `{grid}`: it reaches from {} to {} along {axis}",
+                position(axis, ends[0]), position(axis, ends[1])
+            ),
+            false => format!(
+                "`{text}` lies outside of `{grid}`: it is {} long along {axis}",
+                position(axis, ends[1])
+            ),
+        },
+        help format!(
+            "name a place from {} to \"{axis}={}\"",
+            if ends[0] > 0.0 { position(axis, ends[0]) } else { "0".to_owned() },
+            position(axis, ends[1])
+        );
 }}
+
+/// A position along an axis, with its unit.
+pub(crate) fn position(axis: &str, at: f64) -> String {
+    match axis {
+        PHI => format!("{} deg", significant(at.to_degrees(), 4)),
+        _ => words::si(at, "m"),
+    }
+}
+
+/// The axis whose positions are angles.
+pub(crate) const PHI: &str = "phi";
 
 impl GridField {
     /// The field of a grid in a state; its temperatures are NaN without one.
     pub fn of(network: &Network, id: GridId, state: Option<&Snapshot>) -> Self {
         let grid = &network.grids()[id.index()];
-        let mut scope = network.evaluation();
-        let mut length =
-            |axis: usize| words::number(network, &grid.size[axis], &mut scope).unwrap_or(f64::NAN);
         Self {
             name: grid.name.clone(),
             cells: grid.cells,
+            form: grid.form(),
             axes: grid.axes,
-            size: [length(0), length(1), length(2)],
+            along: network.grid_axes(id),
             kelvin: grid
                 .nodes()
                 .map(|id| state.map_or(f64::NAN, |state| state.temperatures[id.index()]))
@@ -84,15 +103,20 @@ impl GridField {
         self.kelvin[(i * self.cells[1] + j) * self.cells[2] + k]
     }
 
-    /// The lengths of a cell in m.
-    pub fn spacing(&self) -> [f64; 3] {
-        [0, 1, 2].map(|axis| self.size[axis] / self.cells[axis] as f64)
+    /// The first and the last position along an axis in m, along phi in rad.
+    pub fn ends(&self, axis: usize) -> [f64; 2] {
+        let borders = &self.along[axis].borders;
+        [borders[0], borders[borders.len() - 1]]
     }
 
-    /// The middle of a cell in m, by its indices from 0.
+    /// True for a cylinder.
+    pub fn is_round(&self) -> bool {
+        self.form != Form::Block
+    }
+
+    /// The position of the node of a cell in m, along phi in rad, by its indices from 0.
     pub fn centre(&self, at: [usize; 3]) -> [f64; 3] {
-        let spacing = self.spacing();
-        [0, 1, 2].map(|axis| spacing[axis] * (at[axis] as f64 + 0.5))
+        [0, 1, 2].map(|axis| self.along[axis].nodes[at[axis]])
     }
 
     /// The name of a cell, by its indices from 0.
@@ -120,9 +144,10 @@ impl GridField {
     pub fn cut(&self, text: &str) -> Result<Cut, NoSlice> {
         let not_a_slice = |why| NoSlice::NotASlice { text: text.to_owned(), why };
         let (axis, place) = text.split_once('=').ok_or_else(|| not_a_slice(None))?;
-        let axis = AXES.iter().position(|letter| axis.trim().eq(&letter.to_string()));
+        let directions = self.form.directions();
+        let axis = directions.iter().position(|direction| axis.trim() == *direction);
         let axis = axis.ok_or_else(|| not_a_slice(None))?;
-        let (grid, letter) = (self.name.clone(), AXES[axis]);
+        let (grid, letter) = (self.name.clone(), directions[axis]);
         let layers = self.cells[axis];
         if let Ok(number) = place.trim().parse::<i64>() {
             let found = usize::try_from(number).ok().and_then(|number| number.checked_sub(1));
@@ -135,20 +160,24 @@ impl GridField {
                 layers,
             });
         }
-        let length = Type::of(Dimension::LENGTH);
-        let place = parse_quantity(place.trim(), Some(length));
+        let angle = letter == PHI;
+        let wanted = Type::of(if angle { Dimension::ANGLE } else { Dimension::LENGTH });
+        let place = parse_quantity(place.trim(), Some(wanted));
         let place = place.map_err(|why| not_a_slice(Some(Box::new(why))))?.value;
-        if !(0.0..=self.size[axis]).contains(&place) {
+        let ends = self.ends(axis);
+        if !(ends[0]..=ends[1]).contains(&place) {
             let text = text.to_owned();
-            return Err(NoSlice::NoPlace { text, grid, axis: letter, length: self.size[axis] });
+            return Err(NoSlice::NoPlace { text, grid, axis: letter, ends });
         }
-        let layer = (place / self.spacing()[axis]).floor() as usize;
-        Ok(Cut { axis, layer: layer.min(layers - 1) })
+        let layer = self.along[axis].borders.partition_point(|border| *border <= place);
+        Ok(Cut { axis, layer: layer.saturating_sub(1).min(layers - 1) })
     }
 }
 
 #[cfg(test)]
 pub(crate) mod tests {
+    use lptn_network::{Form, GridAxis};
+
     use super::{Cut, GridField, NoSlice};
 
     /// 2 x 3 x 4 cells of 10, 20 and 5 mm; the temperature in K is 100 i + 10 j + k.
@@ -157,7 +186,8 @@ pub(crate) mod tests {
             name: "block".into(),
             cells: [2, 3, 4],
             axes: 3,
-            size: [0.02, 0.06, 0.02],
+            form: Form::Block,
+            along: [(0.02, 2), (0.06, 3), (0.02, 4)].map(|(size, n)| GridAxis::even(size, n)),
             kelvin: Vec::new(),
             caption: "steady state".into(),
         };

@@ -15,6 +15,7 @@ mod mermaid;
 mod model;
 mod picture;
 mod read;
+mod ring;
 mod sankey;
 mod slice;
 mod symbols;

@@ -1,13 +1,15 @@
 //! Draws a slice of a field.
 
+use lptn_network::Form;
 use lptn_plot::font::width;
-use lptn_plot::scene::{Align, Stroke, Text, line, rectangle};
+use lptn_plot::scene::{Align, Path, Stroke, Text, circle, line, rectangle};
 use lptn_plot::{FIELD, Ink, Scene};
 use lptn_report::{plain, prefix, significant};
 use lptn_units::Unit;
 
-use crate::field::{AXES, Cut, GridField};
+use crate::field::{Cut, GridField, position};
 use crate::legend::{BAR, scale};
+use crate::ring::Sector;
 use crate::words::Scale;
 
 /// The room that the cells of a slice have.
@@ -51,6 +53,8 @@ struct Sheet<'a> {
     cut: Cut,
     /// The axes to the right and upwards.
     axes: [usize; 2],
+    /// The first and the last position to the right and upwards in m.
+    ends: [[f64; 2]; 2],
     /// Width and height in pixels.
     size: (f64, f64),
     true_to_scale: bool,
@@ -58,18 +62,22 @@ struct Sheet<'a> {
 
 impl<'a> Sheet<'a> {
     fn of(field: &'a GridField, cut: Cut, axes: [usize; 2]) -> Self {
-        let [right, up] = axes.map(|axis| field.size[axis]);
+        let ends = match along_axis(field, cut) {
+            true => whole(field).extent(),
+            false => axes.map(|axis| field.ends(axis).map(|end| end * arm(field, cut, axis))),
+        };
+        let [right, up] = ends.map(|[low, high]| high - low);
         let scale = (ROOM.0 / right).min(ROOM.1 / up);
         let (wide, tall) = (right * scale, up * scale);
         let size = (wide.clamp(LEAST, ROOM.0), tall.clamp(LEAST, ROOM.1));
         let true_to_scale = wide >= LEAST && tall >= LEAST;
-        Self { field, cut, axes, size, true_to_scale }
+        Self { field, cut, axes, ends, size, true_to_scale }
     }
 
     fn title(&self, title: &str) -> String {
         let Self { field, cut, .. } = self;
-        let place = length(field.centre([cut.layer; 3])[cut.axis]);
-        let letter = AXES[cut.axis];
+        let letter = field.form.directions()[cut.axis];
+        let place = position(letter, field.along[cut.axis].nodes[cut.layer]);
         let note = if self.true_to_scale { "" } else { ", not to scale" };
         let (name, layers) = (&field.name, field.cells[cut.axis]);
         let where_from = match plain(title) {
@@ -114,8 +122,11 @@ impl<'a> Sheet<'a> {
     /// Draws the cells. Neighbours of one colour are one piece, unless the cells are few enough for
     /// separate labels.
     fn cells(&self, scene: &mut Scene, (x, y): (f64, f64), words: &Scale<'_>) {
+        if along_axis(self.field, self.cut) {
+            return self.sectors(scene, (x, y), words);
+        }
         let (columns, rows) = self.counts();
-        let (wide, tall) = (self.size.0 / columns as f64, self.size.1 / rows as f64);
+        let tall = self.size.1 / rows as f64;
         let span = self.field.span();
         let told = columns * rows <= MOST_TIPS;
         for row in 0..rows {
@@ -130,43 +141,92 @@ impl<'a> Sheet<'a> {
                 let end = column + 1 + same;
                 // a little wider, so that no paper shows between them
                 let over = |last: bool| if last { 0.0 } else { 0.4 };
-                let size =
-                    (wide * (end - column) as f64 + over(end == columns), tall + over(row == 0));
-                let piece = rectangle((x + wide * column as f64, top), size, 0.0).filled(ink, 1.0);
-                scene.put(match told {
-                    true => {
-                        let text = words.text(self.field.at(at));
-                        piece.tipped(format!("{}: {text}", self.field.cell(at)))
-                    }
-                    false => piece,
-                });
+                let (left, wide) = self.columns(column, end);
+                let size = (wide + over(end == columns), tall + over(row == 0));
+                let piece = rectangle((x + left, top), size, 0.0).filled(ink, 1.0);
+                scene.put(if told { self.tipped(piece, at, words) } else { piece });
                 column = end;
             }
         }
         scene.put(rectangle((x, y), self.size, 0.0).stroked(Stroke::solid(Ink::Frame, 1.0)));
     }
 
+    /// A piece with the name and the temperature of its cell.
+    fn tipped(&self, piece: Path, at: [usize; 3], words: &Scale<'_>) -> Path {
+        piece.tipped(format!("{}: {}", self.field.cell(at), words.text(self.field.at(at))))
+    }
+
+    /// Start and width of some columns in pixels. Those along r differ.
+    fn columns(&self, from: usize, to: usize) -> (f64, f64) {
+        let (columns, _) = self.counts();
+        if self.axes[0] != 0 || !self.field.is_round() {
+            let wide = self.size.0 / columns as f64;
+            return (wide * from as f64, wide * (to - from) as f64);
+        }
+        let [low, high] = self.ends[0];
+        let borders = &self.field.along[0].borders;
+        let [left, right] =
+            [from, to].map(|border| self.size.0 * (borders[border] - low) / (high - low));
+        (left, right - left)
+    }
+
+    /// Draws the cells of a layer of a cylinder as sectors of rings.
+    fn sectors(&self, scene: &mut Scene, (x, y): (f64, f64), words: &Scale<'_>) {
+        let [[left, right], [_, top]] = self.ends;
+        let scale = self.size.0 / (right - left);
+        let centre = (x - left * scale, y + top * scale);
+        let (rings, around) = self.counts();
+        let span = self.field.span();
+        for (i, j) in (0..rings).flat_map(|i| (0..around).map(move |j| (i, j))) {
+            let at = self.at(i, j);
+            let pair = |axis: usize, k: usize| {
+                let borders = &self.field.along[axis].borders;
+                [borders[k], borders[k + 1]]
+            };
+            let sector = Sector { radii: pair(0, i), angles: pair(1, j) };
+            let piece = sector.drawn(centre, scale).filled(self.ink(at, span), 1.0);
+            let told = rings * around <= MOST_TIPS;
+            scene.put(if told { self.tipped(piece, at, words) } else { piece });
+        }
+        let pen = Stroke::solid(Ink::Frame, 1.0);
+        let Form::Cylinder { closed: true, .. } = self.field.form else {
+            return scene.put(whole(self.field).drawn(centre, scale).stroked(pen));
+        };
+        let radii = self.field.ends(0).into_iter().filter(|radius| *radius > 0.0);
+        radii.for_each(|radius| scene.put(circle(centre, radius * scale).stroked(pen)));
+    }
+
+    /// The name of a side: of a layer of a cylinder x and y, of one of its rings the arc.
+    fn side(&self, side: usize) -> &'static str {
+        let axis = self.axes[side];
+        match self.field.is_round() {
+            true if along_axis(self.field, self.cut) => ["x", "y"][side],
+            true if axis == 1 => "arc",
+            _ => self.field.form.directions()[axis],
+        }
+    }
+
     /// Lengths along both sides.
     fn axes(&self, scene: &mut Scene, (x, y): (f64, f64)) {
-        let [right, up] = self.axes.map(|axis| self.field.size[axis]);
+        let [[left, right], [low, high]] = self.ends;
         let bottom = y + self.size.1;
-        let (scale, letter) = prefix(right.max(up));
+        let (scale, letter) = prefix(right.max(high));
         let pen = Stroke::solid(Ink::Frame, 1.0);
         let mut write = |text: String, at, align| {
             scene.write(Text::new(text, at, SIZE, Ink::Faint).aligned(align));
         };
         let unit = format!("{}m", if letter == "u" { "µ" } else { letter });
-        let name = |axis: usize| format!("{} [{unit}]", AXES[axis]);
-        write(name(self.axes[0]), (x + self.size.0 / 2.0, bottom + 38.0), Align::Middle);
-        write(name(self.axes[1]), (x - AXIS.0 + 2.0, y - 14.0), Align::Start);
+        let name = |side: usize| format!("{} [{unit}]", self.side(side));
+        write(name(0), (x + self.size.0 / 2.0, bottom + 38.0), Align::Middle);
+        write(name(1), (x - AXIS.0 + 2.0, y - 14.0), Align::Start);
         let mut ticks = Vec::new();
-        for place in marks(right, self.size.0) {
-            let at = x + self.size.0 * place / right;
+        for place in marks([left, right], self.size.0) {
+            let at = x + self.size.0 * (place - left) / (right - left);
             write(significant(place / scale, 4), (at, bottom + 19.0), Align::Middle);
             ticks.push([(at, bottom), (at, bottom + 5.0)]);
         }
-        for place in marks(up, self.size.1) {
-            let at = bottom - self.size.1 * place / up;
+        for place in marks([low, high], self.size.1) {
+            let at = bottom - self.size.1 * (place - low) / (high - low);
             write(significant(place / scale, 4), (x - 8.0, at + 4.0), Align::End);
             ticks.push([(x, at), (x - 5.0, at)]);
         }
@@ -174,22 +234,34 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// Round places from 0 on, along a side of `length` in m that takes `pixels`.
-fn marks(length: f64, pixels: f64) -> Vec<f64> {
+/// True for a layer of a cylinder that is seen along its axis.
+fn along_axis(field: &GridField, cut: Cut) -> bool {
+    field.is_round() && cut.axis == 2
+}
+
+/// A layer of a cylinder as a whole.
+fn whole(field: &GridField) -> Sector {
+    Sector { radii: field.ends(0), angles: field.ends(1) }
+}
+
+/// The factor by which positions along an axis become lengths: for angles the radius of the ring.
+fn arm(field: &GridField, cut: Cut, axis: usize) -> f64 {
+    if field.is_round() && axis == 1 { field.along[0].nodes[cut.layer] } else { 1.0 }
+}
+
+/// Round places between two ends in m, along a side that takes `pixels`.
+fn marks([low, high]: [f64; 2], pixels: f64) -> Vec<f64> {
     let most = (pixels / 60.0).clamp(1.0, 8.0);
-    let least = length / most;
+    let least = (high - low) / most;
     let power = 10_f64.powf(least.log10().floor());
     let step = [1.0, 2.0, 5.0, 10.0]
         .map(|factor| factor * power)
         .into_iter()
         .find(|s| *s >= least * 0.999);
     let Some(step) = step.filter(|step| step.is_finite()) else { return Vec::new() };
-    let count = (length / step + 1e-9).floor() as usize;
-    (0..=count).map(|i| i as f64 * step).collect()
-}
-
-fn length(metres: f64) -> String {
-    crate::words::si(metres, "m")
+    let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
+    let count = (last - first).max(0.0) as usize;
+    (0..=count).map(|i| (first + i as f64) * step).collect()
 }
 
 #[cfg(test)]
@@ -198,8 +270,11 @@ mod tests {
 
     #[test]
     fn marks_are_round_and_inside() {
-        let found: Vec<String> = marks(0.2, 400.0).iter().map(|x| format!("{x:.3}")).collect();
-        assert_eq!(found, ["0.000", "0.050", "0.100", "0.150", "0.200"]);
-        assert_eq!(marks(f64::NAN, 100.0).len(), 0);
+        let found = |ends| -> Vec<String> {
+            marks(ends, 400.0).iter().map(|x| format!("{x:.3}")).collect()
+        };
+        assert_eq!(found([0.0, 0.2]), ["0.000", "0.050", "0.100", "0.150", "0.200"]);
+        assert_eq!(found([-0.09, 0.11]), ["-0.050", "0.000", "0.050", "0.100"]);
+        assert_eq!(marks([0.0, f64::NAN], 100.0).len(), 0);
     }
 }

@@ -4,8 +4,8 @@ use std::collections::HashSet;
 
 use lptn_data::{Diagnostic, FileId, Rejected, Span, on_borders};
 use lptn_network::{
-    BuildError, Course, Field, Item, Material, Network, ParameterError, ParameterId, Parameters,
-    SignalId, Value,
+    BuildError, Course, Field, GridFace, Item, Material, Network, ParameterError, ParameterId,
+    Parameters, SignalId, Value,
 };
 use lptn_units::{Expression, UnitErrorKind};
 
@@ -327,13 +327,14 @@ impl Netlist {
             },
             Item::Grid(id) => {
                 let grid = &network.grids()[id.index()];
-                grid.size.iter().chain(&grid.conductivity).chain(&grid.initial).collect()
+                let lengths = grid.shape.values().into_iter();
+                lengths.chain(&grid.conductivity).chain(&grid.initial).collect()
             }
             Item::FacePath(id) => {
                 let joint = &network.face_paths()[id.index()];
                 // the area of the face depends on the size of its grid
-                let grids = joint.faces().flat_map(|at| &network.grids()[at.grid.index()].size);
-                joint.area.iter().chain(grids).collect()
+                let grid = |at: GridFace| network.grids()[at.grid.index()].shape.values();
+                joint.area.iter().chain(joint.faces().flat_map(grid)).collect()
             }
             Item::Report(id) => vec![&network.reports()[id.index()].value],
             Item::Parameter(_) | Item::Table(_) | Item::Value(_) => Vec::new(),

@@ -59,12 +59,14 @@ fn places(diagnostic: Diagnostic, error: &BuildError, map: &SourceMap) -> Diagno
         }
         Kind::FaceArea { item, face, .. } => {
             let area = Field::of_law("area").and_then(|area| map.get(*item, area));
-            let size = map.get(Item::Grid(face.grid), Field::Size);
+            let size = grid_size(map, *face, false);
             diagnostic
                 .at(area, "not the area of the face")
                 .also(size, "which is as large as this says")
         }
-        Kind::FaceCells { item, faces, .. } | Kind::FaceSides { item, faces, .. } => {
+        Kind::FaceCells { item, faces, .. }
+        | Kind::FaceSides { item, faces, .. }
+        | Kind::FaceShapes { item, faces, .. } => {
             let cells = matches!(error.kind, Kind::FaceCells { .. });
             let [a, b] = faces.map(|face| grid_size(map, face, cells));
             let here = diagnostic.at(map.get(*item, Field::To), "");
@@ -104,5 +106,9 @@ fn imported(error: &BuildError, map: &SourceMap) -> Option<String> {
 
 /// The place of the number of cells of a grid, or of its size.
 fn grid_size(map: &SourceMap, face: GridFace, cells: bool) -> Option<Span> {
-    map.get(Item::Grid(face.grid), if cells { Field::Cells } else { Field::Size })
+    let of = |field| map.get(Item::Grid(face.grid), field);
+    match cells {
+        true => of(Field::Cells),
+        false => of(Field::Size).or_else(|| of(Field::of_law("r_out")?)),
+    }
 }

@@ -59,6 +59,8 @@ impl Names {
         let (base, ending) = name.rsplit_once('.').unwrap_or((name, ""));
         let split = self.grid_part(base).or_else(|| self.grid_part(name));
         let (grid, part) = split?;
+        let known = self.grids.get(grid);
+        let sample = known.map_or("x1", KnownGrid::sample_face);
         let words = place.words();
         let unknown = |why: String| {
             Diagnostic::error("netlist::unknown_name", format!("{words} uses `{name}`: {why}"))
@@ -78,7 +80,7 @@ impl Names {
                 )
             }
             GridPart::Surface(face) if !self.is_attached(face) => {
-                let face = face.face.name();
+                let face = known.map_or("", |grid| grid.form.face_name(face.face));
                 unknown(format!("nothing is attached to face `{grid}.{face}`")).help(format!(
                     "the mean over its cells is `{grid}.{face}.T`, in limits and reports"
                 ))
@@ -87,8 +89,8 @@ impl Names {
             GridPart::Whole(_) => {
                 let values = VALUES.map(|value| format!("`{grid}.{value}`")).join(", ");
                 unknown(format!("`{grid}` is a grid")).help(format!(
-                    "a grid has {values}, and of each face such as `{grid}.x1` the mean \
-                     `{grid}.x1.T`"
+                    "a grid has {values}, and of each face such as `{grid}.{sample}` the mean \
+                     `{grid}.{sample}.T`"
                 ))
             }
             _ => unknown(format!("`{base}` has a temperature only"))

@@ -1,12 +1,14 @@
 //! Names inside grids: `wall[1,2,3]`, `wall.x1`, `wall.x1[2,3]`.
 
 use lptn_data::Span;
-use lptn_network::{Face, GridFace, GridId};
+use lptn_network::{Face, Form, GridFace, GridId};
 
 /// The data of a grid that names need.
 #[derive(Clone, Debug)]
 pub(crate) struct KnownGrid {
     pub(crate) id: GridId,
+    /// The directions and faces that it has.
+    pub(crate) form: Form,
     /// Number of cells along each axis that has an index.
     pub(crate) cells: Vec<usize>,
     /// The place of its name.
@@ -44,27 +46,55 @@ impl KnownGrid {
             Some(at) => rest.split_at(at),
             None => (rest, ""),
         };
-        let Some(face) = face.strip_prefix('.').and_then(Face::of_name) else {
+        let word = face.trim_start_matches('.');
+        let Some(face) = self.form.face_named(word).filter(|_| face.starts_with('.')) else {
             let why = format!("grid `{name}` has no face `{}`", rest.trim_start_matches('.'));
-            return GridPart::Nothing(why, faces(name));
+            return GridPart::Nothing(why, self.faces(name, word));
         };
         let at = GridFace { grid: self.id, face };
         if indices.is_empty() {
             return GridPart::Face(at);
         }
         let along = face.along().into_iter().filter_map(|axis| self.cells.get(axis).copied());
-        let words = format!("{name}.{}", face.name());
+        let words = format!("{name}.{}", self.form.face_name(face));
         match bad_index((&words, "cells of the face"), indices, &along.collect::<Vec<_>>()) {
             Some((why, help)) => GridPart::Nothing(why, help),
             None => GridPart::Surface(at),
         }
     }
-}
 
-fn faces(name: &str) -> String {
-    let all: Vec<String> =
-        Face::ALL.into_iter().map(|face| format!("`{name}.{}`", face.name())).collect();
-    format!("its faces are {}", all.join(", "))
+    /// A face as an example.
+    pub(crate) fn sample_face(&self) -> &'static str {
+        self.form.face_name(Face::X1)
+    }
+
+    /// Help for a face that it does not have.
+    fn faces(&self, name: &str, word: &str) -> String {
+        if let Some(why) = self.absent(word) {
+            return why.to_owned();
+        }
+        let meant = match self.form {
+            Form::Block => Form::Cylinder { solid: false, closed: false }.face_named(word),
+            Form::Cylinder { .. } => Face::of_name(word),
+        };
+        if let Some(face) = meant.filter(|face| self.form.has(*face)) {
+            return format!("did you mean `{name}.{}`?", self.form.face_name(face));
+        }
+        let face = |face| format!("`{name}.{}`", self.form.face_name(face));
+        let all: Vec<String> = self.form.faces().map(face).collect();
+        format!("its faces are {}", all.join(", "))
+    }
+
+    /// The reason why a cylinder lacks a face that others have.
+    fn absent(&self, word: &str) -> Option<&'static str> {
+        let Form::Cylinder { .. } = self.form else { return None };
+        let whole = Form::Cylinder { solid: false, closed: false };
+        let face = whole.face_named(word).or(Face::of_name(word));
+        match face.filter(|face| !self.form.has(*face))? {
+            Face::INNER => Some("a cylinder has an inner face if `r_in` is given"),
+            _ => Some("a full circle is closed; a sector with `angle` has the faces phi0 and phi1"),
+        }
+    }
 }
 
 /// The reason why these are not indices of cells, and the correction.

@@ -343,7 +343,7 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             "`cells` of `{}` must be one to three counts of at least 1, got {counts:?}",
             say.name
         ),
-        help text("give one to three whole numbers, along x, y and z: `cells = [20, 10, 1]`");
+        help text("give one to three whole numbers, one for each direction: `cells = [20, 10, 1]`");
     /// More than [`MOST_CELLS`](crate::MOST_CELLS) cells.
     GridTooLarge { grid: GridId, counts: Vec<usize> } = "network::grid_too_large",
         at Some((Item::Grid(*grid), Field::Cells)),
@@ -352,6 +352,23 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             say.name, by(counts), counts.iter().map(|&count| count as f64).product::<f64>()
         ),
         help text("make the cells larger: half as many along each axis have four times the error");
+    /// A sector of a cylinder of 360 deg or more; in rad.
+    GridAngle { grid: GridId, angle: f64 } = "network::grid_angle",
+        at Some((Item::Grid(*grid), Field::Sector)),
+        says format!(
+            "`angle` of `{}` is {} deg; a sector has less than 360 deg",
+            say.name, format_short(angle.to_degrees())
+        ),
+        help text("leave `angle` out: the full circle is closed");
+    /// A cylinder with a hole whose radii have another ratio than that for which it was cut.
+    GridRatio { grid: GridId, ratios: [f64; 2] } = "network::grid_ratio",
+        at Field::of_law("r_in").map(|field| (Item::Grid(*grid), field)),
+        says format!(
+            "`r_in` over `r_out` of `{}` is {} in the netlist and {} with other parameters: rings \
+             are cut for one ratio",
+            say.name, format_short(ratios[0]), format_short(ratios[1])
+        ),
+        help text("write the new radii into the netlist, or make `r_in` a multiple of `r_out`");
     /// A grid of a material that lacks a property.
     NoProperty { item: Item, field: Field } = "network::no_property",
         at Some((*item, Field::Material)),
@@ -360,6 +377,18 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
     StreamIntoFace { item: Item } = "network::stream_into_face", at Some((*item, Field::To)),
         says format!("the stream `{}` ends at a face, which is solid", say.name),
         help text("let the stream pass a node, and join that to the face by a [convection]");
+    /// A face that a round grid does not have.
+    NoFace { item: Item, face: GridFace, name: String } = "network::no_face",
+        at Some((*item, Field::To)),
+        says format!("`{}` ends at `{name}`, which its body does not have", say.name),
+        help text("a body without a hole has no inner face, and a full circle no cuts");
+    /// Two faces that are joined but of different shapes.
+    FaceShapes { item: Item, faces: [GridFace; 2], names: [String; 2] } = "network::face_shapes",
+        at Some((*item, Field::To)),
+        says format!(
+            "`{}` joins `{}` to `{}`, and their shapes do not fit", say.name, names[0], names[1]
+        ),
+        help text("put a massless node between them, with a path to each face");
     /// Two faces that are joined but not divided in the same way: cells of each along its two axes.
     FaceCells { item: Item, faces: [GridFace; 2], names: [String; 2], cells: [[usize; 2]; 2] } =
         "network::face_cells",

@@ -134,6 +134,7 @@ pub(crate) fn in_unit(value: f64, field: Field) -> String {
         }
         Field::LatentHeat => Dimension::SPECIFIC_ENERGY,
         Field::MinDwell => Dimension::TIME,
+        Field::Sector => return format!("{} deg", format_short(value.to_degrees())),
         _ => return format_short(value),
     };
     format!("{} {}", format_short(value), dimension.si_unit())
@@ -154,6 +155,7 @@ pub(crate) fn not_positive(field: Field, value: f64) -> &'static str {
         | Field::SpecificHeat
         | Field::Conductivity => "a body has a mass, a volume and properties of more than zero",
         Field::Size | Field::CharacteristicLength => "a body has dimensions of more than zero",
+        Field::Sector => "leave `angle` out for the full circle, or give one above 0 deg",
         Field::LatentHeat => "melting takes up heat: give it as a positive number",
         _ => "check the sign: heat flows from the warm to the cold end, whichever is named first",
     }

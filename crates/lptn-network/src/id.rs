@@ -218,6 +218,8 @@ pub enum Field {
     MinDwell,
     /// Lengths of a grid.
     Size,
+    /// Angle of a sector of a round grid.
+    Sector,
     /// Number of cells of a grid along each axis.
     Cells,
     /// Characteristic length of a node.
@@ -331,6 +333,7 @@ impl Field {
             Self::OffAbove => "off_above",
             Self::MinDwell => "min_dwell",
             Self::Size => "size",
+            Self::Sector => "angle",
             Self::Cells => "cells",
             Self::CharacteristicLength => "L_char",
             Self::Start => "start",

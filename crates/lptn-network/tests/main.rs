@@ -20,6 +20,7 @@ mod laws;
 mod limits;
 mod names;
 mod periods;
+mod round;
 mod signals;
 mod streams;
 mod tangents;

@@ -1,5 +1,6 @@
 //! Words that several errors share.
 
+use crate::dimension::Dimension;
 use crate::temperature::TemperatureScale;
 use crate::types::Type;
 
@@ -71,6 +72,9 @@ pub(crate) fn comma(decimal: Option<&str>, thousands: Option<&str>) -> String {
 
 /// A temperature without a unit may be in kelvin as well.
 pub(crate) fn bare_number(wanted: &Type, fix: &str) -> String {
+    if let Some(number) = fix.strip_suffix("rad").filter(|_| *wanted == ANGLE) {
+        return format!("{} or \"{fix}\"", write(&format!("{number}deg")));
+    }
     let Some(number) = fix.strip_suffix("degC").filter(|_| wanted.absolute) else {
         return write(fix);
     };
@@ -81,6 +85,8 @@ pub(crate) fn bare_number(wanted: &Type, fix: &str) -> String {
         TemperatureScale::Either => format!("{} or \"{number}K\"", write(fix)),
     }
 }
+
+const ANGLE: Type = Type::of(Dimension::ANGLE);
 
 pub(crate) const WANTED_POWER: &str = "`^` for a power";
 pub(crate) const WANTED_CALL: &str = "`(` after `if`";

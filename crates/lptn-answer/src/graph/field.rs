@@ -35,7 +35,7 @@ pub(super) fn written(asked: &mut Asked<'_>) -> Result<Parts, Failure> {
         }
         (_, Some(cut)) => {
             let scene = lptn_graph::slice(&field, cut, &title, unit);
-            let axis = ["x", "y", "z"][cut.axis];
+            let axis = field.form.directions()[cut.axis];
             (picture(kind, &scene)?, format!("{name}_{axis}{}.{ending}", cut.layer + 1))
         }
         (_, None) => (csv(&field, unit).into_bytes(), format!("{name}.{ending}")),
@@ -43,13 +43,16 @@ pub(super) fn written(asked: &mut Asked<'_>) -> Result<Parts, Failure> {
     Ok((bytes, name, None))
 }
 
-/// One line per cell: its name, the place of its middle, its temperature.
+/// One line per cell: its name, the place of its node, its temperature.
 fn csv(field: &GridField, unit: &Unit) -> String {
     let mut number = Shortest::new();
-    let mut out = format!("cell,x [m],y [m],z [m],T [{}]\n", unit.text);
+    let [a, b, c] = field.form.directions();
+    let (angle, factor) = if field.is_round() { ("deg", 1_f64.to_degrees()) } else { ("m", 1.0) };
+    let mut out = format!("cell,{a} [m],{b} [{angle}],{c} [m],T [{}]\n", unit.text);
     for at in field.places() {
         out.push_str(&format!("\"{}\"", field.cell(at)));
-        for value in field.centre(at).into_iter().chain([unit.from_si(field.at(at))]) {
+        let [x, y, z] = field.centre(at);
+        for value in [x, y * factor, z, unit.from_si(field.at(at))] {
             out.push(',');
             out.push_str(number.text(value));
         }
@@ -88,9 +91,11 @@ fn grid(input: &Input, name: Option<&str>) -> Result<GridId, Failure> {
 
 fn which_slice(name: &str, shape: &GridField) -> Failure {
     let message = format!("no slice of `{name}` is chosen");
-    let layers = shape.cells[2];
-    let help =
-        format!("add --slice z=1, at most z={layers}, or write the whole grid: --format vtk");
+    let axis = if shape.is_round() { 1 } else { 2 };
+    let (letter, layers) = (shape.form.directions()[axis], shape.cells[axis]);
+    let help = format!(
+        "add --slice {letter}=1, at most {letter}={layers}, or write the whole grid: --format vtk"
+    );
     Failure::refused("graph::slice", message, help)
 }
 

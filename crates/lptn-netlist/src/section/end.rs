@@ -7,7 +7,7 @@ use lptn_network::{End, GridFace, Input, NodeId, Terminal, is_name};
 use lptn_units::{Dimension, Type, suggest};
 
 use crate::fields::{Fields, Owner};
-use crate::grid_part::GridPart;
+use crate::grid_part::{GridPart, KnownGrid};
 use crate::raw::{RawKind, RawValue};
 use crate::template::USE;
 use crate::template::{by_port, wrong_path};
@@ -72,6 +72,11 @@ impl<'a> Elaboration<'a> {
         self.part_of_grid(&full).map(|(_, part)| part)
     }
 
+    /// The name of a face after that of its grid.
+    fn face_word(&self, at: GridFace) -> &'static str {
+        self.builder.form(at.grid).map_or("", |form| form.face_name(at.face))
+    }
+
     /// The node of a cell or of one cell of a face.
     fn end_in_grid(
         &mut self,
@@ -86,7 +91,7 @@ impl<'a> Elaboration<'a> {
                 format!(
                     "{}: nothing is attached to face `{grid}.{}`",
                     fields.owner.field(key),
-                    at.face.name()
+                    self.face_word(at)
                 ),
                 format!("name a cell of `{grid}` itself, or attach a path to the face"),
             ),
@@ -100,7 +105,10 @@ impl<'a> Elaboration<'a> {
             GridPart::Whole(_) => (
                 "netlist::not_an_end",
                 format!("{} names a grid as a whole", fields.owner.field(key)),
-                format!("name a face such as `{grid}.x1`, or a cell by its indices"),
+                format!(
+                    "name a face such as `{grid}.{}`, or a cell by its indices",
+                    self.names.grids.get(grid).map_or("x1", KnownGrid::sample_face)
+                ),
             ),
             GridPart::Face(_) => (
                 "netlist::not_a_node",

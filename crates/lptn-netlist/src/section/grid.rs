@@ -1,40 +1,47 @@
-//! `[grid]`: blocks that are cut into cells, and connections at their faces.
+//! `[grid]`: bodies that are cut into cells, and connections at their faces.
 
 use lptn_data::Diagnostic;
-use lptn_network::{Field, GridBlock, GridId, Input, Item, Substance};
+use lptn_network::{Field, Form, GridId, Input, Item, Substance};
 use lptn_units::{Dimension, Type};
 
 use crate::fields::Fields;
-use crate::format::{Role, SectionDeclaration, Takes, shaped};
+use crate::format::{Role, SectionDeclaration, Takes, key, shaped, words};
 use crate::grid_part::{GridPart, KnownGrid};
 use crate::place::Wanted;
 use crate::raw::{RawEntry, RawKind, RawValue};
 use crate::reading::all;
 use crate::section::default::Initial;
+use crate::section::grid_shape::{Made, SHAPES};
 use crate::section::keys::{CP, DENSITY, MATERIAL_OF};
 use crate::section::node::START;
 use crate::section::path_section::PATHS;
 use crate::work::{Elaboration, stand_in};
 
-/// A block that is cut into cells.
+/// A body that is cut into cells.
 pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
     name: "grid",
-    sentence: "A block that is cut into cells.",
+    sentence: "A block or a cylinder that is cut into cells.",
     role: Role::Element,
     keys: &[
+        words("shape", &SHAPES, "its shape", "\"cylinder\"").or("`\"block\"`"),
         shaped(
             "size",
             "list of three lengths",
             Takes::List(&Takes::Quantity("m"), 3, 3),
-            "along x, y and z",
+            "of a block, along x, y and z",
             "[\"0.5 m\", \"0.5 m\", \"20 mm\"]",
-        )
-        .needed(),
+        ),
+        key("r_in", "m", "inner radius of a cylinder; 0 without a hole", "\"8 mm\"")
+            .or("`\"0 m\"`"),
+        key("r_out", "m", "outer radius of a cylinder", "\"21 mm\""),
+        key("length", "m", "length of a cylinder along its axis", "\"70 mm\""),
+        key("angle", "deg", "angle of a sector of a cylinder, less than 360 deg", "\"90 deg\"")
+            .or("the full circle, closed"),
         shaped(
             "cells",
             "list of one to three whole numbers",
             Takes::List(&Takes::Whole, 1, 3),
-            "numbers of cells along x, y and z",
+            "numbers of cells along x, y and z, or along r, around the axis and along z",
             "[20, 20, 4]",
         )
         .needed(),
@@ -46,14 +53,14 @@ pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
                 Takes::Property("W/(m K)"),
                 Takes::List(&Takes::Quantity("W/(m K)"), 3, 3),
             ]),
-            "conductivity, or those along x, y and z",
+            "conductivity, or those along x, y and z, or r, phi and z",
             "\"46.6 W/(m K)\"",
         ),
         DENSITY,
         CP,
         START,
     ],
-    either: &[&["material", "k"]],
+    either: &[&["material", "k"], &["size", "shape"], &["size", "r_out"], &["size", "length"]],
     example: "{ size = [\"0.5 m\", \"0.5 m\", \"20 mm\"], cells = [20, 20, 4], material = \
         \"steel_8620\" }",
     elsewhere: &[
@@ -65,7 +72,11 @@ pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
              `cp`",
         ),
         ("T", "the temperature at the start is `T0`"),
-        ("area", "the areas follow from `size`"),
+        ("area", "the areas follow from the lengths"),
+        ("diameter", "the outer radius of a cylinder is `r_out`"),
+        ("radius", "the outer radius of a cylinder is `r_out`"),
+        ("R", "the outer radius of a cylinder is `r_out`"),
+        ("height", "the length of a cylinder along its axis is `length`"),
     ],
     ..SectionDeclaration::NEW
 };
@@ -73,9 +84,10 @@ pub(crate) const GRID: SectionDeclaration = SectionDeclaration {
 const LENGTH: Type = Type::of(Dimension::LENGTH);
 const CONDUCTIVITY: Type = Type::of(Dimension::CONDUCTIVITY);
 
-/// The fields of a grid whose places are noted.
-const FIELDS: [Field; 7] = [
+/// The fields of a grid whose places are noted, without radii and length.
+const FIELDS: [Field; 8] = [
     Field::Size,
+    Field::Sector,
     Field::Cells,
     Field::Material,
     Field::Conductivity,
@@ -150,22 +162,23 @@ impl<'a> Elaboration<'a> {
 
     fn grid(&mut self, entry: &'a RawEntry, default: Option<&Initial<'a>>) -> Option<()> {
         let fields = self.fields(&GRID, entry)?;
-        let size = self.lengths(&fields);
+        let round = self.is_round(&fields);
+        let lengths = round.and_then(|round| self.shape(&fields, round));
         let cells = self.cell_counts(&fields);
-        let substance = self.substance(&fields);
+        let made = self.substance(&fields);
         let own = self.initial(&fields);
         let initial_at = fields.get("T0").or(default.map(|(_, raw)| *raw));
         let initial = own.or_else(|| default.map(|(input, _)| input.clone()));
         let initial =
             initial.or_else(|| (!fields.complete).then(|| stand_in(Type::ABSOLUTE_TEMPERATURE)));
-        let ((substance, conductivity), cells) = (substance?, cells?);
+        let (made, cells) = (made?, cells?);
         let before = self.builder.sizes();
-        let block =
-            GridBlock { size: size?, cells: cells.clone(), conductivity, substance, initial };
-        let id = self.builder.grid(&entry.key, block);
+        let id = self.builder.grid(&entry.key, lengths?.body(cells.clone(), made, initial));
         let item = Item::Grid(id);
         self.note_parts(before, item, GRID.name);
-        self.note(item, &entry.key_span, &fields, &FIELDS);
+        let of_laws = ["r_in", "r_out", "length"].into_iter().filter_map(Field::of_law);
+        let noted: Vec<Field> = FIELDS.into_iter().chain(of_laws).collect();
+        self.note(item, &entry.key_span, &fields, &noted);
         if let Some(raw) = initial_at {
             self.map.value(item, Field::Initial, raw);
         }
@@ -174,12 +187,14 @@ impl<'a> Elaboration<'a> {
     }
 
     fn know_grid(&mut self, entry: &RawEntry, id: GridId, cells: Vec<usize>) {
-        let known = KnownGrid { id, cells, span: entry.key_span.clone(), attached: Vec::new() };
+        let form = self.builder.form(id).unwrap_or(Form::Block);
+        let span = entry.key_span.clone();
+        let known = KnownGrid { id, form, cells, span, attached: Vec::new() };
         self.names.grids.entry(entry.key.clone()).or_insert(known);
     }
 
     /// `size = ["0.5 m", "0.5 m", "20 mm"]`.
-    fn lengths(&mut self, fields: &Fields<'a>) -> Option<[Input; 3]> {
+    pub(super) fn lengths(&mut self, fields: &Fields<'a>) -> Option<[Input; 3]> {
         let raw = self.require(fields, "size")?;
         let list = self.list(fields, ("size", "a list of three lengths"))?;
         let [x, y, z] = list else {
@@ -200,7 +215,7 @@ impl<'a> Elaboration<'a> {
         if list.is_empty() || list.len() > 3 {
             let words = fields.owner.field("cells");
             let message = format!("{words} has {} counts, not one to three", list.len());
-            let help = format!("give the cells along x, y and z: `{}`", fields.sample("cells"));
+            let help = format!("give one for each direction: `{}`", fields.sample("cells"));
             self.refuse("netlist::grid_cells", message, &raw.span, help);
             return None;
         }
@@ -219,14 +234,14 @@ impl<'a> Elaboration<'a> {
         if count.is_none() {
             let words = fields.owner.field("cells");
             let message = format!("{words} must be whole numbers of at least 1, got {text}");
-            let help = "an axis along which the block is not divided has 1 cell";
+            let help = "a direction in which the body is not divided has 1 cell";
             self.refuse("netlist::grid_cells", message, &raw.span, help);
         }
         count
     }
 
-    /// The substance of the grid, and its conductivity along x, y and z.
-    fn substance(&mut self, fields: &Fields<'a>) -> Option<(Substance<Input>, [Input; 3])> {
+    /// The substance of the grid, and its conductivity in each direction.
+    fn substance(&mut self, fields: &Fields<'a>) -> Option<Made> {
         let k = fields.get("k").map(|raw| self.conductivities(fields, raw));
         if fields.get("material").is_some() {
             self.refuse_keys(fields, &["density", "cp"], "is that of the material");
@@ -253,11 +268,7 @@ impl<'a> Elaboration<'a> {
         Some((Substance::Properties { density: density?, cp: cp? }, k?))
     }
 
-    fn of_material(
-        &mut self,
-        fields: &Fields<'a>,
-        k: Option<[Input; 3]>,
-    ) -> Option<(Substance<Input>, [Input; 3])> {
+    fn of_material(&mut self, fields: &Fields<'a>, k: Option<[Input; 3]>) -> Option<Made> {
         let (name, raw) = self.word(fields, "material")?;
         let known = self.known_material(fields, name, raw)?;
         let needs = [("density", known.density), ("cp", known.cp), ("k", known.k || k.is_some())];
@@ -275,7 +286,7 @@ impl<'a> Elaboration<'a> {
         Some((Substance::Material(known.id), k))
     }
 
-    /// One conductivity, or those along x, y and z.
+    /// One conductivity, or those in each direction.
     fn conductivities(&mut self, fields: &Fields<'a>, raw: &'a RawValue) -> [Input; 3] {
         let wanted = Wanted::own(CONDUCTIVITY);
         let RawKind::Array(list) = &raw.kind else {
@@ -285,7 +296,7 @@ impl<'a> Elaboration<'a> {
         let [x, y, z] = list.as_slice() else {
             let message = format!("{} has {} values", fields.owner.field("k"), list.len());
             let help = format!(
-                "give one for all directions, `{}`, or three, along x, y and z",
+                "give one for all directions, `{}`, or one for each of the three",
                 fields.sample("k")
             );
             self.refuse("netlist::grid_conductivity", message, &raw.span, help);

@@ -11,6 +11,7 @@ mod fan;
 mod fluid;
 mod forms;
 mod grid;
+mod grid_shape;
 mod keys;
 mod limit;
 mod list;

@@ -3,11 +3,13 @@
 use lptn_laws::{Extent, Kind};
 use lptn_units::Dimension;
 
-use crate::builder::grid::{product, scaled, typed};
+use crate::builder::grid::{scaled, typed};
 use crate::builder::{NetworkBuilder, Path};
 use crate::error::BuildErrorKind;
 use crate::id::{End, FacePathId, GridId, Item, NodeId};
+use crate::law::Law;
 use crate::parts::grid::{FacePath, GridFace, Terminal};
+use crate::parts::shape::Form;
 use crate::value::{Input, Value};
 
 impl NetworkBuilder {
@@ -46,7 +48,6 @@ impl NetworkBuilder {
     fn join(&mut self, mut face_path: FacePath, (item, path): (Item, Path)) -> Item {
         let named = face_path.faces().next();
         let indices = named.map_or_else(Vec::new, |at| self.face_indices(at));
-        let path = path.shared(indices.len() as f64);
         let (from, to) =
             (self.ends(face_path.from, indices.len()), self.ends(face_path.to, indices.len()));
         face_path.first = self.next_conductor();
@@ -55,10 +56,16 @@ impl NetworkBuilder {
             self.register(&face_path.name, item);
         }
         if !indices.is_empty() {
-            let law = self.shared_law(&face_path.name, path);
-            for (ends, index) in from.into_iter().zip(to).zip(&indices) {
+            let parts = named.map_or_else(Vec::new, |at| self.parts_of(at));
+            let mut last: Option<(f64, Law)> = None;
+            for (ends, (index, parts)) in from.into_iter().zip(to).zip(indices.iter().zip(parts)) {
                 let name = format!("{}{index}", face_path.name);
+                let same = last.take().filter(|(of, _)| of.to_bits() == parts.to_bits());
+                let law = same.map(|(_, law)| law).unwrap_or_else(|| {
+                    self.shared_law(&face_path.name, path.clone().shared(parts))
+                });
                 self.alike(&name, face_path.kind, ends, &law);
+                last = Some((parts, law));
             }
         }
         face_path.end = self.next_conductor();
@@ -73,6 +80,12 @@ impl NetworkBuilder {
     fn face_indices(&self, at: GridFace) -> Vec<String> {
         let Some(grid) = self.parts.grids.get(at.grid.index()) else { return Vec::new() };
         grid.face_places(at.face).map(|place| grid.face_indices(at.face, place)).collect()
+    }
+
+    /// For each cell of a face the number of parts of it, if all were as large as that of the cell.
+    fn parts_of(&self, at: GridFace) -> Vec<f64> {
+        let Some(grid) = self.parts.grids.get(at.grid.index()) else { return Vec::new() };
+        grid.face_places(at.face).map(|place| grid.parts_of_face(at.face, place)).collect()
     }
 
     fn ends(&mut self, terminal: Terminal, count: usize) -> Vec<End> {
@@ -98,11 +111,23 @@ impl NetworkBuilder {
         if stream {
             return Some(BuildErrorKind::StreamIntoFace { item });
         }
+        let grid = |at: GridFace| &self.parts.grids[at.grid.index()];
+        if let Some(&face) = faces.iter().find(|at| !grid(**at).form().has(at.face)) {
+            let name = grid(face).face_name(face.face);
+            return Some(BuildErrorKind::NoFace { item, face, name });
+        }
         let [a, b] = faces[..] else { return None };
-        let cells = |at: GridFace| {
-            at.face.along().map(|axis| self.parts.grids[at.grid.index()].cells[axis])
+        let kind = |at: GridFace| match grid(at).form() {
+            Form::Block => None,
+            Form::Cylinder { .. } => Some(at.face.axis()),
         };
-        let name = |at: GridFace| self.parts.grids[at.grid.index()].face_name(at.face);
+        let both_curved = kind(a) == Some(0) && a.face == b.face;
+        if kind(a) != kind(b) || both_curved {
+            let names = [a, b].map(|at| grid(at).face_name(at.face));
+            return Some(BuildErrorKind::FaceShapes { item, faces: [a, b], names });
+        }
+        let cells = |at: GridFace| at.face.along().map(|axis| grid(at).cells[axis]);
+        let name = |at: GridFace| grid(at).face_name(at.face);
         let (cells, names) = ([cells(a), cells(b)], [name(a), name(b)]);
         (cells[0] != cells[1]).then_some(BuildErrorKind::FaceCells {
             item,
@@ -112,26 +137,32 @@ impl NetworkBuilder {
         })
     }
 
+    /// The directions and faces of a grid; `None` if it is not of this builder.
+    pub fn form(&self, grid: GridId) -> Option<Form> {
+        Some(self.parts.grids.get(grid.index())?.form())
+    }
+
     /// The area of a face, for a path whose area is that of the face; `None` if the grid is not of
     /// this builder.
     pub fn face_area(&self, at: GridFace) -> Option<Input> {
         let grid = self.parts.grids.get(at.grid.index())?;
-        let sides = at.face.along().map(|axis| grid.size[axis].clone());
-        Some(typed(product(sides.to_vec()), Dimension::AREA))
+        Some(typed(grid.area(at.face), Dimension::AREA))
     }
 
-    /// The nodes of a grid with the share of each in its volume, for a source into the whole.
+    /// The nodes of a grid with the share of each in its volume, for a source into the whole. Of a
+    /// cylinder, the surfaces of its mantle and its hole take part if they are connected: a steady
+    /// temperature with a uniform heat is then exact. Connect them first.
     pub fn shares_of_volume(&self, grid: GridId) -> Vec<(NodeId, f64)> {
         let Some(grid) = self.parts.grids.get(grid.index()) else { return Vec::new() };
-        let share = 1.0 / grid.count() as f64;
-        grid.nodes().map(|node| (node, share)).collect()
+        let heated = grid.places([0; 3]).flat_map(|at| grid.heated(at));
+        heated.map(|(node, share)| (NodeId(node), share)).collect()
     }
 
     /// The surfaces of a face with the share of each in its area, for a source into the face.
     pub fn shares_of_face(&mut self, at: GridFace) -> Vec<(NodeId, f64)> {
         let nodes = self.surfaces(at.grid, at.face);
-        let share = 1.0 / nodes.len() as f64;
-        nodes.into_iter().map(|node| (node, share)).collect()
+        let parts = self.parts_of(at);
+        nodes.into_iter().zip(parts).map(|(node, parts)| (node, parts.recip())).collect()
     }
 }
 

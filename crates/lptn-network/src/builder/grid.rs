@@ -1,20 +1,24 @@
 //! Adds grids: their cells, surfaces and inner paths.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use lptn_laws::{Formula, Kind};
+use lptn_laws::Kind;
 use lptn_units::{Dimension, Type};
 
 use crate::builder::{NetworkBuilder, Path, make_room};
 use crate::error::BuildErrorKind;
-use crate::id::{ConductorId, End, Field, GridId, Item, NodeId};
+use crate::id::{ConductorId, End, Field, GridId, Item, MaterialId, NodeId};
 use crate::law::Law;
-use crate::parts::grid::{Face, Grid, Inner, MOST_CELLS, Substance};
+use crate::numbers::grid::ring_radii;
+use crate::parts::grid::{Face, Grid, Inner, MOST_CELLS, Substance, places_of};
 use crate::parts::grid_names::PathNames;
 use crate::parts::label::Label;
+use crate::parts::rings::Rings;
+use crate::parts::shape::Shape;
 use crate::value::{Input, Size, Value};
 
-/// The input of a grid: see [`NetworkBuilder::grid`].
+/// A block as the input of a grid: see [`NetworkBuilder::grid`].
 #[derive(Clone, Debug)]
 pub struct GridBlock {
     /// Its lengths along x, y and z; constant.
@@ -30,6 +34,64 @@ pub struct GridBlock {
     /// Its temperature at the start.
     pub initial: Option<Input>,
 }
+
+/// A cylinder, or a sector of one, as the input of a grid: see [`NetworkBuilder::grid`].
+#[derive(Clone, Debug)]
+pub struct GridCylinder {
+    /// Inner radius, a length; constant. `None` or 0 without a hole.
+    pub r_in: Option<Input>,
+    /// Outer radius, a length above `r_in`; constant. Its ratio to `r_in` may not change with
+    /// parameters: shares of heat and means over rings follow from it.
+    pub r_out: Input,
+    /// Length along the axis; constant.
+    pub length: Input,
+    /// Angle of a sector, above 0 and below 360 deg; constant. `None` or the number 360 deg for the
+    /// full circle.
+    pub angle: Option<Input>,
+    /// Number of rings, of cells around the axis, and along it: one to three counts of at least 1,
+    /// together at most [`MOST_CELLS`].
+    pub cells: Vec<usize>,
+    /// Its thermal conductivity along r, phi and z, as that of a block.
+    pub conductivity: [Input; 3],
+    /// Its material, or density and specific heat capacity.
+    pub substance: Substance<Input>,
+    /// Its temperature at the start.
+    pub initial: Option<Input>,
+}
+
+/// A block or a cylinder as the input of a grid: see [`NetworkBuilder::grid`].
+#[derive(Clone, Debug)]
+pub struct GridBody {
+    shape: Shape<Input>,
+    cells: Vec<usize>,
+    conductivity: [Input; 3],
+    substance: Substance<Input>,
+    initial: Option<Input>,
+}
+
+impl From<GridBlock> for GridBody {
+    fn from(block: GridBlock) -> Self {
+        let GridBlock { size, cells, conductivity, substance, initial } = block;
+        Self { shape: Shape::Block(size), cells, conductivity, substance, initial }
+    }
+}
+
+impl From<GridCylinder> for GridBody {
+    fn from(cylinder: GridCylinder) -> Self {
+        let GridCylinder { r_in, r_out, length, angle, cells, conductivity, substance, initial } =
+            cylinder;
+        let is = |number: f64| move |input: &Input| matches!(input.value, Value::Constant(value) if (value - number).abs() <= ROUNDED);
+        let r_in = r_in.filter(|r_in| r_in.ty != LENGTH || !is(0.0)(r_in));
+        let angle = angle.filter(|angle| angle.ty != ANGLE || !is(TAU)(angle));
+        let shape = Shape::Cylinder { r_in, r_out, length, angle };
+        Self { shape, cells, conductivity, substance, initial }
+    }
+}
+
+/// Rounding of an angle in rad, or of a radius in m.
+const ROUNDED: f64 = 1e-14;
+const LENGTH: Type = Type::of(Dimension::LENGTH);
+const ANGLE: Type = Type::of(Dimension::ANGLE);
 
 /// A value whose type is known.
 pub(crate) fn typed(value: Value, dimension: Dimension) -> Input {
@@ -51,30 +113,27 @@ pub(crate) fn product(values: Vec<Value>) -> Value {
 const FEW: &str = "a network has fewer than 2^32 conductors";
 
 impl NetworkBuilder {
-    /// Adds a block of one material, cut into equal cells.
+    /// Adds a block or a cylinder of one material, cut into cells: those of a block are equal, those
+    /// of a cylinder have equal widths between their nodes.
     ///
     /// A cell is a node named `NAME[i,j,k]`, with as many indices as there are counts of cells,
     /// from 1; the path from it to the next one along x is `NAME.x[i,j,k]`. Faces are named
-    /// `NAME.x0` to `NAME.z1`; see [`NetworkBuilder::surfaces`] and [`NetworkBuilder::connect`].
-    pub fn grid(&mut self, name: &str, block: GridBlock) -> GridId {
+    /// `NAME.x0` to `NAME.z1`. A cylinder has r, phi and z instead, and the faces `NAME.inner`,
+    /// `NAME.outer`, `NAME.phi0`, `NAME.phi1`, `NAME.z0` and `NAME.z1`; see [`NetworkBuilder::surfaces`] and [`NetworkBuilder::connect`].
+    pub fn grid(&mut self, name: &str, body: impl Into<GridBody>) -> GridId {
+        let body: GridBody = body.into();
         let id = GridId::from_len(self.parts.grids.len());
         let item = Item::Grid(id);
-        let length = Type::of(Dimension::LENGTH);
-        let (cells, axes) = self.divisions(name, id, &block.cells);
-        let size = block.size.map(|s| self.typed((name, item, Field::Size), s, length));
+        let (cells, axes) = self.divisions(name, id, &body.cells);
+        let shape = self.shape((name, item), body.shape);
+        let rings = ring_radii(&self.parts, &shape).map(|radii| Rings::new(radii, cells[0]));
         let k = Type::of(Dimension::CONDUCTIVITY);
         let conductivity =
-            block.conductivity.map(|v| self.typed((name, item, Field::Conductivity), v, k));
-        let capacity = self.cell_capacity((name, item), &block.substance, (&size, cells));
-        let initial = block
+            body.conductivity.map(|v| self.typed((name, item, Field::Conductivity), v, k));
+        let initial = body
             .initial
             .map(|t| self.typed((name, item, Field::Initial), t, Type::ABSOLUTE_TEMPERATURE));
-        let substance = match block.substance {
-            Substance::Material(material) => Substance::Material(material),
-            Substance::Properties { density, cp } => {
-                Substance::Properties { density: density.value, cp: cp.value }
-            }
-        };
+        let substance = self.substance((name, item), body.substance);
         let first =
             u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
         let (name, paths, surfaces) = (name.to_owned(), [None; 3], [None; 6]);
@@ -82,7 +141,8 @@ impl NetworkBuilder {
             name,
             cells,
             axes,
-            size,
+            shape,
+            rings,
             conductivity,
             substance,
             initial,
@@ -96,7 +156,7 @@ impl NetworkBuilder {
             self.check_name(&format!("{}{}", grid.name, grid.indices([0; 3])), item);
         }
         self.parts.grids.push(grid.clone());
-        self.cells(&grid, item, capacity);
+        self.cells(&grid, item);
         self.inner_paths(&grid, item);
         id
     }
@@ -116,54 +176,79 @@ impl NetworkBuilder {
         ([count(0), count(1), count(2)], counts.len())
     }
 
-    /// The capacity of one cell.
-    fn cell_capacity(
-        &mut self,
-        (name, item): (&str, Item),
-        substance: &Substance<Input>,
-        (size, cells): (&[Value; 3], [usize; 3]),
-    ) -> Option<Input> {
-        let share = 1.0 / cells.iter().product::<usize>() as f64;
-        let volume = product(size.iter().cloned().chain([Value::Constant(share)]).collect());
-        match substance {
+    /// The lengths of a body, and its angle.
+    fn shape(&mut self, (name, item): (&str, Item), shape: Shape<Input>) -> Shape {
+        let mut typed = |field, input, ty| self.typed((name, item, field), input, ty);
+        let of = |key| Field::of_law(key).unwrap_or(Field::Size);
+        match shape {
+            Shape::Block(size) => Shape::Block(size.map(|s| typed(Field::Size, s, LENGTH))),
+            Shape::Cylinder { r_in, r_out, length, angle } => Shape::Cylinder {
+                r_in: r_in.map(|r| typed(of("r_in"), r, LENGTH)),
+                r_out: typed(of("r_out"), r_out, LENGTH),
+                length: typed(of("length"), length, LENGTH),
+                angle: angle.map(|angle| typed(Field::Sector, angle, ANGLE)),
+            },
+        }
+    }
+
+    fn substance(&mut self, (name, item): (&str, Item), of: Substance<Input>) -> Substance {
+        let at = |field| (name, item, field);
+        match of {
+            Substance::Material(material) => Substance::Material(material),
+            Substance::Properties { density, cp } => Substance::Properties {
+                density: self.typed(at(Field::Density), density, Type::of(Dimension::DENSITY)),
+                cp: self.typed(at(Field::SpecificHeat), cp, Type::of(Dimension::SPECIFIC_HEAT)),
+            },
+        }
+    }
+
+    /// The capacity of a cell; `None` if its material lacks a property.
+    fn cell_capacity(&mut self, grid: &Grid, ring: usize) -> Option<Input> {
+        let volume = grid.volume(ring);
+        match &grid.substance {
             Substance::Material(material) => {
-                let lump = self.lump(*material, Size::Volume(typed(volume, Dimension::VOLUME)));
-                if lump.is_none() {
-                    let known = &self.parts.materials[material.index()];
-                    let field =
-                        if known.cp.is_none() { Field::SpecificHeat } else { Field::Density };
-                    self.error(name, BuildErrorKind::NoProperty { item, field });
-                }
-                lump
+                self.lump(*material, Size::Volume(typed(volume, Dimension::VOLUME)))
             }
             Substance::Properties { density, cp } => {
-                let at = |field| (name, item, field);
-                let density =
-                    self.typed(at(Field::Density), density.clone(), Type::of(Dimension::DENSITY));
-                let cp = self.typed(
-                    at(Field::SpecificHeat),
-                    cp.clone(),
-                    Type::of(Dimension::SPECIFIC_HEAT),
-                );
-                Some(typed(product(vec![volume, density, cp]), Dimension::CAPACITY))
+                let factors = vec![volume, density.clone(), cp.clone()];
+                Some(typed(product(factors), Dimension::CAPACITY))
             }
         }
     }
 
-    fn cells(&mut self, grid: &Grid, whole: Item, capacity: Option<Input>) {
-        // without a capacity there is an error already
-        let capacity = capacity.unwrap_or_else(|| typed(Value::Constant(1.0), Dimension::CAPACITY));
-        let initial = grid.initial.clone();
-        let initial = initial.map(|value| Input {
+    /// Reports the property that the material of a grid lacks.
+    fn check_properties(&mut self, name: &str, (item, material): (Item, MaterialId)) {
+        let known = &self.parts.materials[material.index()];
+        let field = match (&known.cp, &known.density) {
+            (None, _) => Field::SpecificHeat,
+            (_, None) => Field::Density,
+            _ => return,
+        };
+        self.error(name, BuildErrorKind::NoProperty { item, field });
+    }
+
+    fn cells(&mut self, grid: &Grid, whole: Item) {
+        if let Substance::Material(material) = grid.substance {
+            self.check_properties(&grid.name, (whole, material));
+        }
+        let initial = grid.initial.clone().map(|value| Input {
             value,
             ty: Type::ABSOLUTE_TEMPERATURE,
             deviation: None,
             lump: None,
         });
         make_room(&mut self.parts.nodes, grid.count());
+        let mut last: Option<(usize, Input)> = None;
         for at in grid.places([0; 3]) {
+            let ring = grid.ring(at);
+            let known = last.take().filter(|(of, _)| *of == ring).map(|(_, capacity)| capacity);
+            // without a capacity there is an error already
+            let capacity = known
+                .or_else(|| self.cell_capacity(grid, ring))
+                .unwrap_or_else(|| typed(Value::Constant(1.0), Dimension::CAPACITY));
             let name = format!("{}{}", grid.name, grid.indices(at));
             self.push_node(&name, Some(capacity.clone()), initial.clone(), false);
+            last = Some((ring, capacity));
         }
         let end = grid.first + grid.offset([grid.cells[0], 0, 0]);
         self.parts.inner_nodes.push(Inner { first: grid.first, end, whole });
@@ -183,19 +268,22 @@ impl NetworkBuilder {
 
     /// The paths between neighbours along one axis.
     fn paths_along(&mut self, grid: &Grid, axis: usize) {
-        let law = self.shared_law(&grid.name, grid.path(axis, 1.0));
         let first = self.next_conductor();
         if let Some(known) = self.parts.grids.last_mut() {
             known.paths[axis] = Some(first);
         }
         let names = Arc::new(PathNames::new(grid, axis));
-        let mut less = [0; 3];
-        less[axis] = 1;
-        for (place, at) in (0..).zip(grid.places(less)) {
-            let next = [0, 1, 2].map(|other| at[other] + less[other]);
+        let mut last: Option<(usize, Law)> = None;
+        for (place, at) in (0..).zip(places_of(grid.paths_along(axis))) {
+            let ring = grid.ring(at);
+            let known = last.take().filter(|(of, _)| *of == ring).map(|(_, law)| law);
+            let law = known.unwrap_or_else(|| self.shared_law(&grid.name, grid.path(axis, ring)));
+            let mut next = at;
+            next[axis] = (at[axis] + 1) % grid.cells[axis];
             let [from, to] = [at, next].map(|at| End::Node(NodeId(grid.first + grid.offset(at))));
             let label = Label::Inner(Arc::clone(&names), place);
             self.push_law(label, Kind::Conduction, (from, to), law.clone());
+            last = Some((ring, law));
         }
     }
 
@@ -238,9 +326,10 @@ impl NetworkBuilder {
     /// The massless nodes on a face of a grid, `NAME.x1[j,k]` by the indices of the cells along it,
     /// the last one running fastest. The first call makes them, with the path `NAME.x1.cell[j,k]`
     /// from the middle of the cell to each; all paths to the face end there. None if the grid is
-    /// not of this builder.
+    /// not of this builder or has no such face.
     pub fn surfaces(&mut self, grid: GridId, face: Face) -> Vec<NodeId> {
-        let Some(known) = self.parts.grids.get(grid.index()) else { return Vec::new() };
+        let known = self.parts.grids.get(grid.index());
+        let Some(known) = known.filter(|known| known.form().has(face)) else { return Vec::new() };
         if known.surfaces[face as usize].is_some() {
             return known.surfaces(face).collect();
         }
@@ -248,14 +337,19 @@ impl NetworkBuilder {
         let first =
             u32::try_from(self.parts.nodes.len()).expect("a network holds fewer than 2^32 nodes");
         let first_path = self.next_conductor();
-        let law = self.shared_law(&known.name, known.path(face.axis(), 0.5));
+        let mut last: Option<(usize, Law)> = None;
         let mut nodes = Vec::with_capacity(known.face_count(face));
         for at in known.face_places(face) {
             let indices = known.face_indices(face, at);
             let surface = self.massless(&format!("{}{indices}", known.face_name(face)));
             let cell = End::Node(NodeId(known.first + known.offset(at)));
             let name = format!("{}.cell{indices}", known.face_name(face));
+            let ring = known.ring(at);
+            let same = last.take().filter(|(of, _)| *of == ring).map(|(_, law)| law);
+            let law =
+                same.unwrap_or_else(|| self.shared_law(&known.name, known.path_to(face, ring)));
             self.alike(&name, Kind::Conduction, (cell, surface.into()), &law);
+            last = Some((ring, law));
             nodes.push(surface);
         }
         let end =
@@ -267,20 +361,5 @@ impl NetworkBuilder {
         }
         self.inner_conductors(first_path, whole);
         nodes
-    }
-}
-
-impl Grid {
-    /// Conduction along an axis through this part of a cell.
-    fn path(&self, axis: usize, part: f64) -> Path {
-        let across = [0, 1, 2].into_iter().filter(|other| *other != axis);
-        let (sides, counts): (Vec<Value>, Vec<f64>) =
-            across.map(|other| (self.size[other].clone(), self.cells[other] as f64)).unzip();
-        let share = counts.iter().product::<f64>().recip();
-        let area = product(sides.into_iter().chain([Value::Constant(share)]).collect());
-        let thickness = scaled(&self.size[axis], part / self.cells[axis] as f64);
-        let k = typed(self.conductivity[axis].clone(), Dimension::CONDUCTIVITY);
-        let (area, thickness) = (typed(area, Dimension::AREA), typed(thickness, Dimension::LENGTH));
-        Path::new(Formula::Slab, [k, area, thickness])
     }
 }

@@ -55,7 +55,8 @@ impl Network {
 
     /// A value of a grid in K, from the temperatures of all nodes in K.
     pub fn grid_value(&self, value: GridValue, nodes: &[f64]) -> f64 {
-        value.of(&self.grid_value_members(value), nodes)
+        let grid = &self.grids()[value.grid().index()];
+        value.of((&self.grid_value_members(value), &grid.weights(value)), nodes)
     }
 }
 

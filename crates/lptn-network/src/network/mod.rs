@@ -1,6 +1,7 @@
 //! A thermal network whose invariants are guaranteed.
 
 pub(crate) mod alike;
+pub(crate) mod axes;
 pub(crate) mod body;
 pub(crate) mod conductivity;
 pub(crate) mod control;

@@ -1,14 +1,42 @@
 //! Checks the numbers of grids and of the paths that end at their faces.
 
+use std::f64::consts::TAU;
+
 use crate::error::BuildErrorKind;
+use crate::evaluation::Evaluation;
 use crate::id::{FacePathId, Field, GridId, Item};
 use crate::numbers::Work;
-use crate::parts::grid::{GridFace, Substance};
+use crate::parts::Parts;
+use crate::parts::grid::{Grid, GridFace, Substance};
+use crate::parts::shape::Shape;
+use crate::value::Value;
 use lptn_laws::Range;
 
 /// Largest relative difference of two areas that are meant to be the same: numbers are rounded to a
 /// few digits.
 const SAME: f64 = 1e-3;
+
+/// An angle this close to the full circle, as a share of it, is the full circle.
+const CLOSED: f64 = 1e-12;
+
+/// Rounding of a ratio of radii that is computed twice.
+const RATIO: f64 = 1e-12;
+
+/// The radii in m for which the rings of a round body are made, by the parameters as they are
+/// written; stand-ins if these are not the radii of a body, which is reported later. `None` for a
+/// block.
+pub(crate) fn ring_radii(parts: &Parts, shape: &Shape) -> Option<[f64; 2]> {
+    let Shape::Cylinder { r_in, r_out, .. } = shape else { return None };
+    let Some(r_in) = r_in else { return Some([0.0, 1.0]) };
+    let scope = Evaluation::new(&parts.layout, &[]);
+    let mut work = Work { parts, scope, errors: Vec::new() };
+    if !matches!((r_in, r_out), (Value::Constant(_), Value::Constant(_))) {
+        work.parameters(&[]);
+    }
+    let [inner, outer] = [r_in, r_out].map(|r| r.at(&mut work.scope).unwrap_or(f64::NAN));
+    let sound = inner > 0.0 && inner < outer && outer.is_finite();
+    Some(if sound { [inner, outer] } else { [0.5, 1.0] })
+}
 
 fn differ(a: f64, b: f64) -> bool {
     (a - b).abs() > SAME * a.abs().max(b.abs())
@@ -20,8 +48,11 @@ impl Work<'_> {
         let parts = self.parts;
         for (i, grid) in parts.grids.iter().enumerate() {
             let item = Item::Grid(GridId::from_len(i));
-            for length in &grid.size {
-                self.constant(item, Field::Size, length, Range::Positive);
+            match &grid.shape {
+                Shape::Block(size) => size.iter().for_each(|length| {
+                    self.constant(item, Field::Size, length, Range::Positive);
+                }),
+                Shape::Cylinder { .. } => self.check_cylinder(GridId::from_len(i), grid),
             }
             for k in &grid.conductivity {
                 self.property(item, Field::Conductivity, k);
@@ -61,7 +92,39 @@ impl Work<'_> {
         }
     }
 
+    /// Checks radii, length and angle. Rings were made for one ratio of the radii.
+    fn check_cylinder(&mut self, id: GridId, grid: &Grid) {
+        let Shape::Cylinder { r_in, r_out, length, angle } = &grid.shape else { return };
+        let (item, of) = (Item::Grid(id), |key| Field::of_law(key).unwrap_or(Field::Size));
+        let before = self.errors.len();
+        let outer = self.constant(item, of("r_out"), r_out, Range::Positive);
+        self.constant(item, of("length"), length, Range::Positive);
+        let angle = angle.as_ref().map(|a| self.constant(item, Field::Sector, a, Range::Positive));
+        if let Some(angle) = angle.filter(|angle| *angle > TAU * (1.0 - CLOSED)) {
+            self.error(item, BuildErrorKind::GridAngle { grid: id, angle });
+        }
+        let Some(r_in) = r_in else { return };
+        let inner = self.constant(item, of("r_in"), r_in, Range::Positive);
+        if self.errors.len() > before {
+            return;
+        }
+        if inner >= outer {
+            let fields = ["r_in", "r_out"].map(of);
+            return self.error(item, BuildErrorKind::Radii { item, fields, inner, outer });
+        }
+        let hole = grid.rings.as_ref().map_or(f64::NAN, |rings| rings.hole);
+        if (inner / outer - hole).abs() > RATIO {
+            let ratios = [hole, inner / outer];
+            self.error(item, BuildErrorKind::GridRatio { grid: id, ratios });
+        }
+    }
+
     fn check_sides(&mut self, item: Item, faces: [GridFace; 2]) {
+        let radii = faces.map(|face| self.outer_radius(face));
+        if faces.iter().any(|at| at.face.axis() != 0) && differ(radii[0], radii[1]) {
+            let names = faces.map(|at| self.parts.grids[at.grid.index()].face_name(at.face));
+            return self.error(item, BuildErrorKind::FaceShapes { item, faces, names });
+        }
         let sides = faces.map(|face| self.sides(face));
         if (0..2).any(|side| differ(sides[0][side], sides[1][side])) {
             let names = faces.map(|at| self.parts.grids[at.grid.index()].face_name(at.face));
@@ -71,7 +134,28 @@ impl Work<'_> {
 
     /// The two lengths of a face in m.
     fn sides(&mut self, at: GridFace) -> [f64; 2] {
-        let grid = &self.parts.grids[at.grid.index()];
-        at.face.along().map(|axis| grid.size[axis].at(&mut self.scope).unwrap_or(f64::NAN))
+        let parts = self.parts;
+        let mut number = |value: &Value| value.at(&mut self.scope).unwrap_or(f64::NAN);
+        match &parts.grids[at.grid.index()].shape {
+            Shape::Block(size) => at.face.along().map(|axis| number(&size[axis])),
+            Shape::Cylinder { r_in, r_out, length, angle } => {
+                let [r_out, length] = [r_out, length].map(&mut number);
+                let r_in = r_in.as_ref().map_or(0.0, &mut number);
+                let angle = angle.as_ref().map_or(TAU, number);
+                match at.face.axis() {
+                    0 => [angle * if at.face.is_far() { r_out } else { r_in }, length],
+                    1 => [r_out - r_in, length],
+                    _ => [r_out - r_in, 0.5 * angle * (r_out + r_in)],
+                }
+            }
+        }
+    }
+
+    /// The outer radius of a round body in m; 0 of a block.
+    fn outer_radius(&mut self, at: GridFace) -> f64 {
+        match &self.parts.grids[at.grid.index()].shape {
+            Shape::Block(_) => 0.0,
+            Shape::Cylinder { r_out, .. } => r_out.at(&mut self.scope).unwrap_or(f64::NAN),
+        }
     }
 }

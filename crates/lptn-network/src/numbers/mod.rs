@@ -118,7 +118,7 @@ pub(crate) struct Work<'a> {
 }
 
 impl Work<'_> {
-    fn parameters(&mut self, overrides: &[Option<f64>]) -> Vec<f64> {
+    pub(crate) fn parameters(&mut self, overrides: &[Option<f64>]) -> Vec<f64> {
         let parts = self.parts;
         let mut values = Vec::with_capacity(parts.parameters.len());
         for (i, parameter) in parts.parameters.iter().enumerate() {

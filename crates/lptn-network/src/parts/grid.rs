@@ -1,79 +1,39 @@
-//! Grids: a block of one material, cut into equal cells.
+//! Grids: a body of one material, cut into cells.
 //!
-//! Each cell is a node in its middle. Two neighbours are joined by the conduction between their
+//! Each cell of a block is a node in its middle. Two neighbours are joined by the conduction between their
 //! middles, `k A / d`, with the conductivity at the mean of their temperatures; a face that
 //! something is attached to has a massless node on each of its cells, joined to it by the
 //! conduction through half a cell, `2 k A / d`. This is the finite-volume scheme with nodes in the
 //! middle of cells (S. V. Patankar, Numerical Heat Transfer and Fluid Flow, Hemisphere 1980,
-//! section 4.2); its error shrinks with the square of the cell.
+//! section 4.2); its error shrinks with the square of the cell. Cells of round bodies are those of
+//! [`rings`](crate::parts::rings).
 
 use lptn_laws::Kind;
 
 use crate::id::{BoundaryId, ConductorId, End, GridId, Item, MaterialId, NodeId};
+pub use crate::parts::face::Face;
+use crate::parts::rings::Rings;
+use crate::parts::shape::{Form, Shape};
 use crate::value::Value;
 
 /// The most cells of a grid.
 pub const MOST_CELLS: usize = 2_000_000;
 
-/// A face of a block: the axis it is perpendicular to, and whether it is the near or the far one.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Face {
-    /// At the start of x.
-    X0,
-    /// At the end of x.
-    X1,
-    /// At the start of y.
-    Y0,
-    /// At the end of y.
-    Y1,
-    /// At the start of z.
-    Z0,
-    /// At the end of z.
-    Z1,
-}
-
-impl Face {
-    /// All six.
-    pub const ALL: [Self; 6] = [Self::X0, Self::X1, Self::Y0, Self::Y1, Self::Z0, Self::Z1];
-
-    /// Its name: `x0`, `x1`, ..
-    pub fn name(self) -> &'static str {
-        ["x0", "x1", "y0", "y1", "z0", "z1"][self as usize]
-    }
-
-    /// The face of this name.
-    pub fn of_name(name: &str) -> Option<Self> {
-        Self::ALL.into_iter().find(|face| face.name() == name)
-    }
-
-    /// The axis it is perpendicular to: 0 for x, 1 for y, 2 for z.
-    pub fn axis(self) -> usize {
-        self as usize / 2
-    }
-
-    /// The two axes along it.
-    pub fn along(self) -> [usize; 2] {
-        [[1, 2], [0, 2], [0, 1]][self.axis()]
-    }
-
-    pub(crate) fn is_far(self) -> bool {
-        self as usize % 2 == 1
-    }
-}
-
-/// A block of one material, cut into equal cells: see
+/// A body of one material, cut into cells: see
 /// [`NetworkBuilder::grid`](crate::NetworkBuilder::grid).
 #[derive(Clone, Debug)]
 pub struct Grid {
     /// Its name, which begins those of its cells, faces and inner paths.
     pub name: String,
-    /// Number of cells along x, y and z.
+    /// Number of cells along x, y and z, or r, phi and z.
     pub cells: [usize; 3],
     /// Number of indices of its cells: the number of counts that were given.
     pub axes: usize,
-    /// Its lengths along x, y and z in m.
-    pub size: [Value; 3],
-    /// Its thermal conductivity along x, y and z in W/(m K).
+    /// Its shape with its lengths.
+    pub shape: Shape,
+    /// The rings of a round body.
+    pub(crate) rings: Option<Rings>,
+    /// Its thermal conductivity along x, y and z, or r, phi and z, in W/(m K).
     pub conductivity: [Value; 3],
     /// Its material, or density and specific heat capacity.
     pub substance: Substance,
@@ -105,6 +65,11 @@ pub(crate) fn place(indices: &[usize], axes: usize, counts: [usize; 3]) -> Optio
 /// The number of a place, the last index running fastest.
 pub(crate) fn number(at: [usize; 3], counts: [usize; 3]) -> usize {
     (at[0] * counts[1] + at[1]) * counts[2] + at[2]
+}
+
+/// The places of so many cells along each axis, the last one running fastest.
+pub(crate) fn places_of([x, y, z]: [usize; 3]) -> impl Iterator<Item = [usize; 3]> {
+    (0..x).flat_map(move |i| (0..y).flat_map(move |j| (0..z).map(move |k| [i, j, k])))
 }
 
 impl Grid {
@@ -145,9 +110,14 @@ impl Grid {
         face.along().into_iter().filter(move |axis| *axis < axes)
     }
 
+    /// Its directions and faces.
+    pub fn form(&self) -> Form {
+        self.shape.form()
+    }
+
     /// The name of a face: `wall.x1`.
     pub fn face_name(&self, face: Face) -> String {
-        format!("{}.{}", self.name, face.name())
+        format!("{}.{}", self.name, self.form().face_name(face))
     }
 
     pub(crate) fn offset(&self, at: [usize; 3]) -> u32 {
@@ -156,8 +126,7 @@ impl Grid {
 
     /// The places of all cells but the last `less` ones along each axis.
     pub(crate) fn places(&self, less: [usize; 3]) -> impl Iterator<Item = [usize; 3]> + use<> {
-        let [x, y, z] = [0, 1, 2].map(|axis| self.cells[axis] - less[axis]);
-        (0..x).flat_map(move |i| (0..y).flat_map(move |j| (0..z).map(move |k| [i, j, k])))
+        places_of([0, 1, 2].map(|axis| self.cells[axis] - less[axis]))
     }
 
     /// The places of the cells at a face.

@@ -4,9 +4,6 @@
 use crate::id::ConductorId;
 use crate::parts::grid::{Grid, bracketed, number, place};
 
-/// Axes of a grid, as they are written in the names of its inner paths.
-pub(crate) const LETTERS: [&str; 3] = ["x", "y", "z"];
-
 /// The inner paths of a grid along one axis.
 #[derive(Clone, Debug)]
 pub(crate) struct PathNames {
@@ -20,7 +17,7 @@ pub(crate) struct PathNames {
 
 impl PathNames {
     pub(crate) fn new(grid: &Grid, axis: usize) -> Self {
-        let head = format!("{}.{}", grid.name, LETTERS[axis]);
+        let head = format!("{}.{}", grid.name, grid.form().directions()[axis]);
         Self { head, counts: grid.paths_along(axis), axes: grid.axes }
     }
 
@@ -34,10 +31,13 @@ impl PathNames {
 }
 
 impl Grid {
-    /// Number of inner paths along x, y and z that run along an axis.
+    /// Number of inner paths along each axis that run along one of them. Around an axis, the last
+    /// one leads back to the first cell.
     pub(crate) fn paths_along(&self, axis: usize) -> [usize; 3] {
         let mut counts = self.cells;
-        counts[axis] -= 1;
+        if !(axis == 1 && self.form().is_closed()) {
+            counts[axis] -= 1;
+        }
         counts
     }
 

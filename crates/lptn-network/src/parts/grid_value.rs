@@ -36,10 +36,14 @@ impl GridValue {
         }
     }
 
-    /// Its value from these temperatures of nodes in K.
-    pub(crate) fn of(self, members: &[u32], nodes: &[f64]) -> f64 {
+    /// Its value from these temperatures of nodes in K. Weights sum to 1; without any, all nodes
+    /// count alike.
+    pub(crate) fn of(self, (members, weights): (&[u32], &[f64]), nodes: &[f64]) -> f64 {
         let all = members.iter().map(|&node| nodes[node as usize]);
         match self {
+            Self::Mean(_) | Self::Face(_) if !weights.is_empty() => {
+                all.zip(weights).map(|(kelvin, weight)| kelvin * weight).sum()
+            }
             Self::Mean(_) | Self::Face(_) => all.sum::<f64>() / members.len() as f64,
             Self::Min(_) => all.reduce(f64::min).unwrap_or(f64::NAN),
             Self::Max(_) => all.reduce(f64::max).unwrap_or(f64::NAN),
@@ -58,6 +62,23 @@ impl Grid {
                 self.face_places(at.face).map(|place| self.first + self.offset(place)).collect()
             }
             _ => self.nodes().map(|id| id.0).collect(),
+        }
+    }
+
+    /// The weights of these nodes in a mean, which sum to 1; none if all count alike.
+    pub(crate) fn weights(&self, value: GridValue) -> Vec<f64> {
+        let alike = match value {
+            GridValue::Face(at) => self.rings.is_none() || at.face.axis() == 0,
+            _ => self.rings.is_none(),
+        };
+        match value {
+            _ if alike => Vec::new(),
+            GridValue::Face(at) => {
+                let parts =
+                    self.face_places(at.face).map(|place| self.parts_of_face(at.face, place));
+                parts.map(f64::recip).collect()
+            }
+            _ => self.places([0; 3]).map(|place| self.part_of_volume(place)).collect(),
         }
     }
 }

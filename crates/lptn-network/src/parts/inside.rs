@@ -3,7 +3,6 @@
 use crate::id::Item;
 use crate::parts::Parts;
 use crate::parts::grid::Grid;
-use crate::parts::grid_names::LETTERS;
 
 /// The part of a name before the brackets at its end, and the indices inside them.
 fn parsed(name: &str) -> Option<(&str, Vec<usize>)> {
@@ -20,9 +19,10 @@ impl Parts {
         if let Some(grid) = self.grid_named(head) {
             return grid.cell(&indices).map(Item::Node);
         }
-        let (grid, letter) = head.rsplit_once('.')?;
-        let axis = LETTERS.iter().position(|known| *known == letter)?;
-        self.grid_named(grid)?.path_at(axis, &indices).map(Item::Conductor)
+        let (name, direction) = head.rsplit_once('.')?;
+        let grid = self.grid_named(name)?;
+        let axis = grid.form().directions().iter().position(|known| *known == direction)?;
+        grid.path_at(axis, &indices).map(Item::Conductor)
     }
 
     fn grid_named(&self, name: &str) -> Option<&Grid> {

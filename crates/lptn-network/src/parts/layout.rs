@@ -62,9 +62,9 @@ pub(crate) struct Layout {
     heats: Vec<(HeatOf, u32)>,
     controls: Vec<u32>,
     switches: Vec<u32>,
-    /// The same for temperatures of grids, and the nodes that each is made of.
+    /// The same for temperatures of grids, and the nodes that each is made of with their weights.
     grid_values: Vec<(GridValue, u32)>,
-    members: Vec<Vec<u32>>,
+    members: Vec<(Vec<u32>, Vec<f64>)>,
 }
 
 impl Default for Layout {
@@ -199,9 +199,9 @@ impl Layout {
         &self.grid_values
     }
 
-    /// Sets the nodes that belong to each temperature of a grid, in the order of
+    /// Sets the nodes that belong to each temperature of a grid with their weights, in the order of
     /// [`Layout::grid_values`].
-    pub(crate) fn set_members(&mut self, members: Vec<Vec<u32>>) {
+    pub(crate) fn set_members(&mut self, members: Vec<(Vec<u32>, Vec<f64>)>) {
         self.members = members;
     }
 
@@ -212,7 +212,8 @@ impl Layout {
         nodes: &'a [f64],
     ) -> impl Iterator<Item = (u32, f64)> + 'a {
         let values = self.grid_values.iter().zip(&self.members);
-        values.map(|((value, slot), members)| (*slot, value.of(members, nodes)))
+        values
+            .map(|((value, slot), (members, weights))| (*slot, value.of((members, weights), nodes)))
     }
 
     pub(crate) fn len(&self) -> usize {

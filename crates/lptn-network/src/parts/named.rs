@@ -10,7 +10,7 @@ use lptn_units::{Dimension, Type};
 
 use crate::id::{BoundaryId, ConductorId, GridId, Item, SourceId};
 use crate::parts::Parts;
-use crate::parts::grid::{Face, GridFace};
+use crate::parts::grid::GridFace;
 use crate::parts::grid_value::GridValue;
 use crate::parts::heat::HeatOf;
 
@@ -105,7 +105,9 @@ impl Parts {
             "max" => GridValue::Max(grid(base)?),
             "T" => {
                 let (base, face) = base.rsplit_once('.')?;
-                GridValue::Face(GridFace { grid: grid(base)?, face: Face::of_name(face)? })
+                let grid = grid(base)?;
+                let face = self.grids[grid.index()].form().face_named(face)?;
+                GridValue::Face(GridFace { grid, face })
             }
             _ => return None,
         })
@@ -118,7 +120,8 @@ impl Parts {
     /// The values of all grids: mean, minimum, maximum and faces.
     pub(crate) fn grid_values(&self) -> impl Iterator<Item = GridValue> + '_ {
         (0..self.grids.len()).map(GridId::from_len).flat_map(|id| {
-            let faces = Face::ALL.map(|face| GridValue::Face(GridFace { grid: id, face }));
+            let faces = self.grids[id.index()].form().faces();
+            let faces = faces.map(move |face| GridValue::Face(GridFace { grid: id, face }));
             [GridValue::Mean(id), GridValue::Min(id), GridValue::Max(id)].into_iter().chain(faces)
         })
     }
@@ -131,7 +134,10 @@ impl Parts {
     pub(crate) fn settle_grid_values(&mut self) {
         let values: Vec<GridValue> =
             self.layout.grid_values().iter().map(|(value, _)| *value).collect();
-        let members = values.into_iter().map(|value| self.grid_value_members(value)).collect();
+        let members = values.into_iter().map(|value| {
+            (self.grid_value_members(value), self.grids[value.grid().index()].weights(value))
+        });
+        let members = members.collect();
         Arc::make_mut(&mut self.layout).set_members(members);
     }
 }

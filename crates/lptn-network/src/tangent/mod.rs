@@ -73,7 +73,8 @@ impl Network {
     /// evaluation. No variable may occur twice.
     ///
     /// # Errors
-    /// [`NoTangents`] for how a node melts and for the specific heat of a fluid.
+    /// [`NoTangents`] for how a node melts, for the specific heat of a fluid and for the ratio of
+    /// the radii of a round grid.
     pub fn tangents_at_a_moment(&self, variables: &[Variable]) -> Result<Tangents, NoTangents> {
         self.tangents_of(&Influence::new(self, variables), variables)
     }
@@ -86,6 +87,7 @@ impl Network {
         refusal::check_fluids(self, influence)?;
         let chunks = variables.chunks(PASS);
         let mut passes: Vec<Pass> = chunks.map(|chunk| Pass::new(self, chunk, variables)).collect();
+        refusal::check_rings(self, influence, &mut passes)?;
         let contents = content::all_of(self, influence, &mut passes)?;
         let follows =
             |id: &SignalId| influence.signal(*id) && !variables.contains(&Variable::Signal(*id));

@@ -4,9 +4,11 @@ use std::fmt;
 
 use lptn_units::Problem;
 
+use super::Pass;
 use super::influence::Influence;
-use crate::id::{FluidId, Item, NodeId};
+use crate::id::{FluidId, GridId, Item, NodeId};
 use crate::network::Network;
+use crate::parts::shape::Shape;
 
 lptn_units::problems! {
 /// Why a network cannot be differentiated by some parameters. `say` puts an item and the kind of
@@ -33,6 +35,13 @@ pub enum NoTangents for |say: &dyn Fn(Item, &str) -> String| at Item {
     /// The melting of a node changes by more than its size.
     Melting { node: NodeId } = "sensitivity::melting", at Some(Item::Node(*node)),
         says format!("how {} melts depends on a parameter", say(Item::Node(*node), "a node")),
+        help None;
+    /// The ratio of the radii of a round grid depends on a parameter: its rings are cut for one.
+    Rings { grid: GridId } = "sensitivity::rings", at Some(Item::Grid(*grid)),
+        says format!(
+            "`r_in` over `r_out` of {} depends on a parameter",
+            say(Item::Grid(*grid), "a grid")
+        ),
         help None;
     /// The specific heat of a fluid depends on its temperature and on a parameter.
     Fluid { fluid: FluidId } = "sensitivity::fluid", at Some(Item::Fluid(*fluid)),
@@ -64,6 +73,35 @@ pub(super) fn check_fluids(network: &Network, influence: &Influence<'_>) -> Resu
         None => Ok(()),
     }
 }
+
+/// Refuses parameters that change the ratio of the radii of a round grid.
+pub(super) fn check_rings(
+    network: &Network,
+    influence: &Influence<'_>,
+    passes: &mut [Pass],
+) -> Result<(), NoTangents> {
+    for (grid, known) in network.grid_ids().zip(network.grids()) {
+        let Shape::Cylinder { r_in: Some(r_in), r_out, .. } = &known.shape else { continue };
+        if ![r_in, r_out].into_iter().any(|radius| influence.value(radius)) {
+            continue;
+        }
+        let mut is_kept = |pass: &mut Pass| {
+            let radii = [r_in, r_out].map(|radius| radius.on(&pass.slots, &mut pass.stack));
+            let [Ok(inner), Ok(outer)] = radii else { return false };
+            inner.derivatives.iter().zip(outer.derivatives).all(|(inner_slope, outer_slope)| {
+                let terms = [inner_slope * outer.value, inner.value * outer_slope];
+                (terms[0] - terms[1]).abs() <= ROUNDED * (terms[0].abs() + terms[1].abs())
+            })
+        };
+        if !passes.iter_mut().all(&mut is_kept) {
+            return Err(NoTangents::Rings { grid });
+        }
+    }
+    Ok(())
+}
+
+/// Rounding of the derivatives of a ratio.
+const ROUNDED: f64 = 1e-12;
 
 impl NoTangents {
     /// The reason in words, with the name of the item in backquotes.
