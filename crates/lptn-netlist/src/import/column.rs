@@ -52,6 +52,7 @@ impl<'a> Elaboration<'a> {
         let csv: &'a crate::csv_files::CsvFiles = self.csv;
         let text = csv.text(raw)?.map_err(Diagnostic::clone);
         let rows = self.kept(text.and_then(|text| CsvRows::open(text, asked, contents.example)))?;
+        self.problems.extend(rows.note());
         let unknown = rows.unknown_columns(contents.columns);
         let known = unknown.is_empty();
         self.problems.extend(unknown);
