@@ -42,10 +42,27 @@ fn a_loggers_file_is_fitted_as_its_record() {
 /// `sha256sum`.
 #[test]
 fn the_manifest_has_the_hash_of_the_file() {
-    let netlist = "format = 1\n[node]\na = { C = \"1 J/K\", T0 = \"20 degC\" }\n[boundary]\nair = { T = \"20 \
-                   degC\" }\n[signal]\np = { csv = \"p.csv\", time = \"t\", value = \"W\\u00e4rme\" \
-                   }\n[source]\nq = { into = \"a\", P = \"p\" }\n[resistor]\nr = { from = \"a\", to = \
-                   \"air\", R = \"1 K/W\" }\n[run]\nstop = \"10 s\"\n";
+    let netlist = r#"
+format = 1
+
+[node]
+a = { C = "1 J/K", T0 = "20 degC" }
+
+[boundary]
+air = { T = "20 degC" }
+
+[signal]
+p = { csv = "p.csv", time = "t", value = "Wärme" }
+
+[source]
+q = { into = "a", P = "p" }
+
+[resistor]
+r = { from = "a", to = "air", R = "1 K/W" }
+
+[run]
+stop = "10 s"
+"#;
     let folder = Folder::with("a.toml", netlist);
     std::fs::write(folder.path().join("p.csv"), b"t [s];W\xe4rme [W]\n0;1,5\n60;2,5\n").unwrap();
     folder.run(&["run", "a.toml"]).exits(0);

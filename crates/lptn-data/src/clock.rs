@@ -71,6 +71,23 @@ impl Clock {
         Ok(Some(clock))
     }
 
+    /// The error of statements about dates, if the times are numbers.
+    pub(crate) fn unused(head: &Head, time: usize, options: &CsvOptions) -> Option<Diagnostic> {
+        let key = match (&options.start, options.dates) {
+            (Some(_), _) => "start",
+            (None, Some(_)) => "dates",
+            (None, None) => return None,
+        };
+        let header = &head.columns[time];
+        let message =
+            format!("`{key}` is about dates and clock times: column `{}` has none", header.name);
+        Some(
+            Diagnostic::error(head.codes().start, message)
+                .at(header.place.clone(), "the times")
+                .help(format!("remove `{key}`, or name a column of dates or clock times")),
+        )
+    }
+
     /// The column, whose unit is the second.
     pub(crate) fn column(&self) -> CsvColumn {
         CsvColumn { index: self.parts[0], unit: self.unit.clone() }
@@ -212,15 +229,15 @@ impl Dates {
     fn undecided(&self, head: &Head) -> Diagnostic {
         let shown = self.first.as_ref().map_or([0; 3], |(date, _)| date.numbers);
         let message = format!(
-            "the dates may begin with the day or the month, as {:02}/{:02}/{:02} does: no row shows \
-             which",
+            "the dates may begin with the day or the month, as {:02}/{:02}/{:02} does: no row \
+             shows which",
             shown[0], shown[1], shown[2]
         );
         Diagnostic::error(head.codes().dates, message)
             .at(self.first.as_ref().map(|(_, place)| place.clone()), "the first date")
             .help(
-                "write `dates = \"day first\"` or `dates = \"month first\"` next to `csv`; a command \
-                 has `--dates`",
+                "write `dates = \"day first\"` or `dates = \"month first\"` next to `csv`; a \
+                 command has `--dates`",
             )
     }
 }

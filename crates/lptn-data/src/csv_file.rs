@@ -132,21 +132,38 @@ impl CsvFile {
     }
 
     /// Several columns, in one pass over the file.
-    pub fn columns(
+    pub fn columns<'a>(
         self: &Arc<Self>,
-        asked: &[(&str, Option<Type>, &Asked)],
+        asked: &[(&str, Option<Type>, &'a Asked)],
     ) -> Vec<Result<PlacedNumbers, Vec<Diagnostic>>> {
-        let mut columns: Vec<Reading<'_>> = asked
-            .iter()
-            .map(|(name, wanted, ask)| {
-                let column = self.column_of((name, *wanted), ask);
-                let (column, clock) = match column.map_err(|problem| vec![problem]) {
-                    Ok((column, clock)) => (Ok(column), clock),
-                    Err(problems) => (Err(problems), None),
-                };
-                Reading { column, clock, ask, numbers: Vec::new(), problems: Vec::new() }
-            })
-            .collect();
+        let reading = |(name, wanted, ask): &(&str, Option<Type>, &'a Asked)| {
+            let column = self.head.numbers(name, *wanted, ask).map_err(|problem| vec![problem]);
+            Reading { column, clock: None, ask, numbers: Vec::new(), problems: Vec::new() }
+        };
+        self.read(asked.iter().map(reading).collect())
+    }
+
+    /// The times of the column `name` in s: numbers with a unit, or dates and clock times.
+    ///
+    /// # Errors
+    /// As those of a column of numbers; and if the dates can be read in two ways, or `start` does
+    /// not suit them.
+    pub fn times(
+        self: &Arc<Self>,
+        name: &str,
+        ask: &Asked,
+    ) -> Result<PlacedNumbers, Vec<Diagnostic>> {
+        let (column, clock) = self.time_column(name, ask).map_err(|problem| vec![problem])?;
+        let (numbers, problems) = (Vec::new(), Vec::new());
+        let mut found =
+            self.read(vec![Reading { column: Ok(column), clock, ask, numbers, problems }]);
+        found.pop().unwrap_or_else(|| Err(Vec::new()))
+    }
+
+    fn read(
+        self: &Arc<Self>,
+        mut columns: Vec<Reading<'_>>,
+    ) -> Vec<Result<PlacedNumbers, Vec<Diagnostic>>> {
         self.visit(|cells| {
             columns.iter_mut().for_each(|reading| reading.take(self, cells));
             let wrong: usize = columns.iter().map(|reading| reading.problems.len()).sum();
@@ -155,28 +172,29 @@ impl CsvFile {
         columns.into_iter().map(|reading| reading.done(self)).collect()
     }
 
-    /// The column of this name, and its clock if it contains dates or clock times.
-    fn column_of(
+    /// The column of times of this name, and its clock if it contains dates or clock times.
+    fn time_column(
         &self,
-        (name, wanted): (&str, Option<Type>),
+        name: &str,
         ask: &Asked,
     ) -> Result<(CsvColumn, Option<Clock>), Diagnostic> {
         let head = &self.head;
-        if wanted.is_none_or(|ty| ty == TIME) {
-            let first = head.reader(&self.text.text).next().unwrap_or_default();
-            let index = head.find(name, ask)?;
-            let clock = Clock::of((head, &self.text), (index, &first), &self.options);
-            if let Some(clock) = clock.map_err(|problem| ask.also(problem))? {
-                return Ok((clock.column(), Some(clock)));
-            }
+        let first = head.reader(&self.text.text).next().unwrap_or_default();
+        let index = head.find(name, ask)?;
+        let clock = Clock::of((head, &self.text), (index, &first), &self.options);
+        if let Some(clock) = clock.map_err(|problem| ask.also(problem))? {
+            return Ok((clock.column(), Some(clock)));
         }
-        Ok((head.numbers(name, wanted, ask)?, None))
+        match Clock::unused(head, index, &self.options) {
+            Some(problem) => Err(ask.also(problem)),
+            None => Ok((head.numbers(name, Some(TIME), ask)?, None)),
+        }
     }
 
     /// The note about a file that is not in lptn's own form; `time` is the column of its times.
     pub fn note(&self, time: Option<&str>) -> Option<Diagnostic> {
         let ask = Asked::default();
-        let column = time.map(|name| self.column_of((name, Some(TIME)), &ask));
+        let column = time.map(|name| self.time_column(name, &ask));
         let clock = column.and_then(Result::ok).and_then(|(_, clock)| clock);
         let zero = clock.map(|clock| {
             let first = self.head.reader(&self.text.text).next().unwrap_or_default();

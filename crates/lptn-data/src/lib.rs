@@ -1,8 +1,8 @@
 //! Inputs and their diagnostics: texts with places ([`Files`], [`Span`]), the one [`Diagnostic`],
 //! and the one reader of CSV files. Headers have units, `speed [rpm]`; errors name their line.
 //!
-//! A file need not be in lptn's own form: `dialect` finds the separator and the header of a logger's
-//! file, `numeral` its decimal sign, `decode` its encoding, and `clock` turns dates into seconds.
+//! A file need not be in lptn's own form: `dialect` finds the separator and the header of the file
+//! of a logger, `numeral` its decimal sign, `decode` its encoding; `clock` turns dates into seconds.
 //!
 //! There are four ways to read a file, with the same header, numbers and checks of its form: as
 //! columns over time ([`read_record`]), as points without an order ([`read_sheet`]), one column

@@ -110,8 +110,8 @@ fn undecided(head: &Head, (cell, place): (String, Span)) -> Diagnostic {
     let [decimal, whole] = [cell.replace(',', "."), cell.replace(',', "")];
     let message = format!("`{cell}` is {decimal} or {whole}: no number of the file shows which");
     Diagnostic::error(head.codes().undecided, message).at(place, "").help(format!(
-        "write `decimal = \",\"` next to `csv` (a command: `--decimal ,`) for {decimal}, `decimal = \
-         \".\"` for {whole}"
+        "write `decimal = \",\"` next to `csv` (a command: `--decimal ,`) for {decimal}, \
+         `decimal = \".\"` for {whole}"
     ))
 }
 

@@ -181,6 +181,8 @@ fn a_start_is_the_time_zero() {
     assert_eq!(of(&text, options("2026-05-02 09:00:00")).unwrap().time, [86_400.0, 86_410.0]);
     assert_eq!(of(&text, options("09:00:04")).unwrap().time, [-4.0, 6.0]);
     assert_eq!(code(&text, options("noon")).0, "record::start");
+    let numbers = "t [s],ring [degC]\n0,20\n1,21\n";
+    assert_eq!(code(numbers, options("09:00:00")).0, "record::start");
     assert_eq!(code(&text, options("2026-05-03")).0, "record::start");
 }
 

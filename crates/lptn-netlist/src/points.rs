@@ -103,7 +103,10 @@ impl<'a> Elaboration<'a> {
     ) -> Option<PlacedNumbers> {
         let (name, raw) = name?;
         let place = Place { owner: &fields.owner, key: axis.column, raw };
-        let points = file.column(name, axis.ty, &place.asked());
+        let points = match axis.column {
+            "time" => file.times(name, &place.asked()),
+            _ => file.column(name, axis.ty, &place.asked()),
+        };
         points.map_err(|problems| self.problems.extend(problems)).ok()
     }
 

@@ -367,10 +367,10 @@ fn signals_and_tables_are_read_from_files_of_loggers() {
     assert_eq!(
         notes,
         [
-            "p.csv is read with `;` between columns, decimal commas, encoding Windows-1252, one line \
-             above the header left out, 0 s at 03.05.2026 08:00:30",
-            "k.csv is read with tabs between columns, decimal commas, encoding Windows-1252, one line \
-             above the header left out",
+            "p.csv is read with `;` between columns, decimal commas, encoding Windows-1252, one \
+             line above the header left out, 0 s at 03.05.2026 08:00:30",
+            "k.csv is read with tabs between columns, decimal commas, encoding Windows-1252, one \
+             line above the header left out",
         ]
     );
     assert!(netlist.warnings.iter().all(|note| note.severity == Severity::Note));

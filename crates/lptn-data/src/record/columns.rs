@@ -29,7 +29,12 @@ pub(crate) fn choose(
 ) -> Result<Choice, Vec<Diagnostic>> {
     let nothing = csv::StringRecord::new();
     let cells = first.filter(|_| extent == Extent::Whole).unwrap_or(&nothing);
-    let time = time((head, text), cells, query);
+    let mut time = time((head, text), cells, query);
+    if let Ok((column, None)) = &time
+        && let Some(problem) = Clock::unused(head, column.index, &query.csv)
+    {
+        time = Err(problem);
+    }
     let position = time.as_ref().map(|(time, _)| time.index).ok();
     let clock = time.as_ref().ok().and_then(|(_, clock)| clock.as_ref());
     let logged = clock.is_some() || head.dialect != Dialect::PLAIN;

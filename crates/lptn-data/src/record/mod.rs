@@ -12,7 +12,7 @@
 //! | a time twice with other values, below the one before it, or none | an error with both lines |
 //! | more than 5 times the usual time between two rows | a warning |
 //! | a header without unit, a unit in a cell, text among numbers | an error |
-//! | another separator, decimal commas, titles, dates | read, with a note ([`crate::Encoding`] and the dialect of the file) |
+//! | another separator, decimal commas, titles, dates | read, with a note |
 //! | a value below absolute zero | an error |
 //! | a jump by 273.15 K, or to 1.8 times the value + 32 | a warning: the unit seems to change |
 //! | an extreme value kept after a steep rise or fall | a warning: the sensor may be at its end |
