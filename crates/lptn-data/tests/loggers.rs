@@ -200,6 +200,17 @@ fn a_comma_that_may_part_thousands_is_refused() {
     assert_eq!(of(&shown, options(None)).unwrap().columns[0].values, [1.234, 2.345]);
 }
 
+#[test]
+fn one_row_is_enough() {
+    for text in ["Zeit [s];Ring [degC]\n0,5;20,5\n", "Ofen\n\nZeit [s]\tRing [degC]\n0,5\t20,5\n"] {
+        let record = of(text, CsvOptions::default()).unwrap();
+        assert_eq!(
+            (record.time.as_slice(), columns(&record)),
+            (&[0.5][..], vec![("Ring", vec![20.5])])
+        );
+    }
+}
+
 /// No file in lptn's own form is read in another way: a note would tell.
 #[test]
 fn plain_files_have_no_note() {

@@ -52,11 +52,14 @@ impl<'t> Sheet<'t> {
         let rows: Vec<&Vec<&str>> = tail.iter().filter(|cells| cells.len() == width).collect();
         let values = |column: usize| rows.iter().filter(|row| is_value(row[column])).count();
         let holes = |column: usize| rows.iter().filter(|row| is_hole(row[column])).count();
-        let columns: Vec<usize> = (0..width)
-            .filter(|&c| values(c) > 0 && 2 * (values(c) + holes(c)) > rows.len())
-            .collect();
-        let filled = rows.iter().flat_map(|row| row.iter()).filter(|cell| !is_hole(cell)).count();
-        let found: usize = (0..width).map(values).sum();
+        // more than half of the rows; of two lines, one may be the header
+        let most = rows.len().saturating_sub(usize::from(rows.len() == 2));
+        let columns: Vec<usize> =
+            (0..width).filter(|&c| values(c) > 0 && 2 * (values(c) + holes(c)) > most).collect();
+        // a header among these lines says nothing about the separator
+        let rows = rows.iter().filter(|row| row.iter().any(|cell| is_value(cell)));
+        let cells_of = || rows.clone().flat_map(|row| row.iter()).filter(|cell| !is_hole(cell));
+        let (filled, found) = (cells_of().count(), cells_of().filter(|c| is_value(c)).count());
         let score = found as f64 / filled.max(1) as f64;
         let sheet = Self { lines, cells, columns, width, separator, score };
         (!sheet.columns.is_empty()).then_some(sheet)
