@@ -52,11 +52,11 @@ pub fn about(input: &Input, known: Known<'_>) -> Report {
 
 /// Every file that a netlist was read from.
 pub fn hashes(netlist: &Netlist) -> Vec<FileHash> {
-    let hash = |(name, text): (&str, &str)| FileHash {
+    let hash = |(name, bytes): (&str, &[u8])| FileHash {
         name: name.to_owned(),
-        sha256: lptn_study::sha256(text.as_bytes()),
+        sha256: lptn_study::sha256(bytes),
     };
-    netlist.inputs().map(hash).collect()
+    netlist.input_bytes().map(hash).collect()
 }
 
 /// Claim on the linearity of the network.

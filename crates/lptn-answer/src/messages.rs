@@ -17,6 +17,7 @@ pub fn json(files: &Files, diagnostic: &Diagnostic) -> Value {
         "severity": match diagnostic.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
+            Severity::Note => "note",
         },
         "code": diagnostic.code,
         "message": diagnostic.message,

@@ -4,7 +4,10 @@ use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args as Arguments, ValueEnum};
+use lptn_answer::failure::Failure;
+use lptn_netlist::{CsvOptions, DATE_ORDERS, DECIMALS};
 use lptn_report::{Format, TimeUnit};
+use lptn_units::Unit;
 
 use crate::drawing::Drawing;
 use crate::reporting::page_name;
@@ -69,6 +72,57 @@ impl Source {
     /// The load case, and the values that are set after it.
     pub(crate) fn settings(&self) -> (Option<&str>, &[String]) {
         (self.case.as_deref(), &self.set)
+    }
+}
+
+/// Statements about the form of CSV files, where their contents do not show it.
+#[derive(Clone, Debug, Default, Arguments)]
+#[command(next_help_heading = "CSV files")]
+pub(crate) struct CsvForm {
+    /// The decimal sign, . or , if the numbers do not show it
+    #[arg(long, value_name = "SIGN", value_parser = [".", ","])]
+    #[arg(hide_possible_values = true)]
+    pub(crate) decimal: Option<String>,
+    /// The order of dates: "day first", "month first" or "year first"
+    #[arg(long, value_name = "ORDER", value_parser = ["day first", "month first", "year first"])]
+    #[arg(hide_possible_values = true)]
+    pub(crate) dates: Option<String>,
+    /// The date and clock time that is 0 s; default: those of the first row
+    #[arg(long, value_name = "TIME")]
+    pub(crate) start: Option<String>,
+    /// The unit of a column whose header does not give it; may be repeated
+    #[arg(long, value_name = "NAME=UNIT")]
+    pub(crate) unit: Vec<String>,
+}
+
+impl CsvForm {
+    /// The statements.
+    ///
+    /// # Errors
+    /// If a unit is none, or belongs to no column.
+    pub(crate) fn options(&self) -> Result<CsvOptions, Failure> {
+        let word = |text: &Option<String>| text.clone().unwrap_or_default();
+        let decimal = DECIMALS.iter().find(|(sign, _)| *sign == word(&self.decimal));
+        let dates = DATE_ORDERS.iter().find(|(order, _)| *order == word(&self.dates));
+        Ok(CsvOptions {
+            decimal: decimal.map(|(_, decimal)| *decimal),
+            dates: dates.map(|(_, order)| *order),
+            start: self.start.clone(),
+            units: self.unit.iter().map(|text| unit_of(text)).collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+/// The column and the unit of `NAME=UNIT`.
+fn unit_of(text: &str) -> Result<(String, String), Failure> {
+    let split = text.rsplit_once('=').map(|(name, unit)| (name.trim(), unit.trim()));
+    match split.filter(|(_, unit)| *unit == "-" || Unit::parse(unit).is_ok()) {
+        Some((name, unit)) => Ok((name.to_owned(), unit.to_owned())),
+        None => Err(Failure::refused(
+            "netlist::csv_form",
+            format!("--unit needs a column and its unit, got `{text}`"),
+            "write for example `--unit ring=degC`",
+        )),
     }
 }
 

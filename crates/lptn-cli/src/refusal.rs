@@ -28,7 +28,7 @@ impl Refusal {
     pub(crate) fn say(&self, files: &Files, diagnostics: &[Diagnostic]) {
         let mut said = self.said.lock().unwrap_or_else(PoisonError::into_inner);
         for diagnostic in diagnostics {
-            let list = usize::from(diagnostic.severity == Severity::Warning);
+            let list = usize::from(diagnostic.severity != Severity::Error);
             said[list].push(messages::json(files, diagnostic));
         }
     }

@@ -263,7 +263,7 @@ fn points_are_read_with_their_mistakes() {
     bad("a [rpm],b [rpm],P [W]\n1,2,3\n").exits(2).says("--speed a");
     bad("omega [rpm],P [W]\n0,2\n1,3\n").exits(2).says("fit::law_speed").says("p.csv:2");
     bad("omega [rpm],P [W]\n").exits(2).says("record::no_rows");
-    bad("omega [rpm];P [W]\n1;2\n").exits(2).says("record::separator");
+    bad("omega [rpm];P [W]\n1,2\n").exits(2).says("record::separator");
     let gap = bad("omega [rpm],P [W]\n1,2\n2,\n3,6\n").exits(0);
     gap.says("1 of 3 rows have gaps").prints("2 points are too few to choose a law");
 }

@@ -45,6 +45,7 @@ mod interrupt_helper;
 mod json;
 mod library;
 mod limits;
+mod loggers;
 mod lumping;
 mod metamorphic;
 mod numbers;

@@ -4,12 +4,14 @@ use std::sync::Arc;
 
 use lptn_units::{Type, Unit};
 
+use crate::clock::{Clock, TIME};
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
-use crate::form::header;
-use crate::head::{Asked, CsvColumn, Head, Row, reader, row, value};
+use crate::head::{Asked, CsvColumn, Head, Row, row};
 use crate::hints;
 use crate::limits::MOST_PROBLEMS;
+use crate::open::open;
+use crate::options::CsvOptions;
 use crate::text::CsvText;
 
 /// An example of a header.
@@ -56,7 +58,8 @@ impl PlacedNumbers {
 #[derive(Debug)]
 pub struct CsvFile {
     head: Head,
-    text: Arc<str>,
+    text: CsvText,
+    options: CsvOptions,
 }
 
 /// Number of wrong cells at which reading stops; of millions the rest would be alike.
@@ -67,11 +70,10 @@ impl CsvFile {
     ///
     /// # Errors
     /// The error of its form; `asked` is the place that names the file.
-    pub fn open(text: &CsvText, asked: &Span) -> Result<Self, Diagnostic> {
-        let first = reader(&text.text).records().find_map(Result::ok);
-        let head = header(text, first, (hints::NETLIST, EXAMPLE));
+    pub fn open(text: &CsvText, asked: &Span, options: &CsvOptions) -> Result<Self, Diagnostic> {
+        let head = open(text, options, (hints::NETLIST, EXAMPLE));
         let head = head.map_err(|problem| problem.also(asked.clone(), "read here"))?;
-        let file = Self { head, text: Arc::clone(&text.text) };
+        let file = Self { head, text: text.clone(), options: options.clone() };
         match file.too_long(&Asked { words: String::new(), span: Some(asked.clone()) }) {
             Some(problem) => Err(problem),
             None => Ok(file),
@@ -80,24 +82,18 @@ impl CsvFile {
 
     /// Visits the cells of the rows in order, until the visitor returns a result.
     fn visit<T>(&self, mut visit: impl FnMut(&csv::StringRecord) -> Option<T>) -> Option<T> {
-        let (mut reader, mut cells) = (reader(&self.text), csv::StringRecord::new());
-        let mut is_head = true;
-        loop {
-            match reader.read_record(&mut cells) {
-                Ok(false) => return None,
-                Ok(true) if !std::mem::take(&mut is_head) => {
-                    if let Some(found) = visit(&cells) {
-                        return Some(found);
-                    }
-                }
-                _ => {}
+        let (mut reader, mut cells) = (self.head.reader(&self.text.text), csv::StringRecord::new());
+        while reader.read(&mut cells) {
+            if let Some(found) = visit(&cells) {
+                return Some(found);
             }
         }
+        None
     }
 
     /// The record as a row with its place.
     fn row(&self, cells: &csv::StringRecord) -> Row {
-        row(cells.clone(), &self.text)
+        row(cells.clone(), &self.text.text)
     }
 
     /// The place of a cell, or of its line; rows are counted from 0.
@@ -136,26 +132,75 @@ impl CsvFile {
     }
 
     /// Several columns, in one pass over the file.
-    pub fn columns(
+    pub fn columns<'a>(
         self: &Arc<Self>,
-        asked: &[(&str, Option<Type>, &Asked)],
+        asked: &[(&str, Option<Type>, &'a Asked)],
     ) -> Vec<Result<PlacedNumbers, Vec<Diagnostic>>> {
-        let head = &self.head;
-        let mut columns: Vec<Reading<'_>> = asked
-            .iter()
-            .map(|(name, wanted, ask)| Reading {
-                column: head.numbers(name, *wanted, ask).map_err(|problem| vec![problem]),
-                ask,
-                numbers: Vec::new(),
-                problems: Vec::new(),
-            })
-            .collect();
+        let reading = |(name, wanted, ask): &(&str, Option<Type>, &'a Asked)| {
+            let column = self.head.numbers(name, *wanted, ask).map_err(|problem| vec![problem]);
+            Reading { column, clock: None, ask, numbers: Vec::new(), problems: Vec::new() }
+        };
+        self.read(asked.iter().map(reading).collect())
+    }
+
+    /// The times of the column `name` in s: numbers with a unit, or dates and clock times.
+    ///
+    /// # Errors
+    /// As those of a column of numbers; and if the dates can be read in two ways, or `start` does
+    /// not suit them.
+    pub fn times(
+        self: &Arc<Self>,
+        name: &str,
+        ask: &Asked,
+    ) -> Result<PlacedNumbers, Vec<Diagnostic>> {
+        let (column, clock) = self.time_column(name, ask).map_err(|problem| vec![problem])?;
+        let (numbers, problems) = (Vec::new(), Vec::new());
+        let mut found =
+            self.read(vec![Reading { column: Ok(column), clock, ask, numbers, problems }]);
+        found.pop().unwrap_or_else(|| Err(Vec::new()))
+    }
+
+    fn read(
+        self: &Arc<Self>,
+        mut columns: Vec<Reading<'_>>,
+    ) -> Vec<Result<PlacedNumbers, Vec<Diagnostic>>> {
         self.visit(|cells| {
             columns.iter_mut().for_each(|reading| reading.take(self, cells));
             let wrong: usize = columns.iter().map(|reading| reading.problems.len()).sum();
             (wrong >= MOST_WRONG).then_some(())
         });
         columns.into_iter().map(|reading| reading.done(self)).collect()
+    }
+
+    /// The column of times of this name, and its clock if it contains dates or clock times.
+    fn time_column(
+        &self,
+        name: &str,
+        ask: &Asked,
+    ) -> Result<(CsvColumn, Option<Clock>), Diagnostic> {
+        let head = &self.head;
+        let first = head.reader(&self.text.text).next().unwrap_or_default();
+        let index = head.find(name, ask)?;
+        let clock = Clock::of((head, &self.text), (index, &first), &self.options);
+        if let Some(clock) = clock.map_err(|problem| ask.also(problem))? {
+            return Ok((clock.column(), Some(clock)));
+        }
+        match Clock::unused(head, index, &self.options) {
+            Some(problem) => Err(ask.also(problem)),
+            None => Ok((head.numbers(name, Some(TIME), ask)?, None)),
+        }
+    }
+
+    /// The note about a file that is not in lptn's own form; `time` is the column of its times.
+    pub fn note(&self, time: Option<&str>) -> Option<Diagnostic> {
+        let ask = Asked::default();
+        let column = time.map(|name| self.time_column(name, &ask));
+        let clock = column.and_then(Result::ok).and_then(|(_, clock)| clock);
+        let zero = clock.map(|clock| {
+            let first = self.head.reader(&self.text.text).next().unwrap_or_default();
+            format!("0 s at {}", clock.zero_words(&first, &self.options))
+        });
+        self.head.note(&self.text, zero.into_iter().collect())
     }
 
     /// The names of its columns, each with its place.
@@ -205,6 +250,7 @@ impl CsvFile {
 /// A column while it is read.
 struct Reading<'a> {
     column: Result<CsvColumn, Vec<Diagnostic>>,
+    clock: Option<Clock>,
     ask: &'a Asked,
     numbers: Vec<f64>,
     problems: Vec<Diagnostic>,
@@ -214,7 +260,11 @@ impl Reading<'_> {
     /// Adds its cell of a row.
     fn take(&mut self, file: &CsvFile, cells: &csv::StringRecord) {
         let Ok(CsvColumn { index, unit }) = &self.column else { return };
-        match value(cells.get(*index).unwrap_or_default().trim(), unit) {
+        let value = match &mut self.clock {
+            Some(clock) => clock.time(|index| cells.get(index).unwrap_or_default().trim()),
+            None => file.head.value(cells.get(*index).unwrap_or_default().trim(), unit),
+        };
+        match value {
             Ok(number) => self.numbers.push(number),
             Err(wrong) => {
                 self.problems.push(file.head.no_number(
@@ -239,7 +289,7 @@ impl Reading<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::{CsvFile, CsvText, Span};
+    use super::{CsvFile, CsvOptions, CsvText, Span};
     use crate::file::Files;
 
     #[test]
@@ -248,7 +298,8 @@ mod tests {
             ,20\r\n\"2\",30\n3,40";
         let mut files = Files::new();
         let text = CsvText::of(&mut files, "a.csv".to_owned(), text.as_bytes()).unwrap();
-        let file = CsvFile::open(&text, &Span::new(text.file, 0..0)).unwrap();
+        let file =
+            CsvFile::open(&text, &Span::new(text.file, 0..0), &CsvOptions::default()).unwrap();
         assert_eq!(files.line_column(&file.head.place), (3, 1));
         assert_eq!(files.at(&file.head.columns[1].place), "speed [rpm]");
         let places: Vec<_> = (0..).map_while(|row| file.place(row, 1)).collect();
@@ -263,7 +314,8 @@ mod tests {
         let mut files = Files::new();
         let text = "# made by\rsome, logger\nt [s],speed [rpm]\n0,10";
         let text = CsvText::of(&mut files, "a.csv".to_owned(), text.as_bytes()).unwrap();
-        let file = CsvFile::open(&text, &Span::new(text.file, 0..0)).unwrap();
+        let file =
+            CsvFile::open(&text, &Span::new(text.file, 0..0), &CsvOptions::default()).unwrap();
         assert_eq!(files.at(&file.head.columns[1].place), "speed [rpm]");
         assert_eq!(file.place(0, 1).map(|place| files.at(&place).to_owned()), Some("10".into()));
     }

@@ -13,6 +13,8 @@ pub enum Severity {
     Error,
     /// The netlist can be used, but is probably not what was meant.
     Warning,
+    /// Nothing is wrong: a statement about how something was read.
+    Note,
 }
 
 /// A place with a few words about it.
@@ -146,6 +148,7 @@ impl fmt::Display for Diagnostic {
         let severity = match self.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
+            Severity::Note => "note",
         };
         write!(f, "{severity}[{}]: {}", self.code, self.message)
     }

@@ -84,6 +84,8 @@ struct File {
     name: String,
     /// Shared with the readers of places: an imported file is long.
     text: Arc<str>,
+    /// The content of the file, if that is not the text in UTF-8.
+    bytes: Option<Arc<[u8]>>,
     /// Byte at which each line begins; computed when a place is first needed.
     lines: OnceLock<Vec<usize>>,
 }
@@ -123,8 +125,23 @@ impl Files {
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<Arc<str>>) -> FileId {
         // A netlist has a handful of files; the last id is shared in the absurd case of 2^32.
         let id = FileId(u32::try_from(self.files.len()).unwrap_or(u32::MAX));
-        self.files.push(File { name: name.into(), text: text.into(), lines: OnceLock::new() });
+        let (name, text) = (name.into(), text.into());
+        self.files.push(File { name, text, bytes: None, lines: OnceLock::new() });
         id
+    }
+
+    /// Keeps a text that was decoded from these bytes.
+    pub(crate) fn add_decoded(&mut self, name: &str, text: Arc<str>, bytes: &[u8]) -> FileId {
+        let id = self.add(name, text);
+        if let Some(file) = self.files.last_mut() {
+            file.bytes = Some(bytes.into());
+        }
+        id
+    }
+
+    /// The content of the file of a text; empty for an id of other files.
+    pub fn bytes(&self, id: FileId) -> &[u8] {
+        self.get(id).map_or(&[], |file| file.bytes.as_deref().unwrap_or(file.text.as_bytes()))
     }
 
     /// Notes an instance of a template.

@@ -4,9 +4,11 @@
 use lptn_units::Unit;
 
 use crate::diagnostic::Diagnostic;
+use crate::dialect::Dialect;
 use crate::file::{FileId, Span};
-use crate::head::{Head, Row, reader, row};
+use crate::head::{Head, Row, row};
 use crate::hints::{Codes, RECORD};
+use crate::reader::Reader;
 use crate::text::CsvText;
 
 /// Greatest length of a logger's title, in lines.
@@ -30,8 +32,7 @@ fn check(head: &Head, text: &CsvText, (codes, example): (&Codes, &str)) -> Optio
     if let Some(problem) = foreign(head, &text.name, codes) {
         return Some(problem);
     }
-    let mut reader = reader(&text.text);
-    let records = reader.records().filter_map(Result::ok).skip(1).take(LONGEST_TITLE);
+    let records = Reader::rows(&text.text, &Dialect::PLAIN).take(LONGEST_TITLE);
     let rows: Vec<Row> = records.map(|cells| row(cells, &text.text)).collect();
     separator(head, &text.name, (&rows, codes)).or_else(|| title(head, &rows, codes))
 }
@@ -106,13 +107,12 @@ fn names_columns(row: &Row, file: FileId) -> bool {
     named && columns.iter().any(|header| header.unit.as_deref().is_some_and(unit))
 }
 
-/// The header of a text from its first record; `example` is an example of a header.
-pub(crate) fn header(
+/// The header of a text in lptn's own form; `example` is an example of a header.
+pub(crate) fn plain_header(
     text: &CsvText,
-    first: Option<csv::StringRecord>,
     (codes, example): (&'static Codes, &str),
 ) -> Result<Head, Diagnostic> {
-    let Some(first) = first else {
+    let Some(first) = Reader::header(&text.text, &Dialect::PLAIN).next() else {
         let problem = Diagnostic::error(codes.empty, format!("{} has no header", text.name))
             .at(Span::new(text.file, 0..0), "the header belongs here");
         return Err(problem

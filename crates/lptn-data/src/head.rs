@@ -1,12 +1,16 @@
 //! The header of a CSV file and the cells below it: columns by name, numbers with their units,
 //! places, and errors.
 
-use lptn_units::{Dimension, Type, Unit, suggest};
+use lptn_units::{Dimension, Type, Unit};
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
+use crate::dialect::{Dialect, bracketless};
 use crate::file::{FileId, Span};
-use crate::hints::{Codes, other_brackets, text_help};
-use crate::words::nearest;
+use crate::hints::Codes;
+use crate::numeral::{Decimal, foreign};
+use crate::reader::{Reader, line, position};
+use crate::spelling;
+use crate::text::CsvText;
 
 /// The reader of a column.
 #[derive(Clone, Debug, Default)]
@@ -24,7 +28,7 @@ impl Asked {
     }
 
     /// The beginning of a sentence.
-    fn subject(&self) -> String {
+    pub(crate) fn subject(&self) -> String {
         if self.words.is_empty() { String::new() } else { format!("{}: ", self.words) }
     }
 }
@@ -32,10 +36,11 @@ impl Asked {
 /// The columns of a CSV file.
 #[derive(Debug)]
 pub(crate) struct Head {
-    file: FileId,
-    codes: &'static Codes,
+    pub(crate) file: FileId,
+    pub(crate) codes: &'static Codes,
     pub(crate) columns: Vec<Header>,
     pub(crate) place: Span,
+    pub(crate) dialect: Dialect,
 }
 
 /// A column of numbers of a CSV file.
@@ -54,6 +59,8 @@ pub(crate) struct Header {
     pub(crate) name: String,
     pub(crate) unit: Option<String>,
     pub(crate) place: Span,
+    /// True if the unit is in a line of its own.
+    pub(crate) below: bool,
 }
 
 /// A line of cells.
@@ -66,44 +73,11 @@ pub(crate) struct Row {
     plain: bool,
 }
 
-/// Reads records; lines that are empty or begin with `#` are left out.
-pub(crate) fn reader(text: &str) -> csv::Reader<&[u8]> {
-    csv::ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .comment(Some(b'#'))
-        .from_reader(text.as_bytes())
-}
-
-/// The byte at which the reader started to look for a record.
-pub(crate) fn position(cells: &csv::StringRecord) -> usize {
-    cells.position().map_or(0, |position| usize::try_from(position.byte()).unwrap_or(0))
-}
-
 /// A record of `text`, with its place.
 pub(crate) fn row(cells: csv::StringRecord, text: &str) -> Row {
     let place = line(text, position(&cells));
     let plain = !text.get(place.clone()).unwrap_or_default().contains('"');
     Row { cells, place, plain }
-}
-
-/// The line of the record that the reader looked for from this byte on.
-pub(crate) fn line(text: &str, from: usize) -> std::ops::Range<usize> {
-    let mut start = from.min(text.len());
-    if start == 0 && text.starts_with('\u{feff}') {
-        // the reader skips a byte order mark at the beginning, and only there
-        start = '\u{feff}'.len_utf8();
-    }
-    // the reader notes where it started to look for a record, not where the record is
-    let ends = ['\r', '\n'];
-    let mut rest = text.get(start..).unwrap_or_default();
-    while rest.starts_with(ends) || rest.starts_with('#') {
-        // a comment goes on to the line feed, an empty line to either
-        let end = if rest.starts_with('#') { rest.find('\n') } else { Some(0) };
-        start += end.map_or(rest.len(), |end| end + 1);
-        rest = text.get(start..).unwrap_or_default();
-    }
-    start..start + rest.find(ends).unwrap_or(rest.len())
 }
 
 impl Row {
@@ -132,7 +106,7 @@ impl Row {
             Some((name, unit)) => (name.trim().to_owned(), Some(unit.trim().to_owned())),
             None => (written.clone(), None),
         };
-        Header { written, name, unit, place: self.place(file, index) }
+        Header { written, name, unit, place: self.place(file, index), below: false }
     }
 }
 
@@ -140,7 +114,54 @@ impl Head {
     /// The header that a record contains.
     pub(crate) fn new(file: FileId, head: &Row, codes: &'static Codes) -> Self {
         let columns = (0..head.cells.len()).map(|i| head.header(file, i)).collect();
-        Self { file, codes, columns, place: Span::new(file, head.place.clone()) }
+        let place = Span::new(file, head.place.clone());
+        Self { file, codes, columns, place, dialect: Dialect::PLAIN }
+    }
+
+    /// Gives columns without a unit those of a line of units.
+    pub(crate) fn take_units(&mut self, units: &csv::StringRecord) {
+        for (header, cell) in self.columns.iter_mut().zip(units) {
+            let unit = bracketless(cell.trim());
+            if header.unit.is_none() && !unit.is_empty() {
+                (header.unit, header.below) = (Some(unit.to_owned()), true);
+            }
+        }
+    }
+
+    /// Takes the units of `ring (°C)` and `ring/°C` from the names without another unit.
+    pub(crate) fn split_units(&mut self) {
+        for header in self.columns.iter_mut().filter(|header| header.unit.is_none()) {
+            if let Some((name, unit)) = spelling::apart(&header.written) {
+                (header.name, header.unit) = (name.to_owned(), Some(unit.to_owned()));
+            }
+        }
+    }
+
+    /// The reader, before the first row.
+    pub(crate) fn reader<'t>(&self, text: &'t str) -> Reader<'t> {
+        Reader::rows(text, &self.dialect)
+    }
+
+    /// The number in a cell of a column, in SI units.
+    pub(crate) fn value(&self, cell: &str, unit: &Unit) -> Result<f64, Wrong> {
+        value(cell, unit, self.dialect.decimal)
+    }
+
+    /// The codes of its problems.
+    pub(crate) fn codes(&self) -> &'static Codes {
+        self.codes
+    }
+
+    /// The note about a file that is not in lptn's own form; `more` says more of it.
+    pub(crate) fn note(&self, text: &CsvText, more: Vec<String>) -> Option<Diagnostic> {
+        let mut words = self.dialect.told(text);
+        words.extend(more);
+        let message = format!("{} is read with {}", text.name, words.join(", "));
+        let note = Diagnostic {
+            severity: Severity::Note,
+            ..Diagnostic::error(self.codes.read_as, message)
+        };
+        (!words.is_empty()).then(|| note.at(self.place.clone(), "the header"))
     }
 
     /// The text with this header.
@@ -150,9 +171,27 @@ impl Head {
 
     /// The column of this name, if there is one.
     pub(crate) fn optional(&self, name: &str, ask: &Asked) -> Result<Option<usize>, Diagnostic> {
-        let mut found = (0..self.columns.len()).filter(|&i| self.columns[i].name == name);
+        Ok(self.named(name, ask)?.map(|(index, _)| index))
+    }
+
+    /// The column of this name and its unit. The name of `ring (degC)` is the whole header or, if
+    /// no header is so named, `ring`.
+    fn named(&self, name: &str, ask: &Asked) -> Result<Option<(usize, Option<&str>)>, Diagnostic> {
+        let whole = |i: &usize| self.columns[*i].name == name;
+        let mut found = (0..self.columns.len()).filter(whole);
         match (found.next(), found.next()) {
-            (Some(first), Some(second)) => Err(self.two_columns(first, second, ask)),
+            (Some(first), Some(second)) => return Err(self.two_columns(first, second, ask)),
+            (Some(first), _) => return Ok(Some((first, self.columns[first].unit.as_deref()))),
+            _ => {}
+        }
+        let apart = |i: usize| {
+            let header = &self.columns[i];
+            let split = spelling::apart(&header.written).filter(|_| header.unit.is_none());
+            split.filter(|(bare, _)| *bare == name).map(|(_, unit)| (i, Some(unit)))
+        };
+        let mut found = (0..self.columns.len()).filter_map(apart);
+        match (found.next(), found.next()) {
+            (Some(first), Some(second)) => Err(self.two_columns(first.0, second.0, ask)),
             (first, _) => Ok(first),
         }
     }
@@ -169,7 +208,9 @@ impl Head {
         ty: Option<Type>,
         ask: &Asked,
     ) -> Result<CsvColumn, Diagnostic> {
-        self.column(self.find(name, ask)?, ty, ask)
+        let found = self.named(name, ask)?;
+        let (index, unit) = found.ok_or_else(|| self.no_column(name, ask))?;
+        self.column_in((index, unit), ty, ask)
     }
 
     /// A column with its unit, of type `wanted` if that is known. In a record `K` alone is an
@@ -180,13 +221,25 @@ impl Head {
         wanted: Option<Type>,
         ask: &Asked,
     ) -> Result<CsvColumn, Diagnostic> {
+        self.column_in((index, self.columns[index].unit.as_deref()), wanted, ask)
+    }
+
+    fn column_in(
+        &self,
+        (index, unit): (usize, Option<&str>),
+        wanted: Option<Type>,
+        ask: &Asked,
+    ) -> Result<CsvColumn, Diagnostic> {
         let header = &self.columns[index];
         let at = |problem: Diagnostic| ask.also(problem.at(header.place.clone(), ""));
-        if self.codes.of_record && header.unit.is_none() {
-            return Err(at(no_unit(header, wanted)));
+        if self.codes.of_record && unit.is_none() {
+            return Err(at(self.no_unit(header, wanted)));
         }
-        let text = header.unit.as_deref().filter(|unit| *unit != "-").unwrap_or("1");
-        let unit = Unit::parse(text).map_err(|error| {
+        let text = unit.filter(|unit| *unit != "-").unwrap_or("1");
+        if text == "C" && wanted.map_or(self.codes.of_record, |wanted| wanted.absolute) {
+            return Err(at(self.coulomb(header)));
+        }
+        let unit = spelling::unit(text).map_err(|error| {
             let message = format!("the unit of column `{}`: {error}", header.name);
             at(Diagnostic::error(error.code(), message)).help(error.help())
         })?;
@@ -196,134 +249,6 @@ impl Head {
             .map_err(|types| at(self.other_unit(header, types, ask)))?;
         Ok(CsvColumn { index, unit })
     }
-
-    fn other_unit(
-        &self,
-        header: &Header,
-        (wanted, found): (Type, Type),
-        ask: &Asked,
-    ) -> Diagnostic {
-        let (name, due) = (&header.name, wanted.with_article());
-        let (is, help) = match header.unit {
-            None => ("has no unit".to_owned(), "give the column its unit in the header"),
-            Some(_) => (
-                format!("is {}", found.with_article()),
-                "name another column, or correct the unit in the header",
-            ),
-        };
-        let message = match ask.words.as_str() {
-            "" => format!("column `{name}` {is}, but {due} is needed"),
-            words => format!("{words} must be {due}, but column `{name}` {is}"),
-        };
-        let help = format!("{help}, for example `{name} [{}]`", wanted.usual_unit());
-        Diagnostic::error(self.codes.unit, message).help(help)
-    }
-
-    /// The error that there is no such column.
-    fn no_column(&self, name: &str, ask: &Asked) -> Diagnostic {
-        let message = format!("{}there is no column `{name}`", ask.subject());
-        let problem = Diagnostic::error(self.codes.no_column, message);
-        let problem = match &ask.span {
-            Some(span) if ask.words.is_empty() => {
-                problem.at(span.clone(), "").also(self.place.clone(), "the columns")
-            }
-            _ => ask.also(problem.at(self.place.clone(), "the columns")),
-        };
-        if let Some(header) = self.columns.iter().find(|header| header.written == name) {
-            return problem.help(format!("name it without the unit: `{}`", header.name));
-        }
-        let names = || self.columns.iter().map(|header| header.name.as_str());
-        if let Some((bare, unit)) =
-            names().filter_map(other_brackets).find(|(bare, _)| *bare == name)
-        {
-            return problem.help(format!("write its unit in square brackets: `{bare} [{unit}]`"));
-        }
-        let near = suggest(name, names());
-        problem.help(nearest(name, near.into_iter().chain(names()).take(12), "its columns are"))
-    }
-
-    pub(crate) fn two_columns(&self, first: usize, second: usize, ask: &Asked) -> Diagnostic {
-        let name = &self.columns[first].name;
-        let message = format!("{}two columns are named `{name}`", ask.subject());
-        let problem = Diagnostic::error(self.codes.two_columns, message)
-            .at(self.columns[second].place.clone(), "named again")
-            .also(self.columns[first].place.clone(), "first named here");
-        ask.also(problem).help(format!("rename one of them, for example `{name}_2`"))
-    }
-
-    /// The error of a row with a value after the last column: a decimal comma splits every number
-    /// in two.
-    pub(crate) fn extra(&self, row: &Row, ask: &Asked) -> Option<Diagnostic> {
-        let columns = self.columns.len();
-        let index = (columns..row.cells.len()).find(|&i| !row.cell(i).is_empty())?;
-        let message =
-            format!("this row has {} values, the header names {columns} columns", row.cells.len());
-        let problem = Diagnostic::error(self.codes.extra_value, message)
-            .at(row.place(self.file, index), "belongs to no column")
-            .also(self.place.clone(), "the header");
-        Some(ask.also(problem).help(extra_help(row)))
-    }
-
-    /// The error of a row with fewer cells than the header; `example` has an empty cell.
-    pub(crate) fn short(&self, row: &Row, (ask, example): (&Asked, &str)) -> Diagnostic {
-        let (cells, columns) = (row.cells.len(), self.columns.len());
-        let message = format!("this row has {cells} of {columns} values");
-        let problem = Diagnostic::error(self.codes.short_row, message)
-            .at(row.whole(self.file), "")
-            .also(self.place.clone(), "the header");
-        ask.also(problem)
-            .help(format!("a missing value is an empty cell between commas: `{example}`"))
-    }
-
-    /// The error of a cell without a number.
-    pub(crate) fn no_number(
-        &self,
-        row: &Row,
-        (index, wrong): (usize, Wrong),
-        ask: &Asked,
-    ) -> Diagnostic {
-        let (header, cell, codes) = (&self.columns[index], row.cell(index), self.codes);
-        let (name, unit) = (&header.name, header.unit.as_deref().unwrap_or_default());
-        let holds = |what: &str| format!("column `{name}` contains `{cell}`, which is {what}");
-        let digits = cell.chars().any(|c| c.is_ascii_digit());
-        let (code, message) = match wrong {
-            Wrong::Missing => {
-                (codes.missing_value, format!("column `{name}` has no value in this row"))
-            }
-            Wrong::NotFinite => (codes.not_finite, holds("not a finite number")),
-            Wrong::Text => (codes.not_a_number, holds("not a number")),
-            Wrong::Cold => (
-                "units::below_absolute_zero",
-                format!("column `{name}` goes below absolute zero: {cell} {unit}"),
-            ),
-        };
-        let help = match wrong {
-            Wrong::Missing => "fill it in, or leave the row out".to_owned(),
-            Wrong::Cold if codes.of_record => {
-                "0 K is -273.15 degC; leave the cell empty if the sensor had no contact".to_owned()
-            }
-            Wrong::Cold => "0 K is -273.15 degC".to_owned(),
-            Wrong::Text if digits || !codes.of_record => text_help(name, cell),
-            _ if codes.of_record => "leave the cell empty if nothing was measured".to_owned(),
-            _ => "leave the row out: an unknown value is not a point of a curve".to_owned(),
-        };
-        ask.also(Diagnostic::error(code, message).at(row.place(self.file, index), "")).help(help)
-    }
-}
-
-fn no_unit(header: &Header, wanted: Option<Type>) -> Diagnostic {
-    let name = &header.name;
-    let problem = Diagnostic::error("record::no_unit", format!("column `{name}` has no unit"));
-    if let Some((bare, unit)) = other_brackets(name) {
-        return problem.help(format!("write its unit in square brackets: `{bare} [{unit}]`"));
-    }
-    let unit = wanted.unwrap_or(Type::ABSOLUTE_TEMPERATURE).usual_unit();
-    let help = format!("give it in the header: `{name} [{unit}]`");
-    problem.help(if wanted.is_some() {
-        help
-    } else {
-        format!("{help}; a plain number is `{name} [-]`")
-    })
 }
 
 /// The reason why a cell has no number.
@@ -337,36 +262,34 @@ pub enum Wrong {
     NotFinite,
     /// It contains a temperature below absolute zero.
     Cold,
+    /// It contains no date or clock time in the form of the column.
+    Moment,
+}
+
+/// A key of TOML, in quotes if it needs them.
+pub(crate) fn quoted(name: &str) -> String {
+    let bare = |c: char| c.is_ascii_alphanumeric() || "_-".contains(c);
+    if !name.is_empty() && name.chars().all(bare) { name.to_owned() } else { format!("{name:?}") }
 }
 
 /// The number in a cell.
-pub(crate) fn number(cell: &str) -> Result<f64, Wrong> {
+#[inline]
+pub(crate) fn number(cell: &str, decimal: Decimal) -> Result<f64, Wrong> {
     match cell.parse::<f64>() {
         _ if cell.is_empty() => Err(Wrong::Missing),
+        // `20.7` in a file with decimal commas, `1.234` may be thousands
+        Ok(_) if decimal == Decimal::Comma && cell.contains('.') => Err(Wrong::Text),
         Ok(number) if number.is_finite() => Ok(number + 0.0), // -0 is 0
         Ok(_) => Err(Wrong::NotFinite),
-        Err(_) => Err(Wrong::Text),
+        Err(_) => foreign(cell, decimal).ok_or(Wrong::Text),
     }
 }
 
 /// The number in a cell of a column with this unit, in SI units.
-pub(crate) fn value(cell: &str, unit: &Unit) -> Result<f64, Wrong> {
-    let value = unit.to_si(number(cell)?);
+#[inline]
+pub(crate) fn value(cell: &str, unit: &Unit, decimal: Decimal) -> Result<f64, Wrong> {
+    let value = unit.to_si(number(cell, decimal)?);
     if unit.ty.absolute && value < 0.0 { Err(Wrong::Cold) } else { Ok(value) }
-}
-
-/// Help for a row with more values than the header has columns: a decimal comma makes every number
-/// two.
-fn extra_help(row: &Row) -> &'static str {
-    let whole = |i: usize| {
-        let cell = row.cell(i).trim_start_matches(['+', '-']);
-        !cell.is_empty() && cell.chars().all(|c| c.is_ascii_digit())
-    };
-    let halves = (1..row.cells.len()).any(|i| whole(i - 1) && whole(i));
-    match halves {
-        true => "write decimal points, not commas: `25.5`; with a comma every number is two",
-        false => "name every column in the header",
-    }
 }
 
 /// Fits a unit to the type `wanted`: `K` alone is absolute if an absolute temperature is wanted.

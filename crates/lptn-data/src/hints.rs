@@ -18,6 +18,10 @@ pub(crate) struct Codes {
     pub(crate) missing_value: &'static str,
     pub(crate) not_a_number: &'static str,
     pub(crate) not_finite: &'static str,
+    pub(crate) undecided: &'static str,
+    pub(crate) dates: &'static str,
+    pub(crate) start: &'static str,
+    pub(crate) read_as: &'static str,
 }
 
 /// Codes for records and sheets of points.
@@ -34,6 +38,10 @@ pub(crate) const RECORD: &Codes = &Codes {
     missing_value: "record::missing_value",
     not_a_number: "record::not_a_number",
     not_finite: "record::not_finite",
+    undecided: "record::decimal",
+    dates: "record::dates",
+    start: "record::start",
+    read_as: "record::read_as",
 };
 
 /// Codes for the files that a netlist names.
@@ -50,6 +58,10 @@ pub(crate) const NETLIST: &Codes = &Codes {
     missing_value: "netlist::csv_missing_value",
     not_a_number: "netlist::csv_not_a_number",
     not_finite: "netlist::csv_not_finite",
+    undecided: "netlist::csv_decimal",
+    dates: "netlist::csv_dates",
+    start: "netlist::csv_start",
+    read_as: "netlist::csv_read_as",
 };
 
 /// The name and the unit of `ring (degC)`, `ring/degC`, `ring_degC`.
@@ -69,8 +81,8 @@ pub(crate) fn text_help(name: &str, cell: &str) -> String {
     }
     if is_moment(cell) {
         return format!(
-            "times are numbers counted from any moment, in one unit: `{name} [s]`, not clock times \
-             or dates"
+            "a column with a unit contains numbers: write the header of dates and clock times \
+             without a unit, `{name}`"
         );
     }
     if cell.contains(';') {

@@ -161,7 +161,7 @@ pub fn shorten(diagnostics: &mut Vec<Diagnostic>, dropped: usize) {
     let mut kept: std::collections::BTreeMap<Option<FileId>, usize> =
         std::collections::BTreeMap::new();
     let mut keep = vec![false; all];
-    for severity in [Severity::Error, Severity::Warning] {
+    for severity in [Severity::Error, Severity::Warning, Severity::Note] {
         for (diagnostic, keep) in diagnostics.iter().zip(&mut keep) {
             let count = kept.entry(diagnostic.place().map(|span: &Span| span.file)).or_default();
             if diagnostic.severity == severity && *count < MOST_PROBLEMS {

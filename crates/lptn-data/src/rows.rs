@@ -4,9 +4,11 @@ use lptn_units::Type;
 
 use crate::diagnostic::Diagnostic;
 use crate::file::Span;
-use crate::form::header;
-use crate::head::{Asked, CsvColumn, Head, Row, Wrong, position, reader, row, value};
+use crate::head::{Asked, CsvColumn, Head, Row, Wrong, row};
 use crate::hints;
+use crate::open::open;
+use crate::options::CsvOptions;
+use crate::reader::{Reader, position};
 use crate::text::CsvText;
 use crate::words::nearest;
 
@@ -24,7 +26,7 @@ pub struct CsvRows<'s> {
     /// Number of problems found in its cells.
     pub problems: usize,
     text: &'s CsvText,
-    reader: csv::Reader<&'s [u8]>,
+    reader: Reader<'s>,
     record: csv::StringRecord,
     rows: usize,
     marks: Vec<usize>,
@@ -37,11 +39,10 @@ impl<'s> CsvRows<'s> {
     /// # Errors
     /// The error of its form.
     pub fn open(text: &'s CsvText, asked: Asked, example: &str) -> Result<Self, Diagnostic> {
-        let mut reader = reader(&text.text);
-        let mut record = csv::StringRecord::new();
-        let found = reader.read_record(&mut record).unwrap_or(false);
-        let head = header(text, found.then(|| record.clone()), (hints::NETLIST, example));
-        let head = head.map_err(|problem| asked.also(problem))?;
+        let head = open(text, &CsvOptions::default(), (hints::NETLIST, example));
+        let mut head = head.map_err(|problem| asked.also(problem))?;
+        head.split_units();
+        let (reader, record) = (head.reader(&text.text), csv::StringRecord::new());
         let (marks, skipped) = (Vec::new(), Vec::new());
         Ok(Self {
             head,
@@ -59,8 +60,7 @@ impl<'s> CsvRows<'s> {
 
     /// Goes to the next row; false at the end.
     pub fn step(&mut self) -> bool {
-        // the text is UTF-8 and rows may be of any length: nothing else can fail
-        if !self.reader.read_record(&mut self.record).unwrap_or(false) {
+        if !self.reader.read(&mut self.record) {
             return false;
         }
         if self.rows.is_multiple_of(STRIDE) {
@@ -92,6 +92,11 @@ impl<'s> CsvRows<'s> {
         self.row().place(self.head.file(), index)
     }
 
+    /// The note about a file that is not in lptn's own form.
+    pub fn note(&self) -> Option<Diagnostic> {
+        self.head.note(self.text, Vec::new())
+    }
+
     /// True if there is a column of this name.
     pub fn has(&self, name: &str) -> bool {
         self.head.columns.iter().any(|column| column.name == name)
@@ -110,7 +115,14 @@ impl<'s> CsvRows<'s> {
     /// The way back from the elements to their rows.
     pub fn marks(self) -> Marks {
         let count = self.rows - self.skipped.len();
-        Marks { text: self.text.clone(), count, marks: self.marks, skipped: self.skipped }
+        let separator = self.head.dialect.separator;
+        Marks {
+            text: self.text.clone(),
+            count,
+            separator,
+            marks: self.marks,
+            skipped: self.skipped,
+        }
     }
 
     /// The position of a required column.
@@ -147,7 +159,7 @@ impl<'s> CsvRows<'s> {
     /// # Errors
     /// The reason why there is none.
     pub fn number(&self, column: &CsvColumn) -> Result<f64, Wrong> {
-        value(self.cell(column.index), &column.unit)
+        self.head.value(self.cell(column.index), &column.unit)
     }
 
     /// An error for every column that is not one of these.
@@ -172,7 +184,7 @@ impl<'s> CsvRows<'s> {
         match wrong {
             Wrong::Missing => problem.help("fill it in, or remove the row"),
             Wrong::NotFinite => problem.help("write a number, or remove the row"),
-            Wrong::Text | Wrong::Cold => problem,
+            Wrong::Text | Wrong::Cold | Wrong::Moment => problem,
         }
     }
 
@@ -198,6 +210,7 @@ pub struct Marks {
     /// Number of elements from the rows.
     pub count: usize,
     text: CsvText,
+    separator: u8,
     /// The bytes of the rows 0, [`STRIDE`], 2 [`STRIDE`] and so on.
     marks: Vec<usize>,
     /// Number of elements before each skipped row.
@@ -220,11 +233,7 @@ impl Marks {
         let number = element + self.skipped.partition_point(|before| *before <= element);
         // with the line end before it: a reader skips a byte order mark at its beginning
         let mark = self.marks.get(number / STRIDE)?.saturating_sub(1);
-        let mut records = reader(self.text.text.get(mark..)?).into_records();
-        let mut cells = records.nth(number % STRIDE)?.ok()?;
-        let mut position = cells.position()?.clone();
-        position.set_byte(position.byte() + u64::try_from(mark).ok()?);
-        cells.set_position(Some(position));
+        let cells = Reader::at(&self.text.text, mark, self.separator).nth(number % STRIDE)?;
         Some(row(cells, &self.text.text))
     }
 }

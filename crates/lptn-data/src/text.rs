@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::decode::{Encoding, decode};
 use crate::diagnostic::Diagnostic;
 use crate::file::{FileId, Files, Span};
 
@@ -14,25 +15,32 @@ pub struct CsvText {
     pub name: String,
     /// The content.
     pub text: Arc<str>,
+    /// The encoding of the file.
+    pub encoding: Encoding,
 }
 
 impl CsvText {
     /// Keeps the text among others.
     ///
     /// # Errors
-    /// If the bytes are not text in UTF-8.
+    /// If the bytes are not text in UTF-8, UTF-16 or Windows-1252.
     pub fn of(files: &mut Files, name: String, bytes: &[u8]) -> Result<Self, Diagnostic> {
-        match std::str::from_utf8(bytes) {
-            Ok(text) if !text.contains('\0') => {
-                let text: Arc<str> = text.into();
-                Ok(Self { file: files.add(name.as_str(), Arc::clone(&text)), name, text })
-            }
-            _ => {
-                let text = String::from_utf8_lossy(bytes).replace('\0', " ");
-                let file = files.add(name.as_str(), text);
-                Err(not_text(files, file, (&name, bytes)))
-            }
-        }
+        let Some((text, encoding)) = decode(bytes) else {
+            return Err(Self::refused(files, &name, bytes));
+        };
+        let text: Arc<str> = text.into();
+        let file = match encoding {
+            Encoding::Utf8 => files.add(name.as_str(), Arc::clone(&text)),
+            _ => files.add_decoded(&name, Arc::clone(&text), bytes),
+        };
+        Ok(Self { file, name, text, encoding })
+    }
+
+    /// The error of bytes that are not text in UTF-8.
+    pub(crate) fn refused(files: &mut Files, name: &str, bytes: &[u8]) -> Diagnostic {
+        let text = String::from_utf8_lossy(bytes).replace('\0', " ");
+        let file = files.add(name, text);
+        not_text(files, file, (name, bytes))
     }
 }
 

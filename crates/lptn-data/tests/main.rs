@@ -7,5 +7,6 @@
     reason = "modules of tests, and tables that some of them share; a test fails by panicking"
 )]
 
+mod loggers;
 mod record;
 mod record_lines;

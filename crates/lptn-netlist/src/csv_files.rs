@@ -4,12 +4,13 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use lptn_data::{CsvFile, CsvText, Diagnostic, Files, Span};
+use lptn_data::{CsvFile, CsvOptions, CsvText, Diagnostic, Files, Span};
 
+use crate::csv_form::options;
 use crate::format::{NetlistFormat, Role};
 use crate::include::Loader;
 use crate::near_file::NamedFile;
-use crate::raw::{RawKind, RawNetlist, RawTable, RawValue};
+use crate::raw::{RawKind, RawNetlist, RawValue};
 
 const NAMED: NamedFile = NamedFile {
     does: "read a CSV file",
@@ -48,14 +49,14 @@ impl CsvFiles {
             }
         }
         let (mut read, mut done) = (Self::default(), HashMap::new());
-        for (text, value) in named {
-            let path = path(files, text, value);
-            let result = match done.get(&path) {
+        for (text, value, options) in named {
+            let key = (path(files, text, value), options);
+            let result = match done.get(&key) {
                 Some(file) => Ok(Arc::clone(file)),
-                None => load(files, &path, value, loader.as_deref_mut()),
+                None => load(files, &key, value, loader.as_deref_mut()),
             };
             if let Ok(file) = &result {
-                done.insert(path, Arc::clone(file));
+                done.insert(key, Arc::clone(file));
             }
             read.files.insert(value.span.clone(), result);
         }
@@ -85,14 +86,18 @@ fn text(value: &RawValue) -> Option<(&str, &RawValue)> {
     }
 }
 
-/// The values of every `csv` below this one.
-fn find<'a>(value: &'a RawValue, named: &mut Vec<(&'a str, &'a RawValue)>) {
-    let RawKind::Table(RawTable { entries, .. }) = &value.kind else { return };
-    for entry in entries {
+/// The values of every `csv` below this one, with the statements next to it.
+fn find<'a>(value: &'a RawValue, named: &mut Vec<(&'a str, &'a RawValue, CsvOptions)>) {
+    let RawKind::Table(table) = &value.kind else { return };
+    let form = || options(table).0;
+    for entry in &table.entries {
         match &entry.value.kind {
-            RawKind::String { text, .. } if entry.key == CSV => named.push((text, &entry.value)),
+            RawKind::String { text, .. } if entry.key == CSV => {
+                named.push((text, &entry.value, form()));
+            }
             RawKind::Array(items) if entry.key == CSV => {
-                named.extend(items.iter().filter_map(text))
+                let items = items.iter().filter_map(text);
+                named.extend(items.map(|(text, value)| (text, value, form())));
             }
             _ => find(&entry.value, named),
         }
@@ -106,12 +111,12 @@ fn path(files: &Files, text: &str, value: &RawValue) -> PathBuf {
 
 fn load(
     files: &mut Files,
-    path: &Path,
+    (path, options): &(PathBuf, CsvOptions),
     value: &RawValue,
     loader: Option<&mut Loader<'_>>,
 ) -> Result<Arc<CsvFile>, Diagnostic> {
     let text = load_text(files, path, value, loader)?;
-    CsvFile::open(&text, &value.span).map(Arc::new)
+    CsvFile::open(&text, &value.span, options).map(Arc::new)
 }
 
 fn load_text(

@@ -123,6 +123,11 @@ impl<'a> Fields<'a> {
         self.get(key).is_some() || (key == "area" && self.area.is_some())
     }
 
+    /// All entries.
+    pub(crate) fn table(&self) -> &'a RawTable {
+        self.table
+    }
+
     /// The value of a key, if it is there.
     pub(crate) fn get(&self, key: &str) -> Option<&'a RawValue> {
         self.entry(key).map(|entry| &entry.value)

@@ -35,6 +35,7 @@ mod believe;
 mod case;
 mod controller;
 mod csv_files;
+mod csv_form;
 mod describe;
 mod duplicate;
 mod elaborate;
@@ -107,10 +108,10 @@ pub use include::Loader;
 pub use infer::{InferStart, InferStudy, SoughtSignal};
 pub use initial::InitialState;
 pub use lptn_data::{
-    CsvText, DataSheet, Diagnostic, FileId, Files, Label, MOST_BYTES, MOST_CSV_BYTES,
-    MOST_PROBLEMS, ReadError, Record, RecordColumn, RecordLine, RecordLines, RecordName,
-    RecordQuery, RecordRow, Rejected, Saturation, Severity, Span, read_bytes, read_record,
-    read_sheet, read_text,
+    CsvOptions, CsvText, DATE_ORDERS, DECIMALS, DataSheet, DateOrder, Decimal, Diagnostic, FileId,
+    Files, Label, MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, ReadError, Record, RecordColumn,
+    RecordLine, RecordLines, RecordName, RecordQuery, RecordRow, Rejected, Saturation, Severity,
+    Span, read_bytes, read_record, read_sheet, read_text,
 };
 pub use lptn_network::{RunSettings, WindowSettings};
 pub use near_file::similar_file;

@@ -78,6 +78,11 @@ impl Netlist {
         self.inputs.iter().map(|&id| (self.files.name(id), self.files.text(id)))
     }
 
+    /// The same files with their contents, which differ from the text if they are not in UTF-8.
+    pub fn input_bytes(&self) -> impl Iterator<Item = (&str, &[u8])> {
+        self.inputs.iter().map(|&id| (self.files.name(id), self.files.bytes(id)))
+    }
+
     /// Finds the warnings again, for the current parameters.
     pub(crate) fn judge(&mut self) {
         let (network, map) = (&self.network, &self.source_map);

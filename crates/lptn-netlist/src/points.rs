@@ -5,6 +5,7 @@ use std::sync::Arc;
 use lptn_data::{CsvFile, Diagnostic, PlacedNumbers, Places, fit};
 use lptn_units::{Expression, TableError, Type, Unit, parse_quantity, written_quantity};
 
+use crate::csv_form;
 use crate::fields::{Fields, wrong_shape};
 use crate::place::Place;
 use crate::raw::{RawKind, RawValue};
@@ -31,6 +32,7 @@ impl<'a> Elaboration<'a> {
         let [x, y] = axes;
         if fields.get("csv").is_none() {
             self.refuse_keys(fields, &["time", "value"], "names a column, but there is no `csv`");
+            self.refuse_keys(fields, &csv_form::KEYS, "is about a CSV file, but there is no `csv`");
             let (x, y) = (self.points(fields, x), self.points(fields, y));
             return Some([x?, y?]);
         }
@@ -41,6 +43,7 @@ impl<'a> Elaboration<'a> {
         let file = self.csv_file(fields);
         let names = [x, y].map(|axis| self.column_name(fields, axis.column));
         let file = file?;
+        self.problems.extend(file.note(names[0].map(|(name, _)| name)));
         let [x, y] = [(x, names[0]), (y, names[1])]
             .map(|(axis, name)| self.column(fields, &file, axis, name));
         Some([x?, y?])
@@ -49,8 +52,17 @@ impl<'a> Elaboration<'a> {
     /// The file that `csv` names.
     pub(crate) fn csv_file(&mut self, fields: &Fields<'a>) -> Option<Arc<CsvFile>> {
         let (_, raw) = self.word(fields, "csv")?;
+        self.check_form(fields);
         let file = self.csv.get(raw)?;
         self.kept(file)
+    }
+
+    /// Reports wrong statements about the form of the file.
+    pub(crate) fn check_form(&mut self, fields: &Fields<'a>) {
+        for wrong in csv_form::options(fields.table()).1 {
+            let problem = wrong.told(&fields.owner);
+            self.report(problem);
+        }
     }
 
     /// The name of a column.
@@ -91,7 +103,10 @@ impl<'a> Elaboration<'a> {
     ) -> Option<PlacedNumbers> {
         let (name, raw) = name?;
         let place = Place { owner: &fields.owner, key: axis.column, raw };
-        let points = file.column(name, axis.ty, &place.asked());
+        let points = match axis.column {
+            "time" => file.times(name, &place.asked()),
+            _ => file.column(name, axis.ty, &place.asked()),
+        };
         points.map_err(|problems| self.problems.extend(problems)).ok()
     }
 

@@ -314,3 +314,64 @@ time
   = help: use `<` or `>=`; a pulse is `if(t < 5 [s], a, if(t < 6 [s], b, a))`";
     assert_eq!(found.join("\n"), expected);
 }
+
+/// A power and a conductivity in files of loggers.
+const LOGGED: &str = r#"
+format = 1
+
+[node]
+a = { C = "1 J/K", T0 = "30 degC" }
+
+[boundary]
+air = { T = "20 degC" }
+
+[signal.power]
+csv = "p.csv"
+time = "Datum"
+value = "Leistung"
+start = "03.05.2026 08:00:30"
+units = { Leistung = "W" }
+
+[table]
+k = { csv = "k.csv", x = "T", value = "k" }
+
+[source]
+heat = { into = "a", P = "power + k(30 [degC]) * 1 [K m]" }
+
+[resistor]
+skin = { from = "a", to = "air", G = "1 W/K" }
+"#;
+
+/// A signal and a table from the files of loggers: at 08:00:30, half way between two rows, the
+/// signal is 15.5 W; at 30 degC, half way between two rows, the table is 205 W/(m K).
+#[test]
+fn signals_and_tables_are_read_from_files_of_loggers() {
+    let files: [(&str, &[u8]); 2] = [
+        (
+            "p.csv",
+            b"Pr\xfcfstand;;\nDatum;Uhrzeit;Leistung\n03.05.2026;08:00;10,5\n\
+            03.05.2026;08:01;20,5\n",
+        ),
+        ("k.csv", b"rods of alloy\nT (\xb0C)\tk [W/(m K)]\n20\t200,0\n40\t210,0\n"),
+    ];
+    let netlist = lptn_netlist::parse_with("net.toml", LOGGED, &mut |path: &std::path::Path| {
+        let found = files.iter().find(|(name, _)| path.to_str() == Some(name));
+        Ok(found.map(|(_, bytes)| bytes.to_vec()).unwrap_or_default())
+    });
+    let netlist = netlist.unwrap_or_else(|rejected| panic!("{rejected}"));
+    let network = &netlist.network;
+    let mut powers = [0.0];
+    network.source_powers(&mut network.evaluation(), &mut powers).unwrap();
+    close(powers[0], 15.5 + 205.0);
+    let notes: Vec<&str> = netlist.warnings.iter().map(|note| note.message.as_str()).collect();
+    assert_eq!(
+        notes,
+        [
+            "p.csv is read with `;` between columns, decimal commas, encoding Windows-1252, one \
+             line above the header left out, 0 s at 03.05.2026 08:00:30",
+            "k.csv is read with tabs between columns, decimal commas, encoding Windows-1252, one \
+             line above the header left out",
+        ]
+    );
+    assert!(netlist.warnings.iter().all(|note| note.severity == Severity::Note));
+}

@@ -6,7 +6,7 @@ use std::io::{Error, ErrorKind};
 use std::path::Path;
 
 use lptn_netlist::{Netlist, Rejected, parse, parse_with};
-use lptn_network::{Field, Item};
+use lptn_network::{ConductorKind, Field, Formula, Item};
 
 const MAIN: &str = "format = 1\n[import]\nnodes = \"n.csv\"\nboundaries = \"b.csv\"\nconductors \
     = \"c.csv\"\n\
@@ -206,4 +206,46 @@ fn the_start_of_default_is_that_of_empty_cells() {
     let netlist =
         read(&main, &with("n.csv", "name,C [J/K]\nn1,500\nn2,\n\"wall[1,2]\",0.5\n")).unwrap();
     assert!((netlist.network.initial(netlist.network.node("n1").unwrap()) - 313.15).abs() < 1e-12);
+}
+
+/// Each file has the law that its columns name; rows without a name are counted over the files.
+#[test]
+fn the_columns_of_a_file_choose_its_law() {
+    let main = MAIN.replace("\"c.csv\"", "[\"c.csv\", \"g.csv\", \"f.csv\"]");
+    let [nodes, boundaries, conductors, sources] = SMALL;
+    let seen = ("g.csv", "from,to,Gr [cm^2]\nn1,n2,400\n");
+    let films =
+        ("f.csv", "from,to,area [cm^2],h [W/(m^2 K)],name\nn1,air,50,8,\nn2,air,20,9,top\n");
+    let netlist = read(&main, &[nodes, boundaries, conductors, seen, films, sources]).unwrap();
+    let (network, map) = (&netlist.network, &netlist.source_map);
+    let told: Vec<_> = network
+        .conductors()
+        .iter()
+        .zip(network.conductor_ids())
+        .skip(3)
+        .map(|(conductor, id)| {
+            (
+                network.name_of(Item::Conductor(id)).into_owned(),
+                conductor.kind,
+                conductor.law.formula(),
+            )
+        })
+        .collect();
+    assert_eq!(
+        told,
+        [
+            ("import.conductor[4]".into(), ConductorKind::Radiation, Formula::ExchangeArea),
+            ("import.conductor[5]".into(), ConductorKind::Convection, Formula::Film),
+            ("top".into(), ConductorKind::Convection, Formula::Film),
+        ]
+    );
+    let ids: Vec<_> = network.conductor_ids().collect();
+    // 50 cm^2 times 8 W/(m^2 K), 20 cm^2 times 9
+    assert!((network.conductance(ids[4]).unwrap() - 0.04).abs() < 1e-15);
+    assert!((network.conductance(ids[5]).unwrap() - 0.018).abs() < 1e-15);
+    let at = |id: usize, key| {
+        let field = Field::of_law(key).unwrap();
+        netlist.files.at(&map.get(Item::Conductor(ids[id]), field).unwrap()).to_owned()
+    };
+    assert_eq!([at(3, "Gr"), at(4, "h"), at(5, "area")], ["400", "8", "20"]);
 }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use lptn_netlist::{Diagnostic, Files, Record, RecordColumn, RecordQuery, read_record};
+use lptn_netlist::{CsvOptions, Diagnostic, Files, Record, RecordColumn, RecordQuery, read_record};
 use lptn_plot::Figure;
 use lptn_plot::figure::{Look, Moment};
 use lptn_report::panels;
@@ -24,6 +24,8 @@ pub struct Columns {
     pub select: Vec<String>,
     /// The unit of temperatures; `None` for that of the file.
     pub temperature_unit: Option<String>,
+    /// Statements about the form of CSV files.
+    pub csv: CsvOptions,
 }
 
 /// One of the things that are drawn over each other.
@@ -140,7 +142,7 @@ impl Columns {
         let scale = scale.map(|scale| input::scale_of("--temperature-unit", scale)).transpose()?;
         let text = input::read(path)?;
         let of_run = path.file_name().is_some_and(|name| name == RESULT);
-        let query = RecordQuery { of_run, ..RecordQuery::default() };
+        let query = RecordQuery { of_run, csv: self.csv.clone(), ..RecordQuery::default() };
         let (record, files) = read_record(Path::new(&text.name), &text.bytes, &query)?;
         let wanted = |column: &&RecordColumn| {
             self.select.is_empty()

@@ -1,11 +1,9 @@
 //! Columns of numbers that are read row by row.
 
 use crate::diagnostic::Diagnostic;
-use crate::head::{Asked, CsvColumn, Head, Row, Wrong, value};
+use crate::gap::is_gap_word;
+use crate::head::{Asked, CsvColumn, Head, Row, Wrong};
 use crate::record::RecordColumn;
-
-/// Words for a value that was not measured.
-const GAPS: [&str; 5] = ["nan", "na", "n/a", "null", "none"];
 
 /// The first problem of a kind, and the number of such problems.
 #[derive(Default)]
@@ -75,7 +73,7 @@ impl Cells {
     /// Adds the values of a row in SI units: NaN for a gap or a wrong cell.
     pub(crate) fn push(&mut self, row: &Row) {
         for (i, CsvColumn { index, unit }) in self.chosen.iter().enumerate() {
-            let value = value(row.cell(*index), unit).unwrap_or_else(|wrong| {
+            let value = self.head.value(row.cell(*index), unit).unwrap_or_else(|wrong| {
                 if !is_gap(row.cell(*index), wrong) {
                     self.wrong[i]
                         .add(|| self.head.no_number(row, (*index, wrong), &Asked::default()));
@@ -96,13 +94,9 @@ impl Cells {
 
 /// True if nothing was measured.
 pub(crate) fn is_gap(cell: &str, wrong: Wrong) -> bool {
-    let word = cell.trim_start_matches(['+', '-']).trim_start_matches('#');
     match wrong {
         Wrong::Missing => true,
-        Wrong::Cold => false,
-        Wrong::Text | Wrong::NotFinite => {
-            cell.chars().all(|c| "-–—.".contains(c))
-                || GAPS.iter().any(|gap| gap.eq_ignore_ascii_case(word))
-        }
+        Wrong::Cold | Wrong::Moment => false,
+        Wrong::Text | Wrong::NotFinite => is_gap_word(cell),
     }
 }

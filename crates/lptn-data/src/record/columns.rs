@@ -1,31 +1,67 @@
 //! The choice of the columns of a record.
 
-use lptn_units::{Dimension, Type, Unit};
+use lptn_units::{Dimension, Type};
 
+use crate::clock::{Clock, TIME};
 use crate::diagnostic::Diagnostic;
+use crate::dialect::Dialect;
 use crate::head::{Asked, CsvColumn, Head, Header, number};
-use crate::record::{RecordName, RecordQuery};
+use crate::moment::Moment;
+use crate::record::{Extent, RecordName, RecordQuery};
+use crate::spelling;
+use crate::text::CsvText;
 
-const TIME: Type = Type::of(Dimension::TIME);
+/// The columns of a record.
+pub(crate) struct Choice {
+    pub(crate) time: CsvColumn,
+    /// The clock, if the times are dates or clock times.
+    pub(crate) clock: Option<Clock>,
+    pub(crate) columns: Vec<CsvColumn>,
+    /// The names of columns without a unit, which are left out of a logger's file.
+    pub(crate) skipped: Vec<String>,
+}
 
 /// The column of the times, and the others.
 pub(crate) fn choose(
-    head: &Head,
+    (head, text): (&Head, &CsvText),
     first: Option<&csv::StringRecord>,
-    query: &RecordQuery,
-) -> Result<(CsvColumn, Vec<CsvColumn>), Vec<Diagnostic>> {
-    let time = time(head, query.time.as_ref());
-    let position = time.as_ref().map(|time| time.index).ok();
+    (query, extent): (&RecordQuery, Extent),
+) -> Result<Choice, Vec<Diagnostic>> {
+    let nothing = csv::StringRecord::new();
+    let cells = first.filter(|_| extent == Extent::Whole).unwrap_or(&nothing);
+    let mut time = time((head, text), cells, query);
+    if let Ok((column, None)) = &time
+        && let Some(problem) = Clock::unused(head, column.index, &query.csv)
+    {
+        time = Err(problem);
+    }
+    let position = time.as_ref().map(|(time, _)| time.index).ok();
+    let clock = time.as_ref().ok().and_then(|(_, clock)| clock.as_ref());
+    let logged = clock.is_some() || head.dialect != Dialect::PLAIN;
+    let (mut skipped, mut wanted) = (Vec::new(), Vec::new());
+    for index in all(head, first, position) {
+        match logged && unusable(&head.columns[index]) {
+            _ if clock.is_some_and(|clock| clock.takes(index)) => {}
+            true => skipped.push(head.columns[index].name.clone()),
+            false => wanted.push(index),
+        }
+    }
     let chosen = match query.columns.as_slice() {
-        [] => each(all(head, first, position).map(|index| of_any(head, index, query.of_run))),
+        [] => each(wanted.into_iter().map(|index| of_any(head, index, query.of_run))),
         names => each(names.iter().map(|name| named(head, name))),
     };
+    skipped.retain(|_| query.columns.is_empty());
     match (time, chosen) {
-        (Ok(time), Ok(chosen)) => Ok((time, chosen)),
+        (Ok((time, clock)), Ok(columns)) => Ok(Choice { time, clock, columns, skipped }),
         (time, chosen) => {
             Err(time.err().into_iter().chain(chosen.err().into_iter().flatten()).collect())
         }
     }
+}
+
+/// True for a column without a unit that lptn knows.
+fn unusable(header: &Header) -> bool {
+    header.unit.as_deref().is_none_or(|unit| !spelling::is_unit(unit))
 }
 
 /// All results, or all errors.
@@ -51,24 +87,57 @@ pub(crate) fn all(
 ) -> impl Iterator<Item = usize> {
     let words = move |index: usize| {
         let cell = first.and_then(|cells| cells.get(index)).unwrap_or_default().trim();
-        head.columns[index].unit.is_none() && number(cell).is_err()
+        head.columns[index].unit.is_none() && number(cell, head.dialect.decimal).is_err()
     };
     (0..head.columns.len()).filter(move |&index| Some(index) != time && !words(index))
 }
 
-fn time(head: &Head, asked: Option<&RecordName>) -> Result<CsvColumn, Diagnostic> {
-    if let Some(asked) = asked {
-        return named(head, &RecordName { ty: Some(TIME), ..asked.clone() });
+fn time(
+    (head, text): (&Head, &CsvText),
+    first: &csv::StringRecord,
+    query: &RecordQuery,
+) -> Result<(CsvColumn, Option<Clock>), Diagnostic> {
+    let nobody = Asked::default();
+    if let Some(asked) = &query.time {
+        let ask = Asked { words: String::new(), span: asked.span.clone() };
+        let index = head.find(&asked.name, &ask)?;
+        return Ok(match Clock::of((head, text), (index, first), &query.csv)? {
+            Some(clock) => (clock.column(), Some(clock)),
+            None => (named(head, &RecordName { ty: Some(TIME), ..asked.clone() })?, None),
+        });
     }
+    let columns = &head.columns;
     let is_time = |header: &Header| {
-        let unit = header.unit.as_deref().and_then(|unit| Unit::parse(unit).ok());
+        let unit = header.unit.as_deref().and_then(|unit| spelling::unit(unit).ok());
         unit.is_some_and(|unit| unit.ty == TIME)
     };
+    let of_unit = columns.iter().position(|header| is_time(header) && !header.below);
+    if of_unit.is_none()
+        && let Some(index) = moments(head, first)
+        && let Some(clock) = Clock::of((head, text), (index, first), &query.csv)?
+    {
+        return Ok((clock.column(), Some(clock)));
+    }
     let by_name =
         |header: &Header| ["t", "time"].iter().any(|name| header.name.eq_ignore_ascii_case(name));
-    let columns = &head.columns;
-    let index = columns.iter().position(is_time).or_else(|| columns.iter().position(by_name));
-    head.column(index.ok_or_else(|| no_time(head))?, Some(TIME), &Asked::default())
+    let index = of_unit
+        .or_else(|| columns.iter().position(is_time))
+        .or_else(|| columns.iter().position(by_name));
+    Ok((head.column(index.ok_or_else(|| no_time(head))?, Some(TIME), &nobody)?, None))
+}
+
+/// Words in the names of columns of times.
+const TIMES: [&str; 6] = ["time", "zeit", "date", "datum", "stamp", "uhr"];
+
+/// The column of dates or clock times: the first with such a name, else the first.
+fn moments(head: &Head, first: &csv::StringRecord) -> Option<usize> {
+    let cell = |index: &usize| first.get(*index).unwrap_or_default().trim();
+    let all = || (0..head.columns.len()).filter(|index| Moment::of(cell(index)).is_some());
+    let named = |index: &usize| {
+        let name = head.columns[*index].name.to_lowercase();
+        TIMES.iter().any(|word| name.contains(word))
+    };
+    all().find(named).or_else(|| all().next())
 }
 
 /// A column that is asked for by name.

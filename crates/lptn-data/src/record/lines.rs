@@ -3,8 +3,8 @@
 use crate::diagnostic::Diagnostic;
 use crate::file::Files;
 use crate::limits::Rejected;
-use crate::record::rows::{Extent, read};
-use crate::record::{Record, RecordQuery};
+use crate::record::rows::read;
+use crate::record::{Extent, Record, RecordQuery};
 use crate::text::CsvText;
 
 /// Reads a record line by line. Comments, gaps, units, repeated rows and a last row that breaks off
@@ -98,9 +98,8 @@ impl RecordLines {
         }
         let (mut files, mut all) = (Files::new(), vec![b'\n'; self.count - 1]);
         all.extend_from_slice(bytes);
-        let text = CsvText::of(&mut files, self.name.clone(), &all);
-        text.map(|text| text.text.to_string())
-            .map_err(|problem| Rejected::new(files, vec![problem]))
+        let problem = CsvText::refused(&mut files, &self.name, &all);
+        Err(Rejected::new(files, vec![problem]))
     }
 
     /// The kept lines, one after the other or each at its own line.

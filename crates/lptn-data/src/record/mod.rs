@@ -12,7 +12,7 @@
 //! | a time twice with other values, below the one before it, or none | an error with both lines |
 //! | more than 5 times the usual time between two rows | a warning |
 //! | a header without unit, a unit in a cell, text among numbers | an error |
-//! | another separator, a decimal comma | an error |
+//! | another separator, decimal commas, titles, dates | read, with a note |
 //! | a value below absolute zero | an error |
 //! | a jump by 273.15 K, or to 1.8 times the value + 32 | a warning: the unit seems to change |
 //! | an extreme value kept after a steep rise or fall | a warning: the sensor may be at its end |
@@ -38,6 +38,7 @@ use lptn_units::{Type, Unit};
 use crate::diagnostic::{Diagnostic, Severity};
 use crate::file::{FileId, Files, Span};
 use crate::limits::Rejected;
+use crate::options::CsvOptions;
 use crate::text::CsvText;
 
 /// A column to look for in a record.
@@ -73,6 +74,8 @@ pub struct RecordQuery {
     pub to: Option<f64>,
     /// True if outliers become gaps.
     pub drop_outliers: bool,
+    /// Statements about the form of the file.
+    pub csv: CsvOptions,
     /// True for the result of a run, where `K` alone is a difference except in columns named
     /// `NODE.T`. A sensor does not measure differences.
     pub of_run: bool,
@@ -144,8 +147,16 @@ impl Record {
     /// The place of a row, in the text it was read from.
     pub(crate) fn line_in(&self, text: &str, row: usize) -> Span {
         let from = self.bytes.get(row).copied().unwrap_or(text.len());
-        Span::new(self.file, crate::head::line(text, from))
+        Span::new(self.file, crate::reader::line(text, from))
     }
+}
+
+/// The part of a record that a text contains.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Extent {
+    Whole,
+    /// Some of its rows: no row, or no value of a column, is not an error.
+    Part,
 }
 
 /// Reads a record from the bytes of a file; `path` is its name in diagnostics.
@@ -171,7 +182,7 @@ pub fn read_record(
 /// # Errors
 /// Every problem, each with a code `record::problem` and its line.
 pub fn read_text(text: &CsvText, query: &RecordQuery) -> Result<Record, Vec<Diagnostic>> {
-    let mut record = rows::read(text, query, rows::Extent::Whole)?;
+    let mut record = rows::read(text, query, Extent::Whole)?;
     let text = &text.text;
     let holes = times::holes(&record, text);
     record.warnings.extend(holes);
@@ -192,7 +203,7 @@ pub fn read_text(text: &CsvText, query: &RecordQuery) -> Result<Record, Vec<Diag
         }
         record.warnings.extend(warnings);
     }
-    debug_assert!(record.warnings.iter().all(|warning| warning.severity == Severity::Warning));
+    debug_assert!(record.warnings.iter().all(|warning| warning.severity != Severity::Error));
     record.warnings.sort_by_key(|warning| warning.place().map(Span::order));
     Ok(record)
 }

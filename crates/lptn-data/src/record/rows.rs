@@ -1,13 +1,16 @@
 //! The rows of a record, one after the other.
 
+use crate::clock::Clock;
 use crate::diagnostic::Diagnostic;
-use crate::form::header;
-use crate::head::{Asked, CsvColumn, Head, Row, Wrong, number, position, reader, row};
+use crate::form::plain_header;
+use crate::head::{Asked, CsvColumn, Head, Row, Wrong, number, row};
 use crate::hints;
+use crate::open::open;
+use crate::reader::position;
 use crate::record::cells::{Cells, Counted, is_gap};
-use crate::record::columns::choose;
+use crate::record::columns::{Choice, choose};
 use crate::record::times::Order;
-use crate::record::{Record, RecordColumn, RecordQuery};
+use crate::record::{Extent, Record, RecordColumn, RecordQuery};
 use crate::text::CsvText;
 
 /// An example of a header.
@@ -17,6 +20,7 @@ const EXAMPLE: &str = "t [s],ring [degC]";
 struct Work<'t> {
     text: &'t CsvText,
     time: CsvColumn,
+    clock: Option<Clock>,
     cells: Cells,
     record: Record,
     order: Order<'t>,
@@ -26,26 +30,23 @@ struct Work<'t> {
     timeless: Counted,
 }
 
-/// The part of a record that a text contains.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Extent {
-    Whole,
-    /// Some of its rows: no row, or no value of a column, is not an error.
-    Part,
-}
-
 /// The numbers of a record, in SI units.
 pub(crate) fn read(
     text: &CsvText,
     query: &RecordQuery,
     extent: Extent,
 ) -> Result<Record, Vec<Diagnostic>> {
-    let mut reader = reader(&text.text);
-    let mut rows = reader.records().filter_map(Result::ok).peekable();
-    let head =
-        header(text, rows.next(), (hints::RECORD, EXAMPLE)).map_err(|problem| vec![problem])?;
-    let (time, chosen) = choose(&head, rows.peek(), query)?;
-    let mut work = Work::new(text, Cells::new(head, chosen), time);
+    let head = match extent {
+        Extent::Whole => open(text, &query.csv, (hints::RECORD, EXAMPLE)),
+        Extent::Part => plain_header(text, (hints::RECORD, EXAMPLE)),
+    };
+    let head = head.map_err(|problem| vec![problem])?;
+    let mut rows = head.reader(&text.text).peekable();
+    let choice = choose((&head, text), rows.peek(), (query, extent))?;
+    let note = head.note(text, told(&choice, rows.peek(), query));
+    let Choice { time, clock, columns, .. } = choice;
+    let mut work = Work::new(text, Cells::new(head, columns), (time, clock));
+    work.record.warnings.extend(note);
     work.window = (query.from.unwrap_or(f64::NEG_INFINITY), query.to.unwrap_or(f64::INFINITY));
     while let Some(cells) = rows.next() {
         work.row(cells, rows.peek().is_none());
@@ -53,8 +54,17 @@ pub(crate) fn read(
     work.finish(extent)
 }
 
+/// Words about the times and the columns of a logger's file.
+fn told(choice: &Choice, first: Option<&csv::StringRecord>, query: &RecordQuery) -> Vec<String> {
+    let zero = choice.clock.as_ref().zip(first);
+    let zero = zero.map(|(clock, first)| format!("0 s at {}", clock.zero_words(first, &query.csv)));
+    let names: Vec<String> = choice.skipped.iter().map(|name| format!("`{name}`")).collect();
+    let skipped = format!("without the columns {}, which have no unit", names.join(", "));
+    zero.into_iter().chain((!names.is_empty()).then_some(skipped)).collect()
+}
+
 impl<'t> Work<'t> {
-    fn new(text: &'t CsvText, cells: Cells, time: CsvColumn) -> Self {
+    fn new(text: &'t CsvText, cells: Cells, (time, clock): (CsvColumn, Option<Clock>)) -> Self {
         let comments = text.text.lines().filter_map(|line| line.strip_prefix('#'));
         let record = Record {
             file: text.file,
@@ -65,9 +75,9 @@ impl<'t> Work<'t> {
             warnings: Vec::new(),
             bytes: Vec::new(),
         };
-        let order = Order::new(&text.text, &time.unit);
+        let order = Order::new(&text.text, &time.unit, clock.is_some());
         let window = (f64::NEG_INFINITY, f64::INFINITY);
-        Self { text, time, cells, record, order, window, timeless: Counted::default() }
+        Self { text, time, clock, cells, record, order, window, timeless: Counted::default() }
     }
 
     fn row(&mut self, cells: csv::StringRecord, last: bool) {
@@ -76,8 +86,13 @@ impl<'t> Work<'t> {
         if !self.has_its_cells(&row, last) {
             return;
         }
-        let time = match number(row.cell(self.time.index)) {
-            Ok(time) => self.time.unit.to_si(time),
+        let time = match &mut self.clock {
+            Some(clock) => clock.time(|index| row.cell(index)),
+            None => number(row.cell(self.time.index), self.cells.head.dialect.decimal)
+                .map(|time| self.time.unit.to_si(time)),
+        };
+        let time = match time {
+            Ok(time) => time,
             Err(wrong) => {
                 let problem = self.no_time(&row, wrong);
                 self.timeless.add(|| problem);

@@ -4,10 +4,11 @@ use std::path::Path;
 
 use crate::diagnostic::Diagnostic;
 use crate::file::{FileId, Files, Span};
-use crate::form::header;
-use crate::head::{reader, row};
+use crate::head::row;
 use crate::hints;
 use crate::limits::Rejected;
+use crate::open::open;
+use crate::options::CsvOptions;
 use crate::record::RecordColumn;
 use crate::record::cells::Cells;
 use crate::record::columns::{all, each, of_any};
@@ -30,6 +31,8 @@ pub struct DataSheet {
     pub words: Vec<(String, Vec<String>)>,
     /// The place of each row.
     pub rows: Vec<Span>,
+    /// The note about a file that is not in lptn's own form.
+    pub note: Option<Diagnostic>,
 }
 
 impl DataSheet {
@@ -53,10 +56,10 @@ pub fn read_sheet(path: &Path, bytes: &[u8]) -> Result<(DataSheet, Files), Rejec
 
 fn parse(files: &mut Files, name: &str, bytes: &[u8]) -> Result<DataSheet, Vec<Diagnostic>> {
     let text = CsvText::of(files, name.to_owned(), bytes).map_err(|problem| vec![problem])?;
-    let mut reader = reader(&text.text);
-    let mut records = reader.records().filter_map(Result::ok).peekable();
-    let head =
-        header(&text, records.next(), (hints::RECORD, EXAMPLE)).map_err(|problem| vec![problem])?;
+    let head = open(&text, &CsvOptions::default(), (hints::RECORD, EXAMPLE));
+    let head = head.map_err(|problem| vec![problem])?;
+    let note = head.note(&text, Vec::new());
+    let mut records = head.reader(&text.text).peekable();
     let numbers: Vec<usize> = all(&head, records.peek(), None).collect();
     let spoken: Vec<usize> =
         (0..head.columns.len()).filter(|index| !numbers.contains(index)).collect();
@@ -80,6 +83,6 @@ fn parse(files: &mut Files, name: &str, bytes: &[u8]) -> Result<DataSheet, Vec<D
         let problem = problem.at(head.place.clone(), "nothing below it");
         problems.push(problem.help("write one point a line: `1000,8.7`"));
     }
-    let sheet = DataSheet { file: text.file, header: head.place, columns, words, rows };
+    let sheet = DataSheet { file: text.file, header: head.place, columns, words, rows, note };
     if problems.is_empty() { Ok(sheet) } else { Err(problems) }
 }

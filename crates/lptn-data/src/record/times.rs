@@ -11,11 +11,17 @@ use lptn_units::format_short as short;
 /// A hole is longer than this multiple of the usual time between two rows.
 const HOLE: f64 = 5.0;
 
+/// Help for a clock that goes back.
+const SET_BACK: &str = "was the clock set back, as at the end of daylight-saving time? log in UTC, \
+    or write the offset behind each time, `02:00:00+02:00`; else sort the rows, or split the file";
+
 /// The order of the rows so far.
 pub(crate) struct Order<'t> {
     text: &'t str,
     /// The unit of the times in the file.
     unit: Unit,
+    /// True if the times are dates or clock times.
+    clock: bool,
     first: Option<f64>,
     last: Option<(f64, Span)>,
     reversed: Counted,
@@ -24,9 +30,9 @@ pub(crate) struct Order<'t> {
 }
 
 impl<'t> Order<'t> {
-    pub(crate) fn new(text: &'t str, unit: &Unit) -> Self {
-        let (reversed, repeated) = Default::default();
-        Self { text, unit: unit.clone(), first: None, last: None, reversed, repeated, same: None }
+    pub(crate) fn new(text: &'t str, unit: &Unit, clock: bool) -> Self {
+        let (reversed, repeated, first, last, same) = Default::default();
+        Self { text, unit: unit.clone(), clock, first, last, reversed, repeated, same }
     }
 
     /// False for the time of the row before it; counts rows that repeat it or go back in time.
@@ -44,6 +50,7 @@ impl<'t> Order<'t> {
             }
             Some((last, before)) if time < *last => {
                 let problem = reversed([*last, time].map(|time| self.shown(time)), &place, before);
+                let problem = if self.clock { problem.help(SET_BACK) } else { problem };
                 self.reversed.add(|| problem);
                 true
             }

@@ -2,10 +2,11 @@
 
 use std::sync::Arc;
 
-use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, read_text};
+use lptn_data::{CsvOptions, Diagnostic, Record, RecordName, RecordQuery, read_text};
 use lptn_network::{Context, Value};
 use lptn_units::Scope as _;
 
+use crate::csv_form;
 use crate::fields::{Fields, Owner, wrong_shape};
 use crate::fit::read::Column;
 use crate::fit::{FitRecord, FitSignal, RECORD, VariedName};
@@ -70,11 +71,19 @@ impl<'a> Elaboration<'a> {
         query: &RecordQuery,
     ) -> Option<FitRecord> {
         let mut set = Vec::new();
-        let mut sound = true;
+        let (mut sound, mut form) = (true, CsvOptions::default());
         if let RawKind::Table(table) = &item.kind {
+            let (options, wrong) = csv_form::options(table);
+            form = options;
+            for wrong in wrong {
+                let problem = wrong.told(&fields.owner.inside("data"));
+                self.report(problem);
+                sound = false;
+            }
             for entry in &table.entries {
                 sound &= match entry.key.as_str() {
                     "csv" => true,
+                    key if csv_form::KEYS.contains(&key) => true,
                     "set" => {
                         let owner = fields.owner.inside("data").inside("set");
                         self.parameters_set(&owner, entry, &mut set)
@@ -92,8 +101,9 @@ impl<'a> Elaboration<'a> {
             }
             return None;
         };
-        let record = self.fit_file(raw, query)?;
-        sound.then(|| FitRecord { csv: text.to_owned(), record, set, span: raw.span.clone() })
+        let query = RecordQuery { csv: form.clone(), ..query.clone() };
+        let record = self.fit_file(raw, &query)?;
+        sound.then(|| FitRecord { csv: text.to_owned(), record, set, form, span: raw.span.clone() })
     }
 
     /// The record that a value names. Without columns to read, its contents cannot be checked.

@@ -1,5 +1,6 @@
 //! The keys of `[fit.NAME]`.
 
+use crate::csv_form::{DATES, DECIMAL, START, UNITS};
 use crate::fit::read::OUTLIERS;
 use crate::format::{
     KeyDeclaration, NAMES, Role, SectionDeclaration, Takes, akin, shaped, text, words, words_of,
@@ -98,6 +99,10 @@ pub(super) const RECORD: SectionDeclaration = SectionDeclaration {
             "the parameters with other values in its run",
             "{ omega = \"1000 rpm\" }",
         ),
+        DECIMAL,
+        DATES,
+        START,
+        UNITS,
     ],
     example: "{ csv = \"r1.csv\", set = { omega = \"1000 rpm\" } }",
     ..SectionDeclaration::NEW

@@ -10,10 +10,11 @@ mod recorded;
 
 use std::sync::Arc;
 
-use lptn_data::{Diagnostic, Record, RecordName, RecordQuery, Span};
+use lptn_data::{CsvOptions, Diagnostic, Record, RecordName, RecordQuery, Span};
 use lptn_network::{End, Network, ParameterId, Parameters, Value, Varied};
 use lptn_units::{Correlations, EvalError, Type};
 
+use crate::csv_form;
 use crate::format::SectionDeclaration;
 use crate::raw::RawEntry;
 use crate::study::{PathFrom, Study, type_of};
@@ -57,6 +58,8 @@ pub struct FitRecord {
     pub record: Arc<Record>,
     /// Parameters with separate values for this record, by name.
     pub(crate) set: Vec<(String, Value)>,
+    /// Statements about the form of the file.
+    pub(crate) form: CsvOptions,
     /// The place of the file name.
     pub span: Span,
 }
@@ -284,7 +287,9 @@ impl FitStudy {
                     format!("{} = {}", toml_key(name), like(own, type_of(network, name)))
                 }),
             );
-            if record.set.is_empty() { csv } else { fields.inline() }
+            csv_form::put(&record.form, &mut fields);
+            let plain = record.set.is_empty() && record.form == CsvOptions::default();
+            if plain { csv } else { fields.inline() }
         };
         let records: Vec<String> = self.records.iter().map(record).collect();
         fields.put("data", format!("[{}]", records.join(", ")));

@@ -1,37 +1,58 @@
 //! The columns of an imported file, and errors of its cells.
 
-use lptn_data::{CsvColumn, CsvRows, Diagnostic, MOST_PROBLEMS};
-use lptn_laws::Formula;
+use lptn_data::{CsvColumn, CsvRows, Diagnostic, MOST_PROBLEMS, Span};
 use lptn_network::{End, Input};
-use lptn_units::{Dimension, Quantity, Type};
+use lptn_units::{Quantity, Type};
 
 use crate::fields::Fields;
-use crate::import::Contents;
+use crate::import::{Contents, listed};
 use crate::place::Place;
+use crate::raw::RawValue;
 use crate::work::{Elaboration, stand_in};
 
 impl<'a> Elaboration<'a> {
-    /// The file of this kind, if one is named; its header has no unknown columns.
-    pub(crate) fn rows(
+    /// The files of this kind; their headers have no unknown columns.
+    pub(crate) fn files(
         &mut self,
         import: Option<&Fields<'a>>,
         contents: &Contents,
-    ) -> Option<CsvRows<'a>> {
-        let fields = import?;
-        fields.get(contents.key)?;
-        let rows = self.opened(fields, contents);
-        if rows.is_none() {
+    ) -> Vec<CsvRows<'a>> {
+        let Some((fields, raw)) =
+            import.and_then(|fields| Some((fields, fields.get(contents.key)?)))
+        else {
+            return Vec::new();
+        };
+        let files = listed(raw);
+        if files.is_empty() {
+            self.report(fields.wrong_shape(contents.key, raw, "a CSV file, or a list of them"));
+        }
+        for (n, file) in files.iter().enumerate() {
+            let Some((text, _)) = file.file() else { continue };
+            let first = files[..n].iter().find(|first| first.file().is_some_and(|f| f.0 == text));
+            if let Some(first) = first {
+                self.report(twice(text, [&first.span, &file.span]));
+            }
+        }
+        let opened: Vec<_> =
+            files.iter().filter_map(|file| self.opened(fields, contents, file)).collect();
+        if opened.len() < files.len() {
             self.lost();
         }
-        rows
+        opened
     }
 
-    fn opened(&mut self, fields: &Fields<'a>, contents: &Contents) -> Option<CsvRows<'a>> {
-        let (_, raw) = self.word(fields, contents.key)?;
+    fn opened(
+        &mut self,
+        fields: &Fields<'a>,
+        contents: &Contents,
+        raw: &'a RawValue,
+    ) -> Option<CsvRows<'a>> {
+        fields.text(contents.key, raw, &mut self.problems)?;
         let asked = Place { owner: &fields.owner, key: contents.key, raw }.asked();
         let csv: &'a crate::csv_files::CsvFiles = self.csv;
         let text = csv.text(raw)?.map_err(Diagnostic::clone);
         let rows = self.kept(text.and_then(|text| CsvRows::open(text, asked, contents.example)))?;
+        self.problems.extend(rows.note());
         let unknown = rows.unknown_columns(contents.columns);
         let known = unknown.is_empty();
         self.problems.extend(unknown);
@@ -58,31 +79,6 @@ impl<'a> Elaboration<'a> {
         self.kept(rows.numbers(name, ty))
     }
 
-    /// The conductances or the resistances: one of the two.
-    pub(crate) fn law_column(&mut self, rows: &CsvRows<'_>) -> Option<(CsvColumn, Formula)> {
-        let (conductance, resistance) =
-            (self.optional_column(rows, "G"), self.optional_column(rows, "R"));
-        match (conductance, resistance) {
-            (Some(g), Some(r)) => {
-                self.report(two_laws(rows, g, r));
-                None
-            }
-            (None, Some(_)) => {
-                let column = self.number_column(rows, "R", Type::of(Dimension::RESISTANCE))?;
-                Some((column, Formula::Resistance))
-            }
-            (Some(_), None) => {
-                let column = self.number_column(rows, "G", Type::of(Dimension::CONDUCTANCE))?;
-                Some((column, Formula::Conductance))
-            }
-            (None, None) => {
-                let help = "add a column `G [W/K]` or a column `R [K/W]`";
-                self.kept(rows.required("G").map_err(|problem| problem.help(help)));
-                None
-            }
-        }
-    }
-
     /// The number in a cell; a stand-in if it is wrong.
     pub(crate) fn number(&mut self, rows: &mut CsvRows<'_>, column: &CsvColumn) -> Input {
         let ty = column.unit.ty;
@@ -96,6 +92,11 @@ impl<'a> Elaboration<'a> {
                 stand_in(ty)
             }
         }
+    }
+
+    /// The numbers in several cells of a row.
+    pub(crate) fn numbers(&mut self, rows: &mut CsvRows<'_>, columns: &[CsvColumn]) -> Vec<Input> {
+        columns.iter().map(|column| self.number(rows, column)).collect()
     }
 
     /// The node or boundary that a cell names.
@@ -163,10 +164,10 @@ impl<'a> Elaboration<'a> {
     }
 }
 
-fn two_laws(rows: &CsvRows<'_>, conductance: usize, resistance: usize) -> Diagnostic {
-    let message = format!("{} have a column `G` and a column `R`", rows.asked.words);
-    let problem = Diagnostic::error("netlist::two_laws", message)
-        .at(rows.header(resistance), "`R` here")
-        .also(rows.header(conductance), "`G` here");
-    rows.asked.also(problem).help("keep one of them")
+fn twice(file: &str, [first, again]: [&Span; 2]) -> Diagnostic {
+    let message = format!("{file} is named twice: its rows would count twice");
+    Diagnostic::error("netlist::import_twice", message)
+        .at(again.clone(), "again")
+        .also(first.clone(), "first here")
+        .help("name each file once")
 }

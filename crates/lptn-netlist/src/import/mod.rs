@@ -6,17 +6,21 @@
 //! The place of a row is counted from every 256th row.
 
 mod column;
+mod law;
 
 use lptn_data::{CsvColumn, CsvRows};
-use lptn_network::{ConductorKind, Field, Path};
+use lptn_network::{Field, Path};
 use lptn_units::{Dimension, Type};
 
 use crate::fields::{Fields, Owner};
-use crate::format::{Role, SectionDeclaration, text};
+use crate::format::{FILES, Role, SectionDeclaration, shaped};
 use crate::imported::{Kind, Places};
 use crate::raw::{RawKind, RawNetlist, RawValue};
 use crate::section::Initial;
 use crate::work::Elaboration;
+
+/// The value of each key, in words.
+const NAMED: &str = "file, or a list of files";
 
 const ABSOLUTE: Type = Type::ABSOLUTE_TEMPERATURE;
 
@@ -25,15 +29,22 @@ pub(crate) const IMPORT: SectionDeclaration = SectionDeclaration {
     sentence: "Elements from CSV files, one in each row.",
     role: Role::Import,
     keys: &[
-        text("nodes", "file", "columns `name`, `C`, and `T0` if there is one", "\"nodes.csv\""),
-        text("boundaries", "file", "columns `name`, `T`", "\"boundaries.csv\""),
-        text(
-            "conductors",
-            "file",
-            "columns `from`, `to`, `G` or `R`, and `name`",
-            "\"conductors.csv\"",
+        shaped(
+            "nodes",
+            NAMED,
+            FILES,
+            "columns `name`, `C`, and `T0` if there is one",
+            "\"nodes.csv\"",
         ),
-        text("sources", "file", "columns `into`, `P`, and `name`", "\"sources.csv\""),
+        shaped("boundaries", NAMED, FILES, "columns `name`, `T`", "\"boundaries.csv\""),
+        shaped(
+            "conductors",
+            NAMED,
+            FILES,
+            "columns `from`, `to`, and `name`; `G`, `R`, `Gr`, or `h` and `area`",
+            "[\"lines.csv\", \"radiation.csv\"]",
+        ),
+        shaped("sources", NAMED, FILES, "columns `into`, `P`, and `name`", "\"sources.csv\""),
     ],
     example: "{ nodes = \"nodes.csv\", conductors = \"conductors.csv\" }",
     elsewhere: &[
@@ -42,16 +53,28 @@ pub(crate) const IMPORT: SectionDeclaration = SectionDeclaration {
         ("conductor", "did you mean `conductors`?"),
         ("resistors", "paths between two ends are `conductors`"),
         ("source", "did you mean `sources`?"),
+        ("radiation", "paths by radiation are `conductors`, with a column `Gr [m^2]`"),
+        ("convection", "films are `conductors`, with columns `h [W/(m^2 K)]` and `area [m^2]`"),
     ],
     ..SectionDeclaration::NEW
 };
 
 /// The files that it names.
 pub(crate) fn files(raw: &RawNetlist) -> impl Iterator<Item = (&str, &RawValue)> {
-    raw.elements(IMPORT.name).iter().filter_map(|entry| match &entry.value.kind {
-        RawKind::String { text, .. } => Some((text.as_str(), &entry.value)),
-        _ => None,
+    raw.elements(IMPORT.name).iter().flat_map(|entry| listed(&entry.value)).filter_map(|value| {
+        match &value.kind {
+            RawKind::String { text, .. } => Some((text.as_str(), value)),
+            _ => None,
+        }
     })
+}
+
+/// The items of a list, or the value itself.
+fn listed(value: &RawValue) -> &[RawValue] {
+    match &value.kind {
+        RawKind::Array(items) => items,
+        _ => std::slice::from_ref(value),
+    }
 }
 
 /// The contents of a file: the key that names it, and its columns.
@@ -68,7 +91,7 @@ const BOUNDARIES: Contents =
     Contents { key: "boundaries", columns: &["name", "T"], example: "name,T [degC]" };
 const CONDUCTORS: Contents = Contents {
     key: "conductors",
-    columns: &["from", "to", "G", "R", "name"],
+    columns: &["from", "to", "G", "R", "Gr", "h", "area", "name"],
     example: "from,to,G [W/K]",
 };
 const SOURCES: Contents =
@@ -104,7 +127,10 @@ impl<'a> Elaboration<'a> {
         import: Option<&Fields<'a>>,
         default: Option<&Initial<'a>>,
     ) {
-        let Some(mut rows) = self.rows(import, &NODES) else { return };
+        self.files(import, &NODES).into_iter().for_each(|rows| self.nodes_of(rows, default));
+    }
+
+    fn nodes_of(&mut self, mut rows: CsvRows<'a>, default: Option<&Initial<'a>>) {
         let name = self.required_column(&rows, "name");
         let capacity = self.number_column(&rows, "C", Type::of(Dimension::CAPACITY));
         let initial = rows.has("T0").then(|| self.number_column(&rows, "T0", ABSOLUTE));
@@ -135,7 +161,10 @@ impl<'a> Elaboration<'a> {
     }
 
     pub(crate) fn import_boundaries(&mut self, import: Option<&Fields<'a>>) {
-        let Some(mut rows) = self.rows(import, &BOUNDARIES) else { return };
+        self.files(import, &BOUNDARIES).into_iter().for_each(|rows| self.boundaries_of(rows));
+    }
+
+    fn boundaries_of(&mut self, mut rows: CsvRows<'a>) {
         let (name, temperature) =
             (self.required_column(&rows, "name"), self.number_column(&rows, "T", ABSOLUTE));
         let (Some(name), Some(temperature)) = (name, temperature) else { return self.lost() };
@@ -151,46 +180,63 @@ impl<'a> Elaboration<'a> {
     }
 
     pub(crate) fn import_conductors(&mut self, import: Option<&Fields<'a>>) {
-        let Some(mut rows) = self.rows(import, &CONDUCTORS) else { return };
+        let mut before = 0;
+        for rows in self.files(import, &CONDUCTORS) {
+            before += self.conductors_of(rows, before);
+        }
+    }
+
+    /// The conductors of a file, and the number of its rows; `before` is that of the files before.
+    fn conductors_of(&mut self, mut rows: CsvRows<'a>, before: u32) -> u32 {
         let (from, to) = (self.required_column(&rows, "from"), self.required_column(&rows, "to"));
         let name = self.optional_column(&rows, "name");
-        let (Some(from), Some(to), Some((column, law))) = (from, to, self.law_column(&rows)) else {
+        let (Some(from), Some(to), Some((law, columns))) = (from, to, self.law_columns(&rows))
+        else {
             self.left_out.paths = true;
-            return;
+            return 0;
         };
-        let first = self.builder.conductor_count();
+        let (first, kind) = (self.builder.conductor_count(), law.declaration().kinds[0]);
         while self.next_row(&mut rows) {
-            let value = self.number(&mut rows, &column);
-            let path = Path::new(law, [value]);
+            let path = match columns.as_slice() {
+                [one] => Path::new(law, [self.number(&mut rows, one)]),
+                all => Path::new(law, self.numbers(&mut rows, all)),
+            };
             let ends = (self.end_of(&mut rows, ("from", from)), self.end_of(&mut rows, ("to", to)));
             let (Some(start), Some(end)) = ends else {
                 self.left_out.paths = true;
                 rows.skip();
                 continue;
             };
-            let kind = ConductorKind::Resistor;
             match rows.name(name) {
                 Some(name) => self.builder.conductor(name, kind, (start, end), path),
-                None => self.builder.numbered_conductor(rows.count(), kind, (start, end), path),
+                None => {
+                    let number = before + rows.count();
+                    self.builder.numbered_conductor(number, kind, (start, end), path)
+                }
             };
-            self.map.conductor("resistor");
+            self.map.conductor(kind.declaration().section);
         }
-        let key = law.declaration().fields[0].key;
-        let fields = [
-            (Field::Name, name),
-            (Field::From, Some(from)),
-            (Field::To, Some(to)),
-            (Field::of_law(key).unwrap_or(Field::Value), Some(column.index)),
-        ];
+        let mut fields =
+            vec![(Field::Name, name), (Field::From, Some(from)), (Field::To, Some(to))];
+        fields.extend(law::fields(law, &columns));
+        let count = rows.count();
         self.map.add_import(places(rows, (Kind::Conductor, first), &fields));
+        count
     }
 
     pub(crate) fn import_sources(&mut self, import: Option<&Fields<'a>>) {
-        let Some(mut rows) = self.rows(import, &SOURCES) else { return };
+        let mut before = 0;
+        for rows in self.files(import, &SOURCES) {
+            before += self.sources_of(rows, before);
+        }
+    }
+
+    /// The sources of a file, and the number of its rows; `before` is that of the files before.
+    fn sources_of(&mut self, mut rows: CsvRows<'a>, before: u32) -> u32 {
         let into = self.required_column(&rows, "into");
         let power = self.number_column(&rows, "P", Type::of(Dimension::POWER));
         let name = self.optional_column(&rows, "name");
-        let (Some(into), Some(power)) = (into, power) else { return };
+        let (Some(into), Some(power)) = (into, power) else { return 0 };
         let first = self.builder.source_count();
         while self.next_row(&mut rows) {
             let value = self.number(&mut rows, &power);
@@ -200,12 +246,14 @@ impl<'a> Elaboration<'a> {
             };
             match rows.name(name) {
                 Some(name) => self.builder.source(name, end, value),
-                None => self.builder.numbered_source(rows.count(), end, value),
+                None => self.builder.numbered_source(before + rows.count(), end, value),
             };
         }
         let fields =
             [(Field::Name, name), (Field::Into, Some(into)), (Field::POWER, Some(power.index))];
+        let count = rows.count();
         self.map.add_import(places(rows, (Kind::Source, first), &fields));
+        count
     }
 
     /// Notes that names may be unknown because a file is missing.

@@ -29,6 +29,7 @@ impl<'a> Elaboration<'a> {
         }
         let names = ["x", "value"].map(|key| self.column_name(fields, key));
         let names = [names[0]?, names[1]?];
+        self.check_form(fields);
         let (mut curves, mut types): (Vec<Curve>, _) = (Vec::new(), [None, None]);
         let mut complete = true;
         for file in files {
@@ -69,6 +70,7 @@ impl<'a> Elaboration<'a> {
     ) -> Option<Curve> {
         let file = self.csv.get(file)?;
         let file = self.kept(file)?;
+        self.problems.extend(file.note(None));
         let axis = |key: &'static str, ty| Axis { list: key, unit: "", column: key, ty };
         let x = self.column(fields, &file, axis("x", types[0]), Some(names[0]));
         let y = self.column(fields, &file, axis("value", types[1]), Some(names[1]));

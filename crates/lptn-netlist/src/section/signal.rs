@@ -6,6 +6,7 @@ use lptn_units::{
     Dimension, Interpolation, Outside, Table1, Type, Unit, format_number, parse_quantity,
 };
 
+use crate::csv_form::{DATES, DECIMAL, START, UNITS};
 use crate::fields::Fields;
 use crate::format::{Role, SectionDeclaration, Takes, key, shaped, text, words, words_of};
 use crate::names::ValueKind;
@@ -40,6 +41,10 @@ pub(crate) const SIGNAL: SectionDeclaration = SectionDeclaration {
         CSV,
         text("time", "name of a column", "with `csv`: the times", "\"t\""),
         COLUMN,
+        DECIMAL,
+        DATES,
+        START,
+        UNITS,
         words("interp", &words_of(&JOINS), "the interpolation between points", "\"linear\"")
             .or("`\"linear\"`"),
         words("after_end", &words_of(&AFTER), "the values after the last point", "\"hold\"")

@@ -9,6 +9,7 @@ use lptn_units::{
     TableSymbol, Type, Unit,
 };
 
+use crate::csv_form::{DECIMAL, UNITS};
 use crate::fields::Fields;
 use crate::format::{
     FILES, KeyDeclaration, Role, SectionDeclaration, Takes, shaped, text, words, words_of,
@@ -56,6 +57,8 @@ pub(crate) const TABLE: SectionDeclaration = SectionDeclaration {
             "\"cycle.csv\"",
         ),
         COLUMN,
+        DECIMAL,
+        UNITS,
         words(
             "interp",
             &words_of(&INTERPOLATIONS),

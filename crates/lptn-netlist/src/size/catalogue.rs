@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lptn_data::{Asked, CsvFile, CsvText, Diagnostic, PlacedNumbers, Rejected, Span};
+use lptn_data::{Asked, CsvFile, CsvOptions, CsvText, Diagnostic, PlacedNumbers, Rejected, Span};
 use lptn_network::Context;
 use lptn_units::{Scope as _, Type, Unit, suggest};
 
@@ -58,7 +58,9 @@ impl Catalogue {
         (text, span): (&CsvText, &Span),
         ty: &mut TypeOf<'_>,
     ) -> Result<Self, Vec<Diagnostic>> {
-        let file = Arc::new(CsvFile::open(text, span).map_err(|problem| vec![problem])?);
+        let file = Arc::new(
+            CsvFile::open(text, span, &CsvOptions::default()).map_err(|problem| vec![problem])?,
+        );
         let asked = Asked { words: String::new(), span: Some(span.clone()) };
         let mut problems = Vec::new();
         let parts = file.words(PART, &asked);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lptn_data::{Asked, CsvFile, Diagnostic, PlacedNumbers, Span, list};
+use lptn_data::{Asked, CsvFile, CsvOptions, Diagnostic, PlacedNumbers, Span, list};
 use lptn_network::Value;
 use lptn_units::{Dimension, Type};
 
@@ -213,7 +213,9 @@ impl<'a> Elaboration<'a> {
         fields.text("file", raw, &mut self.problems)?;
         let csv: &'a crate::csv_files::CsvFiles = self.csv;
         let text = self.kept(csv.text(raw)?.map_err(Diagnostic::clone))?;
-        self.kept(CsvFile::open(text, &raw.span)).map(Arc::new)
+        let file = self.kept(CsvFile::open(text, &raw.span, &CsvOptions::default()))?;
+        self.problems.extend(file.note(None));
+        Some(Arc::new(file))
     }
 
     fn csv_axis(

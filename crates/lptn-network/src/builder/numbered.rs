@@ -15,6 +15,7 @@ use crate::value::Input;
 const SHARES: f64 = 1e-9;
 
 const CONDUCTANCE: Type = Type::of(Dimension::CONDUCTANCE);
+const AREA: Type = Type::of(Dimension::AREA);
 
 impl NetworkBuilder {
     /// Adds a conductor that is called by a number, `import.conductor[17]`. Numbers are at least 1
@@ -49,7 +50,7 @@ impl NetworkBuilder {
         let item = Item::Conductor(ConductorId::from_len(self.parts.conductors.len()));
         let law = match path {
             // nearly all conductors of a large network
-            path if is_conductance(&path) => path.map(|_, input| input.value),
+            path if is_plain(&path) => path.map(|_, input| input.value),
             path => self.law(&label.of_conductor(), item, path),
         };
         self.push_law(label, kind, (from, to), law)
@@ -112,7 +113,12 @@ impl NetworkBuilder {
     }
 }
 
-fn is_conductance(path: &Path) -> bool {
-    let simple = path.formula() == Formula::Conductance && path.fluid().is_none();
-    simple && matches!(path.values(), [input] if input.ty == CONDUCTANCE)
+/// True for a conductance or an exchange area of the right type, which need no name for messages.
+fn is_plain(path: &Path) -> bool {
+    let wanted = match path.formula() {
+        Formula::Conductance => CONDUCTANCE,
+        Formula::ExchangeArea => AREA,
+        _ => return false,
+    };
+    path.fluid().is_none() && matches!(path.values(), [input] if input.ty == wanted)
 }

@@ -163,7 +163,7 @@ pub(super) fn read(path: &Path, question: &FitLawQuestion) -> Result<Data, Failu
     let points = Points::new(kept(speed), kept(power), sigma.map(kept))
         .and_then(|points| points.with_variables(&speed.name, others.map(variable).collect()))
         .map_err(|error| wrong_points(&error, &sheet, &files, &rows))?;
-    let warnings = left_out(&sheet, rows.len()).into_iter().collect();
+    let warnings = sheet.note.clone().into_iter().chain(left_out(&sheet, rows.len())).collect();
     Ok(Data {
         name: path.display().to_string(),
         warnings,

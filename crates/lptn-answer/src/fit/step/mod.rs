@@ -10,7 +10,7 @@ mod request;
 use std::path::{Path, PathBuf};
 
 use lptn_fit::step::{Capacity, Power, ReferenceTemperature as Zero, Sensor, StepError, StepFit};
-use lptn_netlist::{Diagnostic, Files, Posterior, RecordColumn};
+use lptn_netlist::{CsvOptions, Diagnostic, Files, Posterior, RecordColumn};
 
 use crate::answer::Answer;
 use crate::exit::Exit;
@@ -33,6 +33,8 @@ pub struct FitStepQuestion {
     pub to: Option<String>,
     /// True if values far from those before and after them are left out.
     pub drop_outliers: bool,
+    /// Statements about the form of the file.
+    pub csv: CsvOptions,
     /// The heat capacity, `2659 J/K ± 5 %`; `None` for no heat and no resistance.
     pub capacity: Option<String>,
     /// The zero of rises: `initial`, a column, or a temperature; `None` for `initial`.

@@ -119,6 +119,7 @@ fn query(question: &FitStepQuestion) -> Result<RecordQuery, Failure> {
         from,
         to,
         drop_outliers: question.drop_outliers,
+        csv: question.csv.clone(),
         of_run: false,
     })
 }

@@ -186,6 +186,9 @@ impl Page for View<'_> {
         json.member("ok", &(finding.exit() == Exit::Done))?;
         json.member("errors", &finding.list(Severity::Error))?;
         json.member("warnings", &finding.list(Severity::Warning))?;
+        if finding.number(Severity::Note) > 0 {
+            json.member("notes", &finding.list(Severity::Note))?;
+        }
         json.member("stiffness", &finding.stiffness().as_ref().map(Stiff::json))?;
         json.member("lumping", &lumping.map(|(network, lumping)| lumping::json(network, lumping)))
     }

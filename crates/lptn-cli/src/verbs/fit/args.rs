@@ -18,7 +18,7 @@ pub(crate) struct FitArgs {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum FitVerb {
-    Step(StepArgs),
+    Step(Box<StepArgs>),
     Network(NetworkArgs),
     Law(Box<LawArgs>),
     Compare(FitCompareArgs),

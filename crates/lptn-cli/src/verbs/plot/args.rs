@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args as Arguments;
 
 use crate::drawing::Drawing;
-use crate::options::{Scale, TEMPLATE, Times};
+use crate::options::{CsvForm, Scale, TEMPLATE, Times};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -34,4 +34,6 @@ pub(crate) struct PlotArgs {
     pub(crate) times: Times,
     #[command(flatten)]
     pub(crate) scale: Scale,
+    #[command(flatten)]
+    pub(crate) form: CsvForm,
 }

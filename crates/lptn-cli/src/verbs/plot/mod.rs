@@ -65,6 +65,7 @@ fn source(path: &Path, args: &PlotArgs, console: &Console) -> Result<(Source, Ex
     let columns = Columns {
         select: args.select.clone(),
         temperature_unit: args.scale.temperature_unit.clone(),
+        csv: args.form.options()?,
     };
     let source = match is_record(path) {
         true => Source::of_record(path, &columns)?,

@@ -95,6 +95,7 @@ fn listed(path: &Path, records: &[PathBuf], found: &mut Folder) -> Result<Speeds
     let bytes = lptn_netlist::read_bytes(path)?;
     found.inputs.push(hash(path, &bytes));
     let (sheet, files) = read_sheet(path, &bytes)?;
+    found.warnings.extend(sheet.note.clone().map(|note| (files.clone(), vec![note])));
     let speed = Type::of(Dimension::ANGULAR_VELOCITY);
     let column = sheet.columns.iter().find(|column| column.unit.ty == speed);
     let names = sheet.words.iter().find(|(name, _)| name == "file").or_else(|| sheet.words.first());

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args as Arguments;
 
-use crate::options::{Printed, Scale, TEMPLATE};
+use crate::options::{CsvForm, Printed, Scale, TEMPLATE};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -57,4 +57,6 @@ pub(crate) struct StepArgs {
     pub(crate) printed: Printed,
     #[command(flatten)]
     pub(crate) scale: Scale,
+    #[command(flatten)]
+    pub(crate) form: CsvForm,
 }

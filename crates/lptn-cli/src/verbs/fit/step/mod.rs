@@ -20,6 +20,7 @@ pub(crate) fn step(args: &StepArgs, console: &Console) -> Result<Exit, Failure> 
         from: args.from.clone(),
         to: args.to.clone(),
         drop_outliers: args.drop_outliers,
+        csv: args.form.options()?,
         capacity: args.capacity.clone(),
         reference: Some(args.reference.clone()),
         sensor: args.sensor.clone(),

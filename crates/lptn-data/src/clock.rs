@@ -1,0 +1,246 @@
+//! Times from dates and clock times: seconds from the first row, or from a moment that is given.
+//!
+//! Nothing is guessed. A date whose order no row shows is refused unless every row has the same
+//! date. A clock without a date may pass midnight: it falls by more than half a day. A smaller
+//! fall, as at the end of daylight-saving time, is a time that goes back.
+
+use lptn_units::{Dimension, Type, Unit};
+
+use crate::diagnostic::Diagnostic;
+use crate::file::Span;
+use crate::head::{CsvColumn, Head, Wrong, number, row};
+use crate::moment::{DAY, Date, DateOrder, Moment, SECOND};
+use crate::options::CsvOptions;
+use crate::spelling;
+use crate::text::CsvText;
+
+/// The columns of dates and clock times of a file.
+pub(crate) struct Clock {
+    /// The columns whose cells are one moment, the asked one first.
+    parts: Vec<usize>,
+    /// A column of milliseconds in addition.
+    milliseconds: Option<usize>,
+    order: DateOrder,
+    /// The first row, whose form all others have.
+    first: Moment,
+    unit: Unit,
+    zero: Option<i64>,
+    last: Option<i64>,
+    days: i64,
+}
+
+impl Clock {
+    /// The clock in a column; `None` if its first cell is no date or clock time, or if the column
+    /// has a unit of time.
+    ///
+    /// # Errors
+    /// If the order of its dates cannot be found, or `start` has another form.
+    pub(crate) fn of(
+        (head, text): (&Head, &CsvText),
+        (index, first): (usize, &csv::StringRecord),
+        options: &CsvOptions,
+    ) -> Result<Option<Self>, Diagnostic> {
+        let cell = |index: usize| first.get(index).unwrap_or_default().trim();
+        let header = &head.columns[index];
+        let unit = header.unit.as_deref().filter(|_| !header.below);
+        let timed = unit.and_then(|unit| spelling::unit(unit).ok());
+        let Some(moment) = Moment::of(cell(index)).filter(|_| timed.is_none()) else {
+            return Ok(None);
+        };
+        let mut clock = Self {
+            parts: vec![index],
+            milliseconds: None,
+            order: DateOrder::DayFirst,
+            first: moment,
+            unit: Unit { text: "s".to_owned(), scale: 1.0, offset: 0.0, ty: TIME },
+            zero: None,
+            last: None,
+            days: 0,
+        };
+        let beside = [index.checked_sub(1), Some(index + 1)].into_iter().flatten();
+        let other = beside.filter_map(|at| Some((at, Moment::of(cell(at))?.with(moment)?))).next();
+        if let Some((at, whole)) = other {
+            clock.parts.push(at);
+            clock.first = whole;
+        }
+        let behind = clock.parts.iter().max().map_or(0, |last| last + 1);
+        let is_part = |header: &crate::head::Header| header.name == "ms";
+        clock.milliseconds = head.columns.get(behind).filter(|h| is_part(h)).map(|_| behind);
+        clock.order = order((head, text), &clock.parts, options)?;
+        clock.zero = clock.start((head, text), first, options)?;
+        Ok(Some(clock))
+    }
+
+    /// The error of statements about dates, if the times are numbers.
+    pub(crate) fn unused(head: &Head, time: usize, options: &CsvOptions) -> Option<Diagnostic> {
+        let key = match (&options.start, options.dates) {
+            (Some(_), _) => "start",
+            (None, Some(_)) => "dates",
+            (None, None) => return None,
+        };
+        let header = &head.columns[time];
+        let message =
+            format!("`{key}` is about dates and clock times: column `{}` has none", header.name);
+        Some(
+            Diagnostic::error(head.codes().start, message)
+                .at(header.place.clone(), "the times")
+                .help(format!("remove `{key}`, or name a column of dates or clock times")),
+        )
+    }
+
+    /// The column, whose unit is the second.
+    pub(crate) fn column(&self) -> CsvColumn {
+        CsvColumn { index: self.parts[0], unit: self.unit.clone() }
+    }
+
+    /// True for a column that is a part of the times.
+    pub(crate) fn takes(&self, column: usize) -> bool {
+        self.parts.contains(&column) || self.milliseconds == Some(column)
+    }
+
+    /// The moment that is 0 s as the file or `start` has it.
+    pub(crate) fn zero_words(&self, first: &csv::StringRecord, options: &CsvOptions) -> String {
+        let mut parts = self.parts.clone();
+        parts.sort_unstable();
+        let cells: Vec<&str> =
+            parts.iter().map(|&part| first.get(part).unwrap_or_default().trim()).collect();
+        options.start.clone().unwrap_or_else(|| cells.join(" "))
+    }
+
+    /// The time of a row in s.
+    ///
+    /// # Errors
+    /// If its cells are no moment in the form of the first row.
+    pub(crate) fn time<'c>(&mut self, cell: impl Fn(usize) -> &'c str) -> Result<f64, Wrong> {
+        let mut moment = Moment::default();
+        for &part in &self.parts {
+            let cell = cell(part);
+            if cell.is_empty() {
+                return Err(Wrong::Missing);
+            }
+            moment = Moment::of(cell).and_then(|one| moment.with(one)).ok_or(Wrong::Moment)?;
+        }
+        let mut at = self.nanoseconds(moment).ok_or(Wrong::Moment)?;
+        if let Some(column) = self.milliseconds {
+            let more = number(cell(column), crate::numeral::Decimal::Point)?;
+            at += (more * (SECOND / 1000) as f64).round() as i64;
+        }
+        if moment.date.is_none() {
+            at += self.days * DAY;
+            if self.last.is_some_and(|last| at < last && at + DAY - last < DAY / 2) {
+                self.days += 1;
+                at += DAY;
+            }
+        }
+        self.last = Some(at);
+        let zero = *self.zero.get_or_insert(at);
+        Ok((at - zero) as f64 / SECOND as f64)
+    }
+
+    /// Nanoseconds from 1970, or from the first midnight of a clock without a date.
+    fn nanoseconds(&self, moment: Moment) -> Option<i64> {
+        let form = |m: &Moment| [m.date.is_some(), m.clock.is_some(), m.offset.is_some()];
+        if form(&moment) != form(&self.first) {
+            return None;
+        }
+        let day = moment.date.map_or(Some(0), |date| date.day(self.order))?;
+        let ahead = moment.offset.unwrap_or(0) * 60 * SECOND;
+        Some(day * DAY + moment.clock.unwrap_or(0) - ahead)
+    }
+
+    /// The nanoseconds that are 0 s by `start`.
+    fn start(
+        &self,
+        (head, text): (&Head, &CsvText),
+        first: &csv::StringRecord,
+        options: &CsvOptions,
+    ) -> Result<Option<i64>, Diagnostic> {
+        let Some(start) = &options.start else { return Ok(None) };
+        let moment = Moment::of(start).map(|moment| Moment {
+            date: moment.date.or(self.first.date),
+            offset: moment.offset.or(self.first.offset),
+            ..moment
+        });
+        let found = moment.and_then(|moment| self.nanoseconds(moment));
+        found.map(Some).ok_or_else(|| {
+            let place = row(first.clone(), &text.text).place(head.file(), self.parts[0]);
+            let shown = self.zero_words(first, &CsvOptions::default());
+            let message = format!("`start`, {start}, does not have the form of the first time");
+            Diagnostic::error(head.codes().start, message)
+                .at(place, "the first time")
+                .help(format!("write it like this: `start = \"{shown}\"`"))
+        })
+    }
+}
+
+/// The dates of a column: how many of them allow which order.
+#[derive(Default)]
+struct Dates {
+    first: Option<(Date, Span)>,
+    /// True if a date is not the first one.
+    differ: bool,
+    /// True if the first or the second number of a date is no month.
+    above: [bool; 2],
+}
+
+/// The order of the dates.
+fn order(
+    (head, text): (&Head, &CsvText),
+    parts: &[usize],
+    options: &CsvOptions,
+) -> Result<DateOrder, Diagnostic> {
+    let mut dates = Dates::default();
+    if let Some(order) = options.dates {
+        return Ok(order);
+    }
+    for cells in head.reader(&text.text) {
+        let date = parts.iter().find_map(|&part| {
+            let date = Moment::of(cells.get(part).unwrap_or_default().trim())?.date?;
+            Some((date, part))
+        });
+        let Some((date, part)) = date else { continue };
+        if date.order.is_some() {
+            return Ok(DateOrder::DayFirst); // its form shows it
+        }
+        let place = || row(cells.clone(), &text.text).place(head.file(), part);
+        let first = dates.first.get_or_insert_with(|| (date, place())).0;
+        dates.differ |= date != first;
+        let [a, b, _] = date.numbers;
+        dates.above = [dates.above[0] || a > 12, dates.above[1] || b > 12];
+        if dates.above[1] || (dates.above[0] && !date.short) {
+            break;
+        }
+    }
+    dates.order().ok_or_else(|| dates.undecided(head))
+}
+
+impl Dates {
+    fn order(&self) -> Option<DateOrder> {
+        let Some((first, _)) = &self.first else { return Some(DateOrder::DayFirst) };
+        match self.above {
+            [false, true] => Some(DateOrder::MonthFirst),
+            [true, false] if !first.short => Some(DateOrder::DayFirst),
+            // the same day in every row: its order has no effect on differences
+            [false, false] if !self.differ => Some(DateOrder::DayFirst),
+            _ => None,
+        }
+    }
+
+    fn undecided(&self, head: &Head) -> Diagnostic {
+        let shown = self.first.as_ref().map_or([0; 3], |(date, _)| date.numbers);
+        let message = format!(
+            "the dates may begin with the day or the month, as {:02}/{:02}/{:02} does: no row \
+             shows which",
+            shown[0], shown[1], shown[2]
+        );
+        Diagnostic::error(head.codes().dates, message)
+            .at(self.first.as_ref().map(|(_, place)| place.clone()), "the first date")
+            .help(
+                "write `dates = \"day first\"` or `dates = \"month first\"` next to `csv`; a \
+                 command has `--dates`",
+            )
+    }
+}
+
+/// The type of times.
+pub(crate) const TIME: Type = Type::of(Dimension::TIME);

@@ -1,0 +1,130 @@
+//! The header of a file in any dialect.
+
+use crate::diagnostic::Diagnostic;
+use crate::dialect::{Dialect, detect, is_value};
+use crate::file::Span;
+use crate::form::plain_header;
+use crate::head::{Asked, Head, row};
+use crate::hints::Codes;
+use crate::numeral::{Decimal, Shows, shows};
+use crate::options::CsvOptions;
+use crate::reader::Reader;
+use crate::spelling::is_unit;
+use crate::text::CsvText;
+
+/// Number of rows that show whether a file has lptn's own form. A logger's description of its
+/// channels takes as many lines.
+const PROBE: usize = 400;
+
+/// Number of rows in which decimal signs are counted.
+const COUNTED: usize = 200;
+
+/// The header of a text; `example` is an example of a header.
+pub(crate) fn open(
+    text: &CsvText,
+    options: &CsvOptions,
+    (codes, example): (&'static Codes, &str),
+) -> Result<Head, Diagnostic> {
+    let plain = plain_header(text, (codes, example));
+    if plain.as_ref().is_ok_and(|head| is_plain(head, text)) && options.decimal.is_none() {
+        return plain.and_then(|head| head.with_units(options));
+    }
+    let mut head = match detect(&text.text) {
+        Some(found) if found != Dialect::PLAIN => foreign_header(text, found, codes),
+        _ => plain.map_err(|problem| match problem.code == codes.separator {
+            true => problem.help(
+                "below the header belong rows of numbers with the same sign between their columns",
+            ),
+            false => problem,
+        })?,
+    };
+    head.dialect.decimal = decimal(&head, text, options)?;
+    head.with_units(options)
+}
+
+/// True if the first rows have the form of the header: no more or fewer cells, no units, no commas
+/// in quotes.
+fn is_plain(head: &Head, text: &CsvText) -> bool {
+    let mut rows = Reader::rows(&text.text, &Dialect::PLAIN).take(PROBE).peekable();
+    let fits = |cells: &csv::StringRecord| {
+        cells.len() == head.columns.len() && !cells.iter().any(|cell| cell.contains(','))
+    };
+    let units = rows.peek().is_some_and(|cells| {
+        let bare = || cells.iter().map(str::trim);
+        head.columns.iter().all(|header| header.unit.is_none())
+            && bare().any(is_unit)
+            && !bare().any(is_value)
+    });
+    !units && rows.all(|cells| fits(&cells))
+}
+
+fn foreign_header(text: &CsvText, dialect: Dialect, codes: &'static Codes) -> Head {
+    let mut reader = Reader::header(&text.text, &dialect);
+    let names = reader.next().unwrap_or_default();
+    let mut head = Head::new(text.file, &row(names, &text.text), codes);
+    if let Some(units) = &dialect.units {
+        let cells = Reader::at(&text.text, units.start, dialect.separator).next();
+        head.take_units(&cells.unwrap_or_default());
+    }
+    head.dialect = dialect;
+    head
+}
+
+/// The decimal sign: as given, else that of the numbers.
+fn decimal(head: &Head, text: &CsvText, options: &CsvOptions) -> Result<Decimal, Diagnostic> {
+    if let Some(decimal) = options.decimal {
+        return Ok(decimal);
+    }
+    let (mut points, mut commas, mut either) = (0_usize, 0_usize, None);
+    for (n, cells) in head.reader(&text.text).enumerate() {
+        if n >= COUNTED && points + commas > 0 {
+            break;
+        }
+        for (index, cell) in cells.iter().enumerate() {
+            match shows(cell.trim()) {
+                Shows::Nothing => {}
+                Shows::APoint | Shows::Only(Decimal::PointOnly) => points += 1,
+                Shows::Only(_) => commas += 1,
+                Shows::Either if either.is_none() => {
+                    let place = row(cells.clone(), &text.text).place(head.file(), index);
+                    either = Some((cell.trim().to_owned(), place));
+                }
+                Shows::Either => {}
+            }
+        }
+    }
+    if head.dialect.separator == b',' {
+        // quoted names such as "1,2" are no numbers with commas
+        return Ok(if points == 0 && commas > 0 { Decimal::Comma } else { Decimal::Point });
+    }
+    match (commas > points, points > 0, either) {
+        (true, ..) => Ok(Decimal::Comma),
+        (_, true, _) => Ok(Decimal::PointOnly),
+        (_, _, Some(first)) => Err(undecided(head, first)),
+        _ => Ok(Decimal::Point),
+    }
+}
+
+/// The error of commas that may be decimal ones or part thousands.
+fn undecided(head: &Head, (cell, place): (String, Span)) -> Diagnostic {
+    let [decimal, whole] = [cell.replace(',', "."), cell.replace(',', "")];
+    let message = format!("`{cell}` is {decimal} or {whole}: no number of the file shows which");
+    Diagnostic::error(head.codes().undecided, message).at(place, "").help(format!(
+        "write `decimal = \",\"` next to `csv` (a command: `--decimal ,`) for {decimal}, \
+         `decimal = \".\"` for {whole}"
+    ))
+}
+
+impl Head {
+    /// The header with the units that were given for its columns.
+    fn with_units(mut self, options: &CsvOptions) -> Result<Self, Diagnostic> {
+        if self.codes().of_record {
+            self.split_units();
+        }
+        for (name, unit) in &options.units {
+            let index = self.find(name, &Asked::default())?;
+            self.columns[index].unit = Some(unit.clone());
+        }
+        Ok(self)
+    }
+}

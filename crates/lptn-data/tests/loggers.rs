@@ -1,0 +1,228 @@
+//! Files as loggers write them. The expected numbers are those in the files: differences of their
+//! clocks, and their temperatures plus 273.15 K.
+
+#![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use std::path::Path;
+
+use lptn_data::{
+    CsvOptions, DateOrder, Decimal, Files, Record, RecordQuery, Rejected, Severity, read_record,
+};
+
+fn read(name: &str, csv: CsvOptions) -> Result<(Record, Files), Rejected> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/loggers").join(name);
+    let query = RecordQuery { csv, ..RecordQuery::default() };
+    read_record(Path::new(name), &std::fs::read(path).unwrap(), &query)
+}
+
+fn of(text: &str, csv: CsvOptions) -> Result<Record, Rejected> {
+    let query = RecordQuery { csv, ..RecordQuery::default() };
+    read_record(Path::new("r.csv"), text.as_bytes(), &query).map(|(record, _)| record)
+}
+
+fn code(text: &str, csv: CsvOptions) -> (&'static str, usize, String) {
+    let refused = of(text, csv).unwrap_err();
+    let first = &refused.diagnostics[0];
+    let line = refused.files.line_column(first.place().unwrap()).0;
+    (first.code, line, first.help.clone().unwrap_or_default())
+}
+
+/// The names and values of the columns, in degC; a gap is -1.
+fn columns(record: &Record) -> Vec<(&str, Vec<f64>)> {
+    let celsius = |value: &f64| match value.is_nan() {
+        true => -1.0,
+        false => ((value - 273.15) * 1e4).round() / 1e4,
+    };
+    let column = |column: &'_ lptn_data::RecordColumn| column.values.iter().map(celsius).collect();
+    record.temperatures().map(|one| (one.name.as_str(), column(one))).collect()
+}
+
+fn note(record: &Record) -> &str {
+    let notes = record.warnings.iter().filter(|one| one.severity == Severity::Note);
+    let notes: Vec<&str> = notes.map(|note| note.message.as_str()).collect();
+    assert_eq!(notes.len(), 1, "{notes:?}");
+    notes[0]
+}
+
+const LID: [f64; 4] = [25.1, 25.2, 25.2, 25.3];
+
+/// Four header rows, units in the third, a timestamp in quotes, `NAN`. Campbell Scientific,
+/// LoggerNet instruction manual, appendix B.1.4, TOA5.
+#[test]
+fn toa5_of_campbell_scientific() {
+    let (record, _) = read("toa5.dat", CsvOptions::default()).unwrap();
+    assert_eq!(record.time, [0.0, 0.2, 0.4, 0.6]);
+    assert_eq!(record.time_name, "TIMESTAMP");
+    let expected =
+        [("Ring_Avg", vec![24.9, 25.3, 26.02, 26.9]), ("Lid_Avg", vec![25.1, -1.0, 25.2, 25.3])];
+    assert_eq!(columns(&record), expected);
+    assert_eq!(
+        note(&record),
+        "toa5.dat is read with one line above the header left out, units in a line of their own, 0 \
+         s at 2026-05-03 23:59:59.8, without the columns `RECORD`, which have no unit"
+    );
+}
+
+/// Milliseconds after a colon, month first, the unit in round brackets behind the channel, a column
+/// of alarms without unit. Keysight, 34970A/34972A User's Guide, chapter 4, sample of a data file;
+/// BenchLink Data Logger 3 exports it in UTF-16 below a description of the scan.
+#[test]
+fn benchlink_of_keysight() {
+    let (record, _) = read("benchlink.csv", CsvOptions::default()).unwrap();
+    assert_eq!(record.time, [0.0, 2.0, 4.0, 6.001]);
+    let expected = [
+        ("101 <Ring>", vec![24.913, 25.327, 26.02, 27.4]),
+        ("102 <Lid>", vec![25.104, 25.116, 25.149, -1.0]),
+    ];
+    assert_eq!(columns(&record), expected);
+    assert!(note(&record).contains("encoding UTF-16, 5 lines above"), "{}", note(&record));
+}
+
+/// A description of the channels with as many cells as the rows, units in a second line with the
+/// half-width degree sign, milliseconds in a column of their own, a blank after the sign,
+/// `BURNOUT`. Graphtec, midi LOGGER GL840 User's Manual, chapter on the format of CSV files.
+#[test]
+fn gl840_of_graphtec() {
+    let (record, _) = read("graphtec.csv", CsvOptions::default()).unwrap();
+    assert_eq!(record.time, [0.0, 0.1, 0.2, 1.0]);
+    let expected = [("CH1", vec![24.9, 25.3, 26.0, 26.9]), ("CH2", vec![25.1, -1.0, -5.2, 25.3])];
+    assert_eq!(columns(&record), expected);
+}
+
+/// A header of other width, `C` for degC, seconds without a unit, a comma at the end of each line.
+/// Hioki, LR8431 Instruction Manual, appendix 3, internal format of text files.
+#[test]
+fn lr8431_of_hioki_needs_its_units() {
+    let refused = read("hioki.csv", CsvOptions::default()).unwrap_err();
+    let told: Vec<&str> = refused.diagnostics.iter().map(|one| one.message.as_str()).collect();
+    assert!(told.contains(&"`C` is the unit of charge: is column `CH-1` in degC?"), "{told:?}");
+    let units = [("Time", "s"), ("CH-1", "degC"), ("CH-2", "degC")];
+    let units = units.map(|(name, unit)| (name.to_owned(), unit.to_owned())).to_vec();
+    let (record, _) = read("hioki.csv", CsvOptions { units, ..CsvOptions::default() }).unwrap();
+    assert_eq!(record.time, [0.0, 0.5, 1.0, 1.5]);
+    let expected = [("CH-1", vec![24.9, 25.3, 26.0, 26.9]), ("CH-2", LID.to_vec())];
+    assert_eq!(columns(&record), expected);
+}
+
+/// Title lines, channel numbers and units in lines of their own, 12-hour clocks over midnight.
+/// Fluke, 2680 Series Users Manual, appendix F, data file format.
+#[test]
+fn series_2680_of_fluke() {
+    let code = read("fluke.csv", CsvOptions::default()).unwrap_err().diagnostics[0].code;
+    assert_eq!(code, "record::dates");
+    let dates = Some(DateOrder::MonthFirst);
+    let (record, _) = read("fluke.csv", CsvOptions { dates, ..CsvOptions::default() }).unwrap();
+    assert_eq!(record.time, [0.0, 1.0, 2.0, 3.0]);
+    assert_eq!(columns(&record), [("101", vec![24.9, 25.3, 26.0, 26.9]), ("102", LID.to_vec())]);
+}
+
+/// Semicolons, decimal commas, thousands with points, Windows-1252, date and clock in two columns.
+#[test]
+fn a_german_logger() {
+    let (record, _) = read("german.csv", CsvOptions::default()).unwrap();
+    assert_eq!(record.time, [0.0, 1.0, 2.0, 3.0]);
+    let expected = [
+        ("TC1 Gehäuse", vec![1025.7, 25.6, 25.6, 25.8]),
+        ("TC2 Öl", vec![22.7, 22.75, -1.0, 22.8]),
+    ];
+    assert_eq!(columns(&record), expected);
+    assert_eq!(
+        note(&record),
+        "german.csv is read with `;` between columns, decimal commas, encoding Windows-1252, 2 \
+         lines above the header left out, 0 s at 03.05.2026 23:59:58,5"
+    );
+}
+
+fn with_times(times: &[&str]) -> String {
+    let rows = times.iter().enumerate().map(|(n, time)| format!("\"{time}\",{}.5\n", 20 + n));
+    "Time,ring (degC)\n".to_owned() + &rows.collect::<String>()
+}
+
+#[test]
+fn a_clock_without_a_date_passes_midnight_and_is_never_set_back() {
+    let text = with_times(&["22:00:00", "23:30", "01:00:00.25", "21:00:00", "00:00:00"]);
+    let record = of(&text, CsvOptions::default()).unwrap();
+    assert_eq!(record.time, [0.0, 5400.0, 10_800.25, 82_800.0, 93_600.0]);
+    let summer = with_times(&["02:30:00", "02:59:59", "02:00:00", "02:30:01"]);
+    let (code, line, help) = code(&summer, CsvOptions::default());
+    assert_eq!((code, line), ("record::time_reversed", 4));
+    assert!(help.contains("daylight-saving"), "{help}");
+}
+
+/// One instant in two zones: 02:59:59 in summer time is one second before 02:00:00 in winter time.
+#[test]
+fn offsets_from_utc_count() {
+    let text = with_times(&["2026-10-25T02:59:59+02:00", "2026-10-25T02:00:00+01:00"]);
+    assert_eq!(of(&text, CsvOptions::default()).unwrap().time, [0.0, 1.0]);
+    let mixed = with_times(&["2026-10-25T02:59:59+02:00", "2026-10-25T03:00:00"]);
+    assert_eq!(code(&mixed, CsvOptions::default()).0, "record::not_a_number");
+}
+
+#[test]
+fn the_order_of_dates_follows_from_the_column_or_a_key() {
+    let options = |dates| CsvOptions { dates, ..CsvOptions::default() };
+    let shown = with_times(&["01/02/2026 08:00", "13/02/2026 08:00"]);
+    assert_eq!(of(&shown, options(None)).unwrap().time, [0.0, 12.0 * 86_400.0]);
+    let same = with_times(&["01/02/2026 08:00", "01/02/2026 09:00"]);
+    assert_eq!(of(&same, options(None)).unwrap().time, [0.0, 3600.0]);
+    let text = with_times(&["01/02/2026 08:00", "02/02/2026 08:00"]);
+    let (code, line, help) = code(&text, options(None));
+    assert_eq!((code, line), ("record::dates", 2));
+    assert!(help.contains("`dates = \"day first\"`"), "{help}");
+    let days = |order| of(&text, options(Some(order))).unwrap().time[1] / 86_400.0;
+    // 1 and 2 February; 2 January and 2 February
+    assert_eq!((days(DateOrder::DayFirst), days(DateOrder::MonthFirst)), (1.0, 31.0));
+}
+
+#[test]
+fn a_start_is_the_time_zero() {
+    let options = |start: &str| CsvOptions { start: Some(start.into()), ..CsvOptions::default() };
+    let text = with_times(&["2026-05-03 09:00:00", "2026-05-03 09:00:10"]);
+    assert_eq!(of(&text, options("2026-05-02 09:00:00")).unwrap().time, [86_400.0, 86_410.0]);
+    assert_eq!(of(&text, options("09:00:04")).unwrap().time, [-4.0, 6.0]);
+    assert_eq!(code(&text, options("noon")).0, "record::start");
+    let numbers = "t [s],ring [degC]\n0,20\n1,21\n";
+    assert_eq!(code(numbers, options("09:00:00")).0, "record::start");
+    assert_eq!(code(&text, options("2026-05-03")).0, "record::start");
+}
+
+#[test]
+fn a_comma_that_may_part_thousands_is_refused() {
+    let options = |decimal| CsvOptions { decimal, ..CsvOptions::default() };
+    let text = "t [s];P [W]\n0;1,234\n1;2,345\n";
+    let (code, line, help) = code(text, options(None));
+    assert_eq!((code, line), ("record::decimal", 2));
+    assert!(help.contains("`decimal = \",\"`") && help.contains("for 1.234"), "{help}");
+    let power = |decimal| of(text, options(Some(decimal))).unwrap().columns[0].values.clone();
+    assert_eq!(power(Decimal::Comma), [1.234, 2.345]);
+    assert_eq!(power(Decimal::PointOnly), [1234.0, 2345.0]);
+    let shown = text.replace("1;2,345", "1,5;2,345");
+    assert_eq!(of(&shown, options(None)).unwrap().columns[0].values, [1.234, 2.345]);
+}
+
+#[test]
+fn one_row_is_enough() {
+    for text in ["Zeit [s];Ring [degC]\n0,5;20,5\n", "Ofen\n\nZeit [s]\tRing [degC]\n0,5\t20,5\n"] {
+        let record = of(text, CsvOptions::default()).unwrap();
+        assert_eq!(
+            (record.time.as_slice(), columns(&record)),
+            (&[0.5][..], vec![("Ring", vec![20.5])])
+        );
+    }
+}
+
+/// No file in lptn's own form is read in another way: a note would tell.
+#[test]
+fn plain_files_have_no_note() {
+    let rows = |n: u32| (0..n).map(|t| format!("{t},{},\n", 20 + t)).collect::<String>();
+    for text in [
+        format!("t [s],ring [degC],remark\n{}", rows(5)),
+        format!("# a; b; c\n\nt [s],ring [degC],remark\n{}", rows(1)),
+        "t [s],\"ring, left\" [degC]\n0,1\n1,2\n".to_owned(),
+        "t [s],ring [degC],day\n0,1,2026-05-03\n1,2,2026-05-03\n".to_owned(),
+    ] {
+        let record = of(&text, CsvOptions::default()).unwrap();
+        let notes = record.warnings.iter().filter(|one| one.severity == Severity::Note).count();
+        assert_eq!(notes, 0, "{text}");
+    }
+}

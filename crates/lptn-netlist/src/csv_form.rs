@@ -1,0 +1,123 @@
+//! Keys that say how a CSV file is written, next to the key that names it.
+
+use lptn_data::{CsvOptions, DATE_ORDERS, DECIMALS, DateOrder, Decimal, Diagnostic};
+use lptn_units::Unit;
+
+use crate::fields::Owner;
+use crate::format::{KeyDeclaration, Takes, shaped, text, words, words_of};
+use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
+use crate::toml_text::{TomlFields, key as toml_key, string};
+
+pub(crate) const DECIMAL: KeyDeclaration =
+    words("decimal", &words_of(&DECIMALS), "with `csv`: the decimal sign of the file", "\",\"")
+        .or("as its numbers show");
+
+pub(crate) const DATES: KeyDeclaration = words(
+    "dates",
+    &words_of(&DATE_ORDERS),
+    "with `csv`: the order of dates such as 01/02/2026",
+    "\"day first\"",
+)
+.or("as the column shows");
+
+pub(crate) const START: KeyDeclaration = text(
+    "start",
+    "date and clock time",
+    "with `csv`: the date and clock time that is 0 s",
+    "\"2026-05-03 09:00:00\"",
+)
+.or("those of the first row");
+
+pub(crate) const UNITS: KeyDeclaration = shaped(
+    "units",
+    "table of columns",
+    Takes::Each(&Takes::Text),
+    "with `csv`: the units of columns whose header does not give them",
+    "{ ring = \"degC\" }",
+);
+
+/// The names of these keys.
+pub(crate) const KEYS: [&str; 4] = [DECIMAL.name, DATES.name, START.name, UNITS.name];
+
+/// The statements of a table about its file, and the entries that are wrong.
+pub(crate) fn options(table: &RawTable) -> (CsvOptions, Vec<Wrong<'_>>) {
+    let (mut options, mut wrong) = (CsvOptions::default(), Vec::new());
+    for entry in table.entries.iter().filter(|entry| KEYS.contains(&entry.key.as_str())) {
+        if !take(&mut options, entry, &mut wrong) {
+            wrong.push(Wrong { key: declaration(&entry.key), value: &entry.value });
+        }
+    }
+    (options, wrong)
+}
+
+fn declaration(key: &str) -> &'static KeyDeclaration {
+    let all: [&'static KeyDeclaration; 4] = [&DECIMAL, &DATES, &START, &UNITS];
+    all.into_iter().find(|declared| declared.name == key).unwrap_or(&UNITS)
+}
+
+/// A value that a key cannot have.
+pub(crate) struct Wrong<'a> {
+    key: &'static KeyDeclaration,
+    value: &'a RawValue,
+}
+
+impl Wrong<'_> {
+    /// The error in the keys of `owner`.
+    pub(crate) fn told(&self, owner: &Owner) -> Diagnostic {
+        let (name, example) = (self.key.name, self.key.example);
+        let wanted = match name {
+            "units" => "a table of units".to_owned(),
+            "start" => "a date and clock time".to_owned(),
+            _ => format!("one of {}", self.key.takes()),
+        };
+        let message = format!("{} must be {wanted}", owner.field(name));
+        let help = format!("write it like this: `{name} = {example}`");
+        Diagnostic::wrong("netlist::csv_form", message, &self.value.span, help)
+    }
+}
+
+/// Takes the value of an entry; false if it is wrong.
+fn take<'a>(options: &mut CsvOptions, entry: &'a RawEntry, wrong: &mut Vec<Wrong<'a>>) -> bool {
+    match (entry.key.as_str(), &entry.value.kind) {
+        ("decimal", RawKind::String { text, .. }) => {
+            options.decimal = word(&DECIMALS, text);
+            options.decimal.is_some()
+        }
+        ("dates", RawKind::String { text, .. }) => {
+            options.dates = word(&DATE_ORDERS, text);
+            options.dates.is_some()
+        }
+        ("start", RawKind::String { text, .. }) => {
+            options.start = Some(text.clone());
+            true
+        }
+        ("units", RawKind::Table(units)) => {
+            for unit in &units.entries {
+                match &unit.value.kind {
+                    RawKind::String { text, .. } if text == "-" || Unit::parse(text).is_ok() => {
+                        options.units.push((unit.key.clone(), text.clone()));
+                    }
+                    _ => wrong.push(Wrong { key: &UNITS, value: &unit.value }),
+                }
+            }
+            true
+        }
+        _ => false,
+    }
+}
+
+fn word<T: Copy>(words: &[(&str, T)], text: &str) -> Option<T> {
+    words.iter().find(|(word, _)| *word == text).map(|(_, value)| *value)
+}
+
+/// Writes the statements as they are read.
+pub(crate) fn put(options: &CsvOptions, fields: &mut TomlFields) {
+    let of_decimal = |decimal: Decimal| DECIMALS.iter().find(|(_, other)| *other == decimal);
+    let of_dates = |dates: DateOrder| DATE_ORDERS.iter().find(|(_, other)| *other == dates);
+    fields.maybe("decimal", options.decimal.and_then(of_decimal).map(|(word, _)| string(word)));
+    fields.maybe("dates", options.dates.and_then(of_dates).map(|(word, _)| string(word)));
+    fields.maybe("start", options.start.as_deref().map(string));
+    let units = options.units.iter();
+    fields
+        .table("units", units.map(|(name, unit)| format!("{} = {}", toml_key(name), string(unit))));
+}
