@@ -3,7 +3,8 @@
 //!
 //! There are four ways to read a file, with the same header, numbers and checks of its form: as
 //! columns over time ([`read_record`]), as points without an order ([`read_sheet`]), one column
-//! after the other ([`CsvFile`]), or row by row without storing it ([`CsvRows`]). A record that
+//! after the other ([`CsvFile`]), or row by row without storing it ([`CsvRows`]). A matrix
+//! ([`CsvMatrix`]) has arguments instead of a header. A record that
 //! grows is read line by line ([`RecordLines`]).
 //!
 //! Diagnostics are in this crate because they refer to texts, and no lower crate has one.
@@ -15,6 +16,7 @@ mod form;
 mod head;
 mod hints;
 mod limits;
+mod matrix;
 mod record;
 mod rows;
 mod text;
@@ -27,6 +29,7 @@ pub use head::{Asked, CsvColumn, Wrong, fit};
 pub use limits::{
     MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, ReadError, Rejected, read_bytes, read_named, shorten,
 };
+pub use matrix::CsvMatrix;
 pub use record::{
     DataSheet, Record, RecordColumn, RecordLine, RecordLines, RecordName, RecordQuery, RecordRow,
     Saturation, read_record, read_sheet, read_text,

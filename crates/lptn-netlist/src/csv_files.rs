@@ -9,7 +9,8 @@ use lptn_data::{CsvFile, CsvText, Diagnostic, Files, Span};
 use crate::format::{NetlistFormat, Role};
 use crate::include::Loader;
 use crate::near_file::NamedFile;
-use crate::raw::{RawKind, RawNetlist, RawTable, RawValue};
+use crate::raw::{RawKind, RawNetlist, RawValue};
+use crate::section::matrix::{LAYOUT, MATRIX};
 
 const NAMED: NamedFile = NamedFile {
     does: "read a CSV file",
@@ -26,8 +27,8 @@ const CSV: &str = "csv";
 #[derive(Debug, Default)]
 pub(crate) struct CsvFiles {
     files: HashMap<Span, Result<Arc<CsvFile>, Diagnostic>>,
-    /// Files of `[import]`, which are too long to be stored as cells, and of `[fit]`, which are
-    /// read by column.
+    /// Files of `[import]`, which are too long to be stored as cells, of `[fit]`, which are read by
+    /// column, and matrices, which have no header.
     texts: HashMap<Span, Result<CsvText, Diagnostic>>,
 }
 
@@ -40,11 +41,12 @@ impl CsvFiles {
         long: impl Iterator<Item = (&'r str, &'r RawValue)>,
         mut loader: Option<&mut Loader<'_>>,
     ) -> Self {
-        let mut named = Vec::new();
+        let (mut named, mut matrices) = (Vec::new(), Vec::new());
         let curves = |key: &str| matches!(format.role(key), Some(Role::Value | Role::Substance));
         for entry in raw.top.entries.iter().filter(|entry| curves(&entry.key)) {
             if let RawKind::Table(table) = &entry.value.kind {
-                table.entries.iter().for_each(|element| find(&element.value, &mut named));
+                let elements = table.entries.iter().map(|element| &element.value);
+                elements.for_each(|element| find(element, (&mut named, &mut matrices)));
             }
         }
         let (mut read, mut done) = (Self::default(), HashMap::new());
@@ -59,10 +61,12 @@ impl CsvFiles {
             }
             read.files.insert(value.span.clone(), result);
         }
-        for (text, value) in long {
+        let mut keep = |text: &str, value: &RawValue| {
             let result = load_text(files, &path(files, text, value), value, loader.as_deref_mut());
             read.texts.insert(value.span.clone(), result);
-        }
+        };
+        matrices.into_iter().for_each(|(text, value)| keep(text, value));
+        long.for_each(|(text, value)| keep(text, value));
         read
     }
 
@@ -85,16 +89,23 @@ fn text(value: &RawValue) -> Option<(&str, &RawValue)> {
     }
 }
 
-/// The values of every `csv` below this one.
-fn find<'a>(value: &'a RawValue, named: &mut Vec<(&'a str, &'a RawValue)>) {
-    let RawKind::Table(RawTable { entries, .. }) = &value.kind else { return };
-    for entry in entries {
+type Named<'a> = Vec<(&'a str, &'a RawValue)>;
+
+/// The values of every `csv` below this one: of files with columns, and of matrices.
+fn find<'a>(value: &'a RawValue, (named, matrices): (&mut Named<'a>, &mut Named<'a>)) {
+    let RawKind::Table(table) = &value.kind else { return };
+    let layout = table.get(LAYOUT).map(|entry| &entry.value.kind);
+    let is_matrix = matches!(layout, Some(RawKind::String { text, .. }) if text == MATRIX);
+    for entry in &table.entries {
         match &entry.value.kind {
+            RawKind::String { text, .. } if entry.key == CSV && is_matrix => {
+                matrices.push((text, &entry.value));
+            }
             RawKind::String { text, .. } if entry.key == CSV => named.push((text, &entry.value)),
             RawKind::Array(items) if entry.key == CSV => {
                 named.extend(items.iter().filter_map(text))
             }
-            _ => find(&entry.value, named),
+            _ => find(&entry.value, (named, matrices)),
         }
     }
 }

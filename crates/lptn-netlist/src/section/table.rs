@@ -16,6 +16,7 @@ use crate::format::{
 use crate::names::ValueKind;
 use crate::points::Axis;
 use crate::raw::{RawEntry, RawKind, RawValue};
+use crate::section::matrix::{LAYOUT, LAYOUTS};
 use crate::work::Elaboration;
 
 /// The keys that a table and a signal share.
@@ -56,6 +57,14 @@ pub(crate) const TABLE: SectionDeclaration = SectionDeclaration {
             "\"cycle.csv\"",
         ),
         COLUMN,
+        words(
+            LAYOUT,
+            &words_of(&LAYOUTS),
+            "of `csv`: named columns, or a matrix with `x` in its first column, `y` in its first \
+             row; `x`, `y` and `value` are then headings with units, `speed [rpm]`",
+            "\"matrix\"",
+        )
+        .or("`\"columns\"`"),
         words(
             "interp",
             &words_of(&INTERPOLATIONS),
@@ -107,6 +116,10 @@ impl<'a> Elaboration<'a> {
 
     fn table(&mut self, entry: &'a RawEntry) -> Option<TableSymbol> {
         let fields = self.fields(&TABLE, entry)?;
+        let is_matrix = self.choice(&fields, LAYOUT, &LAYOUTS)?;
+        if is_matrix {
+            return self.matrix(&fields);
+        }
         let several = |raw: &RawValue| matches!(raw.kind, RawKind::Array(_));
         if fields.get("csv").is_some_and(several) {
             return self.curves_of_files(&fields);
