@@ -10,7 +10,6 @@ use crate::format::{NetlistFormat, Role};
 use crate::include::Loader;
 use crate::near_file::NamedFile;
 use crate::raw::{RawKind, RawNetlist, RawValue};
-use crate::section::matrix::{LAYOUT, MATRIX};
 
 const NAMED: NamedFile = NamedFile {
     does: "read a CSV file",
@@ -19,6 +18,12 @@ const NAMED: NamedFile = NamedFile {
     not_found: "netlist::csv_not_found",
     else_help: "",
 };
+
+/// The layouts of a CSV file of a table.
+pub(crate) const LAYOUTS: [(&str, bool); 2] = [("columns", false), ("matrix", true)];
+/// The key and the word of a matrix.
+pub(crate) const LAYOUT: &str = "layout";
+const MATRIX: &str = LAYOUTS[1].0;
 
 /// The key that names the file.
 const CSV: &str = "csv";

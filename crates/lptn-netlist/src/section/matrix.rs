@@ -12,12 +12,6 @@ use crate::raw::RawKind;
 use crate::section::table::units;
 use crate::work::Elaboration;
 
-/// The layouts of a CSV file of a table.
-pub(crate) const LAYOUTS: [(&str, bool); 2] = [("columns", false), ("matrix", true)];
-/// The key and the word of a matrix.
-pub(crate) const LAYOUT: &str = "layout";
-pub(crate) const MATRIX: &str = LAYOUTS[1].0;
-
 impl<'a> Elaboration<'a> {
     /// A table of two arguments from a matrix.
     pub(super) fn matrix(&mut self, fields: &Fields<'a>) -> Option<TableSymbol> {

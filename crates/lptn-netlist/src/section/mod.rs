@@ -16,7 +16,7 @@ mod limit;
 mod list;
 mod lubricant;
 mod material;
-pub(crate) mod matrix;
+mod matrix;
 mod node;
 mod path;
 mod path_law;

@@ -9,6 +9,7 @@ use lptn_units::{
     TableSymbol, Type, Unit,
 };
 
+use crate::csv_files::{LAYOUT, LAYOUTS};
 use crate::fields::Fields;
 use crate::format::{
     FILES, KeyDeclaration, Role, SectionDeclaration, Takes, shaped, text, words, words_of,
@@ -16,7 +17,6 @@ use crate::format::{
 use crate::names::ValueKind;
 use crate::points::Axis;
 use crate::raw::{RawEntry, RawKind, RawValue};
-use crate::section::matrix::{LAYOUT, LAYOUTS};
 use crate::work::Elaboration;
 
 /// The keys that a table and a signal share.
