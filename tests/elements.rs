@@ -202,12 +202,16 @@ fn table() -> Vec<Closed> {
     // the middle their harmonic mean 1/15, that at the end by three points (3 x 1/20 - 1/10) / 2 =
     // 1/40; halfway the cubic is the mean of the ends and h/8 times the difference of the slopes
     let (middle, end) = (1.0 / 15.0, 1.0 / 40.0);
+    // the matrix at a quarter of its rows and 8/10 of its columns
+    let along = |first: f64, last: f64| first + 0.8 * (last - first);
+    let winding = along(10.0, 30.0) + 0.25 * (along(25.0, 75.0) - along(10.0, 30.0));
     let film = 0.5 * (8.0 + 10.0) + 40.0 / 8.0 * (middle - end);
     vec![
         ("churning.P", "steady", drag),
         ("mesh.P", "steady", mesh),
+        ("winding.P", "steady", winding),
         ("lid.Q", "steady", film * 0.2 * 60.0),
-        ("case.T", "1 h", relaxed(20.0, 20.0 + drag + mesh, 3600.0, 600.0)),
+        ("case.T", "1 h", relaxed(20.0, 20.0 + drag + mesh + winding, 3600.0, 600.0)),
     ]
 }
 

@@ -329,7 +329,6 @@ fn every_field_refuses_what_is_out_of_its_range() {
             let factor = match field.range {
                 Range::Finite => continue,
                 Range::Positive | Range::NotNegative | Range::Temperature => "-1",
-                Range::NotZero => "0",
                 Range::Fraction => "2",
                 Range::Degrees(..) => "10",
                 Range::Count => "0.37",
@@ -340,7 +339,6 @@ fn every_field_refuses_what_is_out_of_its_range() {
             let rejected = lptn::parse("kinds.toml", &netlist(of, one)).unwrap_err();
             let codes: Vec<&str> = rejected.diagnostics.iter().map(|d| d.code).collect();
             let wanted = match field.range {
-                Range::NotZero => "network::zero",
                 Range::Fraction => "network::not_a_fraction",
                 Range::Degrees(..) => "network::angle",
                 Range::Count => "network::not_counted",

@@ -41,6 +41,7 @@ mod runaway;
 mod sections;
 mod sensitivity;
 mod sensitivity_closed;
+mod shifted_gears;
 mod study;
 mod support;
 mod synthetic_records;

@@ -29,7 +29,6 @@ fn in_unit(field: &FieldDeclaration, si: f64) -> f64 {
 fn range(range: Range) -> String {
     match range {
         Range::Finite => "of either sign".into(),
-        Range::NotZero => "of either sign, not 0".into(),
         Range::Positive => "above 0".into(),
         Range::NotNegative => "at least 0".into(),
         Range::Fraction => "above 0, at most 1".into(),

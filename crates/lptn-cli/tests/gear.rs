@@ -161,15 +161,15 @@ fn a_limit_of_flanks_without_load_is_not_judged() {
     loaded.run(&["run", "flanks.toml", "--no-files"]).exits(0).prints("kept");
 }
 
-/// The pair of gears C of FZG, shifted to a centre distance of 91.5 mm: 388.9 W are predicted, and
-/// 280.0 W are right.
+/// Addenda that contain a shift are warned of, unless the shift is given. Twelve percent of the torque
+/// of these gears would be lost at the wrong centre distance.
 #[test]
 fn shifted_profiles_are_warned_of() {
-    let pair = |addenda: [f64; 2], model: &str| {
+    let pair = |addenda: [f64; 2], more: &str| {
         let text = format!(
             "format = 1\n[node]\ngears = {{ massless = true }}\n[boundary]\noil = {{ T = \"60 degC\" }}\n\
              [resistor]\nspray = {{ from = \"gears\", to = \"oil\", G = \"1000 W/K\" }}\n[mesh.pair]\n\
-             into = \"gears\"\nmodel = \"{model}\"\nspeed = \"1500 rpm\"\ntorque = \"200 N m\"\nz1 = 20\nz2 = 60\n\
+             into = \"gears\"\nmodel = {more}\nspeed = \"1500 rpm\"\ntorque = \"200 N m\"\nz1 = 20\nz2 = 60\n\
              module = \"4.5 mm\"\nwidth = \"14 mm\"\naddendum_1 = {}\naddendum_2 = {}\nRa = \"0.355 um\"\n\
              nu = \"15.12 mm^2/s\"\ndensity = \"878 kg/m^3\"\n",
             addenda[0], addenda[1]
@@ -177,8 +177,34 @@ fn shifted_profiles_are_warned_of() {
         Folder::with("pair.toml", &text).run(&["steady", "pair.toml"]).exits(0).err
     };
     let warns = |addenda, model| pair(addenda, model).contains("netlist::profile_shift");
-    assert!(warns([1.1817, 1.1715], "external") && warns([0.9, 0.95], "external"));
-    assert!(!warns([1.3, 0.7], "external") && !warns([1.0, 1.0], "external"));
+    let [external, internal] = ["\"external\"", "\"internal\""];
+    assert!(warns([1.1817, 1.1715], external) && warns([0.9, 0.95], external));
+    assert!(!warns([1.3, 0.7], external) && !warns([1.0, 1.0], external));
+    assert!(!warns([1.1817, 1.1715], "\"external\"\nx_1 = 0.1817\nx_2 = 0.1715"));
     // shorter teeth of a ring are common, and no shift
-    assert!(warns([1.2, 1.0], "internal") && !warns([1.0, 0.7], "internal"));
+    assert!(warns([1.2, 0.9], internal) && !warns([1.0, 0.7], internal));
+}
+
+/// A sweep over torques begins at 0, where flanks are not judged.
+#[test]
+fn a_stage_that_may_scuff_runs_without_load() {
+    let text = TRAIN.replace(
+        "[gearbox.second]",
+        "[limit]\ncold = { of = \"first.sun_planet[1].margin\", above \
+        = \"20 K\" }\n[gearbox.second]",
+    );
+    let text = text.replacen(
+        "planets = 3\n",
+        "planets = 3\ntorque = \"0 N m\"\nmodule = \"3 mm\"\nwidth = \"12 mm\"\nRa = \"0.5 um\"\nlubricant = \
+         \"iso_vg_220\"\nscuffing = \"mineral\"\n",
+        1,
+    );
+    let text = &text[..text.find("[gearbox.second]").unwrap()];
+    let folder = Folder::with("idle.toml", text);
+    folder
+        .run(&["steady", "idle.toml"])
+        .exits(0)
+        .prints("not judged")
+        .says("netlist::scuffing_idle");
+    folder.run(&["gear", "idle.toml", "--torque", "0 N m,5 N m"]).exits(0);
 }

@@ -29,12 +29,31 @@ fn check(head: &Head, text: &CsvText, (codes, example): (&Codes, &str)) -> Optio
                 .help(format!("begin with the names of the columns and their units: `{example}`")),
         );
     }
+    if let Some(problem) = matrix(head, codes) {
+        return Some(problem);
+    }
     if let Some(problem) = foreign(head, &text.name, codes) {
         return Some(problem);
     }
     let records = Reader::rows(&text.text, &Dialect::PLAIN).take(LONGEST_TITLE);
     let rows: Vec<Row> = records.map(|cells| row(cells, &text.text)).collect();
     separator(head, &text.name, (&rows, codes)).or_else(|| title(head, &rows, codes))
+}
+
+/// A matrix that is read as columns: numbers from the second column on.
+fn matrix(head: &Head, codes: &Codes) -> Option<Diagnostic> {
+    let (_, numbers) = head.columns.split_first()?;
+    let is_number = |text: &str| text.replace(',', ".").parse::<f64>().is_ok();
+    let is_matrix = numbers.len() > 1 && numbers.iter().all(|header| is_number(&header.written));
+    if codes.of_record || !is_matrix {
+        return None;
+    }
+    let message = "the first line contains numbers, not names";
+    let problem = Diagnostic::error(codes.no_header, message).at(head.place.clone(), "");
+    Some(problem.help(
+        "for a [table] with arguments in its first row and column write `layout = \"matrix\"`, with \
+         headings such as `x = \"speed [rpm]\"`, `y = \"torque [N m]\"`, `value = \"loss [W]\"`",
+    ))
 }
 
 /// A netlist, or a file of another kind.
@@ -61,7 +80,11 @@ fn foreign(head: &Head, name: &str, codes: &Codes) -> Option<Diagnostic> {
 }
 
 /// The error of another separator between the columns.
-fn separator(head: &Head, name: &str, (rows, codes): (&[Row], &Codes)) -> Option<Diagnostic> {
+pub(crate) fn separator(
+    head: &Head,
+    name: &str,
+    (rows, codes): (&[Row], &Codes),
+) -> Option<Diagnostic> {
     let [one] = head.columns.as_slice() else { return None };
     let other = [';', '\t', '|'].into_iter().find(|c| one.written.contains(*c))?;
     let words = if other == '\t' { "tabs".to_owned() } else { format!("`{other}`") };

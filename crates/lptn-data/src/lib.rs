@@ -6,7 +6,8 @@
 //!
 //! There are four ways to read a file, with the same header, numbers and checks of its form: as
 //! columns over time ([`read_record`]), as points without an order ([`read_sheet`]), one column
-//! after the other ([`CsvFile`]), or row by row without storing it ([`CsvRows`]). A record that
+//! after the other ([`CsvFile`]), or row by row without storing it ([`CsvRows`]). A matrix
+//! ([`CsvMatrix`]) has arguments instead of a header. A record that
 //! grows is read line by line ([`RecordLines`]).
 //!
 //! Diagnostics are in this crate because they refer to texts, and no lower crate has one.
@@ -28,6 +29,7 @@ mod numeral;
 mod open;
 mod options;
 mod reader;
+mod matrix;
 mod record;
 mod rows;
 mod spelling;
@@ -45,6 +47,7 @@ pub use limits::{
 pub use moment::{DATE_ORDERS, DateOrder};
 pub use numeral::{DECIMALS, Decimal};
 pub use options::CsvOptions;
+pub use matrix::CsvMatrix;
 pub use record::{
     DataSheet, Record, RecordColumn, RecordLine, RecordLines, RecordName, RecordQuery, RecordRow,
     Saturation, read_record, read_sheet, read_text,

@@ -43,6 +43,7 @@ mod fins;
 mod fluid;
 mod forced_convection;
 mod free_convection;
+mod involute;
 mod joint;
 mod list;
 mod lookup;
@@ -86,11 +87,12 @@ pub use free_convection::{
     nusselt_horizontal_cylinder, nusselt_plate_driven, nusselt_plate_layered,
     nusselt_vertical_plate, rayleigh,
 };
+pub use involute::{Engagement, GearPair, Profile};
 pub use joint::contact_conductance;
 pub use list::{Formula, Kind};
 pub use loss::THIN_OIL;
 pub use lump::{biot, diffusion_time};
-pub use mesh::{GearPair, gear_loss_factor, mesh_friction};
+pub use mesh::{gear_loss_factor, mesh_friction};
 pub use phase::melting_capacity;
 pub use plate_fins::{nusselt_between_plates, nusselt_through_plates};
 pub use press_fit::Fit;

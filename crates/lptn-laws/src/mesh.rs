@@ -8,11 +8,12 @@ use std::f64::consts::PI;
 
 use lptn_units::{Dimension, Scalar, Type};
 
-use crate::Kind;
 use crate::declare::{
     FieldDeclaration, Group, Hints, KindDeclaration, Law, LawDeclaration, Substance,
 };
+use crate::involute::{GearPair, Profile, joined};
 use crate::loss::{LOSS, SPEED, THIN_OIL, VISCOSITY, length, mm, viscosity};
+use crate::{Formula, Kind};
 
 /// `[mesh]`, as netlists declare it.
 #[allow(non_upper_case_globals, reason = "named as in the list")]
@@ -90,30 +91,6 @@ pub fn mesh_friction<S: Scalar>(
     }
 }
 
-/// z2 + z1, or z2 - z1 for an internal mesh.
-fn joined<S: Scalar>(z2: S, z1: S, internal: bool) -> S {
-    if internal { z2 - z1 } else { z2 + z1 }
-}
-
-/// Two cylindrical gears without backlash, at the centre distance of their pitch circles.
-#[derive(Clone, Copy, Debug)]
-pub struct GearPair<S> {
-    /// Teeth z1 of the pinion and z2 of the wheel or ring.
-    pub teeth: [S; 2],
-    /// True if the wheel is a ring with internal teeth.
-    pub internal: bool,
-    /// Normal module in m.
-    pub module: S,
-    /// Common width in m.
-    pub width: S,
-    /// Normal pressure angle in rad.
-    pub pressure: S,
-    /// Helix angle in rad, of either sign.
-    pub helix: S,
-    /// Addenda of the two gears in modules, profile shift included; the shifts sum to 0.
-    pub addenda: [S; 2],
-}
-
 impl<S: Scalar> GearPair<S> {
     /// Friction of its teeth: P = abs(T1 omega1) mu H_V, in W.
     ///
@@ -125,21 +102,27 @@ impl<S: Scalar> GearPair<S> {
     ///
     /// Source: [`gear_loss_factor`], [`mesh_friction`].
     pub fn power(&self, speed: S, torque: S, oil: [S; 3], roughness: S) -> S {
-        let at = self.transverse();
-        let factor = gear_loss_factor(self.teeth, self.internal, at.cos_base, self.contact(&at));
-        speed.abs() * torque.abs() * self.friction(speed, torque, oil, roughness) * factor
+        let friction = self.friction(speed, torque, oil, roughness);
+        speed.abs() * torque.abs() * friction * self.loss_factor()
     }
 
-    /// Its mean coefficient of friction, with the arguments of [`GearPair::power`].
+    /// Its [factor of gear loss](gear_loss_factor) H_V, at the working centre distance.
+    pub fn loss_factor(&self) -> S {
+        let at = self.transverse();
+        gear_loss_factor(self.teeth, self.internal, at.cos_base, self.contact(&at))
+    }
+
+    /// Its mean coefficient of friction, with the arguments of [`GearPair::power`]. Rolling speeds
+    /// and radii of curvature are those at the pitch point of the working centre distance.
     pub fn friction(&self, speed: S, torque: S, oil: [S; 3], roughness: S) -> S {
         let [nu, density, lubricant] = oil;
         let [z1, z2] = self.teeth;
         let (speed, torque) = (speed.abs(), torque.abs());
         let at = self.transverse();
-        let radius = at.module * z1 * S::from_f64(0.5);
-        let line_load = torque / (radius * at.cosine) / mm(self.width);
-        let sum = S::from_f64(2.0) * speed * radius * at.sine;
-        let curved = radius * at.sine * z2 / (at.cos_base * joined(z2, z1, self.internal));
+        let base = at.module * z1 * S::from_f64(0.5) * at.cosine;
+        let line_load = torque / base / mm(self.width);
+        let sum = S::from_f64(2.0) * speed * base * at.working;
+        let curved = base * at.working * z2 / (at.cos_base * joined(z2, z1, self.internal));
         mesh_friction(
             [line_load, sum, mm(curved)],
             S::from_f64(1e3) * nu * density,
@@ -147,43 +130,6 @@ impl<S: Scalar> GearPair<S> {
             lubricant,
         )
     }
-
-    pub(crate) fn transverse(&self) -> Transverse<S> {
-        let one = S::from_f64(1.0);
-        let module = self.module / self.helix.cos();
-        let tangent = self.pressure.sin() / self.pressure.cos() / self.helix.cos();
-        let cosine = one / (one + tangent * tangent).sqrt();
-        let sine_base = self.helix.sin() * self.pressure.cos();
-        let cos_base = (one - sine_base * sine_base).sqrt();
-        Transverse { module, tangent, cosine, sine: tangent * cosine, cos_base }
-    }
-
-    /// The tip contact ratios of pinion and wheel.
-    pub(crate) fn contact(&self, at: &Transverse<S>) -> [S; 2] {
-        let (half, one, pitch) = (S::from_f64(0.5), S::from_f64(1.0), S::from_f64(PI));
-        let ratio = |teeth: S, addendum: S, sign: f64| {
-            let sign = S::from_f64(sign);
-            let base = half * teeth * at.cosine; // in transverse modules
-            let tip = half * teeth + sign * addendum * self.module / at.module;
-            let beyond = ((tip / base).powi(2) - one).sqrt() - at.tangent;
-            sign * base * beyond / (pitch * at.cosine)
-        };
-        let ring = if self.internal { -1.0 } else { 1.0 };
-        [ratio(self.teeth[0], self.addenda[0], 1.0), ratio(self.teeth[1], self.addenda[1], ring)]
-    }
-}
-
-/// Geometry in the transverse section.
-pub(crate) struct Transverse<S> {
-    /// Module in m.
-    pub(crate) module: S,
-    tangent: S,
-    /// Cosine of the pressure angle.
-    pub(crate) cosine: S,
-    /// Its sine.
-    pub(crate) sine: S,
-    /// Cosine of the helix angle at the base circle.
-    pub(crate) cos_base: S,
 }
 
 /// An angle of either sign.
@@ -194,6 +140,24 @@ const fn angle(
     default: f64,
 ) -> FieldDeclaration {
     FieldDeclaration::measure(key, Type::of(Dimension::ANGLE), meaning, example).or(default)
+}
+
+/// A length of the teeth in modules that may be 0, which is its default.
+const fn modules(
+    key: &'static str,
+    meaning: &'static str,
+    example: &'static str,
+) -> FieldDeclaration {
+    FieldDeclaration::given(key, meaning, example).from_zero().or(0.0)
+}
+
+/// A coefficient of profile shift.
+const fn shift(
+    key: &'static str,
+    meaning: &'static str,
+    example: &'static str,
+) -> FieldDeclaration {
+    FieldDeclaration::given(key, meaning, example).signed().or(0.0)
 }
 
 /// The reason why a mesh without `scuffing` has no results of it.
@@ -240,19 +204,37 @@ impl Law for MeshExternal {
             angle("pressure_angle", "normal pressure angle", "\"20 deg\"", 20.0 * PI / 180.0)
                 .degrees(0, 45),
             angle("helix_angle", "helix angle", "\"15 deg\"", 0.0).degrees(-60, 60),
-            FieldDeclaration::given("addendum_1", "of the pinion in modules, with its shift", "1")
-                .or(1.0),
-            FieldDeclaration::given("addendum_2", "of the wheel in modules, with its shift", "1")
-                .or(1.0),
+            modules(
+                "addendum_1",
+                "of the pinion, from reference circle to tip in modules; 0: 1 + x_1 - \
+                 tip_shortening",
+                "1.2",
+            ),
+            modules("addendum_2", "the same of the wheel or ring, with x_2", "1.1"),
+            shift("x_1", "profile shift coefficient of the pinion", "0.2"),
+            shift("x_2", "of the wheel; of a ring positive towards its axis (ISO 21771)", "0.1"),
+            modules("tip_shortening", "of both gears in modules, if no addendum is given", "0.02"),
+            FieldDeclaration {
+                hints: Hints::GIVEN,
+                ..length(
+                    "centre_distance",
+                    "distance of the shafts; 0: that of x_1 and x_2 without backlash",
+                    "\"125.11 mm\"",
+                )
+            }
+            .from_zero()
+            .or(0.0),
         ],
         validity: "H_V after Ohlendorf; F_bt/b in N/mm, v_sum in m/s, rho in mm, eta in mPa s, Ra in \
-            um. mu is at most 0.2, which it reaches near rest. Profile shifts that sum to 0. PAG: \
-            X_L = 0.75 (6 / v_sum)^0.2.",
+            um, at the working pitch point. mu is at most 0.2, which it reaches near rest. PAG: X_L = \
+            0.75 (6 / v_sum)^0.2.",
         groups: &[
             Group { name: "v", meaning: "pitch line velocity in m/s", from: 2.0, to: 25.0 },
             THIN_OIL,
+            Group { name: "eps_alpha", meaning: "transverse contact ratio", from: 1.0, to: 2.0 },
         ],
-        source: "L. Schlenk (TU München 1994); H. Ohlendorf (TU München 1958); ISO/TR 14179-2",
+        source: "L. Schlenk (TU München 1994); H. Ohlendorf (TU München 1958); ISO/TR 14179-2; \
+            profile shift: ISO 21771, DIN 3960",
         idle: &[("flash", BULK), ("contact", BULK), ("scuffing", BULK), ("margin", BULK)],
         ..LOSS
     };
@@ -262,7 +244,7 @@ impl Law for MeshExternal {
     }
 
     fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
-        vec![pitch_line_velocity(values), viscosity::<Self>(values)]
+        groups(values, false, viscosity::<Self>(values))
     }
 }
 
@@ -274,6 +256,7 @@ impl Law for MeshInternal {
     const DECLARATION: LawDeclaration = LawDeclaration {
         name: "internal",
         sentence: "A pinion or planet in a ring with internal teeth.",
+        fields: &INTERNAL,
         ordered: &[["z1", "z2"]],
         confidence: crate::Confidence::Medium,
         ..MeshExternal::DECLARATION
@@ -284,12 +267,27 @@ impl Law for MeshInternal {
     }
 
     fn groups(values: &[f64], _: [f64; 2]) -> Vec<Option<f64>> {
-        vec![pitch_line_velocity(values), viscosity::<Self>(values)]
+        groups(values, true, viscosity::<Self>(values))
     }
 }
 
+/// The fields of a ring: those of two external gears with examples that fit.
+const INTERNAL: [FieldDeclaration; MeshExternal::DECLARATION.fields.len()] = {
+    let mut all = [SPEED; MeshExternal::DECLARATION.fields.len()];
+    let mut i = 0;
+    while i < all.len() {
+        all[i] = MeshExternal::DECLARATION.fields[i];
+        i += 1;
+    }
+    all[13].example = "0.8";
+    all[15].example = "-0.2";
+    all[17].example = "\"62.12 mm\"";
+    all
+};
+
 /// The gears of these values of the fields.
 pub(crate) fn pair_of<S: Scalar>(values: &[S], internal: bool) -> GearPair<S> {
+    let given = |value: S| (value.value() != 0.0).then_some(value);
     GearPair {
         teeth: [values[2], values[3]],
         internal,
@@ -297,7 +295,24 @@ pub(crate) fn pair_of<S: Scalar>(values: &[S], internal: bool) -> GearPair<S> {
         width: values[5],
         pressure: values[10],
         helix: values[11],
-        addenda: [values[12], values[13]],
+        profile: Profile {
+            addenda: [given(values[12]), given(values[13])],
+            shifts: [values[14], values[15]],
+            shortening: values[16],
+            distance: given(values[17]),
+        },
+    }
+}
+
+impl Formula {
+    /// The gears of a law of `[mesh]` with these values of its fields, in SI units; `None` of other
+    /// laws. Values that are not about their dimensions may be NaN.
+    pub fn gears(self, values: &[f64]) -> Option<GearPair<f64>> {
+        match self {
+            Self::MeshExternal | Self::MeshExternalScuffing => Some(pair_of(values, false)),
+            Self::MeshInternal | Self::MeshInternalScuffing => Some(pair_of(values, true)),
+            _ => None,
+        }
     }
 }
 
@@ -306,10 +321,13 @@ fn mesh<S: Scalar>(values: &[S], internal: bool) -> S {
     pair_of(values, internal).power(values[0], values[1], oil, values[6])
 }
 
-/// Pitch line velocity in m/s; `None` at rest or without torque, when nothing is lost.
-fn pitch_line_velocity(values: &[f64]) -> Option<f64> {
-    let (speed, torque, z1) = (values[0].abs(), values[1].abs(), values[2]);
-    let (module, helix) = (values[4], values[11]);
-    let velocity = 0.5 * speed * z1 * module / helix.cos();
-    (torque > 0.0 && velocity > 0.0).then_some(velocity)
+/// Pitch line velocity in m/s, viscosity and transverse contact ratio; `None` at rest or without
+/// torque, when nothing is lost.
+fn groups(values: &[f64], internal: bool, viscosity: Option<f64>) -> Vec<Option<f64>> {
+    let pair = pair_of(values, internal);
+    let (speed, torque) = (values[0].abs(), values[1].abs());
+    let velocity = speed * pair.pitch_radius();
+    let loaded = torque > 0.0 && velocity > 0.0;
+    let [first, second] = pair.engagement().contact;
+    vec![loaded.then_some(velocity), viscosity, loaded.then_some(first + second)]
 }

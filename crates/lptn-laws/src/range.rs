@@ -6,8 +6,6 @@
 pub enum Range {
     /// Any.
     Finite,
-    /// Any but 0.
-    NotZero,
     /// Above 0.
     Positive,
     /// At least 0.

@@ -7,7 +7,8 @@ use lptn_units::{Dimension, Scalar, Type};
 use crate::declare::{
     Confidence, FieldDeclaration, Hints, Law, LawDeclaration, Range, ResultDeclaration,
 };
-use crate::mesh::{GearPair, MeshExternal, MeshInternal, Transverse, pair_of};
+use crate::involute::{GearPair, Transverse};
+use crate::mesh::{MeshExternal, MeshInternal, pair_of};
 
 /// The material of the flanks of two gears.
 #[derive(Clone, Copy, Debug)]
@@ -123,12 +124,12 @@ type Loaded = (f64, f64);
 
 impl Path {
     fn new(pair: &GearPair<f64>, at: &Transverse<f64>) -> Self {
-        let radii = pair.teeth.map(|teeth| 0.5 * at.module * teeth);
+        let bases = pair.teeth.map(|teeth| 0.5 * at.module * teeth * at.cosine);
         let step = PI * at.module * at.cosine;
         let [beyond, before] = pair.contact(at).map(|ratio| ratio * step);
         Self {
-            base: radii[0] * at.cosine,
-            pitch: radii.map(|radius| radius * at.sine),
+            base: bases[0],
+            pitch: bases.map(|base| base * at.working),
             internal: pair.internal,
             slower: pair.teeth[0] / pair.teeth[1],
             step,
@@ -200,22 +201,25 @@ const fn flank(
     FieldDeclaration { hints: Hints::PROPERTY, ..field }
 }
 
-/// The fields of a mesh without these.
-const PLAIN: &[FieldDeclaration] = MeshExternal::DECLARATION.fields;
+/// Number of fields of a mesh without these.
+const PLAIN: usize = MeshExternal::DECLARATION.fields.len();
 
-/// The fields of a mesh, which then needs a torque, and these.
-const FIELDS: [FieldDeclaration; PLAIN.len() + OWN.len()] = {
-    let mut all = [OWN[0]; PLAIN.len() + OWN.len()];
+/// The fields of two external gears, and these.
+const EXTERNAL: [FieldDeclaration; PLAIN + OWN.len()] = fields(MeshExternal::DECLARATION.fields);
+
+/// The fields of a pinion in a ring, and these.
+const INTERNAL: [FieldDeclaration; PLAIN + OWN.len()] = fields(MeshInternal::DECLARATION.fields);
+
+/// The fields of a mesh, and these.
+const fn fields(plain: &[FieldDeclaration]) -> [FieldDeclaration; PLAIN + OWN.len()] {
+    let mut all = [OWN[0]; PLAIN + OWN.len()];
     let mut i = 0;
     while i < all.len() {
-        all[i] = if i < PLAIN.len() { PLAIN[i] } else { OWN[i - PLAIN.len()] };
+        all[i] = if i < PLAIN { plain[i] } else { OWN[i - PLAIN] };
         i += 1;
     }
-    all[1].range = Range::NotZero;
-    all[1].hints.zero = "without load there is no flash temperature, and a bulk temperature below \
-        that of scuffing proves nothing: give the torque, or leave `scuffing` out";
     all
-};
+}
 
 /// The reason why there is no flash temperature.
 const UNDERCUT: &str = "if the path of contact reaches below a base circle, which has no involute: \
@@ -267,7 +271,7 @@ impl Law for MeshExternalScuffing {
     const DECLARATION: LawDeclaration = LawDeclaration {
         sentence: "Two cylindrical gears with external teeth that may scuff.",
         equation: EQUATION,
-        fields: &FIELDS,
+        fields: &EXTERNAL,
         validity: VALIDITY,
         source: SOURCE,
         confidence: Confidence::Medium,
@@ -302,7 +306,7 @@ impl Law for MeshInternalScuffing {
     const DECLARATION: LawDeclaration = LawDeclaration {
         sentence: "A pinion or planet in a ring with internal teeth that may scuff.",
         equation: EQUATION,
-        fields: &FIELDS,
+        fields: &INTERNAL,
         validity: VALIDITY,
         source: SOURCE,
         idle: &[],
@@ -337,7 +341,7 @@ fn is_loaded(values: &[f64]) -> bool {
 fn results(values: &[f64], [bulk, _]: [f64; 2], internal: bool) -> Vec<f64> {
     let pair = pair_of(values, internal);
     let [limit, modulus, poisson, conductivity, capacity] =
-        std::array::from_fn(|i| values[PLAIN.len() + i]);
+        std::array::from_fn(|i| values[PLAIN + i]);
     let flanks = Flanks { modulus, poisson, conductivity, capacity };
     let friction =
         pair.friction(values[0], values[1], [values[7], values[8], values[9]], values[6]);

@@ -81,7 +81,8 @@ fn declared_laws_have_their_derivatives() {
         let number = |field: &FieldDeclaration| {
             parse_quantity(field.example.trim_matches('"'), Some(field.ty)).unwrap().value
         };
-        for _ in 0..100 {
+        let mut left = 100;
+        for _ in 0..400 {
             let inputs: Vec<f64> = fields
                 .iter()
                 .map(|field| number(field) * random(&mut state, (0.95, 1.05)))
@@ -90,6 +91,15 @@ fn declared_laws_have_their_derivatives() {
             let duals: Vec<Dual<{ Formula::MOST_FIELDS }>> =
                 inputs.iter().enumerate().map(|(i, x)| Dual::variable(*x, i)).collect();
             let found = law.value(&duals, ends.map(Dual::constant));
+            // gears whose base circles nearly overlap curve too much, and nearer have no value
+            let near = |i: usize| {
+                let mut moved = inputs.clone();
+                moved[i] *= 0.95;
+                law.value(&moved, ends).is_nan()
+            };
+            if (0..inputs.len()).any(near) {
+                continue;
+            }
             for (i, x) in inputs.iter().enumerate() {
                 let at = |factor: f64| {
                     let mut moved = inputs.clone();
@@ -100,13 +110,21 @@ fn declared_laws_have_their_derivatives() {
                 let error = (found.derivatives[i] - slope).abs();
                 // what rounding does to a part that hardly counts in the whole, as of `difference`
                 let rounding = 8.0 * f64::EPSILON * found.value.abs() / (1e-5 * x.abs());
+                // the difference errs near an extremum, where the slope is small
+                let bend = at(1.0 + 1e-3) - 2.0 * found.value + at(1.0 - 1e-3);
+                let curved = 1e-9 * (bend / (1e-6 * x)).abs();
                 assert!(
-                    error <= 1e-7 * slope.abs().max(1e-9) + rounding,
+                    error <= 1e-7 * slope.abs().max(1e-9) + rounding + curved,
                     "{} by {}",
                     law.declaration().name,
                     fields[i].key
                 );
             }
+            left -= 1;
+            if left == 0 {
+                break;
+            }
         }
+        assert!(left == 0, "{} has no value near its examples", law.declaration().name);
     }
 }

@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use lptn_laws::{
-    Carries, Formula, GearPair, SkfBearing, bearing_no_load, gear_loss_factor, lip_seal,
+    Carries, Formula, GearPair, Profile, SkfBearing, bearing_no_load, gear_loss_factor, lip_seal,
     mesh_friction, shaft_seal, viscosity_at_100,
 };
 use lptn_units::{Dual, parse_quantity};
@@ -99,7 +99,7 @@ fn the_loss_of_a_mesh_grows_with_torque_as_it_is_printed() {
         width: 0.03,
         pressure: 20f64.to_radians(),
         helix: 0.0,
-        addenda: [1.0, 1.0],
+        profile: Profile::standard(),
     };
     let power = |torque: f64, rpm: f64| pair.power(omega(rpm), torque, [60e-6, 860.0, 1.0], 5e-7);
     assert!((power(100.0, 1500.0) / power(50.0, 1500.0) - 2f64.powf(1.2)).abs() < 1e-12);
@@ -143,7 +143,7 @@ fn the_loss_of_a_pair_is_its_friction_times_the_factor_that_gearpie_prints() {
         width: 0.01,
         pressure: angle,
         helix: 0.0,
-        addenda: [1.0, 1.0],
+        profile: Profile::standard(),
     };
     let found = pair.power(omega(1000.0), 10.0, [60e-6, 860.0, 1.0], 5e-7);
     let load = 10.0 / (0.03 * angle.cos()) / 10.0;

@@ -14,4 +14,5 @@ mod limits;
 mod losses;
 mod published;
 mod scuffing;
+mod shifted;
 mod table;

@@ -1,7 +1,7 @@
 //! Flash temperatures of gears against computations of their own.
 #![allow(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use lptn_laws::{Flanks, GearPair};
+use lptn_laws::{Flanks, GearPair, Profile};
 
 const STEEL: Flanks<f64> =
     Flanks { modulus: 206e9, poisson: 0.3, conductivity: 48.7, capacity: 3.8e6 };
@@ -15,7 +15,7 @@ fn pair(teeth: [f64; 2], [module, width]: [f64; 2], helix: f64, internal: bool) 
         width: width * 1e-3,
         pressure: 20f64.to_radians(),
         helix: helix.to_radians(),
-        addenda: [1.0, if internal { 0.7 } else { 1.0 }],
+        profile: Profile { addenda: [None, internal.then_some(0.7)], ..Profile::standard() },
     }
 }
 

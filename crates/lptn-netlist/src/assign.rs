@@ -59,7 +59,7 @@ impl Netlist {
     /// The problems that the values cause in `[run]` or in a gearbox.
     pub fn settings_of(&self, network: &Network) -> Result<Option<RunSettings>, Vec<Diagnostic>> {
         let run = self.plan.as_ref().map(|plan| plan.settings(network)).transpose()?;
-        let gears = gearbox::check(&self.gearboxes, network);
+        let gears = gearbox::check(&self.gearboxes, network, &self.source_map);
         if gears.is_empty() { Ok(run) } else { Err(gears) }
     }
 
@@ -68,7 +68,7 @@ impl Netlist {
     /// # Errors
     /// The first stage whose wheels cannot be assembled.
     pub fn meshes(&self, network: &Network) -> Result<(), Box<Diagnostic>> {
-        let first = gearbox::check(&self.gearboxes, network).into_iter().next();
+        let first = gearbox::check(&self.gearboxes, network, &self.source_map).into_iter().next();
         first.map_or(Ok(()), |problem| Err(Box::new(problem)))
     }
 
@@ -222,7 +222,7 @@ impl Netlist {
         let run = run.map_err(|problems| {
             problems.into_iter().map(|p| name_changed(p, done.iter())).collect::<Vec<_>>()
         })?;
-        let gears = gearbox::check(&self.gearboxes, &network);
+        let gears = gearbox::check(&self.gearboxes, &network, &self.source_map);
         match gears.is_empty() {
             true => Ok((network, run)),
             false => Err(gears.into_iter().map(|p| name_changed(p, done.iter())).collect()),

@@ -1,51 +1,11 @@
-//! Assumptions of laws that a file seems to violate: gears at the centre distance of their pitch
-//! circles, a conductivity that is linear over the temperatures of a body.
+//! An assumption of laws that a file seems to violate: a conductivity that is linear over the
+//! temperatures of a body.
 
 use lptn_data::Diagnostic;
 use lptn_network::{Field, Item, Naming, Network, Value, slot};
-use lptn_units::{Degree, format_six as short};
+use lptn_units::Degree;
 
 use crate::source_map::SourceMap;
-
-/// Allowed difference between the addenda of two gears and their sum without shift, in modules.
-const ROUNDED: f64 = 0.005;
-
-/// A warning for each mesh whose addenda indicate shifted profiles.
-pub(crate) fn shifted_gears(network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
-    let sources = network.source_ids().map(Item::Source);
-    sources.filter_map(|item| shifted((network, map), item)).collect()
-}
-
-fn shifted((network, map): (&Network, &SourceMap), item: Item) -> Option<Diagnostic> {
-    let law = network.law(item)?;
-    let keys = ["addendum_1", "addendum_2"];
-    let values = [law.value(keys[0])?, law.value(keys[1])?];
-    let mut scope = network.evaluation();
-    let mut sum = 0.0;
-    for value in values {
-        sum += value.at(&mut scope).ok()?;
-    }
-    let shift = sum - 2.0;
-    // the teeth of a ring are often made shorter, without a shift
-    let internal = !law.formula().declaration().ordered.is_empty();
-    if shift.abs() <= ROUNDED || internal && shift < 0.0 {
-        return None;
-    }
-    let message = format!(
-        "the addenda of mesh `{}` sum to {} modules: its loss is that of gears without profile \
-         shift, which have 2",
-        network.name_of(item),
-        short(sum)
-    );
-    let place = |key: &str| map.get(item, Field::of_law(key)?);
-    let place = keys.into_iter().find_map(place).or_else(|| map.name(item));
-    let help = format!(
-        "if x1 + x2 = {}, the centres are further apart and the loss differs by tens of percent: \
-         take it from a test, as a [source]",
-        short(shift)
-    );
-    Some(Diagnostic::warning("netlist::profile_shift", message).at(place, "").help(help))
-}
 
 /// A warning for each body whose conductivity is written over the mean of its ends and is not
 /// straight in it.

@@ -20,6 +20,12 @@ const NAMED: NamedFile = NamedFile {
     else_help: "",
 };
 
+/// The layouts of a CSV file of a table.
+pub(crate) const LAYOUTS: [(&str, bool); 2] = [("columns", false), ("matrix", true)];
+/// The key and the word of a matrix.
+pub(crate) const LAYOUT: &str = "layout";
+const MATRIX: &str = LAYOUTS[1].0;
+
 /// The key that names the file.
 const CSV: &str = "csv";
 
@@ -27,8 +33,8 @@ const CSV: &str = "csv";
 #[derive(Debug, Default)]
 pub(crate) struct CsvFiles {
     files: HashMap<Span, Result<Arc<CsvFile>, Diagnostic>>,
-    /// Files of `[import]`, which are too long to be stored as cells, and of `[fit]`, which are
-    /// read by column.
+    /// Files of `[import]`, which are too long to be stored as cells, of `[fit]`, which are read by
+    /// column, and matrices, which have no header.
     texts: HashMap<Span, Result<CsvText, Diagnostic>>,
 }
 
@@ -41,11 +47,12 @@ impl CsvFiles {
         long: impl Iterator<Item = (&'r str, &'r RawValue)>,
         mut loader: Option<&mut Loader<'_>>,
     ) -> Self {
-        let mut named = Vec::new();
+        let (mut named, mut matrices) = (Vec::new(), Vec::new());
         let curves = |key: &str| matches!(format.role(key), Some(Role::Value | Role::Substance));
         for entry in raw.top.entries.iter().filter(|entry| curves(&entry.key)) {
             if let RawKind::Table(table) = &entry.value.kind {
-                table.entries.iter().for_each(|element| find(&element.value, &mut named));
+                let elements = table.entries.iter().map(|element| &element.value);
+                elements.for_each(|element| find(element, (&mut named, &mut matrices)));
             }
         }
         let (mut read, mut done) = (Self::default(), HashMap::new());
@@ -60,10 +67,12 @@ impl CsvFiles {
             }
             read.files.insert(value.span.clone(), result);
         }
-        for (text, value) in long {
+        let mut keep = |text: &str, value: &RawValue| {
             let result = load_text(files, &path(files, text, value), value, loader.as_deref_mut());
             read.texts.insert(value.span.clone(), result);
-        }
+        };
+        matrices.into_iter().for_each(|(text, value, _)| keep(text, value));
+        long.for_each(|(text, value)| keep(text, value));
         read
     }
 
@@ -86,12 +95,20 @@ fn text(value: &RawValue) -> Option<(&str, &RawValue)> {
     }
 }
 
-/// The values of every `csv` below this one, with the statements next to it.
-fn find<'a>(value: &'a RawValue, named: &mut Vec<(&'a str, &'a RawValue, CsvOptions)>) {
+type Named<'a> = Vec<(&'a str, &'a RawValue, CsvOptions)>;
+
+/// The values of every `csv` below this one, with the statements next to it: of files with columns,
+/// and of matrices.
+fn find<'a>(value: &'a RawValue, (named, matrices): (&mut Named<'a>, &mut Named<'a>)) {
     let RawKind::Table(table) = &value.kind else { return };
+    let layout = table.get(LAYOUT).map(|entry| &entry.value.kind);
+    let is_matrix = matches!(layout, Some(RawKind::String { text, .. }) if text == MATRIX);
     let form = || options(table).0;
     for entry in &table.entries {
         match &entry.value.kind {
+            RawKind::String { text, .. } if entry.key == CSV && is_matrix => {
+                matrices.push((text, &entry.value, form()));
+            }
             RawKind::String { text, .. } if entry.key == CSV => {
                 named.push((text, &entry.value, form()));
             }
@@ -99,7 +116,7 @@ fn find<'a>(value: &'a RawValue, named: &mut Vec<(&'a str, &'a RawValue, CsvOpti
                 let items = items.iter().filter_map(text);
                 named.extend(items.map(|(text, value)| (text, value, form())));
             }
-            _ => find(&entry.value, named),
+            _ => find(&entry.value, (named, matrices)),
         }
     }
 }

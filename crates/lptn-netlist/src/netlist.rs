@@ -92,7 +92,7 @@ impl Netlist {
         all.extend(streams::wrong_outlets(network, map, start));
         all.extend(plausible::materials(network, map));
         all.extend(plausible::neighbours(network, map));
-        all.extend(assumed::shifted_gears(network, map));
+        all.extend(gearbox::doubts(network, map, &self.gearboxes));
         all.extend(assumed::mean_conductivities(network, map));
         all.extend(unlikely::values(network, map));
         all.extend(
@@ -300,7 +300,7 @@ fn finish(
         done;
     let run = plan.as_ref().map(|plan| plan.settings(&network)).transpose();
     let mut problems = studies.check(&network);
-    problems.extend(gearbox::check(&gearboxes, &network));
+    problems.extend(gearbox::check(&gearboxes, &network, &map));
     problems.extend(foster::check(&chains, &network, &map));
     let mut assigned = network.overrides();
     let believed = uncertainty::known(&uncertainty, &network, posterior, &mut assigned);

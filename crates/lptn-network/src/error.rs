@@ -57,11 +57,6 @@ pub enum BuildErrorKind for |say: &Say<'_>| at (Item, Field) {
             ),
             false => format!("{} must be finite, got {value}", say.field(*item, *field)),
         }, help text(not_positive(*field, *value));
-    /// A value of either sign that must not be zero.
-    Zero { item: Item, field: Field } = "network::zero",
-        at Some((*item, *field)),
-        says format!("{} is zero", say.field(*item, *field)),
-        help text(not_positive(*field, 0.0));
     /// A value that may be zero, but not less.
     Negative { item: Item, field: Field, value: f64 } = "network::negative",
         at Some((*item, *field)),

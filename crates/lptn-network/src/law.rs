@@ -212,7 +212,7 @@ pub(crate) fn impossible(field: &lptn_laws::FieldDeclaration, value: f64) -> Opt
     const CONDUCTANCE: Type = Type::of(Dimension::CONDUCTANCE);
     const RESISTANCE: Type = Type::of(Dimension::RESISTANCE);
     match field.range {
-        Range::Finite | Range::NotZero => None,
+        Range::Finite => None,
         Range::Fraction => {
             (!(0.0..=1.0).contains(&value)).then_some(InputProblem::NotAFraction(value))
         }

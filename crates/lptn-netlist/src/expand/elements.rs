@@ -119,7 +119,12 @@ impl Writer<'_> {
             if let Some(key) = selector.take_if(|_| !shared) {
                 fields.word(key, declared.name);
             }
-            self.part(fields, same);
+            // a default of 0 would count as given when it is read: a shift beside a centre distance
+            let absent = matches!(same, [(field, Value::Constant(value))]
+                if *value == 0.0 && field.default == Some(0.0));
+            if !absent {
+                self.part(fields, same);
+            }
         }
         selector.into_iter().for_each(|key| fields.word(key, declared.name));
     }

@@ -8,13 +8,24 @@ use lptn_units::format_short;
 
 use super::member::{Arrangement, Member};
 use super::model::Gearbox;
+use super::teeth;
+use crate::source_map::SourceMap;
 
 /// Allowed relative difference between a stated ratio and that of the teeth.
 const RATIO_TOLERANCE: f64 = 0.01;
 
-/// Errors about the teeth of stages, for the parameters of the network.
-pub(crate) fn check(gearboxes: &[Gearbox], network: &Network) -> Vec<Diagnostic> {
-    gearboxes.iter().flat_map(|gearbox| gearbox.check(network)).collect()
+/// Errors about the teeth of stages and of every mesh, for the parameters of the network.
+pub(crate) fn check(gearboxes: &[Gearbox], network: &Network, map: &SourceMap) -> Vec<Diagnostic> {
+    let (mut problems, mut wrong) = (Vec::new(), Vec::new());
+    for gearbox in gearboxes {
+        let found = gearbox.check(network);
+        if !found.is_empty() {
+            wrong.push(gearbox.name.clone());
+        }
+        problems.extend(found);
+    }
+    problems.extend(teeth::check(network, map, (gearboxes, &wrong)));
+    problems
 }
 
 impl Gearbox {
@@ -28,12 +39,11 @@ impl Gearbox {
             return vec![self.wrong("netlist::gear_teeth", &what, "write a whole number from 1")];
         }
         let mut problems = match (self.arrangement, teeth.as_slice()) {
-            (Arrangement::Planetary, [sun, planet, ring]) => self.planetary([*sun, *planet, *ring]),
+            (Arrangement::Planetary, [sun, planet, ring]) => {
+                self.planetary(network, [*sun, *planet, *ring])
+            }
             _ => Vec::new(),
         };
-        if problems.is_empty() && self.loaded && self.arrangement == Arrangement::Planetary {
-            problems.extend(self.undercut(network, teeth[2]));
-        }
         if problems.is_empty() {
             problems.extend(self.stated(&teeth));
         }
@@ -45,66 +55,38 @@ impl Gearbox {
         Some(network.parameter_value(id))
     }
 
-    fn wrong(&self, code: &'static str, what: &str, help: &str) -> Diagnostic {
+    pub(super) fn wrong(&self, code: &'static str, what: &str, help: &str) -> Diagnostic {
         let message = format!("in gearbox `{}` {what}", self.name);
         Diagnostic::wrong(code, message, &self.teeth, help)
     }
 
-    /// Error if the tips of a ring are inside its base circle, where there is no involute.
-    fn undercut(&self, network: &Network, ring: f64) -> Option<Diagnostic> {
-        let angle = |key: &str, default: f64| {
-            let id = network.parameter(&format!("{}.{key}", self.name));
-            id.map_or(default, |id| network.parameter_value(id))
+    fn planetary(&self, network: &Network, teeth: [f64; 3]) -> Vec<Diagnostic> {
+        let [sun, planet, ring] = teeth;
+        let shifted = self.shifted(network, teeth);
+        let apart = match &shifted {
+            Some(shifted) => self.unequal(shifted),
+            None => self.unshifted(teeth),
         };
-        let helix = angle("helix_angle", 0.0).cos();
-        let transverse = (angle("pressure_angle", PI / 9.0).tan() / helix).atan();
-        let radius = 0.5 * ring / helix;
-        (radius - 1.0 < radius * transverse.cos()).then(|| {
-            let what = format!(
-                "the tips of a ring of {} teeth lie inside its base circle",
-                format_short(ring)
-            );
-            let help = "take more teeth, or a larger `pressure_angle`";
-            self.wrong("netlist::gear_mesh", &what, help)
-        })
-    }
-
-    fn planetary(&self, [sun, planet, ring]: [f64; 3]) -> Vec<Diagnostic> {
+        if let Some(problem) = apart {
+            return vec![problem];
+        }
         let mut problems = Vec::new();
         let z = format_short;
-        if (sun + 2.0 * planet - ring).abs() >= 1.0 {
-            let fits = (ring - sun) / 2.0;
-            let what = format!(
-                "the wheels do not mesh: a sun of {} and planets of {} teeth need a ring of {}, not \
-                 of {}",
-                z(sun),
-                z(planet),
-                z(sun + 2.0 * planet),
-                z(ring)
-            );
-            let help = match fits.fract() == 0.0 && fits >= 1.0 {
-                true => format!(
-                    "write `planet = {}`, or change `ring`; profiles are not shifted",
-                    z(fits)
-                ),
-                false => "without shifted profiles ring = sun + 2 planet".to_owned(),
-            };
-            problems.push(self.wrong("netlist::gear_mesh", &what, &help));
-            return problems;
-        }
         #[expect(clippy::cast_precision_loss, reason = "at most 100")]
         let count = self.planets as f64;
-        // tips at one module outside the pitch circle
-        let room = (sun + planet) * (PI / count).sin();
-        if self.planets > 1 && room <= planet + 2.0 {
+        // diameter over the tips, without shift one module outside the pitch circle
+        let [tips, between] =
+            shifted.map_or([planet + 2.0, sun + planet], |shifted| shifted.planets());
+        let room = between * (PI / count).sin();
+        if self.planets > 1 && room <= tips {
             let what = format!(
                 "{} planets collide: their tips reach {} modules, and there are {} from one to the \
                  next",
                 self.planets,
-                z(planet + 2.0),
+                z((tips * 1e3).round() / 1e3),
                 format_args!("{room:.1}")
             );
-            let most = PI / ((planet + 2.0) / (sun + planet)).asin();
+            let most = PI / (tips / between).asin();
             let help =
                 format!("at most {} planets of these sizes fit around the sun", most.floor());
             problems.push(self.wrong("netlist::planets_collide", &what, &help));
@@ -121,6 +103,29 @@ impl Gearbox {
             problems.push(self.wrong("netlist::planet_spacing", &what, help));
         }
         problems
+    }
+
+    /// Error if wheels without shift do not mesh.
+    fn unshifted(&self, [sun, planet, ring]: [f64; 3]) -> Option<Diagnostic> {
+        if (sun + 2.0 * planet - ring).abs() < 1.0 {
+            return None;
+        }
+        let (fits, z) = ((ring - sun) / 2.0, format_short);
+        let what = format!(
+            "the wheels do not mesh: a sun of {} and planets of {} teeth need a ring of {}, not of \
+             {}",
+            z(sun),
+            z(planet),
+            z(sun + 2.0 * planet),
+            z(ring)
+        );
+        let help = match fits.fract() == 0.0 && fits >= 1.0 {
+            true => format!("write `planet = {}`, or give the profile shifts in `shift`", z(fits)),
+            false => {
+                "without profile shift ring = sun + 2 planet: give the shifts in `shift`".to_owned()
+            }
+        };
+        Some(self.wrong("netlist::gear_mesh", &what, &help))
     }
 
     /// Error if a stated ratio is not that of the teeth.

@@ -54,6 +54,30 @@ pub(crate) const GEARBOX: SectionDeclaration = SectionDeclaration {
         number("X_L", "lubricant of the meshes: mineral 1, PAO and ester 0.8", "0.8").or("1"),
         key("pressure_angle", "rad", "normal pressure angle", "\"20 deg\"").or("20 deg"),
         key("helix_angle", "rad", "helix angle", "\"15 deg\"").or("0"),
+        shaped(
+            "shift",
+            "table of numbers",
+            Takes::Members(&WHEELS, &Takes::Number),
+            "profile shift coefficients; of a ring positive towards its axis",
+            "{ sun = 0.3, planet = 0.2, ring = -0.7 }",
+        )
+        .or("0 for each"),
+        key(
+            "centre_distance",
+            "m",
+            "with `torque`: distance of the shafts of each mesh",
+            "\"90.5 mm\"",
+        )
+        .or("that of `shift` without backlash"),
+        shaped(
+            "addendum",
+            "table of numbers",
+            Takes::Members(&WHEELS, &Takes::Number),
+            "with `torque`: from reference circle to tip, in modules",
+            "{ ring = 0.9 }",
+        )
+        .or("1 + shift - `tip_shortening`"),
+        number("tip_shortening", "with `torque`: of all tips in modules", "0.02").or("0"),
         text(
             "lubricant",
             "name of a lubricant",
@@ -123,3 +147,6 @@ pub(crate) const PARTS: [&str; 3] = ["bearing", "seal", "churning"];
 /// Keys of a part of a gearbox instead of its speed.
 pub(crate) const ON: &str = "on";
 pub(crate) const AGAINST: &str = "against";
+
+/// Tables of numbers of wheels: the key in the block, the beginning of the names of parameters.
+pub(super) const OF_WHEELS: [(&str, &str); 2] = [("shift", "x"), ("addendum", "addendum")];

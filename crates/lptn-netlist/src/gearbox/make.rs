@@ -3,6 +3,7 @@
 use lptn_data::{Diagnostic, Span};
 use lptn_units::{Dimension, Expression, Type};
 
+use super::declaration::OF_WHEELS;
 use super::member::{Arrangement, Member, weight};
 use super::model::{Gearbox, GearboxPart};
 use super::stage::{Heated, Stage};
@@ -11,13 +12,15 @@ use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
 use crate::template::Structure;
 
 /// Sizes of the meshes that become parameters, with the type of each.
-pub(super) const SIZES: [(&str, Dimension); 6] = [
+pub(super) const SIZES: [(&str, Dimension); 8] = [
     ("module", Dimension::LENGTH),
     ("width", Dimension::LENGTH),
     ("Ra", Dimension::LENGTH),
     ("X_L", Dimension::NONE),
     ("pressure_angle", Dimension::ANGLE),
     ("helix_angle", Dimension::ANGLE),
+    ("tip_shortening", Dimension::NONE),
+    ("centre_distance", Dimension::LENGTH),
 ];
 
 /// The keys that the friction of a mesh needs.
@@ -134,10 +137,14 @@ impl Writer<'_, '_> {
     }
 
     fn teeth(&mut self) {
-        for (member, written) in &self.stage.teeth {
-            let name = format!("z_{}", member.word());
-            let value = written.value.clone();
-            self.value(ValueKind::Parameter, &name, value, Type::SCALAR);
+        let (stage, z) = (self.stage, [("z", &self.stage.teeth)]);
+        let tables = OF_WHEELS.iter().zip(&stage.profile).map(|((_, name), table)| (*name, table));
+        for (what, table) in z.into_iter().chain(tables) {
+            for (member, written) in table {
+                let name = format!("{what}_{}", member.word());
+                let value = written.value.clone();
+                self.value(ValueKind::Parameter, &name, value, Type::SCALAR);
+            }
         }
     }
 
@@ -254,7 +261,7 @@ impl Writer<'_, '_> {
 
     /// Reports sizes of meshes that have no effect because the meshes lose nothing.
     fn useless_without_torque(&self, problems: &mut Vec<Diagnostic>) {
-        for key in SIZES.map(|(key, _)| key).into_iter().chain(["scuffing"]) {
+        for key in SIZES.map(|(key, _)| key).into_iter().chain(["addendum", "scuffing"]) {
             if let Some(span) = self.stage.fields.key(key) {
                 let owner = self.stage.fields.owner.field(key);
                 let message =
@@ -333,6 +340,16 @@ impl Writer<'_, '_> {
         table.extend(
             sizes.map(|(key, _)| RawEntry::new(key, RawValue::text(format!("{here}.{key}"), at))),
         );
+        for ((_, what), given) in OF_WHEELS.iter().zip(&stage.profile) {
+            for (number, member) in [a, b].into_iter().enumerate() {
+                let Some((_, written)) = given.iter().find(|(known, _)| *known == member) else {
+                    continue;
+                };
+                let name = format!("{here}.{what}_{}", member.word());
+                let value = RawValue::text(name, &written.value.span);
+                table.push(RawEntry::new(&format!("{what}_{}", number + 1), value));
+            }
+        }
         let oil = ["lubricant", "at", "scuffing"].into_iter();
         let oil = oil.filter_map(|key| stage.fields.entry(key));
         table.extend(oil.cloned());

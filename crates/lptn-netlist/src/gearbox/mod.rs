@@ -15,7 +15,9 @@ mod make;
 mod member;
 mod model;
 mod parts;
+mod shifted;
 mod stage;
+mod teeth;
 
 use lptn_data::{Diagnostic, nearest};
 use lptn_network::is_name;
@@ -25,6 +27,7 @@ pub(crate) use declaration::{AGAINST, GEARBOX, MEMBERS, ON, PARTS};
 pub use member::{Arrangement, Member};
 pub(crate) use model::Gears;
 pub use model::{Gearbox, GearboxPart};
+pub(crate) use teeth::doubts;
 
 use crate::raw::{RawEntry, RawNetlist, RawValue};
 use crate::template::Structure;

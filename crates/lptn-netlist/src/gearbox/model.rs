@@ -57,6 +57,17 @@ impl Gearbox {
         })
     }
 
+    /// The two gears of the mesh with this name.
+    pub(crate) fn gears_of(&self, mesh: &str) -> [&'static str; 2] {
+        match self.arrangement {
+            Arrangement::Pair => [Member::Pinion.word(), Member::Wheel.word()],
+            Arrangement::Planetary if mesh.ends_with("sun_planet") => {
+                [Member::Sun.word(), Member::Planet.word()]
+            }
+            Arrangement::Planetary => [Member::Planet.word(), Member::Ring.word()],
+        }
+    }
+
     /// The name of the parameter of its teeth.
     pub fn teeth_of(&self, member: Member) -> String {
         format!("{}.z_{}", self.name, member.word())

@@ -68,7 +68,8 @@ impl Writer<'_, '_> {
         let own = ["force", "mesh", "sun_planet", "planet_ring"];
         let size = SIZES.iter().any(|(key, _)| *key == name);
         let member = self.members().iter().any(|member| member.word() == name);
-        own.contains(&name) || size || member || name.starts_with("z_")
+        let of_wheel = ["z_", "x_", "addendum_"].iter().any(|start| name.starts_with(start));
+        own.contains(&name) || size || member || of_wheel
     }
 
     /// The member that a part is on, and its speed against the housing; against the carrier for a

@@ -3,7 +3,7 @@
 use lptn_data::{Diagnostic, Severity, Span, list, nearest};
 use lptn_units::{Type, parse_quantity};
 
-use super::declaration::GEARBOX;
+use super::declaration::{GEARBOX, OF_WHEELS};
 use super::member::{Arrangement, Member};
 use crate::fields::{Fields, Owner};
 use crate::raw::{RawEntry, RawKind, RawTable, RawValue};
@@ -26,6 +26,8 @@ pub(super) struct Stage<'r> {
     pub(super) output: Member,
     /// The teeth of every wheel.
     pub(super) teeth: Vec<(Member, &'r RawEntry)>,
+    /// Profile shifts and addenda of wheels, as far as they are given.
+    pub(super) profile: [Vec<(Member, &'r RawEntry)>; 2],
     pub(super) planets: usize,
     pub(super) even: bool,
     pub(super) ratio: Option<(f64, Span)>,
@@ -57,6 +59,7 @@ impl<'r> Stage<'r> {
         let teeth = reader.teeth();
         let into = reader.heated(teeth.as_ref().map(|(arrangement, _)| *arrangement));
         let (arrangement, teeth) = teeth?;
+        let profile = OF_WHEELS.map(|(key, _)| reader.of_wheels(key, arrangement));
         let held = reader.held(arrangement);
         let input = reader.input(arrangement, held);
         let planets = reader.planets(arrangement);
@@ -73,6 +76,7 @@ impl<'r> Stage<'r> {
             input,
             output: *output?,
             teeth,
+            profile,
             planets: planets?,
             even,
             ratio,
@@ -118,20 +122,7 @@ impl<'r> Reader<'_, 'r> {
         let is_pair = table.get("pinion").is_some() || table.get("wheel").is_some();
         let arrangement = if is_pair { Arrangement::Pair } else { Arrangement::Planetary };
         let wheels = arrangement.wheels();
-        let words: Vec<&str> = wheels.iter().map(|member| member.word()).collect();
-        let mut right = true;
-        for entry in &table.entries {
-            if !words.contains(&entry.key.as_str()) {
-                right = false;
-                let message =
-                    format!("{} has no `{}`", self.fields.owner.field("teeth"), entry.key);
-                let help = match is_pair {
-                    true => "a pair of gears has `pinion` and `wheel`".to_owned(),
-                    false => nearest(&entry.key, words.iter().copied(), "a planetary stage has"),
-                };
-                self.wrong("netlist::unknown_key", message, &entry.key_span, &help);
-            }
-        }
+        let right = self.knows_wheels("teeth", table, arrangement);
         let found: Vec<_> =
             wheels.iter().filter_map(|m| Some((*m, table.get(m.word())?))).collect();
         found.iter().for_each(|(member, entry)| self.counted(*member, &entry.value));
@@ -144,6 +135,35 @@ impl<'r> Reader<'_, 'r> {
             self.wrong("netlist::missing_field", message, &raw.span, help);
         }
         (found.len() == wheels.len()).then_some((arrangement, found))
+    }
+
+    /// A table with numbers of some wheels.
+    fn of_wheels(&mut self, key: &str, arrangement: Arrangement) -> Vec<(Member, &'r RawEntry)> {
+        let Some(raw) = self.fields.get(key) else { return Vec::new() };
+        let Some(table) = self.table(key, raw) else { return Vec::new() };
+        self.knows_wheels(key, table, arrangement);
+        let wheels = arrangement.wheels().iter();
+        wheels.filter_map(|wheel| Some((*wheel, table.get(wheel.word())?))).collect()
+    }
+
+    /// Reports names in a table that no wheel has; true if there are none.
+    fn knows_wheels(&mut self, key: &str, table: &RawTable, arrangement: Arrangement) -> bool {
+        let words: Vec<&str> = arrangement.wheels().iter().map(|member| member.word()).collect();
+        let mut right = true;
+        for entry in &table.entries {
+            if !words.contains(&entry.key.as_str()) {
+                right = false;
+                let message = format!("{} has no `{}`", self.fields.owner.field(key), entry.key);
+                let help = match arrangement {
+                    Arrangement::Pair => "a pair of gears has `pinion` and `wheel`".to_owned(),
+                    Arrangement::Planetary => {
+                        nearest(&entry.key, words.iter().copied(), "a planetary stage has")
+                    }
+                };
+                self.wrong("netlist::unknown_key", message, &entry.key_span, &help);
+            }
+        }
+        right
     }
 
     /// Checks that a number of teeth is whole and positive, if it is written as a number.

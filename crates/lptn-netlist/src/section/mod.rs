@@ -18,6 +18,7 @@ mod list;
 mod lubricant;
 mod material;
 mod named_value;
+mod matrix;
 mod node;
 mod path;
 mod path_law;

@@ -10,6 +10,7 @@ use lptn_units::{
 };
 
 use crate::csv_form::{DECIMAL, UNITS};
+use crate::csv_files::{LAYOUT, LAYOUTS};
 use crate::fields::Fields;
 use crate::format::{
     FILES, KeyDeclaration, Role, SectionDeclaration, Takes, shaped, text, words, words_of,
@@ -59,6 +60,14 @@ pub(crate) const TABLE: SectionDeclaration = SectionDeclaration {
         COLUMN,
         DECIMAL,
         UNITS,
+        words(
+            LAYOUT,
+            &words_of(&LAYOUTS),
+            "of `csv`: named columns, or a matrix with `x` in its first column, `y` in its first \
+             row; `x`, `y` and `value` are then headings with units, `speed [rpm]`",
+            "\"matrix\"",
+        )
+        .or("`\"columns\"`"),
         words(
             "interp",
             &words_of(&INTERPOLATIONS),
@@ -110,6 +119,10 @@ impl<'a> Elaboration<'a> {
 
     fn table(&mut self, entry: &'a RawEntry) -> Option<TableSymbol> {
         let fields = self.fields(&TABLE, entry)?;
+        let is_matrix = self.choice(&fields, LAYOUT, &LAYOUTS)?;
+        if is_matrix {
+            return self.matrix(&fields);
+        }
         let several = |raw: &RawValue| matches!(raw.kind, RawKind::Array(_));
         if fields.get("csv").is_some_and(several) {
             return self.curves_of_files(&fields);

@@ -319,6 +319,11 @@ impl Network {
         self.parts.reads(value).time
     }
 
+    /// True if a value depends on neither time, temperatures nor the positions of controls.
+    pub fn is_constant(&self, value: &Value) -> bool {
+        self.parts.reads(value).is_constant()
+    }
+
     /// The first item that makes the network more than constant capacities, constant conductances
     /// and heat that depends on time only.
     pub fn first_nonlinear(&self) -> Option<Item> {

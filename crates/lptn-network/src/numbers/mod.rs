@@ -318,7 +318,6 @@ impl Work<'_> {
             Range::Positive if !(value.is_finite() && value > 0.0) => {
                 BuildErrorKind::NotPositive { item, field, value }
             }
-            Range::NotZero if value == 0.0 => BuildErrorKind::Zero { item, field },
             _ if !value.is_finite() => BuildErrorKind::NotFinite { item, field, value },
             Range::NotNegative if value < 0.0 => BuildErrorKind::Negative { item, field, value },
             Range::Fraction if !(value > 0.0 && value <= 1.0) => {
