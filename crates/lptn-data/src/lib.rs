@@ -24,12 +24,12 @@ mod head;
 mod head_errors;
 mod hints;
 mod limits;
+mod matrix;
 mod moment;
 mod numeral;
 mod open;
 mod options;
 mod reader;
-mod matrix;
 mod record;
 mod rows;
 mod spelling;
@@ -44,10 +44,10 @@ pub use head::{Asked, CsvColumn, Wrong, fit};
 pub use limits::{
     MOST_BYTES, MOST_CSV_BYTES, MOST_PROBLEMS, ReadError, Rejected, read_bytes, read_named, shorten,
 };
+pub use matrix::CsvMatrix;
 pub use moment::{DATE_ORDERS, DateOrder};
 pub use numeral::{DECIMALS, Decimal};
 pub use options::CsvOptions;
-pub use matrix::CsvMatrix;
 pub use record::{
     DataSheet, Record, RecordColumn, RecordLine, RecordLines, RecordName, RecordQuery, RecordRow,
     Saturation, read_record, read_sheet, read_text,

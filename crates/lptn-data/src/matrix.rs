@@ -5,8 +5,8 @@ use lptn_units::Unit;
 
 use crate::csv_file::{PlacedNumbers, Places};
 use crate::diagnostic::Diagnostic;
-use crate::file::Span;
 use crate::dialect::Dialect;
+use crate::file::Span;
 use crate::head::{Asked, Head, Row, Wrong, row};
 use crate::hints;
 use crate::limits::MOST_PROBLEMS;
@@ -173,7 +173,8 @@ mod tests {
         let mut files = Files::new();
         let text = CsvText::of(&mut files, "a.csv".to_owned(), text.as_bytes()).unwrap();
         let units = ["rpm", "N m", "kW"].map(|unit| Unit::parse(unit).unwrap());
-        let found = CsvMatrix::read(&text, units, (&CsvOptions::default(), &Asked::default())).unwrap();
+        let found =
+            CsvMatrix::read(&text, units, (&CsvOptions::default(), &Asked::default())).unwrap();
         let rpm = std::f64::consts::PI / 30.0;
         let [first, second] = [found.down.numbers[0], found.down.numbers[1]];
         assert!((first - 1000.0 * rpm).abs() < 1e-9 && (second - 3000.0 * rpm).abs() < 1e-9);

@@ -71,7 +71,11 @@ fn foreign_header(text: &CsvText, dialect: Dialect, codes: &'static Codes) -> He
 }
 
 /// The decimal sign: as given, else that of the numbers.
-pub(crate) fn decimal(head: &Head, text: &CsvText, options: &CsvOptions) -> Result<Decimal, Diagnostic> {
+pub(crate) fn decimal(
+    head: &Head,
+    text: &CsvText,
+    options: &CsvOptions,
+) -> Result<Decimal, Diagnostic> {
     if let Some(decimal) = options.decimal {
         return Ok(decimal);
     }

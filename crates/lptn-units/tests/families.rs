@@ -45,7 +45,9 @@ fn every_instance_is_an_argument() {
 
 #[test]
 fn a_family_elsewhere_stays_an_unknown_name() {
-    for text in ["cell[*].T", "abs(cell[*].P)", "max(bolt[*].T, 3)", "max(cell[*].P, 1) + cell[*].P"] {
+    for text in
+        ["cell[*].T", "abs(cell[*].P)", "max(bolt[*].T, 3)", "max(cell[*].P, 1) + cell[*].P"]
+    {
         let expression = Expression::parse(text).unwrap();
         let found = expression.with_members(&members).compile(&Cells, None);
         assert!(found.is_err(), "{text}");

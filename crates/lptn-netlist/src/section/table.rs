@@ -9,8 +9,8 @@ use lptn_units::{
     TableSymbol, Type, Unit,
 };
 
-use crate::csv_form::{DECIMAL, UNITS};
 use crate::csv_files::{LAYOUT, LAYOUTS};
+use crate::csv_form::{DECIMAL, UNITS};
 use crate::fields::Fields;
 use crate::format::{
     FILES, KeyDeclaration, Role, SectionDeclaration, Takes, shaped, text, words, words_of,

@@ -8,8 +8,8 @@ use lptn_units::Expression;
 
 use super::plan::BEFORE;
 use super::structure::Structure;
-use crate::section::PATHS;
 use crate::raw::{RawEntry, RawKind, RawNetlist, RawTable, RawValue};
+use crate::section::PATHS;
 
 const STAR: &str = "[*]";
 
@@ -103,7 +103,8 @@ impl Patterns<'_> {
             let found = self.instances(&plain(pattern), (&value.span, &value.span));
             let Some(found) = found else { return Vec::new() };
             if all.as_ref().is_some_and(|all| *all != found) {
-                let names = given.iter().map(|(text, value)| (text.clone(), value.span.range.clone()));
+                let names =
+                    given.iter().map(|(text, value)| (text.clone(), value.span.range.clone()));
                 self.problems.push(uneven(&names.collect::<Vec<_>>(), place));
                 return Vec::new();
             }
@@ -246,8 +247,7 @@ fn with_of(entry: &RawEntry, key: String, text: String) -> RawEntry {
 /// The path of one index, with its ends filled.
 fn between(entry: &RawEntry, indices: &[usize]) -> RawEntry {
     let list: Vec<String> = indices.iter().map(usize::to_string).collect();
-    let mut entry =
-        RawEntry { key: format!("{}[{}]", entry.key, list.join(",")), ..entry.clone() };
+    let mut entry = RawEntry { key: format!("{}[{}]", entry.key, list.join(",")), ..entry.clone() };
     let RawKind::Table(table) = &mut entry.value.kind else { return entry };
     for end in table.entries.iter_mut().filter(|field| ["from", "to"].contains(&&*field.key)) {
         let RawKind::String { text, start } = &mut end.value.kind else { continue };
